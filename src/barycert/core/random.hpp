@@ -1,0 +1,64 @@
+/// Seeded random numbers that are the same on every machine.
+///
+/// The standard library's distributions differ between implementations, so both the generator and the maps to
+/// doubles stand here. Counter-based use: stream(seed, a, b) is independent of every other (a, b), so that case
+/// number b of family a can be made alone, in any order, on any thread.
+/// Source: S. Vigna, G. Steele, D. Lea, "Fast splittable pseudorandom number generators", OOPSLA 2014 (SplitMix64).
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+
+namespace barycert {
+
+/// The finaliser of SplitMix64: a bijection of 64-bit words whose output bits all depend on all input bits.
+constexpr std::uint64_t mix64(std::uint64_t z) {
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+    return z ^ (z >> 31);
+}
+
+/// A 64-bit hash of a name (FNV-1a, then mixed).
+constexpr std::uint64_t hash64(std::string_view text) {
+    std::uint64_t h = 0xcbf29ce484222325ULL;
+    for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+    return mix64(h);
+}
+
+class Random {
+public:
+    explicit constexpr Random(std::uint64_t seed) : state_(seed) {}
+
+    /// An independent generator for the pair (a, b).
+    static constexpr Random stream(std::uint64_t seed, std::uint64_t a, std::uint64_t b) {
+        return Random(mix64(mix64(mix64(seed + golden) ^ a) + b * golden));
+    }
+
+    constexpr std::uint64_t bits() { return mix64(state_ += golden); }
+
+    /// A multiple of 2^-53 in [0, 1).
+    constexpr double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+
+    /// fl(lo + (hi - lo) * unit()).
+    constexpr double uniform(double lo, double hi) { return lo + (hi - lo) * unit(); }
+
+    /// An integer in [0, n), n >= 1. The bias is below n / 2^64.
+    constexpr std::uint64_t below(std::uint64_t n) {
+        return static_cast<std::uint64_t>((static_cast<unsigned __int128>(bits()) * n) >> 64);
+    }
+
+    /// An integer in [lo, hi].
+    constexpr int integer(int lo, int hi) {
+        return lo + static_cast<int>(below(static_cast<std::uint64_t>(hi - lo) + 1));
+    }
+
+    constexpr bool coin() { return (bits() >> 63) != 0; }
+
+private:
+    static constexpr std::uint64_t golden = 0x9e3779b97f4a7c15ULL;
+    std::uint64_t state_;
+};
+
+}  // namespace barycert

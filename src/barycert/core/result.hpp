@@ -1,0 +1,80 @@
+/// One result type for callers who check and callers who throw. The library never prints and never exits.
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace barycert {
+
+/// What went wrong with an input, in the parts an error message needs. Empty parts are left out of the message.
+struct Error {
+    std::string what;      ///< one clause: what could not be done
+    std::string file;      ///< path as the user gave it
+    std::size_t line = 0;  ///< 1-based; 0 where no line applies
+    std::string expected;
+    std::string found;
+    std::string remedy;  ///< what to do about it
+
+    /// `file:line: what: expected ..., found ...; remedy`.
+    std::string message() const {
+        std::string text;
+        if (!file.empty()) text += file + (line != 0 ? ":" + std::to_string(line) : "") + ": ";
+        text += what;
+        if (!expected.empty()) text += ": expected " + expected;
+        if (!found.empty()) text += (expected.empty() ? ": found " : ", found ") + found;
+        if (!remedy.empty()) text += "; " + remedy;
+        return text;
+    }
+};
+
+/// Thrown by Result::value() when there is an error instead of a value.
+class Exception : public std::runtime_error {
+public:
+    explicit Exception(Error error) : std::runtime_error(error.message()), error_(std::move(error)) {}
+    const Error& error() const { return error_; }
+
+private:
+    Error error_;
+};
+
+/// Either a value or an Error: `if (r) use(*r); else tell(r.error())`, or `r.value()` which throws Exception.
+template <class T>
+class [[nodiscard]] Result {
+public:
+    Result(T value) : state_(std::move(value)) {}
+    Result(Error error) : state_(std::move(error)) {}
+
+    bool has_value() const { return std::holds_alternative<T>(state_); }
+    explicit operator bool() const { return has_value(); }
+
+    /// Precondition: has_value().
+    T& operator*() { return std::get<T>(state_); }
+    const T& operator*() const { return std::get<T>(state_); }
+    T* operator->() { return &std::get<T>(state_); }
+    const T* operator->() const { return &std::get<T>(state_); }
+
+    /// Precondition: !has_value().
+    const Error& error() const { return std::get<Error>(state_); }
+
+    /// The value; throws Exception if there is none.
+    T& value() & {
+        if (!has_value()) throw Exception(error());
+        return **this;
+    }
+    T&& value() && {
+        if (!has_value()) throw Exception(error());
+        return std::move(**this);
+    }
+
+private:
+    std::variant<T, Error> state_;
+};
+
+/// For operations that return nothing but may fail.
+struct Done {};
+using Status = Result<Done>;
+
+}  // namespace barycert

@@ -1,0 +1,77 @@
+/// Simplices and cases as plain data: the types that every other folder exchanges.
+///
+/// Coordinates are doubles in whatever unit the mesh uses. Vertices are stored vertex after vertex:
+/// vertex i of a simplex in d-space is v[d*i] ... v[d*i + d-1].
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace barycert {
+
+/// The simplices that barycert knows. `triangle` lies in the plane, `triangle3d` and `segment` in 3-space,
+/// where a point off their plane or line stands for its orthogonal projection.
+enum class Simplex : std::uint8_t { segment, triangle, triangle3d, tetrahedron };
+
+inline constexpr std::array<Simplex, 4> all_simplices{Simplex::segment, Simplex::triangle, Simplex::triangle3d,
+                                                      Simplex::tetrahedron};
+
+/// Number of vertices, and so of barycentric weights: 2, 3, 3, 4.
+constexpr int vertex_count(Simplex s) {
+    return s == Simplex::segment ? 2 : s == Simplex::tetrahedron ? 4 : 3;
+}
+
+/// Number of coordinates of a vertex or point: 3, 2, 3, 3.
+constexpr int space_dimension(Simplex s) {
+    return s == Simplex::triangle ? 2 : 3;
+}
+
+constexpr std::string_view name(Simplex s) {
+    constexpr std::array<std::string_view, 4> names{"segment", "triangle", "triangle3d", "tetrahedron"};
+    return names[static_cast<std::size_t>(s)];
+}
+
+/// The simplex of that name, or nothing.
+constexpr std::optional<Simplex> simplex_named(std::string_view text) {
+    for (const Simplex s : all_simplices) {
+        if (name(s) == text) return s;
+    }
+    return std::nullopt;
+}
+
+/// One question to a kernel: a simplex, a point and a value at each vertex. Unused entries are zero.
+struct Case {
+    Simplex simplex = Simplex::tetrahedron;
+    std::array<double, 12> vertices{};
+    std::array<double, 3> point{};
+    std::array<double, 4> values{};
+
+    double vertex(int i, int axis) const {
+        return vertices[static_cast<std::size_t>(space_dimension(simplex) * i + axis)];
+    }
+    double& vertex(int i, int axis) { return vertices[static_cast<std::size_t>(space_dimension(simplex) * i + axis)]; }
+};
+
+/// Where a point lies with respect to a closed simplex; `degenerate` is said of the simplex itself.
+enum class Region : std::uint8_t { interior, boundary, outside, degenerate };
+
+inline constexpr std::array<Region, 4> all_regions{Region::interior, Region::boundary, Region::outside,
+                                                   Region::degenerate};
+
+constexpr std::string_view name(Region r) {
+    constexpr std::array<std::string_view, 4> names{"interior", "boundary", "outside", "degenerate"};
+    return names[static_cast<std::size_t>(r)];
+}
+
+/// The open face of lowest dimension that holds the point. For a triangle "face" is never used: its sides are edges.
+enum class Feature : std::uint8_t { interior, face, edge, vertex, outside, degenerate };
+
+constexpr std::string_view name(Feature f) {
+    constexpr std::array<std::string_view, 6> names{"interior", "face", "edge", "vertex", "outside", "degenerate"};
+    return names[static_cast<std::size_t>(f)];
+}
+
+}  // namespace barycert

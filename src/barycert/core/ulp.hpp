@@ -1,0 +1,45 @@
+/// Units in the last place.
+///
+/// ulp(x) is the distance between the two doubles next to |x| on the side away from zero within x's binade:
+/// 2^(e-52) for 2^e <= |x| < 2^(e+1), and 2^-1074 for zero and subnormals.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace barycert {
+
+/// Exponent of ulp(x): ulp(x) = 2^ulp_exponent(x). Precondition: x finite.
+constexpr int ulp_exponent(double x) {
+    const int biased = static_cast<int>((std::bit_cast<std::uint64_t>(x) >> 52) & 0x7ff);
+    return std::max(biased, 1) - 1075;
+}
+
+/// |computed - reference| in ulps of the reference. Preconditions: both finite, reference != 0.
+///
+/// The subtraction is exact where the two lie within a factor of two (Sterbenz); elsewhere it is rounded once,
+/// which leaves 53 good bits of a number that then exceeds 2^51. Scaling by a power of two is split so that
+/// neither step leaves the range; a result over the largest double is reported as that double.
+inline double ulp_error(double computed, double reference) {
+    const double halved = std::fabs(computed * 0.5 - reference * 0.5);  // halves: the difference cannot overflow
+    double difference = halved;
+    int shift = 1 - ulp_exponent(reference);
+    if (halved < 0x1p-1000) {  // halving may have rounded a subnormal; there the plain difference is exact
+        difference = std::fabs(computed - reference);
+        shift -= 1;
+    }
+    const double scaled = std::ldexp(difference, shift);
+    return std::min(scaled, 0x1.fffffffffffffp+1023);
+}
+
+/// The next double above / below x. Preconditions: x finite.
+inline double next_up(double x) {
+    return std::nextafter(x, HUGE_VAL);
+}
+inline double next_down(double x) {
+    return std::nextafter(x, -HUGE_VAL);
+}
+
+}  // namespace barycert
