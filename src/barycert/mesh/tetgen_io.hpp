@@ -1,0 +1,28 @@
+/// TetGen's .node, .ele, .face and .neigh files, and Triangle's 2D .node and .ele: read and written.
+#pragma once
+
+#include <string>
+
+#include "barycert/core/result.hpp"
+#include "barycert/mesh/mesh.hpp"
+
+namespace barycert {
+
+struct ReadOptions {
+    bool faces = true;       ///< read STEM.face if it is there
+    bool neighbours = true;  ///< read STEM.neigh if it is there
+    int threads = 0;         ///< 0: as many as the machine has
+};
+
+/// Reads STEM.node and STEM.ele. `path` is the stem or the path of any one of its files.
+Result<Mesh> read_tetgen(const std::string& path, const ReadOptions& options = {});
+
+struct WriteOptions {
+    std::string comment;  ///< the last line of each file, after "# "; empty: none
+};
+
+/// Writes STEM.node and STEM.ele, and STEM.face and STEM.neigh where the mesh has faces and neighbours. Every double
+/// reads back to the same bits. No file is left half-written.
+Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOptions& options = {});
+
+}  // namespace barycert
