@@ -1,0 +1,111 @@
+#include "barycert/exact/identities.hpp"
+
+#include <CGAL/Gmpq.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace barycert::exact {
+namespace {
+
+using Rational = CGAL::Gmpq;
+using Weights = std::array<Rational, 4>;
+using Point = std::array<Rational, 3>;
+
+/// A point together with its weights at the vertices of the simplex.
+struct Weighted {
+    Point at;
+    Weights weights;
+};
+
+Weighted vertex(const Case& c, int i) {
+    Weighted v{};
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis)
+        v.at[static_cast<std::size_t>(axis)] = Rational(c.vertex(i, axis));
+    v.weights[static_cast<std::size_t>(i)] = Rational(1);
+    return v;
+}
+
+/// The point of the line ab whose coordinate `axis` is `level`; nothing if the line is parallel to that level.
+std::optional<Weighted> along(const Weighted& a, const Weighted& b, std::size_t axis, const Rational& level) {
+    const Rational length = b.at[axis] - a.at[axis];
+    if (length == Rational(0)) return std::nullopt;
+    const Rational t = (level - a.at[axis]) / length;
+    Weighted r{};
+    for (std::size_t k = 0; k < 3; ++k) r.at[k] = a.at[k] + t * (b.at[k] - a.at[k]);
+    for (std::size_t k = 0; k < 4; ++k) r.weights[k] = a.weights[k] + t * (b.weights[k] - a.weights[k]);
+    return r;
+}
+
+Rational determinant(const Point& a, const Point& b, const Point& c) {
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/// Ratios of signed areas or volumes: replace each vertex by the point. A triangle is lifted to the plane z = 1.
+std::optional<Weights> ratios(const Case& c) {
+    const bool planar = c.simplex == Simplex::triangle;
+    const int count = vertex_count(c.simplex);
+    const auto volume = [&](int replaced) {
+        std::array<Point, 4> v{};
+        for (int i = 0; i < count; ++i) {
+            for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
+                const auto k = static_cast<std::size_t>(axis);
+                v[static_cast<std::size_t>(i)][k] = Rational(i == replaced ? c.point[k] : c.vertex(i, axis));
+            }
+            if (planar) v[static_cast<std::size_t>(i)][2] = Rational(1);
+        }
+        if (planar) return determinant(v[0], v[1], v[2]);
+        for (std::size_t i = 1; i < 4; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) v[i][k] -= v[0][k];
+        }
+        return determinant(v[1], v[2], v[3]);
+    };
+    const Rational whole = volume(-1);
+    if (whole == Rational(0)) return std::nullopt;
+    Weights w{};
+    for (int i = 0; i < count; ++i) w[static_cast<std::size_t>(i)] = volume(i) / whole;
+    return w;
+}
+
+Identity compare(const std::optional<Weighted>& found, const std::optional<Weights>& expected) {
+    if (!found || !expected) return Identity::undefined;
+    return found->weights == *expected ? Identity::holds : Identity::fails;
+}
+
+}  // namespace
+
+Identity bilinear_is_barycentric(const Case& c) {
+    const Point p{Rational(c.point[0]), Rational(c.point[1]), Rational(0)};
+    const auto expected = ratios(c);
+    // The two sides meet in vertex i: three choices, of which at least one serves unless the point is level with a
+    // vertex.
+    for (int i = 0; i < 3; ++i) {
+        const auto left = along(vertex(c, i), vertex(c, (i + 1) % 3), 1, p[1]);
+        const auto right = along(vertex(c, i), vertex(c, (i + 2) % 3), 1, p[1]);
+        if (!left || !right) continue;
+        if (const auto found = along(*left, *right, 0, p[0])) return compare(found, expected);
+    }
+    return Identity::undefined;
+}
+
+Identity trilinear_is_barycentric(const Case& c) {
+    const Point p{Rational(c.point[0]), Rational(c.point[1]), Rational(c.point[2])};
+    const auto expected = ratios(c);
+    // Edges from apex o to a, b, d; segments in the faces oab and oad; any order of vertices that has no parallels.
+    std::array<int, 4> order{0, 1, 2, 3};
+    do {
+        const auto [o, a, b, d] = order;
+        const auto on_a = along(vertex(c, o), vertex(c, a), 2, p[2]);
+        const auto on_b = along(vertex(c, o), vertex(c, b), 2, p[2]);
+        const auto on_d = along(vertex(c, o), vertex(c, d), 2, p[2]);
+        if (!on_a || !on_b || !on_d) continue;
+        const auto left = along(*on_a, *on_b, 1, p[1]);
+        const auto right = along(*on_a, *on_d, 1, p[1]);
+        if (!left || !right) continue;
+        if (const auto found = along(*left, *right, 0, p[0])) return compare(found, expected);
+    } while (std::next_permutation(order.begin(), order.end()));
+    return Identity::undefined;
+}
+
+}  // namespace barycert::exact

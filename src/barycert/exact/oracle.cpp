@@ -1,0 +1,127 @@
+#include "barycert/exact/oracle.hpp"
+
+#include <bit>
+#include <limits>
+
+#include "barycert/exact/rounding.hpp"
+#include "barycert/exact/solve.hpp"
+
+namespace barycert::exact {
+namespace {
+
+/// The feature that a set of non-zero weights spans.
+Feature feature_of(Simplex simplex, std::uint8_t support) {
+    const int nonzero = std::popcount(support);
+    if (nonzero == vertex_count(simplex)) return Feature::interior;
+    return nonzero == 1 ? Feature::vertex : nonzero == 2 ? Feature::edge : Feature::face;
+}
+
+template <class Types>
+Answer answer(const Case& c, const Scales& scales) {
+    using N = typename Types::Number;
+    const Solution<Types> s = solve<Types>(c, scales);
+    const auto count = static_cast<std::size_t>(vertex_count(c.simplex));
+    Answer a;
+    const int orientation = s.denominator.sign();
+    if (orientation == 0) {
+        a.region = Region::degenerate;
+        a.feature = Feature::degenerate;
+        a.weights.fill(std::numeric_limits<double>::quiet_NaN());
+        a.value = std::numeric_limits<double>::quiet_NaN();
+        return a;
+    }
+    bool negative = false;
+    N value(0);
+    for (std::size_t i = 0; i < count; ++i) {
+        const N& n = s.numerators[i];
+        a.signs[i] = static_cast<std::int8_t>(n.sign() * orientation);
+        negative = negative || a.signs[i] < 0;
+        if (a.signs[i] != 0) a.support = static_cast<std::uint8_t>(a.support | (1U << i));
+        a.weights[i] = round_quotient(n, s.denominator);
+        value += n * scaled<typename Types::Coordinate>(c.values[i], scales.values.low);
+    }
+    a.value = round_quotient(value, s.denominator, scales.values.low);
+    a.feature = negative ? Feature::outside : feature_of(c.simplex, a.support);
+    a.region = negative ? Region::outside : a.feature == Feature::interior ? Region::interior : Region::boundary;
+    return a;
+}
+
+}  // namespace
+
+Answer ask(const Case& c) {
+    const Scales scales(c);
+    if (!scales.narrow) return answer<Wide>(c, scales);
+    Answer a = answer<Narrow>(c, scales);
+    a.narrow = true;
+    return a;
+}
+
+Answer ask_wide(const Case& c) {
+    return answer<Wide>(c, Scales(c));
+}
+
+double partition_residual(std::span<const double> weights) {
+    Scale scale;
+    scale.include(1.0);
+    for (const double w : weights) scale.include(w);
+    BigInteger sum = -scaled<BigInteger>(1.0, scale.low);
+    for (const double w : weights) sum += scaled<BigInteger>(w, scale.low);
+    return round_quotient(sum, BigInteger(1), scale.low);
+}
+
+double reproduction_residual(const Case& c, std::span<const double> weights) {
+    // sum w_i v_i - sum (n_i/d) v_i = sum (w_i d - n_i) v_i / d, because the exact
+    // weights n_i/d give p, or its projection, whatever the weights w_i under test sum to.
+    Scales scales(c);
+    Scale common;
+    for (const Scale& s : scales.axes) common.include(s);
+    scales.axes.fill(common);
+    const Solution<Wide> s = solve<Wide>(c, scales);
+    Scale weight_scale;
+    for (const double w : weights) weight_scale.include(w);
+    const int low = std::min(weight_scale.low, 0);  // so that 1 is a multiple of 2^low as well
+    const auto unit = static_cast<unsigned>(-low);
+    BigInteger square(0);
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
+        BigInteger component(0);
+        for (int i = 0; i < vertex_count(c.simplex); ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            const BigInteger excess = scaled<BigInteger>(weights[k], low) * s.denominator - (s.numerators[k] << unit);
+            component += excess * scaled<BigInteger>(c.vertex(i, axis), common.low);
+        }
+        square += component * component;
+    }
+    return round_root(square, s.denominator * s.denominator, common.low + low);
+}
+
+int affine_dimension(const Case& c) {
+    Scales scales(c);
+    Scale common;
+    for (const Scale& s : scales.axes) common.include(s);
+    scales.axes.fill(common);
+    const auto v = relative_vertices<Wide>(c, scales);
+    const int count = vertex_count(c.simplex);
+    using V = Vector<Wide>;
+    const auto zero = [](const auto& a) { return a[0].sign() == 0 && a[1].sign() == 0 && a[2].sign() == 0; };
+    V edge{};
+    std::array<BigInteger, 3> normal{};
+    int dimension = 0;
+    for (int i = 1; i < count; ++i) {
+        const V e = difference<Wide>(v[static_cast<std::size_t>(i)], v[0]);
+        if (zero(e)) continue;
+        if (dimension == 0) {
+            edge = e;
+            dimension = 1;
+        } else if (dimension == 1) {
+            const auto n = cross<Wide>(edge, e);
+            if (zero(n)) continue;
+            normal = n;
+            dimension = 2;
+        } else if (dot(normal, e).sign() != 0) {
+            dimension = 3;
+        }
+    }
+    return dimension;
+}
+
+}  // namespace barycert::exact

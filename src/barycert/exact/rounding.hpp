@@ -1,0 +1,112 @@
+/// Exact numbers rounded to the nearest double, ties to even, subnormals and overflow included.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "barycert/exact/integers.hpp"
+
+namespace barycert::exact {
+
+/// What is known of the part of a number below its last kept bit.
+enum class Tail : std::uint8_t { zero, positive, unknown };
+
+/// Rounds (q + t) * 2^exponent, 0 <= t < 1 with t described by `tail`. Precondition: q >= 2^54.
+/// Nothing is returned where an unknown tail would decide.
+inline std::optional<double> round_scaled(std::uint64_t q, Tail tail, int exponent) {
+    const int length = static_cast<int>(std::bit_width(q));
+    const int top = length - 1 + exponent;  // 2^top <= value < 2^(top + 1)
+    if (top > 1023) return std::numeric_limits<double>::infinity();
+    const int kept = top >= -1022 ? 53 : 53 - (-1022 - top);  // bits that a double has there; below 1 if it underflows
+    const int dropped = length - kept;                        // at least 2
+    if (dropped > length) return 0.0;                         // less than half of the smallest subnormal
+    const std::uint64_t half = std::uint64_t{1} << (dropped - 1);
+    const std::uint64_t rest = q & (2 * half - 1);
+    std::uint64_t m = dropped == 64 ? 0 : q >> dropped;
+    if (rest == half && tail == Tail::unknown) return std::nullopt;
+    if (rest > half || (rest == half && (tail == Tail::positive || (m & 1) != 0))) ++m;
+    return std::ldexp(static_cast<double>(m), dropped + exponent);  // m <= 2^53: exact, or infinity as it should be
+}
+
+/// Bits of |n|. Precondition: n != 0.
+inline int bit_length(const auto& n) {
+    const auto& b = n.backend();
+    static_assert(sizeof(*b.limbs()) == 8, "limbs of 64 bits");
+    return static_cast<int>(64 * b.size()) - std::countl_zero(static_cast<std::uint64_t>(b.limbs()[b.size() - 1]));
+}
+
+/// The leading `bits` (at most 128) bits of |n|; shorter ones are filled up with zeros from the right. `shift` becomes
+/// the power of two left out: |n| = (result + rest) * 2^shift, 0 <= rest < 1, and rest = 0 if shift <= 0. Precondition:
+/// n != 0. Reads the limbs in place, for speed.
+template <class Integer>
+UInt128 leading_bits(const Integer& n, int bits, int& shift) {
+    const auto& b = n.backend();
+    shift = bit_length(n) - bits;
+    const auto limb = [&](int i) {
+        return i < static_cast<int>(b.size()) ? static_cast<std::uint64_t>(b.limbs()[i]) : 0;
+    };
+    const auto two = [&](int i) { return (static_cast<UInt128>(limb(i + 1)) << 64) | limb(i); };
+    if (shift <= 0) return two(0) << -shift;
+    const int first = shift / 64, offset = shift % 64;
+    const UInt128 low = two(first) >> offset;
+    return offset == 0 ? low : low | (static_cast<UInt128>(limb(first + 2)) << (128 - offset));
+}
+
+/// (numerator / denominator) * 2^exponent, correctly rounded. Precondition: denominator != 0.
+///
+/// First from leading bits: n in [n', n'+1) 2^a with 2^118 <= n' < 2^119, d in [d', d'+1) 2^b with 2^62 <= d' < 2^63,
+/// so that n/d lies between floor(n'/(d'+1)) and floor((n'+1)/d') + 1, both between 2^55 and 2^57, times 2^(a-b). Where
+/// the two floors agree only a tie is open. About one case in twenty needs the long division that follows.
+template <class Integer>
+double round_quotient(const Integer& numerator, const Integer& denominator, int exponent = 0) {
+    const int sign = numerator.sign() * denominator.sign();
+    if (sign == 0) return 0.0;
+    int a = 0, b = 0;
+    const UInt128 n_lead = leading_bits(numerator, 119, a);
+    const auto d_lead = static_cast<std::uint64_t>(leading_bits(denominator, 63, b));
+    const auto q_low = static_cast<std::uint64_t>(n_lead / (d_lead + (b > 0 ? 1 : 0)));
+    const auto q_high = static_cast<std::uint64_t>((n_lead + (a > 0 ? 1 : 0)) / d_lead);
+    if (q_low == q_high) {
+        if (const auto r = round_scaled(q_low, Tail::unknown, a - b + exponent)) return sign < 0 ? -*r : *r;
+    }
+    Integer n = abs(numerator);
+    Integer d = abs(denominator);
+    // floor(n 2^k / d) with k such that it has 55 or 56 bits, and whether anything is left.
+    const int k = 55 - (bit_length(n) - bit_length(d));
+    if (k >= 0) {
+        n <<= static_cast<unsigned>(k);
+    } else {
+        d <<= static_cast<unsigned>(-k);
+    }
+    Integer q, r;
+    mp::divide_qr(n, d, q, r);
+    const double result =
+        *round_scaled(static_cast<std::uint64_t>(q), r.sign() == 0 ? Tail::zero : Tail::positive, exponent - k);
+    return sign < 0 ? -result : result;
+}
+
+/// sqrt(numerator / denominator) * 2^exponent, correctly rounded. Preconditions: numerator >= 0, denominator > 0.
+///
+/// floor(sqrt(x)) = floor(sqrt(floor(x))), so the integer root of the shifted quotient is the truncated root, and it
+/// is exact only if neither the division nor the root left a rest.
+inline double round_root(const BigInteger& numerator, const BigInteger& denominator, int exponent = 0) {
+    if (numerator.sign() == 0) return 0.0;
+    int k = 112 - (bit_length(numerator) - bit_length(denominator));
+    if (k % 2 != 0) ++k;  // an even shift halves cleanly
+    BigInteger n = numerator, d = denominator;
+    if (k >= 0) {
+        n <<= static_cast<unsigned>(k);
+    } else {
+        d <<= static_cast<unsigned>(-k);
+    }
+    BigInteger q, r, rest;
+    mp::divide_qr(n, d, q, r);
+    const BigInteger root = mp::sqrt(q, rest);
+    const bool exact = r.sign() == 0 && rest.sign() == 0;
+    return *round_scaled(static_cast<std::uint64_t>(root), exact ? Tail::zero : Tail::positive, exponent - k / 2);
+}
+
+}  // namespace barycert::exact
