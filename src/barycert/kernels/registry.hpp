@@ -1,0 +1,48 @@
+/// Internal: how the file of each simplex adds its kernels to the catalogue.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "barycert/kernels/kernel.hpp"
+#include "barycert/kernels/variants.hpp"
+
+namespace barycert::kernels {
+
+void add_segment(std::vector<Kernel>& list);
+void add_triangle(std::vector<Kernel>& list);
+void add_triangle3d(std::vector<Kernel>& list);
+void add_tetrahedron(std::vector<Kernel>& list);
+
+/// The default value function: sum of weight times value, left to right.
+ValueFunction weighted_sum(Simplex s);
+
+struct Text {
+    const char* formula;
+    const char* source;
+    const char* fails;
+};
+
+enum class Declares : bool { no, yes };
+
+/// The kernel `<simplex>.<formula_name>` with the default value function.
+Kernel make_kernel(Simplex s, std::string_view formula_name, WeightsFunction weights, Declares declares, Text text);
+
+/// Adds copies of `base` (by value: the list grows) as `<name>.fast-math` and so on, those that this CPU can run.
+void add_variants(std::vector<Kernel>& list, Kernel base, WeightsFunction Variants::*function);
+
+/// A formula in single precision, its arguments rounded on the way in and its weights widened on the way out.
+template <Simplex s, int (*formula)(const float*, const float*, float*)>
+int in_float(const double* vertices, const double* point, double* weights) {
+    constexpr int n = vertex_count(s), d = space_dimension(s);
+    float v[n * d], p[d], w[n];
+    for (int i = 0; i < n * d; ++i) v[i] = static_cast<float>(vertices[i]);
+    for (int i = 0; i < d; ++i) p[i] = static_cast<float>(point[i]);
+    const int status = formula(v, p, w);
+    if (status != 0) return status;
+    for (int i = 0; i < n; ++i) weights[i] = static_cast<double>(w[i]);
+    return 0;
+}
+
+}  // namespace barycert::kernels

@@ -1,0 +1,112 @@
+// Kernels on a tetrahedron.
+#include "barycert/kernels/tetrahedron_formulas.hpp"
+
+#include <cmath>
+
+#include "barycert/kernels/linear_formulas.hpp"
+#include "barycert/kernels/registry.hpp"
+
+namespace barycert::kernels {
+namespace {
+
+/// ab - cd with the rounding error of cd given back: at most 1.5 ulps (Jeannerod, Louvet, Muller 2013).
+double difference_of_products(double a, double b, double c, double d) {
+    const double cd = c * d;
+    const double error = std::fma(-c, d, cd);
+    return std::fma(a, b, -cd) + error;
+}
+
+double kahan_volume(Vector3<double> q0, Vector3<double> q1, Vector3<double> q2, Vector3<double> q3) {
+    const auto a = q1 - q0, b = q2 - q0, c = q3 - q0;
+    return a.x * difference_of_products(b.y, c.z, b.z, c.y) + a.y * difference_of_products(b.z, c.x, b.x, c.z) +
+           a.z * difference_of_products(b.x, c.y, b.y, c.x);
+}
+
+int kahan(const double* v, const double* p, double* w) {
+    const auto a = at3(v, 0), b = at3(v, 1), c = at3(v, 2), d = at3(v, 3), q = at3(p, 0);
+    const double whole = kahan_volume(a, b, c, d);
+    if (whole == 0) return 1;
+    w[0] = kahan_volume(q, b, c, d) / whole;
+    w[1] = kahan_volume(q, a, d, c) / whole;
+    w[2] = kahan_volume(q, a, b, d) / whole;
+    w[3] = kahan_volume(q, a, c, b) / whole;
+    return 0;
+}
+
+constexpr const char* single_precision =
+    "rounds coordinates to 24 bits first: points nearer to a face than 2^-24 of their coordinates change sides";
+
+}  // namespace
+
+void add_tetrahedron(std::vector<Kernel>& list) {
+    constexpr Simplex s = Simplex::tetrahedron;
+    const auto add = [&](const char* name, WeightsFunction weights, Declares declares, Text text) {
+        list.push_back(make_kernel(s, name, weights, declares, text));
+    };
+
+    const Text volumes{
+        "W_a = V(p,b,c,d) / V(a,b,c,d) and cyclic, V(q0,q1,q2,q3) = det(q1-q0, q2-q0, q3-q0)",
+        "volume coordinates, any finite element textbook",
+        "differences and products are rounded: near a face a wrong sign, near a flat cell any weight at all"};
+    add("signed-volume", signed_volume<double>, Declares::yes, volumes);
+    add_variants(list, list.back(), &Variants::signed_volume);
+    add("signed-volume.float32", in_float<s, signed_volume<float>>, Declares::yes,
+        {volumes.formula, volumes.source, single_precision});
+
+    add("two-cross-products", two_cross_products<double>, Declares::yes,
+        {"relative to p: a x b and c x d give the four determinants, divided by their sum",
+         "ray-tetrahedron and interpolation loops tuned for speed",
+         "the sum is not the volume: for a point far outside it cancels, and 1 as the sum of weights hides it"});
+    add_variants(list, list.back(), &Variants::two_cross_products);
+
+    add("unsigned-volume", unsigned_volume<double>, Declares::no,
+        {"W_a = |V(p,b,c,d)| / sum of all four", "TetGen's weights from a background mesh; volume ratios",
+         "no weight is ever negative: every point outside looks like one inside"});
+
+    const Text rule{"Cramer's rule for (a-d | b-d | c-d) (W_a,W_b,W_c) = p-d; W_d = V(p,a,b,c)/V(d,a,b,c) by its own",
+                    "Cramer 1750",
+                    "weights are relative to different origins: each sign errs on its own, and the sum need not be 1"};
+    add("cramer", cramer<double>, Declares::yes, rule);
+    add_variants(list, list.back(), &Variants::cramer);
+    add("cramer.float32", in_float<s, cramer<float>>, Declares::yes, {rule.formula, rule.source, single_precision});
+
+    add("one-minus-sum", one_minus_sum<double>, Declares::yes,
+        {"Cramer's rule for W_a, W_b, W_c; W_d = 1 - W_a - W_b - W_c", "finite element codes",
+         "W_d carries the rounding of the others: on face abc its sign is chance, and the sum 1 hides every error"});
+    const Text ones{"W_a = |1 p; 1 b; 1 c; 1 d| / |1 a; 1 b; 1 c; 1 d| and so on, 4x4 determinants",
+                    "homogeneous coordinates; Bourke's notes",
+                    "products of absolute coordinates cancel: at an offset of 2^17 cell sizes 4 signs in 10 are wrong"};
+    add("homogeneous", homogeneous4<double>, Declares::yes, ones);
+    add("homogeneous.float32", in_float<s, homogeneous4<float>>, Declares::yes,
+        {ones.formula, ones.source, "as homogeneous, from offsets of a few hundred cell sizes on"});
+
+    const Text inverted{
+        "(W_b, W_c, W_d) = (b-a | c-a | d-a)^-1 (p-a), W_a = 1-W_b-W_c-W_d", "Eigen Matrix3d::inverse()",
+        "1/det is rounded before it is used and weights are differences of products: noise on every face"};
+    add("inverse", by_inverse<double, 3>, Declares::no, inverted);
+    add("inverse.float32", in_float<s, by_inverse<float, 3>>, Declares::no,
+        {inverted.formula, inverted.source, single_precision});
+    add("partial-lu", by_decomposition<double, 3, Eigen::PartialPivLU>, Declares::no,
+        {"(1 1 1 1; a b c d) W = (1; p)", "Eigen PartialPivLU",
+         "backward stable only: on faces the zero weight comes out as rounding noise of either sign"});
+    add("full-lu", by_decomposition<double, 3, Eigen::FullPivLU>, Declares::no,
+        {"(1 1 1 1; a b c d) W = (1; p)", "Eigen FullPivLU",
+         "pivots below 4 ulps of the largest count as zero: a flat cell gets finite weights, one of them 0, in "
+         "silence"});
+    add("trilinear", trilinear<double>, Declares::no,
+        {"plane z = pz meets the edges, line y = py two sides of that section: weights on edges, sides, line in turn",
+         "scan conversion, one dimension up",
+         "0/0 where the section is a point or the line only touches it: highest and lowest vertices, some edges"});
+    add("kahan", kahan, Declares::yes,
+        {"signed volumes with 2x2 minors by Kahan's ab-cd", "Jeannerod, Louvet & Muller 2013, Math. Comp. 82",
+         "the minors are right to 1.5 ulps, the differences before and the sum after are not: fewer wrong signs, not "
+         "none"});
+    add("vtk-tolerance", parametric<double>, Declares::yes,
+        {"Cramer's rule for W_b, W_c, W_d with origin a, W_a = 1 - sum; inside if every W >= -0.001",
+         "the acceptance rule of VTK's vtkTetra::EvaluatePosition",
+         "points outside by up to a thousandth of a height are accepted as inside; only det == 0 is degenerate"});
+    list.back().rule = RegionRule::tolerant;
+    list.back().tolerance = 0.001;
+}
+
+}  // namespace barycert::kernels

@@ -1,0 +1,64 @@
+// Kernels on a triangle of the plane.
+#include "barycert/kernels/triangle_formulas.hpp"
+
+#include "barycert/kernels/linear_formulas.hpp"
+#include "barycert/kernels/registry.hpp"
+
+namespace barycert::kernels {
+
+void add_triangle(std::vector<Kernel>& list) {
+    constexpr Simplex s = Simplex::triangle;
+    const auto add = [&](const char* name, WeightsFunction weights, Declares declares, Text text) {
+        list.push_back(make_kernel(s, name, weights, declares, text));
+    };
+    constexpr const char* single_precision =
+        "rounds coordinates to 24 bits first: points nearer to an edge than 2^-24 of their coordinates change sides";
+
+    const Text areas{"W_a = (bc x bp)/(ab x ac) and cyclic",
+                     "signed areas; Shirley & Marschner, Fundamentals of CG, 2.9",
+                     "products are rounded: points within a few ulps of an edge get a wrong sign or a false zero"};
+    add("signed-area", signed_area<double>, Declares::yes, areas);
+    add_variants(list, list.back(), &Variants::signed_area);
+    add("signed-area.float32", in_float<s, signed_area<float>>, Declares::yes,
+        {areas.formula, areas.source, single_precision});
+
+    const Text closed{
+        "beta = ((y-yA)(xC-xA)-(x-xA)(yC-yA)) / ((yB-yA)(xC-xA)-(xB-xA)(yC-yA)), gamma with B and C "
+        "exchanged, alpha = 1-beta-gamma",
+        "perspective-correct rasterisation notes",
+        "alpha carries the rounding of both others: on edge BC its sign is chance, the sum 1 hides it"};
+    add("beta-gamma", beta_gamma<double>, Declares::no, closed);
+    add("beta-gamma.float32", in_float<s, beta_gamma<float>>, Declares::no,
+        {closed.formula, closed.source, single_precision});
+
+    add("alpha-beta", alpha_beta<double>, Declares::no,
+        {"alpha = (-(x-xB)(yC-yB)+(y-yB)(xC-xB)) / (-(xA-xB)(yC-yB)+(yA-yB)(xC-xB)), beta cyclic, gamma = 1-alpha-beta",
+         "Shirley & Marschner, Fundamentals of CG, 8.1.2",
+         "gamma carries the rounding of both others: on edge AB its sign is chance; the two denominators may differ"});
+    add("unsigned-area", unsigned_area<double>, Declares::no,
+        {"W_a = |PBC| / (|PBC|+|PCA|+|PAB|) and cyclic", "area ratios, common lecture notes",
+         "no weight is ever negative: every point outside looks like one inside"});
+    add("bilinear", bilinear<double>, Declares::no,
+        {"the line y = py meets two edges in l and r: weights on each edge, then p = (1-u) l + u r",
+         "Gouraud 1971, scan conversion",
+         "0/0 at the topmost and the lowest vertex, where l and r coincide; poor near them"});
+
+    const Text ones{"W_a = |1 p; 1 b; 1 c| / |1 a; 1 b; 1 c| and cyclic, 3x3 determinants", "homogeneous coordinates",
+                    "products of absolute coordinates cancel: far from the origin every digit is lost"};
+    add("homogeneous", homogeneous3<double>, Declares::yes, ones);
+    add("homogeneous.float32", in_float<s, homogeneous3<float>>, Declares::yes,
+        {ones.formula, ones.source, "as homogeneous, from offsets of a few thousand triangle sizes on"});
+
+    add("inverse", by_inverse<double, 2>, Declares::no,
+        {"(W_b, W_c) = (b-a | c-a)^-1 (p-a), W_a = 1-W_b-W_c", "Eigen Matrix2d::inverse()",
+         "1/det is rounded before it is used and two weights are differences: edges and vertices get a wrong sign"});
+    add("partial-lu", by_decomposition<double, 2, Eigen::PartialPivLU>, Declares::no,
+        {"(1 1 1; a b c) W = (1; p)", "Eigen PartialPivLU",
+         "backward stable only: on edges the zero weight comes out as rounding noise of either sign"});
+    add("full-lu", by_decomposition<double, 2, Eigen::FullPivLU>, Declares::no,
+        {"(1 1 1; a b c) W = (1; p)", "Eigen FullPivLU",
+         "pivots below 3 ulps of the largest count as zero: a flat triangle gets finite weights, one of them 0, in "
+         "silence"});
+}
+
+}  // namespace barycert::kernels
