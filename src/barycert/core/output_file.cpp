@@ -1,1 +1,147 @@
-// to come
+#include "barycert/core/output_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+namespace barycert {
+namespace {
+
+constexpr std::size_t buffer_size = std::size_t{1} << 18;
+
+const char* remedy_for(int error_number) {
+    switch (error_number) {
+        case ENOENT:
+        case ENOTDIR:
+            return "make the folder first, or name another one";
+        case EISDIR:
+            return "name a file, not a folder";
+        case EACCES:
+        case EPERM:
+        case EROFS:
+            return "choose a folder and a file that you may write";
+        case ENOSPC:
+        case EDQUOT:
+        case EFBIG:
+            return "free some space, or write to another disk";
+        case EPIPE:
+            return "whatever read the output has stopped reading";
+        default:
+            return "check the path and the disk";
+    }
+}
+
+/// `path` with its links resolved if it exists, else as it is.
+std::string resolved(const std::string& path) {
+    char* const real = ::realpath(path.c_str(), nullptr);
+    if (real == nullptr) return path;
+    std::string result = real;
+    std::free(real);
+    return result;
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::string target) : target_(std::move(target)), real_path_(resolved(target_)) {
+    struct stat status {};
+    const bool exists = ::stat(real_path_.c_str(), &status) == 0;
+    if (exists && S_ISDIR(status.st_mode)) {
+        fail("cannot write the file", EISDIR);
+        return;
+    }
+    // A rename would replace even a file that is write-protected.
+    if (exists && ::access(real_path_.c_str(), W_OK) != 0) {
+        fail("cannot write the file", errno);
+        return;
+    }
+    if (exists && !S_ISREG(status.st_mode)) {
+        descriptor_ = ::open(real_path_.c_str(), O_WRONLY | O_CLOEXEC);
+        if (descriptor_ < 0) fail("cannot open the file for writing", errno);
+        return;
+    }
+    open_beside();
+    if (exists && descriptor_ >= 0 && ::fchmod(descriptor_, status.st_mode & 07777U) != 0) {
+        fail("cannot give the new file the permissions of the old one", errno);
+    }
+}
+
+void OutputFile::open_beside() {
+    static std::atomic<unsigned> count{0};
+    // O_EXCL: a name left over by a killed run, or planted as a link, is passed over.
+    do {
+        temporary_ = real_path_ + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
+        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (descriptor_ < 0 && errno == EEXIST);
+    if (descriptor_ >= 0) return;
+    const int error_number = errno;
+    temporary_.clear();
+    fail("cannot make a file beside the target", error_number);
+}
+
+OutputFile::~OutputFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void OutputFile::write(std::string_view bytes) {
+    if (descriptor_ < 0) return;
+    if (buffer_.capacity() == 0) buffer_.reserve(buffer_size);
+    while (!bytes.empty()) {
+        const std::size_t step = std::min(bytes.size(), buffer_size - buffer_.size());
+        buffer_.append(bytes.substr(0, step));
+        bytes.remove_prefix(step);
+        if (buffer_.size() == buffer_size) flush();
+    }
+}
+
+void OutputFile::flush() {
+    std::string_view rest = buffer_;
+    while (!rest.empty() && error_.what.empty()) {
+        const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
+        if (written >= 0) {
+            rest.remove_prefix(static_cast<std::size_t>(written));
+        } else if (errno != EINTR) {
+            fail("cannot write the file", errno);
+        }
+    }
+    buffer_.clear();
+}
+
+Status OutputFile::close() {
+    if (descriptor_ >= 0) {
+        flush();
+        // Network file systems report a full disk only here.
+        if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot write the file", errno);
+    }
+    if (!error_.what.empty()) return error_;
+    return Done{};
+}
+
+Status OutputFile::commit() {
+    if (Status closed = close(); !closed) return closed;
+    if (temporary_.empty()) return Done{};
+    if (std::rename(temporary_.c_str(), real_path_.c_str()) != 0) {
+        fail("cannot put the finished file in its place", errno);
+        return error_;
+    }
+    temporary_.clear();
+    return Done{};
+}
+
+void OutputFile::fail(const char* what, int error_number) {
+    if (!error_.what.empty()) return;
+    error_.file = target_;
+    error_.what = what;
+    error_.found = std::strerror(error_number);
+    error_.remedy = remedy_for(error_number);
+}
+
+}  // namespace barycert

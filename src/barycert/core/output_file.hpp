@@ -8,8 +8,12 @@
 
 namespace barycert {
 
-/// Writes beside the target and renames on commit(), so that a killed run leaves the target as it was. Without a
-/// commit() the temporary file is removed by the destructor. Errors (no space, no permission) are told by commit().
+/// Writes beside the target (TARGET.tmp-<process>-<count>) and renames on commit(), so that a killed run leaves the
+/// target as it was. Without a commit() the temporary file is removed by the destructor. Errors (no space, no
+/// permission) are kept and told by close() and commit(); the first one counts.
+///
+/// A link is followed and stays a link; an existing target keeps its permissions. A device or pipe (/dev/stdout)
+/// cannot be renamed onto, so there the bytes go straight to it.
 class OutputFile {
 public:
     explicit OutputFile(std::string target);
@@ -18,13 +22,22 @@ public:
     OutputFile& operator=(const OutputFile&) = delete;
 
     void write(std::string_view bytes);
+
+    /// Hands everything to the system but leaves the target as it was. For sets of files that are to change together:
+    /// close() all, and commit() only when none has failed.
+    Status close();
+
+    /// close() if that is still to do, then the rename.
     Status commit();
 
 private:
     void fail(const char* what, int error_number);
+    void open_beside();
+    void flush();
 
-    std::string target_;
-    std::string temporary_;
+    std::string target_;     // as the caller named it: for messages
+    std::string real_path_;  // with links resolved
+    std::string temporary_;  // empty: nothing to rename or remove
     std::string buffer_;
     int descriptor_ = -1;
     Error error_;

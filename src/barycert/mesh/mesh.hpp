@@ -38,8 +38,8 @@ struct Mesh {
     std::vector<Index> mid_nodes;
     MidEdgeOrder mid_edge_order = MidEdgeOrder::none;  ///< the order found in the file, and written again
 
-    std::vector<Field> point_fields;  ///< attributes of a .node file are attribute0, attribute1, ...
-    std::vector<Field> cell_fields;   ///< likewise of an .ele file
+    std::vector<Field> point_fields;          ///< attributes of a .node file are attribute0, attribute1, ...
+    std::vector<Field> cell_fields;           ///< likewise of an .ele file
     std::vector<std::int64_t> point_markers;  ///< empty, or one a node
 
     std::vector<Index> faces;                ///< 3 corners a face of the .face file; empty if there is none

@@ -1,0 +1,115 @@
+#include "barycert/mesh/mid_edges.hpp"
+
+#include <algorithm>
+
+namespace barycert::detail {
+namespace {
+
+using Edge = std::array<std::size_t, 2>;
+constexpr std::array<Edge, 6> tetrahedron_edges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+constexpr std::array<Edge, 3> triangle_edges{{{0, 1}, {1, 2}, {0, 2}}};
+
+constexpr std::array<std::size_t, 6> vtk_sequence{0, 1, 2, 3, 4, 5};
+constexpr std::array<std::size_t, 6> tetgen15_sequence{5, 3, 0, 1, 4, 2};
+constexpr std::array<std::size_t, 6> gmsh_sequence{0, 1, 2, 3, 5, 4};
+constexpr std::array<std::size_t, 3> triangle_sequence{1, 2, 0};
+
+/// The first of a dimension is taken where no cell can tell.
+constexpr std::array<MidEdgeOrder, 3> orders_3d{MidEdgeOrder::tetgen15, MidEdgeOrder::vtk, MidEdgeOrder::gmsh};
+constexpr std::array<MidEdgeOrder, 2> orders_2d{MidEdgeOrder::triangle, MidEdgeOrder::vtk};
+
+/// The edge whose midpoint is strictly nearest to `node`, or edges.size().
+std::size_t nearest_edge(const Mesh& mesh, const Mesh::Index* corners, Mesh::Index node, std::span<const Edge> edges) {
+    const auto dimension = static_cast<std::size_t>(mesh.dimension);
+    const auto coordinate = [&](Mesh::Index point, std::size_t axis) {
+        return mesh.points[static_cast<std::size_t>(point) * dimension + axis] * 0.25;  // no sum below overflows
+    };
+    std::array<double, 6> squares{};
+    std::array<double, 18> offsets{};
+    double largest = 0;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        for (std::size_t axis = 0; axis < dimension; ++axis) {
+            const double middle = coordinate(corners[edges[e][0]], axis) + coordinate(corners[edges[e][1]], axis);
+            double& offset = offsets[e * dimension + axis] = middle - 2 * coordinate(node, axis);
+            offset = std::max(offset, -offset);
+            largest = std::max(largest, offset);
+        }
+    }
+    if (largest == 0) return edges.size();
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        for (std::size_t axis = 0; axis < dimension; ++axis) {
+            const double scaled = offsets[e * dimension + axis] / largest;  // squares stay in range
+            squares[e] += scaled * scaled;
+        }
+    }
+    const auto last = squares.begin() + static_cast<std::ptrdiff_t>(edges.size());
+    const auto least = std::min_element(squares.begin(), last);
+    if (std::count(squares.begin(), last, *least) != 1) return edges.size();
+    return static_cast<std::size_t>(least - squares.begin());
+}
+
+}  // namespace
+
+std::span<const Edge> edges_of(int dimension) {
+    if (dimension == 2) return triangle_edges;
+    return tetrahedron_edges;
+}
+
+std::span<const std::size_t> edge_sequence(MidEdgeOrder order, int dimension) {
+    switch (order) {
+        case MidEdgeOrder::vtk:
+            return std::span<const std::size_t>(vtk_sequence).first(dimension == 2 ? 3 : 6);
+        case MidEdgeOrder::tetgen15:
+            if (dimension == 3) return tetgen15_sequence;
+            break;
+        case MidEdgeOrder::gmsh:
+            if (dimension == 3) return gmsh_sequence;
+            break;
+        case MidEdgeOrder::triangle:
+            if (dimension == 2) return triangle_sequence;
+            break;
+        case MidEdgeOrder::none:
+            break;
+    }
+    return {};
+}
+
+std::optional<MidEdgeOrder> detect_mid_edge_order(const Mesh& mesh) {
+    const std::span<const Edge> edges = edges_of(mesh.dimension);
+    const std::span<const MidEdgeOrder> orders =
+        mesh.dimension == 2 ? std::span<const MidEdgeOrder>(orders_2d) : std::span<const MidEdgeOrder>(orders_3d);
+    std::array<std::size_t, 3> votes{};
+    std::size_t voters = 0;
+    for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
+        const Mesh::Index* const corners = &mesh.cells[cell * mesh.corners()];
+        std::array<std::size_t, 6> found{};
+        bool abstains = false;
+        for (std::size_t k = 0; k < edges.size() && !abstains; ++k) {
+            found[k] = nearest_edge(mesh, corners, mesh.mid_nodes[cell * edges.size() + k], edges);
+            abstains = found[k] == edges.size();
+        }
+        if (abstains) continue;
+        ++voters;
+        for (std::size_t i = 0; i < orders.size(); ++i) {
+            const std::span<const std::size_t> sequence = edge_sequence(orders[i], mesh.dimension);
+            if (std::equal(sequence.begin(), sequence.end(), found.begin())) ++votes[i];
+        }
+    }
+    if (voters == 0) return orders[0];
+    for (std::size_t i = 0; i < orders.size(); ++i) {
+        if (2 * votes[i] > voters) return orders[i];
+    }
+    return std::nullopt;
+}
+
+void normalise_mid_nodes(Mesh& mesh) {
+    const std::span<const std::size_t> sequence = edge_sequence(mesh.mid_edge_order, mesh.dimension);
+    if (sequence.empty() || mesh.mid_edge_order == MidEdgeOrder::vtk) return;
+    for (std::size_t begin = 0; begin < mesh.mid_nodes.size(); begin += sequence.size()) {
+        std::array<Mesh::Index, 6> from_file{};
+        std::copy_n(&mesh.mid_nodes[begin], sequence.size(), from_file.begin());
+        for (std::size_t k = 0; k < sequence.size(); ++k) mesh.mid_nodes[begin + sequence[k]] = from_file[k];
+    }
+}
+
+}  // namespace barycert::detail

@@ -1,0 +1,151 @@
+/// Fields of a line of text, read fast and strictly.
+///
+/// Enters: a pointer into a MappedFile, whose bytes are followed by NULs; so no step compares with the end.
+/// Leaves: the value, and the pointer moved over the field. A function that fails says so and no more: why a row is
+/// bad is found out by row_errors.hpp, slowly and once.
+///
+/// integer   = [+|-] (0 | 1-9 {0-9})       leading zeros are refused: TetGen takes 010 for octal 8
+/// real      = [+|-] decimal, [e|E exponent]; finite
+/// separator = blanks [, blanks], not empty; blank = space or tab
+/// row end   = blanks, then LF, CR LF, or a comment from # to the end of the line. A row that stops at the end of the
+///             file is refused, for "0.2" may be the beginning of "0.25".
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include <fast_float/fast_float.h>
+
+namespace barycert::detail {
+
+inline bool is_blank(char c) {
+    return c == ' ' || c == '\t';
+}
+inline bool is_digit(char c) {
+    return static_cast<unsigned char>(c - '0') < 10;
+}
+
+/// Any integer of 64 bits; out of line because most fit in the fast path below.
+[[gnu::noinline, gnu::cold]] inline const char* scan_integer_slowly(const char* at, std::int64_t& value) {
+    const bool negative = *at == '-';
+    if (negative || *at == '+') ++at;
+    if (!is_digit(*at) || (*at == '0' && is_digit(at[1]))) return nullptr;
+    std::int64_t sum = 0;
+    for (; is_digit(*at); ++at) {
+        const int digit = *at - '0';
+        if (__builtin_mul_overflow(sum, std::int64_t{10}, &sum) || __builtin_sub_overflow(sum, digit, &sum)) {
+            return nullptr;  // summed below zero, where one number more fits
+        }
+    }
+    if (!negative && sum == INT64_MIN) return nullptr;
+    value = negative ? sum : -sum;
+    return at;
+}
+
+/// The place after the integer at `at`, or nullptr.
+inline const char* scan_integer(const char* at, std::int64_t& value) {
+    if constexpr (std::endian::native == std::endian::little) {
+        // Eight bytes at once. A byte of `digits` is 0..9 where the text has a digit. Adding 0x76 lifts anything else
+        // to the top bit; a carry reaches only bytes after the first such byte, which do not matter.
+        std::uint64_t digits = 0;
+        std::memcpy(&digits, at, 8);
+        digits ^= 0x3030303030303030U;
+        const std::uint64_t others = ((digits + 0x7676767676767676U) | digits) & 0x8080808080808080U;
+        const int bits = std::countr_zero(others) & ~7;  // 8 * number of leading digits
+        const bool plain = bits != 0 && bits != 64 && ((digits & 0xff) != 0 || bits == 8);
+        if (plain) [[likely]] {
+            digits <<= 64 - bits;  // the last digit into the last byte, zeros before it
+            digits = digits * 10 + (digits >> 8);
+            digits = ((digits & 0x000000ff000000ffU) * 0x000f424000000064U +
+                      ((digits >> 16) & 0x000000ff000000ffU) * 0x0000271000000001U) >>
+                     32;
+            value = static_cast<std::int64_t>(digits & 0xffffffffU);
+            return at + bits / 8;
+        }
+    }
+    return scan_integer_slowly(at, value);
+}
+
+/// The place after the number at `at`, or nullptr; `end` is the end of the file.
+inline const char* scan_real(const char* at, const char* end, double& value) {
+    if (*at == '+') {
+        ++at;
+        if (*at == '-') return nullptr;
+    }
+    const auto [after, error] = fast_float::from_chars(at, end, value);
+    // Underflow is rounding, and no error; infinities and NaNs, written or by overflow, are errors.
+    return error == std::errc::invalid_argument || !std::isfinite(value) ? nullptr : after;
+}
+
+/// A place in the text, moved by each success and left near the fault by a failure.
+struct Scanner {
+    const char* at;
+    const char* end;  ///< of the file
+
+    void skip_blanks() {
+        while (is_blank(*at)) ++at;
+    }
+
+    void skip_line() {
+        const void* const feed = std::memchr(at, '\n', static_cast<std::size_t>(end - at));
+        at = feed == nullptr ? end : static_cast<const char*>(feed) + 1;
+    }
+
+    /// Moves over blank and comment lines to the first field of a row that starts before `stop`; false if none does.
+    bool next_row(const char* stop) {
+        while (true) {
+            skip_blanks();
+            if (at >= stop) return false;
+            if (*at == '#') {
+                skip_line();
+            } else if (*at == '\n' || (*at == '\r' && (at[1] == '\n' || at + 1 == end))) {
+                ++at;
+            } else {
+                return true;
+            }
+        }
+    }
+
+    /// Moves over the end of a row.
+    bool end_row() {
+        skip_blanks();
+        if (*at == '\n') [[likely]] {
+            ++at;
+            return true;
+        }
+        if (*at == '\r' && at + 1 < end && at[1] != '\n') return false;
+        if (*at != '\r' && *at != '#') return false;
+        skip_line();
+        return true;
+    }
+
+    /// Moves over what stands between two fields.
+    bool separator() {
+        const char* const start = at;
+        skip_blanks();
+        if (*at == ',') {
+            ++at;
+            skip_blanks();
+        }
+        return at != start;
+    }
+
+    bool integer(std::int64_t& value) {
+        const char* const after = scan_integer(at, value);
+        if (after == nullptr) return false;
+        at = after;
+        return true;
+    }
+
+    bool real(double& value) {
+        const char* const after = scan_real(at, end, value);
+        if (after == nullptr) return false;
+        at = after;
+        return true;
+    }
+};
+
+}  // namespace barycert::detail
