@@ -1,0 +1,108 @@
+#include "child.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+namespace barycert {
+namespace {
+
+[[noreturn]] void be_child(const std::function<void(const Answer&)>& work, int answer, int print) {
+#ifdef __linux__
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // no orphan goes on meshing
+#endif
+    const rlimit no_core{0, 0};  // a crash of TetGen's is an expected answer, not something to debug
+    setrlimit(RLIMIT_CORE, &no_core);
+    dup2(print, STDOUT_FILENO);
+    dup2(print, STDERR_FILENO);
+    work(Answer(answer));
+    std::fflush(nullptr);
+    _exit(finished_code);
+}
+
+/// Reads until the child closes its end. False if the time was up before the first byte.
+bool receive(int descriptor, double timeout_seconds, std::string& answer) {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    for (;;) {
+        int wait_ms = -1;
+        if (timeout_seconds > 0 && answer.empty()) {
+            const double passed = std::chrono::duration<double>(Clock::now() - start).count();
+            if (passed >= timeout_seconds) return false;
+            wait_ms = static_cast<int>(std::min((timeout_seconds - passed) * 1000 + 1, 1e6));
+        }
+        pollfd waiting{descriptor, POLLIN, 0};
+        if (poll(&waiting, 1, wait_ms) <= 0) continue;
+        std::array<char, 4096> block{};
+        const ssize_t got = read(descriptor, block.data(), block.size());
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) return true;
+        answer.append(block.data(), static_cast<std::size_t>(got));
+    }
+}
+
+std::string contents(std::FILE* file) {
+    std::string text;
+    std::rewind(file);
+    std::array<char, 4096> block{};
+    while (const std::size_t got = std::fread(block.data(), 1, block.size(), file)) text.append(block.data(), got);
+    return text;
+}
+
+}  // namespace
+
+void Answer::send(std::string_view text) const {
+    while (!text.empty()) {
+        const ssize_t put = write(descriptor_, text.data(), text.size());
+        if (put < 0 && errno == EINTR) continue;
+        if (put < 0) return;  // the parent is gone
+        text.remove_prefix(static_cast<std::size_t>(put));
+    }
+}
+
+ChildOutcome run_in_child(const std::function<void(const Answer&)>& work, double timeout_seconds) {
+    ChildOutcome outcome;
+    std::array<int, 2> ends{};
+    std::FILE* print = std::tmpfile();
+    if (print == nullptr || pipe(ends.data()) != 0) {
+        outcome.failure = std::strerror(errno);
+        if (print != nullptr) std::fclose(print);
+        return outcome;
+    }
+    std::fflush(nullptr);  // or the child would print it again
+    const pid_t child = fork();
+    if (child == 0) {
+        close(ends[0]);
+        be_child(work, ends[1], fileno(print));
+    }
+    if (child < 0) outcome.failure = std::strerror(errno);
+    close(ends[1]);
+    if (child > 0) {
+        outcome.timed_out = !receive(ends[0], timeout_seconds, outcome.answer);
+        if (outcome.timed_out) kill(child, SIGKILL);
+        int status = 0;
+        while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+        }
+        if (WIFSIGNALED(status)) outcome.signal = WTERMSIG(status);
+        if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
+        outcome.printed = contents(print);
+    }
+    close(ends[0]);
+    std::fclose(print);
+    return outcome;
+}
+
+}  // namespace barycert

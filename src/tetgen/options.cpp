@@ -1,0 +1,158 @@
+#include "options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <stdexcept>
+
+#include "barycert/core/text.hpp"
+
+namespace barycert {
+namespace {
+
+/// A number of [lowest, highest]; `range` says so in the error.
+double number_in(const char* option, const std::string& text, double lowest, double highest, const char* range) {
+    const std::optional<double> value = parse_double(text);
+    if (!value || !(*value >= lowest && *value <= highest)) {
+        throw std::invalid_argument(fmt::format("{}: expected {}, found {}", option, range, text));
+    }
+    return *value;
+}
+
+/// Refuses what would go wrong silently: TetGen copies numbers and its command line into buffers of fixed size,
+/// ignores unknown switches, and some switches name files or outputs that do not exist here.
+void check_switches(const std::string& switches) {
+    constexpr std::string_view known = "pqaAYMDOoSTXCdVQJBlLbxcfen";
+    constexpr std::string_view numeric = "0123456789./,+-e";
+    constexpr std::size_t longest = 200;
+    if (switches.size() > longest) throw std::invalid_argument("--switches: longer than 200 characters");
+    if (switches.empty()) throw std::invalid_argument("--switches: expected TetGen's switches, found nothing");
+    for (const char c : switches) {
+        if (known.find(c) != std::string_view::npos || numeric.find(c) != std::string_view::npos) continue;
+        throw std::invalid_argument(fmt::format(
+            "--switches: expected letters of {} with their numbers, found '{}'; without a dash; switches for other "
+            "inputs and outputs than a PLC and a mesh are not supported",
+            known, c));
+    }
+}
+
+/// In full digits: TetGen reads no exponent after -q.
+std::string plain_digits(double x) {
+    return fmt::format("{:.10f}", x);
+}
+
+}  // namespace
+
+std::string Options::tetgen_switches() const {
+    if (switches) return *switches + (switches->find('n') == std::string::npos ? "n" : "");
+    std::string text = "pn";
+    if (quality) text += "q" + plain_digits(ratio);
+    if (min_dihedral) text += "/" + plain_digits(*min_dihedral);
+    if (max_volume) text += "a" + fmt::format("{}", *max_volume);
+    if (keep_boundary) text += "Y";
+    if (order == 2) text += "o2";
+    return text;
+}
+
+bool Options::diagnoses() const {
+    return switches && switches->find('d') != std::string::npos;
+}
+
+std::string Options::described() const {
+    std::string text = "barycert-tetgen " + std::filesystem::path(input).filename().string();
+    if (switches) text += " --switches " + *switches;
+    if (!switches && quality) text += " --quality " + shortest(ratio);
+    if (min_dihedral) text += " --min-dihedral " + shortest(*min_dihedral);
+    if (max_volume) text += " --max-volume " + shortest(*max_volume);
+    if (order != 1) text += fmt::format(" --order {}", order);
+    if (keep_boundary) text += " --keep-boundary";
+    if (index_base) text += fmt::format(" --index-base {}", *index_base);
+    return text;
+}
+
+std::string default_output(const std::string& input) {
+    std::filesystem::path stem = std::filesystem::path(input).replace_extension();
+    const std::string last = stem.extension().string();
+    int number = 0;
+    if (last.size() > 1) {
+        const auto [end, error] = std::from_chars(last.data() + 1, last.data() + last.size(), number);
+        const bool counted = error == std::errc{} && end == last.data() + last.size() && number >= 0 &&
+                             number < std::numeric_limits<int>::max();
+        if (counted) {
+            stem.replace_extension();
+        } else {
+            number = 0;
+        }
+    }
+    return stem.string() + "." + std::to_string(number + 1);
+}
+
+Parsed parse_options(int argc, char** argv) {
+    Options options;
+    std::string ratio;
+    std::string min_dihedral;
+    std::string max_volume;
+    std::string timeout;
+    std::string switches;
+    int index_base = 0;
+    CLI::App app{"Meshes a PLC by TetGen: .poly .smesh .off .stl .ply in; .node .ele .face .neigh out."};
+    app.name("barycert-tetgen");
+    app.set_version_flag("--version", "barycert-tetgen " BARYCERT_VERSION " (TetGen 1.5)");
+    app.add_option("INPUT", options.input, "the PLC: .poly, .smesh, .off, .stl or .ply");
+    app.add_option("--output", options.output, "stem of the files written (default: INPUT's stem and .1)");
+    auto* quality = app.add_option("--quality", ratio, "bound the radius-edge ratio, by 2 unless given (TetGen -q)")
+                        ->expected(0, 1)
+                        ->type_name("[RATIO]");
+    auto* dihedral =
+        app.add_option("--min-dihedral", min_dihedral, "smallest dihedral angle wished, in degrees")->type_name("DEG");
+    auto* volume = app.add_option("--max-volume", max_volume, "largest volume of a cell (TetGen -a)")->type_name("V");
+    auto* order = app.add_option("--order", options.order, "2: second-order cells of ten nodes (TetGen -o2)")
+                      ->check(CLI::IsMember({1, 2}));
+    auto* keep = app.add_flag("--keep-boundary", options.keep_boundary, "add no nodes on the boundary (TetGen -Y)");
+    auto* raw =
+        app.add_option("--switches", switches, "TetGen's own switches instead, such as pq1.4a0.1")->type_name("STRING");
+    auto* base = app.add_option("--index-base", index_base, "number from 0 or 1 (default: as INPUT does)")
+                     ->check(CLI::IsMember({0, 1}));
+    app.add_flag("--quiet", options.quiet, "no summary");
+    app.add_option("--timeout", timeout, "give up after this time")->type_name("SECONDS");
+    for (auto* option : {quality, dihedral, volume, order, keep}) raw->excludes(option);
+    try {
+        app.parse(argc, argv);
+        if (options.input.empty() && parse_double(ratio).value_or(0) == 0 && !ratio.empty()) {
+            throw std::invalid_argument("--quality: expected a number, found " + ratio + "; put INPUT first");
+        }
+        if (options.input.empty()) throw std::invalid_argument("expected INPUT, a PLC");
+        constexpr double unbounded = std::numeric_limits<double>::max();
+        constexpr double tiny = std::numeric_limits<double>::min();
+        // A regular tetrahedron has the smallest ratio there is, 0.61, and the largest dihedral angle, 70.5 degrees.
+        options.quality = quality->count() > 0 || dihedral->count() > 0 || volume->count() > 0;
+        if (!ratio.empty()) options.ratio = number_in("--quality", ratio, 1, 1e6, "a ratio of at least 1");
+        if (*dihedral) {
+            options.min_dihedral = number_in("--min-dihedral", min_dihedral, 0, 70, "an angle from 0 to 70 degrees");
+        }
+        if (*volume) {
+            options.max_volume = number_in("--max-volume", max_volume, tiny, unbounded, "a volume greater than 0");
+        }
+        if (!timeout.empty()) options.timeout = number_in("--timeout", timeout, 1e-3, 1e9, "a time of 0.001 to 1e9 s");
+        if (*base) options.index_base = index_base;
+        if (*raw) {
+            check_switches(switches);
+            options.switches = switches;
+        }
+    } catch (const CLI::Success& wish) {  // --help, --version
+        return {.options = {}, .exit_code = app.exit(wish)};
+    } catch (const std::exception& problem) {
+        fmt::print(stderr, "error: {}\nrun barycert-tetgen --help for the usage\n", problem.what());
+        return {.options = {}, .exit_code = 2};
+    }
+    if (options.output.empty()) options.output = default_output(options.input);
+    return {.options = std::move(options), .exit_code = {}};
+}
+
+}  // namespace barycert
