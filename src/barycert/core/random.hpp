@@ -54,6 +54,12 @@ public:
         return lo + static_cast<int>(below(static_cast<std::uint64_t>(hi - lo) + 1));
     }
 
+    /// uniform(lo, hi) * 2^k, k an integer in [low, high]. (Two draws in one expression would have no fixed order.)
+    double scaled(double lo, double hi, int low, int high) {
+        const double mantissa = uniform(lo, hi);
+        return std::ldexp(mantissa, integer(low, high));
+    }
+
     constexpr bool coin() { return (bits() >> 63) != 0; }
 
 private:

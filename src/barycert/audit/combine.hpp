@@ -1,0 +1,73 @@
+/// Points made from vertices, in plain rounded arithmetic: the raw material of families.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "barycert/core/random.hpp"
+#include "barycert/core/simplex.hpp"
+
+namespace barycert::audit {
+
+/// n weights >= 0 that sum to about 1, evenly spread over the simplex: the gaps between n - 1 sorted random cuts of [0,
+/// 1].
+inline std::array<double, 4> random_weights(Random& random, int n) {
+    std::array<double, 5> cuts{0, 1, 1, 1, 1};
+    for (int i = 1; i < n; ++i) cuts[static_cast<std::size_t>(i)] = random.unit();
+    for (int i = 1; i < n; ++i) {  // insertion sort of at most three cuts
+        for (int j = i; j > 1 && cuts[static_cast<std::size_t>(j)] < cuts[static_cast<std::size_t>(j - 1)]; --j) {
+            std::swap(cuts[static_cast<std::size_t>(j)], cuts[static_cast<std::size_t>(j - 1)]);
+        }
+    }
+    cuts[static_cast<std::size_t>(n)] = 1;
+    std::array<double, 4> w{};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) w[i] = cuts[i + 1] - cuts[i];
+    return w;
+}
+
+/// fl(sum of w_i v_i) over the first n vertices, from left to right.
+inline std::array<double, 3> combination(const Case& c, const std::array<double, 4>& w, int n) {
+    std::array<double, 3> p{};
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
+        double sum = 0;
+        for (int i = 0; i < n; ++i) sum += w[static_cast<std::size_t>(i)] * c.vertex(i, axis);
+        p[static_cast<std::size_t>(axis)] = sum;
+    }
+    return p;
+}
+
+/// A rounded point in the whole simplex, or in the face of its first n vertices.
+inline std::array<double, 3> random_point(const Case& c, Random& random, int n) {
+    return combination(c, random_weights(random, n), n);
+}
+
+inline void set_vertex(Case& c, int i, const std::array<double, 3>& p) {
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) c.vertex(i, axis) = p[static_cast<std::size_t>(axis)];
+}
+
+inline void random_values(Case& c, Random& random) {
+    for (int i = 0; i < vertex_count(c.simplex); ++i) c.values[static_cast<std::size_t>(i)] = random.uniform(-1, 1);
+}
+
+/// A unit vector, up to rounding, normal to the face of the first n - 1 vertices and within the simplex's space: normal
+/// to an edge of a triangle, to a face of a tetrahedron; any one normal to a segment3d's end or triangle3d's edge.
+inline std::array<double, 3> facet_normal(const Case& c, Random& random) {
+    const auto difference = [&](int i) {
+        std::array<double, 3> e{};
+        for (int axis = 0; axis < space_dimension(c.simplex); ++axis)
+            e[static_cast<std::size_t>(axis)] = c.vertex(i, axis) - c.vertex(0, axis);
+        return e;
+    };
+    std::array<double, 3> a{0, 0, 1}, b{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    if (c.simplex != Simplex::segment) a = difference(1);
+    if (c.simplex == Simplex::triangle) b = {0, 0, 1};
+    if (c.simplex == Simplex::tetrahedron) b = difference(2);
+    std::array<double, 3> n{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    if (!(length > 0)) return {1, 0, 0};
+    for (double& x : n) x /= length;
+    return n;
+}
+
+}  // namespace barycert::audit

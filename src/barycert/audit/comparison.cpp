@@ -1,0 +1,80 @@
+#include "barycert/audit/comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "barycert/core/ulp.hpp"
+
+namespace barycert::audit {
+namespace {
+
+void count(Comparison& r, Finding f) {
+    ++r.counts[static_cast<std::size_t>(f)];
+}
+
+void compare_regions(Comparison& r, Region exact) {
+    const bool inside = r.claimed == Region::interior || r.claimed == Region::boundary;
+    if (exact == Region::degenerate) {
+        if (r.claimed != Region::degenerate) count(r, Finding::missed_degenerate);
+    } else if (exact == Region::outside) {
+        if (inside) count(r, Finding::false_inside);
+    } else if (r.claimed == Region::outside) {
+        count(r, Finding::false_outside);
+    }
+}
+
+void compare_weight(Comparison& r, std::size_t i, double w, double exact, int sign) {
+    r.weight_ulps[i] = -1;
+    if (w == exact) {
+        if (exact != 0 && std::isfinite(exact)) r.weight_ulps[i] = 0;
+        return;
+    }
+    if (!std::isfinite(w)) {
+        count(r, Finding::not_finite);
+        r.weight_error = std::numeric_limits<double>::infinity();
+        return;
+    }
+    if (w == 0) {
+        count(r, Finding::false_zero);
+    } else if (sign == 0) {
+        count(r, Finding::false_nonzero);
+    } else if ((w > 0) != (sign > 0)) {
+        count(r, Finding::opposite_sign);
+    }
+    r.weight_error = std::max(r.weight_error, std::fabs(w - exact));
+    if (exact != 0 && std::isfinite(exact)) r.weight_ulps[i] = ulp_error(w, exact);
+}
+
+}  // namespace
+
+Comparison compare(const Kernel& kernel, const Case& c, const exact::Answer& answer, int status,
+                   std::span<const double> weights) {
+    Comparison r;
+    r.weight_ulps.fill(-1);
+    const auto n = static_cast<std::size_t>(vertex_count(c.simplex));
+    const bool degenerate = answer.region == Region::degenerate;
+    const bool perfect =
+        status == 0 && !degenerate &&
+        std::equal(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(n), answer.weights.begin());
+    r.claimed =
+        perfect && kernel.rule == RegionRule::sign ? answer.region : claimed_region(kernel, status, weights.first(n));
+    compare_regions(r, answer.region);
+    if (degenerate) {
+        if (kernel.certifies && r.wrong()) count(r, Finding::false_certificate);
+        return r;
+    }
+    if (status != 0) {
+        count(r, Finding::false_declaration);
+        r.weight_error = std::numeric_limits<double>::infinity();
+        return r;
+    }
+    for (std::size_t i = 0; i < n; ++i) compare_weight(r, i, weights[i], answer.weights[i], answer.signs[i]);
+    const double value = kernel.value(weights.data(), c.values.data());
+    if (std::isfinite(value) && std::isfinite(answer.value) && answer.value != 0)
+        r.value_ulp = ulp_error(value, answer.value);
+    if (kernel.certifies && (!perfect || r.wrong())) count(r, Finding::false_certificate);
+    return r;
+}
+
+}  // namespace barycert::audit

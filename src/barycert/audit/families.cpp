@@ -1,0 +1,43 @@
+#include "barycert/audit/families.hpp"
+
+#include <algorithm>
+
+#include "barycert/core/text.hpp"
+
+namespace barycert::audit {
+
+bool Family::applies_to(Simplex s) const {
+    return std::find(simplices.begin(), simplices.end(), s) != simplices.end();
+}
+
+const std::vector<Family>& all_families() {
+    static const std::vector<Family> families = [] {
+        std::vector<Family> all = mesh_families();
+        for (Family& f : built_families()) all.push_back(std::move(f));
+        return all;
+    }();
+    return families;
+}
+
+std::vector<Family> families_matching(std::string_view glob) {
+    std::vector<Family> matching;
+    for (const Family& f : all_families()) {
+        if (glob_match(glob, f.name)) matching.push_back(f);
+    }
+    return matching;
+}
+
+Case make_case(const Family& family, Simplex s, std::uint64_t seed, std::uint64_t index, const MeshSource& meshes) {
+    const std::uint64_t stream = hash64(family.name) + static_cast<std::uint64_t>(s);
+    Random random = Random::stream(seed, stream, index);
+    Case c;
+    c.simplex = s;
+    if (family.needs_mesh) {
+        family.mesh_recipe(c, random, meshes);
+    } else {
+        family.recipe(c, random, index);
+    }
+    return c;
+}
+
+}  // namespace barycert::audit

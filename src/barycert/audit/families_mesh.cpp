@@ -1,0 +1,169 @@
+// Families whose simplices come from a mesh: what a kernel meets in use.
+
+#include <algorithm>
+#include <cmath>
+
+#include "barycert/audit/combine.hpp"
+#include "barycert/audit/families.hpp"
+#include "barycert/core/ulp.hpp"
+
+namespace barycert::audit {
+namespace {
+
+// Faces of dimension n - 1: the first n vertices after a random one has been put last, and so on.
+void shuffle_vertices(Draw& draw, Random& random) {
+    const int n = vertex_count(draw.simplex.simplex);
+    for (int i = n - 1; i > 0; --i) {
+        std::swap(draw.nodes[random.below(static_cast<std::uint64_t>(i) + 1)], draw.nodes[static_cast<std::size_t>(i)]);
+    }
+    draw = MeshSource::from_nodes(*draw.from, draw.cell, draw.nodes, draw.simplex.simplex, random);
+}
+
+Draw shuffled(const Case& c, Random& random, const MeshSource& meshes) {
+    Draw draw = meshes.any(c.simplex, random);
+    shuffle_vertices(draw, random);
+    return draw;
+}
+
+void nudge(Case& c, Random& random) {
+    double& x = c.point[random.below(static_cast<std::uint64_t>(space_dimension(c.simplex)))];
+    x = random.coin() ? next_up(x) : next_down(x);
+}
+
+void inside(Case& c, Random& random, const MeshSource& meshes) {
+    c = meshes.any(c.simplex, random).simplex;
+    c.point = random_point(c, random, vertex_count(c.simplex));
+}
+
+void centroids(Case& c, Random& random, const MeshSource& meshes) {
+    c = meshes.any(c.simplex, random).simplex;
+    const int n = vertex_count(c.simplex);
+    c.point = combination(c, {1, 1, 1, 1}, n);
+    for (double& x : c.point) x /= n;
+}
+
+void facets(Case& c, Random& random, const MeshSource& meshes) {
+    c = shuffled(c, random, meshes).simplex;
+    c.point = random_point(c, random, vertex_count(c.simplex) - 1);
+}
+
+void edges(Case& c, Random& random, const MeshSource& meshes) {
+    c = shuffled(c, random, meshes).simplex;
+    c.point = random_point(c, random, 2);
+}
+
+void vertices(Case& c, Random& random, const MeshSource& meshes) {
+    c = shuffled(c, random, meshes).simplex;
+    c.point = combination(c, {1, 0, 0, 0}, 1);
+}
+
+void facets_nudged(Case& c, Random& random, const MeshSource& meshes) {
+    facets(c, random, meshes);
+    nudge(c, random);
+}
+
+void edges_nudged(Case& c, Random& random, const MeshSource& meshes) {
+    edges(c, random, meshes);
+    nudge(c, random);
+}
+
+void vertices_nudged(Case& c, Random& random, const MeshSource& meshes) {
+    vertices(c, random, meshes);
+    nudge(c, random);
+}
+
+// From a point of the hull's facet outwards, away from the vertex that the facet leaves out.
+void hull_near(Case& c, Random& random, const MeshSource& meshes) {
+    c = meshes.at_hull(c.simplex, random).simplex;
+    const int n = vertex_count(c.simplex);
+    c.point = random_point(c, random, n - 1);
+    const double step = random.scaled(0.5, 1, -50, -4);
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
+        double& x = c.point[static_cast<std::size_t>(axis)];
+        x += step * (x - c.vertex(n - 1, axis));
+    }
+}
+
+void hull_far(Case& c, Random& random, const MeshSource& meshes) {
+    const Draw draw = meshes.at_hull(c.simplex, random);
+    c = draw.simplex;
+    const double reach = std::ldexp(1, random.integer(1, 20));
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(space_dimension(c.simplex)); ++axis) {
+        const double low = draw.from->low[axis], size = draw.from->high[axis] - low;
+        c.point[axis] = low + size * random.uniform(-reach, reach);
+    }
+}
+
+// A point of the cell across a random facet; the cell's own where there is no neighbour.
+Draw neighbour_cell(Draw& draw, Random& random) {
+    const auto corners = draw.from->mesh.corners();
+    const auto cell = static_cast<std::size_t>(draw.cell);
+    const auto other = draw.from->neighbours[cell * corners + random.below(corners)];
+    const auto chosen = other < 0 ? cell : static_cast<std::size_t>(other);
+    std::array<Mesh::Index, 4> nodes{};
+    for (std::size_t i = 0; i < corners; ++i) nodes[i] = draw.from->mesh.cells[chosen * corners + i];
+    const Simplex whole = draw.from->mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron;
+    return MeshSource::from_nodes(*draw.from, static_cast<Mesh::Index>(chosen), nodes, whole, random);
+}
+
+void neighbour_points(Case& c, Random& random, const MeshSource& meshes) {
+    Draw draw = meshes.any(c.simplex, random);
+    const Case other = neighbour_cell(draw, random).simplex;
+    c = draw.simplex;
+    c.point = random_point(other, random, vertex_count(other.simplex));
+}
+
+void neighbour_vertices(Case& c, Random& random, const MeshSource& meshes) {
+    Draw draw = meshes.any(c.simplex, random);
+    const Case other = neighbour_cell(draw, random).simplex;
+    c = draw.simplex;
+    const auto i = static_cast<int>(random.below(static_cast<std::uint64_t>(vertex_count(other.simplex))));
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis)
+        c.point[static_cast<std::size_t>(axis)] = other.vertex(i, axis);
+}
+
+Family family(const char* name, const char* after, const char* parameters, Family::MeshRecipe recipe,
+              std::vector<Simplex> simplices) {
+    Family f;
+    f.name = std::string("mesh.") + name;
+    f.after = after;
+    f.parameters = parameters;
+    f.needs_mesh = true;
+    f.simplices = std::move(simplices);
+    f.mesh_recipe = recipe;
+    return f;
+}
+
+}  // namespace
+
+std::vector<Family> mesh_families() {
+    const std::vector<Simplex> all(all_simplices.begin(), all_simplices.end());
+    const std::vector<Simplex> faced{Simplex::tetrahedron};
+    const std::vector<Simplex> edged{Simplex::triangle, Simplex::triangle3d, Simplex::tetrahedron};
+    return {
+        family("inside", "the ordinary case: every error here is paid by every user",
+               "fl(sum w_i v_i), w even over the simplex", inside, all),
+        family("centroids", "weights that should all be equal, and are not", "fl(fl(sum v_i) / n)", centroids, all),
+        family("faces", "points that mean to lie on a face and, rounded, mostly do not",
+               "fl(sum w_i v_i) over three vertices", facets, faced),
+        family("edges", "points that mean to lie on an edge", "fl(w_0 v_0 + w_1 v_1)", edges, edged),
+        family("vertices", "exact zeros: all weights but one", "the vertex itself", vertices, all),
+        family("faces.ulp", "the side of a face, one ulp from it", "mesh.faces, one coordinate moved by one ulp",
+               facets_nudged, faced),
+        family("edges.ulp", "the side of an edge, one ulp from it", "mesh.edges, one coordinate moved by one ulp",
+               edges_nudged, edged),
+        family("vertices.ulp", "one ulp from a vertex", "mesh.vertices, one coordinate moved by one ulp",
+               vertices_nudged, all),
+        family("hull.near", "just outside: must not be called inside",
+               "from the hull outwards by 2^-50 to 2^-4 of the height", hull_near,
+               {Simplex::triangle, Simplex::tetrahedron}),
+        family("hull.far", "far outside: large weights that cancel", "up to 2^20 bounding boxes away", hull_far,
+               {Simplex::triangle, Simplex::tetrahedron}),
+        family("neighbours", "points of the next cell: who owns them", "fl(sum w_i v_i) of a neighbouring cell",
+               neighbour_points, all),
+        family("neighbours.vertices", "vertices of the next cell: zeros and clear outsides",
+               "a vertex of a neighbouring cell", neighbour_vertices, all),
+    };
+}
+
+}  // namespace barycert::audit

@@ -1,0 +1,100 @@
+#include "barycert/audit/mesh_source.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "barycert/mesh/adjacency.hpp"
+
+namespace barycert::audit {
+namespace {
+
+bool serves(const PreparedMesh& m, Simplex s) {
+    return s == Simplex::triangle ? m.mesh.dimension == 2 : m.mesh.dimension == 3;
+}
+
+}  // namespace
+
+void MeshSource::add(std::string name, Mesh mesh) {
+    if (mesh.cell_count() == 0) return;
+    PreparedMesh p;
+    p.name = std::move(name);
+    p.mesh = std::move(mesh);
+    p.neighbours = compute_neighbours(p.mesh);
+    const auto hull = hull_facets(p.mesh, p.neighbours);
+    p.hull_facets.assign(hull.begin(), hull.end());
+    const auto d = static_cast<std::size_t>(p.mesh.dimension);
+    p.low.fill(std::numeric_limits<double>::infinity());
+    p.high.fill(-std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < p.mesh.points.size(); ++i) {
+        p.low[i % d] = std::min(p.low[i % d], p.mesh.points[i]);
+        p.high[i % d] = std::max(p.high[i % d], p.mesh.points[i]);
+    }
+    meshes_.push_back(std::move(p));
+}
+
+bool MeshSource::supplies(Simplex s) const {
+    return std::any_of(meshes_.begin(), meshes_.end(), [s](const PreparedMesh& m) { return serves(m, s); });
+}
+
+const PreparedMesh& MeshSource::pick(Simplex s, Random& random) const {
+    // Every mesh that serves has the same chance, however large: small ones are the nasty ones.
+    const auto count =
+        std::count_if(meshes_.begin(), meshes_.end(), [s](const PreparedMesh& m) { return serves(m, s); });
+    auto skip = random.below(static_cast<std::uint64_t>(count));
+    for (const PreparedMesh& m : meshes_) {
+        if (serves(m, s) && skip-- == 0) return m;
+    }
+    return meshes_.front();  // not reached: supplies(s) holds
+}
+
+Draw MeshSource::from_nodes(const PreparedMesh& from, Mesh::Index cell, std::array<Mesh::Index, 4> nodes, Simplex s,
+                            Random& random) {
+    Draw draw;
+    draw.from = &from;
+    draw.cell = cell;
+    draw.nodes = nodes;
+    draw.simplex.simplex = s;
+    const Mesh& mesh = from.mesh;
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    for (int i = 0; i < vertex_count(s); ++i) {
+        const auto node = static_cast<std::size_t>(nodes[static_cast<std::size_t>(i)]);
+        for (int axis = 0; axis < space_dimension(s); ++axis) {
+            draw.simplex.vertex(i, axis) = mesh.points[node * d + static_cast<std::size_t>(axis)];
+        }
+        double& value = draw.simplex.values[static_cast<std::size_t>(i)];
+        if (mesh.point_fields.empty()) {
+            value = random.uniform(-1, 1);
+        } else {
+            const Field& field = mesh.point_fields.front();
+            value = field.data[node * static_cast<std::size_t>(field.components)];
+        }
+    }
+    return draw;
+}
+
+Draw MeshSource::any(Simplex s, Random& random) const {
+    const PreparedMesh& from = pick(s, random);
+    const auto corners = from.mesh.corners();
+    const auto cell = random.below(from.mesh.cell_count());
+    std::array<Mesh::Index, 4> nodes{};
+    for (std::size_t i = 0; i < corners; ++i) nodes[i] = from.mesh.cells[cell * corners + i];
+    // A face leaves out one corner, an edge another one: rotate what is left out to the end.
+    if (s == Simplex::triangle3d || s == Simplex::segment) std::swap(nodes[random.below(4)], nodes[3]);
+    if (s == Simplex::segment) std::swap(nodes[random.below(3)], nodes[2]);
+    return from_nodes(from, static_cast<Mesh::Index>(cell), nodes, s, random);
+}
+
+Draw MeshSource::at_hull(Simplex s, Random& random) const {
+    const PreparedMesh& from = pick(s, random);
+    const auto corners = from.mesh.corners();
+    if (from.hull_facets.empty()) return any(s, random);
+    const auto facet = static_cast<std::size_t>(from.hull_facets[random.below(from.hull_facets.size())]);
+    const auto cell = facet / corners;
+    std::array<Mesh::Index, 4> nodes{};
+    for (std::size_t i = 0; i < corners; ++i) nodes[i] = from.mesh.cells[cell * corners + i];
+    std::swap(nodes[facet % corners], nodes[corners - 1]);
+    return from_nodes(from, static_cast<Mesh::Index>(cell), nodes, s, random);
+}
+
+}  // namespace barycert::audit

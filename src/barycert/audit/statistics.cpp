@@ -1,0 +1,86 @@
+#include "barycert/audit/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace barycert::audit {
+
+// Bin 0 holds 0; bin k > 0 holds (edge(k-1), edge(k)], where edge(k) = 2^((k-1)/8) with the mantissa in steps of 1/8:
+// 1, 1.125, ...
+std::size_t LogHistogram::bin(double x) {
+    if (!(x > 0)) return 0;
+    if (x <= 1) return 1;
+    int exponent = 0;
+    const double mantissa = 2 * std::frexp(x, &exponent);  // in [1, 2)
+    const double step = std::ceil((mantissa - 1) * 8);
+    const double index = 1 + 8.0 * (exponent - 1) + step;
+    return static_cast<std::size_t>(std::min(index, static_cast<double>(bin_count - 1)));
+}
+
+double LogHistogram::upper_edge(std::size_t bin) {
+    if (bin == 0) return 0;
+    const auto k = static_cast<int>(bin - 1);
+    return std::ldexp(1 + (k % 8) / 8.0, k / 8);
+}
+
+void LogHistogram::merge(const LogHistogram& other) {
+    for (std::size_t i = 0; i < bin_count; ++i) bins_[i] += other.bins_[i];
+}
+
+std::uint64_t LogHistogram::total() const {
+    return std::accumulate(bins_.begin(), bins_.end(), std::uint64_t{0});
+}
+
+double LogHistogram::quantile(double fraction) const {
+    const std::uint64_t all = total();
+    if (all == 0) return -1;
+    const auto wanted = static_cast<std::uint64_t>(std::ceil(fraction * static_cast<double>(all)));
+    std::uint64_t seen = 0;
+    for (std::size_t i = 0; i < bin_count; ++i) {
+        seen += bins_[i];
+        if (seen >= wanted) return upper_edge(i);
+    }
+    return upper_edge(bin_count - 1);
+}
+
+void Statistics::add(const Comparison& r, Region exact, std::uint64_t index) {
+    ++cases;
+    ++confusion[static_cast<std::size_t>(exact)][static_cast<std::size_t>(r.claimed)];
+    if (r.wrong()) {
+        ++wrong_cases;
+        for (std::size_t f = 0; f < finding_count; ++f) {
+            counts[f] += r.counts[f];
+            if (r.counts[f] != 0) witnesses[f].include(r.weight_error, index);
+        }
+    }
+    for (const double ulps : r.weight_ulps) {
+        if (ulps < 0) continue;
+        weight_ulps.add(ulps);
+        weight_ulp.include(ulps, index);
+        witnesses[finding_count].include(ulps, index);
+    }
+    if (r.value_ulp >= 0) {
+        value_ulps.add(r.value_ulp);
+        value_ulp.include(r.value_ulp, index);
+    }
+}
+
+void Statistics::merge(const Statistics& other) {
+    cases += other.cases;
+    wrong_cases += other.wrong_cases;
+    for (std::size_t f = 0; f < finding_count; ++f) counts[f] += other.counts[f];
+    for (std::size_t e = 0; e < 4; ++e) {
+        for (std::size_t c = 0; c < 4; ++c) confusion[e][c] += other.confusion[e][c];
+    }
+    weight_ulps.merge(other.weight_ulps);
+    value_ulps.merge(other.value_ulps);
+    const auto include = [](Worst& mine, const Worst& theirs) { mine.include(theirs.value, theirs.index); };
+    include(weight_ulp, other.weight_ulp);
+    include(value_ulp, other.value_ulp);
+    include(partition_residual, other.partition_residual);
+    include(reproduction_residual, other.reproduction_residual);
+    for (std::size_t i = 0; i < witness_reasons; ++i) include(witnesses[i], other.witnesses[i]);
+}
+
+}  // namespace barycert::audit

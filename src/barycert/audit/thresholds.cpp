@@ -1,0 +1,82 @@
+#include "barycert/audit/thresholds.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "barycert/core/text.hpp"
+
+namespace barycert::audit {
+namespace {
+
+using Figure = std::pair<std::string, std::function<double(const Statistics&)>>;
+
+const std::vector<Figure>& figures() {
+    static const std::vector<Figure> all = [] {
+        std::vector<Figure> f;
+        for (std::size_t i = 0; i < finding_count; ++i) {
+            f.emplace_back(std::string(finding_texts[i].name),
+                           [i](const Statistics& s) { return static_cast<double>(s.counts[i]); });
+        }
+        const auto wrong = [](const Statistics& s) { return static_cast<double>(s.wrong_cases); };
+        f.emplace_back("any", wrong);
+        f.emplace_back("wrong_cases", wrong);
+        f.emplace_back("worst_weight_ulp", [](const Statistics& s) { return s.weight_ulp.value; });
+        f.emplace_back("p999_weight_ulp", [](const Statistics& s) { return s.weight_ulps.quantile(0.999); });
+        f.emplace_back("worst_value_ulp", [](const Statistics& s) { return s.value_ulp.value; });
+        f.emplace_back("p999_value_ulp", [](const Statistics& s) { return s.value_ulps.quantile(0.999); });
+        f.emplace_back("worst_partition_residual", [](const Statistics& s) { return s.partition_residual.value; });
+        f.emplace_back("worst_reproduction_residual",
+                       [](const Statistics& s) { return s.reproduction_residual.value; });
+        return f;
+    }();
+    return all;
+}
+
+const Figure* figure_named(std::string_view name) {
+    const auto found =
+        std::find_if(figures().begin(), figures().end(), [&](const Figure& f) { return f.first == name; });
+    return found == figures().end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+Result<Rule> parse_rule(std::string_view text) {
+    const std::size_t sign = text.find('>');
+    Rule rule{std::string(text.substr(0, sign)), 0};
+    if (figure_named(rule.name) == nullptr) {
+        std::string names;
+        for (const auto& [name, value] : figures()) names += (names.empty() ? "" : ", ") + name;
+        return Error{.what = "unknown rule",
+                     .expected = "NAME or NAME>NUMBER with NAME one of " + names,
+                     .found = '"' + std::string(text) + '"'};
+    }
+    if (sign != std::string_view::npos) {
+        const auto limit = parse_double(text.substr(sign + 1));
+        if (!limit || !(*limit >= 0))
+            return Error{.what = "bad limit in a rule",
+                         .expected = "a number >= 0 after '>'",
+                         .found = '"' + std::string(text) + '"'};
+        rule.limit = *limit;
+    }
+    return rule;
+}
+
+std::vector<Violation> violations(const Report& report, const std::vector<Rule>& rules) {
+    std::vector<Violation> all;
+    for (const KernelResult& k : report.kernels) {
+        for (const Rule& rule : rules) {
+            const double value = figure_named(rule.name)->second(k.total);
+            if (value > rule.limit) all.push_back({k.kernel.name, rule.name, value, rule.limit});
+        }
+    }
+    return all;
+}
+
+std::vector<std::string> rule_names() {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : figures()) names.push_back(name);
+    return names;
+}
+
+}  // namespace barycert::audit

@@ -1,0 +1,162 @@
+#include "barycert/audit/witness_file.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "barycert/core/text.hpp"
+
+namespace barycert::audit {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Write>
+Json vector_of(int n, Write write) {
+    Json out = Json::array();
+    for (int i = 0; i < n; ++i) out.push_back(write(i));
+    return out;
+}
+
+/// A number in the wording of the file, with its place for the error message.
+double number(const Json& at, const std::string& where) {
+    const std::optional<double> x = at.is_string()   ? parse_double(at.get<std::string>())
+                                    : at.is_number() ? std::optional<double>(at.get<double>())
+                                                     : std::nullopt;
+    if (!x || !std::isfinite(*x)) {
+        throw Exception(
+            {.what = where, .expected = "a finite number, best in hexadecimal as in \"0x1.8p+1\"", .found = at.dump()});
+    }
+    return *x;
+}
+
+const Json& member(const Json& object, const char* key, const std::string& where) {
+    if (!object.is_object() || !object.contains(key)) {
+        throw Exception({.what = where,
+                         .expected = std::string("a member \"") + key + '"',
+                         .found = object.is_object() ? "none" : object.dump().substr(0, 40)});
+    }
+    return object.at(key);
+}
+
+const Json& array_of(const Json& object, const char* key, std::size_t n, const std::string& where) {
+    const Json& a = member(object, key, where);
+    if (!a.is_array() || a.size() != n) {
+        throw Exception({.what = where + ", " + key,
+                         .expected = "an array of " + std::to_string(n),
+                         .found = a.is_array() ? std::to_string(a.size()) + " entries" : a.dump().substr(0, 40)});
+    }
+    return a;
+}
+
+std::string text_or(const Json& object, const char* key, const std::string& otherwise) {
+    return object.contains(key) && object.at(key).is_string() ? object.at(key).get<std::string>() : otherwise;
+}
+
+std::uint64_t count_or(const Json& object, const char* key, std::uint64_t otherwise) {
+    return object.contains(key) && object.at(key).is_number_unsigned() ? object.at(key).get<std::uint64_t>()
+                                                                       : otherwise;
+}
+
+Witness witness_from(const Json& j, const std::string& where) {
+    Witness w;
+    const Json& simplex = member(j, "simplex", where);
+    const auto known = simplex.is_string() ? simplex_named(simplex.get<std::string>()) : std::nullopt;
+    if (!known)
+        throw Exception({.what = where,
+                         .expected = "segment, triangle, triangle3d or tetrahedron as simplex",
+                         .found = simplex.dump()});
+    w.c.simplex = *known;
+    w.kernel = text_or(j, "kernel", "");
+    w.reason = text_or(j, "reason", "");
+    w.family = text_or(j, "family", "");
+    w.seed = count_or(j, "seed", 0);
+    w.index = count_or(j, "case", 0);
+    const auto n = static_cast<std::size_t>(vertex_count(*known)),
+               d = static_cast<std::size_t>(space_dimension(*known));
+    const Json& vertices = array_of(j, "vertices", n, where);
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!vertices[i].is_array() || vertices[i].size() != d) {
+            throw Exception({.what = where + ", vertex " + std::to_string(i),
+                             .expected = std::to_string(d) + " coordinates",
+                             .found = vertices[i].dump().substr(0, 80)});
+        }
+        for (std::size_t k = 0; k < d; ++k)
+            w.c.vertices[d * i + k] = number(vertices[i][k], where + ", vertex " + std::to_string(i));
+    }
+    const Json& point = array_of(j, "point", d, where);
+    for (std::size_t k = 0; k < d; ++k) w.c.point[k] = number(point[k], where + ", point");
+    if (j.contains("values")) {
+        const Json& values = array_of(j, "values", n, where);
+        for (std::size_t i = 0; i < n; ++i) w.c.values[i] = number(values[i], where + ", values");
+    }
+    return w;
+}
+
+}  // namespace
+
+Json witness_json(const Witness& w) {
+    const int n = vertex_count(w.c.simplex), d = space_dimension(w.c.simplex);
+    const auto hex = [](double x) { return Json(hexadecimal(x)); };
+    Json j;
+    j["kernel"] = w.kernel;
+    j["reason"] = w.reason;
+    j["simplex"] = name(w.c.simplex);
+    j["family"] = w.family;
+    j["seed"] = w.seed;
+    j["case"] = w.index;
+    j["magnitude"] = std::isfinite(w.magnitude) ? Json(w.magnitude) : Json(nullptr);
+    j["vertices"] = vector_of(n, [&](int i) { return vector_of(d, [&](int k) { return hex(w.c.vertex(i, k)); }); });
+    j["point"] = vector_of(d, [&](int k) { return hex(w.c.point[static_cast<std::size_t>(k)]); });
+    j["values"] = vector_of(n, [&](int i) { return hex(w.c.values[static_cast<std::size_t>(i)]); });
+    j["decimal"]["vertices"] =
+        vector_of(n, [&](int i) { return vector_of(d, [&](int k) { return Json(shortest(w.c.vertex(i, k))); }); });
+    j["decimal"]["point"] = vector_of(d, [&](int k) { return Json(shortest(w.c.point[static_cast<std::size_t>(k)])); });
+    return j;
+}
+
+std::string witness_file(const Report& report) {
+    Json out;
+    out["schema"] = witness_schema;
+    out["witnesses"] = Json::array();
+    for (const KernelResult& k : report.kernels) {
+        for (const Witness& w : k.witnesses) out["witnesses"].push_back(witness_json(w));
+    }
+    return out.dump(1) + "\n";
+}
+
+Result<std::vector<Witness>> read_witnesses(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    if (!in)
+        return Error{.what = "cannot read the witnesses",
+                     .file = path,
+                     .remedy = "make them with `barycert audit --witnesses FILE`"};
+    const Json all = Json::parse(in, nullptr, false);
+    if (all.is_discarded())
+        return Error{.what = "not a witness file",
+                     .file = path,
+                     .expected = "JSON",
+                     .found = "something else",
+                     .remedy = "make one with `barycert audit --witnesses FILE`"};
+    try {
+        if (const Json& schema = member(all, "schema", "witness file"); schema != witness_schema) {
+            return Error{.what = "unknown schema",
+                         .file = path,
+                         .expected = std::to_string(witness_schema),
+                         .found = schema.dump()};
+        }
+        const Json& list = member(all, "witnesses", "witness file");
+        if (!list.is_array())
+            return Error{.what = "witnesses", .file = path, .expected = "an array", .found = list.dump().substr(0, 40)};
+        std::vector<Witness> witnesses;
+        for (std::size_t i = 0; i < list.size(); ++i)
+            witnesses.push_back(witness_from(list[i], "witness " + std::to_string(i)));
+        return witnesses;
+    } catch (const Exception& e) {
+        Error error = e.error();
+        error.file = path;
+        return error;
+    }
+}
+
+}  // namespace barycert::audit

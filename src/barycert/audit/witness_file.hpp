@@ -1,0 +1,23 @@
+/// Witnesses as JSON: coordinates in hexadecimal floating point, so that they read back to the same bits.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "barycert/audit/runner.hpp"
+#include "barycert/core/result.hpp"
+
+namespace barycert::audit {
+
+inline constexpr int witness_schema = 1;
+
+nlohmann::ordered_json witness_json(const Witness& witness);
+
+/// {"schema": 1, "witnesses": [...]} of all kernels of a report, one witness a line of finding.
+std::string witness_file(const Report& report);
+
+/// Reads what witness_file() wrote, or the "witnesses" of an audit's JSON report.
+Result<std::vector<Witness>> read_witnesses(const std::string& path);
+
+}  // namespace barycert::audit

@@ -1,0 +1,22 @@
+/// Reports as JSON. Every member is documented in SCHEMA.md beside this file.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "barycert/audit/runner.hpp"
+
+namespace barycert::report {
+
+inline constexpr int audit_schema = 1;
+
+nlohmann::ordered_json environment_json(const Environment& environment);
+
+/// The whole audit, witnesses included.
+std::string json_report(const audit::Report& report);
+
+/// The catalogue and the families, as `barycert kernels --json` and `barycert families --json` print them.
+std::string kernels_json(const std::vector<Kernel>& kernels);
+std::string families_json(const std::vector<audit::Family>& families);
+
+}  // namespace barycert::report

@@ -1,0 +1,152 @@
+#include "barycert/report/terminal.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "barycert/report/terminal_text.hpp"
+
+namespace barycert::report {
+namespace {
+
+using audit::Finding;
+using audit::KernelResult;
+using audit::Report;
+using audit::Statistics;
+
+std::uint64_t count_of(const Statistics& s, Finding f) {
+    return s.counts[static_cast<std::size_t>(f)];
+}
+
+std::string kernel_table(const Report& report, const Colours& paint) {
+    std::size_t width = 6;
+    for (const KernelResult& k : report.kernels) width = std::max(width, k.kernel.name.size());
+    const auto row = [&](const auto&... cells) {
+        return fmt::format(
+            "{:<{}}  {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8} {:>8} {:>8} {:>6}", cells...);
+    };
+    std::string out;
+    out += paint.bold(row("kernel", width, "cases", "wrong %", "opp.", "false 0", "false", "not", "false", "false",
+                          "false", "missed", "ulps", "ulps", "worst", "ns")) +
+           "\n";
+    out += paint.bold(row("", width, "", "", "sign", "", "non-0", "finite", "inside", "outside", "degen.", "degen.",
+                          "99.9%", "worst", "|sum-1|", "")) +
+           "\n";
+    for (const KernelResult& k : report.kernels) {
+        const Statistics& s = k.total;
+        const auto n = [&](Finding f) { return brief_count(count_of(s, f)); };
+        const std::string line =
+            row(k.kernel.name, width, brief_count(s.cases), percent(s.wrong_cases, s.cases), n(Finding::opposite_sign),
+                n(Finding::false_zero), n(Finding::false_nonzero), n(Finding::not_finite), n(Finding::false_inside),
+                n(Finding::false_outside), n(Finding::false_declaration), n(Finding::missed_degenerate),
+                brief(s.weight_ulps.quantile(0.999)), brief(s.weight_ulp.value), brief(s.partition_residual.value),
+                fmt::format("{:.1f}", k.ns));
+        const std::uint64_t broken = count_of(s, Finding::false_certificate);
+        out += (s.wrong_cases == 0 ? paint.good(line) : line) + "\n";
+        if (broken != 0)
+            out += paint.bad(fmt::format("    certifies its answers, and {} of them are wrong", broken)) + "\n";
+    }
+    out += paint.dim(
+        "wrong %: cases with any finding. Signs, zeros and not finite count weights; inside, outside and degenerate "
+        "count cases.\n"
+        "ulps: error of a weight in units of the last place of the correctly rounded one. ns: median time of one "
+        "evaluation.\n");
+    return out;
+}
+
+std::string family_table(const Report& report, const Colours& paint) {
+    struct Row {
+        std::uint64_t cases = 0;
+        std::size_t kernels = 0, clean = 0;
+        double worst_share = -1, best_share = 2;
+        std::string worst, best;
+    };
+    std::map<std::pair<std::size_t, Simplex>, Row> rows;
+    for (const KernelResult& k : report.kernels) {
+        for (const audit::FamilyResult& f : k.families) {
+            Row& row = rows[{f.family, k.kernel.simplex}];
+            const Statistics& s = f.statistics;
+            const double share =
+                static_cast<double>(s.wrong_cases) / static_cast<double>(std::max<std::uint64_t>(s.cases, 1));
+            row.cases = s.cases;
+            ++row.kernels;
+            row.clean += s.wrong_cases == 0 ? 1 : 0;
+            const std::string name = k.kernel.name.substr(k.kernel.name.find('.') + 1);
+            if (share > row.worst_share) row.worst_share = share, row.worst = name;
+            if (share < row.best_share) row.best_share = share, row.best = name;
+        }
+    }
+    std::size_t width = 6;
+    for (const auto& [key, row] : rows) width = std::max(width, report.families[key.first].name.size());
+    std::string out = paint.bold(fmt::format("{:<{}}  {:<11} {:>7} {:>9}  {:>7}  {:<34} {:>7}  {}", "family", width,
+                                             "simplex", "cases", "clean", "best %", "", "worst %", "")) +
+                      "\n";
+    for (const auto& [key, row] : rows) {
+        const auto share = [&](double x) {
+            return percent(static_cast<std::uint64_t>(x * static_cast<double>(row.cases) + 0.5), row.cases);
+        };
+        out +=
+            fmt::format("{:<{}}  {:<11} {:>7} {:>9}  {:>7}  {:<34} {:>7}  {}\n", report.families[key.first].name, width,
+                        name(key.second), brief_count(row.cases), fmt::format("{}/{}", row.clean, row.kernels),
+                        share(row.best_share), row.best, share(row.worst_share), row.worst);
+    }
+    return out + paint.dim(
+                     "clean: kernels without a finding, of all. best, worst: the kernel with the least and the "
+                     "greatest share of wrong cases.\n");
+}
+
+std::string replay_command(const Report& report, const KernelResult& k, const audit::Witness& w,
+                           const TerminalStyle& style) {
+    if (!style.witness_path.empty()) {
+        return fmt::format("barycert replay {} --kernel {} --reason {}", shell_word(style.witness_path),
+                           shell_word(k.kernel.name), w.reason);
+    }
+    std::string command = "barycert replay";
+    const auto family =
+        std::find_if(report.families.begin(), report.families.end(), [&](const auto& f) { return f.name == w.family; });
+    if (family != report.families.end() && family->needs_mesh) {
+        for (const std::string& mesh : style.mesh_arguments) command += " --mesh " + shell_word(mesh);
+    }
+    return command + fmt::format(" --kernel {} --family {} --case {} --seed {}", shell_word(k.kernel.name),
+                                 shell_word(w.family), w.index, w.seed);
+}
+
+std::string witness_list(const Report& report, const TerminalStyle& style, const Colours& paint) {
+    std::string out;
+    for (const KernelResult& k : report.kernels) {
+        const audit::Witness* w = audit::worst_witness(k);
+        if (w == nullptr) continue;
+        const bool ulps = w->reason == "worst_weight_ulp";
+        const std::string magnitude = ulps                          ? brief(w->magnitude) + " ulps"
+                                      : std::isfinite(w->magnitude) ? "a weight off by " + brief(w->magnitude)
+                                                                    : "no weight";
+        out += fmt::format("{}: {} in {}, case {} ({})\n    {}\n", paint.bold(k.kernel.name), w->reason, w->family,
+                           w->index, magnitude, replay_command(report, k, *w, style));
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string environment_line(const Environment& e) {
+    return fmt::format("barycert {}, {}, rounding {}, {}{}, contraction {}, subnormals {}", e.version, e.compiler,
+                       e.rounding, e.simd, e.fma ? "+FMA" : "", e.contraction ? "ON" : "off",
+                       e.flush_to_zero ? "FLUSHED" : "kept");
+}
+
+std::string terminal_report(const Report& report, const TerminalStyle& style) {
+    const Colours paint(style.colour);
+    std::string out = environment_line(report.environment) + "\n";
+    out += fmt::format(
+        "seed {}, {} cases per family and simplex, {} in all, {} kernels, {} families, {} threads, {:.1f} s\n",
+        report.seed, report.count, report.cases, report.kernels.size(), report.families.size(), report.threads,
+        report.seconds);
+    std::string meshes;
+    for (const std::string& m : report.meshes) meshes += (meshes.empty() ? "" : ", ") + m;
+    out += "meshes: " + (meshes.empty() ? std::string("none") : meshes) + "\n\n";
+    out += kernel_table(report, paint) + "\n" + family_table(report, paint) + "\n";
+    out += paint.bold("Worst witness of each kernel, and the command that replays it:") + "\n" +
+           witness_list(report, style, paint);
+    return out;
+}
+
+}  // namespace barycert::report

@@ -1,0 +1,63 @@
+/// Small pieces of terminal text: numbers of few characters, colours, words for a shell.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace barycert::report {
+
+/// At most seven characters: "12", "12345", "1.23e+06".
+inline std::string brief_count(std::uint64_t n) {
+    if (n == 0) return "-";
+    return n < 1000000 ? std::to_string(n) : fmt::format("{:.3g}", static_cast<double>(n));
+}
+
+/// A magnitude in three digits; "-" where there is none.
+inline std::string brief(double x) {
+    if (std::isnan(x) || x < 0) return "-";
+    if (x >= 1000 && x < 100000) return fmt::format("{:.0f}", x);
+    return fmt::format("{:.3g}", x);
+}
+
+/// A share in per cent: never "0" or "100" unless it is exactly that.
+inline std::string percent(std::uint64_t part, std::uint64_t whole) {
+    if (part == 0 || whole == 0) return "0";
+    if (part == whole) return "100";
+    const double p = 100 * static_cast<double>(part) / static_cast<double>(whole);
+    if (p < 0.001) return "<0.001";
+    if (p > 99.99) return ">99.99";
+    return fmt::format(p < 0.1 ? "{:.3f}" : p < 10 ? "{:.2f}" : "{:.1f}", p);
+}
+
+class Colours {
+public:
+    explicit Colours(bool on) : on_(on) {}
+    std::string bold(std::string_view s) const { return wrap("1", s); }
+    std::string bad(std::string_view s) const { return wrap("31", s); }
+    std::string good(std::string_view s) const { return wrap("32", s); }
+    std::string dim(std::string_view s) const { return wrap("2", s); }
+
+private:
+    std::string wrap(const char* code, std::string_view s) const {
+        return on_ ? fmt::format("\033[{}m{}\033[0m", code, s) : std::string(s);
+    }
+    bool on_;
+};
+
+/// Quoted for a POSIX shell where needed.
+inline std::string shell_word(std::string_view s) {
+    if (!s.empty() &&
+        s.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-^=:,@%") ==
+            std::string_view::npos) {
+        return std::string(s);
+    }
+    std::string out = "'";
+    for (const char c : s) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+}
+
+}  // namespace barycert::report

@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "barycert/audit/comparison.hpp"
+#include "barycert/core/text.hpp"
+#include "barycert/exact/oracle.hpp"
+#include "barycert/report/terminal.hpp"
+#include "barycert/report/terminal_text.hpp"
+
+namespace barycert::report {
+namespace {
+
+std::string findings(const audit::Comparison& r) {
+    std::string out;
+    for (std::size_t f = 0; f < audit::finding_count; ++f) {
+        if (r.counts[f] != 0) out += (out.empty() ? "" : ", ") + std::string(audit::finding_texts[f].name);
+    }
+    return out.empty() ? "-" : out;
+}
+
+std::string coordinates(const Case& c, auto at) {
+    std::string decimal, hex;
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
+        decimal += (axis == 0 ? "" : ", ") + shortest(at(axis));
+        hex += (axis == 0 ? "" : ", ") + hexadecimal(at(axis));
+    }
+    return fmt::format("({})\n        ({})\n", decimal, hex);
+}
+
+}  // namespace
+
+std::string terminal_witness(const audit::Witness& witness, const std::vector<Kernel>& kernels,
+                             const TerminalStyle& style) {
+    const Colours paint(style.colour);
+    const Case& c = witness.c;
+    const int n = vertex_count(c.simplex);
+    const exact::Answer answer = exact::ask(c);
+    std::string out =
+        paint.bold(fmt::format("{}{}{}", name(c.simplex),
+                               witness.kernel.empty() ? "" : ", " + witness.reason + " of " + witness.kernel, "")) +
+        "\n";
+    if (!witness.family.empty())
+        out += fmt::format("    family {}, case {}, seed {}\n", witness.family, witness.index, witness.seed);
+    for (int i = 0; i < n; ++i)
+        out += fmt::format("    v{}  ", i) + coordinates(c, [&](int axis) { return c.vertex(i, axis); });
+    out += "    p   " + coordinates(c, [&](int axis) { return c.point[static_cast<std::size_t>(axis)]; });
+    out += "    exact: " + std::string(name(answer.region));
+    if (answer.region == Region::boundary) out += fmt::format(" ({})", name(answer.feature));
+    if (answer.region == Region::degenerate)
+        out += fmt::format(" (its vertices span {} dimensions)", exact::affine_dimension(c));
+    out += "\n";
+
+    std::size_t width = 5;
+    for (const Kernel& k : kernels) width = std::max(width, k.name.size());
+    const auto row = [&](std::string_view mark, std::string_view kernel, std::string_view region,
+                         const std::array<std::string, 4>& cells, std::string_view ulps, std::string_view text) {
+        std::string line = fmt::format("{:1} {:<{}}  {:<10}", mark, kernel, width, region);
+        for (int i = 0; i < n; ++i) line += fmt::format(" {:>24}", cells[static_cast<std::size_t>(i)]);
+        return line + fmt::format(" {:>9}  {}", ulps, text) + "\n";
+    };
+    std::array<std::string, 4> cells{};
+    for (int i = 0; i < n; ++i) cells[static_cast<std::size_t>(i)] = fmt::format("weight {}", i);
+    out += paint.bold(row("", "", "region", cells, "ulps", "findings"));
+    for (int i = 0; i < n; ++i)
+        cells[static_cast<std::size_t>(i)] = shortest(answer.weights[static_cast<std::size_t>(i)]);
+    out += paint.good(row("=", "exact, correctly rounded", name(answer.region), cells, "", ""));
+    for (const Kernel& k : kernels) {
+        if (k.simplex != c.simplex) continue;
+        std::array<double, 4> weights{};
+        const int status = k.weights(c.vertices.data(), c.point.data(), weights.data());
+        const audit::Comparison r = audit::compare(k, c, answer, status, weights);
+        for (std::size_t i = 0; i < 4; ++i) cells[i] = status != 0 ? "declared" : shortest(weights[i]);
+        const double worst = *std::max_element(r.weight_ulps.begin(), r.weight_ulps.end());
+        const std::string line =
+            row(k.name == witness.kernel ? ">" : "", k.name, name(r.claimed), cells, brief(worst), findings(r));
+        out += r.wrong() ? paint.bad(line) : line;
+    }
+    return out;
+}
+
+std::string terminal_kernels(const std::vector<Kernel>& kernels) {
+    std::string out;
+    for (const Kernel& k : kernels) {
+        out += fmt::format("{}\n    formula  {}\n    source   {}\n    fails    {}\n", k.name, k.formula, k.source,
+                           k.fails);
+        std::string promises = k.certifies ? "certifies every answer" : "no certificate";
+        promises += k.declares_degenerate ? "; declares degenerate simplices" : "; never declares a simplex degenerate";
+        if (k.rule == RegionRule::tolerant) promises += fmt::format("; inside if every weight >= -{}", k.tolerance);
+        out += "    promise  " + promises + "\n";
+    }
+    return out;
+}
+
+std::string terminal_families(const std::vector<audit::Family>& families) {
+    std::string out;
+    for (const audit::Family& f : families) {
+        std::string simplices;
+        for (const Simplex s : f.simplices) simplices += (simplices.empty() ? "" : ", ") + std::string(name(s));
+        out += fmt::format("{}\n    after    {}\n    recipe   {}\n    for      {}{}\n", f.name, f.after, f.parameters,
+                           simplices, f.needs_mesh ? " of a mesh" : "");
+    }
+    return out;
+}
+
+}  // namespace barycert::report

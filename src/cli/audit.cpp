@@ -1,0 +1,143 @@
+// barycert audit: run kernels over families of cases against the oracle and report.
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+#include "barycert/audit/runner.hpp"
+#include "barycert/audit/thresholds.hpp"
+#include "barycert/audit/witness_file.hpp"
+#include "barycert/report/json.hpp"
+#include "barycert/report/terminal.hpp"
+#include "command.hpp"
+
+namespace barycert::cli {
+namespace {
+
+struct AuditArguments {
+    std::vector<std::string> meshes, kernels, families, libraries, fail_on;
+    std::uint64_t count = 10000;
+    std::uint64_t seed = 1;
+    int threads = 0;
+    std::string json, witnesses;
+    bool quiet = false;
+};
+
+/// One line on stderr that is written over and over, at most ten times a second.
+class ProgressLine {
+public:
+    void operator()(const audit::Progress& p) {
+        const auto now = std::chrono::steady_clock::now();
+        if (shown_ && now - last_ < std::chrono::milliseconds(100)) return;
+        shown_ = true;
+        last_ = now;
+        fmt::print(stderr, "\r\033[K{:3d} %  {} of {} cases, {}", p.cases_done * 100 / p.cases_total, p.cases_done,
+                   p.cases_total, p.family);
+        std::fflush(stderr);
+    }
+    void clear() const {
+        if (shown_) fmt::print(stderr, "\r\033[K");
+    }
+
+private:
+    bool shown_ = false;
+    std::chrono::steady_clock::time_point last_;
+};
+
+int run_audit(const AuditArguments& a) {
+    std::vector<audit::Rule> rules;
+    for (const std::string& text : a.fail_on) {
+        const Result<audit::Rule> rule = audit::parse_rule(text);
+        if (!rule) return fail(rule.error());
+        rules.push_back(*rule);
+    }
+    for (const std::string& path : {a.json, a.witnesses}) {
+        if (const Status ok = check_output(path); !ok) return fail(ok.error());
+    }
+    audit::Options options;
+    options.count = a.count;
+    options.seed = a.seed;
+    options.threads = a.threads;
+    const auto kernels = select_kernels(a.kernels, a.libraries);
+    if (!kernels) return fail(kernels.error());
+    options.kernels = *kernels;
+    const auto families = select_families(a.families);
+    if (!families) return fail(families.error());
+    options.families = *families;
+    const auto meshes = load_meshes(a.meshes);
+    if (!meshes) return fail(meshes.error());
+
+    ProgressLine line;
+    if (!a.quiet && stderr_is_terminal()) options.progress = std::ref(line);
+    const Result<audit::Report> report = audit::run(options, *meshes);
+    line.clear();
+    if (!report) return fail(report.error());
+
+    if (!a.quiet && a.json != "-" && a.witnesses != "-") {
+        report::TerminalStyle style{.colour = colour_on_stdout(),
+                                    .witness_path = a.witnesses.empty() ? a.json : a.witnesses,
+                                    .mesh_arguments = a.meshes};
+        const Status written = write_output("-", report::terminal_report(*report, style));
+        if (!written) return fail(written.error());
+    }
+    if (!a.json.empty()) {
+        if (const Status written = write_output(a.json, report::json_report(*report)); !written)
+            return fail(written.error());
+    }
+    if (!a.witnesses.empty()) {
+        if (const Status written = write_output(a.witnesses, audit::witness_file(*report)); !written)
+            return fail(written.error());
+    }
+    const auto broken = audit::violations(*report, rules);
+    for (const audit::Violation& v : broken)
+        fmt::print(stderr, "fails: {}: {} is {:.6g}, over {:.6g}\n", v.kernel, v.figure, v.value, v.limit);
+    return broken.empty() ? exit_clean : exit_findings;
+}
+
+}  // namespace
+
+void add_audit(CLI::App& app, int& exit_code) {
+    auto* sub = app.add_subcommand(
+        "audit", "Count how often each floating-point kernel is wrong, and by how much, against exact arithmetic");
+    const auto a = std::make_shared<AuditArguments>();
+    sub->add_option(
+        "MESH", a->meshes,
+        "TetGen meshes (.node/.ele; Triangle's for 2D) to draw cases from; barycert's own if none is given");
+    sub->add_option("--kernel", a->kernels, "Audit only kernels that match NAME|GLOB; may be repeated")
+        ->type_name("NAME|GLOB")
+        ->allow_extra_args(false);
+    sub->add_option("--family", a->families, "Use only families that match NAME|GLOB; may be repeated")
+        ->type_name("NAME|GLOB")
+        ->allow_extra_args(false);
+    sub->add_option("--kernel-library", a->libraries,
+                    "A kernel of your own: a shared library with the functions of barycert/kernel.h; alone unless "
+                    "--kernel is given too")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    sub->add_option("--count", a->count, "Cases per family and simplex")
+        ->capture_default_str()
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48))
+        ->type_name("N");
+    sub->add_option("--seed", a->seed, "The same seed gives the same cases on every machine")
+        ->capture_default_str()
+        ->type_name("S");
+    sub->add_option("--threads", a->threads, "0: all of them")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 4096))
+        ->type_name("N");
+    sub->add_option("--json", a->json, "Write the whole report as JSON; - is stdout, and then there is no table")
+        ->type_name("FILE");
+    sub->add_option("--witnesses", a->witnesses, "Write the worst cases as JSON, for `barycert replay`; - is stdout")
+        ->type_name("FILE");
+    std::string names;
+    for (const std::string& rule : audit::rule_names()) names += " " + rule;
+    sub->add_option("--fail-on", a->fail_on,
+                    "Exit with 1 if a kernel exceeds NAME or NAME>NUMBER; may be repeated. NAME is one of:" + names)
+        ->type_name("RULE...");
+    sub->add_flag("--quiet", a->quiet, "No table and no progress: only files and the exit code");
+    sub->callback([a, &exit_code] { exit_code = run_audit(*a); });
+}
+
+}  // namespace barycert::cli

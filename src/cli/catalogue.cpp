@@ -1,0 +1,53 @@
+// barycert kernels, barycert families: list and explain.
+
+#include <memory>
+
+#include "barycert/report/json.hpp"
+#include "barycert/report/terminal.hpp"
+#include "command.hpp"
+
+namespace barycert::cli {
+namespace {
+
+struct ListArguments {
+    std::vector<std::string> globs, libraries;
+    std::string json;
+};
+
+int print(const ListArguments& a, const std::string& text, const std::string& json) {
+    if (a.json != "-") {
+        if (const Status written = write_output("-", text); !written) return fail(written.error());
+    }
+    if (!a.json.empty()) {
+        if (const Status written = write_output(a.json, json); !written) return fail(written.error());
+    }
+    return exit_clean;
+}
+
+}  // namespace
+
+void add_catalogue(CLI::App& app, int& exit_code) {
+    const auto k = std::make_shared<ListArguments>();
+    auto* kernels = app.add_subcommand("kernels", "List the kernels: formula, source, where each fails");
+    kernels->add_option("NAME|GLOB", k->globs, "Only those that match");
+    kernels->add_option("--kernel-library", k->libraries, "Describe the kernel of a shared library too")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    kernels->add_option("--json", k->json, "Write the list as JSON; - is stdout")->type_name("FILE");
+    kernels->callback([k, &exit_code] {
+        const auto chosen = select_kernels(k->globs, k->libraries);
+        exit_code =
+            chosen ? print(*k, report::terminal_kernels(*chosen), report::kernels_json(*chosen)) : fail(chosen.error());
+    });
+    const auto f = std::make_shared<ListArguments>();
+    auto* families = app.add_subcommand("families", "List the families of cases: what each is after, and its recipe");
+    families->add_option("NAME|GLOB", f->globs, "Only those that match");
+    families->add_option("--json", f->json, "Write the list as JSON; - is stdout")->type_name("FILE");
+    families->callback([f, &exit_code] {
+        const auto chosen = select_families(f->globs);
+        exit_code = chosen ? print(*f, report::terminal_families(*chosen), report::families_json(*chosen))
+                           : fail(chosen.error());
+    });
+}
+
+}  // namespace barycert::cli

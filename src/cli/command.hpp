@@ -1,0 +1,49 @@
+/// What the subcommands share: registration, exit codes, meshes, output.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "barycert/audit/families.hpp"
+#include "barycert/audit/mesh_source.hpp"
+#include "barycert/core/result.hpp"
+#include "barycert/kernels/kernel.hpp"
+
+namespace barycert::cli {
+
+inline constexpr int exit_clean = 0;
+inline constexpr int exit_findings = 1;
+inline constexpr int exit_error = 2;
+
+/// Each adds its subcommand to the app; when it has run, `exit_code` is set.
+void add_audit(CLI::App& app, int& exit_code);
+void add_replay(CLI::App& app, int& exit_code);
+void add_catalogue(CLI::App& app, int& exit_code);
+
+/// Replaces this process by barycert-tetgen with the same arguments; returns exit_error if it cannot be found.
+int exec_mesh(int argc, char** argv);
+
+/// "error: ..." on stderr; returns exit_error.
+int fail(const Error& error);
+
+/// The meshes named by the user, or those of barycert's own data folder if none is.
+Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths);
+
+/// Catalogue entries that match any of the globs ("*" if there are none), then the kernels of the libraries.
+Result<std::vector<Kernel>> select_kernels(const std::vector<std::string>& globs,
+                                           const std::vector<std::string>& libraries);
+Result<std::vector<audit::Family>> select_families(const std::vector<std::string>& globs);
+
+/// Writes `bytes` to a file that appears whole or not at all; "-" is stdout.
+Status write_output(const std::string& path, std::string_view bytes);
+
+/// An Error if write_output(path, ...) is bound to fail: told before the work, not after.
+Status check_output(const std::string& path);
+
+/// True if text for people on that stream may be coloured: a terminal, and NO_COLOR is not set.
+bool colour_on_stdout();
+bool stderr_is_terminal();
+
+}  // namespace barycert::cli

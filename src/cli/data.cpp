@@ -1,0 +1,151 @@
+// Selection and loading: meshes, kernels, families; and output files.
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "barycert/core/output_file.hpp"
+#include "barycert/core/text.hpp"
+#include "barycert/mesh/tetgen_io.hpp"
+#include "command.hpp"
+
+namespace barycert::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// BARYCERT_DATA_DIR, the data beside an installed program, or the source tree's; empty if there is none.
+fs::path data_folder() {
+    if (const char* named = std::getenv("BARYCERT_DATA_DIR"); named != nullptr && *named != '\0') return named;
+    std::error_code ignored;
+    const fs::path self = fs::read_symlink("/proc/self/exe", ignored);
+    if (!ignored) {
+        const fs::path installed = self.parent_path().parent_path() / "share" / "barycert" / "data";
+        if (fs::is_directory(installed, ignored)) return installed;
+    }
+    if (fs::is_directory(BARYCERT_SOURCE_DATA_DIR, ignored)) return BARYCERT_SOURCE_DATA_DIR;
+    return {};
+}
+
+Result<std::vector<std::string>> own_meshes() {
+    const fs::path folder = data_folder();
+    std::vector<std::string> paths;
+    std::error_code trouble;
+    for (const auto& entry : fs::directory_iterator(folder / "meshes", trouble)) {
+        if (entry.path().extension() == ".node") paths.push_back(entry.path().string());
+    }
+    if (paths.empty()) {
+        return Error{.what = "barycert's own meshes are not there",
+                     .file = (folder / "meshes").string(),
+                     .remedy = "name a mesh, or set BARYCERT_DATA_DIR to the folder `data` of barycert's sources"};
+    }
+    std::sort(paths.begin(), paths.end());
+    return paths;
+}
+
+/// Items of `all(glob)` for each glob, without repetition, in the order of the catalogue.
+template <class Item, class All>
+Result<std::vector<Item>> select(const std::vector<std::string>& globs, All all, const char* what, const char* remedy) {
+    const std::vector<Item> everything = all("*");
+    if (globs.empty()) return everything;
+    for (const std::string& glob : globs) {
+        if (all(glob).empty())
+            return Error{.what = fmt::format("no {} of that name", what), .found = '"' + glob + '"', .remedy = remedy};
+    }
+    std::vector<Item> chosen;
+    for (const Item& item : everything) {
+        if (std::any_of(globs.begin(), globs.end(),
+                        [&](const std::string& glob) { return glob_match(glob, item.name); }))
+            chosen.push_back(item);
+    }
+    return chosen;
+}
+
+}  // namespace
+
+int fail(const Error& error) {
+    std::fflush(stdout);
+    fmt::print(stderr, "error: {}\n", error.message());
+    return exit_error;
+}
+
+Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths) {
+    std::vector<std::string> from = paths;
+    if (from.empty()) {
+        auto own = own_meshes();
+        if (!own) return own.error();
+        from = *own;
+    }
+    audit::MeshSource source;
+    for (const std::string& path : from) {
+        Result<Mesh> mesh = read_tetgen(path, {.faces = false, .neighbours = false, .threads = 0});
+        if (!mesh) return mesh.error();
+        if (mesh->cell_count() == 0) return Error{.what = "the mesh has no cells", .file = path};
+        source.add(paths.empty() ? fs::path(path).stem().string() : path, std::move(*mesh));
+    }
+    return source;
+}
+
+Result<std::vector<Kernel>> select_kernels(const std::vector<std::string>& globs,
+                                           const std::vector<std::string>& libraries) {
+    // With a library named and no glob, only the library's kernels are meant.
+    Result<std::vector<Kernel>> chosen = std::vector<Kernel>{};
+    if (!globs.empty() || libraries.empty()) {
+        chosen =
+            select<Kernel>(globs, kernels_matching, "kernel", "`barycert kernels` lists them; * and ? are wildcards");
+        if (!chosen) return chosen;
+    }
+    for (const std::string& path : libraries) {
+        Result<Kernel> kernel = load_kernel_library(path);
+        if (!kernel) return kernel.error();
+        chosen->push_back(std::move(*kernel));
+    }
+    return chosen;
+}
+
+Result<std::vector<audit::Family>> select_families(const std::vector<std::string>& globs) {
+    return select<audit::Family>(globs, audit::families_matching, "family",
+                                 "`barycert families` lists them; * and ? are wildcards");
+}
+
+Status write_output(const std::string& path, std::string_view bytes) {
+    if (path == "-") {
+        if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
+            return Error{.what = "cannot write to stdout"};
+        return Done{};
+    }
+    OutputFile file(path);
+    file.write(bytes);
+    return file.commit();
+}
+
+Status check_output(const std::string& path) {
+    if (path.empty() || path == "-") return Done{};
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored))
+        return Error{.what = "cannot write", .file = path, .expected = "a file", .found = "a folder"};
+    const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");
+    if (!fs::is_directory(folder, ignored))
+        return Error{.what = "cannot write",
+                     .file = path,
+                     .found = "no folder " + folder.string(),
+                     .remedy = "make the folder first"};
+    if (access(folder.c_str(), W_OK) != 0)
+        return Error{.what = "cannot write", .file = path, .found = "no permission in " + folder.string()};
+    return Done{};
+}
+
+bool colour_on_stdout() {
+    const char* no_colour = std::getenv("NO_COLOR");
+    return isatty(STDOUT_FILENO) == 1 && (no_colour == nullptr || *no_colour == '\0');
+}
+
+bool stderr_is_terminal() {
+    return isatty(STDERR_FILENO) == 1;
+}
+
+}  // namespace barycert::cli

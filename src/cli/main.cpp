@@ -1,0 +1,36 @@
+// The executable barycert: one subcommand a file.
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string_view>
+
+#include "command.hpp"
+
+int main(int argc, char** argv) {
+    using namespace barycert;
+    if (argc > 1 && std::string_view(argv[1]) == "mesh") return cli::exec_mesh(argc, argv);
+
+    CLI::App app("barycert: barycentric interpolation at the speed of floating point, audited against exact arithmetic",
+                 "barycert");
+    app.set_version_flag("--version", "barycert " BARYCERT_VERSION);
+    app.require_subcommand(1);
+    app.footer(
+        "Exit codes: 0 clean, 1 findings beyond the thresholds given, 2 usage or input error.\nTables go to stdout, "
+        "all else to stderr. `barycert SUBCOMMAND --help` explains each.");
+    int exit_code = cli::exit_clean;
+    cli::add_audit(app, exit_code);
+    cli::add_replay(app, exit_code);
+    cli::add_catalogue(app, exit_code);
+    app.add_subcommand("mesh", "Mesh a PLC (.poly .smesh .off .stl .ply) with TetGen: runs barycert-tetgen");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? cli::exit_clean : cli::exit_error;
+    } catch (const std::bad_alloc&) {
+        return cli::fail({.what = "out of memory", .remedy = "use a smaller mesh or fewer threads"});
+    } catch (const std::exception& e) {
+        return cli::fail({.what = e.what()});
+    }
+    return exit_code;
+}

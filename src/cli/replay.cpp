@@ -1,0 +1,135 @@
+// barycert replay: show a witness, every kernel's weights next to the exact ones.
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "barycert/audit/comparison.hpp"
+#include "barycert/audit/witness_file.hpp"
+#include "barycert/core/text.hpp"
+#include "barycert/report/terminal.hpp"
+#include "command.hpp"
+
+namespace barycert::cli {
+namespace {
+
+struct ReplayArguments {
+    std::string file, kernel, reason, family, simplex;
+    std::vector<std::string> meshes, libraries;
+    std::optional<std::uint64_t> index;
+    std::uint64_t seed = 1;
+};
+
+/// True if the witness still shows what it says of its kernel; nothing if it names no kernel known here.
+std::optional<bool> reproduces(const audit::Witness& w, const std::vector<Kernel>& kernels) {
+    const auto k = std::find_if(kernels.begin(), kernels.end(), [&](const Kernel& x) { return x.name == w.kernel; });
+    if (k == kernels.end() || w.reason.empty()) return std::nullopt;
+    const exact::Answer answer = exact::ask(w.c);
+    std::array<double, 4> weights{};
+    const int status = k->weights(w.c.vertices.data(), w.c.point.data(), weights.data());
+    const audit::Comparison r = audit::compare(*k, w.c, answer, status, weights);
+    if (w.reason == "worst_weight_ulp") return *std::max_element(r.weight_ulps.begin(), r.weight_ulps.end()) > 0;
+    const auto finding = audit::finding_named(w.reason);
+    return finding && r.counts[static_cast<std::size_t>(*finding)] != 0;
+}
+
+/// The witness that --family and --case describe, made again.
+Result<std::vector<audit::Witness>> made_again(const ReplayArguments& a, const std::vector<Kernel>& kernels) {
+    const auto families = select_families({a.family});
+    if (!families) return families.error();
+    if (families->size() != 1 || families->front().name != a.family)
+        return Error{.what = "--family must name one family",
+                     .found = '"' + a.family + '"',
+                     .remedy = "`barycert families` lists them"};
+    const audit::Family& family = families->front();
+    std::optional<Simplex> simplex = simplex_named(a.simplex);
+    if (!a.simplex.empty() && !simplex)
+        return Error{.what = "unknown simplex",
+                     .expected = "segment, triangle, triangle3d or tetrahedron",
+                     .found = '"' + a.simplex + '"'};
+    if (!simplex && !a.kernel.empty()) {
+        const auto k =
+            std::find_if(kernels.begin(), kernels.end(), [&](const Kernel& x) { return glob_match(a.kernel, x.name); });
+        if (k == kernels.end())
+            return Error{.what = "no kernel of that name",
+                         .found = '"' + a.kernel + '"',
+                         .remedy = "`barycert kernels` lists them"};
+        simplex = k->simplex;
+    }
+    if (!simplex && family.simplices.size() == 1) simplex = family.simplices.front();
+    if (!simplex || !family.applies_to(*simplex)) {
+        return Error{.what = "which simplex? The family applies to several, or not to that one",
+                     .remedy = "add --simplex NAME or --kernel NAME"};
+    }
+    audit::MeshSource meshes;
+    if (family.needs_mesh) {
+        auto loaded = load_meshes(a.meshes);
+        if (!loaded) return loaded.error();
+        meshes = std::move(*loaded);
+        if (!meshes.supplies(*simplex))
+            return Error{.what = "no mesh supplies a " + std::string(name(*simplex)), .remedy = "name one with --mesh"};
+    }
+    audit::Witness w;
+    w.kernel = a.kernel;
+    w.family = family.name;
+    w.seed = a.seed;
+    w.index = *a.index;
+    w.c = audit::make_case(family, *simplex, a.seed, *a.index, meshes);
+    return std::vector<audit::Witness>{w};
+}
+
+int run_replay(const ReplayArguments& a) {
+    Result<std::vector<Kernel>> kernels = select_kernels({"*"}, a.libraries);
+    if (!kernels) return fail(kernels.error());
+    if (a.file.empty() == a.family.empty())
+        return fail({.what = "name a witness file, or a case by --family and --case"});
+    if (!a.family.empty() && !a.index) return fail({.what = "--family needs --case"});
+    const auto witnesses = a.file.empty() ? made_again(a, *kernels) : audit::read_witnesses(a.file);
+    if (!witnesses) return fail(witnesses.error());
+    bool any = false, all_reproduced = true;
+    const report::TerminalStyle style{.colour = colour_on_stdout(), .witness_path = {}, .mesh_arguments = {}};
+    for (const audit::Witness& w : *witnesses) {
+        if (!a.file.empty() && !a.kernel.empty() && !glob_match(a.kernel, w.kernel)) continue;
+        if (!a.file.empty() && !a.reason.empty() && !glob_match(a.reason, w.reason)) continue;
+        if (const Status written = write_output("-", (any ? "\n" : "") + report::terminal_witness(w, *kernels, style));
+            !written)
+            return fail(written.error());
+        any = true;
+        if (const auto again = reproduces(w, *kernels); again && !*again) {
+            fmt::print(stderr, "not reproduced: {} of {}\n", w.reason, w.kernel);
+            all_reproduced = false;
+        }
+    }
+    if (!any)
+        return fail(
+            {.what = "no witness matches", .file = a.file, .remedy = "leave out --kernel and --reason to see all"});
+    return all_reproduced ? exit_clean : exit_findings;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, int& exit_code) {
+    auto* sub = app.add_subcommand("replay", "Show witnesses: every kernel's weights next to the exact ones");
+    sub->footer("Exit code 1 if a witness of a file no longer shows what it says.");
+    const auto a = std::make_shared<ReplayArguments>();
+    sub->add_option("FILE", a->file, "Witnesses from `barycert audit --witnesses FILE`, or its --json report");
+    sub->add_option("--kernel", a->kernel, "Only witnesses of kernels that match; with --case, the kernel to point at")
+        ->type_name("NAME|GLOB");
+    sub->add_option("--reason", a->reason, "Only witnesses of that class of finding")->type_name("NAME|GLOB");
+    sub->add_option("--family", a->family, "Make a case again instead of reading it: its family")->type_name("NAME");
+    sub->add_option("--case", a->index, "and its number")->type_name("N");
+    sub->add_option("--seed", a->seed, "and its seed")->capture_default_str()->type_name("S");
+    sub->add_option("--simplex", a->simplex, "and its simplex, where neither family nor kernel tells")
+        ->type_name("NAME");
+    sub->add_option("--mesh", a->meshes, "and its meshes, in the order given to the audit; barycert's own if none")
+        ->type_name("MESH")
+        ->allow_extra_args(false);
+    sub->add_option("--kernel-library", a->libraries, "Show this kernel too")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    sub->callback([a, &exit_code] { exit_code = run_replay(*a); });
+}
+
+}  // namespace barycert::cli
