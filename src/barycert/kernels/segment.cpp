@@ -45,7 +45,7 @@ void add_segment(std::vector<Kernel>& list) {
     add("projection", segment_projection<double>,
         {"W_b = (p-a).(b-a) / (b-a).(b-a), W_a = 1 - W_b", "Ericson, Real-Time Collision Detection, 5.1.2",
          "squares leave the range: ends closer than 1e-162 are declared degenerate, further than 1e154 give NaN; "
-         "rounding moves ends of a skew segment off themselves"},
+         "a point whose foot is an end gets a sign by chance"},
         weighted_sum(Simplex::segment));
 }
 

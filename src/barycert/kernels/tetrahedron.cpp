@@ -47,7 +47,7 @@ void add_tetrahedron(std::vector<Kernel>& list) {
     const Text volumes{
         "W_a = V(p,b,c,d) / V(a,b,c,d) and cyclic, V(q0,q1,q2,q3) = det(q1-q0, q2-q0, q3-q0)",
         "volume coordinates, any finite element textbook",
-        "differences and products are rounded: near a face a wrong sign, near a flat cell any weight at all"};
+        "differences and products are rounded: one point in six on a face changes sides; range is lost below 2^-358"};
     add("signed-volume", signed_volume<double>, Declares::yes, volumes);
     add_variants(list, list.back(), &Variants::signed_volume);
     add("signed-volume.float32", in_float<s, signed_volume<float>>, Declares::yes,
@@ -56,7 +56,7 @@ void add_tetrahedron(std::vector<Kernel>& list) {
     add("two-cross-products", two_cross_products<double>, Declares::yes,
         {"relative to p: a x b and c x d give the four determinants, divided by their sum",
          "ray-tetrahedron and interpolation loops tuned for speed",
-         "the sum is not the volume: for a point far outside it cancels, and 1 as the sum of weights hides it"});
+         "their sum cancels for a point 2^20 cell sizes away: no digit of a weight is right, and the sum 1 hides it"});
     add_variants(list, list.back(), &Variants::two_cross_products);
 
     add("unsigned-volume", unsigned_volume<double>, Declares::no,
@@ -73,12 +73,13 @@ void add_tetrahedron(std::vector<Kernel>& list) {
     add("one-minus-sum", one_minus_sum<double>, Declares::yes,
         {"Cramer's rule for W_a, W_b, W_c; W_d = 1 - W_a - W_b - W_c", "finite element codes",
          "W_d carries the rounding of the others: on face abc its sign is chance, and the sum 1 hides every error"});
-    const Text ones{"W_a = |1 p; 1 b; 1 c; 1 d| / |1 a; 1 b; 1 c; 1 d| and so on, 4x4 determinants",
-                    "homogeneous coordinates; Bourke's notes",
-                    "products of absolute coordinates cancel: at an offset of 2^17 cell sizes 4 signs in 10 are wrong"};
+    const Text ones{
+        "W_a = |1 p; 1 b; 1 c; 1 d| / |1 a; 1 b; 1 c; 1 d| and so on, 4x4 determinants",
+        "homogeneous coordinates; Bourke's notes",
+        "products of absolute coordinates cancel: at an offset of 2^17 cell sizes three points in four are misplaced"};
     add("homogeneous", homogeneous4<double>, Declares::yes, ones);
     add("homogeneous.float32", in_float<s, homogeneous4<float>>, Declares::yes,
-        {ones.formula, ones.source, "as homogeneous, from offsets of a few hundred cell sizes on"});
+        {ones.formula, ones.source, "as homogeneous, already at an offset of 2^8 cell sizes"});
 
     const Text inverted{
         "(W_b, W_c, W_d) = (b-a | c-a | d-a)^-1 (p-a), W_a = 1-W_b-W_c-W_d", "Eigen Matrix3d::inverse()",
@@ -91,7 +92,7 @@ void add_tetrahedron(std::vector<Kernel>& list) {
          "backward stable only: on faces the zero weight comes out as rounding noise of either sign"});
     add("full-lu", by_decomposition<double, 3, Eigen::FullPivLU>, Declares::no,
         {"(1 1 1 1; a b c d) W = (1; p)", "Eigen FullPivLU",
-         "pivots below 4 ulps of the largest count as zero: a flat cell gets finite weights, one of them 0, in "
+         "a pivot below 4 eps of the largest counts as zero: flat, tiny and huge cells get finite wrong weights in "
          "silence"});
     add("trilinear", trilinear<double>, Declares::no,
         {"plane z = pz meets the edges, line y = py two sides of that section: weights on edges, sides, line in turn",

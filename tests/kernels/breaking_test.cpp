@@ -1,0 +1,166 @@
+// Each kernel is wrong on a named case, as its `fails` says.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cfloat>
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <string>
+
+#include "barycert/core/random.hpp"
+#include "barycert/kernels/kernel.hpp"
+#include "kernels/breaking_cases.hpp"
+#include "kernels/exact_weights.hpp"
+
+namespace barycert {
+namespace {
+
+using testing::breaking_cases;
+using testing::BreakingCase;
+using testing::exact_weights;
+
+const Kernel* find(const std::string& name) {
+    for (const Kernel& k : catalogue()) {
+        if (k.name == name) return &k;
+    }
+    return nullptr;
+}
+
+TEST(Breaking, EachKernelMisjudgesItsCase) {
+    for (const BreakingCase& b : breaking_cases) {
+        const Kernel* const k = find(b.kernel);
+        if (k == nullptr) continue;  // a contracted variant on a machine without FMA; the next test sees the rest
+        const Case c{k->simplex, b.vertices, b.point, {}};
+        double w[4];
+        const int status = k->weights(c.vertices.data(), c.point.data(), w);
+        const Region claimed = claimed_region(*k, status, {w, static_cast<std::size_t>(vertex_count(k->simplex))});
+        EXPECT_EQ(name(exact_weights(c).region), name(b.exact)) << b.kernel << ", " << b.what;
+        EXPECT_EQ(name(claimed), name(b.claimed)) << b.kernel << ", " << b.what;
+        EXPECT_NE(b.claimed, b.exact);
+    }
+}
+
+TEST(Breaking, EveryKernelHasACase) {
+    std::set<std::string> covered;
+    for (const BreakingCase& b : breaking_cases) covered.insert(b.kernel);
+    for (const Kernel& k : catalogue()) EXPECT_TRUE(covered.count(k.name)) << k.name;
+}
+
+TEST(Breaking, IncrementLosesTheValueAtB) {
+    const double a_to_b[6] = {0, 0, 0, 4, 0, 0}, b[3] = {4, 0, 0}, values[2] = {0x1p60, 1};
+    for (const char* formula : {"segment.signed-length-x", "segment.dominant-axis"}) {
+        const Kernel& blend = *find(formula);
+        const Kernel& increment = *find(std::string(formula) + ".increment");
+        double w[2];
+        ASSERT_EQ(blend.weights(a_to_b, b, w), 0);
+        EXPECT_EQ(blend.value(w, values), 1.0);
+        EXPECT_EQ(increment.value(w, values), 0.0);
+    }
+}
+
+TEST(Breaking, BlendChangesAConstant) {
+    const double w[2] = {3.0 / 7, 4.0 / 7}, values[2] = {0.9, 0.9};
+    EXPECT_NE(find("segment.signed-length-x")->value(w, values), 0.9);
+    EXPECT_EQ(find("segment.signed-length-x.increment")->value(w, values), 0.9);
+}
+
+/// In a cell 2^-40 flat weights are wrong by whole units, yet their sum is 1 up to their own rounding.
+TEST(Breaking, OneMinusSumHidesTheError) {
+    const Kernel& k = *find("tetrahedron.one-minus-sum");
+    int hidden = 0;
+    for (std::uint64_t i = 0; i < 100; ++i) {
+        Random random = Random::stream(1, 1, i);
+        Case c;
+        for (double& x : c.vertices) x = random.uniform(-1, 1);
+        for (double& x : c.point) x = random.uniform(-1, 1);
+        for (int axis = 0; axis < 3; ++axis) {
+            c.vertex(3, axis) =
+                (c.vertex(0, axis) + c.vertex(1, axis) + c.vertex(2, axis)) / 3 + random.unit() * 0x1p-40;
+        }
+        double w[4];
+        if (k.weights(c.vertices.data(), c.point.data(), w) != 0) continue;
+        const double size = std::max({std::fabs(w[0]), std::fabs(w[1]), std::fabs(w[2]), std::fabs(w[3])});
+        const mpq_class sum = mpq_class(w[0]) + mpq_class(w[1]) + mpq_class(w[2]) + mpq_class(w[3]);
+        const bool closed = abs(sum - 1) <= mpq_class(size * 0x1p-50);  // three subtractions of at most 2 size each
+        const bool wrong = abs(mpq_class(w[3]) - exact_weights(c).weights[3]) > 1;
+        hidden += closed && wrong ? 1 : 0;
+    }
+    EXPECT_GT(hidden, 90);
+}
+
+/// Relative to a point 2^30 away the vertices coincide to 23 bits: no digit of any weight is right.
+TEST(Breaking, FarPointsLoseEveryDigitOfVolumes) {
+    Random random(1);
+    for (const char* formula : {"tetrahedron.two-cross-products", "tetrahedron.signed-volume"}) {
+        int lost = 0;
+        for (int i = 0; i < 100; ++i) {
+            Case c;
+            for (double& x : c.vertices) x = random.uniform(-1, 1);
+            for (double& x : c.point) x = random.uniform(-0x1p30, 0x1p30);
+            double w[4];
+            if (find(formula)->weights(c.vertices.data(), c.point.data(), w) != 0) continue;
+            const mpq_class right = exact_weights(c).weights[0];
+            lost += abs(mpq_class(w[0]) - right) > abs(right) ? 1 : 0;
+        }
+        EXPECT_GT(lost, 0) << formula;
+    }
+}
+
+/// In how many of 1000 random cases a variant's weights differ in bits from its base's.
+int different(const std::string& base, const std::string& variant) {
+    const Kernel &k = *find(base), &l = *find(base + variant);
+    int count = 0;
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+        Random random = Random::stream(1, 0, i);
+        Case c;
+        for (double& x : c.vertices) x = random.uniform(-1, 1);
+        for (double& x : c.point) x = random.uniform(-1, 1);
+        double w[4], z[4];
+        k.weights(c.vertices.data(), c.point.data(), w);
+        l.weights(c.vertices.data(), c.point.data(), z);
+        bool same = true;
+        for (int j = 0; j < vertex_count(k.simplex); ++j) {
+            same &= std::bit_cast<std::uint64_t>(w[j]) == std::bit_cast<std::uint64_t>(z[j]);
+        }
+        count += same ? 0 : 1;
+    }
+    return count;
+}
+
+TEST(Variants, DifferInBitsFromTheirBaseButForO0) {
+    for (const char* base : {"triangle.signed-area", "tetrahedron.signed-volume", "tetrahedron.two-cross-products",
+                             "tetrahedron.cramer"}) {
+        std::printf("%s fast %d contracted %d\n", base, different(base, ".fast-math"), different(base, ".contracted"));
+        if (find(std::string(base) + ".contracted") != nullptr) {
+            EXPECT_GT(different(base, ".contracted"), 500) << base;
+        }
+        // With double evaluated as double, optimisation without -ffast-math may not change a bit.
+        if (FLT_EVAL_METHOD == 0) {
+            EXPECT_EQ(different(base, ".O0"), 0) << base;
+        }
+    }
+}
+
+/// A fused ab - cd with equal products is the rounding error of one of them. At its own vertex a triangle's areas are
+/// such differences: the base kernel finds them exactly zero.
+TEST(Variants, ContractionBreaksVerticesThatTheBaseGetsRight) {
+    if (find("triangle.signed-area.contracted") == nullptr) GTEST_SKIP() << "no FMA on this CPU";
+    for (const BreakingCase& b : breaking_cases) {
+        if (std::string(b.kernel) != "triangle.signed-area.contracted") continue;
+        double w[3];
+        ASSERT_EQ(find("triangle.signed-area")->weights(b.vertices.data(), b.point.data(), w), 0);
+        EXPECT_EQ(claimed_region(*find("triangle.signed-area"), 0, w), Region::boundary);
+    }
+}
+
+/// A library linked with -ffast-math would have switched subnormals off for the whole process.
+TEST(Variants, FastMathDoesNotLeak) {
+    volatile double smallest = 0x1p-1074;
+    EXPECT_GT(smallest * 2, 0.0);
+    EXPECT_EQ(smallest / 0x1p-1073, 0.5);
+}
+
+}  // namespace
+}  // namespace barycert
