@@ -45,6 +45,17 @@ inline bool is_digit(char c) {
     return at;
 }
 
+/// Eight characters '0', as one word.
+inline constexpr std::uint64_t zero_digits = 0x3030303030303030U;
+
+/// The number whose eight decimal digits are the bytes of a little-endian word, first digit first.
+inline std::uint32_t value_of_digits(std::uint64_t digits) {
+    digits = digits * 10 + (digits >> 8);  // pairs of digits, in every second byte
+    digits = (digits & 0x000000ff000000ffU) * 0x000f424000000064U +
+             ((digits >> 16) & 0x000000ff000000ffU) * 0x0000271000000001U;
+    return static_cast<std::uint32_t>(digits >> 32);
+}
+
 /// The place after the integer at `at`, or nullptr.
 inline const char* scan_integer(const char* at, std::int64_t& value) {
     if constexpr (std::endian::native == std::endian::little) {
@@ -52,17 +63,13 @@ inline const char* scan_integer(const char* at, std::int64_t& value) {
         // to the top bit; a carry reaches only bytes after the first such byte, which do not matter.
         std::uint64_t digits = 0;
         std::memcpy(&digits, at, 8);
-        digits ^= 0x3030303030303030U;
+        digits ^= zero_digits;
         const std::uint64_t others = ((digits + 0x7676767676767676U) | digits) & 0x8080808080808080U;
         const int bits = std::countr_zero(others) & ~7;  // 8 * number of leading digits
         const bool plain = bits != 0 && bits != 64 && ((digits & 0xff) != 0 || bits == 8);
         if (plain) [[likely]] {
             digits <<= 64 - bits;  // the last digit into the last byte, zeros before it
-            digits = digits * 10 + (digits >> 8);
-            digits = ((digits & 0x000000ff000000ffU) * 0x000f424000000064U +
-                      ((digits >> 16) & 0x000000ff000000ffU) * 0x0000271000000001U) >>
-                     32;
-            value = static_cast<std::int64_t>(digits & 0xffffffffU);
+            value = value_of_digits(digits);
             return at + bits / 8;
         }
     }

@@ -2,6 +2,7 @@
 #include <array>
 #include <string_view>
 
+#include "barycert/mesh/integer_row.hpp"
 #include "barycert/mesh/large_vector.hpp"
 #include "barycert/mesh/tetgen_reader.hpp"
 
@@ -23,6 +24,22 @@ std::vector<double*> make_attributes(std::vector<Field>& fields, std::size_t cou
 Error cannot_mean(const TextTable& table, const std::string& what, std::string expected, std::int64_t found,
                   std::string remedy) {
     return header_error(table, what + " in the header", std::move(expected), std::to_string(found), std::move(remedy));
+}
+
+/// The fast path of a linear cell without attributes. False: the scanner has not moved, and nothing is known.
+template <std::size_t Corners>
+bool scan_plain_cell(Scanner& scanner, std::size_t row, int base, std::int64_t count, Mesh::Index* cells) {
+    std::array<std::uint32_t, Corners + 1> values{};
+    const char* const after = scan_plain_row(scanner.at, values);
+    if (after == nullptr || values[0] != row + static_cast<std::size_t>(base)) return false;
+    bool good = true;
+    for (std::size_t i = 0; i < Corners; ++i) {
+        const std::uint32_t index = values[i + 1] - static_cast<std::uint32_t>(base);
+        good = good && index < static_cast<std::uint64_t>(count);
+        cells[row * Corners + i] = static_cast<Mesh::Index>(index);
+    }
+    if (good) scanner.at = after;
+    return good;
 }
 
 }  // namespace
@@ -87,6 +104,9 @@ void TetgenReader::set_cell_parser() {
     cells_.parse = parse_block_by([base = cells_.base, count = limit_of(nodes_), cells = mesh_.cells.data(),
                                    mid_nodes = mesh_.mid_nodes.data(), fields = cell_attributes_.data(),
                                    field_count = cell_attributes_.size()](Scanner& scanner, std::size_t row) {
+        if (mids == 0 && field_count == 0 && scan_plain_cell<first_order>(scanner, row, base, count, cells)) {
+            return true;
+        }
         if (!scan_id(scanner, row + static_cast<std::size_t>(base))) return false;
         if (!scan_indices<first_order>(scanner, base, count, cells + row * first_order)) return false;
         if (mids != 0 && !scan_indices<mids>(scanner, base, count, mid_nodes + row * mids)) return false;
