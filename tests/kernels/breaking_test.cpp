@@ -130,9 +130,10 @@ int different(const std::string& base, const std::string& variant) {
 }
 
 TEST(Variants, DifferInBitsFromTheirBaseButForO0) {
+    int fast_math = 0;
     for (const char* base : {"triangle.signed-area", "tetrahedron.signed-volume", "tetrahedron.two-cross-products",
                              "tetrahedron.cramer"}) {
-        std::printf("%s fast %d contracted %d\n", base, different(base, ".fast-math"), different(base, ".contracted"));
+        fast_math += different(base, ".fast-math");
         if (find(std::string(base) + ".contracted") != nullptr) {
             EXPECT_GT(different(base, ".contracted"), 500) << base;
         }
@@ -141,6 +142,8 @@ TEST(Variants, DifferInBitsFromTheirBaseButForO0) {
             EXPECT_EQ(different(base, ".O0"), 0) << base;
         }
     }
+    // Not each of them: GCC 12 leaves the three quotients of triangle.signed-area alone, Clang 14 does not.
+    EXPECT_GT(fast_math, 1000);
 }
 
 /// A fused ab - cd with equal products is the rounding error of one of them. At its own vertex a triangle's areas are

@@ -36,7 +36,7 @@ bool excluded(const Kernel& k, const Quarters& weights) {
     const bool outside = *std::min_element(weights.begin(), weights.end()) < 0;
     const bool boundary = std::count(weights.begin(), weights.begin() + vertex_count(k.simplex), 0) > 0;
     return (contains(k, "unsigned") && outside) || (contains(k, "bilinear") && vertex) ||
-           (contains(k, "trilinear") && boundary);
+           (contains(k, "trilinear") && (boundary || outside));
 }
 
 void check(const Kernel& k, const std::vector<double>& corners, const Quarters& weights) {

@@ -23,10 +23,11 @@ struct Variant {
 };
 
 std::vector<Variant> available_variants() {
-    std::vector<Variant> list{{"fast-math", &fast_math_variants,
-                               "-ffast-math: a reciprocal and reassociation on top of the formula's own faults"},
-                              {"O0", &unoptimised_variants,
-                               "-O0: the formula's own faults, bit for bit; any difference is a compiler's doing"}};
+    std::vector<Variant> list{
+        {"fast-math", &fast_math_variants,
+         "-ffast-math: the compiler's choice of reciprocals and sums on top of the formula's own faults"},
+        {"O0", &unoptimised_variants,
+         "-O0: the formula's own faults, bit for bit; any difference is a compiler's doing"}};
 #ifdef BARYCERT_CONTRACTED
     if (__builtin_cpu_supports("fma") != 0) {
         list.push_back({"contracted", &contracted_variants,
