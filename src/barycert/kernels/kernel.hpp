@@ -31,10 +31,10 @@ enum class RegionRule : unsigned char {
 struct Kernel {
     std::string name;  ///< `simplex.formula[.variant]`, the handle on the command line
     Simplex simplex = Simplex::tetrahedron;
-    std::string formula;  ///< one line of mathematics
-    std::string source;   ///< where the formula is published or in use
-    std::string fails;    ///< one line: where and why it goes wrong
-    bool declares_degenerate = false;
+    std::string formula;               ///< one line of mathematics
+    std::string source;                ///< where the formula is published or in use
+    std::string fails;                 ///< one line: where and why it goes wrong
+    bool declares_degenerate = false;  ///< compares its divisor with 0; the others do not look
     bool certifies = false;  ///< promises exact signs and correctly rounded weights: any finding is then the worst kind
     RegionRule rule = RegionRule::sign;
     double tolerance = 0;  ///< for RegionRule::tolerant

@@ -44,7 +44,8 @@ void add_segment(std::vector<Kernel>& list) {
         increment);
     add("projection", segment_projection<double>,
         {"W_b = (p-a).(b-a) / (b-a).(b-a), W_a = 1 - W_b", "Ericson, Real-Time Collision Detection, 5.1.2",
-         "squares leave the range: ends closer than 1e-162 are declared degenerate, further than 1e154 give NaN; "
+         "squares leave the range: ends closer than 1e-162 are declared degenerate, further than 1.4e154 give 0 or "
+         "NaN; "
          "a point whose foot is an end gets a sign by chance"},
         weighted_sum(Simplex::segment));
 }

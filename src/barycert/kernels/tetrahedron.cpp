@@ -47,7 +47,7 @@ void add_tetrahedron(std::vector<Kernel>& list) {
     const Text volumes{
         "W_a = V(p,b,c,d) / V(a,b,c,d) and cyclic, V(q0,q1,q2,q3) = det(q1-q0, q2-q0, q3-q0)",
         "volume coordinates, any finite element textbook",
-        "differences and products are rounded: one point in six on a face changes sides; range is lost below 2^-358"};
+        "differences and products are rounded: one point in six on a face is misjudged; range is lost below 2^-358"};
     add("signed-volume", signed_volume<double>, Declares::yes, volumes);
     add_variants(list, list.back(), &Variants::signed_volume);
     add("signed-volume.float32", in_float<s, signed_volume<float>>, Declares::yes,
