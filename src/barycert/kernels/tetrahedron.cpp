@@ -74,8 +74,7 @@ void add_tetrahedron(std::vector<Kernel>& list) {
         {"Cramer's rule for W_a, W_b, W_c; W_d = 1 - W_a - W_b - W_c", "finite element codes",
          "W_d carries the rounding of the others: on face abc its sign is chance, and the sum 1 hides every error"});
     const Text ones{
-        "W_a = |1 p; 1 b; 1 c; 1 d| / |1 a; 1 b; 1 c; 1 d| and so on, 4x4 determinants",
-        "homogeneous coordinates; Bourke's notes",
+        "W_a = |1 p; 1 b; 1 c; 1 d| / |1 a; 1 b; 1 c; 1 d| and so on, 4x4 determinants", "homogeneous coordinates",
         "products of absolute coordinates cancel: at an offset of 2^17 cell sizes three points in four are misplaced"};
     add("homogeneous", homogeneous4<double>, Declares::yes, ones);
     add("homogeneous.float32", in_float<s, homogeneous4<float>>, Declares::yes,

@@ -15,7 +15,7 @@ void add_triangle(std::vector<Kernel>& list) {
         "rounds coordinates to 24 bits first: points nearer to an edge than 2^-24 of their coordinates change sides";
 
     const Text areas{"W_a = (bc x bp)/(ab x ac) and cyclic",
-                     "signed areas; Shirley & Marschner, Fundamentals of CG, 2.9",
+                     "signed areas; Shirley & Marschner, Fundamentals of Computer Graphics",
                      "products are rounded: points within a few ulps of an edge get a wrong sign or a false zero"};
     add("signed-area", signed_area<double>, Declares::yes, areas);
     add_variants(list, list.back(), &Variants::signed_area);
@@ -33,7 +33,7 @@ void add_triangle(std::vector<Kernel>& list) {
 
     add("alpha-beta", alpha_beta<double>, Declares::no,
         {"alpha = (-(x-xB)(yC-yB)+(y-yB)(xC-xB)) / (-(xA-xB)(yC-yB)+(yA-yB)(xC-xB)), beta cyclic, gamma = 1-alpha-beta",
-         "Shirley & Marschner, Fundamentals of CG, 8.1.2",
+         "Shirley & Marschner, Fundamentals of Computer Graphics",
          "gamma carries the rounding of both others: on edge AB its sign is chance; the two denominators may differ"});
     add("unsigned-area", unsigned_area<double>, Declares::no,
         {"W_a = |PBC| / (|PBC|+|PCA|+|PAB|) and cyclic", "area ratios, common lecture notes",
