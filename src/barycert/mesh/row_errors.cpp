@@ -1,7 +1,7 @@
 #include "barycert/mesh/row_errors.hpp"
 
 #include <algorithm>
-#include <cstdio>
+#include <cctype>
 
 namespace barycert::detail {
 namespace {
@@ -82,9 +82,9 @@ Complaint about_real(std::string_view field) {
     if (looks_like_number(body, ".eE+-")) {
         return {"a number that a double can hold", "check the number: the largest double is near 1.8e308"};
     }
-    if (!body.empty() && body.find_first_not_of("nNaAiIfFtTyY()") == std::string_view::npos) {
-        return {"a finite number", "give every node a finite number"};
-    }
+    std::string word(body.substr(0, 3));
+    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (word == "nan" || word == "inf") return {"a finite number", "give every node and cell finite numbers"};
     return {"a number", remedy_for_text(field)};
 }
 

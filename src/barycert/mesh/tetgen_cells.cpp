@@ -70,11 +70,11 @@ Status TetgenReader::prepare_nodes() {
                                ? "if the last column is a marker, make the header " +
                                      header_text({count, dimension, attributes, 1}) + "; if it is an attribute, " + more
                                : "if there is one attribute more, make the header " + more;
-    if (Status room = check_room(table); !room) return room;
-
     const std::vector<std::string_view> first = table.first_row();
     std::int64_t id = 0;
     table.base = !first.empty() && scan_integer(first.front().data(), id) != nullptr && id == 1 ? 1 : 0;
+    if (Status room = check_room(table); !room) return room;
+
     mesh_.index_base = table.base;
     mesh_.dimension = static_cast<int>(dimension);
     resize_large(mesh_.points, table.rows * static_cast<std::size_t>(dimension));

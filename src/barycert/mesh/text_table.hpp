@@ -68,7 +68,8 @@ struct TextTable {
 /// Maps the file and reads its header: non-negative integers up to 2^31 - 1, one for each of `header_names` or fewer.
 Result<TextTable> open_table(const std::string& path, std::span<const char* const> header_names);
 
-/// Refuses a count of rows that cannot stand in the file. Call before memory is taken for them. Needs columns.
+/// Refuses a count of rows that cannot stand in the file. Call before memory is taken for them.
+/// Needs the columns and the base.
 Status check_room(const TextTable& table);
 
 /// Parses the rows of all tables; the error of the first table that has one.
