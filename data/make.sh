@@ -6,6 +6,9 @@ data=$(cd "$(dirname "$0")" && pwd)
 build=$(cd "${1:?usage: data/make.sh BUILD-FOLDER}" && pwd)
 tetgen=$build/src/tetgen/barycert-tetgen
 make_data=$build/data/barycert-make-data
+for program in "$tetgen" "$make_data"; do
+    [ -x "$program" ] || { echo "error: $program: not built" >&2; exit 2; }
+done
 raw=$(mktemp -d)
 trap 'rm -rf "$raw"' EXIT
 

@@ -33,12 +33,13 @@ void check_switches(const std::string& switches) {
     constexpr std::size_t longest = 200;
     if (switches.size() > longest) throw std::invalid_argument("--switches: longer than 200 characters");
     if (switches.empty()) throw std::invalid_argument("--switches: expected TetGen's switches, found nothing");
+    if (switches.front() == '-') throw std::invalid_argument("--switches: expected no dash before TetGen's switches");
     for (const char c : switches) {
         if (known.find(c) != std::string_view::npos || numeric.find(c) != std::string_view::npos) continue;
-        throw std::invalid_argument(fmt::format(
-            "--switches: expected letters of {} with their numbers, found '{}'; without a dash; switches for other "
-            "inputs and outputs than a PLC and a mesh are not supported",
-            known, c));
+        throw std::invalid_argument(
+            fmt::format("--switches: expected letters of {} with their numbers, found '{}'; switches for other "
+                        "inputs and outputs than a PLC and a mesh are not supported",
+                        known, c));
     }
 }
 
@@ -120,7 +121,7 @@ Parsed parse_options(int argc, char** argv) {
     auto* base = app.add_option("--index-base", index_base, "number from 0 or 1 (default: as INPUT does)")
                      ->check(CLI::IsMember({0, 1}));
     app.add_flag("--quiet", options.quiet, "no summary");
-    app.add_option("--timeout", timeout, "give up after this time")->type_name("SECONDS");
+    auto* limit = app.add_option("--timeout", timeout, "give up after this time")->type_name("SECONDS");
     for (auto* option : {quality, dihedral, volume, order, keep}) raw->excludes(option);
     try {
         app.parse(argc, argv);
@@ -139,7 +140,7 @@ Parsed parse_options(int argc, char** argv) {
         if (*volume) {
             options.max_volume = number_in("--max-volume", max_volume, tiny, unbounded, "a volume greater than 0");
         }
-        if (!timeout.empty()) options.timeout = number_in("--timeout", timeout, 1e-3, 1e9, "a time of 0.001 to 1e9 s");
+        if (*limit) options.timeout = number_in("--timeout", timeout, 1e-3, 1e9, "a time of 0.001 to 1e9 s");
         if (*base) options.index_base = index_base;
         if (*raw) {
             check_switches(switches);

@@ -1,0 +1,119 @@
+/// Every failure: exit code 2, an `error:` line that names the file, nothing written.
+#include "tetgen/harness.hpp"
+
+namespace barycert::test {
+namespace {
+
+class Failures : public ::testing::Test {
+protected:
+    /// Runs with the given words after the input's path and expects `message` in the error and no further files.
+    void expect_failure(const std::string& input, const std::string& message, std::vector<std::string> more = {}) {
+        const std::size_t before = folder_.file_count();
+        more.insert(more.begin(), input);
+        const Outcome run = run_tetgen(std::move(more));
+        EXPECT_EQ(run.code, 2) << input;
+        EXPECT_EQ(run.out, "");
+        EXPECT_TRUE(run.err.starts_with("error: ")) << run.err;
+        EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
+        EXPECT_EQ(folder_.file_count(), before) << "files are left";
+    }
+    void expect_bad_file(const std::string& name, const std::string& text, const std::string& message) {
+        const std::string path = folder_.write(name, text);
+        expect_failure(path, path + message);
+    }
+
+    Scratch folder_;
+};
+
+TEST_F(Failures, BeforeReading) {
+    expect_failure(folder_ / "none.poly", "none.poly: no such file");
+    expect_bad_file("cube.obj", cube_off(), ": unknown kind of PLC: expected one of .poly .smesh .off .stl .ply");
+    expect_bad_file("cube", cube_off(), ": unknown kind of PLC");
+    expect_bad_file("empty.poly", "", ": cannot read: expected a PLC, found an empty file");
+    std::filesystem::create_directory(folder_ / "folder.poly");
+    expect_failure(folder_ / "folder.poly", "folder.poly: cannot read: expected a file, found a directory");
+}
+
+// A file cut anywhere must be refused. In a .poly only what follows the facets may be missing, as in TetGen.
+TEST_F(Failures, TruncatedAnywhere) {
+    const std::string poly = cube_poly();
+    const std::size_t needed = poly.rfind("\n0\n");
+    for (std::size_t length = 0; length + 1 < needed; length += 3) {
+        expect_bad_file("cut.poly", poly.substr(0, length), ":");
+    }
+    const std::string off = cube_off();
+    for (std::size_t length = 0; length + 2 < off.size(); length += 5) {
+        expect_bad_file("cut.off", off.substr(0, length), ":");
+    }
+    expect_bad_file("cut.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n",
+                    ":5: the file is truncated: expected endsolid");
+    expect_bad_file("cut.ply", "ply\nformat ascii 1.0\nelement vertex 8\n", ":3: the file is truncated");
+}
+
+TEST_F(Failures, Contradictory) {
+    std::string text = cube_poly();
+    text.replace(text.find("4 0 1 5 4"), 9, "4 0 1 5 8");
+    expect_bad_file("index.poly", text, ":14: no such node: expected 0 to 7, found 8");
+    expect_bad_file("huge.poly", "2000000000 3 0 0\n0 0 0 0\n", ":1: the count is more than the file can hold");
+    expect_bad_file("negative.poly", "-4 3 0 0\n", ":1: cannot read: expected the number of nodes, found -4");
+    expect_bad_file("plane.poly", "4 2 0 0\n", ":1: cannot mesh: expected dimension 3, found 2");
+    expect_bad_file("words.poly", "many\n", ":1: cannot read: expected the number of nodes, found many");
+    expect_bad_file("facets.poly", "4 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n0 0\n", ": nothing to mesh");
+    expect_bad_file("more.off", cube_off() + "3 0 1 2\n", ":17: more lines than the header announces");
+    expect_bad_file("index.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", ":6: no such node");
+    expect_bad_file("binary.ply", "ply\nformat binary_little_endian 1.0\n", ":2: cannot read a binary .ply");
+    expect_bad_file("short.stl", std::string(90, 'x'), ": neither a text nor a whole binary .stl");
+    expect_failure(folder_.write("apart.poly", "0
+6 0
+" + side_rows(0, "1
+", "") + "0
+"), "apart.node: no such file");
+}
+
+TEST_F(Failures, SelfIntersecting) {
+    const std::string path = folder_.write("crossed.off",
+                                           "OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n.2 .2 -.5\n.3 .2 .5\n.2 .3 .5\n"
+                                           ".2 .2 2\n3 0 1 2\n3 0 1 3\n3 1 2 3\n3 0 2 3\n3 4 5 6\n3 4 5 7\n3 5 6 7\n"
+                                           "3 4 6 7\n");
+    expect_failure(path, path + ": the facets intersect each other");
+    expect_failure(path, "intersects facet #");
+}
+
+TEST_F(Failures, NotWatertight) {
+    std::string open = cube_off();
+    open.replace(open.find("8 6"), 3, "8 5");
+    open.resize(open.find("4 4 5 6 7"));
+    expect_bad_file("open.off", open, ": no cell is left: the facets do not enclose a volume");
+}
+
+TEST_F(Failures, BadOptionValues) {
+    const std::string cube = folder_.write("cube.off", cube_off());
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"--quality", "0.9"},     {"--quality", "nan"},  {"--quality", "1.2x"},  {"--min-dihedral", "-1"},
+             {"--min-dihedral", "90"}, {"--max-volume", "0"}, {"--max-volume", "-1"}, {"--max-volume", "inf"},
+             {"--order", "3"},         {"--index-base", "2"}, {"--timeout", "0"},     {"--timeout", "x"},
+             {"--switches", "ph"},     {"--switches", "pr"},  {"--switches", "-pq"},  {"--switches", "p!"},
+             {"--switches", ""},       {"--no-such-option"},  {"second.off"},         {"--max-volume"}}) {
+        expect_failure(cube, words[0] == "second.off" ? "second.off" : words[0], words);
+    }
+    expect_failure(cube, "--switches", {"--switches", "pq", "--order", "2"});
+    expect_failure("--quality", "put INPUT first", {cube});
+    expect_failure("--quiet", "expected INPUT");
+}
+
+TEST_F(Failures, UnwritableOutput) {
+    const std::string cube = folder_.write("cube.off", cube_off());
+    expect_failure(cube, folder_ / "none/cube", {"--output", folder_ / "none/cube"});
+    expect_failure(cube, cube + "/cube", {"--output", cube + "/cube"});
+    // A folder stands where the nodes should go: found out by the writer, in the child.
+    std::filesystem::create_directory(folder_ / "taken.node");
+    expect_failure(cube, folder_ / "taken.node", {"--output", folder_ / "taken"});
+}
+
+TEST_F(Failures, Timeout) {
+    const std::string cube = folder_.write("cube.off", cube_off());
+    expect_failure(cube, cube + ": TetGen did not end within 0.2 s", {"--max-volume", "1e-9", "--timeout", "0.2"});
+}
+
+}  // namespace
+}  // namespace barycert::test
