@@ -1,5 +1,6 @@
 #include "barycert/audit/block.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -9,26 +10,43 @@
 namespace barycert::audit {
 namespace {
 
-/// An upper bound of both residuals, in terms of the weights' errors: with w the kernel's weights, l the exact ones, L
-/// those rounded, |sum w - 1| <= sum |w - l| and |sum w v - p'| <= sum |w - l| |v|_1, where |w - l| <= |w - L| + 2^-53
-/// |L| + 2^-1075. The factor covers the roundings of evaluating the bound itself (fewer than 30 operations, none
-/// cancelling).
+/// Upper bounds of both residuals, from the weights' errors. With w the kernel's weights, l the exact ones, L those
+/// rounded, d = fl(w - L) and u = 2^-53: |w - l - d| <= e = u |d| + u |L| + 2^-1074, so that
+///     |sum w - 1|       = |sum (w - l)|   <= |sum d| + sum e,
+///     |sum w v - p'|_k  = |sum (w - l) v| <= |sum d v| + sum e |v|     for each axis k.
+/// The sums are evaluated in double: of at most four products each, so off by less than 5u sum |d v| + 4 * 2^-1074. The
+/// factors below cover that and the few roundings of the bounds themselves.
 struct ResidualBound {
     double partition = 0;
     double reproduction = 0;
 
     ResidualBound(const Case& c, const exact::Answer& answer, const double* weights) {
-        for (int i = 0; i < vertex_count(c.simplex); ++i) {
-            const auto k = static_cast<std::size_t>(i);
-            const double error =
-                std::fabs(weights[k] - answer.weights[k]) + 0x1p-53 * std::fabs(answer.weights[k]) + 0x1p-1074;
-            double size = 0x1p-1022;
-            for (int axis = 0; axis < space_dimension(c.simplex); ++axis) size += std::fabs(c.vertex(i, axis));
-            partition += error;
-            reproduction += error * size + 0x1p-1074;
+        constexpr double u = 0x1p-53, tiny = 0x1p-1070;
+        const auto n = static_cast<std::size_t>(vertex_count(c.simplex));
+        std::array<double, 4> d{}, e{};
+        double sum = 0, error = tiny;
+        for (std::size_t i = 0; i < n; ++i) {
+            d[i] = weights[i] - answer.weights[i];
+            e[i] = 8 * u * std::fabs(d[i]) + u * std::fabs(answer.weights[i]) + 0x1p-1074;
+            sum += d[i];
+            error += e[i];
         }
-        partition *= 1 + 0x1p-40;
-        reproduction *= 1 + 0x1p-40;
+        partition = (std::fabs(sum) + error) * (1 + 16 * u);
+        std::array<double, 3> bound{};
+        double largest = 0;
+        for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
+            double r = 0, slack = tiny;
+            for (std::size_t i = 0; i < n; ++i) {
+                const double x = c.vertex(static_cast<int>(i), axis);
+                r += d[i] * x;
+                slack += e[i] * std::fabs(x);
+            }
+            bound[static_cast<std::size_t>(axis)] = std::fabs(r) + slack;
+            largest = std::max(largest, std::fabs(r) + slack);
+        }
+        double squares = 0;  // scaled by the largest: neither overflow nor underflow
+        for (const double x : bound) squares += (x / largest) * (x / largest);
+        reproduction = largest * std::sqrt(squares) * (1 + 32 * u) + tiny;
     }
 };
 

@@ -46,7 +46,7 @@ public:
 
     /// An integer in [0, n), n >= 1. The bias is below n / 2^64.
     constexpr std::uint64_t below(std::uint64_t n) {
-        return static_cast<std::uint64_t>((static_cast<unsigned __int128>(bits()) * n) >> 64);
+        return static_cast<std::uint64_t>((static_cast<Wide>(bits()) * n) >> 64);
     }
 
     /// An integer in [lo, hi].
@@ -63,6 +63,7 @@ public:
     constexpr bool coin() { return (bits() >> 63) != 0; }
 
 private:
+    __extension__ using Wide = unsigned __int128;
     static constexpr std::uint64_t golden = 0x9e3779b97f4a7c15ULL;
     std::uint64_t state_;
 };

@@ -11,12 +11,12 @@ namespace barycert {
 
 /// What went wrong with an input, in the parts an error message needs. Empty parts are left out of the message.
 struct Error {
-    std::string what;      ///< one clause: what could not be done
-    std::string file;      ///< path as the user gave it
-    std::size_t line = 0;  ///< 1-based; 0 where no line applies
-    std::string expected;
-    std::string found;
-    std::string remedy;  ///< what to do about it
+    std::string what = {};  ///< one clause: what could not be done
+    std::string file = {};  ///< path as the user gave it
+    std::size_t line = 0;   ///< 1-based; 0 where no line applies
+    std::string expected = {};
+    std::string found = {};
+    std::string remedy = {};  ///< what to do about it
 
     /// `file:line: what: expected ..., found ...; remedy`.
     std::string message() const {

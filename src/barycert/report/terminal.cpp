@@ -56,42 +56,38 @@ std::string kernel_table(const Report& report, const Colours& paint) {
 std::string family_table(const Report& report, const Colours& paint) {
     struct Row {
         std::uint64_t cases = 0;
-        std::size_t kernels = 0, clean = 0;
-        double worst_share = -1, best_share = 2;
-        std::string worst, best;
+        std::size_t clean = 0;
+        std::vector<std::pair<std::uint64_t, std::string>> wrong;  ///< wrong cases and kernel
     };
     std::map<std::pair<std::size_t, Simplex>, Row> rows;
+    std::size_t width = 6;
     for (const KernelResult& k : report.kernels) {
         for (const audit::FamilyResult& f : k.families) {
             Row& row = rows[{f.family, k.kernel.simplex}];
-            const Statistics& s = f.statistics;
-            const double share =
-                static_cast<double>(s.wrong_cases) / static_cast<double>(std::max<std::uint64_t>(s.cases, 1));
-            row.cases = s.cases;
-            ++row.kernels;
-            row.clean += s.wrong_cases == 0 ? 1 : 0;
-            const std::string name = k.kernel.name.substr(k.kernel.name.find('.') + 1);
-            if (share > row.worst_share) row.worst_share = share, row.worst = name;
-            if (share < row.best_share) row.best_share = share, row.best = name;
+            row.cases = f.statistics.cases;
+            row.clean += f.statistics.wrong_cases == 0 ? 1 : 0;
+            row.wrong.emplace_back(f.statistics.wrong_cases, k.kernel.name.substr(k.kernel.name.find('.') + 1));
+            width = std::max(width, report.families[f.family].name.size());
         }
     }
-    std::size_t width = 6;
-    for (const auto& [key, row] : rows) width = std::max(width, report.families[key.first].name.size());
-    std::string out = paint.bold(fmt::format("{:<{}}  {:<11} {:>7} {:>9}  {:>7}  {:<34} {:>7}  {}", "family", width,
-                                             "simplex", "cases", "clean", "best %", "", "worst %", "")) +
-                      "\n";
-    for (const auto& [key, row] : rows) {
-        const auto share = [&](double x) {
-            return percent(static_cast<std::uint64_t>(x * static_cast<double>(row.cases) + 0.5), row.cases);
-        };
-        out +=
-            fmt::format("{:<{}}  {:<11} {:>7} {:>9}  {:>7}  {:<34} {:>7}  {}\n", report.families[key.first].name, width,
-                        name(key.second), brief_count(row.cases), fmt::format("{}/{}", row.clean, row.kernels),
-                        share(row.best_share), row.best, share(row.worst_share), row.worst);
+    const auto line = [&](const auto&... cells) {
+        return fmt::format("{:<{}}  {:<11} {:>7} {:>7} {:>9} {:>8}  {}", cells...);
+    };
+    std::string out =
+        paint.bold(line("family", width, "simplex", "cases", "clean", "median %", "worst %", "worst kernel")) + "\n";
+    for (auto& [key, row] : rows) {
+        std::stable_sort(row.wrong.begin(), row.wrong.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+        const auto& [worst, kernel] = row.wrong.back();
+        out += line(report.families[key.first].name, width, name(key.second), brief_count(row.cases),
+                    fmt::format("{}/{}", row.clean, row.wrong.size()),
+                    percent(row.wrong[row.wrong.size() / 2].first, row.cases), percent(worst, row.cases),
+                    worst == 0 ? std::string("-") : kernel) +
+               "\n";
     }
-    return out + paint.dim(
-                     "clean: kernels without a finding, of all. best, worst: the kernel with the least and the "
-                     "greatest share of wrong cases.\n");
+    return out +
+           paint.dim(
+               "clean: kernels without a finding, of all. median, worst: share of wrong cases over the kernels.\n");
 }
 
 std::string replay_command(const Report& report, const KernelResult& k, const audit::Witness& w,

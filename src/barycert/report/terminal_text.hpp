@@ -30,7 +30,7 @@ inline std::string percent(std::uint64_t part, std::uint64_t whole) {
     const double p = 100 * static_cast<double>(part) / static_cast<double>(whole);
     if (p < 0.001) return "<0.001";
     if (p > 99.99) return ">99.99";
-    return fmt::format(p < 0.1 ? "{:.3f}" : p < 10 ? "{:.2f}" : "{:.1f}", p);
+    return fmt::format("{:.{}f}", p, p < 0.1 ? 3 : p < 10 ? 2 : 1);
 }
 
 class Colours {
