@@ -63,11 +63,8 @@ TEST_F(Failures, Contradictory) {
     expect_bad_file("index.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", ":6: no such node");
     expect_bad_file("binary.ply", "ply\nformat binary_little_endian 1.0\n", ":2: cannot read a binary .ply");
     expect_bad_file("short.stl", std::string(90, 'x'), ": neither a text nor a whole binary .stl");
-    expect_failure(folder_.write("apart.poly", "0
-6 0
-" + side_rows(0, "1
-", "") + "0
-"), "apart.node: no such file");
+    const std::string apart = folder_.write("apart.poly", "0\n6 0\n" + side_rows(0, "1\n", "") + "0\n");
+    expect_failure(apart, "apart.node: no such file");
 }
 
 TEST_F(Failures, SelfIntersecting) {
