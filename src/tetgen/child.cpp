@@ -20,7 +20,8 @@
 namespace barycert {
 namespace {
 
-[[noreturn]] void be_child(const std::function<void(const Answer&)>& work, int answer, int print) {
+/// noexcept: what `work` throws must end the child, not unwind into the parent's code.
+[[noreturn]] void be_child(const std::function<void(const Answer&)>& work, int answer, int print) noexcept {
 #ifdef __linux__
     prctl(PR_SET_PDEATHSIG, SIGKILL);  // no orphan goes on meshing
 #endif
