@@ -19,6 +19,19 @@ int signed_area(const T* v, const T* p, T* w) {
     return 0;
 }
 
+/// Signed areas of the point with each side, coordinates relative to the point, over their sum.
+template <class T>
+int relative_to_point(const T* v, const T* p, T* w) {
+    const auto q = at2(p, 0), a = at2(v, 0) - q, b = at2(v, 1) - q, c = at2(v, 2) - q;
+    const T aa = cross(b, c), ab = cross(c, a), ac = cross(a, b);
+    const T sum = aa + ab + ac;
+    if (sum == 0) return 1;
+    w[0] = aa / sum;
+    w[1] = ab / sum;
+    w[2] = ac / sum;
+    return 0;
+}
+
 /// The closed formula with origin a; the third weight is what is left of 1.
 template <class T>
 int beta_gamma(const T* v, const T* p, T* w) {

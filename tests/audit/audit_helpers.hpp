@@ -1,0 +1,71 @@
+// Audits in a few lines, for tests.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "barycert/audit/runner.hpp"
+#include "barycert/mesh/tetgen_io.hpp"
+
+namespace barycert::audit {
+
+inline const Kernel& kernel_named(const std::string& name) {
+    for (const Kernel& k : catalogue()) {
+        if (k.name == name) return k;
+    }
+    ADD_FAILURE() << "no kernel " << name;
+    return catalogue().front();
+}
+
+inline const Family& family_named(const std::string& name) {
+    for (const Family& f : all_families()) {
+        if (f.name == name) return f;
+    }
+    ADD_FAILURE() << "no family " << name;
+    return all_families().front();
+}
+
+/// The project's own 3D and 2D meshes.
+inline const MeshSource& own_meshes() {
+    static const MeshSource source = [] {
+        MeshSource s;
+        for (const char* name : {"cube-hole", "bracket", "lattice-box", "plate"}) {
+            s.add(name, read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + name).value());
+        }
+        return s;
+    }();
+    return source;
+}
+
+inline Report audit_of(std::vector<Kernel> kernels, std::vector<Family> families, std::uint64_t count,
+                       const MeshSource& meshes = {}, int threads = 2) {
+    Options options;
+    options.kernels = std::move(kernels);
+    options.families = std::move(families);
+    options.count = count;
+    options.threads = threads;
+    return run(options, meshes).value();
+}
+
+/// The statistics of one kernel in one family.
+inline Statistics statistics_of(const Kernel& kernel, const std::string& family, std::uint64_t count,
+                                const MeshSource& meshes = {}) {
+    return audit_of({kernel}, {family_named(family)}, count, meshes).kernels.at(0).families.at(0).statistics;
+}
+
+inline Statistics statistics_of(const std::string& kernel, const std::string& family, std::uint64_t count,
+                                const MeshSource& meshes = {}) {
+    return statistics_of(kernel_named(kernel), family, count, meshes);
+}
+
+inline double share(const Statistics& s, std::uint64_t n) {
+    return static_cast<double>(n) / static_cast<double>(s.cases);
+}
+
+inline std::uint64_t count_of(const Statistics& s, Finding f) {
+    return s.counts[static_cast<std::size_t>(f)];
+}
+
+}  // namespace barycert::audit

@@ -1,0 +1,87 @@
+// Families from meshes: where their points lie, told by the oracle.
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <map>
+
+#include "audit_helpers.hpp"
+
+namespace barycert::audit {
+namespace {
+
+std::map<Feature, int> features(const std::string& family, Simplex s) {
+    std::map<Feature, int> count;
+    for (std::uint64_t i = 0; i < 1000; ++i)
+        ++count[exact::ask(make_case(family_named(family), s, 1, i, own_meshes())).feature];
+    return count;
+}
+
+TEST(MeshFamilies, InsideIsInside) {
+    for (const Simplex s : {Simplex::triangle, Simplex::tetrahedron}) {
+        EXPECT_GE(features("mesh.inside", s)[Feature::interior], 995) << name(s);
+        EXPECT_EQ(features("mesh.centroids", s)[Feature::interior], 1000) << name(s);
+    }
+}
+
+TEST(MeshFamilies, VerticesAreVertices) {
+    for (const Simplex s : all_simplices) EXPECT_EQ(features("mesh.vertices", s)[Feature::vertex], 1000) << name(s);
+}
+
+TEST(MeshFamilies, OneUlpFromAVertexIsNotAVertex) {
+    for (const Simplex s : {Simplex::triangle, Simplex::tetrahedron})
+        EXPECT_EQ(features("mesh.vertices.ulp", s)[Feature::vertex], 0) << name(s);
+}
+
+TEST(MeshFamilies, FacesHaveAllThreeKinds) {
+    auto count = features("mesh.faces", Simplex::tetrahedron);
+    EXPECT_GT(count[Feature::interior], 50);
+    EXPECT_GT(count[Feature::outside], 50);
+    EXPECT_GT(count[Feature::face], 50);
+}
+
+TEST(MeshFamilies, HullNearIsOutsideOrOnTheHull) {
+    for (const Simplex s : {Simplex::triangle, Simplex::tetrahedron}) {
+        auto count = features("mesh.hull.near", s);
+        EXPECT_GE(count[Feature::outside], 900) << name(s);
+        EXPECT_LE(count[Feature::interior], 50) << name(s);
+    }
+}
+
+TEST(MeshFamilies, HullFarIsOutside) {
+    EXPECT_GE(features("mesh.hull.far", Simplex::tetrahedron)[Feature::outside], 990);
+}
+
+TEST(MeshFamilies, NeighboursAreMostlyOutside) {
+    auto count = features("mesh.neighbours", Simplex::tetrahedron);
+    EXPECT_GE(count[Feature::outside], 700);  // the rest: facets without a neighbour
+    auto vertices = features("mesh.neighbours.vertices", Simplex::tetrahedron);
+    EXPECT_GE(vertices[Feature::vertex], 500);
+    EXPECT_GE(vertices[Feature::outside], 100);
+}
+
+TEST(MeshFamilies, NodalValuesComeFromTheField) {
+    MeshSource source;
+    source.add("cube-hole", read_tetgen(BARYCERT_DATA_DIR "/meshes/cube-hole").value());
+    const Mesh& mesh = source.meshes().front().mesh;
+    ASSERT_FALSE(mesh.point_fields.empty());
+    Random random(1);
+    const Draw draw = source.any(Simplex::tetrahedron, random);
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_EQ(draw.simplex.values[i], mesh.point_fields[0].data[static_cast<std::size_t>(draw.nodes[i])]);
+}
+
+TEST(MeshFamilies, AMeshSuppliesItsOwnSimplicesOnly) {
+    MeshSource flat, solid;
+    flat.add("plate", read_tetgen(BARYCERT_DATA_DIR "/meshes/plate").value());
+    solid.add("cube-hole", read_tetgen(BARYCERT_DATA_DIR "/meshes/cube-hole").value());
+    EXPECT_TRUE(flat.supplies(Simplex::triangle));
+    EXPECT_FALSE(flat.supplies(Simplex::tetrahedron));
+    EXPECT_FALSE(solid.supplies(Simplex::triangle));
+    EXPECT_TRUE(solid.supplies(Simplex::segment));
+    EXPECT_FALSE(MeshSource().supplies(Simplex::triangle));
+}
+
+}  // namespace
+}  // namespace barycert::audit

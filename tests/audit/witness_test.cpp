@@ -1,0 +1,120 @@
+// Witnesses: they show what they say, and survive a file bit for bit.
+
+#include "barycert/audit/witness_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "audit_helpers.hpp"
+#include "barycert/report/json.hpp"
+
+namespace barycert::audit {
+namespace {
+
+Report nasty_audit() {
+    return audit_of(
+        catalogue(),
+        {family_named("huge"), family_named("subnormal"), family_named("lattice.tenths"), family_named("mesh.faces")},
+        300, own_meshes());
+}
+
+class TemporaryFile {
+public:
+    explicit TemporaryFile(const std::string& bytes)
+        : path_(testing::TempDir() + "witness-" + std::to_string(getpid()) + ".json") {
+        std::ofstream(path_, std::ios::binary) << bytes;
+    }
+    ~TemporaryFile() { std::remove(path_.c_str()); }
+    const std::string& path() const { return path_; }
+
+private:
+    std::string path_;
+};
+
+TEST(Witness, ShowsWhatItSays) {
+    int seen = 0;
+    for (const KernelResult& k : nasty_audit().kernels) {
+        for (const Witness& w : k.witnesses) {
+            const exact::Answer answer = exact::ask(w.c);
+            std::array<double, 4> weights{};
+            const int status = k.kernel.weights(w.c.vertices.data(), w.c.point.data(), weights.data());
+            const Comparison r = compare(k.kernel, w.c, answer, status, weights);
+            if (w.reason == "worst_weight_ulp") {
+                EXPECT_EQ(*std::max_element(r.weight_ulps.begin(), r.weight_ulps.end()), w.magnitude) << k.kernel.name;
+            } else {
+                const auto finding = finding_named(w.reason);
+                ASSERT_TRUE(finding) << w.reason;
+                EXPECT_GT(r.counts[static_cast<std::size_t>(*finding)], 0) << k.kernel.name << " " << w.reason;
+                EXPECT_EQ(r.weight_error, w.magnitude) << k.kernel.name << " " << w.reason;
+            }
+            ++seen;
+        }
+    }
+    EXPECT_GT(seen, 100);
+}
+
+void expect_same(const std::vector<Witness>& read, const Report& report) {
+    std::size_t i = 0;
+    for (const KernelResult& k : report.kernels) {
+        for (const Witness& w : k.witnesses) {
+            ASSERT_LT(i, read.size());
+            EXPECT_EQ(read[i].kernel, w.kernel);
+            EXPECT_EQ(read[i].reason, w.reason);
+            EXPECT_EQ(read[i].family, w.family);
+            EXPECT_EQ(read[i].index, w.index);
+            EXPECT_EQ(read[i].seed, w.seed);
+            EXPECT_EQ(read[i].c.simplex, w.c.simplex);
+            for (std::size_t x = 0; x < 12; ++x)
+                EXPECT_EQ(std::bit_cast<std::uint64_t>(read[i].c.vertices[x]),
+                          std::bit_cast<std::uint64_t>(w.c.vertices[x]));
+            for (std::size_t x = 0; x < 3; ++x)
+                EXPECT_EQ(std::bit_cast<std::uint64_t>(read[i].c.point[x]), std::bit_cast<std::uint64_t>(w.c.point[x]));
+            for (std::size_t x = 0; x < 4; ++x)
+                EXPECT_EQ(std::bit_cast<std::uint64_t>(read[i].c.values[x]),
+                          std::bit_cast<std::uint64_t>(w.c.values[x]));
+            ++i;
+        }
+    }
+    EXPECT_EQ(i, read.size());
+}
+
+TEST(Witness, FilesKeepEveryBit) {
+    const Report report = nasty_audit();
+    expect_same(read_witnesses(TemporaryFile(witness_file(report)).path()).value(), report);
+    expect_same(read_witnesses(TemporaryFile(report::json_report(report)).path()).value(), report);
+}
+
+std::string refusal(const std::string& bytes) {
+    const TemporaryFile file(bytes);
+    const auto r = read_witnesses(file.path());
+    EXPECT_FALSE(r) << bytes;
+    if (r) return "";
+    EXPECT_EQ(r.error().file, file.path());
+    return r.error().message();
+}
+
+TEST(Witness, MalformedFilesAreRefused) {
+    const std::string good =
+        R"({"schema":1,"witnesses":[{"simplex":"triangle","vertices":[["0","0"],["1","0"],["0","1"]],"point":["0x1p-2","0.25"]}]})";
+    EXPECT_EQ(read_witnesses(TemporaryFile(good).path()).value().size(), 1U);
+    const auto replaced = [&](const std::string& from, const std::string& to) {
+        std::string s = good;
+        return s.replace(s.find(from), from.size(), to);
+    };
+    EXPECT_NE(refusal("not json").find("JSON"), std::string::npos);
+    EXPECT_NE(refusal(good.substr(0, 60)).find("JSON"), std::string::npos);
+    EXPECT_NE(refusal(replaced("\"schema\":1", "\"schema\":99")).find("schema"), std::string::npos);
+    EXPECT_NE(refusal(replaced("triangle", "pentagon")).find("pentagon"), std::string::npos);
+    EXPECT_NE(refusal(replaced("\"0x1p-2\"", "\"nan\"")).find("point"), std::string::npos);
+    EXPECT_NE(refusal(replaced("\"0x1p-2\"", "\"1e999\"")).find("point"), std::string::npos);
+    EXPECT_NE(refusal(replaced("\"0x1p-2\",", "")).find("point"), std::string::npos);
+    EXPECT_NE(refusal(replaced("[\"1\",\"0\"]", "[\"1\"]")).find("vertex 1"), std::string::npos);
+    EXPECT_NE(refusal(replaced("\"witnesses\"", "\"others\"")).find("witnesses"), std::string::npos);
+    EXPECT_NE(refusal("[]").find("schema"), std::string::npos);
+    EXPECT_FALSE(read_witnesses("/nowhere/at/all.json"));
+}
+
+}  // namespace
+}  // namespace barycert::audit

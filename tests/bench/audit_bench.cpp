@@ -1,0 +1,53 @@
+// A whole audit: every tetrahedron kernel on a million cases from a mesh; time per case, and memory against the number
+// of cases.
+
+#include <benchmark/benchmark.h>
+#include <sys/resource.h>
+
+#include "barycert/audit/runner.hpp"
+#include "barycert/mesh/tetgen_io.hpp"
+
+namespace {
+
+using namespace barycert;
+
+double peak_mib() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+void audit_mesh_cases(benchmark::State& state) {
+    audit::MeshSource meshes;
+    meshes.add("bracket", read_tetgen(BARYCERT_DATA_DIR "/meshes/bracket").value());
+    audit::Options options;
+    options.kernels = kernels_matching("tetrahedron.*");
+    options.families = audit::families_matching("mesh.inside");
+    options.threads = static_cast<int>(state.range(0));
+    options.count = static_cast<std::uint64_t>(state.range(1));
+    for (auto _ : state) {
+        const audit::Report report = audit::run(options, meshes).value();
+        // Verified before it is believed: the plain kernels are right on nearly all of these, the float32 ones too.
+        if (report.cases != options.count || report.kernels.size() != options.kernels.size())
+            state.SkipWithError("wrong counts");
+    }
+    state.counters["cases/s"] =
+        benchmark::Counter(static_cast<double>(options.count), benchmark::Counter::kIsIterationInvariantRate);
+    state.counters["kernels"] = static_cast<double>(options.kernels.size());
+    state.counters["peak MiB so far"] = peak_mib();
+}
+
+}  // namespace
+
+// Small counts first: if memory grew with cases, the last line's peak would show it.
+BENCHMARK(audit_mesh_cases)
+    ->ArgNames({"threads", "cases"})
+    ->Args({1, 10000})
+    ->Args({2, 100000})
+    ->Args({1, 1000000})
+    ->Args({2, 1000000})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(1);
+
+BENCHMARK_MAIN();
