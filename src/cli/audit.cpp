@@ -1,14 +1,14 @@
 // barycert audit: run kernels over families of cases against the oracle and report.
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <chrono>
-#include <cstdio>
 #include <memory>
 
 #include "barycert/audit/runner.hpp"
 #include "barycert/audit/thresholds.hpp"
 #include "barycert/audit/witness_file.hpp"
+#include "barycert/core/text.hpp"
 #include "barycert/report/json.hpp"
 #include "barycert/report/terminal.hpp"
 #include "command.hpp"
@@ -33,12 +33,11 @@ public:
         if (shown_ && now - last_ < std::chrono::milliseconds(100)) return;
         shown_ = true;
         last_ = now;
-        fmt::print(stderr, "\r\033[K{:3d} %  {} of {} cases, {}", p.cases_done * 100 / p.cases_total, p.cases_done,
-                   p.cases_total, p.family);
-        std::fflush(stderr);
+        tell(fmt::format("\r\033[K{:3d} %  {} of {} cases, {}", p.cases_done * 100 / p.cases_total, p.cases_done,
+                         p.cases_total, p.family));
     }
     void clear() const {
-        if (shown_) fmt::print(stderr, "\r\033[K");
+        if (shown_) tell("\r\033[K");
     }
 
 private:
@@ -53,7 +52,12 @@ int run_audit(const AuditArguments& a) {
         if (!rule) return fail(rule.error());
         rules.push_back(*rule);
     }
-    for (const std::string& path : {a.json, a.witnesses}) {
+    const bool table = !a.quiet && a.json != "-" && a.witnesses != "-";
+    if (!a.json.empty() && same_output(a.json, a.witnesses))
+        return fail({.what = "--json and --witnesses name the same output",
+                     .file = a.json,
+                     .remedy = "give each its own; the report of --json holds the witnesses too"});
+    for (const std::string& path : {a.json, a.witnesses, std::string(table ? "-" : "")}) {
         if (const Status ok = check_output(path); !ok) return fail(ok.error());
     }
     audit::Options options;
@@ -75,24 +79,24 @@ int run_audit(const AuditArguments& a) {
     line.clear();
     if (!report) return fail(report.error());
 
-    if (!a.quiet && a.json != "-" && a.witnesses != "-") {
-        report::TerminalStyle style{.colour = colour_on_stdout(),
-                                    .witness_path = a.witnesses.empty() ? a.json : a.witnesses,
-                                    .mesh_arguments = a.meshes};
-        const Status written = write_output("-", report::terminal_report(*report, style));
-        if (!written) return fail(written.error());
+    // Files first: whoever reads the table may stop reading (`| head`). A file that could not be written does not cost
+    // the user the table, the fruit of the whole run.
+    std::vector<Status> written;
+    if (!a.json.empty()) written.push_back(write_output(a.json, report::json_report(*report)));
+    if (!a.witnesses.empty()) written.push_back(write_output(a.witnesses, audit::witness_file(*report)));
+    if (table) {
+        const report::TerminalStyle style{.colour = colour_on_stdout(),
+                                          .witness_path = a.witnesses.empty() ? a.json : a.witnesses,
+                                          .mesh_arguments = a.meshes,
+                                          .library_arguments = a.libraries};
+        written.push_back(write_output("-", report::terminal_report(*report, style)));
     }
-    if (!a.json.empty()) {
-        if (const Status written = write_output(a.json, report::json_report(*report)); !written)
-            return fail(written.error());
-    }
-    if (!a.witnesses.empty()) {
-        if (const Status written = write_output(a.witnesses, audit::witness_file(*report)); !written)
-            return fail(written.error());
+    for (const Status& status : written) {
+        if (!status) return fail(status.error());
     }
     const auto broken = audit::violations(*report, rules);
     for (const audit::Violation& v : broken)
-        fmt::print(stderr, "fails: {}: {} is {:.6g}, over {:.6g}\n", v.kernel, v.figure, v.value, v.limit);
+        tell(fmt::format("fails: {}: {} is {}, over {}\n", v.kernel, v.figure, shortest(v.value), shortest(v.limit)));
     return broken.empty() ? exit_clean : exit_findings;
 }
 
@@ -122,6 +126,7 @@ void add_audit(CLI::App& app, int& exit_code) {
         ->type_name("N");
     sub->add_option("--seed", a->seed, "The same seed gives the same cases on every machine")
         ->capture_default_str()
+        ->check(not_negative())
         ->type_name("S");
     sub->add_option("--threads", a->threads, "0: all of them")
         ->capture_default_str()
@@ -135,7 +140,8 @@ void add_audit(CLI::App& app, int& exit_code) {
     for (const std::string& rule : audit::rule_names()) names += " " + rule;
     sub->add_option("--fail-on", a->fail_on,
                     "Exit with 1 if a kernel exceeds NAME or NAME>NUMBER; may be repeated. NAME is one of:" + names)
-        ->type_name("RULE...");
+        ->type_name("RULE")
+        ->allow_extra_args(false);
     sub->add_flag("--quiet", a->quiet, "No table and no progress: only files and the exit code");
     sub->callback([a, &exit_code] { exit_code = run_audit(*a); });
 }

@@ -25,6 +25,9 @@ void add_catalogue(CLI::App& app, int& exit_code);
 /// Replaces this process by barycert-tetgen with the same arguments; returns exit_error if it cannot be found.
 int exec_mesh(int argc, char** argv);
 
+/// Text on stderr. That nobody can read it (a closed or full stderr) is no reason to stop.
+void tell(std::string_view text);
+
 /// "error: ..." on stderr; returns exit_error.
 int fail(const Error& error);
 
@@ -41,6 +44,12 @@ Status write_output(const std::string& path, std::string_view bytes);
 
 /// An Error if write_output(path, ...) is bound to fail: told before the work, not after.
 Status check_output(const std::string& path);
+
+/// True if both name one file, or are the same word.
+bool same_output(const std::string& a, const std::string& b);
+
+/// Refuses "-1" where a count or seed is due: the parser would take it for 2^64 - 1.
+CLI::Validator not_negative();
 
 /// True if text for people on that stream may be coloured: a terminal, and NO_COLOR is not set.
 bool colour_on_stdout();

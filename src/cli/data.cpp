@@ -1,11 +1,15 @@
 // Selection and loading: meshes, kernels, families; and output files.
 
-#include <fmt/core.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 
 #include "barycert/core/output_file.hpp"
@@ -67,9 +71,14 @@ Result<std::vector<Item>> select(const std::vector<std::string>& globs, All all,
 
 }  // namespace
 
+void tell(std::string_view text) {
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::fflush(stderr);
+}
+
 int fail(const Error& error) {
     std::fflush(stdout);
-    fmt::print(stderr, "error: {}\n", error.message());
+    tell(fmt::format("error: {}\n", error.message()));
     return exit_error;
 }
 
@@ -115,7 +124,7 @@ Result<std::vector<audit::Family>> select_families(const std::vector<std::string
 Status write_output(const std::string& path, std::string_view bytes) {
     if (path == "-") {
         if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
-            return Error{.what = "cannot write to stdout"};
+            return Error{.what = "cannot write to stdout", .found = std::strerror(errno)};
         return Done{};
     }
     OutputFile file(path);
@@ -124,19 +133,33 @@ Status write_output(const std::string& path, std::string_view bytes) {
 }
 
 Status check_output(const std::string& path) {
-    if (path.empty() || path == "-") return Done{};
+    if (path.empty()) return Done{};
+    if (path == "-") {
+        if (fcntl(STDOUT_FILENO, F_GETFD) < 0)
+            return Error{.what = "cannot write to stdout", .found = std::strerror(errno)};
+        return Done{};
+    }
+    // A pipe would see its writer come and go: only ask of it whether it may be written.
+    struct stat status {};
+    if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
+        if (access(path.c_str(), W_OK) != 0)
+            return Error{.what = "cannot write the file", .file = path, .found = std::strerror(errno)};
+        return Done{};
+    }
+    return OutputFile(path).close();
+}
+
+bool same_output(const std::string& a, const std::string& b) {
     std::error_code ignored;
-    if (fs::is_directory(path, ignored))
-        return Error{.what = "cannot write", .file = path, .expected = "a file", .found = "a folder"};
-    const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, ignored))
-        return Error{.what = "cannot write",
-                     .file = path,
-                     .found = "no folder " + folder.string(),
-                     .remedy = "make the folder first"};
-    if (access(folder.c_str(), W_OK) != 0)
-        return Error{.what = "cannot write", .file = path, .found = "no permission in " + folder.string()};
-    return Done{};
+    return a == b || fs::equivalent(a, b, ignored) ||
+           fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+}
+
+CLI::Validator not_negative() {
+    return {[](std::string& text) {
+                return text.find('-') == std::string::npos ? std::string() : "expected a number >= 0, found " + text;
+            },
+            ""};
 }
 
 bool colour_on_stdout() {

@@ -9,7 +9,8 @@
 
 int main(int argc, char** argv) {
     using namespace barycert;
-    if (argc > 1 && std::string_view(argv[1]) == "mesh") return cli::exec_mesh(argc, argv);
+    const std::string_view first = argc > 1 ? argv[1] : "";
+    if (first == "mesh") return cli::exec_mesh(argc, argv);
 
     CLI::App app("barycert: barycentric interpolation at the speed of floating point, audited against exact arithmetic",
                  "barycert");
@@ -23,6 +24,12 @@ int main(int argc, char** argv) {
     cli::add_replay(app, exit_code);
     cli::add_catalogue(app, exit_code);
     app.add_subcommand("mesh", "Mesh a PLC (.poly .smesh .off .stl .ply) with TetGen: runs barycert-tetgen");
+    const auto named_first = [&](const CLI::App* sub) { return sub->get_name() == first; };
+    if (!first.empty() && first.front() != '-' && app.get_subcommands(named_first).empty()) {
+        return cli::fail({.what = "no such subcommand",
+                          .found = '"' + std::string(first) + '"',
+                          .remedy = "`barycert --help` lists them"});
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

@@ -1,8 +1,9 @@
 // barycert replay: show a witness, every kernel's weights next to the exact ones.
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -22,17 +23,21 @@ struct ReplayArguments {
     std::uint64_t seed = 1;
 };
 
-/// True if the witness still shows what it says of its kernel; nothing if it names no kernel known here.
-std::optional<bool> reproduces(const audit::Witness& w, const std::vector<Kernel>& kernels) {
+/// Why the witness does not show what it says of its kernel; empty if it does, or says nothing.
+std::string not_shown(const audit::Witness& w, const std::vector<Kernel>& kernels) {
+    if (w.kernel.empty() || w.reason.empty()) return "";
+    const auto finding = audit::finding_named(w.reason);
+    if (!finding && w.reason != "worst_weight_ulp") return "no class of finding has that name";
     const auto k = std::find_if(kernels.begin(), kernels.end(), [&](const Kernel& x) { return x.name == w.kernel; });
-    if (k == kernels.end() || w.reason.empty()) return std::nullopt;
+    if (k == kernels.end()) return "no kernel of that name here; name its library with --kernel-library";
+    if (k->simplex != w.c.simplex) return "the kernel is for another simplex";
     const exact::Answer answer = exact::ask(w.c);
     std::array<double, 4> weights{};
     const int status = k->weights(w.c.vertices.data(), w.c.point.data(), weights.data());
     const audit::Comparison r = audit::compare(*k, w.c, answer, status, weights);
-    if (w.reason == "worst_weight_ulp") return *std::max_element(r.weight_ulps.begin(), r.weight_ulps.end()) > 0;
-    const auto finding = audit::finding_named(w.reason);
-    return finding && r.counts[static_cast<std::size_t>(*finding)] != 0;
+    const bool shown = finding ? r.counts[static_cast<std::size_t>(*finding)] != 0
+                               : *std::max_element(r.weight_ulps.begin(), r.weight_ulps.end()) > 0;
+    return shown ? "" : "the kernel's answer does not have this finding";
 }
 
 /// The witness that --family and --case describe, made again.
@@ -86,10 +91,13 @@ int run_replay(const ReplayArguments& a) {
     if (a.file.empty() == a.family.empty())
         return fail({.what = "name a witness file, or a case by --family and --case"});
     if (!a.family.empty() && !a.index) return fail({.what = "--family needs --case"});
+    if (std::error_code ignored; std::filesystem::is_directory(a.file, ignored))
+        return fail({.what = "cannot read the witnesses", .file = a.file, .expected = "a file", .found = "a folder"});
     const auto witnesses = a.file.empty() ? made_again(a, *kernels) : audit::read_witnesses(a.file);
     if (!witnesses) return fail(witnesses.error());
     bool any = false, all_reproduced = true;
-    const report::TerminalStyle style{.colour = colour_on_stdout(), .witness_path = {}, .mesh_arguments = {}};
+    const report::TerminalStyle style{
+        .colour = colour_on_stdout(), .witness_path = {}, .mesh_arguments = {}, .library_arguments = {}};
     for (const audit::Witness& w : *witnesses) {
         if (!a.file.empty() && !a.kernel.empty() && !glob_match(a.kernel, w.kernel)) continue;
         if (!a.file.empty() && !a.reason.empty() && !glob_match(a.reason, w.reason)) continue;
@@ -97,8 +105,8 @@ int run_replay(const ReplayArguments& a) {
             !written)
             return fail(written.error());
         any = true;
-        if (const auto again = reproduces(w, *kernels); again && !*again) {
-            fmt::print(stderr, "not reproduced: {} of {}\n", w.reason, w.kernel);
+        if (const std::string why = not_shown(w, *kernels); !why.empty()) {
+            tell(fmt::format("not reproduced: {} of {}: {}\n", w.reason, w.kernel, why));
             all_reproduced = false;
         }
     }
@@ -119,8 +127,8 @@ void add_replay(CLI::App& app, int& exit_code) {
         ->type_name("NAME|GLOB");
     sub->add_option("--reason", a->reason, "Only witnesses of that class of finding")->type_name("NAME|GLOB");
     sub->add_option("--family", a->family, "Make a case again instead of reading it: its family")->type_name("NAME");
-    sub->add_option("--case", a->index, "and its number")->type_name("N");
-    sub->add_option("--seed", a->seed, "and its seed")->capture_default_str()->type_name("S");
+    sub->add_option("--case", a->index, "and its number")->check(not_negative())->type_name("N");
+    sub->add_option("--seed", a->seed, "and its seed")->capture_default_str()->check(not_negative())->type_name("S");
     sub->add_option("--simplex", a->simplex, "and its simplex, where neither family nor kernel tells")
         ->type_name("NAME");
     sub->add_option("--mesh", a->meshes, "and its meshes, in the order given to the audit; barycert's own if none")

@@ -22,7 +22,7 @@ std::string kernel_table(const Report& report, const Colours& paint) {
     for (const KernelResult& k : report.kernels) width = std::max(width, k.kernel.name.size());
     const auto row = [&](const auto&... cells) {
         return fmt::format(
-            "{:<{}}  {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8} {:>8} {:>8} {:>6}", cells...);
+            "{:<{}}  {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>6}", cells...);
     };
     std::string out;
     out += paint.bold(row("kernel", width, "cases", "wrong %", "opp.", "false 0", "false", "not", "false", "false",
@@ -92,11 +92,13 @@ std::string family_table(const Report& report, const Colours& paint) {
 
 std::string replay_command(const Report& report, const KernelResult& k, const audit::Witness& w,
                            const TerminalStyle& style) {
+    std::string libraries;
+    for (const std::string& library : style.library_arguments) libraries += " --kernel-library " + shell_word(library);
     if (!style.witness_path.empty()) {
-        return fmt::format("barycert replay {} --kernel {} --reason {}", shell_word(style.witness_path),
+        return fmt::format("barycert replay {}{} --kernel {} --reason {}", shell_word(style.witness_path), libraries,
                            shell_word(k.kernel.name), w.reason);
     }
-    std::string command = "barycert replay";
+    std::string command = "barycert replay" + libraries;
     const auto family =
         std::find_if(report.families.begin(), report.families.end(), [&](const auto& f) { return f.name == w.family; });
     if (family != report.families.end() && family->needs_mesh) {

@@ -10,16 +10,16 @@
 
 namespace barycert::report {
 
-/// At most seven characters: "12", "12345", "1.23e+06".
+/// At most seven characters, up to 1e99: "12", "1234567", "1.2e+07".
 inline std::string brief_count(std::uint64_t n) {
     if (n == 0) return "-";
-    return n < 1000000 ? std::to_string(n) : fmt::format("{:.3g}", static_cast<double>(n));
+    return n < 10000000 ? std::to_string(n) : fmt::format("{:.2g}", static_cast<double>(n));
 }
 
-/// A magnitude in three digits; "-" where there is none.
+/// A magnitude in three digits, of at most nine characters; "-" where there is none.
 inline std::string brief(double x) {
     if (std::isnan(x) || x < 0) return "-";
-    if (x >= 1000 && x < 100000) return fmt::format("{:.0f}", x);
+    if (x >= 999.5 && x < 99999.5) return fmt::format("{:.0f}", x);
     return fmt::format("{:.3g}", x);
 }
 
@@ -29,7 +29,7 @@ inline std::string percent(std::uint64_t part, std::uint64_t whole) {
     if (part == whole) return "100";
     const double p = 100 * static_cast<double>(part) / static_cast<double>(whole);
     if (p < 0.001) return "<0.001";
-    if (p > 99.99) return ">99.99";
+    if (p >= 99.95) return ">99.9";  // one decimal would round it to 100.0
     return fmt::format("{:.{}f}", p, p < 0.1 ? 3 : p < 10 ? 2 : 1);
 }
 
