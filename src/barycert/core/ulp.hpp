@@ -19,19 +19,17 @@ constexpr int ulp_exponent(double x) {
 
 /// |computed - reference| in ulps of the reference. Preconditions: both finite, reference != 0.
 ///
-/// The subtraction is exact where the two lie within a factor of two (Sterbenz); elsewhere it is rounded once,
-/// which leaves 53 good bits of a number that then exceeds 2^51. Scaling by a power of two is split so that
-/// neither step leaves the range; a result over the largest double is reported as that double.
+/// The subtraction is exact where the two lie within a factor of two (Sterbenz); elsewhere it is rounded once, so that
+/// the result is the exact error rounded to nearest. Scaling by a power of two loses nothing: two doubles that differ
+/// do so by at least half an ulp of either. A result over the largest double is reported as that double.
 inline double ulp_error(double computed, double reference) {
-    const double halved = std::fabs(computed * 0.5 - reference * 0.5);  // halves: the difference cannot overflow
-    double difference = halved;
-    int shift = 1 - ulp_exponent(reference);
-    if (halved < 0x1p-1000) {  // halving may have rounded a subnormal; there the plain difference is exact
-        difference = std::fabs(computed - reference);
-        shift -= 1;
+    double difference = std::fabs(computed - reference);
+    int shift = -ulp_exponent(reference);
+    if (std::isinf(difference)) {  // both are huge then, and halving them is exact
+        difference = std::fabs(computed * 0.5 - reference * 0.5);
+        ++shift;
     }
-    const double scaled = std::ldexp(difference, shift);
-    return std::min(scaled, 0x1.fffffffffffffp+1023);
+    return std::min(std::ldexp(difference, shift), 0x1.fffffffffffffp+1023);
 }
 
 /// The next double above / below x. Preconditions: x finite.
