@@ -9,6 +9,7 @@
 namespace barycert {
 
 std::string shortest(double x) {
+    if (std::isnan(x)) return "nan";  // its sign bit says nothing
     std::array<char, 32> buffer{};
     const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x);
     return {buffer.data(), end};
@@ -30,11 +31,15 @@ std::optional<double> parse_double(std::string_view text) {
     double x = 0;
     const char* const last = body.data() + body.size();
     if (body.starts_with("0x") || body.starts_with("0X")) {
+        // from_chars would take a second sign, "inf" and "nan" here.
+        if (body.find_first_of(".0123456789abcdefABCDEF", 2) != 2) return std::nullopt;
         const auto [end, error] = std::from_chars(body.data() + 2, last, x, std::chars_format::hex);
         if (error != std::errc{} || end != last) return std::nullopt;
     } else {
         const auto [end, error] = fast_float::from_chars(body.data(), last, x);
-        if (error != std::errc{} || end != last) return std::nullopt;
+        if (error == std::errc::invalid_argument || end != last) return std::nullopt;
+        // Overflow and underflow set x alike in every version of fast_float, but only newer ones call them errors.
+        if (std::isinf(x) && body.find_first_of("iI") != 0) return std::nullopt;
     }
     return negative ? -x : x;
 }
