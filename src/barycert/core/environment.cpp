@@ -17,8 +17,9 @@ double volatile_value(double x) {
     return v;
 }
 
-// 1 + 2^-53 is a tie and 1 + 3*2^-54 is not; together with the mirrored pair they tell the four modes apart. The mode
-// register is not asked, because it may lie about the unit that computes (x87 against SSE).
+// 1 + 2^-54 lies below the middle of 1 and its upper neighbour, 1 + 3*2^-54 above it; with the first one mirrored they
+// tell the four modes apart. The mode register is not asked, because it may lie about the unit that computes (x87
+// against SSE).
 std::string measured_rounding() {
     const double one = volatile_value(1);
     const double over = volatile_value(0x3p-54);
@@ -39,16 +40,16 @@ bool measured_flush_to_zero() {
 }
 
 bool measured_contraction() {
-    // (1 + 2^-30)^2 = 1 + 2^-29 + 2^-60: rounded on its own the product loses 2^-60, fused it does not.
+    // (1 + 2^-30)^2 = 1 + 2^-29 + 2^-60: rounded on its own, in any mode, the product loses 2^-60; fused it does not.
     const double x = volatile_value(1 + 0x1p-30);
     const double minus = volatile_value(-(1 + 0x1p-29));
-    return x * x + minus != 0;
+    return x * x + minus == 0x1p-60;
 }
 
 bool measured_excess_precision() {
     const double one = volatile_value(1);
     const double tiny = volatile_value(0x1p-60);
-    return (one + tiny) - one != 0;
+    return (one + tiny) - one == tiny;  // rounded upward the sum is 1 + 2^-52
 }
 
 std::string measured_simd() {
