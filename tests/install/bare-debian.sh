@@ -69,6 +69,7 @@ if [ -z "${1-}" ]; then
 fi
 share /etc/apt/apt.conf.d /etc/apt/auth.conf /etc/apt/auth.conf.d
 mount --bind /dev "$system/dev"
+mount --make-private "$system/dev"  # else the next mount would show up in this machine's own /dev
 mount -t devpts devpts "$system/dev/pts"
 mount -t proc proc "$system/proc"
 

@@ -21,15 +21,15 @@ std::string kernel_table(const Report& report, const Colours& paint) {
     std::size_t width = 6;
     for (const KernelResult& k : report.kernels) width = std::max(width, k.kernel.name.size());
     const auto row = [&](const auto&... cells) {
-        return fmt::format(
-            "{:<{}}  {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>6}", cells...);
+        return fmt::format("{:<{}} {:>5} {:>6} {:>5} {:>5} {:>5} {:>6} {:>6} {:>7} {:>6} {:>6} {:>9} {:>9} {:>8} {:>5}",
+                           cells...);
     };
     std::string out;
-    out += paint.bold(row("kernel", width, "cases", "wrong %", "opp.", "false 0", "false", "not", "false", "false",
-                          "false", "missed", "ulps", "ulps", "worst", "ns")) +
+    out += paint.bold(row("kernel", width, "cases", "wrong", "opp.", "false", "false", "not", "false", "false", "false",
+                          "missed", "ulps", "ulps", "worst", "ns")) +
            "\n";
-    out += paint.bold(row("", width, "", "", "sign", "", "non-0", "finite", "inside", "outside", "degen.", "degen.",
-                          "99.9%", "worst", "|sum-1|", "")) +
+    out += paint.bold(row("", width, "", "%", "sign", "zero", "non-0", "finite", "inside", "outside", "degen.",
+                          "degen.", "99.9%", "worst", "|sum-1|", "")) +
            "\n";
     for (const KernelResult& k : report.kernels) {
         const Statistics& s = k.total;
@@ -116,7 +116,7 @@ std::string witness_list(const Report& report, const TerminalStyle& style, const
         const bool ulps = w->reason == "worst_weight_ulp";
         const std::string magnitude = ulps                          ? brief(w->magnitude) + " ulps"
                                       : std::isfinite(w->magnitude) ? "a weight off by " + brief(w->magnitude)
-                                                                    : "no weight";
+                                                                    : "no finite weight";
         out += fmt::format("{}: {} in {}, case {} ({})\n    {}\n", paint.bold(k.kernel.name), w->reason, w->family,
                            w->index, magnitude, replay_command(report, k, *w, style));
     }

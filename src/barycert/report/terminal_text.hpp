@@ -10,10 +10,16 @@
 
 namespace barycert::report {
 
-/// At most seven characters, up to 1e99: "12", "1234567", "1.2e+07".
+/// At most five characters: "-", "9999", "12.3k", "229k", "1.32M".
 inline std::string brief_count(std::uint64_t n) {
     if (n == 0) return "-";
-    return n < 10000000 ? std::to_string(n) : fmt::format("{:.2g}", static_cast<double>(n));
+    if (n < 10000) return std::to_string(n);
+    double x = static_cast<double>(n);
+    for (const char* unit : {"k", "M", "G", "T"}) {
+        x /= 1000;
+        if (x < 999.5) return fmt::format("{:.{}f}{}", x, x < 9.995 ? 2 : x < 99.95 ? 1 : 0, unit);
+    }
+    return fmt::format("{:.1e}", static_cast<double>(n));
 }
 
 /// A magnitude in three digits, of at most nine characters; "-" where there is none.

@@ -37,12 +37,13 @@ std::string terminal_witness(const audit::Witness& witness, const std::vector<Ke
     const Case& c = witness.c;
     const int n = vertex_count(c.simplex);
     const exact::Answer answer = exact::ask(c);
-    std::string out =
-        paint.bold(fmt::format("{}{}{}", name(c.simplex),
-                               witness.kernel.empty() ? "" : ", " + witness.reason + " of " + witness.kernel, "")) +
-        "\n";
-    if (!witness.family.empty())
+    std::string title(name(c.simplex));
+    if (!witness.kernel.empty())
+        title += ", " + (witness.reason.empty() ? "" : witness.reason + " of ") + witness.kernel;
+    std::string out = paint.bold(title) + "\n";
+    if (!witness.family.empty()) {
         out += fmt::format("    family {}, case {}, seed {}\n", witness.family, witness.index, witness.seed);
+    }
     for (int i = 0; i < n; ++i)
         out += fmt::format("    v{}  ", i) + coordinates(c, [&](int axis) { return c.vertex(i, axis); });
     out += "    p   " + coordinates(c, [&](int axis) { return c.point[static_cast<std::size_t>(axis)]; });
