@@ -9,6 +9,7 @@
 
 #include "barycert/audit/comparison.hpp"
 #include "barycert/audit/witness_file.hpp"
+#include "barycert/core/environment.hpp"
 #include "barycert/core/text.hpp"
 #include "barycert/report/terminal.hpp"
 #include "command.hpp"
@@ -86,6 +87,8 @@ Result<std::vector<audit::Witness>> made_again(const ReplayArguments& a, const s
 }
 
 int run_replay(const ReplayArguments& a) {
+    const Environment environment = measure_environment();
+    if (const Status exact = check_environment(environment); !exact) return fail(exact.error());
     Result<std::vector<Kernel>> kernels = select_kernels({"*"}, a.libraries);
     if (!kernels) return fail(kernels.error());
     if (a.file.empty() == a.family.empty())
@@ -101,9 +104,9 @@ int run_replay(const ReplayArguments& a) {
     for (const audit::Witness& w : *witnesses) {
         if (!a.file.empty() && !a.kernel.empty() && !glob_match(a.kernel, w.kernel)) continue;
         if (!a.file.empty() && !a.reason.empty() && !glob_match(a.reason, w.reason)) continue;
-        if (const Status written = write_output("-", (any ? "\n" : "") + report::terminal_witness(w, *kernels, style));
-            !written)
-            return fail(written.error());
+        const std::string above = any ? "\n" : report::environment_line(environment) + "\n\n";
+        const Status written = write_output("-", above + report::terminal_witness(w, *kernels, style));
+        if (!written) return fail(written.error());
         any = true;
         if (const std::string why = not_shown(w, *kernels); !why.empty()) {
             tell(fmt::format("not reproduced: {} of {}: {}\n", w.reason, w.kernel, why));
