@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <ostream>
 #include <string>
 #include <string_view>
 
@@ -30,6 +31,10 @@ inline std::string_view name(Kind k) {
     constexpr std::array<std::string_view, 8> names{"ordinary", "bit patterns", "subnormal",   "huge",
                                                     "mixed",    "lattice",      "anisotropic", "thin"};
     return names[static_cast<std::size_t>(k)];
+}
+
+inline void PrintTo(Kind k, std::ostream* out) {
+    *out << name(k);
 }
 
 inline double finite_bits(Random& r) {
