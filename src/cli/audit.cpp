@@ -1,6 +1,7 @@
 // barycert audit: run kernels over families of cases against the oracle and report.
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <chrono>
 #include <memory>
@@ -126,7 +127,7 @@ void add_audit(CLI::App& app, int& exit_code) {
         ->type_name("N");
     sub->add_option("--seed", a->seed, "The same seed gives the same cases on every machine")
         ->capture_default_str()
-        ->check(not_negative())
+        ->check(whole_number())
         ->type_name("S");
     sub->add_option("--threads", a->threads, "0: all of them")
         ->capture_default_str()

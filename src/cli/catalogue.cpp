@@ -1,5 +1,6 @@
 // barycert kernels, barycert families: list and explain.
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "barycert/report/json.hpp"

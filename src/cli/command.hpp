@@ -1,7 +1,6 @@
 /// What the subcommands share: registration, exit codes, meshes, output.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +9,11 @@
 #include "barycert/audit/mesh_source.hpp"
 #include "barycert/core/result.hpp"
 #include "barycert/kernels/kernel.hpp"
+
+namespace CLI {
+class App;
+class Validator;
+}  // namespace CLI
 
 namespace barycert::cli {
 
@@ -48,8 +52,8 @@ Status check_output(const std::string& path);
 /// True if both name one file, or are the same word.
 bool same_output(const std::string& a, const std::string& b);
 
-/// Refuses "-1" where a count or seed is due: the parser would take it for 2^64 - 1.
-CLI::Validator not_negative();
+/// Refuses "-1" and 2^64 where a seed or the number of a case is due: the parser would take both for 2^64 - 1.
+CLI::Validator whole_number();
 
 /// True if text for people on that stream may be coloured: a terminal, and NO_COLOR is not set.
 bool colour_on_stdout();

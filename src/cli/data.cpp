@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -155,9 +157,14 @@ bool same_output(const std::string& a, const std::string& b) {
            fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
 }
 
-CLI::Validator not_negative() {
+CLI::Validator whole_number() {
     return {[](std::string& text) {
-                return text.find('-') == std::string::npos ? std::string() : "expected a number >= 0, found " + text;
+                std::uint64_t ignored = 0;
+                const char* const last = text.data() + text.size();
+                const auto [end, error] = std::from_chars(text.data(), last, ignored);
+                return error == std::errc{} && end == last
+                           ? std::string()
+                           : fmt::format("expected a whole number from 0 to 2^64 - 1, found \"{}\"", text);
             },
             ""};
 }

@@ -1,5 +1,7 @@
 // The executable barycert: one subcommand a file.
 
+#include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -11,6 +13,7 @@ int main(int argc, char** argv) {
     using namespace barycert;
     const std::string_view first = argc > 1 ? argv[1] : "";
     if (first == "mesh") return cli::exec_mesh(argc, argv);
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, like a full disk
 
     CLI::App app("barycert: barycentric interpolation at the speed of floating point, audited against exact arithmetic",
                  "barycert");

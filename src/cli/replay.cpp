@@ -1,6 +1,7 @@
 // barycert replay: show a witness, every kernel's weights next to the exact ones.
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -130,8 +131,8 @@ void add_replay(CLI::App& app, int& exit_code) {
         ->type_name("NAME|GLOB");
     sub->add_option("--reason", a->reason, "Only witnesses of that class of finding")->type_name("NAME|GLOB");
     sub->add_option("--family", a->family, "Make a case again instead of reading it: its family")->type_name("NAME");
-    sub->add_option("--case", a->index, "and its number")->check(not_negative())->type_name("N");
-    sub->add_option("--seed", a->seed, "and its seed")->capture_default_str()->check(not_negative())->type_name("S");
+    sub->add_option("--case", a->index, "and its number")->check(whole_number())->type_name("N");
+    sub->add_option("--seed", a->seed, "and its seed")->capture_default_str()->check(whole_number())->type_name("S");
     sub->add_option("--simplex", a->simplex, "and its simplex, where neither family nor kernel tells")
         ->type_name("NAME");
     sub->add_option("--mesh", a->meshes, "and its meshes, in the order given to the audit; barycert's own if none")

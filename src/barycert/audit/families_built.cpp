@@ -40,8 +40,8 @@ void ulp_grid(Case& c, Random& random, std::uint64_t index, const Grid& g) {
     set_vertex(c, 0, {g.q[0], g.q[1], 0});
     set_vertex(c, 1, {g.r[0], g.r[1], 0});
     set_vertex(c, 2, {g.apex[0], g.apex[1], 0});
-    c.point = {g.p[0] + static_cast<double>(cell % 256) * 0x1p-53, g.p[1] + static_cast<double>(cell / 256) * 0x1p-53,
-               0};
+    const std::uint64_t column = cell % 256, row = cell / 256;
+    c.point = {g.p[0] + static_cast<double>(column) * 0x1p-53, g.p[1] + static_cast<double>(row) * 0x1p-53, 0};
     random_values(c, random);
 }
 

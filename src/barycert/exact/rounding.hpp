@@ -12,9 +12,13 @@
 namespace barycert::exact {
 
 /// What is known of the part of a number below its last kept bit.
-enum class Tail : std::uint8_t { zero, positive, unknown };
+enum class Tail : std::uint8_t {
+    zero,
+    positive,  ///< in (0, 1)
+    unknown,   ///< in (-2^-5, 1)
+};
 
-/// Rounds (q + t) * 2^exponent, 0 <= t < 1 with t described by `tail`. Precondition: q >= 2^54.
+/// Rounds (q + t) * 2^exponent with t described by `tail`. Precondition: q >= 2^54.
 /// Nothing is returned where an unknown tail would decide.
 inline std::optional<double> round_scaled(std::uint64_t q, Tail tail, int exponent) {
     const int length = static_cast<int>(std::bit_width(q));
@@ -57,9 +61,11 @@ UInt128 leading_bits(const Integer& n, int bits, int& shift) {
 
 /// (numerator / denominator) * 2^exponent, correctly rounded. Precondition: denominator != 0.
 ///
-/// First from leading bits: n in [n', n'+1) 2^a with 2^118 <= n' < 2^119, d in [d', d'+1) 2^b with 2^62 <= d' < 2^63,
-/// so that n/d lies between floor(n'/(d'+1)) and floor((n'+1)/d') + 1, both between 2^55 and 2^57, times 2^(a-b). Where
-/// the two floors agree only a tie is open. About one case in twenty needs the long division that follows.
+/// First from leading bits: n in [n', n'+1) 2^a with 2^118 <= n' < 2^119 and d in [d', d'+1) 2^b with 2^62 <= d' <
+/// 2^63. With q = floor(n'/d'), which has 56 or 57 bits, the quotient x = (n/d) 2^(b-a) obeys
+///     x < (n'+1)/d' <= q + 1   and   x > n'/(d'+1) > n'/d' - n'/d'^2 > q - 2^-5.
+/// To 53 bits or fewer, all numbers of (q - 2^-5, q + 1) round alike unless q itself is a tie; only then is the long
+/// division done.
 template <class Integer>
 double round_quotient(const Integer& numerator, const Integer& denominator, int exponent = 0) {
     const int sign = numerator.sign() * denominator.sign();
@@ -67,11 +73,8 @@ double round_quotient(const Integer& numerator, const Integer& denominator, int 
     int a = 0, b = 0;
     const UInt128 n_lead = leading_bits(numerator, 119, a);
     const auto d_lead = static_cast<std::uint64_t>(leading_bits(denominator, 63, b));
-    const auto q_low = static_cast<std::uint64_t>(n_lead / (d_lead + (b > 0 ? 1 : 0)));
-    const auto q_high = static_cast<std::uint64_t>((n_lead + (a > 0 ? 1 : 0)) / d_lead);
-    if (q_low == q_high) {
-        if (const auto r = round_scaled(q_low, Tail::unknown, a - b + exponent)) return sign < 0 ? -*r : *r;
-    }
+    const auto lead = static_cast<std::uint64_t>(n_lead / d_lead);
+    if (const auto r = round_scaled(lead, Tail::unknown, a - b + exponent)) return sign < 0 ? -*r : *r;
     Integer n = abs(numerator);
     Integer d = abs(denominator);
     // floor(n 2^k / d) with k such that it has 55 or 56 bits, and whether anything is left.

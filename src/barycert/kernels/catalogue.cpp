@@ -57,6 +57,7 @@ Kernel make_kernel(Simplex s, std::string_view formula_name, WeightsFunction wei
     return k;
 }
 
+// By value: `base` may stand in the list that grows. NOLINTNEXTLINE(performance-unnecessary-value-param)
 void add_variants(std::vector<Kernel>& list, Kernel base, WeightsFunction Variants::*function) {
     for (const Variant& variant : available_variants()) {
         Kernel k = base;

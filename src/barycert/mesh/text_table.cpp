@@ -134,7 +134,7 @@ Result<TextTable> open_table(const std::string& path, std::span<const char* cons
 Status check_room(const TextTable& table) {
     // Each field takes a character and something that ends it.
     const auto room = static_cast<std::size_t>(table.end() - table.body);
-    if (table.rows <= room / (2 * table.column_count())) return Done{};
+    if (table.rows * 2 * table.column_count() <= room) return Done{};
     // Then rows are missing, or one is too short, or the last has no line end.
     const char* at = table.end();
     std::size_t rows = 0;

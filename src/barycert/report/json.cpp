@@ -1,6 +1,7 @@
 #include "barycert/report/json.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "barycert/audit/witness_file.hpp"
@@ -11,9 +12,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using audit::Statistics;
 
-/// null where there is no figure.
+/// null where there is no figure. JSON knows no infinity, and null would hide it: the largest double stands for it.
 Json figure(double x) {
-    return std::isfinite(x) && x >= 0 ? Json(x) : Json(nullptr);
+    return x >= 0 ? Json(std::min(x, std::numeric_limits<double>::max())) : Json(nullptr);
 }
 
 void add_statistics(Json& j, const Statistics& s) {
