@@ -1,0 +1,140 @@
+// What an audit covers, and that the same seed finds the same.
+
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "process.hpp"
+
+namespace barycert::cli_test {
+namespace {
+
+using Json = nlohmann::json;
+
+Json report_of(Words arguments) {
+    arguments.insert(arguments.begin(), "audit");
+    arguments.insert(arguments.end(), {"--json", "-"});
+    const Ended r = run(arguments);
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(r.err, "");
+    return parse(r.out);
+}
+
+std::set<std::string> names(const Json& list) {
+    std::set<std::string> names;
+    for (const Json& entry : list) names.insert(entry["name"].get<std::string>());
+    return names;
+}
+
+/// The report's lines without those that tell of time and threads.
+std::string timeless(const std::string& text) {
+    std::string kept;
+    for (const std::string& line : lines_of(text)) {
+        const bool of_time =
+            contains(line, "\"ns\":") || contains(line, "\"seconds\":") || contains(line, "\"threads\":");
+        if (!of_time) kept += line + '\n';
+    }
+    return kept;
+}
+
+TEST(audit, every_kernel_meets_every_family_that_applies) {
+    const Json report = report_of({"--count", "20"});
+    EXPECT_EQ(report["count"], 20);
+    EXPECT_EQ(report["seed"], 1);
+    EXPECT_EQ(names(report["kernels"]), names(parse(run({"kernels", "--json", "-"}).out)["kernels"]));
+    EXPECT_EQ(names(report["families"]), names(parse(run({"families", "--json", "-"}).out)["families"]));
+    for (const Json& kernel : report["kernels"]) {
+        std::set<std::string> expected;
+        for (const Json& family : report["families"]) {
+            const auto& simplices = family["simplices"];
+            if (std::find(simplices.begin(), simplices.end(), kernel["simplex"]) != simplices.end())
+                expected.insert(family["name"].get<std::string>());
+        }
+        EXPECT_EQ(names(kernel["families"]), expected) << kernel["name"];
+        EXPECT_EQ(kernel["cases"], 20 * expected.size());
+        for (const Json& part : kernel["families"]) EXPECT_EQ(part["cases"], 20);
+    }
+}
+
+TEST(audit, a_mesh_of_the_users_takes_the_place_of_the_own) {
+    const Json plate = report_of({mesh("plate"), "--family", "mesh.inside", "--count", "20"});
+    EXPECT_EQ(plate["meshes"], Json::array({mesh("plate")}));
+    for (const Json& kernel : plate["kernels"]) EXPECT_EQ(kernel["simplex"], "triangle");
+    const Json both = report_of({mesh("plate"), mesh("bracket"), "--family", "mesh.inside", "--count", "20"});
+    EXPECT_EQ(both["meshes"].size(), 2U);
+    std::set<std::string> simplices;
+    for (const Json& kernel : both["kernels"]) simplices.insert(kernel["simplex"].get<std::string>());
+    EXPECT_EQ(simplices.size(), 4U);
+    // The stem or the .ele names the same mesh.
+    const std::string stem = mesh("plate").substr(0, mesh("plate").size() - 5);
+    EXPECT_EQ(report_of({stem + ".ele", "--family", "mesh.inside", "--count", "20"})["kernels"].size(),
+              plate["kernels"].size());
+}
+
+TEST(audit, globs_select_and_each_name_counts_once) {
+    const Json report = report_of({"--kernel", "segment.*", "--kernel", "triangle.inverse", "--kernel", "seg*.proj*",
+                                   "--family", "huge", "--family", "mesh.in?ide", "--count", "10"});
+    EXPECT_EQ(names(report["families"]), (std::set<std::string>{"huge", "mesh.inside"}));
+    std::set<std::string> expected = names(parse(run({"kernels", "segment.*", "--json", "-"}).out)["kernels"]);
+    expected.insert("triangle.inverse");
+    EXPECT_EQ(names(report["kernels"]), expected);
+    EXPECT_EQ(report["kernels"].size(), expected.size());
+}
+
+TEST(audit, after_an_option_that_repeats_a_word_is_a_mesh) {
+    const Ended r = run({"audit", "--kernel", "triangle.inverse", "--fail-on", "false_certificate", mesh("plate"),
+                         "--count", "10", "--json", "-"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(parse(r.out)["meshes"], Json::array({mesh("plate")}));
+}
+
+TEST(audit, the_same_seed_gives_the_same_bytes_on_any_number_of_threads) {
+    const auto with = [](const Words& more) {
+        Words arguments{"audit", "--count", "600", "--kernel", "t*.inverse", "--kernel", "segment.*", "--json", "-"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments).out;
+    };
+    const std::string one = with({"--threads", "1"});
+    EXPECT_GT(one.size(), 10000U);
+    EXPECT_EQ(timeless(one), timeless(with({"--threads", "1"})));
+    EXPECT_EQ(timeless(one), timeless(with({"--threads", "2"})));
+    EXPECT_EQ(timeless(one), timeless(with({"--threads", "2", "--seed", "1"})));
+    EXPECT_NE(timeless(one), timeless(with({"--threads", "1", "--seed", "2"})));
+    const std::string largest = with({"--seed", "18446744073709551615"});
+    EXPECT_EQ(parse(largest)["seed"], 18446744073709551615U);
+}
+
+TEST(audit, the_table_is_the_report) {
+    const Scratch scratch;
+    const Ended r = run({"audit", "--count", "20", "--kernel", "triangle.*", "--json", scratch.path("r.json")});
+    EXPECT_EQ(r.code, 0);
+    EXPECT_EQ(r.err, "");
+    const Json report = parse(read_file(scratch.path("r.json")));
+    // Kernels stand in the table in the report's order, worst first; the first column of digits is the cases.
+    std::size_t at = 0;
+    for (const Json& kernel : report["kernels"]) {
+        const std::string row = "\n" + kernel["name"].get<std::string>() + " ";
+        const std::size_t found = r.out.find(row, at);
+        ASSERT_NE(found, std::string::npos) << row;
+        at = found;
+        EXPECT_TRUE(contains(r.out.substr(at, 120), std::to_string(kernel["cases"].get<int>())));
+    }
+    EXPECT_TRUE(contains(r.out, "seed 1, 20 cases per family and simplex"));
+}
+
+TEST(audit, quiet_says_nothing_and_writes_all) {
+    const Scratch scratch;
+    const Ended r = run({"audit", "--quiet", "--count", "10", "--kernel", "segment.*", "--json", scratch.path("r"),
+                         "--witnesses", scratch.path("w")});
+    EXPECT_EQ(r.code, 0);
+    EXPECT_EQ(r.out + r.err, "");
+    const Json report = parse(read_file(scratch.path("r"))), witnesses = parse(read_file(scratch.path("w")));
+    EXPECT_FALSE(report["witnesses"].empty());
+    EXPECT_EQ(report["witnesses"], witnesses["witnesses"]);
+    const Ended pure = run({"audit", "--count", "10", "--kernel", "segment.*", "--witnesses", "-"});
+    EXPECT_EQ(parse(pure.out), witnesses);
+}
+
+}  // namespace
+}  // namespace barycert::cli_test

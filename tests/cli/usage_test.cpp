@@ -1,0 +1,145 @@
+// Exit codes, and what is said where: results on stdout, all else on stderr, an error with its remedy and nothing else.
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "process.hpp"
+
+namespace barycert::cli_test {
+namespace {
+
+struct Refusal {
+    Words arguments;
+    std::string says;  ///< part of what stderr must say
+};
+
+void expect_refused(const Refusal& refusal, const How& how = {}) {
+    const Ended r = run(refusal.arguments, how);
+    const std::string line = ::testing::PrintToString(refusal.arguments);
+    EXPECT_EQ(r.code, 2) << line << r.err;
+    EXPECT_EQ(r.out, "") << line;
+    EXPECT_TRUE(contains(r.err, refusal.says)) << line << " says " << r.err;
+}
+
+TEST(usage, help_and_version_are_no_errors) {
+    for (const Words& arguments : std::vector<Words>{{"--help"},
+                                                     {"audit", "--help"},
+                                                     {"replay", "--help"},
+                                                     {"kernels", "--help"},
+                                                     {"families", "--help"},
+                                                     {"--version"}}) {
+        const Ended r = run(arguments);
+        EXPECT_EQ(r.code, 0) << ::testing::PrintToString(arguments);
+        EXPECT_EQ(r.err, "");
+        EXPECT_NE(r.out, "");
+    }
+    EXPECT_TRUE(contains(run({"--help"}).out, "Exit codes: 0"));
+    EXPECT_EQ(run({"--version"}).out.rfind("barycert ", 0), 0U);
+}
+
+TEST(usage, what_is_not_understood_is_refused) {
+    // Were any of these taken for something else, the audit would run and print a table.
+    const std::vector<Refusal> refusals{
+        {{}, "subcommand is required"},
+        {{"nonsense"}, "no such subcommand: found \"nonsense\"; `barycert --help` lists them"},
+        {{"audit", "--nonsense"}, "--nonsense"},
+        {{"audit", "--count", "0"}, "--count"},
+        {{"audit", "--count", "-5"}, "--count"},
+        {{"audit", "--count", "1e3"}, "--count"},
+        {{"audit", "--count", "12x"}, "--count"},
+        {{"audit", "--count", ""}, "--count"},
+        {{"audit", "--count", "999999999999999999999"}, "--count"},
+        {{"audit", "--count"}, "--count"},
+        {{"audit", "--seed", "-1"}, "--seed"},
+        {{"audit", "--seed", "1.5"}, "--seed"},
+        {{"audit", "--seed", "99999999999999999999999"}, "--seed"},
+        {{"audit", "--threads", "-1"}, "--threads"},
+        {{"audit", "--threads", "many"}, "--threads"},
+        {{"audit", "--kernel", "zzz"}, "no kernel of that name: found \"zzz\"; `barycert kernels` lists them"},
+        {{"audit", "--kernel", "tetrahedron.*", "--kernel", "zzz"}, "found \"zzz\""},
+        {{"audit", "--family", "zzz"}, "no family of that name: found \"zzz\"; `barycert families` lists them"},
+        {{"audit", "--fail-on", "zzz"}, "unknown rule: expected NAME or NAME>NUMBER"},
+        {{"audit", "--fail-on", "any>many"}, "bad limit in a rule"},
+        {{"audit", "--fail-on", "any>-1"}, "bad limit in a rule"},
+        {{"audit", "--fail-on", "any>nan"}, "bad limit in a rule"},
+        {{"audit", "--fail-on", "any>"}, "bad limit in a rule"},
+        {{"kernels", "zzz"}, "found \"zzz\""},
+        {{"families", "zzz"}, "found \"zzz\""},
+        {{"replay"}, "name a witness file, or a case by --family and --case"},
+        {{"replay", "w.json", "--family", "huge", "--case", "1"}, "name a witness file, or a case"},
+        {{"replay", "--family", "huge"}, "--family needs --case"},
+        {{"replay", "--family", "hu*", "--case", "1"}, "--family must name one family"},
+        {{"replay", "--family", "huge", "--case", "-1"}, "--case"},
+        {{"replay", "--family", "mesh.inside", "--case", "1"}, "add --simplex NAME or --kernel NAME"},
+        {{"replay", "--family", "mesh.inside", "--case", "1", "--simplex", "pentagon"}, "unknown simplex"},
+        {{"replay", "--family", "mesh.inside", "--case", "1", "--kernel", "zzz"}, "no kernel of that name"},
+    };
+    for (const Refusal& refusal : refusals) expect_refused(refusal);
+}
+
+TEST(usage, families_that_do_not_apply_are_no_audit) {
+    expect_refused({{"audit", "--kernel", "segment.projection", "--family", "mesh.faces"}, "nothing to audit"});
+    // A mesh of the user's in 3D supplies no plane triangle.
+    expect_refused({{"audit", mesh("bracket"), "--kernel", "triangle.inverse", "--family", "mesh.inside"},
+                    "mesh families of triangles need a 2D mesh"});
+}
+
+TEST(usage, a_broken_mesh_is_told_with_file_and_line) {
+    const Scratch scratch;
+    const std::string node = scratch.put("bad.node", "3 2 0 0\n0 0 0\n1 one 0\n2 0 1\n");
+    scratch.put("bad.ele", "1 3 0\n0 0 1 2\n");
+    expect_refused({{"audit", node}, "error: " + node + ":3: "});
+    expect_refused({{"replay", "--family", "mesh.inside", "--case", "1", "--simplex", "triangle", "--mesh", node},
+                    "error: " + node + ":3: "});
+    expect_refused({{"audit", scratch.path("none.node")}, "error: " + scratch.path("none.node") + ": "});
+    expect_refused({{"audit", mesh("bracket"), node}, "error: " + node + ":3: "});
+}
+
+TEST(usage, missing_data_are_told_with_the_remedy) {
+    expect_refused({{"audit"}, "name a mesh, or set BARYCERT_DATA_DIR"}, {.environment = {"BARYCERT_DATA_DIR=/none"}});
+}
+
+TEST(usage, mesh_without_its_program_is_told_with_the_remedy) {
+    const Scratch scratch;
+    std::filesystem::copy_file(BARYCERT_PROGRAM, scratch.path("barycert"));
+    const How alone{.environment = {"PATH=" + scratch.folder()}, .program = scratch.path("barycert")};
+    expect_refused(
+        {{"mesh", "shape.poly"}, "error: cannot run barycert-tetgen: found No such file or directory; build"}, alone);
+    // With a program of that name beside it, that one runs, with the same arguments.
+    const std::string beside = scratch.put("barycert-tetgen", "#!/bin/sh\necho \"meshes $*\"\nexit 7\n");
+    std::filesystem::permissions(beside, std::filesystem::perms::owner_all);
+    const Ended r = run({"mesh", "a b.poly", "-q"}, alone);
+    EXPECT_EQ(r.code, 7);
+    EXPECT_EQ(r.out, "meshes a b.poly -q\n");
+}
+
+TEST(usage, lists_agree_as_text_and_as_json) {
+    const auto names_in_text = [](const std::string& text) {
+        Words names;
+        for (const std::string& line : lines_of(text)) {
+            if (!line.empty() && line.front() != ' ') names.push_back(line);
+        }
+        return names;
+    };
+    for (const std::string what : {"kernels", "families"}) {
+        const Ended text = run({what});
+        const Ended json = run({what, "--json", "-"});
+        EXPECT_EQ(text.code, 0);
+        EXPECT_EQ(json.code, 0);
+        EXPECT_EQ(text.err + json.err, "");
+        Words names;
+        const auto list = parse(json.out);
+        for (const auto& entry : list[what]) names.push_back(entry["name"]);
+        EXPECT_GT(names.size(), 10U);
+        EXPECT_EQ(names_in_text(text.out), names);
+        const Scratch scratch;
+        EXPECT_EQ(run({what, "--json", scratch.path("list.json")}).out, text.out);
+        EXPECT_EQ(read_file(scratch.path("list.json")), json.out);
+    }
+    EXPECT_EQ(names_in_text(run({"kernels", "segment.*", "triangle.inverse"}).out).back(), "triangle.inverse");
+    EXPECT_EQ(names_in_text(run({"families", "mesh.faces"}).out), Words{"mesh.faces"});
+}
+
+}  // namespace
+}  // namespace barycert::cli_test
