@@ -12,9 +12,9 @@ struct TerminalStyle {
     bool colour = false;
     /// What replays a witness: appended to "barycert replay"; a file name, or empty to name the family and case
     /// instead.
-    std::string witness_path;
-    std::vector<std::string> mesh_arguments;     ///< as the user gave them, repeated in replay commands
-    std::vector<std::string> library_arguments;  ///< likewise: the user's kernel libraries
+    std::string witness_path = {};
+    std::vector<std::string> mesh_arguments = {};     ///< as the user gave them, repeated in replay commands
+    std::vector<std::string> library_arguments = {};  ///< likewise: the user's kernel libraries
 };
 
 /// The table of kernels, worst first; below it the families; below them each kernel's worst witness with the command

@@ -1,0 +1,113 @@
+// The JSON that is written and SCHEMA.md say the same, member by member, both ways.
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "barycert/audit/witness_file.hpp"
+#include "barycert/report/json.hpp"
+#include "schema_tables.hpp"
+#include "small_audit.hpp"
+
+namespace barycert::report_test {
+namespace {
+
+using Json = nlohmann::json;
+
+const audit::Report& audited() {
+    static const audit::Report report = small_audit();
+    return report;
+}
+
+/// Everything that is written, checked against a schema.
+Schema checked() {
+    Schema schema(BARYCERT_SCHEMA);
+    schema.check("Report", Json::parse(report::json_report(audited())), "report");
+    schema.check("Witnesses", Json::parse(audit::witness_file(audited())), "witnesses");
+    schema.check("Kernels", Json::parse(report::kernels_json(catalogue())), "kernels");
+    schema.check("Families", Json::parse(report::families_json(audit::all_families())), "families");
+    return schema;
+}
+
+/// Members of Kernel and Statistics are met as members of those sections that take them over.
+std::set<std::string> without_templates(std::set<std::string> names) {
+    std::erase_if(names, [](const std::string& name) { return name.starts_with("Statistics."); });
+    return names;
+}
+
+TEST(schema, every_member_written_is_documented) {
+    const Schema schema = checked();
+    EXPECT_EQ(schema.complaints, std::vector<std::string>{});
+}
+
+TEST(schema, every_member_documented_is_written) {
+    const Schema schema = checked();
+    EXPECT_EQ(schema.seen, without_templates(schema.documented()));
+    EXPECT_GT(schema.seen.size(), 100U);
+}
+
+TEST(schema, null_is_met_where_it_is_documented_and_so_is_a_figure) {
+    const Schema schema = checked();
+    EXPECT_EQ(schema.seen_null, without_templates(schema.nullable()));
+    EXPECT_EQ(schema.seen_value, schema.seen);
+}
+
+TEST(schema, the_check_itself_finds_faults) {
+    Json report = Json::parse(report::json_report(audited()));
+    const auto complaints = [](const Json& changed) {
+        Schema schema(BARYCERT_SCHEMA);
+        schema.check("Report", changed, "report");
+        return schema.complaints;
+    };
+    EXPECT_EQ(complaints(report).size(), 0U);
+    Json more = report;
+    more["kernels"][0]["confusion"]["outside"]["lost"] = 1;
+    EXPECT_EQ(complaints(more),
+              std::vector<std::string>{"report.kernels[].confusion.outside.lost is not documented in Claims"});
+    Json less = report;
+    less["environment"].erase("fma");
+    EXPECT_EQ(complaints(less), std::vector<std::string>{"report.environment has no fma"});
+    Json null = report;
+    null["kernels"][0]["cases"] = nullptr;
+    EXPECT_EQ(complaints(null), std::vector<std::string>{"report.kernels[].cases is no integer: null"});
+    Json hex = report;
+    hex["witnesses"][0]["point"][0] = "0x1.80p+1";
+    EXPECT_EQ(complaints(hex), std::vector<std::string>{"report.witnesses[].point[] is no hex: \"0x1.80p+1\""});
+}
+
+TEST(schema, numbers_read_back_to_the_same_bits) {
+    const Json report = Json::parse(report::json_report(audited()));
+    for (std::size_t i = 0; i < audited().kernels.size(); ++i) {
+        const audit::KernelResult& k = audited().kernels[i];
+        const Json& j = report["kernels"][i];
+        ASSERT_EQ(j["name"], k.kernel.name);
+        const auto same = [](const Json& written, double x) { return x < 0 ? written.is_null() : written == x; };
+        EXPECT_TRUE(same(j["worst_weight_ulp"], k.total.weight_ulp.value));
+        EXPECT_TRUE(same(j["worst_value_ulp"], k.total.value_ulp.value));
+        EXPECT_TRUE(same(j["worst_partition_residual"], k.total.partition_residual.value));
+        EXPECT_EQ(j["wrong_cases"], k.total.wrong_cases);
+        std::uint64_t confusion = 0;
+        for (const Json& row : j["confusion"]) {
+            for (const Json& n : row) confusion += n.get<std::uint64_t>();
+        }
+        EXPECT_EQ(confusion, k.total.cases);
+    }
+}
+
+TEST(schema, an_infinite_residual_is_not_hidden_by_null) {
+    audit::Report report = audited();
+    report.kernels.resize(1);
+    report.kernels[0].total.reproduction_residual.value = std::numeric_limits<double>::infinity();
+    report.kernels[0].total.partition_residual.value = -1;
+    const Json j = Json::parse(report::json_report(report))["kernels"][0];
+    EXPECT_EQ(j["worst_reproduction_residual"], std::numeric_limits<double>::max());
+    EXPECT_TRUE(j["worst_partition_residual"].is_null());
+}
+
+TEST(schema, the_number_is_the_documented_one) {
+    EXPECT_EQ(report::audit_schema, 1);
+    EXPECT_EQ(audit::witness_schema, 1);
+}
+
+}  // namespace
+}  // namespace barycert::report_test

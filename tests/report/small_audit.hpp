@@ -1,0 +1,50 @@
+/// An audit of a few cases, with something of everything: findings of all kinds, kernels that have no figure.
+#pragma once
+
+#include "barycert/audit/runner.hpp"
+#include "barycert/mesh/tetgen_io.hpp"
+
+namespace barycert::report_test {
+
+/// A kernel that never answers: it has no figure of any error.
+inline Kernel silent_kernel() {
+    Kernel k;
+    k.name = "tetrahedron.silent";
+    k.simplex = Simplex::tetrahedron;
+    k.declares_degenerate = true;
+    k.weights = [](const double*, const double*, double*) { return 1; };
+    k.value = [](const double*, const double*) { return 0.0; };
+    return k;
+}
+
+/// A kernel that certifies and gives every simplex the same weights.
+inline Kernel stubborn_kernel() {
+    Kernel k = silent_kernel();
+    k.name = "tetrahedron.stubborn";
+    k.certifies = true;
+    k.weights = [](const double*, const double*, double* w) {
+        w[0] = w[1] = w[2] = w[3] = 0.25;
+        return 0;
+    };
+    k.value = [](const double*, const double* f) { return (f[0] + f[1] + f[2] + f[3]) / 4; };
+    return k;
+}
+
+inline audit::Report small_audit() {
+    audit::MeshSource meshes;
+    for (const char* name : {"bracket", "plate"}) {
+        meshes.add(name, read_tetgen(std::string(BARYCERT_DATA_DIR) + "/meshes/" + name + ".node",
+                                     {.faces = false, .neighbours = false, .threads = 0})
+                             .value());
+    }
+    audit::Options options;
+    options.kernels = kernels_matching("*");
+    options.kernels.push_back(silent_kernel());
+    options.kernels.push_back(stubborn_kernel());
+    options.families = audit::all_families();
+    options.count = 30;
+    options.threads = 2;
+    return audit::run(options, meshes).value();
+}
+
+}  // namespace barycert::report_test

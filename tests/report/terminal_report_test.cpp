@@ -1,0 +1,128 @@
+// The terminal's report: order, columns, commands.
+
+#include <algorithm>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "barycert/report/terminal.hpp"
+#include "small_audit.hpp"
+
+namespace barycert::report_test {
+namespace {
+
+const audit::Report& audited() {
+    static const audit::Report report = small_audit();
+    return report;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::istringstream in(text);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+std::string text_of(const report::TerminalStyle& style = {}) {
+    return report::terminal_report(audited(), style);
+}
+
+double wrong_share(const audit::KernelResult& k) {
+    return static_cast<double>(k.total.wrong_cases) / static_cast<double>(k.total.cases);
+}
+
+TEST(terminal_report, worst_first) {
+    const auto& kernels = audited().kernels;
+    EXPECT_EQ(kernels.front().kernel.name, "tetrahedron.stubborn") << "a false certificate is the worst of all";
+    EXPECT_TRUE(std::is_sorted(kernels.begin() + 1, kernels.end(),
+                               [](const auto& a, const auto& b) { return wrong_share(a) > wrong_share(b); }));
+    // The table keeps that order, one row a kernel.
+    std::vector<std::string> rows;
+    for (const std::string& line : lines_of(text_of())) {
+        const std::string word = line.substr(0, line.find(' '));
+        const bool kernel =
+            std::any_of(kernels.begin(), kernels.end(), [&](const auto& k) { return k.kernel.name == word; });
+        if (kernel) rows.push_back(word);
+    }
+    ASSERT_EQ(rows.size(), kernels.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(rows[i], kernels[i].kernel.name);
+    EXPECT_TRUE(contains(text_of(), "    certifies its answers, and "));
+}
+
+TEST(terminal_report, columns_stand_under_each_other) {
+    // No kernel's figures are wider than their columns: all rows end where the head ends.
+    std::size_t head = 0, rows = 0;
+    for (const std::string& line : lines_of(text_of())) {
+        if (line.rfind("kernel ", 0) == 0) head = line.size();
+        if (line.rfind("    certifies", 0) == 0) continue;
+        if (line.rfind("wrong %", 0) == 0) break;
+        if (head == 0 || line.rfind("kernel ", 0) == 0) continue;
+        const std::size_t end = line.find_last_not_of(' ') + 1;
+        EXPECT_EQ(line.size(), head) << line;
+        rows += end == head ? 1U : 0U;
+    }
+    EXPECT_EQ(rows, audited().kernels.size());
+}
+
+TEST(terminal_report, every_family_and_simplex_has_a_row_with_its_worst_kernel) {
+    const std::string text = text_of();
+    const auto lines = lines_of(text);
+    std::size_t rows = 0;
+    for (const std::string& line : lines) {
+        std::istringstream in(line);
+        std::string family, simplex, cases, clean, median, worst, kernel;
+        in >> family >> simplex >> cases >> clean >> median >> worst >> kernel;
+        const auto f = std::find_if(audited().families.begin(), audited().families.end(),
+                                    [&](const auto& x) { return x.name == family; });
+        if (f == audited().families.end() || !simplex_named(simplex)) continue;
+        ++rows;
+        std::uint64_t most = 0, all = 0, without = 0;
+        for (const auto& k : audited().kernels) {
+            for (const auto& part : k.families) {
+                if (&audited().families[part.family] != &*f || name(k.kernel.simplex) != simplex) continue;
+                most = std::max(most, part.statistics.wrong_cases);
+                ++all;
+                without += part.statistics.wrong_cases == 0 ? 1U : 0U;
+            }
+        }
+        EXPECT_EQ(cases, "30") << line;
+        EXPECT_EQ(clean, std::to_string(without) + "/" + std::to_string(all)) << line;
+        EXPECT_EQ(kernel == "-", most == 0) << line;
+        EXPECT_EQ(worst == "0", most == 0) << line;
+        EXPECT_EQ(worst == "100", most == 30) << line;
+    }
+    std::size_t expected = 0;
+    for (const auto& f : audited().families) expected += f.simplices.size();
+    EXPECT_EQ(rows, expected);
+}
+
+TEST(terminal_report, commands_name_what_they_need) {
+    const std::string plain = text_of();
+    EXPECT_TRUE(contains(plain, "barycert replay --kernel "));
+    EXPECT_FALSE(contains(plain, "--mesh"));
+    const std::string file = text_of({.witness_path = "my w.json"});
+    EXPECT_TRUE(contains(file, "barycert replay 'my w.json' --kernel tetrahedron.stubborn --reason false_certificate"));
+    EXPECT_FALSE(contains(file, "--family "));
+    const std::string libraries = text_of({.mesh_arguments = {"a b"}, .library_arguments = {"./my kernel.so"}});
+    for (const std::string& line : lines_of(libraries)) {
+        if (!contains(line, "barycert replay ")) continue;
+        EXPECT_TRUE(contains(line, "--kernel-library './my kernel.so'")) << line;
+        EXPECT_EQ(contains(line, "--mesh 'a b'"), contains(line, "--family mesh.")) << line;
+    }
+}
+
+TEST(terminal_report, colour_changes_no_letter) {
+    std::string coloured = text_of({.colour = true});
+    EXPECT_TRUE(contains(coloured, "\033["));
+    for (std::size_t at; (at = coloured.find('\033')) != std::string::npos;)
+        coloured.erase(at, coloured.find('m', at) - at + 1);
+    EXPECT_EQ(coloured, text_of());
+    EXPECT_FALSE(contains(text_of(), "\033"));
+}
+
+}  // namespace
+}  // namespace barycert::report_test

@@ -1,0 +1,94 @@
+// Small pieces of terminal text.
+
+#include "barycert/report/terminal_text.hpp"
+
+#include <cstdio>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace barycert::report {
+namespace {
+
+TEST(brief_count, digits_while_they_fit) {
+    EXPECT_EQ(brief_count(0), "-");
+    EXPECT_EQ(brief_count(1), "1");
+    EXPECT_EQ(brief_count(9999), "9999");
+    EXPECT_EQ(brief_count(12345), "12.3k");
+    EXPECT_EQ(brief_count(1234567), "1.23M");
+    for (std::uint64_t n = 1; n < 1000000000000000; n = n * 7 / 5 + 1) EXPECT_LE(brief_count(n).size(), 5U) << n;
+    for (const std::uint64_t edge : {9999ULL, 99949ULL, 99950ULL, 999499ULL, 999500ULL, 9994999ULL, 9995000ULL})
+        EXPECT_LE(brief_count(edge).size(), 5U) << edge;
+}
+
+TEST(brief, three_digits) {
+    EXPECT_EQ(brief(0), "0");
+    EXPECT_EQ(brief(-1), "-");
+    EXPECT_EQ(brief(std::numeric_limits<double>::quiet_NaN()), "-");
+    EXPECT_EQ(brief(0.5), "0.5");
+    EXPECT_EQ(brief(2.4951e-16), "2.5e-16");
+    EXPECT_EQ(brief(999.4), "999");
+    EXPECT_EQ(brief(999.6), "1000");
+    EXPECT_EQ(brief(99999), "99999");
+    EXPECT_EQ(brief(99999.7), "1e+05");
+    EXPECT_EQ(brief(std::numeric_limits<double>::infinity()), "inf");
+    for (double x = 4e-324; x < 1e308; x *= 1.7) EXPECT_LE(brief(x).size(), 9U) << x;
+}
+
+TEST(percent, zero_and_hundred_only_when_they_are) {
+    EXPECT_EQ(percent(0, 10), "0");
+    EXPECT_EQ(percent(10, 10), "100");
+    EXPECT_EQ(percent(0, 0), "0");
+    EXPECT_EQ(percent(1, 2), "50.0");
+    EXPECT_EQ(percent(1, 1000000000000), "<0.001");
+    EXPECT_EQ(percent(999999999999, 1000000000000), ">99.9");
+    EXPECT_EQ(percent(9997, 10000), ">99.9");
+    EXPECT_EQ(percent(9994, 10000), "99.9");
+    constexpr std::uint64_t whole = 200003;
+    for (std::uint64_t part = 1; part < whole; ++part) {
+        const std::string text = percent(part, whole);
+        double shown = 0;
+        if (std::sscanf(text.c_str(), "%lf", &shown) == 1) {
+            ASSERT_GT(shown, 0) << part;
+            ASSERT_LT(shown, 100) << part;
+            // Half a unit of the last digit shown.
+            const double p = 100.0 * static_cast<double>(part) / whole;
+            ASSERT_LE(std::fabs(shown - p), p < 0.1 ? 0.00051 : p < 10 ? 0.0051 : 0.051) << part;
+        } else {
+            ASSERT_TRUE(text == "<0.001" || text == ">99.9") << part << ' ' << text;
+        }
+        ASSERT_LE(text.size(), 6U);
+    }
+}
+
+TEST(colours, only_when_on) {
+    EXPECT_EQ(Colours(false).bold("x") + Colours(false).bad("x") + Colours(false).good("x"), "xxx");
+    EXPECT_EQ(Colours(true).bold("x"), "\033[1mx\033[0m");
+}
+
+/// The words that a shell makes of a line.
+std::string through_shell(const std::string& word) {
+    std::FILE* pipe = ::popen(("printf '[%s]' " + word).c_str(), "r");
+    std::string out;
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) out += static_cast<char>(c);
+    ::pclose(pipe);
+    return out;
+}
+
+TEST(shell_word, one_word_to_a_shell_whatever_it_holds) {
+    EXPECT_EQ(shell_word("data/meshes/a-1.node"), "data/meshes/a-1.node");
+    EXPECT_EQ(shell_word(""), "''");
+    EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
+    for (const std::string& text : {std::string("plain"),     std::string(""),      std::string("two words"),
+                                    std::string("it's"),      std::string("'"),     std::string("''"),
+                                    std::string("$HOME"),     std::string("`id`"),  std::string("a\"b"),
+                                    std::string("a\\b"),      std::string("*"),     std::string("~"),
+                                    std::string("~root"),     std::string("#x"),    std::string("a;b|c&d>e<f"),
+                                    std::string("(x)"),       std::string("{a,b}"), std::string("!x"),
+                                    std::string("new\nline"), std::string("tab\t"), std::string("na\xc3\xafve"),
+                                    std::string("a=b"),       std::string("?[x]")})
+        EXPECT_EQ(through_shell(shell_word(text)), "[" + text + "]");
+}
+
+}  // namespace
+}  // namespace barycert::report
