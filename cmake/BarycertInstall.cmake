@@ -3,13 +3,22 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(BARYCERT_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/barycert)
-install(TARGETS barycert EXPORT barycertTargets)
-# Headers that stand on the standard library alone are public; what includes CGAL's numbers stays inside.
+install(TARGETS barycert EXPORT barycertTargets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+# Headers that stand on the standard library alone are public; what includes others' headers stays inside.
+set(internal_headers exact/integers exact/rounding exact/solve kernels/registry kernels/scanline kernels/variants
+  kernels/vectors kernels/*_formulas mesh/integer_row mesh/row_errors mesh/scanner mesh/tetgen_reader mesh/text_table
+  audit/witness_json report/terminal_text)
+list(TRANSFORM internal_headers REPLACE "(.+)" "PATTERN;\\1.hpp;EXCLUDE")
+if(NOT TARGET barycert_audit)
+  foreach(folder exact audit report)
+    list(APPEND internal_headers PATTERN ${folder} EXCLUDE)
+  endforeach()
+endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/barycert/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/barycert
-  FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h"
-  PATTERN "exact/integers.hpp" EXCLUDE PATTERN "exact/rounding.hpp" EXCLUDE PATTERN "exact/solve.hpp" EXCLUDE)
+  FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h" ${internal_headers})
 if(TARGET barycert_audit)
-  install(TARGETS barycert_audit EXPORT barycertTargets)
+  install(TARGETS barycert_audit EXPORT barycertAuditTargets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(EXPORT barycertAuditTargets NAMESPACE barycert:: DESTINATION ${BARYCERT_CMAKE_DIR})
 endif()
 if(TARGET barycert_cli)
   install(TARGETS barycert_cli)

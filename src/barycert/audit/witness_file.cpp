@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "barycert/audit/witness_json.hpp"
 #include "barycert/core/text.hpp"
 
 namespace barycert::audit {

@@ -1,7 +1,6 @@
 /// Witnesses as JSON: coordinates in hexadecimal floating point, so that they read back to the same bits.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -11,8 +10,6 @@
 namespace barycert::audit {
 
 inline constexpr int witness_schema = 1;
-
-nlohmann::ordered_json witness_json(const Witness& witness);
 
 /// {"schema": 1, "witnesses": [...]} of all kernels of a report, one witness a line of finding.
 std::string witness_file(const Report& report);

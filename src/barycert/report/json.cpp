@@ -4,7 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "barycert/audit/witness_file.hpp"
+#include "barycert/audit/witness_json.hpp"
 
 namespace barycert::report {
 namespace {
@@ -67,8 +67,6 @@ Json list(const auto& items, auto convert) {
     return j;
 }
 
-}  // namespace
-
 Json environment_json(const Environment& e) {
     Json j;
     j["version"] = e.version;
@@ -82,6 +80,8 @@ Json environment_json(const Environment& e) {
     j["hardware_threads"] = e.hardware_threads;
     return j;
 }
+
+}  // namespace
 
 std::string json_report(const audit::Report& r) {
     Json j;

@@ -1,7 +1,6 @@
 /// Reports as JSON. Every member is documented in SCHEMA.md beside this file.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "barycert/audit/runner.hpp"
@@ -9,8 +8,6 @@
 namespace barycert::report {
 
 inline constexpr int audit_schema = 1;
-
-nlohmann::ordered_json environment_json(const Environment& environment);
 
 /// The whole audit, witnesses included.
 std::string json_report(const audit::Report& report);
