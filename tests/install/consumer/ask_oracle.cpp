@@ -1,0 +1,29 @@
+// barycert::audit: ask the oracle, and run a small audit to its report.
+
+#include <cstdio>
+
+#include "barycert/audit/runner.hpp"
+#include "barycert/exact/oracle.hpp"
+#include "barycert/report/json.hpp"
+
+int main() {
+    using namespace barycert;
+    Case c;
+    c.simplex = Simplex::triangle;
+    c.vertices = {0, 0, 3, 0, 0, 3};
+    c.point = {1, 1};
+    c.values = {0, 1, 2};
+    const exact::Answer answer = exact::ask(c);
+
+    audit::Options options;
+    options.kernels = kernels_matching("tetrahedron.inverse");
+    options.families = audit::families_matching("huge");
+    options.count = 10;
+    options.threads = 1;
+    const auto report = audit::run(options, {});
+    if (!report) return 2;
+    std::printf("%s, third %s, value %g, report %s\n", name(answer.region).data(),
+                answer.weights[1] == 1.0 / 3 ? "exact" : "wrong", answer.value,
+                report::json_report(*report).size() > 1000 ? "long" : "short");
+    return 0;
+}
