@@ -43,7 +43,7 @@ timed() {
     while [ "$1" != -- ]; do words="$words $1"; shift; done
     shift
     started=$(date +%s)
-    "$@" || die "failed:$words"
+    "$@" || return
     say "$(($(date +%s) - started)) s:$words"
 }
 
