@@ -4,7 +4,7 @@
 set -eu
 data=$(cd "$(dirname "$0")" && pwd)
 build=$(cd "${1:?usage: data/make.sh BUILD-FOLDER}" && pwd)
-tetgen=$build/src/tetgen/barycert-tetgen
+tetgen=$build/bin/barycert-tetgen
 make_data=$build/data/barycert-make-data
 for program in "$tetgen" "$make_data"; do
     [ -x "$program" ] || { echo "error: $program: not built" >&2; exit 2; }

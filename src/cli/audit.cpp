@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 
@@ -71,7 +72,10 @@ int run_audit(const AuditArguments& a) {
     const auto families = select_families(a.families);
     if (!families) return fail(families.error());
     options.families = *families;
-    const auto meshes = load_meshes(a.meshes);
+    // Without a family that draws from meshes barycert's own need not be there.
+    const bool wanted =
+        std::any_of(families->begin(), families->end(), [](const audit::Family& f) { return f.needs_mesh; });
+    const Result<audit::MeshSource> meshes = wanted || !a.meshes.empty() ? load_meshes(a.meshes) : audit::MeshSource();
     if (!meshes) return fail(meshes.error());
 
     ProgressLine line;
@@ -87,6 +91,7 @@ int run_audit(const AuditArguments& a) {
     if (!a.witnesses.empty()) written.push_back(write_output(a.witnesses, audit::witness_file(*report)));
     if (table) {
         const report::TerminalStyle style{.colour = colour_on_stdout(),
+                                          .command = command_name(),
                                           .witness_path = a.witnesses.empty() ? a.json : a.witnesses,
                                           .mesh_arguments = a.meshes,
                                           .library_arguments = a.libraries};

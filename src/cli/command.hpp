@@ -57,6 +57,10 @@ CLI::Validator whole_number();
 
 /// True if text for people on that stream may be coloured: a terminal, and NO_COLOR is not set.
 bool colour_on_stdout();
+
+/// How the user calls this program, for commands to repeat: BARYCERT_COMMAND if a wrapper set it, else "barycert".
+std::string command_name();
+
 bool stderr_is_terminal();
 
 }  // namespace barycert::cli

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
@@ -71,6 +72,21 @@ Result<std::vector<Item>> select(const std::vector<std::string>& globs, All all,
     return chosen;
 }
 
+/// A mesh that is not there is often a PLC, a folder or a mistyped stem.
+Error with_hint(Error error, const fs::path& path) {
+    std::error_code ignored;
+    const std::string extension = path.extension().string();
+    constexpr std::array plc{".poly", ".smesh", ".off", ".stl", ".ply"};
+    if (std::find(plc.begin(), plc.end(), extension) != plc.end()) {
+        error.remedy = "this is a PLC, not a mesh: mesh it first with `barycert mesh " + path.string() + "`";
+    } else if (!fs::exists(path, ignored) && !fs::exists(path.string() + ".node", ignored)) {
+        error.remedy = "MESH is the stem of TetGen's files, or one of them: part.1 for part.1.node and part.1.ele";
+    } else if (fs::is_directory(path, ignored) && !fs::exists(path.string() + ".node", ignored)) {
+        error.remedy = "this is a folder: name the stem of TetGen's files in it";
+    }
+    return error;
+}
+
 }  // namespace
 
 void tell(std::string_view text) {
@@ -94,7 +110,7 @@ Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths) {
     audit::MeshSource source;
     for (const std::string& path : from) {
         Result<Mesh> mesh = read_tetgen(path, {.faces = false, .neighbours = false, .threads = 0});
-        if (!mesh) return mesh.error();
+        if (!mesh) return with_hint(mesh.error(), path);
         if (mesh->cell_count() == 0) return Error{.what = "the mesh has no cells", .file = path};
         source.add(paths.empty() ? fs::path(path).stem().string() : path, std::move(*mesh));
     }
@@ -113,6 +129,12 @@ Result<std::vector<Kernel>> select_kernels(const std::vector<std::string>& globs
     for (const std::string& path : libraries) {
         Result<Kernel> kernel = load_kernel_library(path);
         if (!kernel) return kernel.error();
+        if (std::any_of(chosen->begin(), chosen->end(), [&](const Kernel& k) { return k.name == kernel->name; })) {
+            return Error{.what = "two kernel libraries give the same name",
+                         .file = path,
+                         .found = kernel->name,
+                         .remedy = "set another info->name in one of them"};
+        }
         chosen->push_back(std::move(*kernel));
     }
     return chosen;
@@ -152,9 +174,11 @@ Status check_output(const std::string& path) {
 }
 
 bool same_output(const std::string& a, const std::string& b) {
-    std::error_code ignored;
-    return a == b || fs::equivalent(a, b, ignored) ||
-           fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+    if (a.empty() || b.empty()) return false;
+    std::error_code unknown;
+    if (a == b || fs::equivalent(a, b, unknown)) return true;
+    const fs::path one = fs::weakly_canonical(a, unknown);
+    return !unknown && one == fs::weakly_canonical(b, unknown) && !unknown;
 }
 
 CLI::Validator whole_number() {
@@ -167,6 +191,11 @@ CLI::Validator whole_number() {
                            : fmt::format("expected a whole number from 0 to 2^64 - 1, found \"{}\"", text);
             },
             ""};
+}
+
+std::string command_name() {
+    const char* wrapper = std::getenv("BARYCERT_COMMAND");
+    return wrapper == nullptr || *wrapper == '\0' ? "barycert" : wrapper;
 }
 
 bool colour_on_stdout() {

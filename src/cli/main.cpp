@@ -22,6 +22,10 @@ int main(int argc, char** argv) {
     app.footer(
         "Exit codes: 0 clean, 1 findings beyond the thresholds given, 2 usage or input error.\nTables go to stdout, "
         "all else to stderr. `barycert SUBCOMMAND --help` explains each.");
+    app.failure_message([](const CLI::App*, const CLI::Error& e) {
+        return std::string("error: ") + e.what() +
+               "; `barycert --help` and `barycert SUBCOMMAND --help` list what there is\n";
+    });
     int exit_code = cli::exit_clean;
     cli::add_audit(app, exit_code);
     cli::add_replay(app, exit_code);

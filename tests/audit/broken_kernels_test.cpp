@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cfenv>
 
 #include "audit_helpers.hpp"
 
@@ -138,6 +139,39 @@ TEST(BrokenKernels, Clamp) {
     const auto& outside = s.confusion[static_cast<std::size_t>(Region::outside)];
     EXPECT_EQ(outside[static_cast<std::size_t>(Region::outside)], 0U);
     EXPECT_EQ(count_of(s, Finding::false_inside), s.cases - s.confusion[0][0]);
+}
+
+int sets_nothing(const double*, const double*, double*) {
+    return 0;
+}
+
+int leaves_another_rounding_mode(const double* v, const double* p, double* w) {
+    const int status = sound(v, p, w);
+    std::fesetround(FE_UPWARD);
+    return status;
+}
+
+// What a kernel does not set is not an answer, and least of all the answer of the kernel before it.
+TEST(BrokenKernels, UnsetWeightsAreNotFinite) {
+    Kernel lazy = kernel(sets_nothing);
+    lazy.name = "tetrahedron.lazy";
+    const Report r = audit_of({kernel(sound), lazy}, {family_named("random.inside")}, 500);
+    ASSERT_EQ(r.kernels.front().kernel.name, "tetrahedron.lazy");
+    EXPECT_EQ(count_of(r.kernels.front().total, Finding::not_finite), 4 * r.cases);
+}
+
+TEST(BrokenKernels, ARoundingModeLeftBehindStaysWithItsKernel) {
+    Kernel rude = kernel(leaves_another_rounding_mode);
+    rude.name = "tetrahedron.rude";
+    const Report beside =
+        audit_of({rude, kernel_named("tetrahedron.kahan")}, {family_named("near-facet.1e-14")}, 500, {}, 1);
+    EXPECT_EQ(std::fegetround(), FE_TONEAREST);
+    const Statistics alone = statistics_of("tetrahedron.kahan", "near-facet.1e-14", 500);
+    for (const KernelResult& k : beside.kernels) {
+        if (k.kernel.name == "tetrahedron.kahan") {
+            EXPECT_EQ(k.total.weight_ulp.value, alone.weight_ulp.value);
+        }
+    }
 }
 
 // One of the six among the whole catalogue is put first by the order of the table.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "audit_helpers.hpp"
 
 namespace barycert::audit {
@@ -37,6 +39,34 @@ TEST(Thresholds, OnlyWhatExceedsTheLimitIsBroken) {
     EXPECT_TRUE(violations(r, {{"any", wrong}}).empty());
     EXPECT_EQ(violations(r, {{"any", wrong - 1}}).size(), 1U);
     EXPECT_EQ(violations(r, {{"any", 0}, {"false_inside", 0}, {"missed_degenerate", 0}}).size(), 2U);
+}
+
+int only_nan(const double*, const double*, double* w) {
+    for (int i = 0; i < 4; ++i) w[i] = std::numeric_limits<double>::quiet_NaN();
+    return 0;
+}
+
+int declares_everything(const double*, const double*, double*) {
+    return 1;
+}
+
+// Without a measure there is no pass: a kernel that answers nothing is worse than any limit.
+TEST(Thresholds, SilenceIsNotAccuracy) {
+    for (const WeightsFunction mute : {only_nan, declares_everything}) {
+        Kernel k = kernel_named("tetrahedron.kahan");
+        k.weights = mute;
+        const Report r = audit_of({k}, {family_named("random.inside")}, 300);
+        for (const char* name :
+             {"worst_weight_ulp", "p999_weight_ulp", "worst_value_ulp", "worst_partition_residual"}) {
+            EXPECT_EQ(violations(r, {{name, 1e300}}).size(), 1U) << name;
+        }
+    }
+    // On degenerate simplices there is nothing to measure, and declaring them is right.
+    Kernel k = kernel_named("tetrahedron.kahan");
+    k.weights = declares_everything;
+    EXPECT_TRUE(
+        violations(audit_of({k}, {family_named("degenerate.plane")}, 300), {{"worst_weight_ulp", 0}, {"any", 0}})
+            .empty());
 }
 
 }  // namespace

@@ -41,7 +41,9 @@ TEST(Witness, ShowsWhatItSays) {
             std::array<double, 4> weights{};
             const int status = k.kernel.weights(w.c.vertices.data(), w.c.point.data(), weights.data());
             const Comparison r = compare(k.kernel, w.c, answer, status, weights);
-            if (w.reason == "worst_weight_ulp") {
+            if (w.reason == "worst_value_ulp") {
+                EXPECT_EQ(r.value_ulp, w.magnitude) << k.kernel.name;
+            } else if (w.reason == "worst_weight_ulp") {
                 EXPECT_EQ(*std::max_element(r.weight_ulps.begin(), r.weight_ulps.end()), w.magnitude) << k.kernel.name;
             } else {
                 const auto finding = finding_named(w.reason);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cfenv>
 #include <chrono>
 #include <cmath>
 
@@ -79,15 +80,21 @@ void run_block(const Family& family, Simplex simplex, std::uint64_t seed, std::u
         cases[i] = make_case(family, simplex, seed, first + i, meshes);
         answers[i] = exact::ask(cases[i]);
     }
-    std::array<std::array<double, 4>, block_size> weights{};
+    std::array<std::array<double, 4>, block_size> weights;
     std::array<int, block_size> status{};
     for (std::size_t k = 0; k < kernels.size(); ++k) {
         const WeightsFunction function = kernels[k].weights;
+        // A weight that the kernel leaves unset must not look like an answer, least of all another kernel's.
+        weights.fill(unset_weights);
+        // A kernel may leave another rounding mode behind: it is its own affair, not the oracle's or the next one's.
+        std::fenv_t before;
+        std::fegetenv(&before);
         const auto start = Clock::now();
         for (std::size_t i = 0; i < count; ++i) {
             status[i] = function(cases[i].vertices.data(), cases[i].point.data(), weights[i].data());
         }
         const auto stop = Clock::now();
+        std::fesetenv(&before);
         BlockResult& result = results[k];
         if (result.ns.size() < BlockResult::kept_times) {
             const double ns = std::chrono::duration<double, std::nano>(stop - start).count();

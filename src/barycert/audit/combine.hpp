@@ -1,12 +1,14 @@
 /// Points made from vertices, in plain rounded arithmetic: the raw material of families.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
 #include "barycert/core/random.hpp"
 #include "barycert/core/simplex.hpp"
+#include "barycert/core/ulp.hpp"
 
 namespace barycert::audit {
 
@@ -46,12 +48,26 @@ inline void set_vertex(Case& c, int i, const std::array<double, 3>& p) {
     for (int axis = 0; axis < space_dimension(c.simplex); ++axis) c.vertex(i, axis) = p[static_cast<std::size_t>(axis)];
 }
 
+/// Moves a coordinate by one ulp, up or down. The neighbour of zero would be a subnormal, a test of underflow and not
+/// of sides: zero moves by an ulp of the largest coordinate on its axis, or of 1 if all are zero.
+inline void move_by_ulp(const Case& c, double& x, int axis, Random& random) {
+    const bool up = random.coin();
+    if (x != 0) {
+        x = up ? next_up(x) : next_down(x);
+        return;
+    }
+    double largest = 0;
+    for (int i = 0; i < vertex_count(c.simplex); ++i) largest = std::max(largest, std::fabs(c.vertex(i, axis)));
+    const double ulp = std::ldexp(1, ulp_exponent(largest == 0 ? 1.0 : largest));
+    x = up ? ulp : -ulp;
+}
+
 inline void random_values(Case& c, Random& random) {
     for (int i = 0; i < vertex_count(c.simplex); ++i) c.values[static_cast<std::size_t>(i)] = random.uniform(-1, 1);
 }
 
-/// A unit vector, up to rounding, normal to the face of the first n - 1 vertices and within the simplex's space: normal
-/// to an edge of a triangle, to a face of a tetrahedron; any one normal to a segment3d's end or triangle3d's edge.
+/// A unit vector, up to rounding, along which the last vertex leaves the facet of the others: normal to that edge of a
+/// triangle or face of a tetrahedron; where there are many (an edge in 3-space, a point), a random one.
 inline std::array<double, 3> facet_normal(const Case& c, Random& random) {
     const auto difference = [&](int i) {
         std::array<double, 3> e{};

@@ -30,6 +30,7 @@ void compare_weight(Comparison& r, std::size_t i, double w, double exact, int si
         if (exact != 0 && std::isfinite(exact)) r.weight_ulps[i] = 0;
         return;
     }
+    if (std::isinf(exact)) exact = std::copysign(std::numeric_limits<double>::max(), exact);
     if (!std::isfinite(w)) {
         count(r, Finding::not_finite);
         r.weight_error = std::numeric_limits<double>::infinity();
@@ -43,7 +44,7 @@ void compare_weight(Comparison& r, std::size_t i, double w, double exact, int si
         count(r, Finding::opposite_sign);
     }
     r.weight_error = std::max(r.weight_error, std::fabs(w - exact));
-    if (exact != 0 && std::isfinite(exact)) r.weight_ulps[i] = ulp_error(w, exact);
+    if (exact != 0) r.weight_ulps[i] = ulp_error(w, exact);
 }
 
 }  // namespace
@@ -57,11 +58,13 @@ Comparison compare(const Kernel& kernel, const Case& c, const exact::Answer& ans
     const bool perfect =
         status == 0 && !degenerate &&
         std::equal(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(n), answer.weights.begin());
-    r.claimed =
-        perfect && kernel.rule == RegionRule::sign ? answer.region : claimed_region(kernel, status, weights.first(n));
-    compare_regions(r, answer.region);
+    r.claimed = claimed_region(kernel, status, weights.first(n));
+    if (!perfect || kernel.rule != RegionRule::sign) compare_regions(r, answer.region);
     if (degenerate) {
-        if (kernel.certifies && r.wrong()) count(r, Finding::false_certificate);
+        if (r.wrong()) {
+            for (std::size_t i = 0; i < n; ++i) r.weight_error = std::max(r.weight_error, std::fabs(weights[i]));
+            if (kernel.certifies) count(r, Finding::false_certificate);
+        }
         return r;
     }
     if (status != 0) {

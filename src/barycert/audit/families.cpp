@@ -13,7 +13,9 @@ bool Family::applies_to(Simplex s) const {
 const std::vector<Family>& all_families() {
     static const std::vector<Family> families = [] {
         std::vector<Family> all = mesh_families();
-        for (Family& f : built_families()) all.push_back(std::move(f));
+        for (auto* part : {near_families, shape_families, range_families}) {
+            for (Family& f : part()) all.push_back(std::move(f));
+        }
         return all;
     }();
     return families;

@@ -40,8 +40,10 @@ std::vector<Family> families_matching(std::string_view glob);
 /// The case. Preconditions: family.applies_to(s); family.needs_mesh implies meshes.supplies(s).
 Case make_case(const Family& family, Simplex s, std::uint64_t seed, std::uint64_t index, const MeshSource& meshes);
 
-/// The two halves of all_families().
+/// The parts of all_families(): from meshes, and built.
 std::vector<Family> mesh_families();
-std::vector<Family> built_families();
+std::vector<Family> near_families();
+std::vector<Family> shape_families();
+std::vector<Family> range_families();
 
 }  // namespace barycert::audit

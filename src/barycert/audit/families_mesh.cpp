@@ -5,7 +5,6 @@
 
 #include "barycert/audit/combine.hpp"
 #include "barycert/audit/families.hpp"
-#include "barycert/core/ulp.hpp"
 
 namespace barycert::audit {
 namespace {
@@ -26,8 +25,8 @@ Draw shuffled(const Case& c, Random& random, const MeshSource& meshes) {
 }
 
 void nudge(Case& c, Random& random) {
-    double& x = c.point[random.below(static_cast<std::uint64_t>(space_dimension(c.simplex)))];
-    x = random.coin() ? next_up(x) : next_down(x);
+    const auto axis = static_cast<std::size_t>(random.below(static_cast<std::uint64_t>(space_dimension(c.simplex))));
+    move_by_ulp(c, c.point[axis], static_cast<int>(axis), random);
 }
 
 void inside(Case& c, Random& random, const MeshSource& meshes) {

@@ -57,18 +57,17 @@ Draw MeshSource::from_nodes(const PreparedMesh& from, Mesh::Index cell, std::arr
     draw.simplex.simplex = s;
     const Mesh& mesh = from.mesh;
     const auto d = static_cast<std::size_t>(mesh.dimension);
+    const Field* const field =
+        mesh.point_fields.empty() ? nullptr : &mesh.point_fields[random.below(mesh.point_fields.size())];
+    const std::size_t components = field == nullptr ? 1 : static_cast<std::size_t>(field->components);
+    const std::size_t component = random.below(components);
     for (int i = 0; i < vertex_count(s); ++i) {
         const auto node = static_cast<std::size_t>(nodes[static_cast<std::size_t>(i)]);
         for (int axis = 0; axis < space_dimension(s); ++axis) {
             draw.simplex.vertex(i, axis) = mesh.points[node * d + static_cast<std::size_t>(axis)];
         }
-        double& value = draw.simplex.values[static_cast<std::size_t>(i)];
-        if (mesh.point_fields.empty()) {
-            value = random.uniform(-1, 1);
-        } else {
-            const Field& field = mesh.point_fields.front();
-            value = field.data[node * static_cast<std::size_t>(field.components)];
-        }
+        draw.simplex.values[static_cast<std::size_t>(i)] =
+            field == nullptr ? random.uniform(-1, 1) : field->data[node * components + component];
     }
     return draw;
 }

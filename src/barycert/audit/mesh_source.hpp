@@ -35,8 +35,8 @@ public:
     bool supplies(Simplex s) const;
     const std::vector<PreparedMesh>& meshes() const { return meshes_; }
 
-    /// A random cell, or a random face or edge of one. Nodal values are those of the mesh's first point field, or
-    /// random in [-1, 1) if it has none. Precondition: supplies(s).
+    /// A random cell, or a random face or edge of one. Nodal values are a component of one of the mesh's point fields,
+    /// drawn as well, or random in [-1, 1) if it has none. Precondition: supplies(s).
     Draw any(Simplex s, Random& random) const;
 
     /// A random cell at the hull, its vertices ordered so that the hull's facet is the one opposite to the last.

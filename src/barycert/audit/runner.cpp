@@ -57,11 +57,11 @@ void collect_witnesses(KernelResult& result, const Options& options, const MeshS
         }
         if (from == nullptr) continue;
         const Worst& worst = from->statistics.witnesses[reason];
-        if (reason == finding_count && worst.value == 0) continue;
+        if (reason >= finding_count && worst.value == 0) continue;
         const Family& family = options.families[from->family];
         Witness w;
         w.kernel = result.kernel.name;
-        w.reason = reason == finding_count ? "worst_weight_ulp" : std::string(name(static_cast<Finding>(reason)));
+        w.reason = reason_name(reason);
         w.family = family.name;
         w.seed = options.seed;
         w.index = worst.index;
@@ -71,7 +71,7 @@ void collect_witnesses(KernelResult& result, const Options& options, const MeshS
     }
 }
 
-/// Certified or declared but wrong first, then by the share of wrong cases, then by the worst error.
+/// False certificates first, then by the share of wrong cases, then by the worst error.
 bool worse(const KernelResult& a, const KernelResult& b) {
     const auto share = [](const KernelResult& r, double n) {
         return r.total.cases == 0 ? 0.0 : n / static_cast<double>(r.total.cases);

@@ -63,6 +63,7 @@ void Statistics::add(const Comparison& r, Region exact, std::uint64_t index) {
     if (r.value_ulp >= 0) {
         value_ulps.add(r.value_ulp);
         value_ulp.include(r.value_ulp, index);
+        witnesses[finding_count + 1].include(r.value_ulp, index);
     }
 }
 

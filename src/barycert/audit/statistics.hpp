@@ -1,6 +1,7 @@
 /// Running totals of comparisons, of a size that does not depend on their number, and mergeable in any order.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -37,8 +38,14 @@ struct Worst {
     }
 };
 
-/// What there is a witness of: every class of finding, then the weight error in ulps.
-inline constexpr std::size_t witness_reasons = finding_count + 1;
+/// What there is a witness of: every class of finding, then the error of a weight and of the value in ulps.
+inline constexpr std::size_t witness_reasons = finding_count + 2;
+
+/// "opposite_sign", ... "worst_weight_ulp", "worst_value_ulp".
+constexpr std::string_view reason_name(std::size_t reason) {
+    if (reason < finding_count) return finding_texts[reason].name;
+    return reason == finding_count ? "worst_weight_ulp" : "worst_value_ulp";
+}
 
 struct Statistics {
     std::uint64_t cases = 0;
@@ -51,7 +58,11 @@ struct Statistics {
     Worst value_ulp;
     Worst partition_residual;                      ///< |sum of weights - 1|, exact, rounded once
     Worst reproduction_residual;                   ///< |sum of weight * vertex - point|, exact, rounded once
-    std::array<Worst, witness_reasons> witnesses;  ///< by |weight - exact weight|, the last by ulps
+    std::array<Worst, witness_reasons> witnesses;  ///< by Comparison::weight_error, the last two by ulps
+
+    /// 99.9th percentiles: edges of bins, never above the worst; -1 if there is no measure.
+    double p999_weight_ulp() const { return std::min(weight_ulps.quantile(0.999), weight_ulp.value); }
+    double p999_value_ulp() const { return std::min(value_ulps.quantile(0.999), value_ulp.value); }
 
     void add(const Comparison& comparison, Region exact, std::uint64_t index);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "barycert/core/text.hpp"
@@ -21,13 +22,22 @@ const std::vector<Figure>& figures() {
         const auto wrong = [](const Statistics& s) { return static_cast<double>(s.wrong_cases); };
         f.emplace_back("any", wrong);
         f.emplace_back("wrong_cases", wrong);
-        f.emplace_back("worst_weight_ulp", [](const Statistics& s) { return s.weight_ulp.value; });
-        f.emplace_back("p999_weight_ulp", [](const Statistics& s) { return s.weight_ulps.quantile(0.999); });
-        f.emplace_back("worst_value_ulp", [](const Statistics& s) { return s.value_ulp.value; });
-        f.emplace_back("p999_value_ulp", [](const Statistics& s) { return s.value_ulps.quantile(0.999); });
-        f.emplace_back("worst_partition_residual", [](const Statistics& s) { return s.partition_residual.value; });
-        f.emplace_back("worst_reproduction_residual",
-                       [](const Statistics& s) { return s.reproduction_residual.value; });
+        // A kernel that gives no finite weight where there is one to give has no error to measure: it is worse than
+        // any.
+        const auto size = [&](const char* name, double (*figure)(const Statistics&)) {
+            f.emplace_back(name, [figure](const Statistics& s) {
+                const auto seen = [&](Finding x) { return s.counts[static_cast<std::size_t>(x)] != 0; };
+                const double value = figure(s);
+                const bool mute = value < 0 && (seen(Finding::not_finite) || seen(Finding::false_declaration));
+                return mute ? std::numeric_limits<double>::infinity() : value;
+            });
+        };
+        size("worst_weight_ulp", [](const Statistics& s) { return s.weight_ulp.value; });
+        size("p999_weight_ulp", [](const Statistics& s) { return s.p999_weight_ulp(); });
+        size("worst_value_ulp", [](const Statistics& s) { return s.value_ulp.value; });
+        size("p999_value_ulp", [](const Statistics& s) { return s.p999_value_ulp(); });
+        size("worst_partition_residual", [](const Statistics& s) { return s.partition_residual.value; });
+        size("worst_reproduction_residual", [](const Statistics& s) { return s.reproduction_residual.value; });
         return f;
     }();
     return all;

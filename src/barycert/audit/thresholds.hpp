@@ -26,7 +26,8 @@ struct Violation {
 
 /// NAME is a class of finding (counts), `wrong_cases` or `any` (cases with any finding), `worst_weight_ulp`,
 /// `p999_weight_ulp`, `worst_value_ulp`, `p999_value_ulp`, `worst_partition_residual` or `worst_reproduction_residual`.
-/// NUMBER is 0 if left out.
+/// NUMBER is 0 if left out. Sizes of errors are taken over what could be measured; where that is nothing because
+/// weights were not finite or the simplex was falsely declared degenerate, they are infinite. Pair them with `any`.
 Result<Rule> parse_rule(std::string_view text);
 
 std::vector<Violation> violations(const Report& report, const std::vector<Rule>& rules);

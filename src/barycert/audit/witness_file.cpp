@@ -73,6 +73,7 @@ Witness witness_from(const Json& j, const std::string& where) {
     w.family = text_or(j, "family", "");
     w.seed = count_or(j, "seed", 0);
     w.index = count_or(j, "case", 0);
+    if (j.contains("magnitude") && j.at("magnitude").is_number()) w.magnitude = j.at("magnitude").get<double>();
     const auto n = static_cast<std::size_t>(vertex_count(*known)),
                d = static_cast<std::size_t>(space_dimension(*known));
     const Json& vertices = array_of(j, "vertices", n, where);
@@ -123,7 +124,7 @@ std::string witness_file(const Report& report) {
     for (const KernelResult& k : report.kernels) {
         for (const Witness& w : k.witnesses) out["witnesses"].push_back(witness_json(w));
     }
-    return out.dump(1) + "\n";
+    return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Result<std::vector<Witness>> read_witnesses(const std::string& path) {

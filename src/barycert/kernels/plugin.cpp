@@ -2,6 +2,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <string>
 #include <utility>
 
@@ -65,7 +66,11 @@ Result<Kernel> described(const std::string& path, const barycert_kernel_info& in
 Result<Kernel> load_kernel_library(const std::string& path) {
     // Without a slash dlopen would search the system's library folders instead of the working directory.
     const std::string file = path.find('/') == std::string::npos ? "./" + path : path;
+    // A library linked with -ffast-math sets flush-to-zero when it is loaded: that stays its own affair.
+    std::fenv_t before;
+    std::fegetenv(&before);
     void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    std::fesetenv(&before);
     if (library == nullptr) {
         return refused(path, "cannot load the kernel library", "", text_or_empty(dlerror()),
                        "give the path of a shared library for this machine, all of whose symbols can be resolved");
@@ -80,6 +85,7 @@ Result<Kernel> load_kernel_library(const std::string& path) {
     }
     barycert_kernel_info info{};
     describe(&info);
+    std::fesetenv(&before);
     Result<Kernel> kernel = described(path, info, weights);
     if (!kernel) dlclose(library);
     return kernel;

@@ -47,7 +47,7 @@ void add_tetrahedron(std::vector<Kernel>& list) {
     const Text volumes{
         "W_a = V(p,b,c,d) / V(a,b,c,d) and cyclic, V(q0,q1,q2,q3) = det(q1-q0, q2-q0, q3-q0)",
         "volume coordinates, any finite element textbook",
-        "differences and products are rounded: one point in six on a face is misjudged; range is lost below 2^-358"};
+        "differences and products are rounded: points on and near faces change sides; range is lost below 2^-358"};
     add("signed-volume", signed_volume<double>, Declares::yes, volumes);
     add_variants(list, list.back(), &Variants::signed_volume);
     add("signed-volume.float32", in_float<s, signed_volume<float>>, Declares::yes,
@@ -60,7 +60,7 @@ void add_tetrahedron(std::vector<Kernel>& list) {
     add_variants(list, list.back(), &Variants::two_cross_products);
 
     add("unsigned-volume", unsigned_volume<double>, Declares::no,
-        {"W_a = |V(p,b,c,d)| / sum of all four", "TetGen's weights from a background mesh; volume ratios",
+        {"W_a = |V(p,b,c,d)| / sum of all four", "volume ratios, common lecture notes",
          "no weight is ever negative: every point outside looks like one inside"});
 
     const Text rule{"Cramer's rule for (a-d | b-d | c-d) (W_a,W_b,W_c) = p-d; W_d = V(p,a,b,c)/V(d,a,b,c) by its own",
@@ -73,9 +73,9 @@ void add_tetrahedron(std::vector<Kernel>& list) {
     add("one-minus-sum", one_minus_sum<double>, Declares::yes,
         {"Cramer's rule for W_a, W_b, W_c; W_d = 1 - W_a - W_b - W_c", "finite element codes",
          "W_d carries the rounding of the others: on face abc its sign is chance, and the sum 1 hides every error"});
-    const Text ones{
-        "W_a = |1 p; 1 b; 1 c; 1 d| / |1 a; 1 b; 1 c; 1 d| and so on, 4x4 determinants", "homogeneous coordinates",
-        "products of absolute coordinates cancel: at an offset of 2^17 cell sizes three points in four are misplaced"};
+    const Text ones{"W_a = |1 p; 1 b; 1 c; 1 d| / |1 a; 1 b; 1 c; 1 d| and so on, 4x4 determinants",
+                    "homogeneous coordinates",
+                    "products of absolute coordinates cancel: at an offset of 2^17 cell sizes signs are chance"};
     add("homogeneous", homogeneous4<double>, Declares::yes, ones);
     add("homogeneous.float32", in_float<s, homogeneous4<float>>, Declares::yes,
         {ones.formula, ones.source, "as homogeneous, already at an offset of 2^8 cell sizes"});
@@ -103,7 +103,7 @@ void add_tetrahedron(std::vector<Kernel>& list) {
          "none"});
     add("vtk-tolerance", parametric<double>, Declares::yes,
         {"Cramer's rule for W_b, W_c, W_d with origin a, W_a = 1 - sum; inside if every W >= -0.001",
-         "the acceptance rule of VTK's vtkTetra::EvaluatePosition",
+         "the lower bound of VTK's vtkTetra::EvaluatePosition, which also asks W <= 1.001",
          "points outside by up to a thousandth of a height are accepted as inside; only det == 0 is degenerate"});
     list.back().rule = RegionRule::tolerant;
     list.back().tolerance = 0.001;

@@ -57,8 +57,8 @@ void add_triangle(std::vector<Kernel>& list) {
 
     add("inverse", by_inverse<double, 2>, Declares::no,
         {"(W_b, W_c) = (b-a | c-a)^-1 (p-a), W_a = 1-W_b-W_c", "Eigen Matrix2d::inverse()",
-         "1/det is rounded before it is used and two weights are differences: one point in three on an edge and one "
-         "vertex in four are misjudged"});
+         "1/det is rounded before it is used and two weights are differences: zeros on edges turn into rounding "
+         "noise"});
     add("partial-lu", by_decomposition<double, 2, Eigen::PartialPivLU>, Declares::no,
         {"(1 1 1; a b c) W = (1; p)", "Eigen PartialPivLU",
          "backward stable only: on edges the zero weight comes out as rounding noise of either sign"});

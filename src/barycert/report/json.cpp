@@ -22,9 +22,9 @@ void add_statistics(Json& j, const Statistics& s) {
     j["wrong_cases"] = s.wrong_cases;
     for (std::size_t f = 0; f < audit::finding_count; ++f) j[std::string(audit::finding_texts[f].name)] = s.counts[f];
     j["worst_weight_ulp"] = figure(s.weight_ulp.value);
-    j["p999_weight_ulp"] = figure(s.weight_ulps.quantile(0.999));
+    j["p999_weight_ulp"] = figure(s.p999_weight_ulp());
     j["worst_value_ulp"] = figure(s.value_ulp.value);
-    j["p999_value_ulp"] = figure(s.value_ulps.quantile(0.999));
+    j["p999_value_ulp"] = figure(s.p999_value_ulp());
     j["worst_partition_residual"] = figure(s.partition_residual.value);
     j["worst_reproduction_residual"] = figure(s.reproduction_residual.value);
     Json& confusion = j["confusion"];
@@ -111,21 +111,21 @@ std::string json_report(const audit::Report& r) {
         for (const audit::Witness& w : k.witnesses) witnesses.push_back(audit::witness_json(w));
     }
     j["witnesses"] = std::move(witnesses);
-    return j.dump(1) + "\n";
+    return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string kernels_json(const std::vector<Kernel>& kernels) {
     Json j;
     j["schema"] = audit_schema;
     j["kernels"] = list(kernels, kernel_json);
-    return j.dump(1) + "\n";
+    return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string families_json(const std::vector<audit::Family>& families) {
     Json j;
     j["schema"] = audit_schema;
     j["families"] = list(families, family_json);
-    return j.dump(1) + "\n";
+    return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace barycert::report

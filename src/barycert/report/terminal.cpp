@@ -1,7 +1,9 @@
 #include "barycert/report/terminal.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <set>
 
 #include "barycert/report/terminal_text.hpp"
 
@@ -17,40 +19,77 @@ std::uint64_t count_of(const Statistics& s, Finding f) {
     return s.counts[static_cast<std::size_t>(f)];
 }
 
+/// Cases and wrong ones of a kernel in the families that draw from meshes.
+std::pair<std::uint64_t, std::uint64_t> on_meshes(const Report& report, const KernelResult& k) {
+    std::uint64_t wrong = 0, cases = 0;
+    for (const audit::FamilyResult& f : k.families) {
+        if (!report.families[f.family].needs_mesh) continue;
+        wrong += f.statistics.wrong_cases;
+        cases += f.statistics.cases;
+    }
+    return {wrong, cases};
+}
+
 std::string kernel_table(const Report& report, const Colours& paint) {
     std::size_t width = 6;
     for (const KernelResult& k : report.kernels) width = std::max(width, k.kernel.name.size());
     const auto row = [&](const auto&... cells) {
-        return fmt::format("{:<{}} {:>5} {:>6} {:>5} {:>5} {:>5} {:>6} {:>6} {:>7} {:>6} {:>6} {:>9} {:>9} {:>8} {:>5}",
-                           cells...);
+        return fmt::format(
+            "{:<{}} {:>5} {:>6} {:>6} {:>5} {:>5} {:>5} {:>6} {:>6} {:>7} {:>6} {:>6} {:>9} {:>9} {:>9} {:>5}",
+            cells...);
     };
     std::string out;
-    out += paint.bold(row("kernel", width, "cases", "wrong", "opp.", "false", "false", "not", "false", "false", "false",
-                          "missed", "ulps", "ulps", "worst", "ns")) +
+    out += paint.bold(row("kernel", width, "cases", "wrong", "wrong%", "opp.", "false", "false", "not", "false",
+                          "false", "false", "missed", "ulps", "ulps", "value", "ns")) +
            "\n";
-    out += paint.bold(row("", width, "", "%", "sign", "zero", "non-0", "finite", "inside", "outside", "degen.",
-                          "degen.", "99.9%", "worst", "|sum-1|", "")) +
+    out += paint.bold(row("", width, "", "%", "meshes", "sign", "zero", "non-0", "finite", "inside", "outside",
+                          "degen.", "degen.", "99.9%", "worst", "99.9%", "")) +
            "\n";
     for (const KernelResult& k : report.kernels) {
         const Statistics& s = k.total;
         const auto n = [&](Finding f) { return brief_count(count_of(s, f)); };
+        const auto [mesh_wrong, mesh_cases] = on_meshes(report, k);
         const std::string line =
-            row(k.kernel.name, width, brief_count(s.cases), percent(s.wrong_cases, s.cases), n(Finding::opposite_sign),
+            row(k.kernel.name, width, brief_count(s.cases), percent(s.wrong_cases, s.cases),
+                mesh_cases == 0 ? std::string("-") : percent(mesh_wrong, mesh_cases), n(Finding::opposite_sign),
                 n(Finding::false_zero), n(Finding::false_nonzero), n(Finding::not_finite), n(Finding::false_inside),
                 n(Finding::false_outside), n(Finding::false_declaration), n(Finding::missed_degenerate),
-                brief(s.weight_ulps.quantile(0.999)), brief(s.weight_ulp.value), brief(s.partition_residual.value),
+                brief(s.p999_weight_ulp()), brief(s.weight_ulp.value), brief(s.p999_value_ulp()),
                 fmt::format("{:.1f}", k.ns));
         const std::uint64_t broken = count_of(s, Finding::false_certificate);
-        out += (s.wrong_cases == 0 ? paint.good(line) : line) + "\n";
+        const bool perfect = s.wrong_cases == 0 && s.weight_ulp.value == 0;
+        out += (perfect ? paint.good(line) : line) + "\n";
         if (broken != 0)
             out += paint.bad(fmt::format("    certifies its answers, and {} of them are wrong", broken)) + "\n";
     }
     out += paint.dim(
-        "wrong %: cases with any finding. Signs, zeros and not finite count weights; inside, outside and degenerate "
-        "count cases.\n"
-        "ulps: error of a weight in units of the last place of the correctly rounded one. ns: median time of one "
-        "evaluation.\n");
+        "wrong %: cases with any finding, over all families and over those from meshes. A finding is a wrong sign, "
+        "zero, "
+        "region or declaration;\nhow far off a weight is stands in ulps of the correctly rounded one, value: the same "
+        "of "
+        "the interpolated value. Signs, zeros and not\nfinite count weights; inside, outside and degenerate count "
+        "cases. "
+        "ns: median time of one evaluation, over blocks of cases.\n");
     return out;
+}
+
+/// What the cases were, by the oracle: each pair of family and simplex counted once.
+std::string exact_regions(const Report& report) {
+    std::array<std::uint64_t, 4> regions{};
+    std::set<std::pair<std::size_t, Simplex>> seen;
+    for (const KernelResult& k : report.kernels) {
+        for (const audit::FamilyResult& f : k.families) {
+            if (!seen.emplace(f.family, k.kernel.simplex).second) continue;
+            for (std::size_t r = 0; r < 4; ++r) {
+                for (const std::uint64_t n : f.statistics.confusion[r]) regions[r] += n;
+            }
+        }
+    }
+    std::string out = "exactly: ";
+    for (const Region r : all_regions) {
+        out += fmt::format("{}{} {}", r == Region::interior ? "" : ", ", regions[static_cast<std::size_t>(r)], name(r));
+    }
+    return out + "\n";
 }
 
 std::string family_table(const Report& report, const Colours& paint) {
@@ -77,11 +116,14 @@ std::string family_table(const Report& report, const Colours& paint) {
         paint.bold(line("family", width, "simplex", "cases", "clean", "median %", "worst %", "worst kernel")) + "\n";
     for (auto& [key, row] : rows) {
         std::stable_sort(row.wrong.begin(), row.wrong.end(),
-                         [](const auto& a, const auto& b) { return a.first < b.first; });
-        const auto& [worst, kernel] = row.wrong.back();
+                         [](const auto& a, const auto& b) { return a.first > b.first; });
+        const std::uint64_t worst = row.wrong.front().first;
+        const auto ties =
+            std::count_if(row.wrong.begin(), row.wrong.end(), [&](const auto& w) { return w.first == worst; });
+        const std::string kernel = row.wrong.front().second + (ties > 1 ? fmt::format(" (+{} more)", ties - 1) : "");
         out += line(report.families[key.first].name, width, name(key.second), brief_count(row.cases),
                     fmt::format("{}/{}", row.clean, row.wrong.size()),
-                    percent(row.wrong[row.wrong.size() / 2].first, row.cases), percent(worst, row.cases),
+                    percent(row.wrong[(row.wrong.size() - 1) / 2].first, row.cases), percent(worst, row.cases),
                     worst == 0 ? std::string("-") : kernel) +
                "\n";
     }
@@ -95,10 +137,10 @@ std::string replay_command(const Report& report, const KernelResult& k, const au
     std::string libraries;
     for (const std::string& library : style.library_arguments) libraries += " --kernel-library " + shell_word(library);
     if (!style.witness_path.empty()) {
-        return fmt::format("barycert replay {}{} --kernel {} --reason {}", shell_word(style.witness_path), libraries,
-                           shell_word(k.kernel.name), w.reason);
+        return fmt::format("{} replay {}{} --kernel {} --reason {}", style.command, shell_word(style.witness_path),
+                           libraries, shell_word(k.kernel.name), w.reason);
     }
-    std::string command = "barycert replay" + libraries;
+    std::string command = style.command + " replay" + libraries;
     const auto family =
         std::find_if(report.families.begin(), report.families.end(), [&](const auto& f) { return f.name == w.family; });
     if (family != report.families.end() && family->needs_mesh) {
@@ -108,17 +150,24 @@ std::string replay_command(const Report& report, const KernelResult& k, const au
                                  shell_word(w.family), w.index, w.seed);
 }
 
+/// What a witness shows, in words.
+std::string shows(const audit::Witness& w) {
+    if (w.reason.ends_with("_ulp")) return brief(w.magnitude) + " ulps";
+    if (w.reason == "false_declaration") return "declared degenerate";
+    if (w.reason == "missed_degenerate") return "weights up to " + brief(w.magnitude);
+    return std::isfinite(w.magnitude) ? "a weight off by " + brief(w.magnitude) : "a weight that is not finite";
+}
+
 std::string witness_list(const Report& report, const TerminalStyle& style, const Colours& paint) {
     std::string out;
     for (const KernelResult& k : report.kernels) {
         const audit::Witness* w = audit::worst_witness(k);
-        if (w == nullptr) continue;
-        const bool ulps = w->reason == "worst_weight_ulp";
-        const std::string magnitude = ulps                          ? brief(w->magnitude) + " ulps"
-                                      : std::isfinite(w->magnitude) ? "a weight off by " + brief(w->magnitude)
-                                                                    : "no finite weight";
+        if (w == nullptr) {
+            out += paint.bold(k.kernel.name) + ": none, every weight and value is correctly rounded\n";
+            continue;
+        }
         out += fmt::format("{}: {} in {}, case {} ({})\n    {}\n", paint.bold(k.kernel.name), w->reason, w->family,
-                           w->index, magnitude, replay_command(report, k, *w, style));
+                           w->index, shows(*w), replay_command(report, k, *w, style));
     }
     return out;
 }
@@ -126,9 +175,9 @@ std::string witness_list(const Report& report, const TerminalStyle& style, const
 }  // namespace
 
 std::string environment_line(const Environment& e) {
-    return fmt::format("barycert {}, {}, rounding {}, {}{}, contraction {}, subnormals {}", e.version, e.compiler,
-                       e.rounding, e.simd, e.fma ? "+FMA" : "", e.contraction ? "ON" : "off",
-                       e.flush_to_zero ? "FLUSHED" : "kept");
+    return fmt::format("barycert {}, {}, rounding {}, contraction {}, subnormals {}, processor with {}{}", e.version,
+                       e.compiler, e.rounding, e.contraction ? "ON" : "off", e.flush_to_zero ? "FLUSHED" : "kept",
+                       e.simd, e.fma ? " and FMA" : "");
 }
 
 std::string terminal_report(const Report& report, const TerminalStyle& style) {
@@ -140,7 +189,7 @@ std::string terminal_report(const Report& report, const TerminalStyle& style) {
         report.seconds);
     std::string meshes;
     for (const std::string& m : report.meshes) meshes += (meshes.empty() ? "" : ", ") + m;
-    out += "meshes: " + (meshes.empty() ? std::string("none") : meshes) + "\n\n";
+    out += "meshes: " + (meshes.empty() ? std::string("none") : meshes) + "\n" + exact_regions(report) + "\n";
     out += kernel_table(report, paint) + "\n" + family_table(report, paint) + "\n";
     out += paint.bold("Worst witness of each kernel, and the command that replays it:") + "\n" +
            witness_list(report, style, paint);

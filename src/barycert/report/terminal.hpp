@@ -10,6 +10,7 @@ namespace barycert::report {
 
 struct TerminalStyle {
     bool colour = false;
+    std::string command = "barycert";  ///< how the user calls the program, for commands to repeat
     /// What replays a witness: appended to "barycert replay"; a file name, or empty to name the family and case
     /// instead.
     std::string witness_path = {};

@@ -5,6 +5,7 @@
 
 #include "barycert/audit/comparison.hpp"
 #include "barycert/core/text.hpp"
+#include "barycert/exact/identities.hpp"
 #include "barycert/exact/oracle.hpp"
 #include "barycert/report/terminal.hpp"
 #include "barycert/report/terminal_text.hpp"
@@ -27,6 +28,25 @@ std::string coordinates(const Case& c, auto at) {
         hex += (axis == 0 ? "" : ", ") + hexadecimal(at(axis));
     }
     return fmt::format("({})\n        ({})\n", decimal, hex);
+}
+
+/// Interpolating along auxiliary lines is barycentric interpolation: shown here in rational numbers, for this very
+/// case.
+std::string identity_line(const Case& c) {
+    const bool planar = c.simplex == Simplex::triangle;
+    if (!planar && c.simplex != Simplex::tetrahedron) return "";
+    const exact::Identity identity = planar ? exact::bilinear_is_barycentric(c) : exact::trilinear_is_barycentric(c);
+    const char* const what = planar ? "bilinear interpolation and ratios of signed areas"
+                                    : "trilinear interpolation and ratios of signed volumes";
+    switch (identity) {
+        case exact::Identity::holds:
+            return fmt::format("    in exact arithmetic {} give the same weights here\n", what);
+        case exact::Identity::fails:
+            return fmt::format("    in exact arithmetic {} DIFFER here: a fault of barycert\n", what);
+        case exact::Identity::undefined:
+            break;
+    }
+    return "";
 }
 
 }  // namespace
@@ -56,29 +76,31 @@ std::string terminal_witness(const audit::Witness& witness, const std::vector<Ke
     std::size_t width = 5;
     for (const Kernel& k : kernels) width = std::max(width, k.name.size());
     const auto row = [&](std::string_view mark, std::string_view kernel, std::string_view region,
-                         const std::array<std::string, 4>& cells, std::string_view ulps, std::string_view text) {
+                         const std::array<std::string, 4>& cells, std::string_view ulps, std::string_view value,
+                         std::string_view text) {
         std::string line = fmt::format("{:1} {:<{}}  {:<10}", mark, kernel, width, region);
         for (int i = 0; i < n; ++i) line += fmt::format(" {:>24}", cells[static_cast<std::size_t>(i)]);
-        return line + fmt::format(" {:>9}  {}", ulps, text) + "\n";
+        return line + fmt::format(" {:>9} {:>10}  {}", ulps, value, text) + "\n";
     };
     std::array<std::string, 4> cells{};
     for (int i = 0; i < n; ++i) cells[static_cast<std::size_t>(i)] = fmt::format("weight {}", i);
-    out += paint.bold(row("", "", "region", cells, "ulps", "findings"));
+    out += paint.bold(row("", "", "region", cells, "ulps", "value ulps", "findings"));
     for (int i = 0; i < n; ++i)
         cells[static_cast<std::size_t>(i)] = shortest(answer.weights[static_cast<std::size_t>(i)]);
-    out += paint.good(row("=", "exact, correctly rounded", name(answer.region), cells, "", ""));
+    out += paint.good(
+        row("=", "exact, correctly rounded", name(answer.region), cells, "", "", "value " + shortest(answer.value)));
     for (const Kernel& k : kernels) {
         if (k.simplex != c.simplex) continue;
-        std::array<double, 4> weights{};
+        std::array<double, 4> weights = audit::unset_weights;
         const int status = k.weights(c.vertices.data(), c.point.data(), weights.data());
         const audit::Comparison r = audit::compare(k, c, answer, status, weights);
         for (std::size_t i = 0; i < 4; ++i) cells[i] = status != 0 ? "declared" : shortest(weights[i]);
         const double worst = *std::max_element(r.weight_ulps.begin(), r.weight_ulps.end());
-        const std::string line =
-            row(k.name == witness.kernel ? ">" : "", k.name, name(r.claimed), cells, brief(worst), findings(r));
+        const std::string line = row(k.name == witness.kernel ? ">" : "", k.name, name(r.claimed), cells, brief(worst),
+                                     brief(r.value_ulp), findings(r));
         out += r.wrong() ? paint.bad(line) : line;
     }
-    return out;
+    return out + identity_line(c);
 }
 
 std::string terminal_kernels(const std::vector<Kernel>& kernels) {

@@ -1,0 +1,148 @@
+// Families of points near or on a facet of an ordinary simplex, where sums of products cancel.
+
+#include <cmath>
+#include <cstddef>
+
+#include "barycert/audit/recipes.hpp"
+
+namespace barycert::audit {
+namespace {
+
+void ordinary_inside(Case& c, Random& random, std::uint64_t = 0) {
+    ordinary(c, random);
+    c.point = random_point(c, random, vertex_count(c.simplex));
+}
+
+// The three grids of Kettner, Mehlhorn, Pion, Schirra and Yap: p, q and r nearly on a line, p over a grid of
+// neighbouring doubles.
+struct Grid {
+    std::array<double, 2> p, q, r, apex;
+};
+
+void ulp_grid(Case& c, Random& random, std::uint64_t index, const Grid& g) {
+    const auto cell = index * 40503 % 65536;  // 256 x 256 points; an odd factor visits each once, well spread
+    set_vertex(c, 0, {g.q[0], g.q[1], 0});
+    set_vertex(c, 1, {g.r[0], g.r[1], 0});
+    set_vertex(c, 2, {g.apex[0], g.apex[1], 0});
+    const std::uint64_t column = cell % 256, row = cell / 256;
+    c.point = {g.p[0] + static_cast<double>(column) * 0x1p-53, g.p[1] + static_cast<double>(row) * 0x1p-53, 0};
+    random_values(c, random);
+}
+
+void ulp_grid_1(Case& c, Random& random, std::uint64_t index) {
+    ulp_grid(c, random, index, {{0.5, 0.5}, {12, 12}, {24, 24}, {24, 12}});
+}
+
+void ulp_grid_2(Case& c, Random& random, std::uint64_t index) {
+    ulp_grid(c, random, index,
+             {{0.50000000000002531, 0.5000000000000171},
+              {17.300000000000001, 17.300000000000001},
+              {24.00000000000005, 24.0000000000000517765},
+              {24, 17.3}});
+}
+
+void ulp_grid_3(Case& c, Random& random, std::uint64_t index) {
+    ulp_grid(c, random, index, {{0.5, 0.5}, {8.8000000000000007, 8.8000000000000007}, {12.1, 12.1}, {12.1, 8.8}});
+}
+
+// The diagonal x = y = z carries an edge and the point: the other weights are exactly zero.
+void diagonal(Case& c, Random& random, std::uint64_t) {
+    ordinary(c, random);
+    const int n = vertex_count(c.simplex);
+    const double t = 0.5 + 5e-14 * random.unit();
+    set_vertex(c, 0, {12, 12, 12});
+    set_vertex(c, 1, {24, 24, 24});
+    for (int i = 2; i < n; ++i) set_vertex(c, i, {random.uniform(0, 48), random.uniform(0, 48), random.uniform(0, 48)});
+    c.point = {t, t, space_dimension(c.simplex) == 3 ? t : 0.0};
+}
+
+// In the plane (on the line) of the first n - 1 vertices, not only between them.
+void coplanar(Case& c, Random& random, std::uint64_t) {
+    ordinary(c, random);
+    const int n = vertex_count(c.simplex);
+    const double s = random.uniform(-1, 2), t = n == 4 ? random.uniform(-1, 2) : 0;
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
+        const double a = c.vertex(0, axis);
+        double x = a + s * (c.vertex(1, axis) - a);
+        if (n == 4) x += t * (c.vertex(2, axis) - a);
+        c.point[static_cast<std::size_t>(axis)] = x;
+    }
+}
+
+// Four points of a plane (three of a line) through the origin whose coordinates span 40 binary orders of magnitude:
+// each product has a different size, so the sums cancel completely. The last vertex is anywhere.
+void anisotropic_plane(Case& c, Random& random, std::uint64_t) {
+    const std::array<double, 3> normal{random.uniform(0.5, 1), random.uniform(0.5, 1), random.uniform(0.5, 1)};
+    const auto scale = [&](int sign) { return sign > 0 ? random.scaled(-1, 1, 0, 19) : random.scaled(-1, 1, -19, 0); };
+    const auto point = [&] {
+        const double x = scale(1);
+        if (c.simplex == Simplex::triangle) return std::array<double, 3>{x, -(normal[0] * x) / normal[1], 0};
+        const double y = scale(-1);
+        return std::array<double, 3>{x, y, -(normal[0] * x + normal[1] * y) / normal[2]};
+    };
+    const int n = vertex_count(c.simplex);
+    for (int i = 0; i < n - 1; ++i) set_vertex(c, i, point());
+    set_vertex(c, n - 1, {scale(1), scale(-1), scale(1)});
+    c.point = point();
+    random_values(c, random);
+}
+
+template <int Exponent>
+void offset(Case& c, Random& random, std::uint64_t) {
+    const double o = std::ldexp(1, Exponent);
+    fill(c, random, [&](int) { return o + random.unit(); });
+}
+
+void on_facet(Case& c, Random& random, std::uint64_t) {
+    fill(c, random, [&](int) { return random.unit(); });
+    c.point = random_point(c, random, vertex_count(c.simplex) - 1);
+}
+
+void on_facet_offset(Case& c, Random& random, std::uint64_t) {
+    fill(c, random, [&](int) { return 1000 + random.unit(); });
+    c.point = random_point(c, random, vertex_count(c.simplex) - 1);
+}
+
+// A good simplex and a point at height h over one of its facets.
+template <int Decimal>
+void near_facet(Case& c, Random& random, std::uint64_t) {
+    constexpr double h = Decimal == 13 ? 1e-13 : Decimal == 14 ? 1e-14 : 1e-15;
+    ordinary(c, random);
+    const int n = vertex_count(c.simplex) - 1;
+    const bool over = random.coin();
+    c.point = lifted(c, random, random_point(c, random, n), over ? h : -h);
+}
+
+}  // namespace
+
+std::vector<Family> near_families() {
+    return {
+        built("random", "the easy case, for comparison", "all coordinates U[-1,1)", ordinary, every),
+        built("random.inside", "the easy case, inside", "U[-1,1), point fl(sum w_i v_i)", ordinary_inside, every),
+        built("ulp-grid.1", "the classic picture of orientation errors",
+              "p = (.5,.5) + 2^-53 (i,j), 256 x 256; edge (12,12)(24,24)", ulp_grid_1, triangle_only),
+        built("ulp-grid.2", "the same, edge nearly diagonal",
+              "p = (.50000000000002531,.5000000000000171) + 2^-53 (i,j); edge (17.3)^2 "
+              "(24.00000000000005,24.0000000000000517765)",
+              ulp_grid_2, triangle_only),
+        built("ulp-grid.3", "the same, edge of rounded decimals", "p = (.5,.5) + 2^-53 (i,j); edge (8.8)^2 (12.1)^2",
+              ulp_grid_3, triangle_only),
+        built("diagonal", "exact zeros away from the edge's end",
+              "edge (12)^n (24)^n, others U[0,48), point (.5 + 5e-14 U)^n", diagonal, solid),
+        built("coplanar", "the sign of a point in a facet's plane, rounded", "a + s(b-a) + t(c-a), s,t U[-1,2)",
+              coplanar, solid),
+        built("anisotropic-plane", "cancellation of products of very different size",
+              "x = U 2^[0,20), y = U 2^-[0,20), z = -(n0 x + n1 y)/n2; in 2D y = -n0 x/n1", anisotropic_plane, solid),
+        built("offset.2^17", "determinants of absolute coordinates", "2^17 + U[0,1)", offset<17>, every),
+        built("offset.2^20", "the same, further out", "2^20 + U[0,1)", offset<20>, every),
+        built("on-facet", "points rounded onto a facet, unit cube", "U[0,1), fl(sum w_i v_i) over n-1 vertices",
+              on_facet, sided),
+        built("on-facet.offset", "the same, at 1000: differences are exact", "1000 + U[0,1)", on_facet_offset, sided),
+        built("near-facet.1e-13", "a point at height 1e-13 over a facet", "U[-1,1), h = +-1e-13", near_facet<13>,
+              sided),
+        built("near-facet.1e-14", "the same at 1e-14", "U[-1,1), h = +-1e-14", near_facet<14>, sided),
+        built("near-facet.1e-15", "the same at 1e-15", "U[-1,1), h = +-1e-15", near_facet<15>, sided),
+    };
+}
+
+}  // namespace barycert::audit

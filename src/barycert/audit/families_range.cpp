@@ -1,0 +1,64 @@
+// Families at the ends of the range of doubles, where products and differences under- and overflow.
+
+#include <cmath>
+#include <cstddef>
+
+#include "barycert/audit/recipes.hpp"
+
+namespace barycert::audit {
+namespace {
+
+void subnormal(Case& c, Random& random, std::uint64_t) {
+    fill(c, random, [&](int) { return random.integer(-4096, 4096) * 0x1p-1074; });
+}
+
+void tiny(Case& c, Random& random, std::uint64_t) {
+    fill(c, random, [&](int) { return std::ldexp(random.uniform(-1, 1), -540); });
+}
+
+void small(Case& c, Random& random, std::uint64_t) {
+    fill(c, random, [&](int) { return std::ldexp(random.uniform(-1, 1), -400); });
+}
+
+void large(Case& c, Random& random, std::uint64_t) {
+    fill(c, random, [&](int) { return std::ldexp(random.uniform(-1, 1), 600); });
+}
+
+void huge(Case& c, Random& random, std::uint64_t) {
+    fill(c, random, [&](int) { return random.uniform(-1, 1) * 0.999 * 0x1p1023 * 2; });
+}
+
+void mixed_scale(Case& c, Random& random, std::uint64_t) {
+    fill(c, random, [&](int axis) {
+        return std::ldexp(random.uniform(-1, 1), axis == 0 ? 512 : axis == 1 ? -512 : 0);
+    });
+}
+
+// Products that underflow to zero in one term and are large in another: a filter whose bound ignores underflow
+// certifies a wrong sign here.
+void filter_underflow(Case& c, Random& random, std::uint64_t) {
+    const auto m = [&] { return random.uniform(0.5, 2); };
+    set_vertex(c, 0, {std::ldexp(m(), -537), 0, std::ldexp(m(), 600)});
+    set_vertex(c, 1, {std::ldexp(m(), -537), 0, std::ldexp(m(), 600)});
+    set_vertex(c, 2, {0, std::ldexp(m(), -537), 0});
+    set_vertex(c, 3, {std::ldexp(m(), 600), std::ldexp(m(), 600), std::ldexp(m(), -537)});
+    random_values(c, random);
+}
+
+}  // namespace
+
+std::vector<Family> range_families() {
+    return {
+        built("subnormal", "no product is anything but zero, and few bits are left", "k 2^-1074, |k| <= 4096",
+              subnormal, every),
+        built("small", "products of three underflow, of two do not", "U[-1,1) 2^-400", small, every),
+        built("tiny", "products of two underflow", "U[-1,1) 2^-540", tiny, every),
+        built("large", "products overflow, differences do not", "U[-1,1) 2^600", large, every),
+        built("huge", "differences and products overflow", "U[-1,1) 0.999 2^1024", huge, every),
+        built("mixed-scale", "axes of very different scale", "axes times 2^512, 2^-512, 1", mixed_scale, every),
+        built("filter-underflow", "static and dynamic filters that ignore underflow",
+              "face at 2^-537 and 2^600, point at its plane's origin", filter_underflow, tetrahedron_only),
+    };
+}
+
+}  // namespace barycert::audit

@@ -1,0 +1,115 @@
+// Families of simplices of bad shape: flat, thin, on lattices, degenerate.
+
+#include <cmath>
+#include <cstddef>
+
+#include "barycert/audit/recipes.hpp"
+
+namespace barycert::audit {
+namespace {
+
+// A simplex of height h; the point is a rounded combination of its vertices.
+template <int Decimal>
+void sliver(Case& c, Random& random, std::uint64_t) {
+    constexpr double h = Decimal == 12 ? 1e-12 : Decimal == 13 ? 1e-13 : Decimal == 14 ? 1e-14 : 1e-15;
+    ordinary(c, random);
+    const int n = vertex_count(c.simplex);
+    set_vertex(c, n - 1, lifted(c, random, random_point(c, random, n - 1), h));
+    c.point = random_point(c, random, n);
+}
+
+// Two vertices closer to each other than to the rest by 2^-10 to 2^-40.
+void needle(Case& c, Random& random, std::uint64_t) {
+    ordinary(c, random);
+    const double gap = std::ldexp(1, -random.integer(10, 40));
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis)
+        c.vertex(1, axis) = c.vertex(0, axis) + gap * random.uniform(-1, 1);
+    c.point = random_point(c, random, vertex_count(c.simplex));
+}
+
+// The last vertex over the middle of the opposite facet, at 2^-10 to 2^-40 of its size.
+void cap(Case& c, Random& random, std::uint64_t) {
+    ordinary(c, random);
+    const int n = vertex_count(c.simplex);
+    const double third = 1.0 / (n - 1);
+    const auto middle = combination(c, {third, third, third, third}, n - 1);
+    set_vertex(c, n - 1, lifted(c, random, middle, random.scaled(0.5, 1, -40, -10)));
+    c.point = random_point(c, random, n);
+}
+
+void lattice_tenths(Case& c, Random& random, std::uint64_t) {
+    fill(c, random, [&](int) { return 0.1 * random.integer(0, 4); });
+}
+
+void lattice_integers(Case& c, Random& random, std::uint64_t) {
+    fill(c, random, [&](int) { return static_cast<double>(random.integer(0, 4)); });
+}
+
+/// Small integer vectors times small integers: sums are exact, so that the vertices span exactly `dimension` or less.
+void flat(Case& c, Random& random, int dimension) {
+    const auto integer_vector = [&] {
+        return std::array<double, 3>{static_cast<double>(random.integer(-9, 9)),
+                                     static_cast<double>(random.integer(-9, 9)),
+                                     static_cast<double>(random.integer(-9, 9))};
+    };
+    const auto origin = integer_vector(), u = integer_vector(), v = integer_vector();
+    const double unit = std::ldexp(1, random.integer(-20, 20));
+    for (int i = 0; i < vertex_count(c.simplex); ++i) {
+        const double s = dimension >= 1 ? random.integer(-9, 9) : 0;
+        const double t = dimension >= 2 ? random.integer(-9, 9) : 0;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(space_dimension(c.simplex)); ++k) {
+            c.vertex(i, static_cast<int>(k)) = unit * (origin[k] + s * u[k] + t * v[k]);
+        }
+    }
+    const auto p = integer_vector();
+    for (std::size_t k = 0; k < static_cast<std::size_t>(space_dimension(c.simplex)); ++k) c.point[k] = unit * p[k];
+    random_values(c, random);
+}
+
+void degenerate_point(Case& c, Random& random, std::uint64_t) {
+    flat(c, random, 0);
+}
+
+void degenerate_line(Case& c, Random& random, std::uint64_t) {
+    flat(c, random, 1);
+}
+
+void degenerate_plane(Case& c, Random& random, std::uint64_t) {
+    flat(c, random, 2);
+}
+
+// Flat, then scaled by 1/10 (rounded) and one coordinate moved by an ulp (of the largest on its axis if it is zero).
+void nearly_degenerate(Case& c, Random& random, std::uint64_t) {
+    flat(c, random, vertex_count(c.simplex) - 2);
+    for (double& x : c.vertices) x *= 0.1;
+    for (double& x : c.point) x *= 0.1;
+    const auto n = static_cast<std::uint64_t>(vertex_count(c.simplex) * space_dimension(c.simplex));
+    const auto moved = static_cast<std::size_t>(random.below(n));
+    move_by_ulp(c, c.vertices[moved], static_cast<int>(moved) % space_dimension(c.simplex), random);
+}
+
+}  // namespace
+
+std::vector<Family> shape_families() {
+    return {
+        built("sliver.1e-12", "flat cells: small divisors magnify every error", "height 1e-12, point fl(sum w_i v_i)",
+              sliver<12>, sided),
+        built("sliver.1e-13", "the same at 1e-13", "height 1e-13", sliver<13>, sided),
+        built("sliver.1e-14", "the same at 1e-14", "height 1e-14", sliver<14>, sided),
+        built("sliver.1e-15", "the same at 1e-15: the height is a few ulps", "height 1e-15", sliver<15>, sided),
+        built("needle", "one edge much shorter than the rest", "two vertices 2^-10 to 2^-40 apart", needle, every),
+        built("cap", "a vertex close to the middle of the facet opposite", "height 2^-10 to 2^-40", cap, sided),
+        built("lattice.tenths", "exact ties spoilt by decimal rounding", "0.1 k, k in 0..4", lattice_tenths, every),
+        built("lattice.integers", "exact zeros and exactly degenerate cells", "k in 0..4", lattice_integers, every),
+        built("degenerate.point", "all vertices in one point", "small integers times 2^[-20,20]", degenerate_point,
+              every),
+        built("degenerate.line", "all vertices on one line", "a + s u, small integers times 2^[-20,20]",
+              degenerate_line, sided),
+        built("degenerate.plane", "all vertices in one plane", "a + s u + t v, small integers times 2^[-20,20]",
+              degenerate_plane, tetrahedron_only),
+        built("nearly-degenerate", "degenerate but for one ulp",
+              "a flat simplex times 0.1, one coordinate moved by one ulp", nearly_degenerate, every),
+    };
+}
+
+}  // namespace barycert::audit

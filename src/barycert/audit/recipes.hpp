@@ -1,0 +1,49 @@
+/// Internal: what recipes share.
+#pragma once
+
+#include <utility>
+
+#include "barycert/audit/combine.hpp"
+#include "barycert/audit/families.hpp"
+
+namespace barycert::audit {
+
+/// Every coordinate of every vertex, and of the point, from `make(axis)`.
+template <class Make>
+void fill(Case& c, Random& random, Make make) {
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
+        for (int i = 0; i < vertex_count(c.simplex); ++i) c.vertex(i, axis) = make(axis);
+        c.point[static_cast<std::size_t>(axis)] = make(axis);
+    }
+    random_values(c, random);
+}
+
+inline void ordinary(Case& c, Random& random, std::uint64_t = 0) {
+    fill(c, random, [&](int) { return random.uniform(-1, 1); });
+}
+
+/// `from` moved by `h` along the normal of the first n - 1 vertices.
+inline std::array<double, 3> lifted(const Case& c, Random& random, std::array<double, 3> from, double h) {
+    const auto normal = facet_normal(c, random);
+    for (std::size_t k = 0; k < 3; ++k) from[k] += h * normal[k];
+    return from;
+}
+
+inline Family built(const char* name, const char* after, const char* parameters, Family::Recipe recipe,
+                    std::vector<Simplex> simplices) {
+    Family f;
+    f.name = name;
+    f.after = after;
+    f.parameters = parameters;
+    f.simplices = std::move(simplices);
+    f.recipe = recipe;
+    return f;
+}
+
+inline const std::vector<Simplex> every{all_simplices.begin(), all_simplices.end()};
+inline const std::vector<Simplex> triangle_only{Simplex::triangle};
+inline const std::vector<Simplex> tetrahedron_only{Simplex::tetrahedron};
+inline const std::vector<Simplex> solid{Simplex::triangle, Simplex::tetrahedron};  ///< of full dimension
+inline const std::vector<Simplex> sided{Simplex::triangle, Simplex::triangle3d, Simplex::tetrahedron};
+
+}  // namespace barycert::audit

@@ -1,0 +1,91 @@
+// The oracle against CGAL: its exact predicates for signs, its rationals for weights.
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Gmpq.h>
+#include <gtest/gtest.h>
+
+#include "barycert/audit/families.hpp"
+#include "barycert/exact/oracle.hpp"
+
+namespace barycert::exact {
+namespace {
+
+using Epick = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+/// Sign of the weight of vertex i by CGAL's orientation predicates: the simplex with vertex i replaced by the point,
+/// against the simplex.
+int predicate_sign(const Case& c, int replaced) {
+    const auto coordinate = [&](int i, int axis, int r) {
+        return i == r ? c.point[static_cast<std::size_t>(axis)] : c.vertex(i, axis);
+    };
+    const auto orientation = [&](int r) {
+        if (c.simplex == Simplex::triangle) {
+            std::array<Epick::Point_2, 3> v;
+            for (int i = 0; i < 3; ++i) v[static_cast<std::size_t>(i)] = {coordinate(i, 0, r), coordinate(i, 1, r)};
+            return static_cast<int>(CGAL::orientation(v[0], v[1], v[2]));
+        }
+        std::array<Epick::Point_3, 4> v;
+        for (int i = 0; i < 4; ++i)
+            v[static_cast<std::size_t>(i)] = {coordinate(i, 0, r), coordinate(i, 1, r), coordinate(i, 2, r)};
+        return static_cast<int>(CGAL::orientation(v[0], v[1], v[2], v[3]));
+    };
+    return orientation(replaced) * orientation(-1);
+}
+
+// Every family that lives within the range of CGAL's filters: on subnormal and huge coordinates its kernel makes no
+// promise.
+TEST(OracleAgainstCgal, SignsOfEveryFamily) {
+    std::uint64_t asked = 0;
+    for (const audit::Family& f : audit::all_families()) {
+        if (f.needs_mesh || f.name == "huge" || f.name == "subnormal") continue;
+        for (const Simplex s : {Simplex::triangle, Simplex::tetrahedron}) {
+            if (!f.applies_to(s)) continue;
+            for (std::uint64_t i = 0; i < 1000; ++i) {
+                const Case c = audit::make_case(f, s, 7, i, {});
+                const Answer a = ask(c);
+                for (int k = 0; k < vertex_count(s); ++k) {
+                    ASSERT_EQ(a.signs[static_cast<std::size_t>(k)], predicate_sign(c, k)) << f.name << " case " << i;
+                    ++asked;
+                }
+            }
+        }
+    }
+    EXPECT_GT(asked, 100000U);
+}
+
+// Weight i in CGAL's rationals by Cramer's rule; the rounded weight must be no further from it than either neighbour.
+TEST(OracleAgainstCgal, WeightsAreNearest) {
+    using Q = CGAL::Gmpq;
+    for (const char* name : {"random", "lattice.tenths", "anisotropic-plane", "sliver.1e-15", "mixed-scale"}) {
+        const audit::Family f = audit::families_matching(name).at(0);
+        for (std::uint64_t i = 0; i < 300; ++i) {
+            const Case c = audit::make_case(f, Simplex::tetrahedron, 7, i, {});
+            const Answer a = ask(c);
+            if (a.region == Region::degenerate) continue;
+            const auto volume = [&](int r) {
+                std::array<std::array<Q, 3>, 3> e;
+                const auto at = [&](int j, int axis) {
+                    return Q(j == r ? c.point[static_cast<std::size_t>(axis)] : c.vertex(j, axis));
+                };
+                for (int j = 0; j < 3; ++j) {
+                    for (int axis = 0; axis < 3; ++axis)
+                        e[static_cast<std::size_t>(j)][static_cast<std::size_t>(axis)] = at(j + 1, axis) - at(0, axis);
+                }
+                return Q(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
+                         e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+                         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]));
+            };
+            for (int k = 0; k < 4; ++k) {
+                const double w = a.weights[static_cast<std::size_t>(k)];
+                if (!std::isfinite(w)) continue;
+                const Q exact = volume(k) / volume(-1);
+                const auto distance = [&](double x) { return Q(CGAL::abs(Q(x) - exact)); };
+                ASSERT_LE(distance(w), distance(std::nextafter(w, 1e308))) << name << " case " << i;
+                ASSERT_LE(distance(w), distance(std::nextafter(w, -1e308))) << name << " case " << i;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace barycert::exact
