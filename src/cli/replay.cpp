@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-#include "barycert/audit/comparison.hpp"
+#include "barycert/audit/replay.hpp"
 #include "barycert/audit/witness_file.hpp"
 #include "barycert/core/environment.hpp"
 #include "barycert/core/text.hpp"
@@ -24,29 +24,6 @@ struct ReplayArguments {
     std::optional<std::uint64_t> index;
     std::uint64_t seed = 1;
 };
-
-/// Why the witness does not show what it says of its kernel; empty if it does, or says nothing.
-std::string not_shown(const audit::Witness& w, const std::vector<Kernel>& kernels) {
-    if (w.kernel.empty() || w.reason.empty()) return "";
-    std::size_t reason = 0;
-    while (reason < audit::witness_reasons && audit::reason_name(reason) != w.reason) ++reason;
-    if (reason == audit::witness_reasons) return "no class of finding has that name";
-    const auto k = std::find_if(kernels.begin(), kernels.end(), [&](const Kernel& x) { return x.name == w.kernel; });
-    if (k == kernels.end()) return "no kernel of that name here; name its library with --kernel-library";
-    if (k->simplex != w.c.simplex) return "the kernel is for another simplex";
-    const exact::Answer answer = exact::ask(w.c);
-    std::array<double, 4> weights = audit::unset_weights;
-    const int status = k->weights(w.c.vertices.data(), w.c.point.data(), weights.data());
-    const audit::Comparison r = audit::compare(*k, w.c, answer, status, weights);
-    if (reason < audit::finding_count)
-        return r.counts[reason] != 0 ? "" : "the kernel's answer does not have this finding";
-    // Errors in ulps are exact numbers, so they come out the same wherever the kernel was compiled to the same
-    // arithmetic.
-    const double ulps =
-        w.reason == "worst_value_ulp" ? r.value_ulp : *std::max_element(r.weight_ulps.begin(), r.weight_ulps.end());
-    return ulps == w.magnitude ? ""
-                               : fmt::format("the error is {} ulps, not {}", shortest(ulps), shortest(w.magnitude));
-}
 
 /// The witness that --family and --case describe, made again.
 Result<std::vector<audit::Witness>> made_again(const ReplayArguments& a, const std::vector<Kernel>& kernels) {
@@ -114,12 +91,13 @@ int run_replay(const ReplayArguments& a) {
     for (const audit::Witness& w : *witnesses) {
         if (!a.file.empty() && !a.kernel.empty() && !glob_match(a.kernel, w.kernel)) continue;
         if (!a.file.empty() && !a.reason.empty() && !glob_match(a.reason, w.reason)) continue;
+        const audit::Replay replay = audit::replay(w, *kernels);
         const std::string above = any ? "\n" : report::environment_line(environment) + "\n\n";
-        const Status written = write_output("-", above + report::terminal_witness(w, *kernels, style));
+        const Status written = write_output("-", above + report::terminal_witness(replay, style));
         if (!written) return fail(written.error());
         any = true;
-        if (const std::string why = not_shown(w, *kernels); !why.empty()) {
-            tell(fmt::format("not reproduced: {} of {}: {}\n", w.reason, w.kernel, why));
+        if (!replay.not_reproduced.empty()) {
+            tell(fmt::format("not reproduced: {} of {}: {}\n", w.reason, w.kernel, replay.not_reproduced));
             all_reproduced = false;
         }
     }

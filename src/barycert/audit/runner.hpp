@@ -4,6 +4,7 @@
 /// result (times aside) does not depend on the number of threads.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -65,7 +66,8 @@ struct Report {
     int threads = 0;
     std::vector<std::string> meshes;
     std::vector<Family> families;
-    std::uint64_t cases = 0;  ///< asked of the oracle
+    std::uint64_t cases = 0;                 ///< asked of the oracle
+    std::array<std::uint64_t, 4> regions{};  ///< how many of them were what, exactly; by Region
     double seconds = 0;
     std::vector<KernelResult> kernels;  ///< worst first
 };

@@ -92,6 +92,8 @@ std::string json_report(const audit::Report& r) {
     j["threads"] = r.threads;
     j["meshes"] = r.meshes;
     j["cases"] = r.cases;
+    for (const Region region : all_regions)
+        j["regions"][std::string(name(region))] = r.regions[static_cast<std::size_t>(region)];
     j["seconds"] = r.seconds;
     j["families"] = list(r.families, family_json);
     j["kernels"] = Json::array();

@@ -1,9 +1,7 @@
 #include "barycert/report/terminal.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
-#include <set>
 
 #include "barycert/report/terminal_text.hpp"
 
@@ -73,21 +71,11 @@ std::string kernel_table(const Report& report, const Colours& paint) {
     return out;
 }
 
-/// What the cases were, by the oracle: each pair of family and simplex counted once.
 std::string exact_regions(const Report& report) {
-    std::array<std::uint64_t, 4> regions{};
-    std::set<std::pair<std::size_t, Simplex>> seen;
-    for (const KernelResult& k : report.kernels) {
-        for (const audit::FamilyResult& f : k.families) {
-            if (!seen.emplace(f.family, k.kernel.simplex).second) continue;
-            for (std::size_t r = 0; r < 4; ++r) {
-                for (const std::uint64_t n : f.statistics.confusion[r]) regions[r] += n;
-            }
-        }
-    }
     std::string out = "exactly: ";
     for (const Region r : all_regions) {
-        out += fmt::format("{}{} {}", r == Region::interior ? "" : ", ", regions[static_cast<std::size_t>(r)], name(r));
+        out += fmt::format("{}{} {}", r == Region::interior ? "" : ", ", report.regions[static_cast<std::size_t>(r)],
+                           name(r));
     }
     return out + "\n";
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "barycert/audit/replay.hpp"
 #include "barycert/audit/runner.hpp"
 
 namespace barycert::report {
@@ -22,9 +23,8 @@ struct TerminalStyle {
 /// that replays it.
 std::string terminal_report(const audit::Report& report, const TerminalStyle& style);
 
-/// One witness: the case, the exact answer, and every kernel's next to it; `kernels` are those to show.
-std::string terminal_witness(const audit::Witness& witness, const std::vector<Kernel>& kernels,
-                             const TerminalStyle& style);
+/// One witness: the case, the exact answer, and every kernel's next to it.
+std::string terminal_witness(const audit::Replay& replay, const TerminalStyle& style);
 
 /// The catalogue and the families, one paragraph each.
 std::string terminal_kernels(const std::vector<Kernel>& kernels);

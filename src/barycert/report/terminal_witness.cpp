@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "barycert/audit/comparison.hpp"
 #include "barycert/core/text.hpp"
-#include "barycert/exact/identities.hpp"
-#include "barycert/exact/oracle.hpp"
 #include "barycert/report/terminal.hpp"
 #include "barycert/report/terminal_text.hpp"
 
@@ -30,15 +27,12 @@ std::string coordinates(const Case& c, auto at) {
     return fmt::format("({})\n        ({})\n", decimal, hex);
 }
 
-/// Interpolating along auxiliary lines is barycentric interpolation: shown here in rational numbers, for this very
-/// case.
-std::string identity_line(const Case& c) {
-    const bool planar = c.simplex == Simplex::triangle;
-    if (!planar && c.simplex != Simplex::tetrahedron) return "";
-    const exact::Identity identity = planar ? exact::bilinear_is_barycentric(c) : exact::trilinear_is_barycentric(c);
-    const char* const what = planar ? "bilinear interpolation and ratios of signed areas"
-                                    : "trilinear interpolation and ratios of signed volumes";
-    switch (identity) {
+/// Interpolating along auxiliary lines is barycentric interpolation, in exact arithmetic.
+std::string identity_line(const audit::Replay& r) {
+    const char* const what = r.witness.c.simplex == Simplex::triangle
+                                 ? "bilinear interpolation and ratios of signed areas"
+                                 : "trilinear interpolation and ratios of signed volumes";
+    switch (r.identity) {
         case exact::Identity::holds:
             return fmt::format("    in exact arithmetic {} give the same weights here\n", what);
         case exact::Identity::fails:
@@ -51,12 +45,12 @@ std::string identity_line(const Case& c) {
 
 }  // namespace
 
-std::string terminal_witness(const audit::Witness& witness, const std::vector<Kernel>& kernels,
-                             const TerminalStyle& style) {
+std::string terminal_witness(const audit::Replay& replay, const TerminalStyle& style) {
     const Colours paint(style.colour);
+    const audit::Witness& witness = replay.witness;
     const Case& c = witness.c;
     const int n = vertex_count(c.simplex);
-    const exact::Answer answer = exact::ask(c);
+    const exact::Answer& answer = replay.exact;
     std::string title(name(c.simplex));
     if (!witness.kernel.empty())
         title += ", " + (witness.reason.empty() ? "" : witness.reason + " of ") + witness.kernel;
@@ -70,11 +64,11 @@ std::string terminal_witness(const audit::Witness& witness, const std::vector<Ke
     out += "    exact: " + std::string(name(answer.region));
     if (answer.region == Region::boundary) out += fmt::format(" ({})", name(answer.feature));
     if (answer.region == Region::degenerate)
-        out += fmt::format(" (its vertices span {} dimensions)", exact::affine_dimension(c));
+        out += fmt::format(" (its vertices span {} dimensions)", replay.affine_dimension);
     out += "\n";
 
     std::size_t width = 5;
-    for (const Kernel& k : kernels) width = std::max(width, k.name.size());
+    for (const audit::KernelAnswer& a : replay.answers) width = std::max(width, a.kernel.size());
     const auto row = [&](std::string_view mark, std::string_view kernel, std::string_view region,
                          const std::array<std::string, 4>& cells, std::string_view ulps, std::string_view value,
                          std::string_view text) {
@@ -89,18 +83,14 @@ std::string terminal_witness(const audit::Witness& witness, const std::vector<Ke
         cells[static_cast<std::size_t>(i)] = shortest(answer.weights[static_cast<std::size_t>(i)]);
     out += paint.good(
         row("=", "exact, correctly rounded", name(answer.region), cells, "", "", "value " + shortest(answer.value)));
-    for (const Kernel& k : kernels) {
-        if (k.simplex != c.simplex) continue;
-        std::array<double, 4> weights = audit::unset_weights;
-        const int status = k.weights(c.vertices.data(), c.point.data(), weights.data());
-        const audit::Comparison r = audit::compare(k, c, answer, status, weights);
-        for (std::size_t i = 0; i < 4; ++i) cells[i] = status != 0 ? "declared" : shortest(weights[i]);
-        const double worst = *std::max_element(r.weight_ulps.begin(), r.weight_ulps.end());
-        const std::string line = row(k.name == witness.kernel ? ">" : "", k.name, name(r.claimed), cells, brief(worst),
-                                     brief(r.value_ulp), findings(r));
+    for (const audit::KernelAnswer& a : replay.answers) {
+        for (std::size_t i = 0; i < 4; ++i) cells[i] = a.status != 0 ? "declared" : shortest(a.weights[i]);
+        const audit::Comparison& r = a.comparison;
+        const std::string line = row(a.kernel == witness.kernel ? ">" : "", a.kernel, name(r.claimed), cells,
+                                     brief(a.worst_weight_ulp), brief(r.value_ulp), findings(r));
         out += r.wrong() ? paint.bad(line) : line;
     }
-    return out + identity_line(c);
+    return out + identity_line(replay);
 }
 
 std::string terminal_kernels(const std::vector<Kernel>& kernels) {

@@ -1,0 +1,58 @@
+#include "barycert/audit/replay.hpp"
+
+#include <algorithm>
+
+#include "barycert/core/text.hpp"
+
+namespace barycert::audit {
+namespace {
+
+KernelAnswer answer_of(const Kernel& kernel, const Case& c, const exact::Answer& exact) {
+    KernelAnswer a;
+    a.kernel = kernel.name;
+    a.weights = unset_weights;
+    a.status = kernel.weights(c.vertices.data(), c.point.data(), a.weights.data());
+    a.comparison = compare(kernel, c, exact, a.status, a.weights);
+    a.worst_weight_ulp = *std::max_element(a.comparison.weight_ulps.begin(), a.comparison.weight_ulps.end());
+    return a;
+}
+
+std::string not_reproduced(const Replay& r, const std::vector<Kernel>& kernels) {
+    const Witness& w = r.witness;
+    if (w.kernel.empty() || w.reason.empty()) return "";
+    std::size_t reason = 0;
+    while (reason < witness_reasons && reason_name(reason) != w.reason) ++reason;
+    if (reason == witness_reasons) return "no class of finding has that name";
+    const auto named = [&](const auto& x) { return x.name == w.kernel; };
+    if (std::none_of(kernels.begin(), kernels.end(), named)) {
+        return "no kernel of that name here; name its library with --kernel-library";
+    }
+    const auto a =
+        std::find_if(r.answers.begin(), r.answers.end(), [&](const auto& x) { return x.kernel == w.kernel; });
+    if (a == r.answers.end()) return "the kernel is for another simplex";
+    if (reason < finding_count) {
+        return a->comparison.counts[reason] != 0 ? "" : "the kernel's answer does not have this finding";
+    }
+    // Errors in ulps come out the same wherever the kernel was compiled to the same arithmetic.
+    const double ulps = w.reason == "worst_value_ulp" ? a->comparison.value_ulp : a->worst_weight_ulp;
+    return ulps == w.magnitude ? "" : "the error is " + shortest(ulps) + " ulps, not " + shortest(w.magnitude);
+}
+
+}  // namespace
+
+Replay replay(const Witness& witness, const std::vector<Kernel>& kernels) {
+    Replay r;
+    r.witness = witness;
+    const Case& c = witness.c;
+    r.exact = exact::ask(c);
+    r.affine_dimension = exact::affine_dimension(c);
+    if (c.simplex == Simplex::triangle) r.identity = exact::bilinear_is_barycentric(c);
+    if (c.simplex == Simplex::tetrahedron) r.identity = exact::trilinear_is_barycentric(c);
+    for (const Kernel& k : kernels) {
+        if (k.simplex == c.simplex) r.answers.push_back(answer_of(k, c, r.exact));
+    }
+    r.not_reproduced = not_reproduced(r, kernels);
+    return r;
+}
+
+}  // namespace barycert::audit
