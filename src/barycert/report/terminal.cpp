@@ -52,8 +52,7 @@ std::string kernel_table(const Report& report, const Colours& paint) {
                 mesh_cases == 0 ? std::string("-") : percent(mesh_wrong, mesh_cases), n(Finding::opposite_sign),
                 n(Finding::false_zero), n(Finding::false_nonzero), n(Finding::not_finite), n(Finding::false_inside),
                 n(Finding::false_outside), n(Finding::false_declaration), n(Finding::missed_degenerate),
-                brief(s.p999_weight_ulp()), brief(s.weight_ulp.value), brief(s.p999_value_ulp()),
-                fmt::format("{:.1f}", k.ns));
+                brief(s.p999_weight_ulp()), brief(s.weight_ulp.value), brief(s.p999_value_ulp()), brief_time(k.ns));
         const std::uint64_t broken = count_of(s, Finding::false_certificate);
         const bool perfect = s.wrong_cases == 0 && s.weight_ulp.value == 0;
         out += (perfect ? paint.good(line) : line) + "\n";

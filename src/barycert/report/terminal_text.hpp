@@ -29,6 +29,14 @@ inline std::string brief(double x) {
     return fmt::format("{:.3g}", x);
 }
 
+/// Nanoseconds in at most five characters.
+inline std::string brief_time(double ns) {
+    return fmt::format(ns < 999.95    ? fmt::runtime("{:.1f}")
+                       : ns < 99999.5 ? fmt::runtime("{:.0f}")
+                                      : fmt::runtime("{:.0e}"),
+                       ns);
+}
+
 /// A share in per cent: never "0" or "100" unless it is exactly that.
 inline std::string percent(std::uint64_t part, std::uint64_t whole) {
     if (part == 0 || whole == 0) return "0";
