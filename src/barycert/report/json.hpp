@@ -4,10 +4,12 @@
 #include <string>
 
 #include "barycert/audit/runner.hpp"
+#include "barycert/audit/witness_file.hpp"
 
 namespace barycert::report {
 
-inline constexpr int audit_schema = 1;
+/// One number for reports and witness files: `barycert replay` reads both.
+inline constexpr int audit_schema = audit::witness_schema;
 
 /// The whole audit, witnesses included.
 std::string json_report(const audit::Report& report);
