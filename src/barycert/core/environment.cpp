@@ -3,6 +3,9 @@
 #include <cfenv>
 #include <cfloat>
 #include <thread>
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
 
 #ifdef __FAST_MATH__
 #error "barycert is not correct under -ffast-math: compile it without"
@@ -91,6 +94,15 @@ Environment measure_environment() {
     e.version = BARYCERT_VERSION;
     e.hardware_threads = static_cast<int>(std::thread::hardware_concurrency());
     return e;
+}
+
+bool rounds_correctly() {
+#ifdef __SSE2__
+    constexpr unsigned rounding_mode = 0x6000, flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
+    return (_mm_getcsr() & (rounding_mode | flush_to_zero | denormals_are_zero)) == 0;
+#else
+    return measured_rounding() == "nearest" && !measured_flush_to_zero();
+#endif
 }
 
 Status check_environment(const Environment& e) {

@@ -26,6 +26,10 @@ struct Environment {
 /// Measures the environment of the calling thread.
 Environment measure_environment();
 
+/// Rounding to nearest and gradual underflow hold in the calling thread: a quick look, for every call that depends on
+/// it.
+bool rounds_correctly();
+
 /// An Error naming what breaks exactness and the remedy, if anything does.
 Status check_environment(const Environment& environment);
 

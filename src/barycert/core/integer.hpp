@@ -1,0 +1,175 @@
+/// Internal: exact integers without heap, for what floating point cannot decide.
+///
+/// Sign and magnitude in limbs of 64 bits, as many as the number needs, in a fixed place on the stack. Why integers and
+/// not floating-point expansions: a finite double is a small integer times a power of two, so after one shift per
+/// coordinate every polynomial is plain integer arithmetic. Nothing can under- or overflow, nothing depends on the
+/// rounding mode, and each operation is exact by the schoolbook, not by an error analysis.
+///
+/// Widths. The finite doubles are multiples of 2^-1074 below 2^1024: 2098 bits, a difference of two 2099. The largest
+/// polynomial here is the numerator of a value on a triangle in 3-space, of degree 4 in differences and 1 in nodal
+/// values, summed over 4 x 18 terms: 4 * 2099 + 2098 + 7 = 10501 bits, 165 limbs. Division shifts one operand left by
+/// at most 64 bits more than the other's length and by up to 63 bits: 167 limbs.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+namespace barycert {
+
+__extension__ using UInt128 = unsigned __int128;
+
+class Integer {
+public:
+    static constexpr int capacity = 168;
+    static_assert(64 * (capacity - 2) >= 4 * 2099 + 2098 + 7);
+
+    Integer() {}  // not `= default`: Integer() would then clear all limbs
+    Integer(const Integer& other) { assign(other); }
+    Integer& operator=(const Integer& other) {
+        if (this != &other) assign(other);
+        return *this;
+    }
+
+    /// mantissa * 2^shift with a sign. Precondition: shift + 64 fits the capacity.
+    Integer(bool negative, std::uint64_t mantissa, int shift) : negative_(negative) {
+        if (mantissa == 0) return;
+        const int whole = shift / 64, part = shift % 64;
+        std::fill_n(limbs_, whole, 0);
+        limbs_[whole] = mantissa << part;
+        limbs_[whole + 1] = part == 0 ? 0 : mantissa >> (64 - part);
+        size_ = whole + 2;
+        trim();
+    }
+
+    /// A magnitude of `size` limbs, the least significant first.
+    Integer(bool negative, const std::uint64_t* limbs, int size) : size_(size), negative_(negative) {
+        std::copy_n(limbs, size, limbs_);
+        trim();
+    }
+
+    int sign() const { return size_ == 0 ? 0 : negative_ ? -1 : 1; }
+    int size() const { return size_; }
+    std::uint64_t limb(int i) const { return limbs_[i]; }
+
+    /// Bits of the magnitude; 0 for zero.
+    int bit_length() const { return size_ == 0 ? 0 : 64 * size_ - std::countl_zero(limbs_[size_ - 1]); }
+
+    Integer operator-() const {
+        Integer r(*this);
+        r.negative_ = !negative_;
+        return r;
+    }
+
+    friend Integer operator+(const Integer& x, const Integer& y) { return sum(x, y, y.negative_); }
+    friend Integer operator-(const Integer& x, const Integer& y) { return sum(x, y, !y.negative_); }
+
+    friend Integer operator*(const Integer& x, const Integer& y) {
+        Integer r;
+        if (x.size_ == 0 || y.size_ == 0) return r;
+        const Integer& a = x.size_ <= y.size_ ? x : y;  // few long rows instead of many short ones
+        const Integer& b = x.size_ <= y.size_ ? y : x;
+        r.negative_ = x.negative_ != y.negative_;
+        r.size_ = a.size_ + b.size_;
+        std::fill_n(r.limbs_, r.size_, 0);
+        for (int i = 0; i < a.size_; ++i) {
+            if (a.limbs_[i] == 0) continue;  // frequent: numbers far apart in magnitude share one integer
+            std::uint64_t carry = 0;
+            for (int j = 0; j < b.size_; ++j) {
+                // (2^64-1)^2 + 2 (2^64-1) = 2^128 - 1: no overflow
+                const UInt128 t = static_cast<UInt128>(a.limbs_[i]) * b.limbs_[j] + r.limbs_[i + j] + carry;
+                r.limbs_[i + j] = static_cast<std::uint64_t>(t);
+                carry = static_cast<std::uint64_t>(t >> 64);
+            }
+            r.limbs_[i + b.size_] = carry;
+        }
+        r.trim();
+        return r;
+    }
+
+    /// Magnitude times 2^bits, sign kept. Precondition: bits >= 0 and the result fits.
+    Integer shifted_left(int bits) const {
+        Integer r;
+        if (size_ == 0) return r;
+        const int whole = bits / 64, part = bits % 64;
+        r.negative_ = negative_;
+        r.size_ = size_ + whole + 1;
+        std::fill_n(r.limbs_, whole, 0);
+        std::uint64_t below = 0;
+        for (int i = 0; i < size_; ++i) {
+            r.limbs_[whole + i] = part == 0 ? limbs_[i] : limbs_[i] << part | below >> (64 - part);
+            below = limbs_[i];
+        }
+        r.limbs_[whole + size_] = part == 0 ? 0 : below >> (64 - part);
+        r.trim();
+        return r;
+    }
+
+    /// -1, 0, 1 as |x| is less than, equal to, greater than |y|.
+    static int compare_magnitudes(const Integer& x, const Integer& y) {
+        if (x.size_ != y.size_) return x.size_ < y.size_ ? -1 : 1;
+        for (int i = x.size_ - 1; i >= 0; --i) {
+            if (x.limbs_[i] != y.limbs_[i]) return x.limbs_[i] < y.limbs_[i] ? -1 : 1;
+        }
+        return 0;
+    }
+
+private:
+    void assign(const Integer& other) {
+        size_ = other.size_;
+        negative_ = other.negative_;
+        std::copy_n(other.limbs_, size_, limbs_);
+    }
+
+    void trim() {
+        while (size_ > 0 && limbs_[size_ - 1] == 0) --size_;
+    }
+
+    /// x + y with y's sign replaced.
+    static Integer sum(const Integer& x, const Integer& y, bool y_negative) {
+        if (x.negative_ == y_negative || x.size_ == 0 || y.size_ == 0) {
+            Integer r = x.size_ >= y.size_ ? add(x, y) : add(y, x);
+            r.negative_ = x.size_ == 0 ? y_negative : x.negative_;
+            return r;
+        }
+        const int order = compare_magnitudes(x, y);
+        if (order == 0) return {};
+        Integer r = order > 0 ? subtract(x, y) : subtract(y, x);
+        r.negative_ = order > 0 ? x.negative_ : y_negative;
+        return r;
+    }
+
+    /// |x| + |y|. Precondition: x.size_ >= y.size_.
+    static Integer add(const Integer& x, const Integer& y) {
+        Integer r;
+        std::uint64_t carry = 0;
+        for (int i = 0; i < x.size_; ++i) {
+            const UInt128 t = static_cast<UInt128>(x.limbs_[i]) + (i < y.size_ ? y.limbs_[i] : 0) + carry;
+            r.limbs_[i] = static_cast<std::uint64_t>(t);
+            carry = static_cast<std::uint64_t>(t >> 64);
+        }
+        r.size_ = x.size_;
+        if (carry != 0) r.limbs_[r.size_++] = carry;
+        return r;
+    }
+
+    /// |x| - |y|. Precondition: |x| >= |y|.
+    static Integer subtract(const Integer& x, const Integer& y) {
+        Integer r;
+        std::uint64_t borrow = 0;
+        for (int i = 0; i < x.size_; ++i) {
+            const UInt128 t = static_cast<UInt128>(x.limbs_[i]) - (i < y.size_ ? y.limbs_[i] : 0) - borrow;
+            r.limbs_[i] = static_cast<std::uint64_t>(t);
+            borrow = static_cast<std::uint64_t>(t >> 64) & 1;
+        }
+        r.size_ = x.size_;
+        r.trim();
+        return r;
+    }
+
+    int size_ = 0;
+    bool negative_ = false;          ///< of no meaning for zero
+    std::uint64_t limbs_[capacity];  ///< set below size_ alone: most numbers need three or four
+};
+
+}  // namespace barycert

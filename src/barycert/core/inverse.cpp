@@ -1,0 +1,68 @@
+#include "barycert/core/inverse.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "barycert/core/exact_weights.hpp"
+
+namespace barycert {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Status check(std::span<const double> numbers, const char* what) {
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (!std::isfinite(numbers[i]))
+            return Error{.what = std::string(what) + " " + std::to_string(i),
+                         .expected = "a finite number",
+                         .found = std::to_string(numbers[i])};
+    }
+    return Done{};
+}
+
+/// The attribute as the coordinate: a segment along the first axis, from value_a to value_b, with the point at value.
+ExactWeights along_attribute(double value_a, double value_b, double value) {
+    const double ends[6] = {value_a, 0, 0, value_b, 0, 0}, at[3] = {value, 0, 0};
+    return {Simplex::segment, ends, at};
+}
+
+}  // namespace
+
+Result<Parameter> parameter_of_value(double value_a, double value_b, double value) {
+    return point_of_value({}, {}, value_a, value_b, value, {});
+}
+
+Result<Parameter> point_of_value(std::span<const double> a, std::span<const double> b, double value_a, double value_b,
+                                 double value, std::span<double> point) {
+    const double attribute[3] = {value_a, value_b, value};
+    if (Status s = check(attribute, "attribute value"); !s) return s.error();
+    if (Status s = check(a, "coordinate of the first end,"); !s) return s.error();
+    if (Status s = check(b, "coordinate of the second end,"); !s) return s.error();
+    const ExactWeights w = along_attribute(value_a, value_b, value);
+    if (w.degenerate()) {
+        std::fill(point.begin(), point.end(), nan);
+        return Parameter{nan, true};
+    }
+    for (std::size_t k = 0; k < point.size(); ++k) {
+        const double ends[2] = {a[k], b[k]};
+        point[k] = w.interpolate(ends);
+    }
+    return Parameter{w.weight(1), false};
+}
+
+Status point_from_weights(Simplex simplex, const double* vertices, const double* weights, double* point) {
+    const auto n = static_cast<std::size_t>(vertex_count(simplex));
+    const auto d = static_cast<std::size_t>(space_dimension(simplex));
+    if (Status s = check({weights, n}, "weight"); !s) return s;
+    if (Status s = check({vertices, n * d}, "coordinate of the vertices,"); !s) return s;
+    for (std::size_t k = 0; k < d; ++k) {
+        double axis[4];
+        for (std::size_t i = 0; i < n; ++i) axis[i] = vertices[d * i + k];
+        point[k] = exact_dot(weights, axis, static_cast<int>(n));
+    }
+    return Done{};
+}
+
+}  // namespace barycert

@@ -1,0 +1,268 @@
+#include "barycert/core/lanes.hpp"
+
+#include <array>
+
+#include "barycert/core/simd.hpp"
+
+// Three targets: what every processor of the architecture has (on x86-64 emulated, as SSE2 lacks too much), AVX2 with
+// fused multiply-add, AVX-512. The ones between cost compile time and serve few.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "barycert/core/lanes.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, as Highway wants it.
+#include <hwy/highway.h>
+
+#include "barycert/core/refinement-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace barycert {
+namespace HWY_NAMESPACE {
+
+using lanes::Cases;
+
+/// Runs `step(tag, at)`, which returns the mask of decided lanes, over all cases: whole vectors, then one by one.
+template <class Step>
+HWY_INLINE std::size_t for_lanes(std::size_t count, std::uint32_t* undecided, Step step) {
+    std::size_t found = 0, at = 0;
+    const auto run = [&](auto tag) HWY_ATTR {
+        using D = decltype(tag);
+        constexpr std::size_t width = hn::MaxLanes(D());
+        for (; at + width <= count; at += width) {
+            const hn::Mask<D> decided = step(tag, at);
+            if (HWY_LIKELY(hn::AllTrue(tag, decided))) continue;
+            std::uint8_t bits[8] = {};
+            hn::StoreMaskBits(tag, decided, bits);
+            for (std::size_t i = 0; i < width; ++i) {
+                undecided[found] = static_cast<std::uint32_t>(at + i);
+                found += (bits[0] >> i & 1) == 0 ? 1 : 0;
+            }
+        }
+    };
+    run(hn::ScalableTag<double>());
+    run(hn::CappedTag<double, 1>());
+    return found;
+}
+
+/// Writes lane l of rows[i] to out[rows * l + i].
+template <int rows, class D, class V = hn::Vec<D>>
+HWY_INLINE void store_transposed(D tag, const V (&values)[rows], double* out, std::size_t stride) {
+    constexpr std::size_t width = hn::MaxLanes(D());
+    HWY_ALIGN double buffer[rows][width];
+    for (int i = 0; i < rows; ++i) hn::Store(values[i], tag, buffer[i]);
+    for (std::size_t l = 0; l < width; ++l) {
+        for (int i = 0; i < rows; ++i) out[stride * l + static_cast<std::size_t>(i)] = buffer[i][l];
+    }
+}
+
+template <Simplex s>
+std::size_t signs_of(const Cases& cases, WeightSigns* out, std::uint32_t* undecided) {
+    return for_lanes(cases.count, undecided, [&](auto tag, std::size_t at) HWY_ATTR {
+        using D = decltype(tag);
+        const hn::RebindToUnsigned<D> bits;
+        const hn::Rebind<WeightSigns::Bits, D> narrow;
+        Relative<s, hn::Vec<D>> c;
+        load_relative<s>(tag, cases.vertices, cases.point, at, c);
+        hn::Vec<decltype(bits)> packed;
+        const auto certain = filter<s>(tag, c, packed);
+        HWY_ALIGN WeightSigns::Bits buffer[hn::MaxLanes(D())];
+        hn::StoreU(hn::TruncateTo(narrow, packed), narrow, buffer);
+        for (std::size_t l = 0; l < hn::MaxLanes(D()); ++l) out[at + l] = WeightSigns(buffer[l]);
+        return certain;
+    });
+}
+
+template <Simplex s, class D>
+HWY_INLINE Refined<s, D> refined(D tag, const Cases& cases, std::size_t at) {
+    constexpr int n = vertex_count(s), d = space_dimension(s);
+    Absolute<s, hn::Vec<D>> c;
+    for (int k = 0; k < d; ++k) {
+        c.p[k] = hn::LoadU(tag, cases.point[k] + at);
+        for (int i = 0; i < n; ++i) c.v[i][k] = hn::LoadU(tag, cases.vertices[d * i + k] + at);
+    }
+    if constexpr (s == Simplex::tetrahedron || s == Simplex::triangle) {
+        return refine<s>(tag, c);
+    } else {
+        return refine_projected<s>(tag, c);
+    }
+}
+
+template <Simplex s>
+std::size_t weights_of(const Cases& cases, double* out, std::uint32_t* undecided) {
+    return for_lanes(cases.count, undecided, [&](auto tag, std::size_t at) HWY_ATTR {
+        using D = decltype(tag);
+        constexpr int n = vertex_count(s);
+        const auto r = refined<s>(tag, cases, at);
+        auto certain = r.valid;
+        hn::Vec<D> w[n];
+        for (int i = 0; i < n; ++i) w[i] = weight(tag, r, i, certain);
+        store_transposed(tag, w, out + at * n, n);
+        return certain;
+    });
+}
+
+template <Simplex s>
+std::size_t values_of(const Cases& cases, const double* const* values, int components, double* out,
+                      std::uint32_t* undecided) {
+    const auto stride = static_cast<std::size_t>(components);
+    return for_lanes(cases.count, undecided, [&](auto tag, std::size_t at) HWY_ATTR {
+        using D = decltype(tag);
+        constexpr int n = vertex_count(s);
+        const auto r = refined<s>(tag, cases, at);
+        auto certain = r.valid;
+        for (int c = 0; c < components; ++c) {
+            hn::Vec<D> f[n], result[1];
+            for (int i = 0; i < n; ++i) f[i] = hn::LoadU(tag, values[n * c + i] + at);
+            result[0] = value<s>(tag, r, f, certain);
+            store_transposed(tag, result, out + at * stride + static_cast<std::size_t>(c), stride);
+        }
+        return certain;
+    });
+}
+
+template <Simplex s>
+void plain_values_of(const Cases& cases, const double* const* values, int components, double* out) {
+    const auto stride = static_cast<std::size_t>(components);
+    std::uint32_t none;
+    for_lanes(cases.count, &none, [&](auto tag, std::size_t at) HWY_ATTR {
+        using D = decltype(tag);
+        constexpr int n = vertex_count(s);
+        Relative<s, hn::Vec<D>> c;
+        load_relative<s>(tag, cases.vertices, cases.point, at, c);
+        Fractions<s, hn::Vec<D>> f;
+        solve(c, hn::Zero(tag), f);
+        const auto inverse = hn::Set(tag, 1) / f.denominator;
+        for (int component = 0; component < components; ++component) {
+            hn::Vec<D> result[1] = {hn::Zero(tag)};
+            for (int i = 0; i < n; ++i)
+                result[0] = result[0] + f.numerator[i] * hn::LoadU(tag, values[n * component + i] + at);
+            result[0] = result[0] * inverse;
+            store_transposed(tag, result, out + at * stride + static_cast<std::size_t>(component), stride);
+        }
+        return hn::Eq(f.denominator, f.denominator);
+    });
+}
+
+std::int64_t own_target() {
+    return HWY_TARGET;
+}
+
+// One entry for all simplices: Highway's tables hold plain functions.
+std::size_t signs(Simplex s, const Cases& cases, WeightSigns* out, std::uint32_t* undecided) {
+    switch (s) {
+        case Simplex::segment:
+            return signs_of<Simplex::segment>(cases, out, undecided);
+        case Simplex::triangle:
+            return signs_of<Simplex::triangle>(cases, out, undecided);
+        case Simplex::triangle3d:
+            return signs_of<Simplex::triangle3d>(cases, out, undecided);
+        default:
+            return signs_of<Simplex::tetrahedron>(cases, out, undecided);
+    }
+}
+
+std::size_t weights(Simplex s, const Cases& cases, double* out, std::uint32_t* undecided) {
+    switch (s) {
+        case Simplex::segment:
+            return weights_of<Simplex::segment>(cases, out, undecided);
+        case Simplex::triangle:
+            return weights_of<Simplex::triangle>(cases, out, undecided);
+        case Simplex::triangle3d:
+            return weights_of<Simplex::triangle3d>(cases, out, undecided);
+        default:
+            return weights_of<Simplex::tetrahedron>(cases, out, undecided);
+    }
+}
+
+std::size_t values(Simplex s, const Cases& cases, const double* const* f, int components, double* out,
+                   std::uint32_t* undecided) {
+    switch (s) {
+        case Simplex::segment:
+            return values_of<Simplex::segment>(cases, f, components, out, undecided);
+        case Simplex::triangle:
+            return values_of<Simplex::triangle>(cases, f, components, out, undecided);
+        case Simplex::triangle3d:
+            return values_of<Simplex::triangle3d>(cases, f, components, out, undecided);
+        default:
+            return values_of<Simplex::tetrahedron>(cases, f, components, out, undecided);
+    }
+}
+
+void plain_values(Simplex s, const Cases& cases, const double* const* f, int components, double* out) {
+    switch (s) {
+        case Simplex::segment:
+            return plain_values_of<Simplex::segment>(cases, f, components, out);
+        case Simplex::triangle:
+            return plain_values_of<Simplex::triangle>(cases, f, components, out);
+        case Simplex::triangle3d:
+            return plain_values_of<Simplex::triangle3d>(cases, f, components, out);
+        default:
+            return plain_values_of<Simplex::tetrahedron>(cases, f, components, out);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace barycert
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace barycert {
+
+HWY_EXPORT(signs);
+HWY_EXPORT(weights);
+HWY_EXPORT(values);
+HWY_EXPORT(plain_values);
+HWY_EXPORT(own_target);
+
+std::size_t lanes::signs(Simplex s, const Cases& cases, WeightSigns* out, std::uint32_t* undecided) {
+    return HWY_DYNAMIC_DISPATCH(signs)(s, cases, out, undecided);
+}
+
+std::size_t lanes::weights(Simplex s, const Cases& cases, double* out, std::uint32_t* undecided) {
+    return HWY_DYNAMIC_DISPATCH(weights)(s, cases, out, undecided);
+}
+
+std::size_t lanes::values(Simplex s, const Cases& cases, const double* const* f, int components, double* out,
+                          std::uint32_t* undecided) {
+    return HWY_DYNAMIC_DISPATCH(values)(s, cases, f, components, out, undecided);
+}
+
+void lanes::plain_values(Simplex s, const Cases& cases, const double* const* f, int components, double* out) {
+    HWY_DYNAMIC_DISPATCH(plain_values)(s, cases, f, components, out);
+}
+
+namespace {
+
+std::string target_name(std::int64_t target) {
+    if (target == HWY_AVX3) return "AVX-512";
+    if (target == HWY_EMU128 || target == HWY_SCALAR) return "scalar";
+    return hwy::TargetName(target);
+}
+
+}  // namespace
+
+std::vector<std::string> simd_targets() {
+    std::vector<std::string> names;
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) names.push_back(target_name(target));
+    return names;
+}
+
+std::string simd_target() {
+    return target_name(HWY_DYNAMIC_DISPATCH(own_target)());
+}
+
+bool use_simd_target(std::string_view name) {
+    if (name.empty()) {
+        hwy::GetChosenTarget().DeInit();  // the next call asks the processor again
+        return true;
+    }
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        if (target_name(target) != name) continue;
+        hwy::GetChosenTarget().Update(target);
+        return true;
+    }
+    return false;
+}
+
+}  // namespace barycert
+#endif

@@ -1,0 +1,127 @@
+#include "barycert/core/predicates.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "barycert/core/blocks.hpp"
+#include "barycert/core/exact_weights.hpp"
+#include "barycert/core/lanes.hpp"
+
+namespace barycert {
+namespace {
+
+WeightSigns exact_signs(Simplex s, const double* vertices, const double* point) {
+    const ExactWeights w(s, vertices, point);
+    if (w.degenerate()) return WeightSigns::degenerate_simplex();
+    unsigned bits = w.orientation() < 0 ? 1U << 8 : 0;
+    for (int i = 0; i < vertex_count(s); ++i) {
+        if (w.sign(i) < 0) bits |= 1U << i;
+        if (w.sign(i) == 0) bits |= 1U << (4 + i);
+    }
+    return WeightSigns(static_cast<WeightSigns::Bits>(bits));
+}
+
+template <class Batch>
+Status batch_signs(const Batch& batch, std::span<WeightSigns> out, Tiers* tiers) {
+    const Simplex s = batch.simplex;
+    Tiers counts;
+    const Status status = for_blocks(
+        batch,
+        [&](std::size_t first, const lanes::Cases& block, std::uint32_t* undecided) {
+            const std::size_t left = lanes::signs(s, block, out.data() + first, undecided);
+            counts.add(Tier::filter, block.count - left);
+            return left;
+        },
+        [&](std::size_t first, const lanes::Cases& block, std::size_t j) -> Status {
+            const SingleCase c = single_case(s, block, j);
+            if (!all_finite(s, c.vertices.data(), c.point.data()))
+                return not_finite_error(s, c.vertices.data(), c.point.data(), case_prefix(first + j));
+            out[first + j] = exact_signs(s, c.vertices.data(), c.point.data());
+            counts.add(Tier::exact);
+            counts.degenerate += out[first + j].degenerate() ? 1 : 0;
+            return Done{};
+        });
+    if (tiers != nullptr) tiers->add(counts);
+    return status;
+}
+
+Sign as_sign(int s) {
+    return s < 0 ? Sign::negative : s > 0 ? Sign::positive : Sign::zero;
+}
+
+/// The error of an argument of orient2d or orient3d that is not finite.
+Error bad_argument(std::span<const double* const> points, int d) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        for (int k = 0; k < d; ++k) {
+            if (!std::isfinite(points[i][k]))
+                return {.what = "coordinate " + std::to_string(k) + " of point " + std::to_string(i),
+                        .expected = "a finite number",
+                        .found = std::to_string(points[i][k])};
+        }
+    }
+    return {};
+}
+
+double largest(double x, double y, double z) {
+    return std::max(std::max(std::fabs(x), std::fabs(y)), std::fabs(z));
+}
+
+// The same ranges and constants as the numerators of filter-inl.hpp, which derives them: 2 terms of 4 roundings, and 6
+// of 8 (there the last sign costs no rounding).
+constexpr double epsilon = 0x1p-52;
+
+bool in_range(double extent) {
+    return extent >= 0x1p-300 && extent <= 0x1p300;
+}
+
+}  // namespace
+
+Result<Sign> orient2d(const double* a, const double* b, const double* c) {
+    const double ux = b[0] - a[0], uy = b[1] - a[1], vx = c[0] - a[0], vy = c[1] - a[1];
+    const double x = std::max(std::fabs(ux), std::fabs(vx)), y = std::max(std::fabs(uy), std::fabs(vy));
+    const double det = ux * vy - uy * vx;
+    if (in_range(x) && in_range(y) && std::fabs(det) > 8.5 * epsilon * (x * y)) return as_sign(det < 0 ? -1 : 1);
+    if (!all_finite(a, 2) || !all_finite(b, 2) || !all_finite(c, 2)) return bad_argument(std::array{a, b, c}, 2);
+    return as_sign(exact_orient2d(a, b, c));
+}
+
+Result<Sign> orient3d(const double* a, const double* b, const double* c, const double* d) {
+    const double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
+    const double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+    const double wx = d[0] - a[0], wy = d[1] - a[1], wz = d[2] - a[2];
+    const double x = largest(ux, vx, wx), y = largest(uy, vy, wy), z = largest(uz, vz, wz);
+    const double det = ux * (vy * wz - vz * wy) + uy * (vz * wx - vx * wz) + uz * (vx * wy - vy * wx);
+    if (in_range(x) && in_range(y) && in_range(z) && std::fabs(det) > 49 * epsilon * (x * y * z))
+        return as_sign(det < 0 ? -1 : 1);
+    if (!all_finite(a, 3) || !all_finite(b, 3) || !all_finite(c, 3) || !all_finite(d, 3))
+        return bad_argument(std::array{a, b, c, d}, 3);
+    return as_sign(exact_orient3d(a, b, c, d));
+}
+
+Result<WeightSigns> weight_signs(Simplex simplex, const double* vertices, const double* point, Tiers* tiers) {
+    WeightSigns out;
+    std::uint32_t undecided[1];
+    Tier tier = Tier::filter;
+    if (lanes::signs(simplex, as_block(simplex, vertices, point), &out, undecided) != 0) {
+        if (!all_finite(simplex, vertices, point)) return not_finite_error(simplex, vertices, point);
+        out = exact_signs(simplex, vertices, point);
+        tier = Tier::exact;
+    }
+    if (tiers != nullptr) {
+        tiers->add(tier);
+        tiers->degenerate += out.degenerate() ? 1 : 0;
+    }
+    return out;
+}
+
+Status weight_signs(const CaseArrays& cases, std::span<WeightSigns> out, Tiers* tiers) {
+    return batch_signs(cases, out, tiers);
+}
+
+Status weight_signs(const MeshQueries& queries, std::span<WeightSigns> out, Tiers* tiers) {
+    return batch_signs(queries, out, tiers);
+}
+
+}  // namespace barycert

@@ -1,0 +1,59 @@
+/// Exact predicates: orientations, and the signs of barycentric weights.
+///
+/// Enters: coordinates as doubles, in any unit. Leaves: signs of the exact polynomials in these very doubles.
+///
+/// What holds (each law is a test of that name in tests/core):
+///   S1  A sign is exact for every finite input, subnormals and 1e308 included, in every rounding mode, with
+///   flush-to-zero
+///       or without: floating point only answers what its error bound proves, integers answer the rest.
+///   S2  An even permutation of the arguments keeps an orientation, an odd one flips it; the same permutation of
+///   vertices
+///       permutes the signs of the weights. Multiplying any axis by a power of two (without leaving the doubles)
+///       changes no sign in a triangle or tetrahedron; multiplying all axes changes none in any simplex.
+///   D1  Answers depend on the input bits alone, not on threads, SIMD target, compiler or optimisation. So do the
+///   counts
+///       of Tiers.
+///   E   NaN or infinity among the coordinates gives an Error, never a sign.
+///
+/// What does not hold: nothing is said about numbers that were rounded before they came here; a point computed to lie
+/// on a face most likely does not. Signs at a shared face are those of the exact geometry, zero for both cells; whoever
+/// wants one owner needs a rule for ties. Batches trust their indices.
+///
+/// Conventions: orient2d(a, b, c) > 0 if a, b, c turn counter-clockwise; orient3d(a, b, c, d) > 0 if b, c, d turn
+/// counter- clockwise seen from the side where a is not ... that is, det(b-a, c-a, d-a) > 0, as CGAL::orientation has
+/// it and opposite to Shewchuk's orient3d.
+///
+///            d
+///           /|\        orient3d(a, b, c, d) > 0: from d, the triangle a, b, c turns counter-clockwise
+///          / | \       for x to the right, y into the page, z up
+///         a--|--c
+///          \ | /
+///            b
+#pragma once
+
+#include <span>
+
+#include "barycert/core/batch.hpp"
+#include "barycert/core/result.hpp"
+#include "barycert/core/simplex.hpp"
+#include "barycert/core/tiers.hpp"
+#include "barycert/core/weight_signs.hpp"
+
+namespace barycert {
+
+/// Sign of det(b - a, c - a) of points with 2 coordinates. Error: a coordinate is not finite.
+Result<Sign> orient2d(const double* a, const double* b, const double* c);
+
+/// Sign of det(b - a, c - a, d - a) of points with 3 coordinates. Error: a coordinate is not finite.
+Result<Sign> orient3d(const double* a, const double* b, const double* c, const double* d);
+
+/// Signs of the weights of `point` in the simplex at `vertices` (vertex after vertex, see Case). A degenerate simplex
+/// is told by WeightSigns::degenerate(). `tiers`, if given, counts this case. Error: a coordinate is not finite.
+Result<WeightSigns> weight_signs(Simplex simplex, const double* vertices, const double* point, Tiers* tiers = nullptr);
+
+/// The same for many cases, on SIMD lanes. Precondition: out.size() is the number of cases. Error: a coordinate is not
+/// finite; it names the case, and `out` is then not to be used.
+Status weight_signs(const CaseArrays& cases, std::span<WeightSigns> out, Tiers* tiers = nullptr);
+Status weight_signs(const MeshQueries& queries, std::span<WeightSigns> out, Tiers* tiers = nullptr);
+
+}  // namespace barycert
