@@ -45,7 +45,7 @@ TEST(Breaking, EachKernelMisjudgesItsCase) {
 TEST(Breaking, EveryKernelHasACase) {
     std::set<std::string> covered;
     for (const BreakingCase& b : breaking_cases) covered.insert(b.kernel);
-    for (const Kernel& k : catalogue()) EXPECT_TRUE(covered.count(k.name)) << k.name;
+    for (const Kernel& k : catalogue()) EXPECT_NE(covered.count(k.name) != 0, k.certifies) << k.name;
 }
 
 TEST(Breaking, IncrementLosesTheValueAtB) {

@@ -73,10 +73,13 @@ Comparison compare(const Kernel& kernel, const Case& c, const exact::Answer& ans
         return r;
     }
     for (std::size_t i = 0; i < n; ++i) compare_weight(r, i, weights[i], answer.weights[i], answer.signs[i]);
-    const double value = kernel.value(weights.data(), c.values.data());
+    const double value = kernel.interpolate != nullptr
+                             ? kernel.interpolate(c.vertices.data(), c.point.data(), c.values.data())
+                             : kernel.value(weights.data(), c.values.data());
     if (std::isfinite(value) && std::isfinite(answer.value) && answer.value != 0)
         r.value_ulp = ulp_error(value, answer.value);
-    if (kernel.certifies && (!perfect || r.wrong())) count(r, Finding::false_certificate);
+    const bool wrong_value = kernel.interpolate != nullptr && value != answer.value;
+    if (kernel.certifies && (!perfect || wrong_value || r.wrong())) count(r, Finding::false_certificate);
     return r;
 }
 

@@ -74,9 +74,13 @@ const std::vector<Kernel>& catalogue() {
     static const std::vector<Kernel> all = [] {
         std::vector<Kernel> list;
         kernels::add_segment(list);
+        kernels::add_exact(list, Simplex::segment);
         kernels::add_triangle(list);
+        kernels::add_exact(list, Simplex::triangle);
         kernels::add_triangle3d(list);
+        kernels::add_exact(list, Simplex::triangle3d);
         kernels::add_tetrahedron(list);
+        kernels::add_exact(list, Simplex::tetrahedron);
         return list;
     }();
     return all;

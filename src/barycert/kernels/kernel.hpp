@@ -1,8 +1,8 @@
-/// The catalogue of plain floating-point formulas for barycentric weights.
+/// The catalogue of kernels: plain floating-point formulas for barycentric weights, and barycert's own exact ones.
 ///
 /// Enters: the vertices of one simplex and a point, as doubles. Leaves: one weight a vertex, or the kernel's own
-/// statement that the simplex is degenerate. Kernels are what the audit puts to the test: they are written as the
-/// literature writes them, faults included, and nothing in barycert relies on them.
+/// statement that the simplex is degenerate. Kernels are what the audit puts to the test: the plain ones are written as
+/// the literature writes them, faults included, and nothing in barycert relies on them; `*.exact` call core/weights.hpp.
 #pragma once
 
 #include <span>
@@ -28,6 +28,9 @@ enum class RegionRule : unsigned char {
     tolerant,  ///< every weight >= -tolerance interior; else outside
 };
 
+/// The interpolated value straight from the case, for a kernel that does better than to sum up rounded weights.
+using CaseValueFunction = double (*)(const double* vertices, const double* point, const double* values);
+
 struct Kernel {
     std::string name;  ///< `simplex.formula[.variant]`, the handle on the command line
     Simplex simplex = Simplex::tetrahedron;
@@ -40,6 +43,7 @@ struct Kernel {
     double tolerance = 0;  ///< for RegionRule::tolerant
     WeightsFunction weights = nullptr;
     ValueFunction value = nullptr;
+    CaseValueFunction interpolate = nullptr;  ///< if set, used instead of `value`; certified with the weights
 };
 
 /// All kernels that run on this machine, grouped by simplex, in a fixed order.

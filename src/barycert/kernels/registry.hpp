@@ -18,6 +18,9 @@ void add_tetrahedron(std::vector<Kernel>& list);
 /// The default value function: sum of weight times value, left to right.
 ValueFunction weighted_sum(Simplex s);
 
+/// `<simplex>.exact`: the correctly rounded weights and values of core/weights.hpp.
+void add_exact(std::vector<Kernel>& list, Simplex s);
+
 struct Text {
     const char* formula;
     const char* source;

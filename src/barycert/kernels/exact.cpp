@@ -1,0 +1,47 @@
+// barycert's own kernels: exact signs, correctly rounded weights and values. They certify what they say, so that the
+// audit holds them to the last bit.
+#include <algorithm>
+#include <limits>
+
+#include "barycert/core/weights.hpp"
+#include "barycert/kernels/registry.hpp"
+
+namespace barycert::kernels {
+namespace {
+
+template <Simplex s>
+int exact_weights(const double* vertices, const double* point, double* weights) {
+    const Result<Weights> w = barycentric_weights(s, vertices, point);
+    if (!w || w->degenerate) return 1;
+    std::copy_n(w->weights.begin(), vertex_count(s), weights);
+    return 0;
+}
+
+template <Simplex s>
+double exact_value(const double* vertices, const double* point, const double* values) {
+    const Result<Value> v = interpolate(s, vertices, point, values);
+    return v ? v->value : std::numeric_limits<double>::quiet_NaN();
+}
+
+template <Simplex s>
+void add(std::vector<Kernel>& list) {
+    list.push_back(make_kernel(s, "exact", exact_weights<s>, Declares::yes,
+                               {"W_i = n_i / d, V = sum n_i f_i / d exactly, each rounded once, ties to even",
+                                "barycert/core/weights.hpp: double + correction with a proven bound, then integers",
+                                "on no finite input; costs more than a plain formula"}));
+    list.back().certifies = true;
+    list.back().interpolate = exact_value<s>;
+}
+
+}  // namespace
+
+void add_exact(std::vector<Kernel>& list, Simplex s) {
+    switch (s) {
+        case Simplex::segment: return add<Simplex::segment>(list);
+        case Simplex::triangle: return add<Simplex::triangle>(list);
+        case Simplex::triangle3d: return add<Simplex::triangle3d>(list);
+        case Simplex::tetrahedron: return add<Simplex::tetrahedron>(list);
+    }
+}
+
+}  // namespace barycert::kernels
