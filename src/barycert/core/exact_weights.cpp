@@ -1,6 +1,8 @@
 #include "barycert/core/exact_weights.hpp"
 
 #include <algorithm>
+#include <tuple>
+#include <type_traits>
 
 #include "barycert/core/fixed_integer.hpp"
 #include "barycert/core/numerators-inl.hpp"
@@ -19,15 +21,17 @@ struct Lattice {
     bool fits = true;  ///< otherwise T is too narrow, and `at` is not to be used
 
     Lattice(const double* const (&points)[count], bool common) {
-        int largest[d];
+        ExponentRange range[d];
         for (int k = 0; k < d; ++k) {
-            largest[k] = 0;
-            for (int i = 0; i < count; ++i) largest[k] = std::max(largest[k], biased_exponent(points[i][k]));
+            for (int i = 0; i < count; ++i) range[k].add(points[i][k]);
         }
-        if (common) std::fill_n(largest, d, *std::max_element(largest, largest + d));
+        if (common) {
+            for (int k = 1; k < d; ++k) range[0].add(range[k]);
+            std::fill_n(range, d, range[0]);
+        }
         for (int k = 0; k < d; ++k) {
             std::uint64_t lost = 0;
-            for (int i = 0; i < count; ++i) at[i][k] = aligned<T>(points[i][k], largest[k], lost);
+            for (int i = 0; i < count; ++i) at[i][k] = aligned<T>(points[i][k], range[k], lost);
             fits = fits && lost == 0;
         }
     }
@@ -52,8 +56,67 @@ auto with_integers(const double* const (&points)[count], bool common, Decide dec
     return decide(Lattice<count, d, Integer>(points, common));
 }
 
+/// The magnitude of a number in two's complement.
+Magnitude absolute(const std::uint64_t* limbs, int count, std::uint64_t* buffer) {
+    if ((limbs[count - 1] >> 63) == 0) return {limbs, static_cast<std::size_t>(count)};
+    Carry borrow = 0;
+    for (int i = 0; i < count; ++i) buffer[i] = subtract_with_borrow(0, limbs[i], borrow);
+    return {buffer, static_cast<std::size_t>(count)};
+}
+
+int sign_of(const std::uint64_t* limbs, int count) {
+    if ((limbs[count - 1] >> 63) != 0) return -1;
+    return std::any_of(limbs, limbs + count, [](std::uint64_t limb) { return limb != 0; }) ? 1 : 0;
+}
+
+template <int N>
+int sign_of(const Fixed<N>& x) {
+    return sign_of(x.limbs.data(), N);
+}
+int sign_of(const Integer& x) {
+    return x.sign();
+}
+
+/// sum += x * f, all in two's complement. `sum` has one limb more than x, of which there are `count`.
+void add_product(std::uint64_t* sum, const std::uint64_t* x, int count, std::uint64_t f) {
+    // The unsigned product less 2^64 x if f is negative and 2^(64 count) f if x is, as in fixed_integer.hpp.
+    const std::uint64_t f_mask = (f >> 63) != 0 ? ~std::uint64_t{0} : 0;
+    const std::uint64_t x_mask = (x[count - 1] >> 63) != 0 ? ~std::uint64_t{0} : 0;
+    std::uint64_t high = 0, above = 0;  // of the product so far; x one limb up, as far as it is to be taken off
+    Carry carry = 0, borrow = 0;
+    for (int i = 0; i < count; ++i) {
+        const UInt128 t = static_cast<UInt128>(x[i]) * f + high;
+        high = static_cast<std::uint64_t>(t >> 64);
+        const std::uint64_t limb = subtract_with_borrow(static_cast<std::uint64_t>(t), above, borrow);
+        sum[i] = add_with_carry(sum[i], limb, carry);
+        above = x[i] & f_mask;
+    }
+    const std::uint64_t limb = subtract_with_borrow(high - (f & x_mask), above, borrow);
+    sum[count] = add_with_carry(sum[count], limb, carry);
+}
+
+}  // namespace
+
+ExactWeights::ExactWeights(Simplex simplex, const double* vertices, const double* point)
+    : count_(vertex_count(simplex)) {
+    switch (simplex) {
+        case Simplex::segment:
+            solve<Simplex::segment>(vertices, point);
+            break;
+        case Simplex::triangle:
+            solve<Simplex::triangle>(vertices, point);
+            break;
+        case Simplex::triangle3d:
+            solve<Simplex::triangle3d>(vertices, point);
+            break;
+        case Simplex::tetrahedron:
+            solve<Simplex::tetrahedron>(vertices, point);
+            break;
+    }
+}
+
 template <Simplex s>
-void solve_exactly(const double* vertices, const double* point, Integer* numerators, Integer& denominator) {
+void ExactWeights::solve(const double* vertices, const double* point) {
     constexpr int n = vertex_count(s), d = space_dimension(s);
     constexpr bool projected = s == Simplex::segment || s == Simplex::triangle3d;
     const double* points[n + 1];
@@ -67,45 +130,61 @@ void solve_exactly(const double* vertices, const double* point, Integer* numerat
         }
         formulas::Fractions<s, T> solution;
         formulas::solve(c, formulas::Numerator<s, T>{}, solution);
-        for (int i = 0; i < n; ++i) numerators[i] = to_integer(solution.numerator[i]);
-        denominator = to_integer(solution.denominator);
+        for (int i = 0; i < n; ++i) store(i, solution.numerator[i]);
+        store(denominator, solution.denominator);
     });
 }
 
-}  // namespace
-
-ExactWeights::ExactWeights(Simplex simplex, const double* vertices, const double* point)
-    : count_(vertex_count(simplex)) {
-    switch (simplex) {
-        case Simplex::segment:
-            solve_exactly<Simplex::segment>(vertices, point, numerators_, denominator_);
-            break;
-        case Simplex::triangle:
-            solve_exactly<Simplex::triangle>(vertices, point, numerators_, denominator_);
-            break;
-        case Simplex::triangle3d:
-            solve_exactly<Simplex::triangle3d>(vertices, point, numerators_, denominator_);
-            break;
-        case Simplex::tetrahedron:
-            solve_exactly<Simplex::tetrahedron>(vertices, point, numerators_, denominator_);
-            break;
+template <class T>
+void ExactWeights::store(int i, const T& number) {
+    if constexpr (std::is_same_v<T, Integer>) {
+        wide_[i] = number;
+    } else {
+        static_assert(std::tuple_size_v<decltype(number.limbs)> <= narrow_limbs);
+        limbs_ = static_cast<int>(number.limbs.size());
+        std::copy(number.limbs.begin(), number.limbs.end(), narrow_[i]);
     }
+}
+
+int ExactWeights::sign_of(int i) const {
+    return limbs_ == 0 ? wide_[i].sign() : barycert::sign_of(narrow_[i], limbs_);
+}
+
+Magnitude ExactWeights::magnitude(int i, std::uint64_t* buffer) const {
+    return limbs_ == 0 ? wide_[i].magnitude() : absolute(narrow_[i], limbs_, buffer);
 }
 
 double ExactWeights::weight(int i) const {
-    return round_quotient(numerators_[i], denominator_, 0);
+    std::uint64_t buffers[2][narrow_limbs];
+    return round_quotient(sign(i) < 0, magnitude(i, buffers[0]), magnitude(denominator, buffers[1]), 0);
 }
 
 double ExactWeights::interpolate(std::span<const double> values) const {
-    ScaledDouble parts[4];
-    int unit = INT_MAX;
+    ExponentRange range;
+    for (const double f : values) range.add(f);
+    std::uint64_t lost = 0, sum[narrow_limbs + 1] = {};
     for (int i = 0; i < count_; ++i) {
-        parts[i] = scaled(values[static_cast<std::size_t>(i)]);
-        unit = std::min(unit, parts[i].exponent);
+        const auto f = aligned<Fixed<1>>(values[static_cast<std::size_t>(i)], range, lost);
+        // Four products of a value below 2^61 and a numerator: see with_integers for the room.
+        if (limbs_ != 0) add_product(sum, narrow_[i], limbs_, f.limbs[0]);
     }
+    if (limbs_ == 0 || lost != 0) return interpolate_wide(values, range);
+    std::uint64_t buffers[2][narrow_limbs + 1];
+    const int sign = barycert::sign_of(sum, limbs_ + 1);
+    return round_quotient(sign != orientation(), absolute(sum, limbs_ + 1, buffers[0]),
+                          magnitude(denominator, buffers[1]), aligned_unit<Fixed<1>>(range));
+}
+
+double ExactWeights::interpolate_wide(std::span<const double> values, const ExponentRange& range) const {
     Integer sum;
-    for (int i = 0; i < count_; ++i) sum = sum + numerators_[i] * integer(parts[i], unit);
-    return sum.sign() == 0 ? 0.0 : round_quotient(sum, denominator_, unit);
+    for (int i = 0; i < count_; ++i) {
+        std::uint64_t buffer[narrow_limbs], lost = 0;
+        const Integer numerator(sign_of(i) < 0, magnitude(i, buffer));
+        sum = sum + numerator * aligned<Integer>(values[static_cast<std::size_t>(i)], range, lost);
+    }
+    std::uint64_t buffer[narrow_limbs];
+    return round_quotient(sum.sign() != orientation(), sum.magnitude(), magnitude(denominator, buffer),
+                          aligned_unit<Integer>(range));
 }
 
 int exact_orient2d(const double* a, const double* b, const double* c) {
@@ -113,7 +192,7 @@ int exact_orient2d(const double* a, const double* b, const double* c) {
         T ab[2], ac[2];
         lattice.difference(1, 0, ab);
         lattice.difference(2, 0, ac);
-        return to_integer(formulas::cross(ab, ac)).sign();
+        return sign_of(formulas::cross(ab, ac));
     });
 }
 
@@ -125,22 +204,20 @@ int exact_orient3d(const double* a, const double* b, const double* c, const doub
         lattice.difference(2, 0, ac);
         lattice.difference(3, 0, ad);
         formulas::cross(ac, ad, m);
-        return to_integer(formulas::dot(ab, m)).sign();
+        return sign_of(formulas::dot(ab, m));
     });
 }
 
 double exact_dot(const double* x, const double* y, int count) {
-    ScaledDouble px[5], py[5];
-    int unit_x = INT_MAX, unit_y = INT_MAX;
+    ExponentRange rx, ry;
     for (int i = 0; i < count; ++i) {
-        px[i] = scaled(x[i]);
-        py[i] = scaled(y[i]);
-        unit_x = std::min(unit_x, px[i].exponent);
-        unit_y = std::min(unit_y, py[i].exponent);
+        rx.add(x[i]);
+        ry.add(y[i]);
     }
     Integer sum;
-    for (int i = 0; i < count; ++i) sum = sum + integer(px[i], unit_x) * integer(py[i], unit_y);
-    return sum.sign() == 0 ? 0.0 : round_integer(sum, unit_x + unit_y);
+    std::uint64_t lost = 0;
+    for (int i = 0; i < count; ++i) sum = sum + aligned<Integer>(x[i], rx, lost) * aligned<Integer>(y[i], ry, lost);
+    return round_integer(sum, aligned_unit<Integer>(rx) + aligned_unit<Integer>(ry));
 }
 
 }  // namespace barycert

@@ -1,14 +1,18 @@
 /// Internal: the last tier. Weights as fractions of exact integers, without heap and without floating point.
 ///
-/// Coordinates become integers by shifts alone: each axis by its own power of two for the simplices that fill their
-/// space (a determinant is homogeneous in each axis, so the powers cancel in numerator / denominator), all axes by one
-/// for those that are projected on (dot products add axes up). Trailing zero bits are left out, so that round numbers
-/// and lattices stay one limb wide.
+/// Coordinates become integers by shifts alone: each axis in its own unit for the simplices that fill their space (a
+/// determinant is homogeneous in each axis, so the units cancel in numerator / denominator), all axes in one for those
+/// that are projected on (dot products add axes up). Where the coordinates of an axis differ by at most 2^8 in
+/// magnitude, or have as many trailing zeros to spare, one limb holds each, and numerators have two to four; then two
+/// limbs, for 2^72; then as many as it takes.
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "barycert/core/integer.hpp"
+#include "barycert/core/quotient.hpp"
+#include "barycert/core/scaled_double.hpp"
 #include "barycert/core/simplex.hpp"
 
 namespace barycert {
@@ -18,13 +22,13 @@ public:
     /// Layout of Case: vertex after vertex. Precondition: all coordinates finite.
     ExactWeights(Simplex simplex, const double* vertices, const double* point);
 
-    bool degenerate() const { return denominator_.sign() == 0; }
+    bool degenerate() const { return orientation() == 0; }
 
     /// Sign of the signed volume or area, 0 if degenerate; +1 for a proper simplex that is projected on.
-    int orientation() const { return denominator_.sign(); }
+    int orientation() const { return sign_of(denominator); }
 
     /// Sign of weight i; 0 if degenerate.
-    int sign(int i) const { return numerators_[i].sign() * denominator_.sign(); }
+    int sign(int i) const { return sign_of(i) * orientation(); }
 
     /// Weight i correctly rounded. Precondition: not degenerate.
     double weight(int i) const;
@@ -33,9 +37,21 @@ public:
     double interpolate(std::span<const double> values) const;
 
 private:
+    static constexpr int denominator = 4;   ///< its place behind the numerators
+    static constexpr int narrow_limbs = 8;  ///< of the widest product of four numbers of two limbs
+
+    template <Simplex s>
+    void solve(const double* vertices, const double* point);
+    template <class T>
+    void store(int i, const T& number);
+    int sign_of(int i) const;
+    Magnitude magnitude(int i, std::uint64_t* buffer) const;
+    double interpolate_wide(std::span<const double> values, const ExponentRange& range) const;
+
     int count_;
-    Integer numerators_[4];
-    Integer denominator_;
+    int limbs_ = 0;  ///< of each number in narrow_, two's complement; 0 if wide_ is used
+    std::uint64_t narrow_[5][narrow_limbs];
+    Integer wide_[5];
 };
 
 /// Sign of det(b - a, c - a), positive if a, b, c turn counter-clockwise. Precondition: finite.

@@ -17,25 +17,17 @@ struct Fixed {
 
     bool negative() const { return (limbs[N - 1] >> 63) != 0; }
 
-    friend Fixed operator+(const Fixed& x, const Fixed& y) {
+    [[gnu::always_inline]] friend inline Fixed operator+(const Fixed& x, const Fixed& y) {
         Fixed r;
-        std::uint64_t carry = 0;
-        for (std::size_t i = 0; i < N; ++i) {
-            const UInt128 t = static_cast<UInt128>(x.limbs[i]) + y.limbs[i] + carry;
-            r.limbs[i] = static_cast<std::uint64_t>(t);
-            carry = static_cast<std::uint64_t>(t >> 64);
-        }
+        Carry carry = 0;
+        for (std::size_t i = 0; i < N; ++i) r.limbs[i] = add_with_carry(x.limbs[i], y.limbs[i], carry);
         return r;
     }
 
-    friend Fixed operator-(const Fixed& x, const Fixed& y) {
+    [[gnu::always_inline]] friend inline Fixed operator-(const Fixed& x, const Fixed& y) {
         Fixed r;
-        std::uint64_t borrow = 0;
-        for (std::size_t i = 0; i < N; ++i) {
-            const UInt128 t = static_cast<UInt128>(x.limbs[i]) - y.limbs[i] - borrow;
-            r.limbs[i] = static_cast<std::uint64_t>(t);
-            borrow = static_cast<std::uint64_t>(t >> 64) & 1;
-        }
+        Carry borrow = 0;
+        for (std::size_t i = 0; i < N; ++i) r.limbs[i] = subtract_with_borrow(x.limbs[i], y.limbs[i], borrow);
         return r;
     }
 };
@@ -43,7 +35,7 @@ struct Fixed {
 /// The unsigned product, less 2^(64 N) y if x is negative and 2^(64 M) x if y is: a negative number stands for itself
 /// plus 2^(64 N).
 template <int N, int M>
-Fixed<N + M> operator*(const Fixed<N>& x, const Fixed<M>& y) {
+[[gnu::always_inline]] inline Fixed<N + M> operator*(const Fixed<N>& x, const Fixed<M>& y) {
     Fixed<N + M> r{};
     for (std::size_t i = 0; i < N; ++i) {
         std::uint64_t carry = 0;
@@ -54,27 +46,14 @@ Fixed<N + M> operator*(const Fixed<N>& x, const Fixed<M>& y) {
         }
         r.limbs[i + M] = carry;
     }
-    const auto subtract = [&r](std::uint64_t mask, const auto& what, std::size_t from, std::size_t count) {
-        std::uint64_t borrow = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const UInt128 t = static_cast<UInt128>(r.limbs[from + i]) - (what.limbs[i] & mask) - borrow;
-            r.limbs[from + i] = static_cast<std::uint64_t>(t);
-            borrow = static_cast<std::uint64_t>(t >> 64) & 1;
-        }
-    };
-    subtract(x.negative() ? ~std::uint64_t{0} : 0, y, N, M);
-    subtract(y.negative() ? ~std::uint64_t{0} : 0, x, M, N);
+    const std::uint64_t x_mask = x.negative() ? ~std::uint64_t{0} : 0, y_mask = y.negative() ? ~std::uint64_t{0} : 0;
+    Carry borrow = 0;
+    for (std::size_t i = 0; i < M; ++i)
+        r.limbs[N + i] = subtract_with_borrow(r.limbs[N + i], y.limbs[i] & x_mask, borrow);
+    borrow = 0;
+    for (std::size_t i = 0; i < N; ++i)
+        r.limbs[M + i] = subtract_with_borrow(r.limbs[M + i], x.limbs[i] & y_mask, borrow);
     return r;
-}
-
-template <int N>
-Integer to_integer(const Fixed<N>& x) {
-    const Fixed<N> magnitude = x.negative() ? Fixed<N>{} - x : x;
-    return Integer(x.negative(), magnitude.limbs.data(), N);
-}
-
-inline const Integer& to_integer(const Integer& x) {
-    return x;
 }
 
 }  // namespace barycert

@@ -14,10 +14,42 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <span>
+#ifdef __x86_64__
+#include <immintrin.h>
+#endif
 
 namespace barycert {
 
 __extension__ using UInt128 = unsigned __int128;
+
+// One limb of a sum or difference; the carry goes in and out. Intrinsics where there are some: compilers do not find
+// the instruction in the wide arithmetic.
+#ifdef __x86_64__
+using Carry = unsigned char;
+inline std::uint64_t add_with_carry(std::uint64_t x, std::uint64_t y, Carry& carry) {
+    unsigned long long r;
+    carry = _addcarry_u64(carry, x, y, &r);
+    return r;
+}
+inline std::uint64_t subtract_with_borrow(std::uint64_t x, std::uint64_t y, Carry& borrow) {
+    unsigned long long r;
+    borrow = _subborrow_u64(borrow, x, y, &r);
+    return r;
+}
+#else
+using Carry = std::uint64_t;
+inline std::uint64_t add_with_carry(std::uint64_t x, std::uint64_t y, Carry& carry) {
+    const UInt128 t = static_cast<UInt128>(x) + y + carry;
+    carry = static_cast<Carry>(t >> 64);
+    return static_cast<std::uint64_t>(t);
+}
+inline std::uint64_t subtract_with_borrow(std::uint64_t x, std::uint64_t y, Carry& borrow) {
+    const UInt128 t = static_cast<UInt128>(x) - y - borrow;
+    borrow = static_cast<Carry>(t >> 64) & 1;
+    return static_cast<std::uint64_t>(t);
+}
+#endif
 
 class Integer {
 public:
@@ -42,24 +74,16 @@ public:
         trim();
     }
 
-    /// A magnitude of `size` limbs, the least significant first.
-    Integer(bool negative, const std::uint64_t* limbs, int size) : size_(size), negative_(negative) {
-        std::copy_n(limbs, size, limbs_);
+    /// A magnitude, the least significant limb first.
+    Integer(bool negative, std::span<const std::uint64_t> magnitude)
+        : size_(static_cast<int>(magnitude.size())), negative_(negative) {
+        std::copy(magnitude.begin(), magnitude.end(), limbs_);
         trim();
     }
 
     int sign() const { return size_ == 0 ? 0 : negative_ ? -1 : 1; }
-    int size() const { return size_; }
-    std::uint64_t limb(int i) const { return limbs_[i]; }
-
-    /// Bits of the magnitude; 0 for zero.
-    int bit_length() const { return size_ == 0 ? 0 : 64 * size_ - std::countl_zero(limbs_[size_ - 1]); }
-
-    Integer operator-() const {
-        Integer r(*this);
-        r.negative_ = !negative_;
-        return r;
-    }
+    /// The magnitude, the least significant limb first, the last one not zero.
+    std::span<const std::uint64_t> magnitude() const { return {limbs_, static_cast<std::size_t>(size_)}; }
 
     friend Integer operator+(const Integer& x, const Integer& y) { return sum(x, y, y.negative_); }
     friend Integer operator-(const Integer& x, const Integer& y) { return sum(x, y, !y.negative_); }
@@ -83,24 +107,6 @@ public:
             }
             r.limbs_[i + b.size_] = carry;
         }
-        r.trim();
-        return r;
-    }
-
-    /// Magnitude times 2^bits, sign kept. Precondition: bits >= 0 and the result fits.
-    Integer shifted_left(int bits) const {
-        Integer r;
-        if (size_ == 0) return r;
-        const int whole = bits / 64, part = bits % 64;
-        r.negative_ = negative_;
-        r.size_ = size_ + whole + 1;
-        std::fill_n(r.limbs_, whole, 0);
-        std::uint64_t below = 0;
-        for (int i = 0; i < size_; ++i) {
-            r.limbs_[whole + i] = part == 0 ? limbs_[i] : limbs_[i] << part | below >> (64 - part);
-            below = limbs_[i];
-        }
-        r.limbs_[whole + size_] = part == 0 ? 0 : below >> (64 - part);
         r.trim();
         return r;
     }
@@ -142,26 +148,20 @@ private:
     /// |x| + |y|. Precondition: x.size_ >= y.size_.
     static Integer add(const Integer& x, const Integer& y) {
         Integer r;
-        std::uint64_t carry = 0;
-        for (int i = 0; i < x.size_; ++i) {
-            const UInt128 t = static_cast<UInt128>(x.limbs_[i]) + (i < y.size_ ? y.limbs_[i] : 0) + carry;
-            r.limbs_[i] = static_cast<std::uint64_t>(t);
-            carry = static_cast<std::uint64_t>(t >> 64);
-        }
+        Carry carry = 0;
+        for (int i = 0; i < x.size_; ++i)
+            r.limbs_[i] = add_with_carry(x.limbs_[i], i < y.size_ ? y.limbs_[i] : 0, carry);
         r.size_ = x.size_;
-        if (carry != 0) r.limbs_[r.size_++] = carry;
+        if (carry != 0) r.limbs_[r.size_++] = 1;
         return r;
     }
 
     /// |x| - |y|. Precondition: |x| >= |y|.
     static Integer subtract(const Integer& x, const Integer& y) {
         Integer r;
-        std::uint64_t borrow = 0;
-        for (int i = 0; i < x.size_; ++i) {
-            const UInt128 t = static_cast<UInt128>(x.limbs_[i]) - (i < y.size_ ? y.limbs_[i] : 0) - borrow;
-            r.limbs_[i] = static_cast<std::uint64_t>(t);
-            borrow = static_cast<std::uint64_t>(t >> 64) & 1;
-        }
+        Carry borrow = 0;
+        for (int i = 0; i < x.size_; ++i)
+            r.limbs_[i] = subtract_with_borrow(x.limbs_[i], i < y.size_ ? y.limbs_[i] : 0, borrow);
         r.size_ = x.size_;
         r.trim();
         return r;

@@ -1,5 +1,8 @@
 #include "barycert/core/quotient.hpp"
 
+#include <algorithm>
+#include <bit>
+
 namespace barycert {
 namespace {
 
@@ -20,43 +23,62 @@ double round_bits(bool negative, std::uint64_t q, bool inexact, int exponent) {
     return std::bit_cast<double>(sign | (mantissa + (static_cast<std::uint64_t>(last + 1074) << 52)));
 }
 
+int bit_length(Magnitude x) {
+    std::size_t size = x.size();
+    while (size > 0 && x[size - 1] == 0) --size;
+    return size == 0 ? 0 : static_cast<int>(64 * size) - std::countl_zero(x[size - 1]);
+}
+
+/// x * 2^bits in `size` limbs. Precondition: it fits, bits >= 0.
+void shift_left(Magnitude x, int bits, std::uint64_t* out, int size) {
+    const int whole = bits / 64, part = bits % 64;
+    std::fill_n(out, whole, 0);
+    std::uint64_t below = 0;
+    for (int i = 0; i < size - whole; ++i) {
+        const std::uint64_t limb = i < static_cast<int>(x.size()) ? x[static_cast<std::size_t>(i)] : 0;
+        out[whole + i] = part == 0 ? limb : limb << part | below >> (64 - part);
+        below = limb;
+    }
+}
+
 }  // namespace
 
-double round_quotient(const Integer& numerator, const Integer& denominator, int exponent) {
-    if (numerator.sign() == 0) return 0.0;
-    const bool negative = numerator.sign() != denominator.sign();
+double round_quotient(bool negative, Magnitude numerator, Magnitude denominator, int exponent) {
+    const int n_bits = bit_length(numerator), d_bits = bit_length(denominator);
+    if (n_bits == 0) return 0.0;
     // Shift both so that the divisor fills its k limbs to the last bit and the dividend has 64 k + 63 bits: then
     // 2^62 < quotient < 2^64, one digit in base 2^64.
-    const int filled = (std::max(denominator.bit_length(), numerator.bit_length() - 63) + 63) / 64 * 64;
-    const Integer divisor = denominator.shifted_left(filled - denominator.bit_length());
-    const int dividend_shift = filled + 63 - numerator.bit_length();
-    const Integer dividend = numerator.shifted_left(dividend_shift);
-    const int k = filled / 64;
+    const int k = (std::max(d_bits, n_bits - 63) + 63) / 64;
+    std::uint64_t divisor[Integer::capacity], rest[Integer::capacity + 1];
+    shift_left(denominator, 64 * k - d_bits, divisor, k);
+    shift_left(numerator, 64 * k + 63 - n_bits, rest, k + 1);
 
     // The leading two limbs over the leading one: never below the true digit and at most 2 above it (Knuth, The Art of
     // Computer Programming 2, 4.3.1, theorem B: the divisor's leading bit is set).
-    const UInt128 leading = static_cast<UInt128>(dividend.limb(k)) << 64 | dividend.limb(k - 1);
-    std::uint64_t q = static_cast<std::uint64_t>(leading / divisor.limb(k - 1));  // fits: dividend.limb(k) < 2^63
-    const Integer product = divisor * Integer(false, q, 0);
-    Integer remainder = (dividend.sign() < 0 ? -dividend : dividend) - (divisor.sign() < 0 ? -product : product);
-    while (remainder.sign() < 0) {
-        --q;
-        remainder = divisor.sign() < 0 ? remainder - divisor : remainder + divisor;
+    const UInt128 leading = static_cast<UInt128>(rest[k]) << 64 | rest[k - 1];
+    auto q = static_cast<std::uint64_t>(leading / divisor[k - 1]);  // fits: rest[k] < 2^63 <= divisor[k - 1]
+    std::uint64_t carry = 0;
+    Carry borrow = 0;
+    for (int i = 0; i < k; ++i) {
+        const UInt128 t = static_cast<UInt128>(q) * divisor[i] + carry;
+        carry = static_cast<std::uint64_t>(t >> 64);
+        rest[i] = subtract_with_borrow(rest[i], static_cast<std::uint64_t>(t), borrow);
     }
-    return round_bits(negative, q, remainder.sign() != 0,
-                      exponent + (filled - denominator.bit_length()) - dividend_shift);
+    rest[k] = subtract_with_borrow(rest[k], carry, borrow);
+    while (borrow != 0) {  // the rest is negative: the digit was too large
+        --q;
+        Carry over = 0;
+        for (int i = 0; i < k; ++i) rest[i] = add_with_carry(rest[i], divisor[i], over);
+        rest[k] = add_with_carry(rest[k], 0, over);
+        if (over != 0) borrow = 0;
+    }
+    const bool inexact = std::any_of(rest, rest + k, [](std::uint64_t limb) { return limb != 0; });
+    return round_bits(negative, q, inexact, exponent + n_bits - d_bits - 63);
 }
 
 double round_integer(const Integer& number, int exponent) {
-    if (number.sign() == 0) return 0.0;
-    const int shift = 64 - number.bit_length();
-    if (shift >= 0) return round_bits(number.sign() < 0, number.limb(0) << shift, false, exponent - shift);
-    const int whole = -shift / 64, part = -shift % 64;
-    std::uint64_t q = number.limb(whole) >> part;
-    if (part != 0) q |= number.limb(whole + 1) << (64 - part);
-    bool inexact = (number.limb(whole) & ((std::uint64_t{1} << part) - 1)) != 0;
-    for (int i = 0; i < whole && !inexact; ++i) inexact = number.limb(i) != 0;
-    return round_bits(number.sign() < 0, q, inexact, exponent - shift);
+    const std::uint64_t one[1] = {1};
+    return round_quotient(number.sign() < 0, number.magnitude(), one, exponent);
 }
 
 }  // namespace barycert

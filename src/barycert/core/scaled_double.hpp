@@ -24,22 +24,43 @@ inline std::uint64_t significand(double x) {
     return hidden | (std::bit_cast<std::uint64_t>(x) & ((std::uint64_t{1} << 52) - 1));
 }
 
-/// x in a unit that depends on `largest` alone, the greatest biased exponent among the numbers that share it.
-///
-/// Fixed<N>: |result| < 2^(64 N - 3), the significand of the largest number shifted up by 64 N - 56; bits that would
-/// fall below the unit are added to `lost`, and the result is then worthless. Integer: the unit is 2^-1074, always
-/// enough. Preconditions: x finite, biased_exponent(x) <= largest.
+/// The exponent fields of numbers that are to share a unit; subnormals count as 1, zeros not at all.
+struct ExponentRange {
+    int least = 2047, largest = 1;
+
+    void add(double x) {
+        const int exponent = std::max(biased_exponent(x), 1);
+        largest = std::max(largest, exponent);
+        least = std::min(least, x == 0 ? 2047 : exponent);
+    }
+    void add(const ExponentRange& r) {
+        largest = std::max(largest, r.largest);
+        least = std::min(least, r.least);
+    }
+};
+
+/// By how much Fixed<N> shifts the significand of the largest number up: its magnitude is then below 2^(64 N - 3).
 template <class T>
-T aligned(double x, int largest, std::uint64_t& lost) {
+inline constexpr int headroom = std::is_same_v<T, Fixed<1>> ? 8 : 72;
+
+/// The unit's exponent: x = aligned<T>(x, range, lost) * 2^aligned_unit<T>(range).
+template <class T>
+int aligned_unit(const ExponentRange& range) {
+    return std::is_same_v<T, Integer> ? range.least - 1075 : range.largest - 1075 - headroom<T>;
+}
+
+/// x in the unit of its range. Fixed<N>: bits that would fall below the unit are added to `lost`, and the result is
+/// then worthless. Integer: nothing is ever lost. Preconditions: x finite and counted in the range.
+template <class T>
+T aligned(double x, const ExponentRange& range, std::uint64_t& lost) {
     const std::uint64_t m = significand(x);
     const bool negative = std::signbit(x);
     const int exponent = std::max(biased_exponent(x), 1);
     if constexpr (std::is_same_v<T, Integer>) {
-        return Integer(negative, m, exponent - 1);
+        return m == 0 ? Integer() : Integer(negative, m, exponent - range.least);
     } else {
-        constexpr int top = std::is_same_v<T, Fixed<1>> ? 8 : 72;
         using Word = std::conditional_t<std::is_same_v<T, Fixed<1>>, std::uint64_t, UInt128>;
-        const int shift = top - (std::max(largest, 1) - exponent);
+        const int shift = headroom<T> - (range.largest - exponent);
         const int down = std::min(std::max(-shift, 0), 63);
         lost |= m & ((std::uint64_t{1} << down) - 1);
         const Word magnitude = static_cast<Word>(m >> down) << std::max(shift, 0);
@@ -50,26 +71,6 @@ T aligned(double x, int largest, std::uint64_t& lost) {
             return {{static_cast<std::uint64_t>(value), static_cast<std::uint64_t>(value >> 64)}};
         }
     }
-}
-
-/// mantissa * 2^exponent, the mantissa odd or zero.
-struct ScaledDouble {
-    std::uint64_t mantissa = 0;
-    int exponent = INT_MAX;  ///< of zero: never the least of several
-    bool negative = false;
-};
-
-/// The parts of x. Precondition: finite.
-inline ScaledDouble scaled(double x) {
-    const std::uint64_t m = significand(x);
-    if (m == 0) return {};
-    const int zeros = std::countr_zero(m);
-    return {m >> zeros, std::max(biased_exponent(x), 1) - 1075 + zeros, std::signbit(x)};
-}
-
-/// x / 2^unit. Precondition: unit <= x.exponent.
-inline Integer integer(const ScaledDouble& x, int unit) {
-    return x.mantissa == 0 ? Integer() : Integer(x.negative, x.mantissa, x.exponent - unit);
 }
 
 }  // namespace barycert

@@ -37,10 +37,14 @@ void add(std::vector<Kernel>& list) {
 
 void add_exact(std::vector<Kernel>& list, Simplex s) {
     switch (s) {
-        case Simplex::segment: return add<Simplex::segment>(list);
-        case Simplex::triangle: return add<Simplex::triangle>(list);
-        case Simplex::triangle3d: return add<Simplex::triangle3d>(list);
-        case Simplex::tetrahedron: return add<Simplex::tetrahedron>(list);
+        case Simplex::segment:
+            return add<Simplex::segment>(list);
+        case Simplex::triangle:
+            return add<Simplex::triangle>(list);
+        case Simplex::triangle3d:
+            return add<Simplex::triangle3d>(list);
+        case Simplex::tetrahedron:
+            return add<Simplex::tetrahedron>(list);
     }
 }
 
