@@ -7,6 +7,8 @@
 #include <xmmintrin.h>
 #endif
 
+#include "barycert/core/simd.hpp"
+
 #ifdef __FAST_MATH__
 #error "barycert is not correct under -ffast-math: compile it without"
 #endif
@@ -55,19 +57,6 @@ bool measured_excess_precision() {
     return (one + tiny) - one == tiny;  // rounded upward the sum is 1 + 2^-52
 }
 
-std::string measured_simd() {
-#if defined(__x86_64__) || defined(__i386__)
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) return "AVX-512";
-    if (__builtin_cpu_supports("avx2")) return "AVX2";
-    if (__builtin_cpu_supports("sse4.2")) return "SSE4.2";
-    return "SSE2";
-#elif defined(__aarch64__)
-    return "NEON";
-#else
-    return "none";
-#endif
-}
-
 bool measured_fma() {
 #if defined(__x86_64__) || defined(__i386__)
     return __builtin_cpu_supports("fma");
@@ -84,7 +73,7 @@ Environment measure_environment() {
     e.flush_to_zero = measured_flush_to_zero();
     e.contraction = measured_contraction();
     e.excess_precision = measured_excess_precision();
-    e.simd = measured_simd();
+    e.simd = simd_target();
     e.fma = measured_fma();
 #ifdef __clang__
     e.compiler = std::string("clang ") + __clang_version__;

@@ -16,7 +16,7 @@ struct Environment {
     bool flush_to_zero = false;     ///< subnormal results or operands are replaced by zero
     bool contraction = false;       ///< a * b + c was rounded once
     bool excess_precision = false;  ///< intermediate results carry more than 53 bits
-    std::string simd;               ///< widest instruction set of this processor that could be used
+    std::string simd;               ///< target that batches run on, see simd.hpp
     bool fma = false;               ///< the processor has fused multiply-add
     std::string compiler;
     std::string version;  ///< of barycert

@@ -19,16 +19,15 @@
 /// on a face most likely does not. Signs at a shared face are those of the exact geometry, zero for both cells; whoever
 /// wants one owner needs a rule for ties. Batches trust their indices.
 ///
-/// Conventions: orient2d(a, b, c) > 0 if a, b, c turn counter-clockwise; orient3d(a, b, c, d) > 0 if b, c, d turn
-/// counter- clockwise seen from the side where a is not ... that is, det(b-a, c-a, d-a) > 0, as CGAL::orientation has
-/// it and opposite to Shewchuk's orient3d.
+/// Conventions, CGAL::orientation's:
+///   orient2d(a, b, c) > 0 if a, b, c turn counter-clockwise;
+///   orient3d(a, b, c, d) > 0 if a, b, c turn counter-clockwise seen from d (the opposite of Shewchuk's orient3d):
 ///
-///            d
-///           /|\        orient3d(a, b, c, d) > 0: from d, the triangle a, b, c turns counter-clockwise
-///          / | \       for x to the right, y into the page, z up
-///         a--|--c
-///          \ | /
-///            b
+///            d          x to the right, y away from the reader, z up:
+///           /|\         a = (0,0,0), b = (1,0,0), c = (0,1,0), d = (0,0,1)
+///          / | c        is positive
+///         / .|. \
+///        a-------b
 #pragma once
 
 #include <span>

@@ -162,9 +162,9 @@ std::string witness_list(const Report& report, const TerminalStyle& style, const
 }  // namespace
 
 std::string environment_line(const Environment& e) {
-    return fmt::format("barycert {}, {}, rounding {}, contraction {}, subnormals {}, processor with {}{}", e.version,
+    return fmt::format("barycert {}, {}, rounding {}, contraction {}, subnormals {}, SIMD {}{}", e.version,
                        e.compiler, e.rounding, e.contraction ? "ON" : "off", e.flush_to_zero ? "FLUSHED" : "kept",
-                       e.simd, e.fma ? " and FMA" : "");
+                       e.simd, e.fma ? ", FMA" : "");
 }
 
 std::string terminal_report(const Report& report, const TerminalStyle& style) {

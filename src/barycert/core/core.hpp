@@ -1,0 +1,41 @@
+/// The exact core of barycert: the sign of every barycentric weight, weights and values to the last bit, at the speed
+/// of floating point where floating point is enough.
+///
+/// Enters: vertices of segments, triangles (in the plane or in 3-space) and tetrahedra, points, nodal values, as
+/// doubles in any unit. Leaves: signs, weights, values, points. Errors come as Result or Status; nothing prints, throws
+/// or exits.
+///
+/// Laws, each a test by its name (tests/core, tests/laws):
+///   S1  A sign is exact for every finite double, subnormals and 1e308 included.             predicates.hpp
+///   S2  Even permutations keep a sign, odd ones flip it; powers of two keep it.              predicates.hpp
+///   W1  A weight has the exact sign; it is zero only if the exact one is, or rounds to it.   weights.hpp
+///   W2  A weight is the exact one rounded to nearest, ties to even.                          weights.hpp
+///   V1  A value is the exact sum of weight times nodal value, rounded once.                  weights.hpp
+///   V2  A point that two cells share has the same value, to the bit, from both.              weights.hpp
+///   D1  Results depend on the input bits alone: not on threads, SIMD target, compiler,
+///       optimisation, or the order of cases.
+///   A degenerate simplex is told, never weighed. NaN or infinity is an Error, never a sign. An environment in which
+///   weights could not be rounded correctly is an Error; signs do not depend on it.
+///
+/// What is not promised:
+///   - anything about numbers before they were rounded to these doubles;
+///   - that rounded weights sum to 1, or give back their point: rounding each one is incompatible with both;
+///   - a time: an answer takes nanoseconds where the filter decides, up to about a microsecond where integers must, and
+///     several where coordinates differ by more than 2^72 in magnitude;
+///   - which tier decides (Tiers): it is the same on every machine, but may change with the version;
+///   - checks of indices and sizes: those are preconditions.
+///
+/// How it is done: filter-inl.hpp (signs), refinement-inl.hpp (weights and values) and exact_weights.hpp (what those
+/// leave open) prove their bounds where they use them; NOTES.md has measurements, and what was tried.
+#pragma once
+
+#include "barycert/core/batch.hpp"         // IWYU pragma: export
+#include "barycert/core/environment.hpp"   // IWYU pragma: export
+#include "barycert/core/inverse.hpp"       // IWYU pragma: export
+#include "barycert/core/predicates.hpp"    // IWYU pragma: export
+#include "barycert/core/result.hpp"        // IWYU pragma: export
+#include "barycert/core/simd.hpp"          // IWYU pragma: export
+#include "barycert/core/simplex.hpp"       // IWYU pragma: export
+#include "barycert/core/tiers.hpp"         // IWYU pragma: export
+#include "barycert/core/weight_signs.hpp"  // IWYU pragma: export
+#include "barycert/core/weights.hpp"       // IWYU pragma: export
