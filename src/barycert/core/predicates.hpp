@@ -23,11 +23,11 @@
 ///   orient2d(a, b, c) > 0 if a, b, c turn counter-clockwise;
 ///   orient3d(a, b, c, d) > 0 if a, b, c turn counter-clockwise seen from d (the opposite of Shewchuk's orient3d):
 ///
-///            d          x to the right, y away from the reader, z up:
-///           /|\         a = (0,0,0), b = (1,0,0), c = (0,1,0), d = (0,0,1)
-///          / | c        is positive
-///         / .|. \
-///        a-------b
+///         d               x to the right, y away from the reader, z up:
+///        /|\ .            a = (0,0,0), b = (1,0,0), c = (0,1,0), d = (0,0,1)
+///       / | c             is positive
+///      / .|. \ .
+///     a-------b
 #pragma once
 
 #include <span>
