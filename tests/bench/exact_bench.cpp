@@ -9,6 +9,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Gmpq.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -115,18 +116,20 @@ struct CubeMesh {
     }
 };
 
-/// Random points for random cells of a mesh.
+/// Random points for random cells of a mesh, the cells in random order or in that of their numbers.
 struct Queries {
     std::vector<std::int32_t> cells;
     std::vector<double> coordinates;
     std::vector<Point> points;
 
     /// Points anywhere in the cube, or such with weights of up to half beyond those inside.
-    Queries(const CubeMesh& mesh, bool near) {
+    Queries(const CubeMesh& mesh, bool near, bool in_order = false) {
         Random random(11);
+        for (std::size_t j = 0; j < queries_of_a_mesh; ++j)
+            cells.push_back(static_cast<std::int32_t>(random.below(mesh.cells())));
+        if (in_order) std::sort(cells.begin(), cells.end());
         for (std::size_t j = 0; j < queries_of_a_mesh; ++j) {
-            const auto cell = static_cast<std::size_t>(random.below(mesh.cells()));
-            cells.push_back(static_cast<std::int32_t>(cell));
+            const auto cell = static_cast<std::size_t>(cells[j]);
             std::array<double, 4> w{};
             double sum = 0;
             for (double& x : w) sum += x = random.unit();
@@ -296,9 +299,9 @@ void lean_values(const Cases& cases, double* out) {
     peers::plain_values(all, f.data(), out);
 }
 
-/// Coordinates and values of a mesh gathered at once.
+/// Coordinates and values of a mesh gathered at once, those of the cases to come asked for ahead.
 void lean_values(const CubeMesh& mesh, const Queries& queries, double* out) {
-    alignas(64) static std::array<std::array<double, block_size>, 19> buffer;
+    alignas(64) static std::array<std::array<double, block_size + 8>, 19> buffer;
     lanes::Cases block{};
     std::array<const double*, 4> f{};
     for (std::size_t i = 0; i < 12; ++i) block.vertices[i] = buffer[i].data();
@@ -307,6 +310,17 @@ void lean_values(const CubeMesh& mesh, const Queries& queries, double* out) {
     block.count = block_size;
     for (std::size_t first = 0; first < queries.cells.size(); first += block_size) {
         for (std::size_t j = 0; j < block_size; ++j) {
+            if (first + j + 32 < queries.cells.size()) {
+                const auto corners_of = [&](std::size_t ahead) {
+                    return mesh.corners.data() + 4 * static_cast<std::size_t>(queries.cells[first + j + ahead]);
+                };
+                __builtin_prefetch(corners_of(32));
+                for (std::size_t i = 0; i < 4; ++i) {
+                    const auto node = static_cast<std::size_t>(corners_of(16)[i]);
+                    __builtin_prefetch(mesh.nodes.data() + 3 * node);
+                    __builtin_prefetch(mesh.field.data() + node);
+                }
+            }
             const std::int32_t* const corners =
                 mesh.corners.data() + 4 * static_cast<std::size_t>(queries.cells[first + j]);
             for (std::size_t i = 0; i < 4; ++i) {
@@ -733,7 +747,8 @@ int main() {
     };
     std::printf("Medians of %d repetitions, rows of a group turn by turn, one thread, its own time.\n", repetitions);
     const CubeMesh mesh200k(32), mesh2m(70);
-    const Queries far200k(mesh200k, false), near200k(mesh200k, true), far2m(mesh2m, false), near2m(mesh2m, true);
+    const Queries far200k(mesh200k, false), near200k(mesh200k, true), far2m(mesh2m, false), near2m(mesh2m, true),
+        ordered2m(mesh2m, true, true);
     std::printf("Meshes: the unit cube in voxels of 6 tetrahedra, nodes displaced; %zu and %zu cells. %zu queries.\n",
                 mesh200k.cells(), mesh2m.cells(), queries_of_a_mesh);
     const Cases large = cases_of(mesh200k, near200k, queries_of_a_mesh), small = cases_of(mesh200k, near200k, in_cache);
@@ -744,6 +759,7 @@ int main() {
     add("Signs, random of 200k cells, points near them", signs_of_mesh(table, mesh200k, near200k));
     add("Signs, random of 2M cells, points anywhere", signs_of_mesh(table, mesh2m, far2m));
     add("Signs, random of 2M cells, points near them", signs_of_mesh(table, mesh2m, near2m));
+    add("Signs, some of 2M cells in order, points near them", signs_of_mesh(table, mesh2m, ordered2m));
     add("Signs, arrays", signs_of_arrays(table, small, large));
     add("Values and weights, 200k cells, points near", values_of_all(table, mesh200k, near200k, small, large));
     add("Points exactly on vertices, edges and faces", hard_cases(table, on, "on features", false));
