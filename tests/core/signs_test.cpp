@@ -155,6 +155,39 @@ TEST(LawS1, SignsAreTheSameInEveryEnvironmentAndOnEveryTarget) {
     EXPECT_TRUE(use_simd_target(""));
 }
 
+// Under denormals-are-zero a comparison takes a subnormal for zero: catches numbers told to be zero by x == 0, which
+// then have no place in the unit made for the others.
+TEST(LawS1, SubnormalsBesideOrdinaryNumbersCountWhereTheyAreFlushed) {
+    for (const Simplex s : all_simplices) {
+        for (std::uint64_t k = 0; k < 200; ++k) {
+            Random r = Random::stream(3, hash64("few subnormals"), k);
+            Case c = random_case(r, s, r.coin() ? Kind::ordinary : Kind::lattice);
+            const int n = vertex_count(s), d = space_dimension(s), axis = r.integer(0, d - 1);
+            // On a face's plane but for subnormals, on one axis or on all.
+            for (int i = 0; i < n; ++i) {
+                for (int j = 0; j < d; ++j) {
+                    if ((axis == j || r.coin()) && r.integer(0, 2) != 0) c.vertex(i, j) = r.integer(-3, 3) * 0x1p-1074;
+                }
+            }
+            c.point[static_cast<std::size_t>(axis)] = r.integer(-3, 3) * 0x1p-1074;
+            const WeightSigns right = expected(c);
+            for (const auto& environment : all_environments()) {
+                WeightSigns got;
+                Sign orientation = Sign::zero;
+                {
+                    const Changed changed(environment);
+                    got = *weight_signs(s, c.vertices.data(), c.point.data());
+                    if (solid(s)) orientation = orient(c);
+                }
+                ASSERT_EQ(got, right) << environment.name << describe(c);
+                if (solid(s)) {
+                    ASSERT_EQ(orientation, right.orientation()) << environment.name << describe(c);
+                }
+            }
+        }
+    }
+}
+
 // Weights need rounding to nearest and say so; integers alone, as in the other direction, do not.
 TEST(LawS1, WeightsAndValuesRefuseOtherEnvironments) {
     const Case c{.simplex = Simplex::triangle, .vertices = {0, 0, 3, 0, 0, 3}, .point = {1, 1}, .values = {1, 2, 4}};
