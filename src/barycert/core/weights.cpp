@@ -59,7 +59,7 @@ public:
     BlockValues(int vertices, int components)
         : components_(static_cast<std::size_t>(components)),
           pointers_(static_cast<std::size_t>(vertices) * components_),
-          buffer_(pointers_.size() * block_size) {}
+          buffer_(pointers_.size() * block_stride) {}
 
     const double* const* block(const CaseArrays& cases, const ValueArrays<T>& values, std::size_t first,
                                std::size_t count) {
@@ -73,7 +73,7 @@ public:
                 }
             }
             for (std::size_t c = 0; c < components_; ++c) {
-                double* const to = buffer_.data() + (n * c + i) * block_size;
+                double* const to = buffer_.data() + (n * c + i) * block_stride;
                 pointers_[n * c + i] = to;
                 for (std::size_t j = 0; j < count; ++j) to[j] = static_cast<double>(from[components_ * j + c]);
             }
@@ -84,14 +84,17 @@ public:
     const double* const* block(const MeshQueries& queries, const NodalValues<T>& values, std::size_t first,
                                std::size_t count) {
         const auto n = static_cast<std::size_t>(vertex_count(queries.simplex));
-        for (std::size_t row = 0; row < pointers_.size(); ++row) pointers_[row] = buffer_.data() + row * block_size;
+        for (std::size_t row = 0; row < pointers_.size(); ++row) pointers_[row] = buffer_.data() + row * block_stride;
+        const auto at = [&](std::int32_t node) {
+            return values.data.data() + components_ * static_cast<std::size_t>(node);
+        };
         for (std::size_t j = 0; j < count; ++j) {
-            const std::int32_t* const corners =
-                queries.corners.data() + n * static_cast<std::size_t>(queries.cells[first + j]);
+            fetch_ahead(queries, n, first + j, sizeof(T), at);
+            const std::int32_t* const corners = corners_of(queries, n, first + j);
             for (std::size_t i = 0; i < n; ++i) {
-                const T* const from = values.data.data() + components_ * static_cast<std::size_t>(corners[i]);
+                const T* const from = at(corners[i]);
                 for (std::size_t c = 0; c < components_; ++c)
-                    buffer_[(n * c + i) * block_size + j] = static_cast<double>(from[c]);
+                    buffer_[(n * c + i) * block_stride + j] = static_cast<double>(from[c]);
             }
         }
         return pointers_.data();
