@@ -1,0 +1,146 @@
+/// One number for all that the exact core answers to a fixed stream of cases: law D1 is that it never changes.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "barycert/core/inverse.hpp"
+#include "barycert/core/predicates.hpp"
+#include "barycert/core/random.hpp"
+#include "barycert/core/weights.hpp"
+#include "core/environments.hpp"
+#include "exact/cases.hpp"
+
+namespace barycert::testing_answers {
+
+/// FNV-1a, 64 bits.
+class Hash {
+public:
+    void add(std::uint64_t word) {
+        for (int i = 0; i < 8; ++i) state_ = (state_ ^ (word >> (8 * i) & 0xff)) * 0x100000001b3ULL;
+    }
+    /// NaN is one answer, whatever its bits.
+    void add(double x) { add(std::isnan(x) ? ~std::uint64_t{0} : std::bit_cast<std::uint64_t>(x)); }
+    void add(const Tiers& t) {
+        for (const std::uint64_t n : {t.filter, t.double_double, t.exact, t.degenerate, t.not_finite}) add(n);
+    }
+    std::uint64_t value() const { return state_; }
+
+private:
+    std::uint64_t state_ = 0xcbf29ce484222325ULL;
+};
+
+/// Case number k: easy ones, which need no integers; the kinds of the oracle's tests; flat cells, some times 2^+-180.
+/// Additions, products and ldexp alone: the same on every machine.
+inline Case stream_case(Simplex s, std::uint64_t k) {
+    Random r = Random::stream(12, hash64("answers"), k);
+    const int how = r.integer(0, 3);
+    if (how == 0)
+        return testing_cases::random_case(r, s, testing_cases::all_kinds[r.below(testing_cases::all_kinds.size())]);
+    Case c{.simplex = s};
+    const int n = vertex_count(s), d = space_dimension(s);
+    for (double& x : c.vertices) x = r.uniform(-1, 1);
+    for (double& x : c.values) x = r.scaled(-1, 1, -4, 4);
+    if (how == 2) {  // flat: all heights in [-2^-flat, 2^-flat]
+        const int flat = r.integer(0, 50);
+        for (int i = 0; i < n; ++i) c.vertex(i, d - 1) = std::ldexp(c.vertex(i, d - 1), -flat) + c.vertex(i, 0);
+    }
+    for (int k2 = 0; k2 < d; ++k2) {
+        double p = 0;
+        for (int i = 0; i < n; ++i) p += r.uniform(-0.1, 0.6) * c.vertex(i, k2);
+        c.point[static_cast<std::size_t>(k2)] = p;
+    }
+    if (how == 3) {
+        const int shift = r.integer(-180, 180);
+        for (double& x : c.vertices) x = std::ldexp(x, shift);
+        for (double& x : c.point) x = std::ldexp(x, shift);
+    }
+    return c;
+}
+
+/// All answers to cases [first, first + count) of a simplex, batches of 500 cases in both layouts and single calls.
+/// The order in `words` is that of the cases; counts go to `tiers`.
+inline void answer(Simplex s, std::uint64_t first, std::uint64_t count, std::vector<double>& numbers,
+                   std::vector<std::uint64_t>& words, std::array<Tiers, 6>& tiers) {
+    const auto n = static_cast<std::size_t>(vertex_count(s));
+    std::vector<Case> cases;
+    for (std::uint64_t k = first; k < first + count; ++k) cases.push_back(stream_case(s, k));
+    const testing_environments::Columns columns(s, cases);
+    std::vector<WeightSigns> signs(count), mesh_signs(count);
+    std::vector<double> w(n * count), mesh_w(n * count), v(count), mesh_v(count);
+    bool good = weight_signs(columns.arrays(), signs, &tiers[0]).has_value();
+    good = weight_signs(columns.mesh(), mesh_signs, &tiers[1]).has_value() && good;
+    good = barycentric_weights(columns.arrays(), w, &tiers[2]).has_value() && good;
+    good = barycentric_weights(columns.mesh(), mesh_w, &tiers[3]).has_value() && good;
+    good = interpolate(columns.arrays(), columns.values(), v, &tiers[4]).has_value() && good;
+    good = interpolate(columns.mesh(), columns.nodal_values(), mesh_v, &tiers[5]).has_value() && good;
+    words.push_back(good ? 1 : 0);
+    for (std::size_t j = 0; j < count; ++j) {
+        const Case& c = cases[j];
+        words.push_back(signs[j].bits());
+        words.push_back(mesh_signs[j].bits());
+        for (std::size_t i = 0; i < n; ++i) {
+            numbers.push_back(w[n * j + i]);
+            numbers.push_back(mesh_w[n * j + i]);
+        }
+        numbers.push_back(v[j]);
+        numbers.push_back(mesh_v[j]);
+        if (j % 4 != 0) continue;
+        const double* const vertices = c.vertices.data();
+        const Value value = interpolate(s, vertices, c.point.data(), c.values.data()).value();
+        numbers.push_back(value.value);
+        words.push_back(static_cast<std::uint64_t>(value.tier));
+        const Weights weights = barycentric_weights(s, vertices, c.point.data()).value();
+        for (std::size_t i = 0; i < n; ++i) numbers.push_back(weights.weights[i]);
+        words.push_back(static_cast<std::uint64_t>(weights.tier));
+        words.push_back(weight_signs(s, vertices, c.point.data()).value().bits());
+        std::array<double, 3> p{};
+        const Parameter t =
+            point_of_value({vertices, 2}, {vertices + 2, 2}, c.values[0], c.values[1], c.values[0] / 3, {p.data(), 2})
+                .value();
+        numbers.insert(numbers.end(), {t.t, p[0], p[1]});
+        (void)point_from_weights(s, vertices, c.values.data(), p.data()).has_value();
+        numbers.insert(numbers.end(), p.begin(), p.end());
+    }
+}
+
+/// The number. Chunks of cases are dealt to `threads` threads.
+inline std::uint64_t hash_of_answers(int threads, std::uint64_t cases_a_simplex) {
+    constexpr std::uint64_t chunk = 500;
+    const std::uint64_t chunks = cases_a_simplex / chunk;
+    Hash hash;
+    for (const Simplex s : all_simplices) {
+        struct Part {
+            std::vector<double> numbers;
+            std::vector<std::uint64_t> words;
+            std::array<Tiers, 6> tiers;
+        };
+        std::vector<Part> parts(chunks);
+        const auto work = [&](std::uint64_t from) {
+            for (std::uint64_t i = from; i < chunks; i += static_cast<std::uint64_t>(threads))
+                answer(s, chunk * i, chunk, parts[i].numbers, parts[i].words, parts[i].tiers);
+        };
+        std::vector<std::thread> others;
+        for (int t = 1; t < threads; ++t) others.emplace_back(work, static_cast<std::uint64_t>(t));
+        work(0);
+        for (std::thread& t : others) t.join();
+        for (const Part& part : parts) {
+            for (const double x : part.numbers) hash.add(x);
+            for (const std::uint64_t x : part.words) hash.add(x);
+            for (const Tiers& t : part.tiers) hash.add(t);
+        }
+    }
+    return hash.value();
+}
+
+/// For 4000 cases of each simplex. Pinned: answers are exact, or correctly rounded, so no change to the library may
+/// alter them; a change of the bounds alters the counts of the tiers, and may.
+inline constexpr std::uint64_t pinned_cases = 4000;
+inline constexpr std::uint64_t pinned_hash = 0xbbd1ba79c9aca81cULL;
+
+}  // namespace barycert::testing_answers

@@ -1,0 +1,14 @@
+# Compiles SOURCE with FLAGS and expects it to fail with MESSAGE; without the flags it has to pass, or the test would
+# prove nothing. -DCOMPILER= -DSOURCE= -DINCLUDE= -DFLAGS= -DMESSAGE=
+set(command ${COMPILER} -std=c++20 -fsyntax-only -ffp-contract=off -DBARYCERT_VERSION="x" -I${INCLUDE} ${SOURCE})
+execute_process(COMMAND ${command} RESULT_VARIABLE plain ERROR_VARIABLE errors)
+if(NOT plain EQUAL 0)
+  message(FATAL_ERROR "${SOURCE} does not compile at all:\n${errors}")
+endif()
+execute_process(COMMAND ${command} ${FLAGS} RESULT_VARIABLE result ERROR_VARIABLE errors)
+if(result EQUAL 0)
+  message(FATAL_ERROR "${SOURCE} compiles with ${FLAGS}")
+endif()
+if(NOT errors MATCHES "${MESSAGE}")
+  message(FATAL_ERROR "${SOURCE} with ${FLAGS}: no word of \"${MESSAGE}\" in\n${errors}")
+endif()

@@ -1,0 +1,42 @@
+#!/bin/sh
+# Law D1 across compilers: builds the exact core at several levels of optimisation with every compiler at hand, and
+# compares what it answers with the number pinned in answers.hpp.
+#
+# same_bytes.sh SOURCE_DIR BUILD_DIR [LEVEL...]     levels -O0 and -O3 unless given; 77 if there is no compiler
+set -u
+source=$1
+build=$2
+shift 2
+[ $# -gt 0 ] || set -- -O0 -O3
+core=$source/src/barycert/core
+mkdir -p "$build"
+flags='-std=c++20 -ffp-contract=off -pthread'
+launcher=
+command -v ccache >/dev/null && launcher=ccache
+
+ran=0
+status=0
+for compiler in g++ clang++; do
+    if ! command -v $compiler >/dev/null; then
+        echo "$compiler: not here, left out"
+        continue
+    fi
+    for level in "$@"; do
+        objects=
+        for file in "$core"/environment.cpp "$core"/exact_weights.cpp "$core"/inverse.cpp "$core"/lanes.cpp \
+            "$core"/predicates.cpp "$core"/quotient.cpp "$core"/text.cpp "$core"/weights.cpp \
+            "$source"/tests/core/same_bytes.cpp; do
+            object=$build/$compiler$level-$(basename "$file" .cpp).o
+            $launcher $compiler $flags "$level" -DBARYCERT_VERSION='"x"' -I"$source/src" -I"$source/tests" -c "$file" \
+                -o "$object" || exit 1
+            objects="$objects $object"
+        done
+        $compiler -pthread $objects -lhwy -o "$build/same_bytes$compiler$level" || exit 1
+        echo "$compiler $level:"
+        "$build/same_bytes$compiler$level" || status=1
+        ran=$((ran + 1))
+    done
+done
+[ $ran -gt 0 ] || exit 77
+[ $status -eq 0 ] || echo "answers differ from the pinned number"
+exit $status
