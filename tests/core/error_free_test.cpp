@@ -17,12 +17,12 @@ HWY_BEFORE_NAMESPACE();
 namespace barycert {
 namespace HWY_NAMESPACE {
 
-/// One lane in and out.
-using One = hn::CappedTag<double, 1>;
-using Lane = hn::Vec<One>;
+/// The same number in all lanes of the widest vectors: what the library works on.
+using Wide = hn::ScalableTag<double>;
+using Lane = hn::Vec<Wide>;
 
 inline Lane lane(double x) {
-    return hn::Set(One(), x);
+    return hn::Set(Wide(), x);
 }
 inline double number(Lane x) {
     return hn::GetLane(x);
@@ -65,18 +65,18 @@ bool refined_of(const double* vertices, const double* point, double* weight, dou
         c.p[k] = lane(point[k]);
         for (int i = 0; i < n; ++i) c.v[i][k] = lane(vertices[d * i + k]);
     }
-    Refined<s, One> r;
+    Refined<s, Wide> r;
     if constexpr (s == Simplex::tetrahedron || s == Simplex::triangle) {
-        r = refine<s>(One(), c);
+        r = refine<s>(Wide(), c);
     } else {
-        r = refine_projected<s>(One(), c);
+        r = refine_projected<s>(Wide(), c);
     }
     for (int i = 0; i < n; ++i) {
         weight[i] = number(r.weight[i]);
         correction[i] = number(r.correction[i]);
     }
     *error = number(r.error);
-    return hn::AllTrue(One(), r.valid);
+    return hn::AllTrue(Wide(), r.valid);
 }
 
 bool refined(Simplex s, const double* vertices, const double* point, double* weight, double* correction,

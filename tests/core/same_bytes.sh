@@ -10,7 +10,7 @@ shift 2
 [ $# -gt 0 ] || set -- -O0 -O3
 core=$source/src/barycert/core
 mkdir -p "$build"
-flags='-std=c++20 -ffp-contract=off -pthread'
+flags='-std=c++20 -ffp-contract=off -pthread -Wno-psabi'
 launcher=
 command -v ccache >/dev/null && launcher=ccache
 
@@ -27,10 +27,12 @@ for compiler in g++ clang++; do
             "$core"/predicates.cpp "$core"/quotient.cpp "$core"/text.cpp "$core"/weights.cpp \
             "$source"/tests/core/same_bytes.cpp; do
             object=$build/$compiler$level-$(basename "$file" .cpp).o
+            rm -f "$object"
             $launcher $compiler $flags "$level" -DBARYCERT_VERSION='"x"' -I"$source/src" -I"$source/tests" -c "$file" \
-                -o "$object" || exit 1
+                -o "$object" &
             objects="$objects $object"
         done
+        wait
         $compiler -pthread $objects -lhwy -o "$build/same_bytes$compiler$level" || exit 1
         echo "$compiler $level:"
         "$build/same_bytes$compiler$level" || status=1
