@@ -14,27 +14,10 @@ namespace {
 
 namespace formulas = HWY_NAMESPACE;
 
-/// The coordinates of `count` points as integers of type T, each axis in its own unit, a power of two, or all in one.
+/// The coordinates of `count` points as integers of type T, each axis in its own unit or all in one.
 template <int count, int d, class T>
 struct Lattice {
     T at[count][d];
-    bool fits = true;  ///< otherwise T is too narrow, and `at` is not to be used
-
-    Lattice(const double* const (&points)[count], bool common) {
-        ExponentRange range[d];
-        for (int k = 0; k < d; ++k) {
-            for (int i = 0; i < count; ++i) range[k].add(points[i][k]);
-        }
-        if (common) {
-            for (int k = 1; k < d; ++k) range[0].add(range[k]);
-            std::fill_n(range, d, range[0]);
-        }
-        for (int k = 0; k < d; ++k) {
-            std::uint64_t lost = 0;
-            for (int i = 0; i < count; ++i) at[i][k] = aligned<T>(points[i][k], range[k], lost);
-            fits = fits && lost == 0;
-        }
-    }
 
     /// Point i less point j. Inline, for GCC 12 folds the copies of different `count` into one and then warns of it.
     HWY_INLINE void difference(int i, int j, T (&out)[d]) const {
@@ -42,7 +25,7 @@ struct Lattice {
     }
 };
 
-/// Calls `decide` with the points as integers of the narrowest type that holds them. Coordinates below 2^(64 N - 3) in
+/// Calls `decide` with the points as integers of the narrowest type that has room. Coordinates below 2^(64 N - 3) in
 /// N limbs give differences below 2^(64 N - 2), and with these
 ///   a 2x2 minor is below 2 * 2^(128 N - 4)                in 2 N limbs, range 2^(128 N - 1),
 ///   a numerator of degree 3 below 3 * 2^(64 N - 2) * that in 3 N limbs: 3 * 2^(192 N - 5),
@@ -51,9 +34,30 @@ struct Lattice {
 /// so that no sum overflows.
 template <int count, int d, class Decide>
 auto with_integers(const double* const (&points)[count], bool common, Decide decide) {
-    if (const Lattice<count, d, Fixed<1>> narrow(points, common); narrow.fits) return decide(narrow);
-    if (const Lattice<count, d, Fixed<2>> wider(points, common); wider.fits) return decide(wider);
-    return decide(Lattice<count, d, Integer>(points, common));
+    ScaledDouble parts[count][d];
+    Unit units[d];
+    for (int k = 0; k < d; ++k) {
+        for (int i = 0; i < count; ++i) {
+            parts[i][k] = scaled(points[i][k]);
+            units[k].add(parts[i][k]);
+        }
+    }
+    if (common) {
+        for (int k = 1; k < d; ++k) units[0].add(units[k]);
+        std::fill_n(units, d, units[0]);
+    }
+    const auto as = [&]<class T>() {
+        Lattice<count, d, T> lattice;
+        for (int k = 0; k < d; ++k) {
+            for (int i = 0; i < count; ++i) lattice.at[i][k] = units[k].template multiple<T>(parts[i][k]);
+        }
+        return decide(lattice);
+    };
+    int bits = 0;
+    for (const Unit& u : units) bits = std::max(bits, u.bits());
+    if (bits <= 64 - 3) return as.template operator()<Fixed<1>>();
+    if (bits <= 128 - 3) return as.template operator()<Fixed<2>>();
+    return as.template operator()<Integer>();
 }
 
 /// The magnitude of a number in two's complement.
@@ -160,31 +164,27 @@ double ExactWeights::weight(int i) const {
 }
 
 double ExactWeights::interpolate(std::span<const double> values) const {
-    ExponentRange range;
-    for (const double f : values) range.add(f);
-    std::uint64_t lost = 0, sum[narrow_limbs + 1] = {};
+    ScaledDouble parts[4];
+    Unit unit;
     for (int i = 0; i < count_; ++i) {
-        const auto f = aligned<Fixed<1>>(values[static_cast<std::size_t>(i)], range, lost);
-        // Four products of a value below 2^61 and a numerator: see with_integers for the room.
-        if (limbs_ != 0) add_product(sum, narrow_[i], limbs_, f.limbs[0]);
+        parts[i] = scaled(values[static_cast<std::size_t>(i)]);
+        unit.add(parts[i]);
     }
-    if (limbs_ == 0 || lost != 0) return interpolate_wide(values, range);
-    std::uint64_t buffers[2][narrow_limbs + 1];
-    const int sign = barycert::sign_of(sum, limbs_ + 1);
-    return round_quotient(sign != orientation(), absolute(sum, limbs_ + 1, buffers[0]),
-                          magnitude(denominator, buffers[1]), aligned_unit<Fixed<1>>(range));
-}
-
-double ExactWeights::interpolate_wide(std::span<const double> values, const ExponentRange& range) const {
+    std::uint64_t buffer[narrow_limbs + 1];
+    if (limbs_ != 0 && unit.bits() <= 64 - 3) {
+        // Four products of a value and a numerator: room as for a numerator of one degree more.
+        std::uint64_t sum[narrow_limbs + 1] = {}, sum_buffer[narrow_limbs + 1];
+        for (int i = 0; i < count_; ++i)
+            add_product(sum, narrow_[i], limbs_, unit.multiple<Fixed<1>>(parts[i]).limbs[0]);
+        return round_quotient(barycert::sign_of(sum, limbs_ + 1) != orientation(),
+                              absolute(sum, limbs_ + 1, sum_buffer), magnitude(denominator, buffer),
+                              unit.exponent - 1074);
+    }
     Integer sum;
-    for (int i = 0; i < count_; ++i) {
-        std::uint64_t buffer[narrow_limbs], lost = 0;
-        const Integer numerator(sign_of(i) < 0, magnitude(i, buffer));
-        sum = sum + numerator * aligned<Integer>(values[static_cast<std::size_t>(i)], range, lost);
-    }
-    std::uint64_t buffer[narrow_limbs];
+    for (int i = 0; i < count_; ++i)
+        sum = sum + Integer(sign_of(i) < 0, magnitude(i, buffer)) * unit.multiple<Integer>(parts[i]);
     return round_quotient(sum.sign() != orientation(), sum.magnitude(), magnitude(denominator, buffer),
-                          aligned_unit<Integer>(range));
+                          unit.exponent - 1074);
 }
 
 int exact_orient2d(const double* a, const double* b, const double* c) {
@@ -209,15 +209,15 @@ int exact_orient3d(const double* a, const double* b, const double* c, const doub
 }
 
 double exact_dot(const double* x, const double* y, int count) {
-    ExponentRange rx, ry;
+    Unit unit_x, unit_y;
     for (int i = 0; i < count; ++i) {
-        rx.add(x[i]);
-        ry.add(y[i]);
+        unit_x.add(scaled(x[i]));
+        unit_y.add(scaled(y[i]));
     }
     Integer sum;
-    std::uint64_t lost = 0;
-    for (int i = 0; i < count; ++i) sum = sum + aligned<Integer>(x[i], rx, lost) * aligned<Integer>(y[i], ry, lost);
-    return round_integer(sum, aligned_unit<Integer>(rx) + aligned_unit<Integer>(ry));
+    for (int i = 0; i < count; ++i)
+        sum = sum + unit_x.multiple<Integer>(scaled(x[i])) * unit_y.multiple<Integer>(scaled(y[i]));
+    return round_integer(sum, unit_x.exponent + unit_y.exponent - 2 * 1074);
 }
 
 }  // namespace barycert

@@ -2,9 +2,9 @@
 ///
 /// Coordinates become integers by shifts alone: each axis in its own unit for the simplices that fill their space (a
 /// determinant is homogeneous in each axis, so the units cancel in numerator / denominator), all axes in one for those
-/// that are projected on (dot products add axes up). Where the coordinates of an axis differ by at most 2^8 in
-/// magnitude, or have as many trailing zeros to spare, one limb holds each, and numerators have two to four; then two
-/// limbs, for 2^72; then as many as it takes.
+/// that are projected on (dot products add axes up). Where coordinates need at most 61 bits in their unit, as those of
+/// a mesh mostly do, one limb holds each, and numerators have two to four; then two limbs, for 125 bits; then as many
+/// as it takes.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,6 @@
 
 #include "barycert/core/integer.hpp"
 #include "barycert/core/quotient.hpp"
-#include "barycert/core/scaled_double.hpp"
 #include "barycert/core/simplex.hpp"
 
 namespace barycert {
@@ -46,7 +45,6 @@ private:
     void store(int i, const T& number);
     int sign_of(int i) const;
     Magnitude magnitude(int i, std::uint64_t* buffer) const;
-    double interpolate_wide(std::span<const double> values, const ExponentRange& range) const;
 
     int count_;
     int limbs_ = 0;  ///< of each number in narrow_, two's complement; 0 if wide_ is used

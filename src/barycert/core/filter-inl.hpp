@@ -20,16 +20,19 @@
 //   segment     P = sum over axes of R_k E_k; the denominator is positive unless the ends coincide
 //   triangle3d  P = 4 (E_y E_z R_y R_z + E_x E_z R_x R_z + E_x E_y R_x R_y), and Q likewise of E alone for N.N
 //
-// Underflow and overflow, each product or difference then being off by up to 2^-1022 (flushed to zero). Outside these
-// ranges the filter says "don't know":
-//   tetrahedron, triangle   every extent in [2^-300, 2^300]. A lost difference counts 2^-1022 Y Z against e X Y Z with
+// Underflow and overflow. A product or difference that underflows is off by up to 2^-1022 (flushed to zero). Outside
+// these ranges the filter says "don't know":
+//   tetrahedron, triangle   every extent at least 2^-300. A lost difference counts 2^-1022 Y Z against e X Y Z with
 //                           X >= 2^-300; a lost product of two 2^-1022 Z against e X Y Z; of three 2^-1022 against
-//                           2^-52-900. All far below the 2 %. Largest value: 24 * 2^900.
+//                           2^-52-900. All far below the 2 %. And |denominator| at most 2^1000: whatever overflows in
+//                           a numerator becomes infinite or NaN in the denominator, their sum.
 //   segment                 extents at most 2^300, sum of E_k^2 at least 2^-400: a loss of 2^-1022 * 2^300 against
 //                           e P >= 2^-52-401, as 2 R_k >= E_k.
 //   triangle3d              extents at most 2^100, Q at least 2^-600, hence P >= 2^-602, as 2 R_k >= E_k: a loss of
 //                           2^-1022 * 2^300 in a difference, less elsewhere, against e P >= 2^-654.
-// Every comparison is false for NaN, so a NaN or infinite coordinate gives "don't know" as well.
+// Comparisons are false for NaN. A NaN or infinite coordinate of the point is in every difference of its axis, hence in
+// the extent (an infinite one) or in the numerators (NaN, all of them); one of a vertex is in the denominator. So all
+// of them give "don't know", though maxima and minima may forget a NaN.
 //
 // Included once per SIMD target.
 #if defined(BARYCERT_CORE_FILTER_INL_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -49,13 +52,43 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 inline constexpr double filter_epsilon = 0x1p-52;
 
+/// The larger of |x| and |y|, the smaller one: in one instruction where there is one (AVX-512DQ). A NaN may be
+/// forgotten.
+template <class V>
+HWY_INLINE V larger_magnitude(V x, V y) {
+#if HWY_TARGET == HWY_AVX3
+    if constexpr (sizeof(V) == 64) return V{_mm512_range_pd(x.raw, y.raw, 0xb)};
+#endif
+    return hn::Max(hn::Abs(x), hn::Abs(y));
+}
+template <class V>
+HWY_INLINE V smaller_magnitude(V x, V y) {
+#if HWY_TARGET == HWY_AVX3
+    if constexpr (sizeof(V) == 64) return V{_mm512_range_pd(x.raw, y.raw, 0xa)};
+#endif
+    return hn::Min(hn::Abs(x), hn::Abs(y));
+}
+
 /// Largest |component| on each axis over `count` vectors.
 template <int count, int d, class V>
 HWY_INLINE void extents(const V (&vectors)[count][d], V (&out)[d]) {
     for (int k = 0; k < d; ++k) {
-        out[k] = hn::Abs(vectors[0][k]);
-        for (int i = 1; i < count; ++i) out[k] = hn::Max(out[k], hn::Abs(vectors[i][k]));
+        if constexpr (count == 1) {
+            out[k] = hn::Abs(vectors[0][k]);
+        } else {
+            out[k] = larger_magnitude(vectors[0][k], vectors[1][k]);
+            if constexpr (count == 3) out[k] = hn::Max(out[k], hn::Abs(vectors[2][k]));
+            if constexpr (count == 4) out[k] = hn::Max(out[k], larger_magnitude(vectors[2][k], vectors[3][k]));
+        }
     }
+}
+
+/// Every x[k] >= low.
+template <class D, int d, class V = hn::Vec<D>>
+HWY_INLINE hn::Mask<D> all_at_least(D tag, const V (&x)[d], double low) {
+    V least = x[0];
+    for (int k = 1; k < d; ++k) least = hn::Min(least, x[k]);
+    return hn::Ge(least, hn::Set(tag, low));
 }
 
 /// Every x[k] in [low, high].
@@ -90,10 +123,10 @@ HWY_INLINE Bounds<D> filter_bounds(D tag, const Relative<s, V>& c) {
     const auto times = [&](double factor, V v) { return hn::Set(tag, factor * filter_epsilon) * v; };
     if constexpr (s == Simplex::tetrahedron) {
         const V product = r[0] * r[1] * r[2];
-        return {times(49, product), times(245, product), all_within(tag, r, 0x1p-300, 0x1p300)};
+        return {times(49, product), times(245, product), all_at_least(tag, r, 0x1p-300)};
     } else if constexpr (s == Simplex::triangle) {
         const V product = r[0] * r[1];
-        return {times(8.5, product), times(37, product), all_within(tag, r, 0x1p-300, 0x1p300)};
+        return {times(8.5, product), times(37, product), all_at_least(tag, r, 0x1p-300)};
     } else {
         V e[d];
         extents(c.e, e);
@@ -137,14 +170,27 @@ HWY_INLINE hn::Mask<D> filter(D tag, const Relative<s, V>& c, hn::Vec<hn::Rebind
     Fractions<s, V> f;
     solve(c, hn::Zero(tag), f);
     const Bounds<D> bound = filter_bounds<s>(tag, c);
-    auto certain = hn::And(bound.valid, hn::Gt(hn::Abs(f.denominator), bound.denominator));
-    const auto orientation = hn::BitCast(bits, f.denominator);
-    packed = hn::ShiftLeft<8>(hn::ShiftRight<63>(orientation));
-    for (int i = 0; i < vertex_count(s); ++i) {
-        certain = hn::And(certain, hn::Gt(hn::Abs(f.numerator[i]), bound.numerator));
-        const auto differ = hn::ShiftRight<63>(hn::Xor(hn::BitCast(bits, f.numerator[i]), orientation));
-        packed = hn::Or(packed, hn::ShiftLeftSame(differ, i));
+    V smallest;
+    if constexpr (vertex_count(s) == 4) {
+        smallest = hn::Min(smaller_magnitude(f.numerator[0], f.numerator[1]),
+                           smaller_magnitude(f.numerator[2], f.numerator[3]));
+    } else {
+        smallest = smaller_magnitude(f.numerator[0], f.numerator[1]);
+        if constexpr (vertex_count(s) == 3) smallest = hn::Min(smallest, hn::Abs(f.numerator[2]));
     }
+    const V size = hn::Abs(f.denominator);
+    const auto certain = hn::And(hn::And(bound.valid, hn::Gt(smallest, bound.numerator)),
+                                 hn::And(hn::Gt(size, bound.denominator), hn::Le(size, hn::Set(tag, 0x1p1000))));
+    // Sign bits of the numerators to bits 0 to 3; if the denominator is negative all of them flip, and bit 8 is set.
+    const auto sign_to_bit = [&](int i) HWY_ATTR {
+        return hn::And(hn::ShiftRightSame(hn::BitCast(bits, f.numerator[i]), 63 - i), hn::Set(bits, 1u << i));
+    };
+    packed = hn::ShiftRight<63>(hn::BitCast(bits, f.numerator[0]));
+    for (int i = 1; i < vertex_count(s); ++i) packed = hn::Or(packed, sign_to_bit(i));
+    const hn::RebindToSigned<D> integers;
+    const auto flip = hn::BitCast(bits, hn::BroadcastSignBit(hn::BitCast(integers, f.denominator)));
+    constexpr std::uint64_t all = 0x100 | ((1u << vertex_count(s)) - 1);
+    packed = hn::Xor(packed, hn::And(flip, hn::Set(bits, all)));
     return certain;
 }
 

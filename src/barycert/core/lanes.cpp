@@ -1,6 +1,6 @@
 #include "barycert/core/lanes.hpp"
 
-#include <array>
+#include <type_traits>
 
 #include "barycert/core/simd.hpp"
 
@@ -15,6 +15,10 @@
 
 #include "barycert/core/refinement-inl.hpp"
 
+// A step must be inlined into its loop: as a function it would load every pointer and constant anew for each vector.
+#undef BARYCERT_LANE_LAMBDA
+#define BARYCERT_LANE_LAMBDA HWY_ATTR __attribute__((always_inline))
+
 HWY_BEFORE_NAMESPACE();
 namespace barycert {
 namespace HWY_NAMESPACE {
@@ -25,7 +29,7 @@ using lanes::Cases;
 template <class Step>
 HWY_INLINE std::size_t for_lanes(std::size_t count, std::uint32_t* undecided, Step step) {
     std::size_t found = 0, at = 0;
-    const auto run = [&](auto tag) HWY_ATTR {
+    const auto run = [&](auto tag) BARYCERT_LANE_LAMBDA {
         using D = decltype(tag);
         constexpr std::size_t width = hn::MaxLanes(D());
         for (; at + width <= count; at += width) {
@@ -44,20 +48,33 @@ HWY_INLINE std::size_t for_lanes(std::size_t count, std::uint32_t* undecided, St
     return found;
 }
 
-/// Writes lane l of rows[i] to out[rows * l + i].
-template <int rows, class D, class V = hn::Vec<D>>
-HWY_INLINE void store_transposed(D tag, const V (&values)[rows], double* out, std::size_t stride) {
+/// out[n * l + i] = lane l of w[i].
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void store_interleaved(D tag, const V (&w)[2], double* out) {
+    hn::StoreInterleaved2(w[0], w[1], tag, out);
+}
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void store_interleaved(D tag, const V (&w)[3], double* out) {
+    hn::StoreInterleaved3(w[0], w[1], w[2], tag, out);
+}
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void store_interleaved(D tag, const V (&w)[4], double* out) {
+    hn::StoreInterleaved4(w[0], w[1], w[2], w[3], tag, out);
+}
+
+/// out[stride * l] = lane l of v.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void store_strided(D tag, V v, double* out, std::size_t stride) {
+    if (stride == 1) return hn::StoreU(v, tag, out);
     constexpr std::size_t width = hn::MaxLanes(D());
-    HWY_ALIGN double buffer[rows][width];
-    for (int i = 0; i < rows; ++i) hn::Store(values[i], tag, buffer[i]);
-    for (std::size_t l = 0; l < width; ++l) {
-        for (int i = 0; i < rows; ++i) out[stride * l + static_cast<std::size_t>(i)] = buffer[i][l];
-    }
+    HWY_ALIGN double buffer[width];
+    hn::Store(v, tag, buffer);
+    for (std::size_t l = 0; l < width; ++l) out[stride * l] = buffer[l];
 }
 
 template <Simplex s>
 std::size_t signs_of(const Cases& cases, WeightSigns* out, std::uint32_t* undecided) {
-    return for_lanes(cases.count, undecided, [&](auto tag, std::size_t at) HWY_ATTR {
+    return for_lanes(cases.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
         using D = decltype(tag);
         const hn::RebindToUnsigned<D> bits;
         const hn::Rebind<WeightSigns::Bits, D> narrow;
@@ -65,9 +82,9 @@ std::size_t signs_of(const Cases& cases, WeightSigns* out, std::uint32_t* undeci
         load_relative<s>(tag, cases.vertices, cases.point, at, c);
         hn::Vec<decltype(bits)> packed;
         const auto certain = filter<s>(tag, c, packed);
-        HWY_ALIGN WeightSigns::Bits buffer[hn::MaxLanes(D())];
-        hn::StoreU(hn::TruncateTo(narrow, packed), narrow, buffer);
-        for (std::size_t l = 0; l < hn::MaxLanes(D()); ++l) out[at + l] = WeightSigns(buffer[l]);
+        // A WeightSigns is its bits: their address may stand for its own.
+        static_assert(std::is_standard_layout_v<WeightSigns> && sizeof(WeightSigns) == sizeof(WeightSigns::Bits));
+        hn::StoreU(hn::TruncateTo(narrow, packed), narrow, reinterpret_cast<WeightSigns::Bits*>(out + at));
         return certain;
     });
 }
@@ -89,14 +106,14 @@ HWY_INLINE Refined<s, D> refined(D tag, const Cases& cases, std::size_t at) {
 
 template <Simplex s>
 std::size_t weights_of(const Cases& cases, double* out, std::uint32_t* undecided) {
-    return for_lanes(cases.count, undecided, [&](auto tag, std::size_t at) HWY_ATTR {
+    return for_lanes(cases.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
         using D = decltype(tag);
         constexpr int n = vertex_count(s);
         const auto r = refined<s>(tag, cases, at);
         auto certain = r.valid;
         hn::Vec<D> w[n];
         for (int i = 0; i < n; ++i) w[i] = weight(tag, r, i, certain);
-        store_transposed(tag, w, out + at * n, n);
+        store_interleaved(tag, w, out + at * n);
         return certain;
     });
 }
@@ -105,16 +122,15 @@ template <Simplex s>
 std::size_t values_of(const Cases& cases, const double* const* values, int components, double* out,
                       std::uint32_t* undecided) {
     const auto stride = static_cast<std::size_t>(components);
-    return for_lanes(cases.count, undecided, [&](auto tag, std::size_t at) HWY_ATTR {
+    return for_lanes(cases.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
         using D = decltype(tag);
         constexpr int n = vertex_count(s);
         const auto r = refined<s>(tag, cases, at);
         auto certain = r.valid;
         for (int c = 0; c < components; ++c) {
-            hn::Vec<D> f[n], result[1];
+            hn::Vec<D> f[n];
             for (int i = 0; i < n; ++i) f[i] = hn::LoadU(tag, values[n * c + i] + at);
-            result[0] = value<s>(tag, r, f, certain);
-            store_transposed(tag, result, out + at * stride + static_cast<std::size_t>(c), stride);
+            store_strided(tag, value<s>(tag, r, f, certain), out + at * stride + static_cast<std::size_t>(c), stride);
         }
         return certain;
     });
@@ -124,7 +140,7 @@ template <Simplex s>
 void plain_values_of(const Cases& cases, const double* const* values, int components, double* out) {
     const auto stride = static_cast<std::size_t>(components);
     std::uint32_t none;
-    for_lanes(cases.count, &none, [&](auto tag, std::size_t at) HWY_ATTR {
+    for_lanes(cases.count, &none, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
         using D = decltype(tag);
         constexpr int n = vertex_count(s);
         Relative<s, hn::Vec<D>> c;
@@ -133,11 +149,9 @@ void plain_values_of(const Cases& cases, const double* const* values, int compon
         solve(c, hn::Zero(tag), f);
         const auto inverse = hn::Set(tag, 1) / f.denominator;
         for (int component = 0; component < components; ++component) {
-            hn::Vec<D> result[1] = {hn::Zero(tag)};
-            for (int i = 0; i < n; ++i)
-                result[0] = result[0] + f.numerator[i] * hn::LoadU(tag, values[n * component + i] + at);
-            result[0] = result[0] * inverse;
-            store_transposed(tag, result, out + at * stride + static_cast<std::size_t>(component), stride);
+            hn::Vec<D> sum = hn::Zero(tag);
+            for (int i = 0; i < n; ++i) sum = sum + f.numerator[i] * hn::LoadU(tag, values[n * component + i] + at);
+            store_strided(tag, sum * inverse, out + at * stride + static_cast<std::size_t>(component), stride);
         }
         return hn::Eq(f.denominator, f.denominator);
     });

@@ -10,7 +10,7 @@
 // Notation. o: the last vertex. E_i = v_i - o, e_i = fl(E_i); X, Y, Z: extents of the e_i; G = X Y Z; a_x = Y Z,
 // a_y = X Z, a_z = X Y (triangle: G = X Y, a_x = Y, a_y = X); B(w) = sum |w_k| a_k. N_i: the normals with
 // w = sum_i (w.N_i / D) E_i for every w (tetrahedron: N_0 = E_1 x E_2 and cyclic; triangle: E_1 and E_0 turned);
-// D = E_0.N_0; n_i, d: the same as computed. L = sum |l_i|, V_k = |o_k| + extent + |p_k - o_k| >= |v_ik|, |p_k|.
+// D = E_0.N_0; n_i, d: the same as computed. L = sum |l_i|, V_k >= |o_k| + extent + |p_k - o_k| >= |v_ik|, |p_k|.
 // Then r' = r - s o = sum over all but the last of c_i E_i, and c_last = s - sum of the others.
 //
 // Bounds, the triangle's being smaller than the tetrahedron's:
@@ -39,9 +39,12 @@
 // |l_i|. So |error| <= 1.01 (E_n + |l_i| E_d) / |d| + 25 u^2 |l_i|, if E_d <= 2^-10 |d|.
 //
 // Ranges; outside them nothing is certain:
-//   extents in [2^-200, 2^200], V_k <= 2^300, L <= 2^100; projected: as in filter-inl.hpp. Underflow then loses at most
-//   2^-1070 per operation, times at most 2^640 for 1/|d|, against eta >= u^2/2 (B(V)/|d| >= 1/2; projected: P >= D/4).
-//   Nodal values: the largest magnitude F in [2^-800, 2^900] or zero.
+//   extents at least 2^-200, G <= 2^1000, k in [1/8, 2^36], L <= 2^100. So |d| >= 2^-636, and 1/|d| is a normal number.
+//   Underflow loses at most 2^-1070 per operation: in n_k against u a_k >= 2^-453; in r'_k times a_k/|d| = k / extent;
+//   in a dot product times 1/|d|; the last two below 2^-430 against eta >= u^2/2 (B(V)/|d| >= 1/2).
+//   Overflow: of d makes k zero or NaN, of n_i makes L infinite or NaN, any later one makes the error infinite or NaN.
+//   |o_k|, |p_k - o_k| <= 2^900 for Dekker's product, that the targets agree. Projected: as in filter-inl.hpp; P >=
+//   D/4. Nodal values: the largest magnitude F in [2^-800, 2^900] or zero.
 // A NaN anywhere ends in a comparison that is false.
 //
 // Included once per SIMD target.
@@ -75,20 +78,27 @@ struct Refined {
     hn::Mask<D> valid;  ///< not degenerate, and the ranges hold
 };
 
-/// The sum of numbers, exact up to the rounding of the sum of the remainders.
+/// The sum of numbers, exact up to the rounding of the sum of the remainders. These are added up in two chains: waiting
+/// for results, not their number, bounds the speed here.
 template <class V>
 struct Accumulator {
-    V sum, rest;
+    V sum, sum_rest, product_rest;
 
     HWY_INLINE void add(V x) {
         const TwoTerms<V> t = two_sum(sum, x);
         sum = t.high;
-        rest = rest + t.low;
+        sum_rest = sum_rest + t.low;
     }
     HWY_INLINE void add_product(V x, V y) {
         const TwoTerms<V> p = two_product(x, y);
         add(p.high);
-        rest = rest + p.low;
+        product_rest = product_rest + p.low;
+    }
+    HWY_INLINE void subtract_product(V x, V y) {
+        const TwoTerms<V> p = two_product(x, y), t = two_difference(sum, p.high);
+        sum = t.high;
+        sum_rest = sum_rest + t.low;
+        product_rest = product_rest - p.low;
     }
 };
 
@@ -128,17 +138,17 @@ HWY_INLINE Refined<s, D> refine(D tag, const Absolute<s, V>& c) {
     for (int i = 0; i < last; ++i) out.weight[i] = dot(q, normal[i]) * inverse;
 
     // The last weight is what the others leave of 1, and s what rounding leaves of that.
-    Accumulator<V> others{out.weight[0], hn::Zero(tag)};
+    Accumulator<V> others{out.weight[0], hn::Zero(tag), hn::Zero(tag)};
     for (int i = 1; i < last; ++i) others.add(out.weight[i]);
     const TwoTerms<V> final_weight = two_difference(constant(1), others.sum);
     out.weight[last] = final_weight.high;
-    const V residual_sum = final_weight.low - others.rest;
+    const V residual_sum = final_weight.low - others.sum_rest;
 
     V residual[d], magnitude[d];  // r' and V
     for (int k = 0; k < d; ++k) {
-        Accumulator<V> r{c.p[k], hn::Zero(tag)};
-        for (int i = 0; i < n; ++i) r.add_product(hn::Neg(out.weight[i]), c.v[i][k]);
-        residual[k] = r.sum + (r.rest - residual_sum * c.v[last][k]);
+        Accumulator<V> r{c.p[k], hn::Zero(tag), hn::Zero(tag)};
+        for (int i = 0; i < n; ++i) r.subtract_product(out.weight[i], c.v[i][k]);
+        residual[k] = r.sum + (r.sum_rest + (r.product_rest - residual_sum * c.v[last][k]));
     }
     V correction_sum = hn::Zero(tag);
     for (int i = 0; i < last; ++i) {
@@ -159,17 +169,23 @@ HWY_INLINE Refined<s, D> refine(D tag, const Absolute<s, V>& c) {
     }
     g = x[0] * a[0];
     for (int k = 0; k < d; ++k) {
-        magnitude[k] = hn::Abs(c.v[last][k]) + x[k] + hn::Abs(q[k]);
+        magnitude[k] = larger_magnitude(c.v[last][k], q[k]);
         residual[k] = hn::Abs(residual[k]);
     }
     out.magnitude = constant(1);
     for (int i = 0; i < n; ++i) out.magnitude = out.magnitude + hn::Abs(out.weight[i]);
     const V scale = hn::Abs(inverse), k = g * scale;
     const V from_residual = constant(4 * u) * dot(residual, a) * (constant(100) * k + constant(50));
-    const V from_rounding = constant(4 * 172 * u * u) * out.magnitude * dot(magnitude, a);
+    // V_k = 2 max(|o_k|, |p_k - o_k|) + extent, and sum of a_k * extent = 3 G (triangle: 2 G).
+    const V size = constant(2) * dot(magnitude, a) + constant(3) * g;
+    const V from_rounding = constant(4 * 172 * u * u) * out.magnitude * size;
     out.error = scale * (from_residual + from_rounding);
-    out.valid = hn::And(hn::And(all_within(tag, x, 0x1p-200, 0x1p200), all_within(tag, magnitude, 0, 0x1p300)),
-                        hn::And(hn::Le(k, constant(0x1p36)), hn::Le(out.magnitude, constant(0x1p100))));
+    V largest = magnitude[0];
+    for (int j = 1; j < d; ++j) largest = hn::Max(largest, magnitude[j]);
+    const auto sizes = hn::And(all_at_least(tag, x, 0x1p-200), hn::Le(largest, constant(0x1p900)));
+    const auto condition = hn::And(hn::Ge(k, constant(0.125)), hn::Le(k, constant(0x1p36)));
+    const auto values = hn::And(hn::Le(g, constant(0x1p1000)), hn::Le(out.magnitude, constant(0x1p100)));
+    out.valid = hn::And(sizes, hn::And(condition, values));
     return out;
 }
 
@@ -251,19 +267,22 @@ template <Simplex s, class D, class V = hn::Vec<D>>
 HWY_INLINE V value(D tag, const Refined<s, D>& r, const V (&f)[vertex_count(s)], hn::Mask<D>& certain) {
     constexpr int n = vertex_count(s);
     TwoTerms<V> p = two_product(r.weight[0], f[0]);
-    Accumulator<V> sum{p.high, p.low};
-    V corrections = r.correction[0] * f[0], largest = hn::Abs(f[0]);
+    Accumulator<V> sum{p.high, hn::Zero(tag), p.low};
+    V corrections = r.correction[0] * f[0];
     for (int i = 1; i < n; ++i) {
         sum.add_product(r.weight[i], f[i]);
         corrections = corrections + r.correction[i] * f[i];
-        largest = hn::Max(largest, hn::Abs(f[i]));
     }
+    V largest = larger_magnitude(f[0], f[1]);
+    if constexpr (n == 3) largest = hn::Max(largest, hn::Abs(f[2]));
+    if constexpr (n == 4) largest = hn::Max(largest, larger_magnitude(f[2], f[3]));
     const V error = largest * (hn::Set(tag, n) * r.error + hn::Set(tag, 0x1p-98) * r.magnitude);
     const auto in_range = hn::Or(hn::Eq(largest, hn::Zero(tag)), hn::And(hn::Ge(largest, hn::Set(tag, 0x1p-800)),
                                                                          hn::Le(largest, hn::Set(tag, 0x1p900))));
     certain = hn::And(certain, in_range);
     // + 0: an exact zero is positive, whatever the signs of the nodal values
-    return rounded_if_certain<D>(sum.sum, sum.rest + corrections, error, certain) + hn::Zero(tag);
+    return rounded_if_certain<D>(sum.sum, (sum.sum_rest + sum.product_rest) + corrections, error, certain) +
+           hn::Zero(tag);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <climits>
-#include <cmath>
 #include <cstdint>
 #include <type_traits>
 
@@ -13,64 +11,57 @@
 
 namespace barycert {
 
-/// The exponent field; a double is less than 2^(biased_exponent - 1022) and a multiple of 2^(max(it, 1) - 1075).
-inline int biased_exponent(double x) {
-    return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52 & 0x7ff);
-}
+/// x = (-1)^negative * mantissa * 2^(exponent - 1074), the mantissa odd, or zero with an exponent of `none`.
+struct ScaledDouble {
+    static constexpr int none = 1 << 14;  ///< above all exponents, so that zeros do not count for the least one
 
-/// The 53 bits of a finite double: |x| = significand * 2^(max(biased_exponent, 1) - 1075).
-inline std::uint64_t significand(double x) {
-    const std::uint64_t hidden = biased_exponent(x) == 0 ? 0 : std::uint64_t{1} << 52;
-    return hidden | (std::bit_cast<std::uint64_t>(x) & ((std::uint64_t{1} << 52) - 1));
-}
-
-/// The exponent fields of numbers that are to share a unit; subnormals count as 1, zeros not at all.
-struct ExponentRange {
-    int least = 2047, largest = 1;
-
-    void add(double x) {
-        const int exponent = std::max(biased_exponent(x), 1);
-        largest = std::max(largest, exponent);
-        least = std::min(least, x == 0 ? 2047 : exponent);
-    }
-    void add(const ExponentRange& r) {
-        largest = std::max(largest, r.largest);
-        least = std::min(least, r.least);
-    }
+    std::uint64_t mantissa;
+    int exponent;
+    bool negative;
 };
 
-/// By how much Fixed<N> shifts the significand of the largest number up: its magnitude is then below 2^(64 N - 3).
-template <class T>
-inline constexpr int headroom = std::is_same_v<T, Fixed<1>> ? 8 : 72;
-
-/// The unit's exponent: x = aligned<T>(x, range, lost) * 2^aligned_unit<T>(range).
-template <class T>
-int aligned_unit(const ExponentRange& range) {
-    return std::is_same_v<T, Integer> ? range.least - 1075 : range.largest - 1075 - headroom<T>;
+/// The parts of x, without branches. Precondition: finite.
+inline ScaledDouble scaled(double x) {
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    const int biased = static_cast<int>(bits >> 52 & 0x7ff);
+    const std::uint64_t hidden = biased == 0 ? 0 : std::uint64_t{1} << 52;
+    const std::uint64_t m = hidden | (bits & ((std::uint64_t{1} << 52) - 1));
+    const int zeros = std::countr_zero(m | std::uint64_t{1} << 63);
+    return {m >> zeros, m == 0 ? ScaledDouble::none : std::max(biased, 1) - 1 + zeros, (bits >> 63) != 0};
 }
 
-/// x in the unit of its range. Fixed<N>: bits that would fall below the unit are added to `lost`, and the result is
-/// then worthless. Integer: nothing is ever lost. Preconditions: x finite and counted in the range.
-template <class T>
-T aligned(double x, const ExponentRange& range, std::uint64_t& lost) {
-    const std::uint64_t m = significand(x);
-    const bool negative = std::signbit(x);
-    const int exponent = std::max(biased_exponent(x), 1);
-    if constexpr (std::is_same_v<T, Integer>) {
-        return m == 0 ? Integer() : Integer(negative, m, exponent - range.least);
-    } else {
-        using Word = std::conditional_t<std::is_same_v<T, Fixed<1>>, std::uint64_t, UInt128>;
-        const int shift = headroom<T> - (range.largest - exponent);
-        const int down = std::min(std::max(-shift, 0), 63);
-        lost |= m & ((std::uint64_t{1} << down) - 1);
-        const Word magnitude = static_cast<Word>(m >> down) << std::max(shift, 0);
-        const Word value = negative ? Word{0} - magnitude : magnitude;
-        if constexpr (std::is_same_v<T, Fixed<1>>) {
-            return {{value}};
+/// A unit for several numbers, the largest power of two of which all are multiples, and the width they need in it.
+struct Unit {
+    int exponent = ScaledDouble::none;  ///< the unit is 2^(exponent - 1074)
+    int top = 0;                        ///< all numbers are below 2^(top - 1074)
+
+    void add(const ScaledDouble& x) {
+        exponent = std::min(exponent, x.exponent);
+        const int above = x.exponent + static_cast<int>(std::bit_width(x.mantissa));
+        top = std::max(top, x.mantissa == 0 ? 0 : above);
+    }
+    void add(const Unit& u) {
+        exponent = std::min(exponent, u.exponent);
+        top = std::max(top, u.top);
+    }
+
+    /// All numbers are below 2^bits() in this unit; below 1 if they are all zero.
+    int bits() const { return top - exponent; }
+
+    /// x as a multiple of this unit. Preconditions: x was added; Fixed<N> has more than bits() bits.
+    template <class T>
+    T multiple(const ScaledDouble& x) const {
+        const int shift = x.mantissa == 0 ? 0 : x.exponent - exponent;
+        if constexpr (std::is_same_v<T, Integer>) {
+            return {x.negative, x.mantissa, shift};
+        } else if constexpr (std::is_same_v<T, Fixed<1>>) {
+            const std::uint64_t m = x.mantissa << shift;
+            return {{x.negative ? 0 - m : m}};
         } else {
+            const UInt128 m = static_cast<UInt128>(x.mantissa) << shift, value = x.negative ? 0 - m : m;
             return {{static_cast<std::uint64_t>(value), static_cast<std::uint64_t>(value >> 64)}};
         }
     }
-}
+};
 
 }  // namespace barycert
