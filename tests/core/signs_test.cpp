@@ -59,16 +59,19 @@ WeightSigns expected(const Case& c) {
 /// vertices, a vertex moved by an ulp, or the cell flattened into a plane but for rounding.
 Case hard_case(Random& r, Simplex s, Kind kind) {
     Case c = random_case(r, s, kind);
-    const int d = space_dimension(s), n = vertex_count(s), how = r.integer(0, 3);
+    const int d = space_dimension(s), n = vertex_count(s), how = r.integer(0, 4);
     if (how == 0) return c;
     std::array<double, 4> w{};
     for (int i = 0; i < n; ++i) w[static_cast<std::size_t>(i)] = r.integer(0, 4) * 0.25;
     for (int k = 0; k < d; ++k) {
         double sum = 0;
-        for (int i = 0; i < n - 1; ++i) sum += w[static_cast<std::size_t>(i)] * (c.vertex(i, k) - c.vertex(n - 1, k));
+        for (int i = how == 4 ? 1 : 0; i < n - 1; ++i)
+            sum += w[static_cast<std::size_t>(i)] * (c.vertex(i, k) - c.vertex(n - 1, k));
         const double near = std::isfinite(sum + c.vertex(n - 1, k)) ? sum + c.vertex(n - 1, k) : c.vertex(0, k);
         if (how == 1) c.point[static_cast<std::size_t>(k)] = near;
         if (how == 2) c.vertex(0, k) = c.point[static_cast<std::size_t>(k)] = near;
+        // The cell alone is flat, its denominator the rounding of a sum of large numerators.
+        if (how == 4) c.vertex(0, k) = near;
         if (how == 3) c.point[static_cast<std::size_t>(k)] = std::nextafter(c.vertex(0, k), 0);
     }
     return c;
