@@ -303,6 +303,29 @@ Case unimodular(Simplex s, Random& random) {
     return c;
 }
 
+/// Weight 1 is (p_x + p_y + p_z) / 3: a tie, or one but for the last coordinate, too small for a double-double.
+Case projected_tie(Simplex s, Random& random) {
+    Case c;
+    c.simplex = s;
+    const std::uint64_t m = (random.bits() >> 11) | 1;  // 53 bits and odd: m 2^-53 is no tie, m 2^-54 + 1/2 is one
+    const double half = random.coin() ? 0x1p-54 : -0x1p-54;
+    const double tie = 0.5 + 0.5 * static_cast<double>(m >> 1) * 0x1p-52;  // and `half` beyond its last bit
+    const double x = 3 * tie;
+    const double rest = std::fma(3, tie, -x) + 3 * half;
+    const int shift = random.integer(-2, 2), turn = random.integer(0, 2);
+    const double tiny = random.integer(0, 3) == 0 ? 0 : std::ldexp(random.coin() ? 1 : -1, -random.integer(90, 170));
+    const double p[3] = {x, rest, tiny}, v1[3] = {1, 1, 1}, v2[3] = {1, -1, 0};
+    for (int k = 0; k < 3; ++k) {
+        const int to = (k + turn) % 3;
+        c.point[static_cast<std::size_t>(to)] = std::ldexp(p[k], shift);
+        c.vertex(1, to) = std::ldexp(v1[k], shift);
+        if (s == Simplex::triangle3d) c.vertex(2, to) = std::ldexp(v2[k], shift);
+    }
+    for (double& f : c.values) f = random.coin() ? random.integer(-3, 3) : -0.0;
+    c.values[1] = random.coin() ? 1 : c.values[1];
+    return c;
+}
+
 double integer_of(Random& random, int bits) {
     return static_cast<double>((random.bits() >> (64 - bits)) | 1);
 }
@@ -332,6 +355,7 @@ std::vector<Record> make_records(const std::string& data) {
             if (s != Simplex::segment) climb(s, Quantity::denominator, mode, random, records);
         }
         for (int i = 0; i < 20000; ++i) add(unimodular(s, random), Group::ties);
+        for (int i = 0; i < 4000 && projected; ++i) add(projected_tie(s, random), Group::ties);
         // near a facet, scaled to where products leave the range
         const audit::Family near = audit::families_matching(projected && n == 2 ? "random" : "on-facet").at(0);
         for (std::uint64_t i = 0; i < 15000; ++i) {

@@ -19,7 +19,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 FLAGS = "-std=c++20 -O1 -ffp-contract=off -DHWY_SHARED_DEFINE -w".split()
-TARGETS = {"fma": "-march=haswell -DHWY_COMPILE_ONLY_STATIC".split(), "split": ["-DHWY_COMPILE_ONLY_EMU128"]}
+TARGETS = {"fma": "-march=haswell -maes -DHWY_COMPILE_ONLY_STATIC".split(), "split": ["-DHWY_COMPILE_ONLY_EMU128"]}
 LIBRARIES = "-lhwy -ltbb -lfmt -lmpfr -lgmpxx -lgmp -ldl -pthread".split()
 
 # Which sources to compile anew. The integers' inline functions are called from these two alone.
@@ -60,12 +60,11 @@ EXPLICIT = [
     (F, "filter_epsilon = 0x1p-52", 0, "filter_epsilon = 0x1p-53", "the unit of rounding to nearest alone"),
     (F, "filter_epsilon = 0x1p-52", 0, "filter_epsilon = 0x1p-56", "a sixteenth of every bound"),
     # its ranges
-    (F, "all_within(tag, r, 0x1p-300, 0x1p300)", 0, "all_within(tag, r, 0x1p-1000, 0x1p300)", "tetrahedron: underflow"),
-    (F, "all_within(tag, r, 0x1p-300, 0x1p300)", 0, "all_within(tag, r, 0x1p-300, 0x1p1000)", "tetrahedron: overflow"),
-    (F, "all_within(tag, r, 0x1p-300, 0x1p300)", 0, "all_within(tag, r, 0, 0x1p1023)", "tetrahedron: no range"),
-    (F, "all_within(tag, r, 0x1p-300, 0x1p300)", 1, "all_within(tag, r, 0x1p-1000, 0x1p300)", "triangle: underflow"),
-    (F, "all_within(tag, r, 0x1p-300, 0x1p300)", 1, "all_within(tag, r, 0x1p-300, 0x1p1000)", "triangle: overflow"),
-    (F, "all_within(tag, r, 0x1p-300, 0x1p300)", 1, "all_within(tag, r, 0, 0x1p1023)", "triangle: no range"),
+    (F, "all_at_least(tag, r, 0x1p-300)", 0, "all_at_least(tag, r, 0x1p-1000)", "tetrahedron: underflow"),
+    (F, "all_at_least(tag, r, 0x1p-300)", 0, "all_at_least(tag, r, 0.0)", "tetrahedron: no range"),
+    (F, "all_at_least(tag, r, 0x1p-300)", 1, "all_at_least(tag, r, 0x1p-1000)", "triangle: underflow"),
+    (F, "all_at_least(tag, r, 0x1p-300)", 1, "all_at_least(tag, r, 0.0)", "triangle: no range"),
+    (F, "hn::Le(size, hn::Set(tag, 0x1p1000))", 0, "hn::Le(size, hn::Set(tag, 1e308 * 10))", "overflow"),
     (F, "all_within(tag, largest, 0, 0x1p300)", 0, "all_within(tag, largest, 0, 0x1p1000)", "segment: overflow"),
     (F, "hn::Set(tag, 0x1p-400)", 0, "hn::Set(tag, 0x1p-1000)", "segment: underflow"),
     (F, "hn::Set(tag, 0x1p-400)", 0, "hn::Set(tag, 0.0)", "segment: no lower end"),
@@ -74,13 +73,13 @@ EXPLICIT = [
     (F, "hn::Set(tag, 0x1p-602)", 0, "hn::Set(tag, 0.0)", "triangle3d: no lower end"),
     (F, "most = hn::Max(most, x[k])", 0, "most = x[k]", "the range of the last axis alone"),
     (F, "least = hn::Min(least, x[k])", 0, "least = x[k]", "the range of the last axis alone"),
-    (F, "out[k] = hn::Max(out[k], hn::Abs(vectors[i][k]))", 0, "out[k] = hn::Abs(vectors[i][k])", "extents of the last vector"),
-    (F, "out[k] = hn::Max(out[k], hn::Abs(vectors[i][k]))", 0, "out[k] = hn::Max(out[k], vectors[i][k])", "a sign in the extents"),
-    (F, "certain = hn::And(certain, hn::Gt(hn::Abs(f.numerator[i]), bound.numerator));", 0, "", "numerators are never checked"),
-    (F, "hn::And(bound.valid, hn::Gt(hn::Abs(f.denominator), bound.denominator))", 0, "bound.valid", "the denominator is never checked"),
-    (F, "hn::And(bound.valid, hn::Gt(hn::Abs(f.denominator), bound.denominator))", 0,
-     "hn::Gt(hn::Abs(f.denominator), bound.denominator)", "ranges are never checked"),
-    (F, "hn::Xor(hn::BitCast(bits, f.numerator[i]), orientation)", 0, "hn::BitCast(bits, f.numerator[i])", "the orientation left out"),
+    (F, "out[k] = hn::Max(out[k], hn::Abs(vectors[2][k]))", 0, "out[k] = hn::Abs(vectors[2][k])", "extents of the last vector"),
+    (F, "out[k] = hn::Max(out[k], larger_magnitude(vectors[2][k], vectors[3][k]))", 0, "", "extents of two vectors"),
+    (F, "return hn::Max(hn::Abs(x), hn::Abs(y))", 0, "return hn::Max(x, y)", "a sign in the extents"),
+    (F, "hn::And(bound.valid, hn::Gt(smallest, bound.numerator))", 0, "bound.valid", "numerators are never checked"),
+    (F, "hn::And(hn::Gt(size, bound.denominator), hn::Le", 0, "(hn::Le", "the denominator is never checked"),
+    (F, "hn::And(bound.valid, hn::Gt(smallest, bound.numerator))", 0, "hn::Gt(smallest, bound.numerator)", "ranges are never checked"),
+    (F, "packed = hn::Xor(packed, hn::And(flip, hn::Set(bits, all)))", 0, "", "the orientation left out"),
     (F, "y * z + x * z + x * y", 0, "y * z + x * z", "a term of P left out"),
     # the middle tier
     (R, "constant(4 * u) * dot", 0, "constant(1 * u) * dot", "the bound for one weight taken for all"),
@@ -91,10 +90,10 @@ EXPLICIT = [
     (R, "constant(4 * 172 * u * u)", 0, "constant(4 * 0.01 * u * u)", "a hundredth of a rounding"),
     (R, "constant(4 * 172 * u * u)", 0, "constant(0.0)", "no bound on the rounding of remainders"),
     (R, "out.error = scale * (from_residual + from_rounding)", 0, "out.error = hn::Zero(tag)", "no bound at all"),
-    (R, "all_within(tag, x, 0x1p-200, 0x1p200)", 0, "all_within(tag, x, 0, 0x1p1000)", "no range of extents"),
-    (R, "all_within(tag, x, 0x1p-200, 0x1p200)", 0, "all_within(tag, x, 0x1p-1000, 0x1p200)", "underflow"),
-    (R, "all_within(tag, x, 0x1p-200, 0x1p200)", 0, "all_within(tag, x, 0x1p-200, 0x1p1000)", "overflow"),
-    (R, "all_within(tag, magnitude, 0, 0x1p300)", 0, "all_within(tag, magnitude, 0, 0x1p1020)", "overflow"),
+    (R, "all_at_least(tag, x, 0x1p-200)", 0, "all_at_least(tag, x, 0.0)", "underflow"),
+    (R, "hn::Le(largest, constant(0x1p900))", 0, "hn::Le(largest, constant(0x1p1023))", "overflow of the split"),
+    (R, "hn::Le(g, constant(0x1p1000))", 0, "hn::Le(g, constant(1e308 * 10))", "overflow"),
+    (R, "hn::Ge(k, constant(0.125))", 0, "hn::Ge(k, constant(0.0))", "overflow of the denominator"),
     (R, "hn::Le(k, constant(0x1p36))", 0, "hn::Le(k, constant(0x1p200))", "a degenerate cell is not certified to be none"),
     (R, "hn::Le(out.magnitude, constant(0x1p100))", 0, "hn::Le(out.magnitude, constant(0x1p1000))", "large weights"),
     (R, "hn::Le(out.magnitude, constant(0x1p100))", 1, "hn::Le(out.magnitude, constant(0x1p1000))", "large weights, projected"),
@@ -120,11 +119,11 @@ EXPLICIT = [
     (R, "certain = hn::And(certain, in_range);", 0, "", "nodal values of any range"),
     (R, "hn::Set(tag, 0x1p-800)", 0, "hn::Set(tag, 0x1p-1074)", "nodal values: underflow"),
     (R, "hn::Set(tag, 0x1p900)", 0, "hn::Set(tag, 0x1p1023)", "nodal values: overflow"),
-    (R, "error, certain) + hn::Zero(tag)", 0, "error, certain)", "a zero value may be negative"),
+    (R, "error, certain) +\n           hn::Zero(tag)", 0, "error, certain)", "a zero value may be negative"),
     (R, "- residual_sum * c.v[last][k]", 0, "", "what the weights' sum lacks left out"),
-    (R, "final_weight.low - others.rest", 0, "final_weight.low", "remainders of the sum left out"),
-    (R, "rest = rest + t.low;", 0, "", "remainders of sums left out"),
-    (R, "rest = rest + p.low;", 0, "", "remainders of products left out"),
+    (R, "final_weight.low - others.sum_rest", 0, "final_weight.low", "remainders of the sum left out"),
+    (R, "sum_rest = sum_rest + t.low;", 1, "", "remainders of sums left out"),
+    (R, "product_rest = product_rest - p.low;", 0, "", "remainders of products left out"),
     # error-free transforms
     (E, "0x1p27 + 1", 0, "0x1p28 + 1", "split one bit too low"),
     (E, "0x1p27 + 1", 0, "0x1p27", "split by a power of two"),
@@ -170,29 +169,28 @@ EXPLICIT = [
     ("fixed_integer.hpp", "borrow = 0;", 1, "", "borrow carried over to the second factor"),
     ("fixed_integer.hpp", "+ r.limbs[i + j] + carry", 0, "+ r.limbs[i + j]", "carry of a product left out"),
     ("fixed_integer.hpp", "r.limbs[i + M] = carry;", 0, "", "last carry of a row left out"),
-    (S, "std::is_same_v<T, Fixed<1>> ? 8 : 72", 0, "std::is_same_v<T, Fixed<1>> ? 9 : 72", "one bit less room in one limb"),
-    (S, "std::is_same_v<T, Fixed<1>> ? 8 : 72", 0, "std::is_same_v<T, Fixed<1>> ? 10 : 72", "two bits less room in one limb"),
-    (S, "std::is_same_v<T, Fixed<1>> ? 8 : 72", 0, "std::is_same_v<T, Fixed<1>> ? 11 : 72", "three bits less room in one limb"),
-    (S, "std::is_same_v<T, Fixed<1>> ? 8 : 72", 0, "std::is_same_v<T, Fixed<1>> ? 16 : 72", "no room in one limb"),
-    (S, "std::is_same_v<T, Fixed<1>> ? 8 : 72", 0, "std::is_same_v<T, Fixed<1>> ? 8 : 73", "one bit less room in two limbs"),
-    (S, "std::is_same_v<T, Fixed<1>> ? 8 : 72", 0, "std::is_same_v<T, Fixed<1>> ? 8 : 75", "three bits less room in two limbs"),
-    (S, "std::is_same_v<T, Fixed<1>> ? 8 : 72", 0, "std::is_same_v<T, Fixed<1>> ? 8 : 80", "no room in two limbs"),
-    (S, "std::max(biased_exponent(x), 1)", 0, "biased_exponent(x)", "subnormals a binade lower (range)"),
-    (S, "std::max(biased_exponent(x), 1)", 1, "biased_exponent(x)", "subnormals a binade lower (number)"),
-    (S, "biased_exponent(x) == 0 ? 0 : std::uint64_t{1} << 52", 0, "std::uint64_t{1} << 52", "a hidden bit for subnormals"),
-    (S, "lost |= m & ((std::uint64_t{1} << down) - 1);", 0, "", "lost bits are not told"),
-    (S, "std::min(std::max(-shift, 0), 63)", 0, "std::min(std::max(-shift, 0), 31)", "lost bits beyond 31"),
-    (S, "largest = std::max(largest, r.largest);", 0, "", "axes are not joined: the largest"),
-    (S, "least = std::min(least, r.least);", 0, "", "axes are not joined: the least"),
+    (X, "bits <= 64 - 3) return as", 0, "bits <= 64 - 2) return as", "one bit less room in one limb"),
+    (X, "bits <= 64 - 3) return as", 0, "bits <= 64 - 1) return as", "two bits less room in one limb"),
+    (X, "bits <= 64 - 3) return as", 0, "bits <= 64) return as", "no room in one limb"),
+    (X, "bits <= 128 - 3", 0, "bits <= 128 - 2", "one bit less room in two limbs"),
+    (X, "bits <= 128 - 3", 0, "bits <= 128", "no room in two limbs"),
+    (X, "unit.bits() <= 64 - 3", 0, "unit.bits() <= 64", "no room for nodal values"),
+    (X, "unit.bits() <= 64 - 3", 0, "true", "nodal values of any spread in one limb"),
+    (X, "bits = std::max(bits, u.bits())", 0, "bits = u.bits()", "the width of the last axis alone"),
+    (S, "std::max(biased, 1) - 1", 0, "biased - 1", "subnormals a binade lower"),
+    (S, "biased == 0 ? 0 : std::uint64_t{1} << 52", 0, "std::uint64_t{1} << 52", "a hidden bit for subnormals"),
+    (S, "m == 0 ? ScaledDouble::none : ", 0, "", "zeros count for the unit"),
+    (S, "x.mantissa == 0 ? 0 : above", 0, "above", "zeros count for the width"),
+    (S, "top = std::max(top, u.top);", 0, "", "axes are not joined: the largest"),
+    (S, "exponent = std::min(exponent, u.exponent);", 0, "", "axes are not joined: the least"),
+    (S, "x.exponent + static_cast<int>(std::bit_width(x.mantissa))", 0, "x.exponent", "width of a mantissa left out"),
     (X, "if (common) {", 0, "if (false) {", "a unit for each axis where one is due"),
-    (X, "fits = fits && lost == 0;", 0, "fits = lost == 0;", "only the last axis fits"),
     (X, "above = x[i] & f_mask;", 0, "above = 0;", "negative nodal value"),
     (X, "high - (f & x_mask)", 0, "high", "negative numerator"),
-    (X, "limbs_ == 0 || lost != 0", 0, "limbs_ == 0", "nodal values of any spread in one limb"),
     (X, "sign(i) < 0, magnitude", 0, "sign_of(i) < 0, magnitude", "sign of the denominator left out"),
-    (X, "sign != orientation()", 0, "sign < 0", "sign of the denominator left out"),
+    (X, "sign_of(sum, limbs_ + 1) != orientation()", 0, "sign_of(sum, limbs_ + 1) < 0", "sign of the denominator left out"),
     (X, "sum.sign() != orientation()", 0, "sum.sign() < 0", "sign of the denominator left out, wide"),
-    (X, "aligned_unit<Integer>(rx) + aligned_unit<Integer>(ry)", 0, "aligned_unit<Integer>(rx)", "unit of the second factor"),
+    (X, "unit_x.exponent + unit_y.exponent", 0, "unit_x.exponent", "unit of the second factor"),
     # single predicates
     ("predicates.cpp", "8.5 * epsilon", 0, "4 * epsilon", "half the bound of orient2d"),
     ("predicates.cpp", "8.5 * epsilon", 0, "1.5 * epsilon", "an error of 4 e is known"),
@@ -401,14 +399,15 @@ def explanation(m, table):
     return "unexplained"
 
 
-def render(results, seconds):
+def render(results, data):
     from survivors import EXPLANATIONS
     count = {}
     for m in results:
         count[m["status"]] = count.get(m["status"], 0) + 1
     out = ["# Mutants of the core", "",
            "Made by `run_mutants.py` (see there what is changed and how); `killer.cpp` is what they met.", "",
-           f"{len(results)} mutants in {seconds:.0f} s: " + ", ".join(f"{n} {s}" for s, n in sorted(count.items())) + ".", "",
+           f"{len(results)} of {data['all']} mutants in {data['seconds']:.0f} s, of the sources at {data['revision']}: " + ", ".join(f"{n} {s}" for s, n in sorted(count.items())) + ".", "",
+           "A mutant that survives for want of a case, and not because it is proven to be equivalent, is told so.", "",
            "## Survivors", "", "| where | change | tiers | why it survives |", "|---|---|---|---|"]
     cell = lambda s: s.replace("|", "\\|").replace("\n", " ")
     change = lambda m: f"`{cell(m['old'].strip())}` -> `{cell(m['new'].strip())}`" + (
@@ -430,19 +429,25 @@ def main():
     parser.add_argument("--only", default="")
     parser.add_argument("--scratch", type=Path, default=Path("/tmp/barycert-mutants"))
     parser.add_argument("--root", type=Path, default=ROOT)
+    parser.add_argument("--listed", action="store_true", help="the listed mutants alone, without the generated ones")
     parser.add_argument("--report", action="store_true")
     a = parser.parse_args()
     saved = a.scratch / "results.json"
     if not a.report:
         start = time.time()
+        revision = subprocess.run(["git", "-C", a.root, "rev-parse", "--short", "HEAD"], capture_output=True,
+                                  text=True).stdout.strip()
         bench = Bench(a.build.resolve(), a.scratch, a.root.resolve())
         bench.prepare(a.jobs)
         mutants, texts = all_mutants(bench.pristine, a.only)
+        if a.listed:
+            mutants = [m for m in mutants if m.why not in ("comparison", "sign")]
         print(f"{len(mutants)} mutants", file=sys.stderr)
 
         def save():
             done = [m.__dict__.copy() for m in mutants if m.status]
-            saved.write_text(json.dumps({"seconds": time.time() - start, "only": a.only, "mutants": done}))
+            saved.write_text(json.dumps({"seconds": time.time() - start, "only": a.only, "all": len(mutants),
+                                         "revision": revision, "mutants": done}))
 
         def work(task):
             number, m = task
@@ -456,7 +461,7 @@ def main():
             list(pool.map(work, enumerate(mutants)))
         save()
     data = json.loads(saved.read_text())
-    text = render(data["mutants"], data["seconds"])
+    text = render(data["mutants"], data)
     print(text)
     if not data["only"]:
         (HERE / "RESULTS.md").write_text(text)
