@@ -97,95 +97,116 @@ TEST(FixedInteger, products) {
     }
 }
 
-/// The largest and the least exponent field of a range from x to these.
-ExponentRange range_of(double x, int least, int most) {
-    ExponentRange range;
-    range.add(x);
-    range.least = std::min(range.least, least);
-    range.largest = std::max(range.largest, most);
-    return range;
-}
-
-/// The number aligned<T> gives, or that it says bits are lost exactly where the unit does not divide x.
-template <class T>
-void expect_aligned(double x, const ExponentRange& range) {
-    std::uint64_t lost = 0;
-    const Z got = number(aligned<T>(x, range, lost));
-    const Q exact = scaled_by(Q(x), -aligned_unit<T>(range));
-    EXPECT_EQ(lost == 0, exact.get_den() == 1) << hexadecimal(x) << ' ' << range.least << ' ' << range.largest;
-    if (lost == 0) {
-        EXPECT_EQ(Q(got), exact) << hexadecimal(x) << ' ' << range.least << ' ' << range.largest;
-    }
-    if constexpr (!std::is_same_v<T, Integer>) {
-        // The room that sums of products rely on, and none of it given away.
-        constexpr int n = std::is_same_v<T, Fixed<1>> ? 1 : 2;
-        EXPECT_LT(abs(exact), Q(Z(1) << (64 * n - 3)));
-        if (x != 0 && biased_exponent(x) == range.largest) {
-            EXPECT_GE(abs(exact), Q(Z(1) << (64 * n - 4)));
+/// x = mantissa * 2^(exponent - 1074) with an odd mantissa, or zero.
+TEST(ScaledDouble, is_the_number_with_an_odd_mantissa) {
+    Random r(2);
+    std::vector<double> numbers{0.0,
+                                -0.0,
+                                1.0,
+                                -3.0,
+                                0x1p-1074,
+                                -0x1p-1074,
+                                0x0.fffffffffffffp-1022,
+                                0x1p-1022,
+                                0x1.fffffffffffffp1023,
+                                -0x1p1023,
+                                0x1.0000000000001p0};
+    for (int k = 0; k < 5000; ++k) numbers.push_back(any_finite(r));
+    for (const double x : numbers) {
+        const ScaledDouble s = scaled(x);
+        if (x == 0) {
+            EXPECT_EQ(s.mantissa, 0U);
+            EXPECT_GT(s.exponent, 1023 + 1074);  // never the least exponent of several numbers
+            continue;
         }
+        EXPECT_EQ(s.mantissa % 2, 1U) << hexadecimal(x);
+        EXPECT_EQ(s.negative, x < 0);
+        const Q magnitude = scaled_by(Q(Z(std::to_string(s.mantissa))), s.exponent - 1074);
+        EXPECT_EQ(Q(x), s.negative ? Q(-magnitude) : magnitude) << hexadecimal(x);
     }
-    std::uint64_t before = 4;
-    aligned<T>(x, range, before);
-    EXPECT_NE(before, 0U);  // what was lost before stays lost
 }
 
-void expect_aligned_in_every_type(double x, int least, int most) {
-    const ExponentRange range = range_of(x, least, most);
-    expect_aligned<Fixed<1>>(x, range);
-    expect_aligned<Fixed<2>>(x, range);
-    expect_aligned<Integer>(x, range);
+/// Each number of a list as a multiple of their common unit.
+template <class T>
+void expect_multiples(const Unit& unit, const std::vector<double>& numbers) {
+    for (const double x : numbers) {
+        const Z got = number(unit.multiple<T>(scaled(x)));
+        EXPECT_EQ(scaled_by(Q(got), unit.exponent - 1074), Q(x)) << hexadecimal(x);
+    }
 }
 
-TEST(Aligned, every_distance_from_the_largest) {
+void expect_unit(const std::vector<double>& numbers) {
+    Unit unit;
+    for (const double x : numbers) unit.add(scaled(x));
+    Z widest = 0;
+    bool odd = false;
+    for (const double x : numbers) {
+        if (x == 0) continue;
+        const Q multiple = scaled_by(Q(x), 1074 - unit.exponent);
+        ASSERT_EQ(multiple.get_den(), 1) << hexadecimal(x);
+        widest = std::max(widest, Z(abs(multiple.get_num())));
+        odd = odd || mpz_odd_p(multiple.get_num().get_mpz_t()) != 0;
+    }
+    if (widest == 0) {
+        EXPECT_LE(unit.bits(), 0);
+    } else {
+        EXPECT_TRUE(odd);  // the largest unit there is: catches a least exponent that is too small
+        // Exactly the width: one less and sums of products would overflow, one more and the narrow type is given away.
+        EXPECT_EQ(unit.bits(), static_cast<int>(mpz_sizeinbase(widest.get_mpz_t(), 2)));
+    }
+    if (unit.bits() <= 61) expect_multiples<Fixed<1>>(unit, numbers);
+    if (unit.bits() <= 125) expect_multiples<Fixed<2>>(unit, numbers);
+    expect_multiples<Integer>(unit, numbers);
+}
+
+TEST(Unit, every_distance_between_two_numbers) {
     // One bit, all bits, the first and last bit, a short number; far enough for shifts by 64 and more.
     for (const double mantissa : {1.0, 0x1.fffffffffffffp0, 0x1.0000000000001p0, 1.5}) {
         for (int below = 0; below <= 200; ++below) {
-            for (const double sign : {1.0, -1.0}) {
-                const double x = sign * std::ldexp(mantissa, 40 - below);
-                expect_aligned_in_every_type(x, 2047, 1023 + 40);
-            }
+            expect_unit({0x1p40, std::ldexp(mantissa, 40 - below)});
+            expect_unit({-std::ldexp(mantissa, 40 - below), -0x1.8p40, 0.0});
         }
     }
 }
 
-// Subnormals have the exponent of the smallest normals, not one less: catches max(biased_exponent, 1) left out.
-TEST(Aligned, subnormals_and_zeros) {
-    for (const double x : {0.0, -0.0, 0x1p-1074, -0x1p-1074, 0x0.fffffffffffffp-1022, 0x1p-1022, -0x1.8p-1022,
+// Subnormals have the exponent of the smallest normals, not one less: catches max(biased, 1) left out.
+TEST(Unit, subnormals_and_zeros) {
+    expect_unit({0.0, -0.0});
+    for (const double x : {0x1p-1074, -0x1p-1074, 0x0.fffffffffffffp-1022, 0x1p-1022, -0x1.8p-1022,
                            0x1.fffffffffffffp-1022, 0x1p-1021}) {
-        for (int exponent = biased_exponent(x); exponent < 140; ++exponent) {
-            expect_aligned_in_every_type(x, 1, exponent);
-        }
-        if (x == 0) expect_aligned_in_every_type(x, 2047, 2046);  // nothing of a zero is lost, however far below
+        for (int exponent = -1074; exponent <= 1023; exponent += 7) expect_unit({x, 0.0, std::ldexp(1.0, exponent)});
+        expect_unit({x});
+        expect_unit({-0.0, x});
     }
 }
 
-TEST(Aligned, any_doubles) {
+TEST(Unit, any_doubles) {
     Random r(1);
-    for (int k = 0; k < 20000 && !::testing::Test::HasFailure(); ++k) {
-        const double x = any_finite(r);
-        const int exponent = std::min(biased_exponent(x) + (r.coin() ? r.integer(0, 140) : r.integer(0, 2046)), 2046);
-        expect_aligned_in_every_type(x, r.coin() ? 2047 : r.integer(1, std::max(biased_exponent(x), 1)), exponent);
+    for (int k = 0; k < 5000 && !::testing::Test::HasFailure(); ++k) {
+        std::vector<double> numbers;
+        const int count = r.integer(1, 5);
+        const bool near = r.coin();
+        for (int i = 0; i < count; ++i) {
+            const double x = any_finite(r);
+            const int exponent = r.integer(0, 120);
+            int ignored = 0;
+            numbers.push_back(near && x != 0 ? std::ldexp(std::frexp(x, &ignored), exponent) : x);
+        }
+        expect_unit(numbers);
     }
 }
 
-TEST(ExponentRange, leaves_zeros_out_and_counts_subnormals_as_the_smallest_normals) {
-    ExponentRange range;
-    for (const double zero : {0.0, -0.0}) range.add(zero);
-    EXPECT_EQ(range.largest, 1);
-    EXPECT_GE(range.least, 2047);  // nothing there
-    range.add(-3.0);
-    EXPECT_EQ(range.least, 1024);
-    EXPECT_EQ(range.largest, 1024);
-    range.add(0.5);
-    range.add(0.0);
-    EXPECT_EQ(range.least, 1022);
-    range.add(0x1p-1074);
-    EXPECT_EQ(range.least, 1);
-    ExponentRange other;
-    other.add(0x1p1023);
-    other.add(range);
-    EXPECT_EQ(other.least, 1);
-    EXPECT_EQ(other.largest, 2046);
+// The units of several axes together: the least exponent and the highest top.
+TEST(Unit, of_units) {
+    Unit x, y;
+    x.add(scaled(0x1p-30));
+    y.add(scaled(0x1p70));
+    x.add(y);
+    EXPECT_EQ(x.exponent, 1074 - 30);
+    EXPECT_EQ(x.bits(), 101);
+    Unit nothing;
+    x.add(nothing);
+    EXPECT_EQ(x.bits(), 101);
 }
 
 }  // namespace

@@ -23,21 +23,25 @@ namespace HWY_NAMESPACE {
 template <class V>
 struct DoubleDouble {
     V high, low;
-
-    friend HWY_INLINE DoubleDouble operator+(const DoubleDouble& x, const DoubleDouble& y) {
-        const TwoTerms<V> s = two_sum(x.high, y.high);
-        const TwoTerms<V> r = two_sum(s.high, s.low + (x.low + y.low));  // not quick: s.high may have cancelled
-        return {r.high, r.low};
-    }
-    friend HWY_INLINE DoubleDouble operator-(const DoubleDouble& x, const DoubleDouble& y) {
-        return x + DoubleDouble{hn::Neg(y.high), hn::Neg(y.low)};
-    }
-    friend HWY_INLINE DoubleDouble operator*(const DoubleDouble& x, const DoubleDouble& y) {
-        const TwoTerms<V> p = two_product(x.high, y.high);
-        const TwoTerms<V> r = quick_two_sum(p.high, p.low + (x.high * y.low + x.low * y.high));
-        return {r.high, r.low};
-    }
 };
+
+// Free templates, not friends: GCC gives friends the baseline's instruction set, and at -O0 their vectors get lost.
+template <class V>
+HWY_INLINE DoubleDouble<V> operator+(const DoubleDouble<V>& x, const DoubleDouble<V>& y) {
+    const TwoTerms<V> s = two_sum(x.high, y.high);
+    const TwoTerms<V> r = two_sum(s.high, s.low + (x.low + y.low));  // not quick: s.high may have cancelled
+    return {r.high, r.low};
+}
+template <class V>
+HWY_INLINE DoubleDouble<V> operator-(const DoubleDouble<V>& x, const DoubleDouble<V>& y) {
+    return x + DoubleDouble<V>{hn::Neg(y.high), hn::Neg(y.low)};
+}
+template <class V>
+HWY_INLINE DoubleDouble<V> operator*(const DoubleDouble<V>& x, const DoubleDouble<V>& y) {
+    const TwoTerms<V> p = two_product(x.high, y.high);
+    const TwoTerms<V> r = quick_two_sum(p.high, p.low + (x.high * y.low + x.low * y.high));
+    return {r.high, r.low};
+}
 
 /// x - y, exactly.
 template <class V>

@@ -63,7 +63,7 @@ public:
         return *this;
     }
 
-    /// mantissa * 2^shift with a sign. Precondition: shift + 64 fits the capacity.
+    /// mantissa * 2^shift with a sign. Precondition: shift + 128 <= 64 * capacity.
     Integer(bool negative, std::uint64_t mantissa, int shift) : negative_(negative) {
         if (mantissa == 0) return;
         const int whole = shift / 64, part = shift % 64;

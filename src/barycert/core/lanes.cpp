@@ -153,7 +153,7 @@ void plain_values_of(const Cases& cases, const double* const* values, int compon
             for (int i = 0; i < n; ++i) sum = sum + f.numerator[i] * hn::LoadU(tag, values[n * component + i] + at);
             store_strided(tag, sum * inverse, out + at * stride + static_cast<std::size_t>(component), stride);
         }
-        return hn::Eq(f.denominator, f.denominator);
+        return hn::Eq(hn::Zero(tag), hn::Zero(tag));  // all are decided, whatever they are
     });
 }
 
@@ -255,9 +255,19 @@ std::string target_name(std::int64_t target) {
 
 }  // namespace
 
+namespace {
+
+/// Those that this build has and this processor can run. Asked once: asking Highway again would choose anew.
+const std::vector<std::int64_t>& supported_targets() {
+    static const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+    return targets;
+}
+
+}  // namespace
+
 std::vector<std::string> simd_targets() {
     std::vector<std::string> names;
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) names.push_back(target_name(target));
+    for (const std::int64_t target : supported_targets()) names.push_back(target_name(target));
     return names;
 }
 
@@ -270,7 +280,7 @@ bool use_simd_target(std::string_view name) {
         hwy::GetChosenTarget().DeInit();  // the next call asks the processor again
         return true;
     }
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    for (const std::int64_t target : supported_targets()) {
         if (target_name(target) != name) continue;
         hwy::GetChosenTarget().Update(target);
         return true;

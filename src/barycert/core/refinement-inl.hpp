@@ -182,7 +182,9 @@ HWY_INLINE Refined<s, D> refine(D tag, const Absolute<s, V>& c) {
     out.error = scale * (from_residual + from_rounding);
     V largest = magnitude[0];
     for (int j = 1; j < d; ++j) largest = hn::Max(largest, magnitude[j]);
-    const auto sizes = hn::And(all_at_least(tag, x, 0x1p-200), hn::Le(largest, constant(0x1p900)));
+    V least = x[0];
+    for (int j = 1; j < d; ++j) least = hn::Min(least, x[j]);
+    const auto sizes = hn::And(hn::Ge(least, constant(0x1p-200)), hn::Le(largest, constant(0x1p900)));
     const auto condition = hn::And(hn::Ge(k, constant(0.125)), hn::Le(k, constant(0x1p36)));
     const auto values = hn::And(hn::Le(g, constant(0x1p1000)), hn::Le(out.magnitude, constant(0x1p100)));
     out.valid = hn::And(sizes, hn::And(condition, values));

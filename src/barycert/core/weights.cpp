@@ -110,18 +110,14 @@ private:
 void exact_values(const ExactWeights& w, int n, const double* const* values, std::size_t j, int components, double* out,
                   Tiers& counts) {
     counts.add(Tier::exact);
-    if (w.degenerate()) {
-        ++counts.degenerate;
-        std::fill_n(out, components, nan);
-        return;
-    }
+    counts.degenerate += w.degenerate() ? 1 : 0;
     bool finite = true;
     for (int c = 0; c < components; ++c) {
         double f[4];
         for (int i = 0; i < n; ++i) f[i] = values[n * c + i][j];
         const bool usable = all_finite(f, n);
-        out[c] = usable ? w.interpolate({f, static_cast<std::size_t>(n)}) : nan;
         finite = finite && usable;
+        out[c] = usable && !w.degenerate() ? w.interpolate({f, static_cast<std::size_t>(n)}) : nan;
     }
     counts.not_finite += finite ? 0 : 1;
 }
