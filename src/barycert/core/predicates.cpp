@@ -27,7 +27,7 @@ template <class Batch>
 Status batch_signs(const Batch& batch, std::span<WeightSigns> out, Tiers* tiers) {
     const Simplex s = batch.simplex;
     Tiers counts;
-    const Status status = for_blocks(
+    Status status = for_blocks(
         batch,
         [&](std::size_t first, const lanes::Cases& block, std::uint32_t* undecided) {
             const std::size_t left = lanes::signs(s, block, out.data() + first, undecided);
