@@ -284,5 +284,38 @@ TEST(Plain, GivesNoNumberWhereThereIsNone) {
     }
 }
 
+// Nothing is written where the sizes do not fit: catches a check left out of one of the six batches.
+TEST(Batches, SizesThatDoNotFitAreAnError) {
+    const std::vector<Case> cases = mixed_cases(Simplex::triangle, 4);
+    const Columns columns(Simplex::triangle, cases);
+    const CaseArrays arrays = columns.arrays();
+    const std::vector<double> nodes{0, 0, 1, 0, 0, 1}, points{0.25, 0.25, 0.5, 0.25}, odd_points{0.25, 0.25, 0.5};
+    const std::vector<std::int32_t> corners{0, 1, 2}, cells{0, 0};
+    const MeshQueries queries{Simplex::triangle, nodes, corners, cells, points};
+    const MeshQueries odd{Simplex::triangle, nodes, corners, cells, odd_points};
+    for (const std::size_t wrong : {0U, 3U, 5U}) {
+        std::vector<WeightSigns> signs(wrong);
+        std::vector<double> w(3 * wrong), v(wrong);
+        const Status statuses[] = {weight_signs(arrays, signs),
+                                   weight_signs(queries, signs),
+                                   barycentric_weights(arrays, w),
+                                   barycentric_weights(queries, w),
+                                   interpolate(arrays, columns.values(), v),
+                                   interpolate<double>(queries, NodalValues<double>{nodes}, v)};
+        for (const Status& status : statuses) {
+            ASSERT_FALSE(status);
+            EXPECT_EQ(status.error().what, "size of the output");
+        }
+    }
+    std::vector<WeightSigns> signs(2);
+    ASSERT_FALSE(weight_signs(odd, signs));
+    EXPECT_EQ(weight_signs(odd, signs).error().message(),
+              "size of the points: expected 2 coordinates for each of 2 queries, found 3");
+    std::vector<double> v(2);
+    const Status none = interpolate<double>(queries, NodalValues<double>{nodes, 0}, v);
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().message(), "number of components: expected at least 1, found 0");
+}
+
 }  // namespace
 }  // namespace barycert

@@ -26,6 +26,24 @@ inline std::size_t case_count(const MeshQueries& q) {
     return q.count();
 }
 
+/// An Error if sizes that must fit together do not. Indices are not looked at: that would cost as much as the answers.
+inline Status check_sizes(const CaseArrays& cases, std::size_t places, std::size_t per_case) {
+    if (places == per_case * cases.count) return Done{};
+    return Error{.what = "size of the output",
+                 .expected = std::to_string(per_case) + " for each of " + std::to_string(cases.count) + " cases",
+                 .found = std::to_string(places)};
+}
+inline Status check_sizes(const MeshQueries& q, std::size_t places, std::size_t per_case) {
+    const auto d = static_cast<std::size_t>(space_dimension(q.simplex));
+    if (q.points.size() != d * q.cells.size()) {
+        return Error{
+            .what = "size of the points",
+            .expected = std::to_string(d) + " coordinates for each of " + std::to_string(q.cells.size()) + " queries",
+            .found = std::to_string(q.points.size())};
+    }
+    return check_sizes(CaseArrays{.simplex = q.simplex, .count = q.count()}, places, per_case);
+}
+
 /// One case, vertex after vertex.
 struct SingleCase {
     std::array<double, 12> vertices;

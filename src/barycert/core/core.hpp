@@ -23,7 +23,7 @@
 ///   - a time: an answer takes nanoseconds where the filter decides, up to about a microsecond where integers must, and
 ///     several where coordinates differ by more than 2^72 in magnitude;
 ///   - which tier decides (Tiers): it is the same on every machine, but may change with the version;
-///   - checks of indices and sizes: those are preconditions.
+///   - checks of indices: those are preconditions.
 ///
 /// How it is done: filter-inl.hpp (signs), refinement-inl.hpp (weights and values) and exact_weights.hpp (what those
 /// leave open) prove their bounds where they use them; NOTES.md has measurements, and what was tried.

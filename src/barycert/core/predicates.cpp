@@ -26,6 +26,7 @@ WeightSigns exact_signs(Simplex s, const double* vertices, const double* point) 
 template <class Batch>
 Status batch_signs(const Batch& batch, std::span<WeightSigns> out, Tiers* tiers) {
     const Simplex s = batch.simplex;
+    if (Status sizes = check_sizes(batch, out.size(), 1); !sizes) return sizes;
     Tiers counts;
     Status status = for_blocks(
         batch,

@@ -50,8 +50,9 @@ Result<Sign> orient3d(const double* a, const double* b, const double* c, const d
 /// is told by WeightSigns::degenerate(). `tiers`, if given, counts this case. Error: a coordinate is not finite.
 Result<WeightSigns> weight_signs(Simplex simplex, const double* vertices, const double* point, Tiers* tiers = nullptr);
 
-/// The same for many cases, on SIMD lanes. Precondition: out.size() is the number of cases. Error: a coordinate is not
-/// finite; it names the case, and `out` is then not to be used.
+/// The same for many cases, on SIMD lanes. Errors: a coordinate is not finite (it names the case); out.size() is not
+/// the number of cases, or the sizes of the queries do not fit. `out` is then not to be used. Precondition: indices in
+/// range.
 Status weight_signs(const CaseArrays& cases, std::span<WeightSigns> out, Tiers* tiers = nullptr);
 Status weight_signs(const MeshQueries& queries, std::span<WeightSigns> out, Tiers* tiers = nullptr);
 

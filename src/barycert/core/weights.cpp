@@ -32,6 +32,7 @@ Status batch_weights(const Batch& batch, std::span<double> out, Tiers* tiers) {
     if (!rounds_correctly()) return environment_error();
     const Simplex s = batch.simplex;
     const auto n = static_cast<std::size_t>(vertex_count(s));
+    if (Status sizes = check_sizes(batch, out.size(), n); !sizes) return sizes;
     Tiers counts;
     Status status = for_blocks(
         batch,
@@ -128,6 +129,9 @@ Status batch_values(const Batch& batch, const Values& values, std::span<double> 
     const int n = vertex_count(s), components = values.components;
     const auto stride = static_cast<std::size_t>(components);
     if (rounding == Rounding::correct && !rounds_correctly()) return environment_error();
+    if (components < 1)
+        return Error{.what = "number of components", .expected = "at least 1", .found = std::to_string(components)};
+    if (Status sizes = check_sizes(batch, out.size(), stride); !sizes) return sizes;
     BlockValues<T> block_values(n, components);
     const double* const* at = nullptr;
     Tiers counts;

@@ -57,14 +57,15 @@ struct Value {
 /// The value at `point` of the linear field with `values[i]` at vertex i.
 Result<Value> interpolate(Simplex simplex, const double* vertices, const double* point, const double* values);
 
-/// Weights of many cases: out[n * j + i] is weight i of case j, n = vertex_count. Precondition: out.size() is n times
-/// the number of cases. On error `out` is not to be used.
+/// Weights of many cases: out[n * j + i] is weight i of case j, n = vertex_count. Error besides: out.size() is not n
+/// times the number of cases. On error `out` is not to be used. Precondition: indices in range.
 Status barycentric_weights(const CaseArrays& cases, std::span<double> out, Tiers* tiers = nullptr);
 Status barycentric_weights(const MeshQueries& queries, std::span<double> out, Tiers* tiers = nullptr);
 
 /// Values of many cases: out[components * j + c] is component c of case j. A case counts for the highest tier that one
-/// of its components needed. Preconditions: out.size() is `components` times the number of cases, components >= 1. On
-/// error `out` is not to be used. T is double or float.
+/// of its components needed. Errors besides: out.size() is not `components` times the number of cases, components < 1.
+/// On error `out` is not to be used. Preconditions: indices in range, a value for each component of each node. T is
+/// double or float.
 template <class T>
 Status interpolate(const CaseArrays& cases, const ValueArrays<T>& values, std::span<double> out, Tiers* tiers = nullptr,
                    Rounding rounding = Rounding::correct);
