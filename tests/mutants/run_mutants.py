@@ -1,469 +1,143 @@
 #!/usr/bin/env python3
-"""Mutants of the core: one change each, made in a scratch copy, against killer.cpp.
+"""Mutants of the core: one change each (mutant_list.py), made in a scratch copy, against killer.cpp.
 
-  run_mutants.py [--build DIR] [--jobs 2] [--only FILE] [--root DIR] [--scratch DIR] [--report]
+  run_mutants.py [--build DIR] [--jobs 2] [--minutes M] [--only FILE] [--listed] [--root DIR] [--scratch DIR] [--again]
+                 [--report]
 
 --build is a build of barycert whose libraries stand for all that is not mutated (src/libbarycert*.a in it); --root a
-checkout whose sources are mutated, this one if not given. --only takes the
-mutants of one source; --report renders the results of the last run again. The table goes to stdout and, for a whole
-run, to RESULTS.md beside this script. A mutant's status:
+checkout whose sources are mutated, this one if not given. Listed mutants are all run, generated ones until --minutes
+are over; in an order in which those left out lie evenly. --only takes the mutants of one source, --listed those listed;
+--again runs the last run's
+survivors alone, for a killer that has got stronger; --report renders the results of the last run again. The table goes to stdout and, for a whole run, to RESULTS.md
+beside this script. A mutant's status:
   killed     with the check that failed, a crash or a hang
   survived   `tiers` says whether the shares of the tiers changed: then the mutant lives, but no answer got wrong
+  same code  the compiler made the same object files of it: it was not run
   does not compile
   stale      the text to be changed is not in the source any more
 """
-import argparse, json, os, re, shutil, subprocess, sys, time
+import argparse, json, subprocess, sys, time
+from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
+from bench import HERE, Bench
+from mutant_list import all_mutants
+from survivors import EXPLANATIONS
+
 ROOT = HERE.parent.parent
-FLAGS = "-std=c++20 -O1 -ffp-contract=off -DHWY_SHARED_DEFINE -w".split()
-TARGETS = {"fma": "-march=haswell -maes -DHWY_COMPILE_ONLY_STATIC".split(), "split": ["-DHWY_COMPILE_ONLY_EMU128"]}
-LIBRARIES = "-lhwy -ltbb -lfmt -lmpfr -lgmpxx -lgmp -ldl -pthread".split()
-
-# Which sources to compile anew. The integers' inline functions are called from these two alone.
-INTEGERS = ["exact_weights.cpp", "quotient.cpp"]
-USERS = {
-    "integer.hpp": INTEGERS, "fixed_integer.hpp": INTEGERS, "scaled_double.hpp": INTEGERS,
-    "numerators-inl.hpp": ["exact_weights.cpp", "lanes.cpp"],
-    "filter-inl.hpp": ["lanes.cpp"], "refinement-inl.hpp": ["lanes.cpp"], "double_double-inl.hpp": ["lanes.cpp"],
-    "error_free-inl.hpp": ["lanes.cpp"], "blocks.hpp": ["predicates.cpp", "weights.cpp"],
-}
-SOURCES = ["quotient.cpp", "exact_weights.cpp", "lanes.cpp", "predicates.cpp", "weights.cpp", "inverse.cpp"]
-
-F, R, Q, X, S, I, E = ("filter-inl.hpp", "refinement-inl.hpp", "quotient.cpp", "exact_weights.cpp",
-                       "scaled_double.hpp", "integer.hpp", "error_free-inl.hpp")
-# (file, exact text, occurrence, replacement, why)
-EXPLICIT = [
-    # the filter's constants, at half, and at what a case is known for
-    (F, "times(49, product)", 0, "times(24, product)", "half the bound of a tetrahedron's numerator"),
-    (F, "times(49, product)", 0, "times(7, product)", "an error of 9 e is known"),
-    (F, "times(49, product)", 0, "times(0, product)", "no bound"),
-    (F, "times(245, product)", 0, "times(60, product)", "a quarter of the bound of a tetrahedron's volume"),
-    (F, "times(245, product)", 0, "times(7, product)", "an error of 11 e is known"),
-    (F, "times(245, product)", 0, "times(0, product)", "no bound"),
-    (F, "times(8.5, product)", 0, "times(4, product)", "half the bound of a triangle's numerator"),
-    (F, "times(8.5, product)", 0, "times(2, product)", "an error of 4 e is known"),
-    (F, "times(8.5, product)", 0, "times(0, product)", "no bound"),
-    (F, "times(37, product)", 0, "times(9, product)", "a quarter of the bound of a triangle's area"),
-    (F, "times(37, product)", 0, "times(2, product)", "an error of 3.3 e is known"),
-    (F, "times(37, product)", 0, "times(0, product)", "no bound"),
-    (F, "times(5.5, p)", 0, "times(2.5, p)", "half the bound of a segment's numerator"),
-    (F, "times(5.5, p)", 0, "times(1, p)", "an error of 1.6 e is known"),
-    (F, "times(5.5, p)", 0, "times(0, p)", "no bound"),
-    (F, "times(4 * 11.5, p)", 0, "times(4 * 5, p)", "half the bound of a triangle3d's numerator"),
-    (F, "times(4 * 11.5, p)", 0, "times(4 * 0.25, p)", "an error of 4 * 0.5 e is known"),
-    (F, "times(4 * 11.5, p)", 0, "times(0, p)", "no bound"),
-    (F, "times(4 * 11.5, q)", 0, "times(4 * 5, q)", "half the bound of N.N"),
-    (F, "times(4 * 11.5, q)", 0, "times(0, q)", "no bound"),
-    (F, "filter_epsilon = 0x1p-52", 0, "filter_epsilon = 0x1p-53", "the unit of rounding to nearest alone"),
-    (F, "filter_epsilon = 0x1p-52", 0, "filter_epsilon = 0x1p-56", "a sixteenth of every bound"),
-    # its ranges
-    (F, "all_at_least(tag, r, 0x1p-300)", 0, "all_at_least(tag, r, 0x1p-1000)", "tetrahedron: underflow"),
-    (F, "all_at_least(tag, r, 0x1p-300)", 0, "all_at_least(tag, r, 0.0)", "tetrahedron: no range"),
-    (F, "all_at_least(tag, r, 0x1p-300)", 1, "all_at_least(tag, r, 0x1p-1000)", "triangle: underflow"),
-    (F, "all_at_least(tag, r, 0x1p-300)", 1, "all_at_least(tag, r, 0.0)", "triangle: no range"),
-    (F, "hn::Le(size, hn::Set(tag, 0x1p1000))", 0, "hn::Le(size, hn::Set(tag, 1e308 * 10))", "overflow"),
-    (F, "all_within(tag, largest, 0, 0x1p300)", 0, "all_within(tag, largest, 0, 0x1p1000)", "segment: overflow"),
-    (F, "hn::Set(tag, 0x1p-400)", 0, "hn::Set(tag, 0x1p-1000)", "segment: underflow"),
-    (F, "hn::Set(tag, 0x1p-400)", 0, "hn::Set(tag, 0.0)", "segment: no lower end"),
-    (F, "all_within(tag, largest, 0, 0x1p100)", 0, "all_within(tag, largest, 0, 0x1p1000)", "triangle3d: overflow"),
-    (F, "hn::Set(tag, 0x1p-602)", 0, "hn::Set(tag, 0x1p-1000)", "triangle3d: underflow"),
-    (F, "hn::Set(tag, 0x1p-602)", 0, "hn::Set(tag, 0.0)", "triangle3d: no lower end"),
-    (F, "most = hn::Max(most, x[k])", 0, "most = x[k]", "the range of the last axis alone"),
-    (F, "least = hn::Min(least, x[k])", 0, "least = x[k]", "the range of the last axis alone"),
-    (F, "out[k] = hn::Max(out[k], hn::Abs(vectors[2][k]))", 0, "out[k] = hn::Abs(vectors[2][k])", "extents of the last vector"),
-    (F, "out[k] = hn::Max(out[k], larger_magnitude(vectors[2][k], vectors[3][k]))", 0, "", "extents of two vectors"),
-    (F, "return hn::Max(hn::Abs(x), hn::Abs(y))", 0, "return hn::Max(x, y)", "a sign in the extents"),
-    (F, "hn::And(bound.valid, hn::Gt(smallest, bound.numerator))", 0, "bound.valid", "numerators are never checked"),
-    (F, "hn::And(hn::Gt(size, bound.denominator), hn::Le", 0, "(hn::Le", "the denominator is never checked"),
-    (F, "hn::And(bound.valid, hn::Gt(smallest, bound.numerator))", 0, "hn::Gt(smallest, bound.numerator)", "ranges are never checked"),
-    (F, "packed = hn::Xor(packed, hn::And(flip, hn::Set(bits, all)))", 0, "", "the orientation left out"),
-    (F, "y * z + x * z + x * y", 0, "y * z + x * z", "a term of P left out"),
-    # the middle tier
-    (R, "constant(4 * u) * dot", 0, "constant(1 * u) * dot", "the bound for one weight taken for all"),
-    (R, "constant(100) * k", 0, "constant(1) * k", "hundredth of the bound on the residual's part"),
-    (R, "constant(50))", 0, "constant(0))", "the part that does not grow with k left out"),
-    (R, "constant(100) * k + constant(50)", 0, "constant(0) * k + constant(0)", "no bound on the residual's part"),
-    (R, "constant(4 * 172 * u * u)", 0, "constant(4 * 1 * u * u)", "rounding of sums of remainders"),
-    (R, "constant(4 * 172 * u * u)", 0, "constant(4 * 0.01 * u * u)", "a hundredth of a rounding"),
-    (R, "constant(4 * 172 * u * u)", 0, "constant(0.0)", "no bound on the rounding of remainders"),
-    (R, "out.error = scale * (from_residual + from_rounding)", 0, "out.error = hn::Zero(tag)", "no bound at all"),
-    (R, "all_at_least(tag, x, 0x1p-200)", 0, "all_at_least(tag, x, 0.0)", "underflow"),
-    (R, "hn::Le(largest, constant(0x1p900))", 0, "hn::Le(largest, constant(0x1p1023))", "overflow of the split"),
-    (R, "hn::Le(g, constant(0x1p1000))", 0, "hn::Le(g, constant(1e308 * 10))", "overflow"),
-    (R, "hn::Ge(k, constant(0.125))", 0, "hn::Ge(k, constant(0.0))", "overflow of the denominator"),
-    (R, "hn::Le(k, constant(0x1p36))", 0, "hn::Le(k, constant(0x1p200))", "a degenerate cell is not certified to be none"),
-    (R, "hn::Le(out.magnitude, constant(0x1p100))", 0, "hn::Le(out.magnitude, constant(0x1p1000))", "large weights"),
-    (R, "hn::Le(out.magnitude, constant(0x1p100))", 1, "hn::Le(out.magnitude, constant(0x1p1000))", "large weights, projected"),
-    (R, "18 * u * u / (5.5", 0, "1 * u * u / (5.5", "segment: error of the numerator"),
-    (R, "18 * u * u / (5.5", 0, "0 * u * u / (5.5", "segment: none"),
-    (R, "44 * u * u / (11.5", 0, "2 * u * u / (11.5", "triangle3d: error of numerators"),
-    (R, "44 * u * u / (11.5", 0, "0 * u * u / (11.5", "triangle3d: none"),
-    (R, "constant(18 * u * u) * f.denominator.high", 0, "constant(0.0) * f.denominator.high", "segment: error of the denominator"),
-    (R, "largest * denominator_error", 0, "hn::Zero(tag)", "error of the denominator left out"),
-    (R, "constant(1.02)", 0, "constant(0.1)", "a tenth of the bound"),
-    (R, "constant(26 * u * u) * largest", 0, "hn::Zero(tag)", "rounding of the correction"),
-    (R, "hn::Le(denominator_error, constant(0x1p-10) * f.denominator.high)", 0,
-     "hn::Le(denominator_error, constant(0x1p200) * f.denominator.high)", "a degenerate cell is not certified to be none"),
-    (R, "(f.numerator[i].low - w * f.denominator.low)", 0, "f.numerator[i].low", "a correction of the denominator left out"),
-    (R, "hn::Set(tag, 1 + 0x1p-40) * r.error", 0, "hn::Set(tag, 0.5) * r.error", "half the bound"),
-    (R, "hn::Set(tag, 0x1p-52) * hn::Abs(r.correction[i])", 0, "hn::Zero(tag)", "rounding of y -+ error"),
-    (R, "x + (y - error), high", 0, "x + y, high", "one end of the bound only"),
-    (R, "high = x + (y + error)", 0, "high = x + y", "one end of the bound only"),
-    (R, "certain = hn::And(certain, hn::Eq(low, high));", 0, "", "certain whatever it rounds to"),
-    (R, "hn::Set(tag, n) * r.error", 0, "r.error", "one weight's error taken for all of them"),
-    (R, "hn::Set(tag, 0x1p-98)", 0, "hn::Set(tag, 0x1p-106)", "a 256th of the rounding of a value"),
-    (R, "hn::Set(tag, 0x1p-98)", 0, "hn::Zero(tag)", "no rounding of a value"),
-    (R, "certain = hn::And(certain, in_range);", 0, "", "nodal values of any range"),
-    (R, "hn::Set(tag, 0x1p-800)", 0, "hn::Set(tag, 0x1p-1074)", "nodal values: underflow"),
-    (R, "hn::Set(tag, 0x1p900)", 0, "hn::Set(tag, 0x1p1023)", "nodal values: overflow"),
-    (R, "error, certain) +\n           hn::Zero(tag)", 0, "error, certain)", "a zero value may be negative"),
-    (R, "- residual_sum * c.v[last][k]", 0, "", "what the weights' sum lacks left out"),
-    (R, "final_weight.low - others.sum_rest", 0, "final_weight.low", "remainders of the sum left out"),
-    (R, "sum_rest = sum_rest + t.low;", 1, "", "remainders of sums left out"),
-    (R, "product_rest = product_rest - p.low;", 0, "", "remainders of products left out"),
-    # error-free transforms
-    (E, "0x1p27 + 1", 0, "0x1p28 + 1", "split one bit too low"),
-    (E, "0x1p27 + 1", 0, "0x1p27", "split by a power of two"),
-    (E, "hn::MulSub(x, y, p)", 0, "hn::Zero(hn::DFromV<V>())", "no remainder of a product"),
-    (E, " + a.low * b.low", 0, "", "the low parts' product left out"),
-    # rounding
-    (Q, "(inexact || (mantissa & 1) != 0)", 0, "(mantissa & 1) != 0", "sticky bit left out"),
-    (Q, "(inexact || (mantissa & 1) != 0)", 0, "inexact", "ties down"),
-    (Q, "(inexact || (mantissa & 1) != 0)", 0, "true", "ties up"),
-    (Q, "rest > half ||", 0, "", "only ties rounded up"),
-    (Q, "top > 1023", 0, "top > 1022", "overflow one binade early"),
-    (Q, "top > 1023", 0, "top > 1024", "overflow one binade late"),
-    (Q, "std::max(top - 52, -1074)", 0, "std::max(top - 52, -1073)", "subnormals a bit short"),
-    (Q, "std::max(top - 52, -1074)", 0, "std::max(top - 52, -1075)", "subnormals a bit long"),
-    (Q, "std::max(top - 52, -1074)", 0, "top - 52", "no subnormals"),
-    (Q, "std::max(top - 52, -1074)", 0, "std::max(top - 51, -1074)", "52 bits"),
-    (Q, "dropped > 64", 0, "dropped > 63", "the half of the smallest subnormal lost"),
-    (Q, "dropped > 64", 0, "dropped > 65", "below the half of the smallest subnormal"),
-    (Q, "dropped == 64 ? 0 : q >> dropped", 0, "q >> (dropped & 63)", "a shift by the width"),
-    (Q, "--q;", 0, "", "the digit is not corrected"),
-    (Q, "while (borrow != 0)", 0, "if (borrow != 0)", "corrected once at most"),
-    (Q, "while (borrow != 0)", 0, "while (false)", "never corrected"),
-    (Q, "const bool inexact = std::any_of(rest, rest + k,", 0, "const bool inexact = std::any_of(rest, rest + 1,", "one limb of the rest"),
-    (Q, "std::any_of(rest, rest + k,", 0, "std::any_of(rest + 1, rest + k,", "the lowest limb of the rest left out"),
-    (Q, "exponent + n_bits - d_bits - 63", 0, "exponent + n_bits - d_bits - 62", "exponent"),
-    (Q, "rest[k] = subtract_with_borrow(rest[k], carry, borrow);", 0, "", "the top limb is not subtracted from"),
-    (Q, "if (n_bits == 0) return 0.0;", 0, "", "no zero"),
-    (Q, "below >> (64 - part)", 0, "0", "bits across limbs left out"),
-    (Q, "static_cast<UInt128>(q) * divisor[i] + carry", 0, "static_cast<UInt128>(q) * divisor[i]", "carry left out"),
-    # integers
-    (I, "limbs_[whole + 1] = part == 0 ? 0 : mantissa >> (64 - part)", 0, "limbs_[whole + 1] = 0", "bits across limbs"),
-    (I, "+ r.limbs_[i + j] + carry", 0, "+ r.limbs_[i + j]", "carry of a product left out"),
-    (I, "r.limbs_[i + b.size_] = carry;", 0, "", "last carry of a row left out"),
-    (I, "if (carry != 0) r.limbs_[r.size_++] = 1;", 0, "", "last carry of a sum left out"),
-    (I, "r.negative_ = x.negative_ != y.negative_;", 0, "r.negative_ = false;", "sign of a product"),
-    (I, "r.negative_ = order > 0 ? x.negative_ : y_negative;", 0, "r.negative_ = x.negative_;", "sign of a difference"),
-    (I, "r.negative_ = x.size_ == 0 ? y_negative : x.negative_;", 0, "r.negative_ = x.negative_;", "sign of 0 + y"),
-    (I, "if (order == 0) return {};", 0, "", "zero has limbs"),
-    (I, "sum(x, y, !y.negative_)", 0, "sum(x, y, y.negative_)", "minus is plus"),
-    (I, "if (a.limbs_[i] == 0) continue;", 0, "", "speed alone"),
-    ("fixed_integer.hpp", "y.limbs[i] & x_mask", 0, "y.limbs[i] & 0", "negative factor"),
-    ("fixed_integer.hpp", "x.limbs[i] & y_mask", 0, "x.limbs[i] & 0", "negative factor"),
-    ("fixed_integer.hpp", "borrow = 0;", 1, "", "borrow carried over to the second factor"),
-    ("fixed_integer.hpp", "+ r.limbs[i + j] + carry", 0, "+ r.limbs[i + j]", "carry of a product left out"),
-    ("fixed_integer.hpp", "r.limbs[i + M] = carry;", 0, "", "last carry of a row left out"),
-    (X, "bits <= 64 - 3) return as", 0, "bits <= 64 - 2) return as", "one bit less room in one limb"),
-    (X, "bits <= 64 - 3) return as", 0, "bits <= 64 - 1) return as", "two bits less room in one limb"),
-    (X, "bits <= 64 - 3) return as", 0, "bits <= 64) return as", "no room in one limb"),
-    (X, "bits <= 128 - 3", 0, "bits <= 128 - 2", "one bit less room in two limbs"),
-    (X, "bits <= 128 - 3", 0, "bits <= 128", "no room in two limbs"),
-    (X, "unit.bits() <= 64 - 3", 0, "unit.bits() <= 64", "no room for nodal values"),
-    (X, "unit.bits() <= 64 - 3", 0, "true", "nodal values of any spread in one limb"),
-    (X, "bits = std::max(bits, u.bits())", 0, "bits = u.bits()", "the width of the last axis alone"),
-    (S, "std::max(biased, 1) - 1", 0, "biased - 1", "subnormals a binade lower"),
-    (S, "biased == 0 ? 0 : std::uint64_t{1} << 52", 0, "std::uint64_t{1} << 52", "a hidden bit for subnormals"),
-    (S, "m == 0 ? ScaledDouble::none : ", 0, "", "zeros count for the unit"),
-    (S, "x.mantissa == 0 ? 0 : above", 0, "above", "zeros count for the width"),
-    (S, "top = std::max(top, u.top);", 0, "", "axes are not joined: the largest"),
-    (S, "exponent = std::min(exponent, u.exponent);", 0, "", "axes are not joined: the least"),
-    (S, "x.exponent + static_cast<int>(std::bit_width(x.mantissa))", 0, "x.exponent", "width of a mantissa left out"),
-    (X, "if (common) {", 0, "if (false) {", "a unit for each axis where one is due"),
-    (X, "above = x[i] & f_mask;", 0, "above = 0;", "negative nodal value"),
-    (X, "high - (f & x_mask)", 0, "high", "negative numerator"),
-    (X, "sign(i) < 0, magnitude", 0, "sign_of(i) < 0, magnitude", "sign of the denominator left out"),
-    (X, "sign_of(sum, limbs_ + 1) != orientation()", 0, "sign_of(sum, limbs_ + 1) < 0", "sign of the denominator left out"),
-    (X, "sum.sign() != orientation()", 0, "sum.sign() < 0", "sign of the denominator left out, wide"),
-    (X, "unit_x.exponent + unit_y.exponent", 0, "unit_x.exponent", "unit of the second factor"),
-    # single predicates
-    ("predicates.cpp", "8.5 * epsilon", 0, "4 * epsilon", "half the bound of orient2d"),
-    ("predicates.cpp", "8.5 * epsilon", 0, "1.5 * epsilon", "an error of 4 e is known"),
-    ("predicates.cpp", "8.5 * epsilon", 0, "0 * epsilon", "no bound"),
-    ("predicates.cpp", "49 * epsilon", 0, "24 * epsilon", "half the bound of orient3d"),
-    ("predicates.cpp", "49 * epsilon", 0, "5 * epsilon", "an error of 9 e is known"),
-    ("predicates.cpp", "49 * epsilon", 0, "0 * epsilon", "no bound"),
-    ("predicates.cpp", "epsilon = 0x1p-52", 0, "epsilon = 0x1p-55", "an eighth of every bound"),
-    ("predicates.cpp", "extent >= 0x1p-300", 0, "extent >= 0x1p-1000", "underflow"),
-    ("predicates.cpp", "extent <= 0x1p300", 0, "extent <= 0x1p1000", "overflow"),
-    ("predicates.cpp", "in_range(x) && in_range(y) && std::fabs(det) > 8.5", 0, "std::fabs(det) > 8.5", "orient2d: no range"),
-    ("predicates.cpp", "in_range(x) && in_range(y) && in_range(z) && ", 0, "", "orient3d: no range"),
-    ("predicates.cpp", "if (w.degenerate()) return WeightSigns::degenerate_simplex();", 0, "", "degenerate simplices"),
-    ("predicates.cpp", "bits |= 1U << (4 + i)", 0, "bits |= 1U << (3 + i)", "zero bit of another weight"),
-    ("predicates.cpp", "w.orientation() < 0 ? 1U << 8 : 0", 0, "0", "orientation bit left out"),
-    ("predicates.cpp", "counts.degenerate += out[first + j].degenerate() ? 1 : 0;", 0, "", "degenerate cases uncounted"),
-    # weights, blocks, lanes, inverse
-    ("weights.cpp", "if (!rounds_correctly()) return environment_error();", 0, "", "batch of weights in any environment"),
-    ("weights.cpp", "if (!rounds_correctly()) return environment_error();", 1, "", "single weights in any environment"),
-    ("weights.cpp", "if (!rounds_correctly()) return environment_error();", 2, "", "single value in any environment"),
-    ("weights.cpp", "if (rounding == Rounding::correct && !rounds_correctly()) return environment_error();", 0, "", "values in any environment"),
-    ("weights.cpp", "w.degenerate() ? nan : w.weight(i)", 0, "w.weight(i)", "weights of degenerate simplices"),
-    ("weights.cpp", "const bool usable = all_finite(f, n);", 0, "const bool usable = true;", "nodal values that are not finite"),
-    ("weights.cpp", "const bool usable = all_finite(f, n);", 0, "const bool usable = all_finite(f, n - 1);", "the last nodal value"),
-    ("weights.cpp", "finite = finite && usable;", 0, "finite = usable;", "the last component alone counts"),
-    ("weights.cpp", "values.at[i] + components_ * first", 0, "values.at[i] + first", "components of later blocks"),
-    ("blocks.hpp", "block_size + lanes::slack", 0, "block_size", "no room behind the undecided (size of a stack array alone)"),
-    ("blocks.hpp", "all_finite(point, 1) ? all_finite(point, 2) ? 2 : 1 : 0", 0, "0", "which coordinate of the point"),
-    ("blocks.hpp", "all_finite(vertices, space_dimension(s) * vertex_count(s)) && all_finite(point, space_dimension(s))", 0,
-     "all_finite(vertices, space_dimension(s) * vertex_count(s))", "points that are not finite"),
-    ("lanes.cpp", "run(hn::CappedTag<double, 1>());", 0, "", "the rest of a batch"),
-    ("lanes.cpp", "undecided[found] = static_cast<std::uint32_t>(at + i);", 0, "undecided[found] = static_cast<std::uint32_t>(i);", "numbers within the vector"),
-    ("lanes.cpp", "(bits[0] >> i & 1) == 0 ? 1 : 0", 0, "(bits[0] >> i & 1) == 0 && i + 1 < width ? 1 : 0", "the last lane's indecision"),
-    ("lanes.cpp", "out + at * stride + static_cast<std::size_t>(c), stride", 0, "out + at * stride, stride", "all components to the first"),
-    ("lanes.cpp", "values[n * c + i] + at", 0, "values[i] + at", "all components from the first"),
-    ("inverse.cpp", "if (w.degenerate()) {", 0, "if (false) {", "undetermined values"),
-    ("inverse.cpp", "Parameter{w.weight(1), false}", 0, "Parameter{w.weight(0), false}", "the weight of a"),
-    ("inverse.cpp", "if (!std::isfinite(numbers[i]))", 0, "if (false)", "arguments that are not finite"),
-    ("inverse.cpp", "static_cast<int>(n));", 0, "static_cast<int>(n) - 1);", "the last vertex left out"),
-]
-
-COMPARISONS = [(" > ", " >= "), (" < ", " <= "), (" >= ", " > "), (" <= ", " < "), (" == ", " != "), (" != ", " == "),
-               ("hn::Gt(", "hn::Ge("), ("hn::Ge(", "hn::Gt("), ("hn::Le(", "hn::Lt("), ("hn::Eq(", "hn::Ne(")]
-SIGNS = [(" + ", " - "), (" - ", " + ")]
-COMPARED = [F, R, Q, X, S, I, "predicates.cpp", "weights.cpp", "blocks.hpp", "inverse.cpp", "lanes.cpp"]
-SUMMED = ["numerators-inl.hpp", E, "double_double-inl.hpp", R, F]
 
 
-def code_lines(text):
-    """(offset, line) of lines of code, without what is to the right of //."""
-    offset = 0
-    for line in text.splitlines(keepends=True):
-        code = line.split("//")[0]
-        if code.strip() and not code.lstrip().startswith(("#", "template", "static_assert")):
-            yield offset, code
-        offset += len(line)
+def key(m):
+    return (m["file"], m["old"], m["new"], m["line"], m["position"])
 
 
-class Mutant:
-    def __init__(self, file, position, old, new, why, text):
-        self.file, self.position, self.old, self.new, self.why = file, position, old, new, why
-        self.status, self.detail, self.tiers, self.target = "", "", "", "fma"
-        self.line = text.count("\n", 0, position) + 1 if position >= 0 else 0
-        start = text.rfind("\n", 0, position) + 1
-        self.source = text[start:text.find("\n", position)].strip() if position >= 0 else ""
-
-    def key(self):
-        return [self.file, self.old, self.new, self.source]
-
-
-def all_mutants(core, only):
-    texts, mutants = {}, []
-    for file in {m[0] for m in EXPLICIT} | set(COMPARED) | set(SUMMED):
-        texts[file] = (core / file).read_text()
-    for file, old, occurrence, new, why in EXPLICIT:
-        position = -1
-        for _ in range(occurrence + 1):
-            position = texts[file].find(old, position + 1)
-            if position < 0:
-                break
-        mutants.append(Mutant(file, position, old, new, why, texts[file]))
-    for files, changes, why in ((COMPARED, COMPARISONS, "comparison"), (SUMMED, SIGNS, "sign")):
-        for file in files:
-            for offset, code in code_lines(texts[file]):
-                if why == "comparison" and re.search(r"\bfor \(|<[^<>]*>\s*\w*\s*\(|constexpr bool projected", code) and "(" in code and "for (" in code:
-                    continue
-                for old, new in changes:
-                    at = code.find(old)
-                    while at >= 0:
-                        if not (why == "sign" and "for (" in code):
-                            mutants.append(Mutant(file, offset + at, old, new, why, texts[file]))
-                        at = code.find(old, at + 1)
-    for m in mutants:
-        if m.file == E and m.position > texts[E].find("HWY_INLINE TwoTerms<V> split(") and "MulSub" not in m.source:
-            m.target = "split"
-        if m.file == E and m.old.startswith("0x1p27"):
-            m.target = "split"
-    return [m for m in mutants if not only or m.file == only], texts
-
-
-class Bench:
-    """Compiles, links and runs; the objects of the sources that a mutant leaves alone are shared."""
-
-    def __init__(self, build, scratch, root):
-        self.build, self.scratch, self.root = build, scratch, root
-        shutil.rmtree(scratch, ignore_errors=True)
-        self.pristine = scratch / "pristine" / "barycert" / "core"
-        shutil.copytree(root / "src/barycert/core", self.pristine)
-        self.cases = scratch / "cases.bin"
-
-    def compile(self, include, source, target, out):
-        flags = FLAGS + (TARGETS[target] if source == "lanes.cpp" else [])
-        return subprocess.run(["g++", *flags, "-I", include, "-c", include / "barycert/core" / source, "-o", out],
-                              capture_output=True, text=True)
-
-    def link(self, objects, out):
-        libraries = [self.build / "src/libbarycert_audit.a", self.build / "src/libbarycert.a"]
-        return subprocess.run(["g++", self.scratch / "killer.o", *objects, *libraries, *LIBRARIES, "-o", out],
-                              capture_output=True, text=True)
-
-    def check(self, program):
-        try:
-            command = [program, "check", self.cases] + ([] if self.flushed else ["-"])
-            run = subprocess.run(command, capture_output=True, text=True, timeout=40)
-        except subprocess.TimeoutExpired:
-            return "killed", "hang"
-        line = run.stdout.strip().splitlines()[-1:] or [""]
-        if run.returncode == 0 and line[0].startswith("SURVIVED"):
-            return "survived", line[0].split()[1]
-        return "killed", line[0][7:] if line[0].startswith("KILLED") else f"crash ({run.returncode})"
-
-    def prepare(self, jobs):
-        root = self.scratch / "pristine"
-        with ThreadPoolExecutor(jobs) as pool:
-            killer = pool.submit(subprocess.run, ["g++", "-std=c++20", "-O1", "-frounding-math", "-ffp-contract=off", "-w",
-                                 "-I", self.root / "src", "-c", HERE / "killer.cpp", "-o", self.scratch / "killer.o"])
-            tasks = [(s, "fma") for s in SOURCES] + [("lanes.cpp", "split")]
-            done = list(pool.map(lambda t: self.compile(root, t[0], t[1], self.scratch / f"{t[0]}.{t[1]}.o"), tasks))
-            killer.result()
-        for d in done:
-            if d.returncode != 0:
-                sys.exit(d.stderr)
-        self.hash = {}
-        for target in TARGETS:
-            program = self.scratch / f"baseline.{target}"
-            linked = self.link([self.object(s, target) for s in SOURCES], program)
-            if linked.returncode != 0:
-                sys.exit(linked.stderr)
-            if target == "fma":
-                made = subprocess.run([program, "prepare", self.cases, self.root / "data"], capture_output=True, text=True)
-                print(made.stdout, file=sys.stderr)
-            self.flushed = True
-            status, detail = self.check(program)
-            if status != "survived" and "flushed" in detail:
-                print(f"the core itself fails: {detail}; going on without flushed subnormals", file=sys.stderr)
-                self.flushed = False
-                status, detail = self.check(program)
-            if status != "survived":
-                sys.exit(f"the core itself fails: {detail}")
-            self.hash[target] = detail
-
-    def object(self, source, target):
-        return self.scratch / f"{source}.{target if source == 'lanes.cpp' else 'fma'}.o"
-
-    def run(self, number, m, text):
-        if m.position < 0:
-            m.status = "stale"
-            return
-        place = self.scratch / f"m{number}"
-        core = place / "barycert" / "core"
-        core.mkdir(parents=True)
-        for f in self.pristine.iterdir():
-            if f.name != m.file:
-                (core / f.name).symlink_to(f)
-        (core / m.file).write_text(text[:m.position] + m.new + text[m.position + len(m.old):])
-        anew = USERS.get(m.file, [m.file])
-        objects = []
-        for source in SOURCES:
-            if source not in anew:
-                objects.append(self.object(source, m.target))
-                continue
-            objects.append(place / f"{source}.o")
-            # headers are found beside the including file first: compile from the copy
-            if not (core / source).is_file() or (core / source).is_symlink():
-                (core / source).unlink(missing_ok=True)
-                shutil.copy(self.pristine / source, core / source)
-            if self.compile(place, source, m.target, objects[-1]).returncode != 0:
-                m.status = "does not compile"
-                break
-        else:
-            program = place / "killer"
-            if self.link(objects, program).returncode != 0:
-                m.status = "does not compile"
-            else:
-                m.status, m.detail = self.check(program)
-                if m.status == "survived":
-                    m.tiers = "as before" if m.detail == self.hash[m.target] else "changed"
-                    m.detail = ""
-        shutil.rmtree(place)
-
-
-def explanation(m, table):
-    for file, part, new, text in table:
+def explanation(m):
+    for file, part, new, text in EXPLANATIONS:
         if m["file"] == file and part in m["source"] + " | " + m["old"] and (not new or new == m["new"].strip()):
             return text
     return "unexplained"
 
 
-def render(results, data):
-    from survivors import EXPLANATIONS
-    count = {}
-    for m in results:
-        count[m["status"]] = count.get(m["status"], 0) + 1
+def cell(s):
+    return s.strip().replace("|", "\\|").replace("\n", " ")
+
+
+def change(m):
+    where = "" if m["listed"] else f" in `{cell(m['source'])}`"
+    return f"`{cell(m['old'])}` -> `{cell(m['new'])}`{where}"
+
+
+def counts(mutants):
+    found = Counter(m["status"] for m in mutants)
+    return ", ".join(f"{found[s]} {s}" for s in sorted(found))
+
+
+def render(data):
+    mutants = sorted(data["mutants"], key=lambda m: (not m["listed"], m["file"], m["line"]))
+    listed = [m for m in mutants if m["listed"]]
+    generated = [m for m in mutants if not m["listed"]]
     out = ["# Mutants of the core", "",
-           "Made by `run_mutants.py` (see there what is changed and how); `killer.cpp` is what they met.", "",
-           f"{len(results)} of {data['all']} mutants in {data['seconds']:.0f} s, of the sources at {data['revision']}: " + ", ".join(f"{n} {s}" for s, n in sorted(count.items())) + ".", "",
-           "A mutant that survives for want of a case, and not because it is proven to be equivalent, is told so.", "",
-           "## Survivors", "", "| where | change | tiers | why it survives |", "|---|---|---|---|"]
-    cell = lambda s: s.replace("|", "\\|").replace("\n", " ")
-    change = lambda m: f"`{cell(m['old'].strip())}` -> `{cell(m['new'].strip())}`" + (
-        f" in `{cell(m['source'])}`" if m["why"] in ("comparison", "sign") else "")
-    for m in results:
+           "Made by `run_mutants.py` (see there what the words mean) from `mutant_list.py`; `killer.cpp` is what they met.",
+           "The lanes were compiled for AVX2 with fused multiply-add, and for Dekker's product without; what is compiled "
+           "for AVX-512 alone was not mutated.", "",
+           f"Sources at {data['revision']}; {data['seconds'] / 60:.0f} minutes.", "", "| | run | of | |", "|---|---|---|---|",
+           f"| listed | {len(listed)} | {data['listed']} | {counts(listed)} |",
+           f"| generated | {len(generated)} | {data['generated']} | {counts(generated)} |",
+           f"| all | {len(mutants)} | {data['listed'] + data['generated']} | {counts(mutants)} |", "",
+           "## Survivors", "",
+           "*Equivalent*: no input can tell. *Slack*: the bound is proven with room, and the runs say down to where. "
+           "*Performance only*: which tier answers changes, not what. *Not covered*: no case was found, and nothing is "
+           "proven.", "", "| where | change | tiers | why it survives |", "|---|---|---|---|"]
+    for m in mutants:
         if m["status"] == "survived":
-            out.append(f"| {m['file']}:{m['line']} | {change(m)} | {m['tiers']} | {cell(explanation(m, EXPLANATIONS))} |")
-    out += ["", "## Killed", "", "| where | change | by |", "|---|---|---|"]
-    for m in results:
+            out.append(f"| {m['file']}:{m['line']} | {change(m)} | {m['tiers']} | {cell(explanation(m))} |")
+    out += ["", "## Others", "", "| where | change | by |", "|---|---|---|"]
+    for m in mutants:
         if m["status"] != "survived":
             out.append(f"| {m['file']}:{m['line']} | {change(m)} | {m['detail'] or m['status']} |")
     return "\n".join(out) + "\n"
 
 
+def run_all(a, saved):
+    start = time.time()
+    before = json.loads(saved.read_text()) if a.again else None
+    old = {key(m): m for m in before["mutants"]} if a.again else {}
+    revision = subprocess.run(["git", "-C", a.root, "rev-parse", "--short", "HEAD"], capture_output=True,
+                              text=True).stdout.strip()
+    bench = Bench(a.build.resolve(), a.scratch, a.root.resolve())
+    bench.prepare(a.jobs)
+    mutants, texts = all_mutants(bench.pristine)
+    mutants = [m for m in mutants if (not a.only or m.file == a.only) and (m.listed or not a.listed)]
+    listed, seconds = sum(m.listed for m in mutants), 0
+    for m in mutants:
+        if a.again and old.get(key(m.__dict__), m.__dict__)["status"] not in ("", "survived"):
+            m.__dict__.update(old[key(m.__dict__)])
+    if a.again:
+        seconds = before["seconds"]
+    print(f"{len(mutants)} mutants", file=sys.stderr)
+
+    def save():
+        saved.write_text(json.dumps({"seconds": seconds + time.time() - start, "whole": not a.only and not a.listed,
+                                     "listed": listed, "generated": len(mutants) - listed, "revision": revision,
+                                     "mutants": [m.__dict__ for m in mutants if m.status]}))
+
+    def work(task):
+        number, m = task
+        if m.status or a.again and key(m.__dict__) not in old and not m.listed:
+            return
+        if not m.listed and time.time() - start > 60 * a.minutes:
+            return
+        bench.run(number, m, texts[m.file])
+        print(f"{number + 1}/{len(mutants)} {m.file}:{m.line} {m.old.strip()!r} -> {m.new.strip()!r}: {m.status} "
+              f"{m.detail}{m.tiers}", file=sys.stderr, flush=True)
+        if number % 8 == 0:
+            save()
+
+    with ThreadPoolExecutor(a.jobs) as pool:
+        list(pool.map(work, enumerate(mutants)))
+    save()
+
+
 def main():
-    parser = argparse.ArgumentParser()
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=Path, default=ROOT / "build")
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--minutes", type=float, default=1e9)
     parser.add_argument("--only", default="")
+    parser.add_argument("--listed", action="store_true")
     parser.add_argument("--scratch", type=Path, default=Path("/tmp/barycert-mutants"))
     parser.add_argument("--root", type=Path, default=ROOT)
-    parser.add_argument("--listed", action="store_true", help="the listed mutants alone, without the generated ones")
+    parser.add_argument("--again", action="store_true")
     parser.add_argument("--report", action="store_true")
     a = parser.parse_args()
     saved = a.scratch / "results.json"
     if not a.report:
-        start = time.time()
-        revision = subprocess.run(["git", "-C", a.root, "rev-parse", "--short", "HEAD"], capture_output=True,
-                                  text=True).stdout.strip()
-        bench = Bench(a.build.resolve(), a.scratch, a.root.resolve())
-        bench.prepare(a.jobs)
-        mutants, texts = all_mutants(bench.pristine, a.only)
-        if a.listed:
-            mutants = [m for m in mutants if m.why not in ("comparison", "sign")]
-        print(f"{len(mutants)} mutants", file=sys.stderr)
-
-        def save():
-            done = [m.__dict__.copy() for m in mutants if m.status]
-            saved.write_text(json.dumps({"seconds": time.time() - start, "only": a.only, "all": len(mutants),
-                                         "revision": revision, "mutants": done}))
-
-        def work(task):
-            number, m = task
-            bench.run(number, m, texts[m.file])
-            print(f"{number + 1}/{len(mutants)} {m.file}:{m.line} {m.old.strip()!r} -> {m.new.strip()!r}: {m.status} {m.detail}{m.tiers}",
-                  file=sys.stderr, flush=True)
-            if number % 8 == 0:
-                save()
-
-        with ThreadPoolExecutor(a.jobs) as pool:
-            list(pool.map(work, enumerate(mutants)))
-        save()
+        run_all(a, saved)
     data = json.loads(saved.read_text())
-    text = render(data["mutants"], data)
+    text = render(data)
     print(text)
-    if not data["only"]:
+    if data["whole"]:
         (HERE / "RESULTS.md").write_text(text)
 
 
