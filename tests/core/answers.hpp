@@ -167,6 +167,6 @@ inline std::uint64_t hash_of_answers(int threads, std::uint64_t cases_a_simplex)
 /// For 4000 cases of each simplex. Pinned: answers are exact, or correctly rounded, so no change to the library may
 /// alter them; a change of the bounds alters the counts of the tiers, and may.
 inline constexpr std::uint64_t pinned_cases = 4000;
-inline constexpr std::uint64_t pinned_hash = 0x1c60383d9fa571a7ULL;
+inline constexpr std::uint64_t pinned_hash = 0x48489dbae5530a6cULL;
 
 }  // namespace barycert::testing_answers

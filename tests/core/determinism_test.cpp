@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "barycert/core/simd.hpp"
+#include "barycert/core/weights.hpp"
 #include "core/answers.hpp"
 
 namespace barycert {
@@ -25,6 +26,24 @@ TEST(LawD1, AnswersAndCountsAreTheSameOnEveryTargetAndAnyNumberOfThreads) {
             EXPECT_EQ(hash_of_answers(threads, pinned_cases), pinned_hash)
                 << "on " << target << ", " << threads << " threads";
         }
+    }
+    EXPECT_TRUE(use_simd_target(""));
+}
+
+// Where an extent is near the largest double, Dekker's product overflows and the fused one does not. Catches a guard
+// that lets such cases pass: one target would then give them to the integers and another not.
+TEST(LawD1, TiersAgreeWhereOneOfTheProductsWouldOverflow) {
+    const double triangle[] = {0x1p1000, .7, -0x1p1000, .6, 0, 0}, in_plane[] = {.1, .3};
+    const double tetrahedron[] = {0x1p1000, .7, .1, -0x1p1000, .6, .9, .1, .3, -.8, 0, 0, 0}, in_space[] = {.1, .3, .2};
+    const double values[] = {1.1, 2.3, 3.7, 4.1};
+    for (const std::string& target : simd_targets()) {
+        ASSERT_TRUE(use_simd_target(target));
+        const auto tiers = [&](Simplex s, const double* vertices, const double* point) {
+            EXPECT_EQ(barycentric_weights(s, vertices, point).value().tier, Tier::exact) << target;
+            EXPECT_EQ(interpolate(s, vertices, point, values).value().tier, Tier::exact) << target;
+        };
+        tiers(Simplex::triangle, triangle, in_plane);
+        tiers(Simplex::tetrahedron, tetrahedron, in_space);
     }
     EXPECT_TRUE(use_simd_target(""));
 }

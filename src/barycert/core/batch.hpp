@@ -21,7 +21,7 @@ struct CaseArrays {
 
 /// Points to be tested against cells of a mesh. Case j is cell cells[j] with the point at points[d * j]; its vertex i
 /// is node corners[n * cells[j] + i], with coordinates nodes[d * node ...], n = vertex_count, d = space_dimension.
-/// Preconditions: every index in range; cells.size() * d == points.size().
+/// Precondition: every index in range.
 struct MeshQueries {
     Simplex simplex = Simplex::tetrahedron;
     std::span<const double> nodes;

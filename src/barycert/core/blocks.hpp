@@ -10,10 +10,11 @@
 #include "barycert/core/batch.hpp"
 #include "barycert/core/lanes.hpp"
 #include "barycert/core/result.hpp"
+#include "barycert/core/strict_math.hpp"
 
 namespace barycert {
 
-/// Cases of a block. Gathered ones of 256 cases take 30 KiB, about the nearest cache.
+/// Cases of a block. Gathered tetrahedra take 16 KiB: they stay in the nearest cache, together with what goes out.
 inline constexpr std::size_t block_size = 128;
 
 /// Doubles from one gathered row to the next. Not a power of two: rows would then share a few sets of the cache.
@@ -202,7 +203,7 @@ inline GatheredBlocks blocks_of(const MeshQueries& queries) {
 template <class Batch, class Decide, class Escalate>
 Status for_blocks(const Batch& batch, Decide decide, Escalate escalate) {
     auto blocks = blocks_of(batch);
-    std::array<std::uint32_t, block_size + lanes::slack> undecided;
+    std::array<std::uint32_t, block_size> undecided;
     for (std::size_t first = 0; first < case_count(batch); first += block_size) {
         const lanes::Cases block = blocks.block(first, std::min(block_size, case_count(batch) - first));
         const std::size_t left = decide(first, block, undecided.data());

@@ -2,8 +2,8 @@
 /// of floating point where floating point is enough.
 ///
 /// Enters: vertices of segments, triangles (in the plane or in 3-space) and tetrahedra, points, nodal values, as
-/// doubles in any unit. Leaves: signs, weights, values, points. Errors come as Result or Status; nothing prints, throws
-/// or exits.
+/// doubles in any unit. Leaves: signs, weights, values, points. Errors come as Result or Status; nothing prints
+/// or exits, and only want of memory throws.
 ///
 /// Laws, each a test by its name (tests/core, tests/laws):
 ///   S1  A sign is exact for every finite double, subnormals and 1e308 included.             predicates.hpp
@@ -23,7 +23,8 @@
 ///   - a time: an answer takes nanoseconds where the filter decides, up to about a microsecond where integers must, and
 ///     several where coordinates differ by more than 2^72 in magnitude;
 ///   - which tier decides (Tiers): it is the same on every machine, but may change with the version;
-///   - checks of indices: those are preconditions.
+///   - checks of indices: those are preconditions;
+///   - anything while floating-point exceptions are trapped; flags are not preserved.
 ///
 /// How it is done: filter-inl.hpp (signs), refinement-inl.hpp (weights and values) and exact_weights.hpp (what those
 /// leave open) prove their bounds where they use them; NOTES.md has measurements, and what was tried.

@@ -7,7 +7,8 @@
 //   two_product    (fused multiply-add, or Dekker with Veltkamp's split where the target has none)
 //                                     exact if |x y| >= 2^-969 or x y = 0 (below, the remainder may lie under 2^-1074;
 //                                     what is lost is then below 2^-1070), and |x|, |y| <= 2^995 for the split
-// The two forms of two_product give the same remainder, for it is exact in both: results do not depend on the target.
+// The two forms of two_product give the same remainder where it is exact, so results do not depend on the target. Where
+// it is not, it lies so far below what it is added to, and below every error bound, that it changes neither.
 //
 // Included once per SIMD target.
 #if defined(BARYCERT_CORE_ERROR_FREE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -19,9 +20,7 @@
 
 #include <hwy/highway.h>
 
-#ifdef __FAST_MATH__
-#error "barycert is not correct under -ffast-math: compile it without"
-#endif
+#include "barycert/core/strict_math.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert {

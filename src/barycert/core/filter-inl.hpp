@@ -2,7 +2,7 @@
 //
 // Let e = 2^-52. In every rounding mode, and also where products are fused or carry more bits, fl(x op y) =
 // (x op y)(1 + t) with |t| <= e, as long as nothing underflows. So no assumption on the floating-point environment is
-// made here: signs stay exact when somebody has changed it.
+// made here: signs stay exact when somebody has changed it. (Carrying more bits rounds twice: e (1 + 2^-11).)
 //
 // A formula is a sum of products ("terms") of computed differences. If each term meets k roundings on its way, the
 // result is off by at most (number of terms) * (largest product) * ((1+e)^k - 1), where the largest product is taken
@@ -20,8 +20,8 @@
 //   segment     P = sum over axes of R_k E_k; the denominator is positive unless the ends coincide
 //   triangle3d  P = 4 (E_y E_z R_y R_z + E_x E_z R_x R_z + E_x E_y R_x R_y), and Q likewise of E alone for N.N
 //
-// Underflow and overflow. A product or difference that underflows is off by up to 2^-1022 (flushed to zero). Outside
-// these ranges the filter says "don't know":
+// Underflow and overflow. A product or difference that underflows is off by up to 2^-1021 (operands
+// and result flushed to zero). Outside these ranges the filter says "don't know":
 //   tetrahedron, triangle   every extent in [2^-300, 2^300]. A lost difference counts 2^-1022 Y Z against e X Y Z with
 //                           X >= 2^-300; a lost product of two 2^-1022 Z against e X Y Z; of three 2^-1022 against
 //                           2^-52-900. All far below the 2 %. Largest value: 24 * 2^900. (It does not do to look for

@@ -18,10 +18,7 @@ struct Cases {
     std::size_t count;  ///< any; below 2^32
 };
 
-/// Room for the numbers of undecided cases: `count` of them and one vector more.
-inline constexpr std::size_t slack = 64;
-
-/// Each returns how many are undecided, their numbers, ascending, in undecided[0 ...].
+/// Each returns how many are undecided, their numbers, ascending, in undecided[0 ...], which has room for `count`.
 
 /// out[j] for case j.
 std::size_t signs(Simplex s, const Cases& cases, WeightSigns* out, std::uint32_t* undecided);
@@ -36,5 +33,8 @@ std::size_t values(Simplex s, const Cases& cases, const double* const* values, i
 /// As `values`, by the plain formula in double (D = sum of volumes, sum of volume times value, divided): nothing is
 /// proved, everything decided. For Rounding::plain.
 void plain_values(Simplex s, const Cases& cases, const double* const* values, int components, double* out);
+
+/// a * b + c is rounded once in the lanes as they were compiled for this target.
+bool contract();
 
 }  // namespace barycert::lanes

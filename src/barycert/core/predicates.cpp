@@ -44,7 +44,7 @@ Status batch_signs(const Batch& batch, std::span<WeightSigns> out, Tiers* tiers)
             counts.degenerate += out[first + j].degenerate() ? 1 : 0;
             return Done{};
         });
-    if (tiers != nullptr) tiers->add(counts);
+    if (status && tiers != nullptr) tiers->add(counts);
     return status;
 }
 

@@ -4,15 +4,12 @@
 ///
 /// What holds (each law is a test of that name in tests/core):
 ///   S1  A sign is exact for every finite input, subnormals and 1e308 included, in every rounding mode, with
-///   flush-to-zero
-///       or without: floating point only answers what its error bound proves, integers answer the rest.
-///   S2  An even permutation of the arguments keeps an orientation, an odd one flips it; the same permutation of
-///   vertices
-///       permutes the signs of the weights. Multiplying any axis by a power of two (without leaving the doubles)
-///       changes no sign in a triangle or tetrahedron; multiplying all axes changes none in any simplex.
+///       flush-to-zero or without: floating point answers only what its error bound proves, integers answer the rest.
+///   S2  An even permutation of the arguments keeps an orientation, an odd one flips it; the same permutation of the
+///       vertices permutes the signs of the weights. Multiplying an axis by a power of two (without leaving the
+///       doubles) changes no sign in a triangle or tetrahedron; multiplying all axes changes none in any simplex.
 ///   D1  Answers depend on the input bits alone, not on threads, SIMD target, compiler or optimisation. So do the
-///   counts
-///       of Tiers.
+///       counts of Tiers.
 ///   E   NaN or infinity among the coordinates gives an Error, never a sign.
 ///
 /// What does not hold: nothing is said about numbers that were rounded before they came here; a point computed to lie

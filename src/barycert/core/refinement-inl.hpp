@@ -27,9 +27,10 @@
 //     numbers, 8 sums: 66 u^2; the product s o_k and the error of s: 9.1 u^2.
 // Together, b = B(r')/|d|:
 //   |c_i - its computed value| <= u b (98.3 k + 24) + 164 u^2 (1 + L) B(V)/|d|    all but the last
-// and for the last at most 3 times that, plus 3 u (|s| + 6.1 b) + 6 u^2 (1 + L). As B(V)/|d| >= 2 k >= 1/2 (|d| <= 4.01
-// G), four times eta_0 = u b (100 k + 50) + 172 u^2 (1 + L) B(V)/|d| bounds every error. The larger constants also
-// cover the roundings of eta itself (below 1 + 20 u), and leave more than 100 u b for the sum in `value` below.
+// and for the last at most 3 times that, plus 3 u (|s| + 6.1 b) + 6 u^2 (1 + L). As B(V)/|d| >= 3 k >= 1/2 (|d| <= 4.01
+// G; triangle: 2 k, |d| <= 2.01 G), four times eta_0 = u b (100 k + 50) + 172 u^2 (1 + L) B(V)/|d| bounds every error.
+// The larger constants also cover the roundings of eta itself (below 1 + 20 u), and leave more than 100 u b for the sum
+// in `value` below.
 //
 // Simplices that are projected on (p need not be in their hull, so r is not small) take numerators and denominator
 // in double-double instead: each monomial meets 17 u^2 (segment: one product, two sums, 9 + 4 + 4) or 43 u^2
@@ -39,12 +40,14 @@
 // |l_i|. So |error| <= 1.01 (E_n + |l_i| E_d) / |d| + 25 u^2 |l_i|, if E_d <= 2^-10 |d|.
 //
 // Ranges; outside them nothing is certain:
-//   extents at least 2^-200, G <= 2^1000, k in [1/8, 2^36], L <= 2^100. So |d| >= 2^-636, and 1/|d| is a normal number.
-//   Underflow loses at most 2^-1070 per operation: in n_k against u a_k >= 2^-453; in r'_k times a_k/|d| = k / extent;
-//   in a dot product times 1/|d|; the last two below 2^-430 against eta >= u^2/2 (B(V)/|d| >= 1/2).
-//   Overflow: of d makes k zero or NaN, of n_i makes L infinite or NaN, any later one makes the error infinite or NaN.
-//   |o_k|, |p_k - o_k| <= 2^900 for Dekker's product, that the targets agree. Projected: as in filter-inl.hpp; P >=
-//   D/4. Nodal values: the largest magnitude F in [2^-800, 2^900] or zero.
+//   extents at least 2^-200, G <= 2^500, hence extents at most 2^900; L <= 2^100; k <= 2^36, and >= 1/8, which it
+//   always is (|d| <= 4.01 G) unless d overflowed. So 2^-636 <= |d|, and 1/|d| is a normal number. Underflow loses at
+//   most 2^-1070 per operation: in n_k against u a_k >= 2^-453; in r'_k times a_k/|d| = k / extent; in a dot product
+//   times 1/|d|; the last two below 2^-430 against eta >= u^2/2 (B(V)/|d| >= 1/2). Overflow: of d makes k zero or NaN,
+//   of n_i makes L infinite or NaN, any later one makes the error infinite or NaN. |o_k|, |p_k - o_k| <= 2^900: with
+//   the extents, no product reaches 2^1003, and Dekker's is as good as the fused one, so that tiers are the same on all
+//   targets. Projected: as in filter-inl.hpp; P >= D/4. Nodal values: the largest magnitude F in [2^-800, 2^900] or
+//   zero.
 // A NaN anywhere ends in a comparison that is false.
 //
 // Included once per SIMD target.
@@ -186,7 +189,7 @@ HWY_INLINE Refined<s, D> refine(D tag, const Absolute<s, V>& c) {
     for (int j = 1; j < d; ++j) least = hn::Min(least, x[j]);
     const auto sizes = hn::And(hn::Ge(least, constant(0x1p-200)), hn::Le(largest, constant(0x1p900)));
     const auto condition = hn::And(hn::Ge(k, constant(0.125)), hn::Le(k, constant(0x1p36)));
-    const auto values = hn::And(hn::Le(g, constant(0x1p1000)), hn::Le(out.magnitude, constant(0x1p100)));
+    const auto values = hn::And(hn::Le(g, constant(0x1p500)), hn::Le(out.magnitude, constant(0x1p100)));
     out.valid = hn::And(sizes, hn::And(condition, values));
     return out;
 }

@@ -17,7 +17,7 @@ constexpr std::string_view name(Tier t) {
     return t == Tier::filter ? "filter" : t == Tier::double_double ? "double-double" : "exact";
 }
 
-/// Counts of cases, one tier each, and what became of them. Batch functions add to what is there.
+/// Counts of cases, one tier each, and what became of them. Batch functions add to what is there, unless they fail.
 struct Tiers {
     std::uint64_t filter = 0;
     std::uint64_t double_double = 0;

@@ -1,6 +1,7 @@
 #include "barycert/core/weights.hpp"
 
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "barycert/core/blocks.hpp"
@@ -49,7 +50,7 @@ Status batch_weights(const Batch& batch, std::span<double> out, Tiers* tiers) {
             if (!exact_weights(s, c.vertices.data(), c.point.data(), out.data() + n * (first + j))) ++counts.degenerate;
             return Done{};
         });
-    if (tiers != nullptr) tiers->add(counts);
+    if (status && tiers != nullptr) tiers->add(counts);
     return status;
 }
 
@@ -107,7 +108,7 @@ private:
     std::vector<double> buffer_;
 };
 
-/// Values of the last tier, one a component; `stride` apart for vertex i, component c at values[n * c + i][j].
+/// Values of the last tier, one a component: that of vertex i, component c is values[n * c + i][j].
 void exact_values(const ExactWeights& w, int n, const double* const* values, std::size_t j, int components, double* out,
                   Tiers& counts) {
     counts.add(Tier::exact);
@@ -156,7 +157,7 @@ Status batch_values(const Batch& batch, const Values& values, std::span<double> 
             exact_values(w, n, at, j, components, out.data() + stride * (first + j), counts);
             return Done{};
         });
-    if (tiers != nullptr) tiers->add(counts);
+    if (status && tiers != nullptr) tiers->add(counts);
     return status;
 }
 

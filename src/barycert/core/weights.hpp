@@ -4,27 +4,28 @@
 ///
 /// What holds (each law is a test of that name in tests/core):
 ///   W1  A weight has the sign of the exact one. It is zero only if that is zero, or rounds to zero for being at most
-///   half
-///       of the smallest subnormal (then as a zero with its sign; weight_signs tells the two apart).
+///       half of the smallest subnormal (then as a zero with its sign; weight_signs tells the two apart).
 ///   W2  Each weight is the exact one rounded to nearest, ties to even, subnormal results and infinity included.
 ///   V1  Each value is the exact sum of weight times nodal value, rounded once in the same way, for every component.
-///   V2  At a point on a shared face, edge or vertex the value has the same bits from every cell that holds it.
+///   V2  At a point on a shared face, edge or vertex the value has the same bits from every cell that holds it, if the
+///       cells are proper and their nodal values finite.
 ///   D1  Results depend on the input bits alone, not on threads, SIMD target, compiler or optimisation.
-///   A degenerate simplex is told, not weighed: its weights and values are NaN, and it is counted.
-///   A nodal value that is NaN or infinite makes its component NaN, and is counted.
+///   A degenerate simplex is told, not weighed: its weights and values are NaN, and the case is counted.
+///   A nodal value that is NaN or infinite makes its component NaN, and the case is counted.
 ///   NaN or infinity among the coordinates gives an Error, and so does a floating-point environment in which rounding
 ///   is not to nearest or subnormals are flushed.
 ///
 /// What does not hold: rounded weights need not sum to 1, and the point they give back (point_from_weights) need not be
 /// the one they came from; their rounded combination with nodal values is not the value. On simplices that are
 /// projected on (segment, triangle3d) V2 speaks of points on the shared edge or vertex itself, not of those projected
-/// to it.
+/// to it. Output must not overlap any input.
 ///
 /// How: double + correction with a proven bound, accepted where both ends of the bound round alike; integers elsewhere.
 /// See refinement-inl.hpp and exact_weights.hpp.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 
 #include "barycert/core/batch.hpp"
@@ -36,7 +37,7 @@ namespace barycert {
 
 enum class Rounding : std::uint8_t {
     correct,  ///< as above
-    plain,    ///< in double, with no promise; degenerate simplices give NaN or infinity uncounted
+    plain,    ///< in double, with no promise: nothing but sizes is checked, nothing is counted
 };
 
 struct Weights {
