@@ -21,6 +21,7 @@ struct Record {
     Case c;
     exact::Answer answer;
     Group group = Group::family;
+    std::int8_t orientation = 1;  ///< of the simplex, as WeightSigns has it
 };
 static_assert(std::is_trivially_copyable_v<Record>);
 

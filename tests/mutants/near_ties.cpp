@@ -90,6 +90,22 @@ Case shape(Simplex s, int flat, Random& random) {
     return c;
 }
 
+/// Moves the point of a simplex in 3-space far off, nearly normal to the simplex and to an axis: its weights stay, the
+/// terms of which they are made cancel.
+void lift(Case& c, int axis, Random& random) {
+    const int x = (axis + 1) % 3, y = (axis + 2) % 3;
+    const double o[2] = {c.vertex(0, x), c.vertex(0, y)};
+    const double e[2] = {c.vertex(1, x) - o[0], c.vertex(1, y) - o[1]};
+    const double along = random.uniform(-1, 2), far = std::ldexp(random.coin() ? 1 : -1, random.integer(0, 40));
+    if (c.simplex == Simplex::triangle3d) {  // the plane holds the axis
+        const double m = random.uniform(-1, 2);
+        c.vertex(2, x) = o[0] + m * e[0];
+        c.vertex(2, y) = o[1] + m * e[1];
+    }
+    c.point[static_cast<std::size_t>(x)] = o[0] + along * e[0] - far * e[1];
+    c.point[static_cast<std::size_t>(y)] = o[1] + along * e[1] + far * e[0];
+}
+
 /// To where ranges end: a power of two for each axis, or one for all where only that leaves the weights as they are.
 void scale(Case& c, Random& random) {
     const int n = vertex_count(c.simplex), d = space_dimension(c.simplex);
@@ -133,17 +149,23 @@ void add_near_ties(Simplex s, std::vector<Record>& records) {
             by[1] = d == 3 ? &c.point[static_cast<std::size_t>(3 - first)] : &c.point[0];
             if (d == 2) by[1] = by[0];
         }
-        if (by[1] != by[0] && random.coin()) *by[1] = 0;
+        const bool projected = s == Simplex::segment || s == Simplex::triangle3d;
+        const bool lifted = projected && random.coin();
+        if (lifted) {
+            lift(c, which < 0 ? random.integer(0, 2) : static_cast<int>(by[0] - c.point.data()), random);
+        } else if (by[1] != by[0] && random.coin()) {
+            *by[1] = 0;
+        }
         *by[0] = 0;
         const double near = quantity(c, which).get_d();
         if (near == 0) continue;
         const double next = std::nextafter(near, random.coin() ? HUGE_VAL : -HUGE_VAL);
         const mpq_class tie = (mpq_class(near) + mpq_class(next)) / 2;
-        const int closeness = random.integer(100 - 2 * flat, 112);
+        const int closeness = random.integer(100 - 2 * flat - (lifted ? 40 : 0), 112);
         const double beyond = (random.coin() ? 1 : -1) * std::ldexp(random.uniform(1, 2) * near, -closeness);
         const mpq_class target = tie + mpq_class(beyond);
         steer(c, *by[0], which, target);
-        if (by[1] != by[0] && *by[1] == 0) steer(c, *by[1], which, target);
+        if (!lifted && by[1] != by[0] && *by[1] == 0) steer(c, *by[1], which, target);
         if (random.below(4) == 0) scale(c, random);
         records.push_back(r);
     }

@@ -147,6 +147,36 @@ double integer_of(Random& random, int bits) {
     return static_cast<double>((random.bits() >> (64 - bits)) | 1);
 }
 
+/// A segment of length 2^-500 with a numerator of three products, of which two are below 2^-1022 and outweigh the third.
+Case underflowing(Random& random) {
+    Case c;
+    c.simplex = Simplex::segment;
+    const int turn = random.integer(0, 2);
+    const double sign = random.coin() ? 1 : -1;
+    for (int k = 0; k < 3; ++k) {
+        const int to = (k + turn) % 3;
+        c.vertex(1, to) = 0x1p-500;
+        const double r = k == 0 ? random.uniform(1, 1.1) : -random.uniform(0.6, 0.99);
+        c.point[static_cast<std::size_t>(to)] = 0x1p-500 - sign * r * 0x1p-522;
+    }
+    return c;
+}
+
+/// A triangle with two numerators of different sign that overflow, the one of the denominator's sign by more.
+Case overflowing(Random& random) {
+    Case c;
+    c.simplex = Simplex::triangle;
+    const int up = random.integer(520, 900), across = 1040 - up;
+    const double sign = random.coin() ? 1 : -1;
+    const double r[3][2] = {{1, 0}, {0x1p-10, sign * 0x1p-40}, {0, sign}};
+    const int first = random.integer(0, 2);
+    for (int i = 0; i < 3; ++i) {
+        c.vertex((i + first) % 3, 0) = std::ldexp(r[i][0] * random.uniform(1, 1.5), across);
+        c.vertex((i + first) % 3, 1) = std::ldexp(r[i][1] * random.uniform(1, 1.5), up);
+    }
+    return c;
+}
+
 std::vector<Record> make_records(const std::string& data) {
     audit::MeshSource meshes;
     for (const char* mesh : {"cube-hole", "lattice-box", "plate"})
@@ -226,6 +256,11 @@ std::vector<Record> make_records(const std::string& data) {
             if (projected || s == Simplex::triangle || s == Simplex::tetrahedron) add(c, Group::ends);
         }
     }
+    Random ends(12);
+    for (int i = 0; i < 400; ++i) {
+        add(underflowing(ends), Group::scaled);
+        add(overflowing(ends), Group::scaled);
+    }
     // divisors whose leading limb is just above 2^63 and whose next is large
     Random random(99);
     for (int i = 0; i < 40000; ++i) {
@@ -263,7 +298,13 @@ std::vector<Record> make_records(const std::string& data) {
         for (double& x : c.values) x = any();
         add(c, Group::environment);
     }
-    for (Record& r : records) r.answer = exact::ask(r.c);
+    for (Record& r : records) {
+        r.answer = exact::ask(r.c);
+        const bool oriented = r.c.simplex == Simplex::triangle || r.c.simplex == Simplex::tetrahedron;
+        const bool flat = r.answer.region == Region::degenerate;
+        const auto sign = [&] { return exact_orientation(r.c.vertices.data(), space_dimension(r.c.simplex)); };
+        r.orientation = static_cast<std::int8_t>(flat ? 0 : oriented ? sign() : 1);
+    }
     return records;
 }
 
@@ -324,6 +365,18 @@ std::vector<Orientation> make_orientations(const std::vector<Record>& records) {
             o.solid = d == 3 ? exact_orientation(o.p, 3) : 2;
             all.push_back(o);
         }
+    }
+    // a subnormal difference times a large one, against a product that is no smaller than a subnormal one could be
+    for (int i = 0; i < 200; ++i) {
+        Orientation o;
+        const double y = std::ldexp(1, random.integer(-20, 250)), sign = random.coin() ? 1 : -1;
+        o.p[2] = random.uniform(1, 2) * 0x1p-1023;
+        o.p[3] = sign * y * 0x1p-24;
+        o.p[4] = 0x1p-1000;
+        o.p[5] = sign * y * random.uniform(1, 2);
+        o.flat = exact_orientation(o.p, 2);
+        o.solid = 2;
+        all.push_back(o);
     }
     return all;
 }

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 """Mutants of the core: one change each (mutant_list.py), made in a scratch copy, against killer.cpp.
 
-  run_mutants.py [--build DIR] [--jobs 2] [--minutes M] [--only FILE] [--listed] [--root DIR] [--scratch DIR] [--again]
+  run_mutants.py [--build DIR] [--jobs 2] [--minutes M] [--only FILE] [--listed] [--root DIR] [--scratch DIR] [--again [REGEX]]
                  [--report]
 
 --build is a build of barycert whose libraries stand for all that is not mutated (src/libbarycert*.a in it); --root a
 checkout whose sources are mutated, this one if not given. Listed mutants are all run, generated ones until --minutes
 are over; in an order in which those left out lie evenly. --only takes the mutants of one source, --listed those listed;
---again runs the last run's
-survivors alone, for a killer that has got stronger; --report renders the results of the last run again. The table goes to stdout and, for a whole run, to RESULTS.md
+--again goes on
+with the last run, those of its survivors anew that change a text which matches: for a killer that has got stronger; --report renders the results of the last run again. The table goes to stdout and, for a whole run, to RESULTS.md
 beside this script. A mutant's status:
   killed     with the check that failed, a crash or a hang
   survived   `tiers` says whether the shares of the tiers changed: then the mutant lives, but no answer got wrong
@@ -16,25 +16,27 @@ beside this script. A mutant's status:
   does not compile
   stale      the text to be changed is not in the source any more
 """
-import argparse, json, subprocess, sys, time
+import argparse, json, re, subprocess, sys, time
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from bench import HERE, Bench
 from mutant_list import all_mutants
-from survivors import EXPLANATIONS
+import survivors
 
 ROOT = HERE.parent.parent
 
 
 def key(m):
-    return (m["file"], m["old"], m["new"], m["line"], m["position"])
+    """The same in sources of which comments alone have changed."""
+    return m["file"], m["old"], m["new"], m["source"], m["column"], m["repeat"]
 
 
 def explanation(m):
-    for file, part, new, text in EXPLANATIONS:
-        if m["file"] == file and part in m["source"] + " | " + m["old"] and (not new or new == m["new"].strip()):
+    changed, table = (m["old"], survivors.LISTED) if m["listed"] else (m["source"], survivors.GENERATED)
+    for file, part, new, text in table:
+        if m["file"] == file and part in changed and (not new or new == m["new"].strip()):
             return text
     return "unexplained"
 
@@ -53,6 +55,11 @@ def counts(mutants):
     return ", ".join(f"{found[s]} {s}" for s in sorted(found))
 
 
+def again(data):
+    return ["", "Put together from runs with a killer that got more cases from one to the next: what an earlier one had killed "
+            "was not run again, nor were survivors that the new cases do not aim at."] if data.get("again") else []
+
+
 def render(data):
     mutants = sorted(data["mutants"], key=lambda m: (not m["listed"], m["file"], m["line"]))
     listed = [m for m in mutants if m["listed"]]
@@ -61,7 +68,7 @@ def render(data):
            "Made by `run_mutants.py` (see there what the words mean) from `mutant_list.py`; `killer.cpp` is what they met.",
            "The lanes were compiled for AVX2 with fused multiply-add, and for Dekker's product without; what is compiled "
            "for AVX-512 alone was not mutated.", "",
-           f"Sources at {data['revision']}; {data['seconds'] / 60:.0f} minutes.", "", "| | run | of | |", "|---|---|---|---|",
+           f"Sources at {data['revision']}; {data['seconds'] / 60:.0f} minutes.", *again(data), "", "| | run | of | |", "|---|---|---|---|",
            f"| listed | {len(listed)} | {data['listed']} | {counts(listed)} |",
            f"| generated | {len(generated)} | {data['generated']} | {counts(generated)} |",
            f"| all | {len(mutants)} | {data['listed'] + data['generated']} | {counts(mutants)} |", "",
@@ -81,8 +88,8 @@ def render(data):
 
 def run_all(a, saved):
     start = time.time()
-    before = json.loads(saved.read_text()) if a.again else None
-    old = {key(m): m for m in before["mutants"]} if a.again else {}
+    before = json.loads(saved.read_text()) if a.again is not None else None
+    old = {key(m): m for m in before["mutants"]} if before else {}
     revision = subprocess.run(["git", "-C", a.root, "rev-parse", "--short", "HEAD"], capture_output=True,
                               text=True).stdout.strip()
     bench = Bench(a.build.resolve(), a.scratch, a.root.resolve())
@@ -91,20 +98,21 @@ def run_all(a, saved):
     mutants = [m for m in mutants if (not a.only or m.file == a.only) and (m.listed or not a.listed)]
     listed, seconds = sum(m.listed for m in mutants), 0
     for m in mutants:
-        if a.again and old.get(key(m.__dict__), m.__dict__)["status"] not in ("", "survived"):
-            m.__dict__.update(old[key(m.__dict__)])
-    if a.again:
+        was = old.get(key(m.__dict__))
+        if was and not (was["status"] == "survived" and re.search(a.again, m.old)):
+            m.status, m.detail, m.tiers = was["status"], was["detail"], was["tiers"]
+    if before:
         seconds = before["seconds"]
     print(f"{len(mutants)} mutants", file=sys.stderr)
 
     def save():
-        saved.write_text(json.dumps({"seconds": seconds + time.time() - start, "whole": not a.only and not a.listed,
+        saved.write_text(json.dumps({"again": before is not None, "seconds": seconds + time.time() - start, "whole": not a.only and not a.listed,
                                      "listed": listed, "generated": len(mutants) - listed, "revision": revision,
                                      "mutants": [m.__dict__ for m in mutants if m.status]}))
 
     def work(task):
         number, m = task
-        if m.status or a.again and key(m.__dict__) not in old and not m.listed:
+        if m.status:
             return
         if not m.listed and time.time() - start > 60 * a.minutes:
             return
@@ -128,7 +136,7 @@ def main():
     parser.add_argument("--listed", action="store_true")
     parser.add_argument("--scratch", type=Path, default=Path("/tmp/barycert-mutants"))
     parser.add_argument("--root", type=Path, default=ROOT)
-    parser.add_argument("--again", action="store_true")
+    parser.add_argument("--again", nargs="?", const="")
     parser.add_argument("--report", action="store_true")
     a = parser.parse_args()
     saved = a.scratch / "results.json"
