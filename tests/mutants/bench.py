@@ -26,7 +26,7 @@ HEADERS = ["immintrin.h", "algorithm", "array", "cmath", "cstring", "limits", "s
 
 
 def run(*command, **more):
-    """In a session of its own: schedulers that share out time by sessions then give it no less for its jobs."""
+    """Detached (setsid), so that a scheduler that shares out time by terminals gives all jobs theirs."""
     more["start_new_session"] = True
     return subprocess.run([str(c) for c in command], capture_output=True, text=True, **more)
 

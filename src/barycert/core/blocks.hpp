@@ -123,22 +123,18 @@ inline const std::int32_t* corners_of(const MeshQueries& q, std::size_t n, std::
     return q.corners.data() + n * static_cast<std::size_t>(q.cells[query]);
 }
 
-/// Asks for the memory of a query soon to come, for cells in random order: its corners, and what lies at the nodes of
-/// one that comes sooner, from address(node) for `bytes`. The distances are as good as twice or half of them; without,
-/// random cells of a large mesh took twice as long. Inlined by force: GCC takes a function that only prefetches for one
-/// without effect, and drops the call.
+/// Asks for the memory of a query soon to come, for cells in random order: its corners, and what lies at address(node)
+/// for the nodes of one that comes sooner. The distances are as good as twice or half of them; without, random cells of
+/// a large mesh took twice as long. Inlined by force: GCC takes a function that only prefetches for one without effect,
+/// and drops the call.
 template <class Address>
 [[gnu::always_inline]] inline void fetch_ahead(const MeshQueries& q, std::size_t n, std::size_t query,
-                                               std::size_t bytes, Address address) {
+                                               Address address) {
     constexpr std::size_t corners_ahead = 32, nodes_ahead = 16;
     if (query + corners_ahead >= q.cells.size()) return;
     __builtin_prefetch(corners_of(q, n, query + corners_ahead));
     const std::int32_t* const next = corners_of(q, n, query + nodes_ahead);
-    for (std::size_t i = 0; i < n; ++i) {
-        const char* const at = reinterpret_cast<const char*>(address(next[i]));
-        __builtin_prefetch(at);
-        __builtin_prefetch(at + bytes - 1);  // it may lie across two lines
-    }
+    for (std::size_t i = 0; i < n; ++i) __builtin_prefetch(address(next[i]));
 }
 
 /// Blocks of mesh queries, their coordinates gathered.
@@ -175,7 +171,7 @@ private:
     void gather(std::size_t first, std::size_t count) {
         const auto node = [this](std::int32_t i) { return queries_.nodes.data() + d * static_cast<std::size_t>(i); };
         for (std::size_t j = 0; j < count; ++j) {
-            fetch_ahead(queries_, n, first + j, d * sizeof(double), node);
+            fetch_ahead(queries_, n, first + j, node);
             const std::int32_t* const corners = corners_of(queries_, n, first + j);
             double* const out = coordinates_.data() + j;
             for (std::size_t i = 0; i < n; ++i) {

@@ -91,7 +91,7 @@ public:
             return values.data.data() + components_ * static_cast<std::size_t>(node);
         };
         for (std::size_t j = 0; j < count; ++j) {
-            fetch_ahead(queries, n, first + j, sizeof(T), at);
+            fetch_ahead(queries, n, first + j, at);
             const std::int32_t* const corners = corners_of(queries, n, first + j);
             for (std::size_t i = 0; i < n; ++i) {
                 const T* const from = at(corners[i]);
