@@ -64,11 +64,12 @@ LISTED = [
     (I, "if (order == 0) return {};", "", "Equivalent: the difference of equal magnitudes is trimmed to zero, whose sign "
      "means nothing."),
     (I, "if (a.limbs_[i] == 0) continue;", "", "Performance only: a row of zeros adds nothing."),
-    (X, "bits <= 64 - 3", "bits <= 64 - 2) return as", "Slack: coordinates that use every bit of the bound, in cells whose "
-     "numerators do too, are in none of the cases; more bits are told in this list as killed or not."),
+    (X, "bits <= 64 - 3", "bits <= 64 - 2) return as", "Slack for triangles and tetrahedra (a 3x3 "
+     "determinant of entries below M is below 4 M^3, and a sum in two's complement is right if its result fits); not "
+     "covered for segments and triangles in space."),
     (X, "bits <= 64 - 3", "", "Performance only, where it is stricter; slack where not: the bound has room for a sum of all terms "
      "at their largest."),
-    (X, "bits <= 128 - 3", "", "Slack, or not covered: as with one limb."),
+    (X, "bits <= 128 - 3", "", "As with one limb."),
     (X, "unit.bits()", "", "Performance only, where it is stricter; else not covered."),
     (S, "m == 0 ? ScaledDouble::none", "", "Performance only: zeros then count for the unit, which gets smaller than it need be."),
     (S, "x.mantissa == 0 ? 0 : above", "", "Performance only: the width then is taken for larger than it is."),
