@@ -147,15 +147,7 @@ public:
 
     lanes::Cases block(std::size_t first, std::size_t count) {
         const Simplex s = queries_.simplex;
-        if (s == Simplex::tetrahedron) {
-            gather<4, 3>(first, count);
-        } else if (s == Simplex::triangle) {
-            gather<3, 2>(first, count);
-        } else if (s == Simplex::triangle3d) {
-            gather<3, 3>(first, count);
-        } else {
-            gather<2, 3>(first, count);
-        }
+        with_simplex(s, [&]<Simplex known>() { gather<vertex_count(known), space_dimension(known)>(first, count); });
         lanes::Cases block{};
         const int d = space_dimension(s), n = vertex_count(s);
         for (int i = 0; i < n * d; ++i)
@@ -195,7 +187,8 @@ inline GatheredBlocks blocks_of(const MeshQueries& queries) {
 }
 
 /// Calls decide(first, block, undecided) for each block, which returns how many cases it left undecided, their numbers
-/// within the block in `undecided`; then escalate(first, block, number) for each of these. Stops at the first error.
+/// within the block in `undecided`; then escalate(first, number, c) for each of these, with the case itself, whose
+/// coordinates are finite. Stops with an Error at the first case of which they are not.
 template <class Batch, class Decide, class Escalate>
 Status for_blocks(const Batch& batch, Decide decide, Escalate escalate) {
     auto blocks = blocks_of(batch);
@@ -204,7 +197,11 @@ Status for_blocks(const Batch& batch, Decide decide, Escalate escalate) {
         const lanes::Cases block = blocks.block(first, std::min(block_size, case_count(batch) - first));
         const std::size_t left = decide(first, block, undecided.data());
         for (std::size_t i = 0; i < left; ++i) {
-            if (Status status = escalate(first, block, static_cast<std::size_t>(undecided[i])); !status) return status;
+            const auto j = static_cast<std::size_t>(undecided[i]);
+            const SingleCase c = single_case(batch.simplex, block, j);
+            if (!all_finite(batch.simplex, c.vertices.data(), c.point.data()))
+                return not_finite_error(batch.simplex, c.vertices.data(), c.point.data(), case_prefix(first + j));
+            escalate(first, j, c);
         }
     }
     return Done{};

@@ -103,20 +103,7 @@ void add_product(std::uint64_t* sum, const std::uint64_t* x, int count, std::uin
 
 ExactWeights::ExactWeights(Simplex simplex, const double* vertices, const double* point)
     : count_(vertex_count(simplex)) {
-    switch (simplex) {
-        case Simplex::segment:
-            solve<Simplex::segment>(vertices, point);
-            break;
-        case Simplex::triangle:
-            solve<Simplex::triangle>(vertices, point);
-            break;
-        case Simplex::triangle3d:
-            solve<Simplex::triangle3d>(vertices, point);
-            break;
-        case Simplex::tetrahedron:
-            solve<Simplex::tetrahedron>(vertices, point);
-            break;
-    }
+    with_simplex(simplex, [&]<Simplex s>() { solve<s>(vertices, point); });
 }
 
 template <Simplex s>

@@ -171,56 +171,20 @@ std::int64_t own_target() {
 
 // One entry for all simplices: Highway's tables hold plain functions.
 std::size_t signs(Simplex s, const Cases& cases, WeightSigns* out, std::uint32_t* undecided) {
-    switch (s) {
-        case Simplex::segment:
-            return signs_of<Simplex::segment>(cases, out, undecided);
-        case Simplex::triangle:
-            return signs_of<Simplex::triangle>(cases, out, undecided);
-        case Simplex::triangle3d:
-            return signs_of<Simplex::triangle3d>(cases, out, undecided);
-        default:
-            return signs_of<Simplex::tetrahedron>(cases, out, undecided);
-    }
+    return with_simplex(s, [&]<Simplex known>() { return signs_of<known>(cases, out, undecided); });
 }
 
 std::size_t weights(Simplex s, const Cases& cases, double* out, std::uint32_t* undecided) {
-    switch (s) {
-        case Simplex::segment:
-            return weights_of<Simplex::segment>(cases, out, undecided);
-        case Simplex::triangle:
-            return weights_of<Simplex::triangle>(cases, out, undecided);
-        case Simplex::triangle3d:
-            return weights_of<Simplex::triangle3d>(cases, out, undecided);
-        default:
-            return weights_of<Simplex::tetrahedron>(cases, out, undecided);
-    }
+    return with_simplex(s, [&]<Simplex known>() { return weights_of<known>(cases, out, undecided); });
 }
 
 std::size_t values(Simplex s, const Cases& cases, const double* const* f, int components, double* out,
                    std::uint32_t* undecided) {
-    switch (s) {
-        case Simplex::segment:
-            return values_of<Simplex::segment>(cases, f, components, out, undecided);
-        case Simplex::triangle:
-            return values_of<Simplex::triangle>(cases, f, components, out, undecided);
-        case Simplex::triangle3d:
-            return values_of<Simplex::triangle3d>(cases, f, components, out, undecided);
-        default:
-            return values_of<Simplex::tetrahedron>(cases, f, components, out, undecided);
-    }
+    return with_simplex(s, [&]<Simplex known>() { return values_of<known>(cases, f, components, out, undecided); });
 }
 
 void plain_values(Simplex s, const Cases& cases, const double* const* f, int components, double* out) {
-    switch (s) {
-        case Simplex::segment:
-            return plain_values_of<Simplex::segment>(cases, f, components, out);
-        case Simplex::triangle:
-            return plain_values_of<Simplex::triangle>(cases, f, components, out);
-        case Simplex::triangle3d:
-            return plain_values_of<Simplex::triangle3d>(cases, f, components, out);
-        default:
-            return plain_values_of<Simplex::tetrahedron>(cases, f, components, out);
-    }
+    return with_simplex(s, [&]<Simplex known>() { return plain_values_of<known>(cases, f, components, out); });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -35,14 +35,10 @@ Status batch_signs(const Batch& batch, std::span<WeightSigns> out, Tiers* tiers)
             counts.add(Tier::filter, block.count - left);
             return left;
         },
-        [&](std::size_t first, const lanes::Cases& block, std::size_t j) -> Status {
-            const SingleCase c = single_case(s, block, j);
-            if (!all_finite(s, c.vertices.data(), c.point.data()))
-                return not_finite_error(s, c.vertices.data(), c.point.data(), case_prefix(first + j));
+        [&](std::size_t first, std::size_t j, const SingleCase& c) {
             out[first + j] = exact_signs(s, c.vertices.data(), c.point.data());
             counts.add(Tier::exact);
             counts.degenerate += out[first + j].degenerate() ? 1 : 0;
-            return Done{};
         });
     if (status && tiers != nullptr) tiers->add(counts);
     return status;

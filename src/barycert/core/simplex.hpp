@@ -34,6 +34,21 @@ constexpr std::string_view name(Simplex s) {
     return names[static_cast<std::size_t>(s)];
 }
 
+/// f.operator()<s>() for a simplex s that is known when compiling: the one place where it is told.
+template <class F>
+constexpr decltype(auto) with_simplex(Simplex s, F&& f) {
+    switch (s) {
+        case Simplex::segment:
+            return f.template operator()<Simplex::segment>();
+        case Simplex::triangle:
+            return f.template operator()<Simplex::triangle>();
+        case Simplex::triangle3d:
+            return f.template operator()<Simplex::triangle3d>();
+        default:
+            return f.template operator()<Simplex::tetrahedron>();
+    }
+}
+
 /// The simplex of that name, or nothing.
 constexpr std::optional<Simplex> simplex_named(std::string_view text) {
     for (const Simplex s : all_simplices) {

@@ -42,13 +42,9 @@ Status batch_weights(const Batch& batch, std::span<double> out, Tiers* tiers) {
             counts.add(Tier::double_double, block.count - left);
             return left;
         },
-        [&](std::size_t first, const lanes::Cases& block, std::size_t j) -> Status {
-            const SingleCase c = single_case(s, block, j);
-            if (!all_finite(s, c.vertices.data(), c.point.data()))
-                return not_finite_error(s, c.vertices.data(), c.point.data(), case_prefix(first + j));
+        [&](std::size_t first, std::size_t j, const SingleCase& c) {
             counts.add(Tier::exact);
             if (!exact_weights(s, c.vertices.data(), c.point.data(), out.data() + n * (first + j))) ++counts.degenerate;
-            return Done{};
         });
     if (status && tiers != nullptr) tiers->add(counts);
     return status;
@@ -149,13 +145,9 @@ Status batch_values(const Batch& batch, const Values& values, std::span<double> 
             counts.add(Tier::double_double, block.count - left);
             return left;
         },
-        [&](std::size_t first, const lanes::Cases& block, std::size_t j) -> Status {
-            const SingleCase c = single_case(s, block, j);
-            if (!all_finite(s, c.vertices.data(), c.point.data()))
-                return not_finite_error(s, c.vertices.data(), c.point.data(), case_prefix(first + j));
+        [&](std::size_t first, std::size_t j, const SingleCase& c) {
             const ExactWeights w(s, c.vertices.data(), c.point.data());
             exact_values(w, n, at, j, components, out.data() + stride * (first + j), counts);
-            return Done{};
         });
     if (status && tiers != nullptr) tiers->add(counts);
     return status;

@@ -36,16 +36,7 @@ void add(std::vector<Kernel>& list) {
 }  // namespace
 
 void add_exact(std::vector<Kernel>& list, Simplex s) {
-    switch (s) {
-        case Simplex::segment:
-            return add<Simplex::segment>(list);
-        case Simplex::triangle:
-            return add<Simplex::triangle>(list);
-        case Simplex::triangle3d:
-            return add<Simplex::triangle3d>(list);
-        case Simplex::tetrahedron:
-            return add<Simplex::tetrahedron>(list);
-    }
+    with_simplex(s, [&]<Simplex known>() { add<known>(list); });
 }
 
 }  // namespace barycert::kernels
