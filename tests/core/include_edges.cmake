@@ -4,6 +4,7 @@ cmake_minimum_required(VERSION 3.25)
 set(may_core core)
 set(may_kernels core kernels)
 set(may_mesh core mesh)
+set(may_vtk core mesh vtk)  # and no other folder may include it: VTK is optional
 set(may_locate core mesh locate)
 set(may_sample core mesh locate sample)
 set(may_raster core raster)

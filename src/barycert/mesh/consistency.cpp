@@ -26,13 +26,15 @@ bool fits(const std::vector<T>& values, std::size_t rows) {
     return values.empty() || values.size() == rows;
 }
 
-const char* fault_of_fields(const std::vector<Field>& fields, std::size_t rows) {
+const char* fault_of_fields(const std::vector<Field>& fields, std::size_t rows, FieldValues values) {
     for (const Field& field : fields) {
         if (field.components < 1) return "a field has no components";
         if (field.data.size() != rows * static_cast<std::size_t>(field.components)) {
             return "a field has not one value for each node or cell";
         }
-        if (!all_finite(field.data)) return "a value of a field is not finite, which the format cannot hold";
+        if (values == FieldValues::finite && !all_finite(field.data)) {
+            return "a value of a field is not finite, which the format cannot hold";
+        }
     }
     return nullptr;
 }
@@ -64,7 +66,7 @@ const char* fault_of_faces(const Mesh& mesh) {
 
 }  // namespace
 
-const char* inconsistency(const Mesh& mesh) {
+const char* inconsistency(const Mesh& mesh, FieldValues values) {
     if (mesh.dimension != 2 && mesh.dimension != 3) return "its dimension is neither 2 nor 3";
     if (mesh.index_base != 0 && mesh.index_base != 1) return "its index base is neither 0 nor 1";
     if (mesh.points.size() % static_cast<std::size_t>(mesh.dimension) != 0)
@@ -74,9 +76,10 @@ const char* inconsistency(const Mesh& mesh) {
     }
     if (!all_finite(mesh.points)) return "a coordinate is not finite";
     if (!fits(mesh.point_markers, mesh.point_count())) return "the markers do not match the nodes";
-    if (const char* fault = fault_of_fields(mesh.point_fields, mesh.point_count()); fault != nullptr) return fault;
-    if (const char* fault = fault_of_fields(mesh.cell_fields, mesh.cell_count()); fault != nullptr) return fault;
-    if (const char* fault = fault_of_cells(mesh); fault != nullptr) return fault;
+    for (const char* fault : {fault_of_fields(mesh.point_fields, mesh.point_count(), values),
+                              fault_of_fields(mesh.cell_fields, mesh.cell_count(), values), fault_of_cells(mesh)}) {
+        if (fault != nullptr) return fault;
+    }
     return fault_of_faces(mesh);
 }
 
