@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "core/environments.hpp"
 #include "core/rational.hpp"
 #include "exact/cases.hpp"
 
@@ -328,6 +329,144 @@ TEST(Orientation, by_hand) {
     EXPECT_EQ(orient3d(o, x, y, z).value(), Sign::positive);
     EXPECT_EQ(orient3d(x, o, y, z).value(), Sign::negative);
     EXPECT_EQ(orient3d(o, x, y, x).value(), Sign::zero);
+}
+
+// det3d: three differences between six points.
+
+using SixPoints = std::array<std::array<double, 3>, 6>;
+
+Result<Sign> try_det3d(const SixPoints& p) {
+    return det3d(p[0].data(), p[1].data(), p[2].data(), p[3].data(), p[4].data(), p[5].data());
+}
+
+Sign det3d_by_rationals(const SixPoints& p) {
+    using testing_rational::Q;
+    Q d[3][3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) d[i][k] = Q(p[2 * i + 1][k]) - Q(p[2 * i][k]);
+    }
+    Q det = 0;
+    for (int k = 0; k < 3; ++k) det += d[0][k] * d[1][(k + 1) % 3] * d[2][(k + 2) % 3];
+    for (int k = 0; k < 3; ++k) det -= d[0][k] * d[1][(k + 2) % 3] * d[2][(k + 1) % 3];
+    return static_cast<Sign>(sgn(det));
+}
+
+std::string describe(const SixPoints& p) {
+    std::string text;
+    for (const auto& x : p) {
+        for (const double c : x) text += ' ' + hexadecimal(c);
+        text += '\n';
+    }
+    return text;
+}
+
+/// Of one kind; for most, the last difference is a combination of the other two but for rounding, or a difference
+/// has one end in common with another.
+SixPoints hard_six(Random& r, Kind kind) {
+    SixPoints p;
+    for (auto& x : p) {
+        for (int k = 0; k < 3; ++k) x[static_cast<std::size_t>(k)] = testing_cases::number(r, kind, k);
+    }
+    const int how = r.integer(0, 4);
+    const double f = r.integer(-4, 4) * 0.25, g = r.integer(-4, 4) * 0.25;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double near = p[4][k] + (f * (p[1][k] - p[0][k]) + g * (p[3][k] - p[2][k]));
+        if (how >= 2 && std::isfinite(near)) p[5][k] = near;
+        if (how == 1) p[2][k] = p[0][k];
+    }
+    if (how == 4) p[5][0] = std::nextafter(p[5][0], 0);
+    return p;
+}
+
+TEST(LawS1, DeterminantsOfDifferencesAreThoseOfRationals) {
+    int zeros = 0;
+    for (const Kind kind : all_kinds) {
+        for (std::uint64_t k = 0; k < 1500 && !HasFailure(); ++k) {
+            Random r = Random::stream(1, hash64("det3d"), k);
+            const SixPoints p = hard_six(r, kind);
+            const Sign right = det3d_by_rationals(p);
+            EXPECT_EQ(try_det3d(p).value(), right) << describe(p);
+            zeros += right == Sign::zero ? 1 : 0;
+        }
+    }
+    EXPECT_GT(zeros, 500);
+}
+
+// Axes beyond the filter's limits at 2^+-300 and within.
+TEST(LawS1, DeterminantsOfDifferencesAboutTheLimitsOfTheFilter) {
+    for (std::uint64_t k = 0; k < 3000 && !HasFailure(); ++k) {
+        Random r = Random::stream(1, hash64("det3d limits"), k);
+        SixPoints p = hard_six(r, r.coin() ? Kind::ordinary : Kind::thin);
+        const int limits[] = {-540, -301, -300, 0, 299, 300, 340};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const int shift = limits[r.below(7)];
+            for (auto& x : p) x[axis] = std::ldexp(x[axis], shift);
+        }
+        EXPECT_EQ(try_det3d(p).value(), det3d_by_rationals(p)) << describe(p);
+    }
+}
+
+TEST(LawS1, DeterminantsOfDifferencesAreTheSameInEveryEnvironment) {
+    for (const Kind kind : all_kinds) {
+        for (std::uint64_t k = 0; k < 300; ++k) {
+            Random r = Random::stream(1, hash64("det3d environments"), k);
+            const SixPoints p = hard_six(r, kind);
+            const Sign right = det3d_by_rationals(p);
+            for (const auto& environment : testing_environments::all_environments()) {
+                Sign got = Sign::zero;
+                {
+                    const testing_environments::Changed changed(environment);
+                    got = *try_det3d(p);
+                }
+                ASSERT_EQ(got, right) << environment.name << '\n' << describe(p);
+            }
+        }
+    }
+}
+
+TEST(LawS2, OrderOfDifferencesAndOfTheirEnds) {
+    for (const Kind kind : all_kinds) {
+        for (std::uint64_t k = 0; k < 200 && !HasFailure(); ++k) {
+            Random r = Random::stream(1, hash64("det3d order"), k);
+            const SixPoints p = hard_six(r, kind);
+            const Sign original = try_det3d(p).value();
+            for_permutations(3, [&](const auto& order, bool odd) {
+                for (unsigned swaps = 0; swaps < 8; ++swaps) {
+                    SixPoints image;
+                    bool flips = odd;
+                    for (std::size_t i = 0; i < 3; ++i) {
+                        const std::size_t swapped = swaps >> i & 1;
+                        image[2 * i] = p[2 * order[i] + swapped];
+                        image[2 * i + 1] = p[2 * order[i] + 1 - swapped];
+                        flips ^= swapped == 1;
+                    }
+                    EXPECT_EQ(try_det3d(image).value(), flips ? negated(original) : original) << describe(image);
+                }
+            });
+            const auto at = [&](std::size_t i) { return p[i].data(); };
+            EXPECT_EQ(det3d(at(0), at(1), at(0), at(2), at(0), at(3)).value(),
+                      orient3d(at(0), at(1), at(2), at(3)).value())
+                << describe(p);
+        }
+    }
+}
+
+TEST(LawE, DeterminantsOfDifferences) {
+    const SixPoints good{{{0, 0, 0}, {1, 2, 3}, {5, 5, 5}, {3, 2, 1}, {0, 1, 0}, {7, 7, 0}}};
+    ASSERT_EQ(try_det3d(good).value(), det3d_by_rationals(good));
+    for (const double bad : {testing_rational::infinity, -testing_rational::infinity, std::nan("")}) {
+        for (std::size_t i = 0; i < 6; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                SixPoints p = good;
+                p[i][k] = bad;
+                const auto got = try_det3d(p);
+                ASSERT_FALSE(got);
+                EXPECT_EQ(got.error().what, "coordinate " + std::to_string(k) + " of point " + std::to_string(i));
+                p[i ^ 1U][k] = bad;  // their difference is NaN
+                EXPECT_FALSE(try_det3d(p));
+            }
+        }
+    }
 }
 
 }  // namespace

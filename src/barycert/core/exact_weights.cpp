@@ -99,6 +99,20 @@ void add_product(std::uint64_t* sum, const std::uint64_t* x, int count, std::uin
     sum[count] = add_with_carry(sum[count], limb, carry);
 }
 
+/// Sign of the determinant of three differences, each from one point to another.
+template <int count>
+int sign_of_determinant(const double* const (&points)[count], const int (&ends)[3][2]) {
+    return with_integers<count, 3>(points, false, [&]<class T>(const Lattice<count, 3, T>& lattice) {
+        T u[3], v[3], w[3];
+        formulas::Product<T> m[3];
+        lattice.difference(ends[0][1], ends[0][0], u);
+        lattice.difference(ends[1][1], ends[1][0], v);
+        lattice.difference(ends[2][1], ends[2][0], w);
+        formulas::cross(v, w, m);
+        return sign_of(formulas::dot(u, m));
+    });
+}
+
 }  // namespace
 
 ExactWeights::ExactWeights(Simplex simplex, const double* vertices, const double* point)
@@ -184,15 +198,11 @@ int exact_orient2d(const double* a, const double* b, const double* c) {
 }
 
 int exact_orient3d(const double* a, const double* b, const double* c, const double* d) {
-    return with_integers<4, 3>({a, b, c, d}, false, []<class T>(const Lattice<4, 3, T>& lattice) {
-        T ab[3], ac[3], ad[3];
-        formulas::Product<T> m[3];
-        lattice.difference(1, 0, ab);
-        lattice.difference(2, 0, ac);
-        lattice.difference(3, 0, ad);
-        formulas::cross(ac, ad, m);
-        return sign_of(formulas::dot(ab, m));
-    });
+    return sign_of_determinant<4>({a, b, c, d}, {{0, 1}, {0, 2}, {0, 3}});
+}
+
+int exact_det3d(const double* p, const double* q, const double* r, const double* s, const double* t, const double* u) {
+    return sign_of_determinant<6>({p, q, r, s, t, u}, {{0, 1}, {2, 3}, {4, 5}});
 }
 
 double exact_dot(const double* x, const double* y, int count) {

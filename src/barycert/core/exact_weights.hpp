@@ -58,6 +58,9 @@ int exact_orient2d(const double* a, const double* b, const double* c);
 /// Sign of det(b - a, c - a, d - a). Precondition: finite.
 int exact_orient3d(const double* a, const double* b, const double* c, const double* d);
 
+/// Sign of det(q - p, s - r, u - t). Precondition: finite.
+int exact_det3d(const double* p, const double* q, const double* r, const double* s, const double* t, const double* u);
+
 /// The dot product of `count` pairs (at most 5), correctly rounded. Precondition: finite.
 double exact_dot(const double* x, const double* y, int count);
 

@@ -48,7 +48,7 @@ Sign as_sign(int s) {
     return s < 0 ? Sign::negative : s > 0 ? Sign::positive : Sign::zero;
 }
 
-/// The error of an argument of orient2d or orient3d that is not finite.
+/// The error of an argument of orient2d, orient3d or det3d that is not finite.
 Error bad_argument(std::span<const double* const> points, int d) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         for (int k = 0; k < d; ++k) {
@@ -73,6 +73,25 @@ bool in_range(double extent) {
     return extent >= 0x1p-300 && extent <= 0x1p300;
 }
 
+/// Sign of det(u, v, w) for the differences u = points[1] - points[0], v = points[3] - points[2], w = points[5] -
+/// points[4], if the bound proves it; otherwise 0. A coordinate that is not finite proves nothing: each is in a
+/// difference, which makes an extent infinite or the determinant NaN.
+[[gnu::always_inline]] inline int filtered_det3d(const double* const (&points)[6]) {
+    double u[3], v[3], w[3], extent[3];
+    for (int k = 0; k < 3; ++k) {
+        u[k] = points[1][k] - points[0][k];
+        v[k] = points[3][k] - points[2][k];
+        w[k] = points[5][k] - points[4][k];
+        extent[k] = largest(u[k], v[k], w[k]);
+    }
+    const auto [x, y, z] = extent;
+    const double det =
+        u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
+    if (in_range(x) && in_range(y) && in_range(z) && std::fabs(det) > 49 * epsilon * (x * y * z))
+        return det < 0 ? -1 : 1;
+    return 0;
+}
+
 }  // namespace
 
 Result<Sign> orient2d(const double* a, const double* b, const double* c) {
@@ -85,16 +104,20 @@ Result<Sign> orient2d(const double* a, const double* b, const double* c) {
 }
 
 Result<Sign> orient3d(const double* a, const double* b, const double* c, const double* d) {
-    const double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
-    const double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
-    const double wx = d[0] - a[0], wy = d[1] - a[1], wz = d[2] - a[2];
-    const double x = largest(ux, vx, wx), y = largest(uy, vy, wy), z = largest(uz, vz, wz);
-    const double det = ux * (vy * wz - vz * wy) + uy * (vz * wx - vx * wz) + uz * (vx * wy - vy * wx);
-    if (in_range(x) && in_range(y) && in_range(z) && std::fabs(det) > 49 * epsilon * (x * y * z))
-        return as_sign(det < 0 ? -1 : 1);
+    const int sign = filtered_det3d({a, b, a, c, a, d});
+    if (sign != 0) return as_sign(sign);
     if (!all_finite(a, 3) || !all_finite(b, 3) || !all_finite(c, 3) || !all_finite(d, 3))
         return bad_argument(std::array{a, b, c, d}, 3);
     return as_sign(exact_orient3d(a, b, c, d));
+}
+
+Result<Sign> det3d(const double* p, const double* q, const double* r, const double* s, const double* t,
+                   const double* u) {
+    const int sign = filtered_det3d({p, q, r, s, t, u});
+    if (sign != 0) return as_sign(sign);
+    const std::array points{p, q, r, s, t, u};
+    if (!std::ranges::all_of(points, [](const double* x) { return all_finite(x, 3); })) return bad_argument(points, 3);
+    return as_sign(exact_det3d(p, q, r, s, t, u));
 }
 
 Result<WeightSigns> weight_signs(Simplex simplex, const double* vertices, const double* point, Tiers* tiers) {

@@ -1,4 +1,4 @@
-/// Exact predicates: orientations, and the signs of barycentric weights.
+/// Exact predicates: orientations, determinants of differences, and the signs of barycentric weights.
 ///
 /// Enters: coordinates as doubles, in any unit. Leaves: signs of the exact polynomials in these very doubles.
 ///
@@ -42,6 +42,12 @@ Result<Sign> orient2d(const double* a, const double* b, const double* c);
 
 /// Sign of det(b - a, c - a, d - a) of points with 3 coordinates. Error: a coordinate is not finite.
 Result<Sign> orient3d(const double* a, const double* b, const double* c, const double* d);
+
+/// Sign of det(q - p, s - r, u - t) of points with 3 coordinates: of three differences of any points, such as two edges
+/// of two simplices and what joins them. orient3d(a, b, c, d) is det3d(a, b, a, c, a, d). Swapping the ends of a
+/// difference, or two differences, flips it. Error: a coordinate is not finite.
+Result<Sign> det3d(const double* p, const double* q, const double* r, const double* s, const double* t,
+                   const double* u);
 
 /// Signs of the weights of `point` in the simplex at `vertices` (vertex after vertex, see Case). A degenerate simplex
 /// is told by WeightSigns::degenerate(). `tiers`, if given, counts this case. Error: a coordinate is not finite.
