@@ -7,9 +7,13 @@ install(TARGETS barycert EXPORT barycertTargets INCLUDES DESTINATION ${CMAKE_INS
 # Headers that stand on the standard library alone are public; what includes others' headers stays inside.
 set(internal_headers core/*-inl core/blocks core/exact_weights core/fixed_integer core/integer core/lanes core/quotient core/scaled_double
   exact/integers exact/rounding exact/solve kernels/registry kernels/scanline kernels/variants
-  kernels/vectors kernels/*_formulas mesh/integer_row mesh/row_errors mesh/scanner mesh/tetgen_reader mesh/text_table
-  audit/witness_json report/terminal_text)
+  kernels/vectors kernels/*_formulas mesh/facets mesh/integer_row mesh/row_errors mesh/scanner mesh/tetgen_reader mesh/text_table
+  check/box_tree check/boundary check/cells check/disjoint_sets check/exact_volumes check/facet_contact check/facets check/files
+  check/findings check/nodes check/overlap check/pairs check/shape check/witness audit/witness_json report/terminal_text vtk/xml_name)
 list(TRANSFORM internal_headers REPLACE "(.+)" "PATTERN;\\1.hpp;EXCLUDE")
+if(NOT TARGET barycert_vtk)
+  list(APPEND internal_headers PATTERN vtk EXCLUDE)
+endif()
 if(NOT TARGET barycert_audit)
   foreach(folder exact audit report)
     list(APPEND internal_headers PATTERN ${folder} EXCLUDE)
@@ -20,6 +24,10 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/barycert/ DESTINATION ${CMAKE_INSTAL
 if(TARGET barycert_audit)
   install(TARGETS barycert_audit EXPORT barycertAuditTargets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   install(EXPORT barycertAuditTargets NAMESPACE barycert:: DESTINATION ${BARYCERT_CMAKE_DIR})
+endif()
+if(TARGET barycert_vtk)
+  install(TARGETS barycert_vtk EXPORT barycertVtkTargets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(EXPORT barycertVtkTargets NAMESPACE barycert:: DESTINATION ${BARYCERT_CMAKE_DIR})
 endif()
 if(TARGET barycert_cli)
   install(TARGETS barycert_cli)

@@ -4,13 +4,14 @@ cmake_minimum_required(VERSION 3.25)
 set(may_core core)
 set(may_kernels core kernels)
 set(may_mesh core mesh)
+set(may_check core mesh check)
 set(may_vtk core mesh vtk)  # and no other folder may include it: VTK is optional
-set(may_locate core mesh locate)
-set(may_sample core mesh locate sample)
+set(may_locate core mesh check locate)
+set(may_sample core mesh check locate sample)
 set(may_raster core raster)
 set(may_exact exact)  # and core/simplex.hpp: shared code would be shared bugs
-set(may_audit core kernels mesh exact audit)
-set(may_report core kernels mesh exact audit report)
+set(may_audit core kernels mesh check exact audit)
+set(may_report core kernels mesh check exact audit report)
 
 set(errors "")
 file(GLOB_RECURSE files RELATIVE ${SOURCE_DIR}/barycert ${SOURCE_DIR}/barycert/*.hpp ${SOURCE_DIR}/barycert/*.cpp

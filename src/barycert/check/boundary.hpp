@@ -1,0 +1,23 @@
+/// Internal: the boundary as a complex: ridges, pieces, cavities, tunnels.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "barycert/check/exact_volumes.hpp"
+#include "barycert/check/facets.hpp"
+#include "barycert/check/findings.hpp"
+
+namespace barycert::check {
+
+struct BoundaryPieces {
+    Boundary summary;
+    std::vector<std::uint32_t> facets;  ///< for each piece one of its facets: an index into Facets::boundary
+    Integer enclosed;                   ///< d! times the volume that the boundary encloses, in the unit of ExactVolumes
+};
+
+/// Finds open_boundary, pinched_ridge, pinched_node.
+BoundaryPieces check_boundary(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, const ExactVolumes& volumes,
+                              Findings& findings);
+
+}  // namespace barycert::check

@@ -1,0 +1,42 @@
+/// What is known of a mesh, as a value that others can rely on.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "barycert/mesh/mesh.hpp"
+
+namespace barycert::check {
+
+struct Report;
+struct Options;
+
+enum class Verdict : std::uint8_t { not_checked, not_certified, certified };
+
+constexpr std::string_view name(Verdict v) {
+    return v == Verdict::certified ? "certified" : v == Verdict::not_certified ? "not certified" : "not checked";
+}
+
+/// Only check::run makes one that is not `not_checked`. It remembers which mesh it speaks of by a fingerprint of the
+/// coordinates and the corners of its cells.
+class Certificate {
+public:
+    Certificate() = default;
+
+    Verdict verdict() const { return verdict_; }
+
+    /// The verdict if `mesh` is the mesh that was checked, else not_checked. Reads the whole mesh once.
+    Verdict verdict_on(const Mesh& mesh) const;
+
+    /// True if `mesh` is certified: it is the mesh that was checked, and P1 to P5 of check.hpp hold.
+    bool covers(const Mesh& mesh) const { return verdict_on(mesh) == Verdict::certified; }
+
+private:
+    friend Report run(const Mesh&, const Options&);
+    Certificate(Verdict verdict, const Mesh& mesh);
+
+    Verdict verdict_ = Verdict::not_checked;
+    std::uint64_t fingerprint_ = 0;
+};
+
+}  // namespace barycert::check

@@ -1,0 +1,157 @@
+#include "barycert/check/check.hpp"
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "barycert/check/boundary.hpp"
+#include "barycert/check/cells.hpp"
+#include "barycert/check/disjoint_sets.hpp"
+#include "barycert/check/exact_volumes.hpp"
+#include "barycert/check/facets.hpp"
+#include "barycert/check/files.hpp"
+#include "barycert/check/findings.hpp"
+#include "barycert/check/nodes.hpp"
+#include "barycert/check/pairs.hpp"
+#include "barycert/check/witness.hpp"
+
+namespace barycert::check {
+namespace {
+
+/// Sets of usable cells connected over facets.
+std::uint64_t count_parts(const Mesh& mesh, const std::vector<std::uint8_t>& usable,
+                          const std::vector<Mesh::Index>& neighbours) {
+    DisjointSets parts(usable.size());
+    for (std::size_t i = 0; i < neighbours.size(); ++i) {
+        const std::size_t cell = i / mesh.corners();
+        if (neighbours[i] > static_cast<Mesh::Index>(cell)) parts.join(cell, static_cast<std::size_t>(neighbours[i]));
+    }
+    std::uint64_t count = 0;
+    for (std::size_t cell = 0; cell < usable.size(); ++cell) {
+        count += usable[cell] != 0 && parts.find(cell) == cell ? 1 : 0;
+    }
+    return count;
+}
+
+/// Overlapping pairs first, then those whose boundary facets touch; each with its witness.
+std::vector<Contact> contacts(const Mesh& mesh, const Measures& measures, std::vector<CellPair> overlapping,
+                              std::vector<CellPair> touching, std::size_t limit) {
+    std::vector<CellPair> pairs;
+    for (auto* list : {&overlapping, &touching}) {
+        for (CellPair& p : *list) std::sort(p.begin(), p.end());
+        std::sort(list->begin(), list->end());
+        for (const CellPair& p : *list) {
+            if (std::find(pairs.begin(), pairs.end(), p) == pairs.end() && pairs.size() < limit) pairs.push_back(p);
+        }
+    }
+    std::vector<Contact> all;
+    for (const CellPair& p : pairs) {
+        const auto a = static_cast<std::size_t>(p[0]), b = static_cast<std::size_t>(p[1]);
+        if (a == b || measures.orientation[a] == 0 || measures.orientation[b] == 0) continue;
+        const Common common = common_part(mesh.dimension, corner_points(mesh, a), corner_points(mesh, b));
+        all.push_back({p, common.dimension == mesh.dimension, common.dimension, common.witness});
+    }
+    return all;
+}
+
+/// Arrays whose sizes do not make whole nodes or cells: nothing else can be said of such a mesh.
+const char* fault_of_sizes(const Mesh& mesh) {
+    if (mesh.dimension != 2 && mesh.dimension != 3) return "the dimension is neither 2 nor 3";
+    if (mesh.points.size() % static_cast<std::size_t>(mesh.dimension) != 0) return "coordinates without a whole node";
+    if (mesh.cells.size() % mesh.corners() != 0) return "corners without a whole cell";
+    if (std::max(mesh.point_count(), mesh.cell_count()) > INT32_MAX) return "more than 2147483647 nodes or cells";
+    return nullptr;
+}
+
+class Check {
+public:
+    Check(const Mesh& mesh, const Options& options) : mesh_(mesh), options_(options), findings_(options.examples) {}
+
+    bool run(Report& report) {
+        if (const char* fault = fault_of_sizes(mesh_); fault != nullptr) {
+            findings_.add(Problem::bad_structure, {.detail = fault});
+        } else {
+            check_all(report);
+        }
+        report.findings = std::move(findings_).list();
+        return std::none_of(report.findings.begin(), report.findings.end(),
+                            [](const Finding& f) { return text_of(f.problem).breaks; });
+    }
+
+private:
+    void stage(const char* name) const {
+        if (options_.progress) options_.progress(name);
+    }
+
+    void check_all(Report& report) {
+        Measures& measures = report.measures;
+        stage("nodes");
+        const std::vector<std::uint8_t> finite = check_nodes(mesh_, findings_);
+        stage("cells");
+        const ExactVolumes volumes(mesh_.dimension, mesh_.points);
+        const Cells cells = check_cells(mesh_, finite, volumes, measures, findings_);
+        report.positive = cells.positive;
+        report.negative = cells.negative;
+        report.degenerate = cells.degenerate;
+        stage("facets");
+        const Facets facets = check_facets(mesh_, cells.usable, measures, findings_);
+        report.parts = count_parts(mesh_, cells.usable, facets.neighbours);
+        stage("boundary");
+        const BoundaryPieces pieces = check_boundary(mesh_, facets.boundary, volumes, findings_);
+        report.boundary = pieces.summary;
+        report.volume = {volumes.rounded(cells.total), volumes.rounded(pieces.enclosed),
+                         (cells.total - pieces.enclosed).sign() == 0};
+        stage("contacts of the boundary");
+        std::vector<CellPair> touching = find_boundary_contacts(mesh_, facets.boundary, measures, findings_);
+        find_nested_parts(mesh_, facets.boundary, pieces.facets, measures, findings_);
+        check_files(mesh_, cells.usable, facets, findings_);
+        std::vector<CellPair> overlapping;
+        if (may_overlap()) {
+            stage("overlapping cells");
+            overlapping = find_overlapping_cells(mesh_, measures, findings_);
+        }
+        report.contacts = contacts(mesh_, measures, std::move(overlapping), std::move(touching), options_.contacts);
+    }
+
+    /// One of P2 to P4 fails, or a cell is left out of them; otherwise the theorem says that there is none.
+    bool may_overlap() const {
+        for (const ProblemText& t : problem_texts) {
+            if (t.breaks && t.condition != "P5" && findings_.count(t.problem) > 0) return true;
+        }
+        return false;
+    }
+
+    const Mesh& mesh_;
+    const Options& options_;
+    Findings findings_;
+};
+
+}  // namespace
+
+const Finding* Report::find(Problem problem) const {
+    const auto f =
+        std::find_if(findings.begin(), findings.end(), [&](const Finding& g) { return g.problem == problem; });
+    return f == findings.end() ? nullptr : &*f;
+}
+
+Report run(const Mesh& mesh, const Options& options) {
+    const auto start = std::chrono::steady_clock::now();
+    Report report;
+    report.dimension = mesh.dimension;
+    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+    arena.execute([&] {
+        report.threads = tbb::this_task_arena::max_concurrency();
+        const bool whole = Check(mesh, options).run(report);
+        report.certificate = Certificate(whole ? Verdict::certified : Verdict::not_certified, mesh);
+    });
+    if (mesh.dimension == 2 || mesh.dimension == 3) {
+        report.nodes = mesh.point_count();
+        report.cells = mesh.cell_count();
+    }
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return report;
+}
+
+}  // namespace barycert::check

@@ -1,0 +1,128 @@
+/// Is a mesh really a partition? Proved in exact arithmetic, or the reasons why not.
+///
+/// Enters: a Mesh of tetrahedra in 3-space or triangles in the plane, as read from a file or made in memory; its
+/// indices and coordinates may be anything. Only corners count: cells of second order are taken with straight sides.
+/// Leaves: a Report. What is said of it as exact (signs, volumes, counts, contacts, the certificate) is so for every
+/// finite double; shape measures are plain double. Nothing prints; only want of memory throws.
+///
+/// Words. d is the dimension. A facet of a cell has all its corners but one, and two facets are the same if they have
+/// the same nodes, wherever these lie. A facet of exactly one cell is a boundary facet. Facets are neighbours over a
+/// ridge, the d - 1 nodes that two of them share (an edge in 3D, a node in 2D). A piece of the boundary is what
+/// boundary facets are connected to over ridges that exactly two of them hold.
+///
+/// Theorem. Let a mesh satisfy
+///   P1  every corner of every cell is a node with finite coordinates, and no cell is degenerate;
+///   P2  no facet belongs to more than two cells, and where it belongs to two these lie on opposite sides of it;
+///   P3  two boundary facets meet, if at all, in a common vertex or edge of both (the same nodes);
+///   P4  of each piece of the boundary, one cell at it has its interior free of all other cells.
+/// Then the cells are a simplicial complex: any two of them meet in a common face of both or not at all. Hence they
+/// partition the domain that is their union: no overlap, no crack, and the boundary facets are the boundary of that
+/// domain. Which way a cell's corners are ordered does not matter: P2 speaks of where cells lie. The domain may have
+/// several parts, cavities and tunnels, and may touch itself in common vertices and edges.
+///
+/// Proof. For x on no facet, let m(x) be the number of cells that hold x. Walk from outside the box of the mesh, where
+/// m = 0, to x, past all faces of dimension d - 2 and less, which do not separate space. Crossing a facet of two cells
+/// changes nothing by P2: one is left, the other entered. Crossing a boundary facet changes m by one, as by P3 no other
+/// boundary facet passes there. So m is constant on each region into which the boundary facets divide space, and
+/// greater by one on the cell's side of each of them. Let two boundary facets of a piece share a ridge that no third
+/// one has. Near a point inside that ridge no other boundary facet is, by P3, so the two divide a small ball into two
+/// sectors, of which one has the greater m: it lies on the cell's side of both. So, from facet to facet, one region
+/// lies on the cells' side all along a piece, and one on the other side. By P4 m = 1 on the former, hence m = 0 on the
+/// latter. Every region but one that fills all space borders on a piece, so m <= 1 everywhere: interiors of cells are
+/// disjoint. Let now x be a point of two cells c and c', in the relative interior of the face F of c, and let F be no
+/// face of c'. In a small ball around x let k count, point by point, the cells that have F: k <= m, and k changes at
+/// boundary facets that have F alone, by P2. If there are such, then by P3 no other boundary facet meets x; each region
+/// of the ball borders on one of them, and has k = m = 1 on its cell's side, m = 0 on the other. If there are none, k
+/// is constant and, as c counts, k = 1 = m in all of the ball. Either way k = m, so no point of the ball is in the
+/// interior of a cell that has not F. But x is in the closed cell c', whose interior comes as near to it as one likes:
+/// a contradiction. So each point that c and c' share lies in a common face, and as all they share is convex, it is one
+/// common face.
+///
+/// Conditions are necessary, too, up to the choice of cells in P4, so a simplicial complex is certified.
+/// Besides, P5: neighbours and faces that came with the mesh (.neigh, .face) are those of its cells. A certificate says
+/// that P1 to P5 hold.
+///
+/// Costs: time O(n log n) for n cells of bounded degree; a mesh without certificate is also searched for overlapping
+/// cells, which takes as long again, and longer where boxes of cells overlap each other much.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "barycert/check/certificate.hpp"
+#include "barycert/check/contact.hpp"
+#include "barycert/check/delaunay.hpp"
+#include "barycert/check/measures.hpp"
+#include "barycert/check/problem.hpp"
+#include "barycert/mesh/mesh.hpp"
+
+namespace barycert::check {
+
+struct Options {
+    int threads = 0;                                  ///< 0: as many as the machine has
+    bool delaunay = false;                            ///< test every interior facet, exactly
+    std::size_t examples = 10;                        ///< places kept of each problem
+    std::size_t contacts = 20;                        ///< overlapping or touching pairs for which a witness is computed
+    std::function<void(const char* stage)> progress;  ///< called as each stage begins, from the calling thread
+};
+
+/// Where a problem is. Unused entries are -1.
+struct Place {
+    std::array<Mesh::Index, 2> cells{-1, -1};
+    std::array<Mesh::Index, 3> nodes{-1, -1, -1};
+    const char* detail = "";  ///< which kind, where a problem has several
+};
+
+struct Finding {
+    Problem problem{};
+    std::uint64_t count = 0;
+    bool at_least = false;      ///< the search was given up after so many
+    std::vector<Place> places;  ///< the first of them
+};
+
+/// The boundary, as it is combinatorially.
+struct Boundary {
+    std::uint64_t facets = 0;
+    std::uint64_t pieces = 0;
+    bool closed = true;                   ///< at every ridge boundary facets continue each other
+    bool manifold = true;                 ///< every ridge in two boundary facets, every node in one fan of them
+    std::uint64_t cavities = 0;           ///< pieces that enclose no cells: signed volume negative
+    std::optional<std::int64_t> tunnels;  ///< of all pieces (their genus); none in 2D or where not manifold
+};
+
+/// Signed volumes (areas in 2D), each an exact number rounded once.
+struct Volume {
+    double cells = 0;     ///< sum of the cells' volumes, all taken as positive
+    double boundary = 0;  ///< enclosed by the boundary facets, outward
+    bool equal = false;   ///< the two exact numbers are the same
+};
+
+struct Report {
+    int dimension = 3;
+    std::uint64_t nodes = 0, cells = 0;
+    int threads = 0;
+    double seconds = 0;
+
+    Certificate certificate;
+    std::vector<Finding> findings;  ///< those that occur, in the order of Problem: first what breaks the certificate
+
+    std::uint64_t positive = 0, negative = 0, degenerate = 0;  ///< cells by exact orientation
+    std::uint64_t parts = 0;                                   ///< sets of cells connected over facets
+    Boundary boundary;
+    Volume volume;
+
+    Measures measures;              ///< of each cell
+    std::vector<Contact> contacts;  ///< pairs that overlap or touch where they must not
+    std::optional<Delaunay> delaunay;
+
+    bool certified() const { return certificate.verdict() == Verdict::certified; }
+    const Finding* find(Problem problem) const;
+};
+
+Report run(const Mesh& mesh, const Options& options = {});
+
+}  // namespace barycert::check

@@ -1,0 +1,1 @@
+// See check_delaunay in delaunay_check.hpp.

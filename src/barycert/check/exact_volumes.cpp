@@ -1,0 +1,117 @@
+#include "barycert/check/exact_volumes.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "barycert/core/fixed_integer.hpp"
+#include "barycert/core/numerators-inl.hpp"
+#include "barycert/core/quotient.hpp"
+
+namespace barycert::check {
+namespace {
+
+namespace formulas = HWY_NAMESPACE;
+
+Integer as_integer(const Integer& x) {
+    return x;
+}
+
+template <int N>
+Integer as_integer(const Fixed<N>& x) {
+    if (!x.negative()) return {false, x.limbs};
+    const Fixed<N> magnitude = Fixed<N>{} - x;
+    return {true, magnitude.limbs};
+}
+
+template <class T>
+Integer determinant(const T (&x)[2], const T (&y)[2]) {
+    return as_integer(formulas::cross(x, y));
+}
+
+template <class T>
+Integer determinant(const T (&x)[3], const T (&y)[3], const T (&z)[3]) {
+    formulas::Product<T> minors[3];
+    formulas::cross(y, z, minors);
+    return as_integer(formulas::dot(x, minors));
+}
+
+/// Coordinates of a point as integers.
+template <int d, class T>
+void load(const Unit (&units)[3], const double* p, T (&out)[d]) {
+    for (int k = 0; k < d; ++k) out[k] = units[k].template multiple<T>(scaled(p[k]));
+}
+
+template <int d, class T>
+void load_edge(const Unit (&units)[3], const double* from, const double* to, T (&out)[d]) {
+    for (int k = 0; k < d; ++k)
+        out[k] = units[k].template multiple<T>(scaled(to[k])) - units[k].template multiple<T>(scaled(from[k]));
+}
+
+/// f.operator()<T>() with the narrowest integers that have room: with coordinates below 2^(64 N - 3) in N limbs a
+/// difference is below 2^(64 N - 2), a 2x2 minor below 2^(128 N - 3) and a determinant of three below 2^(192 N - 3),
+/// within the ranges 2^(64 N - 1), 2^(128 N - 1), 2^(192 N - 1) of N, 2 N and 3 N limbs.
+template <class F>
+Integer with_width(int bits, F f) {
+    if (bits <= 64 - 3) return f.template operator()<Fixed<1>>();
+    if (bits <= 128 - 3) return f.template operator()<Fixed<2>>();
+    return f.template operator()<Integer>();
+}
+
+}  // namespace
+
+ExactVolumes::ExactVolumes(int d, std::span<const double> points) : d_(d) {
+    const auto axes = static_cast<std::size_t>(d);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (std::isfinite(points[i])) units_[i % axes].add(scaled(points[i]));
+    }
+    for (std::size_t k = 0; k < axes; ++k) {
+        bits_ = std::max(bits_, units_[k].bits());
+        exponent_ += units_[k].exponent - 1074;
+    }
+}
+
+template <class T>
+Integer ExactVolumes::cell_as(const double* const* p) const {
+    if (d_ == 2) {
+        T x[2], y[2];
+        load_edge(units_, p[0], p[1], x);
+        load_edge(units_, p[0], p[2], y);
+        return determinant(x, y);
+    }
+    T x[3], y[3], z[3];
+    load_edge(units_, p[0], p[1], x);
+    load_edge(units_, p[0], p[2], y);
+    load_edge(units_, p[0], p[3], z);
+    return determinant(x, y, z);
+}
+
+template <class T>
+Integer ExactVolumes::cone_as(const double* const* p) const {
+    if (d_ == 2) {
+        T x[2], y[2];
+        load(units_, p[0], x);
+        load(units_, p[1], y);
+        return determinant(x, y);
+    }
+    T x[3], y[3], z[3];
+    load(units_, p[0], x);
+    load(units_, p[1], y);
+    load(units_, p[2], z);
+    return determinant(x, y, z);
+}
+
+Integer ExactVolumes::cell(const double* const* p) const {
+    return with_width(bits_, [&]<class T>() { return cell_as<T>(p); });
+}
+
+Integer ExactVolumes::cone(const double* const* p) const {
+    return with_width(bits_, [&]<class T>() { return cone_as<T>(p); });
+}
+
+double ExactVolumes::rounded(const Integer& n, int scale) const {
+    static constexpr std::array<std::uint64_t, 1> two{2}, six{6};
+    return round_quotient(n.sign() < 0, n.magnitude(), d_ == 2 ? two : six, exponent_ - d_ * scale);
+}
+
+}  // namespace barycert::check

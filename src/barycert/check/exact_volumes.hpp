@@ -1,0 +1,42 @@
+/// Internal: signed volumes (areas in 2D) of the simplices of one mesh, as exact integers in one unit.
+///
+/// All coordinates of an axis become multiples of the largest power of two that divides them all, so volumes of
+/// different cells can be added up and compared exactly. As narrow integers as the whole mesh needs are used: one limb
+/// a coordinate if none needs more than 61 bits, two for 125, else as many as it takes.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "barycert/core/integer.hpp"
+#include "barycert/core/scaled_double.hpp"
+
+namespace barycert::check {
+
+class ExactVolumes {
+public:
+    /// `points` holds d coordinates a node; what is not finite is left out, and must not be asked for.
+    ExactVolumes(int d, std::span<const double> points);
+
+    /// d! times the signed volume of the cell with d + 1 corners at p[0], p[1], ...: det(p1 - p0, p2 - p0, ...).
+    Integer cell(const double* const* p) const;
+
+    /// d! times the signed volume of the cone from the origin over the facet with d corners: det(p0, p1, ...).
+    Integer cone(const double* const* p) const;
+
+    /// The volume that `n` from above stands for, divided by 2^(d * scale), correctly rounded.
+    double rounded(const Integer& n, int scale = 0) const;
+
+private:
+    template <class T>
+    Integer cell_as(const double* const* p) const;
+    template <class T>
+    Integer cone_as(const double* const* p) const;
+
+    int d_;
+    int bits_ = 0;  ///< of the widest coordinate
+    Unit units_[3];
+    int exponent_ = 0;  ///< the integers count 2^exponent_
+};
+
+}  // namespace barycert::check

@@ -1,0 +1,33 @@
+/// Internal: how cells meet at their facets, and which facets are the boundary.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "barycert/check/findings.hpp"
+#include "barycert/mesh/mesh.hpp"
+
+namespace barycert::check {
+
+/// A facet of exactly one cell.
+struct BoundaryFacet {
+    Mesh::Index cell = -1;
+    std::int32_t corner = 0;  ///< opposite to it
+    std::array<Mesh::Index, 3>
+        nodes{};  ///< in the order that turns its normal outward (2D: two, the cell to their left)
+};
+
+struct Facets {
+    std::vector<Mesh::Index> neighbours;  ///< as compute_neighbours gives them, of usable cells
+    std::vector<BoundaryFacet> boundary;  ///< ordered by their nodes
+};
+
+/// Finds duplicate_cell, overfull_facet, same_side. `orientation`: the exact sign of each cell.
+Facets check_facets(const Mesh& mesh, const std::vector<std::uint8_t>& usable, Measures& measures, Findings& findings);
+
+/// The nodes of the facet opposite to `corner`, in the order that turns its normal outward if the cell's orientation is
+/// not negative; `orientation` is that of the cell. 2D: two of them.
+std::array<Mesh::Index, 3> outward_nodes(const Mesh& mesh, std::size_t cell, std::size_t corner, int orientation);
+
+}  // namespace barycert::check

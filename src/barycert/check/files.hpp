@@ -1,0 +1,16 @@
+/// Internal: do the neighbours and faces that came with a mesh belong to its cells?
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "barycert/check/facets.hpp"
+#include "barycert/check/findings.hpp"
+#include "barycert/mesh/mesh.hpp"
+
+namespace barycert::check {
+
+/// P5: finds wrong_neighbour and wrong_face. Nothing where the mesh has none.
+void check_files(const Mesh& mesh, const std::vector<std::uint8_t>& usable, const Facets& facets, Findings& findings);
+
+}  // namespace barycert::check

@@ -1,0 +1,84 @@
+/// Internal: gathering findings from several threads, in an order that does not depend on them.
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "barycert/check/check.hpp"
+
+namespace barycert::check {
+
+/// Findings of all problems, each with its count and its first places.
+class Findings {
+public:
+    explicit Findings(std::size_t examples = 0) : examples_(examples), all_(problem_count) {
+        for (std::size_t i = 0; i < problem_count; ++i) all_[i].problem = problem_texts[i].problem;
+    }
+
+    void add(Problem p, const Place& place, std::uint64_t count = 1) {
+        Finding& f = of(p);
+        f.count += count;
+        if (f.places.size() < examples_) f.places.push_back(place);
+    }
+    void add_at_least(Problem p) { of(p).at_least = true; }
+
+    /// Appends what another block of the same work found.
+    void append(const Findings& other) {
+        for (std::size_t i = 0; i < problem_count; ++i) {
+            Finding& f = all_[i];
+            const Finding& g = other.all_[i];
+            f.count += g.count;
+            f.at_least |= g.at_least;
+            const std::size_t room = std::min(examples_ - std::min(examples_, f.places.size()), g.places.size());
+            f.places.insert(f.places.end(), g.places.begin(), g.places.begin() + static_cast<std::ptrdiff_t>(room));
+        }
+    }
+
+    std::uint64_t count(Problem p) const { return all_[static_cast<std::size_t>(p)].count; }
+    std::size_t examples() const { return examples_; }
+
+    /// Those that occur.
+    std::vector<Finding> list() && {
+        std::erase_if(all_, [](const Finding& f) { return f.count == 0; });
+        return std::move(all_);
+    }
+
+private:
+    Finding& of(Problem p) { return all_[static_cast<std::size_t>(p)]; }
+
+    std::size_t examples_;
+    std::vector<Finding> all_;
+};
+
+/// work(first, last, part) for blocks of [0, count), on all threads of the calling arena; then join(part) for each
+/// block in order. `make` makes an empty part.
+template <class Make, class Work, class Join>
+void in_blocks(std::size_t count, std::size_t block, Make make, Work work, Join join) {
+    const std::size_t blocks = (count + block - 1) / block;
+    std::vector<decltype(make())> parts;
+    parts.reserve(blocks);
+    for (std::size_t i = 0; i < blocks; ++i) parts.push_back(make());
+    tbb::parallel_for(std::size_t{0}, blocks,
+                      [&](std::size_t i) { work(i * block, std::min(count, (i + 1) * block), parts[i]); });
+    for (auto& part : parts) join(part);
+}
+
+/// The same in waves of a fixed number of blocks, for searches that may find more than anybody wants: when join(part)
+/// returns false, nothing is done after that wave. So the outcome does not depend on threads.
+template <class Make, class Work, class Join>
+void in_waves(std::size_t count, std::size_t block, Make make, Work work, Join join) {
+    constexpr std::size_t blocks = 64;
+    bool more = true;
+    for (std::size_t from = 0; from < count && more; from += block * blocks) {
+        in_blocks(
+            std::min(count - from, block * blocks), block, make,
+            [&](std::size_t first, std::size_t last, auto& part) { work(from + first, from + last, part); },
+            [&](auto& part) { more = more && join(part); });
+    }
+}
+
+}  // namespace barycert::check

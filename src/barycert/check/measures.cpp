@@ -1,0 +1,27 @@
+#include "barycert/check/measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace barycert::check {
+
+Distribution distribution(const std::vector<double>& values) {
+    Distribution d;
+    std::vector<double> sorted;
+    sorted.reserve(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double x = values[i];
+        if (std::isnan(x)) continue;
+        sorted.push_back(x);
+        if (d.least_cell < 0 || x < d.least) d.least = x, d.least_cell = static_cast<std::int64_t>(i);
+        if (d.most_cell < 0 || x > d.most) d.most = x, d.most_cell = static_cast<std::int64_t>(i);
+    }
+    if (sorted.empty()) return d;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    d.median = *middle;
+    return d;
+}
+
+}  // namespace barycert::check

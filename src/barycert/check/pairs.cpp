@@ -1,0 +1,152 @@
+#include "barycert/check/pairs.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+#include "barycert/check/box_tree.hpp"
+#include "barycert/check/cells.hpp"
+#include "barycert/check/facet_contact.hpp"
+#include "barycert/check/overlap.hpp"
+
+namespace barycert::check {
+namespace {
+
+struct Pair {
+    std::uint32_t first, second;
+};
+
+PlacedFacet placed(const Mesh& mesh, const BoundaryFacet& facet) {
+    PlacedFacet f{facet.nodes, {}};
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    for (std::size_t i = 0; i < d; ++i) f.at[i] = &mesh.points[static_cast<std::size_t>(f.nodes[i]) * d];
+    return f;
+}
+
+Box box_of_cell(const Mesh& mesh, std::size_t cell) {
+    return box_of(mesh.dimension, corner_points(mesh, cell).data(), mesh.dimension + 1);
+}
+
+/// Pairs (i, j), i < j, of the boxes for which `conflict` holds, up to pair_limit; ascending.
+template <class Conflict>
+std::vector<Pair> conflicts(std::vector<Box> boxes, Conflict conflict, bool& complete) {
+    const std::vector<Box> query = boxes;
+    const BoxTree tree(std::move(boxes));
+    std::vector<Pair> all;
+    in_waves(
+        query.size(), 512, [] { return std::vector<Pair>(); },
+        [&](std::size_t first, std::size_t last, std::vector<Pair>& part) {
+            for (std::size_t i = first; i < last && part.size() <= pair_limit; ++i) {
+                const std::size_t begin = part.size();
+                tree.for_each(query[i], [&](std::uint32_t j) {
+                    if (j > i && conflict(i, j)) part.push_back({static_cast<std::uint32_t>(i), j});
+                    return part.size() <= pair_limit;
+                });
+                std::sort(part.begin() + static_cast<std::ptrdiff_t>(begin), part.end(),
+                          [](const Pair& a, const Pair& b) { return a.second < b.second; });
+            }
+        },
+        [&](const std::vector<Pair>& part) {
+            all.insert(all.end(), part.begin(), part.end());
+            return all.size() <= pair_limit;
+        });
+    complete = all.size() <= pair_limit;
+    all.resize(std::min(all.size(), pair_limit));
+    return all;
+}
+
+void mark(Measures& measures, Mesh::Index cell, Problem problem) {
+    measures.problems[static_cast<std::size_t>(cell)] |= bit(problem);
+}
+
+}  // namespace
+
+std::vector<CellPair> find_boundary_contacts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
+                                             Measures& measures, Findings& findings) {
+    std::vector<PlacedFacet> proper_facets;
+    std::vector<Mesh::Index> cells;
+    std::vector<Box> boxes;
+    for (const BoundaryFacet& facet : facets) {
+        const PlacedFacet f = placed(mesh, facet);
+        if (!proper(mesh.dimension, f)) continue;  // its cell is degenerate, and told
+        proper_facets.push_back(f);
+        cells.push_back(facet.cell);
+        boxes.push_back(box_of(mesh.dimension, f.at.data(), mesh.dimension));
+    }
+    bool complete = true;
+    const auto conflict = [&](std::size_t i, std::size_t j) {
+        return facets_conflict(mesh.dimension, proper_facets[i], proper_facets[j]);
+    };
+    std::vector<CellPair> pairs;
+    for (const Pair& p : conflicts(std::move(boxes), conflict, complete)) {
+        pairs.push_back({cells[p.first], cells[p.second]});
+        for (const Mesh::Index cell : pairs.back()) mark(measures, cell, Problem::boundary_contact);
+        findings.add(Problem::boundary_contact, {.cells = pairs.back(), .nodes = proper_facets[p.first].nodes});
+    }
+    if (!complete) findings.add_at_least(Problem::boundary_contact);
+    return pairs;
+}
+
+void find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
+                       const std::vector<std::uint32_t>& pieces, Measures& measures, Findings& findings) {
+    std::vector<std::size_t> inner;  // a cell at each piece
+    std::vector<Box> boxes;
+    for (const std::uint32_t piece : pieces) {
+        const auto cell = static_cast<std::size_t>(facets[piece].cell);
+        if (measures.orientation[cell] == 0) continue;  // degenerate, and told
+        inner.push_back(cell);
+        boxes.push_back(box_of_cell(mesh, cell));
+    }
+    const BoxTree tree(std::move(boxes));
+    std::vector<std::uint8_t> nested(inner.size(), 0);
+    in_waves(
+        mesh.cell_count(), 1024, [] { return std::vector<Pair>(); },
+        [&](std::size_t first, std::size_t last, std::vector<Pair>& part) {
+            for (std::size_t cell = first; cell < last; ++cell) {
+                if (measures.orientation[cell] == 0) continue;
+                const auto corners = corner_points(mesh, cell);
+                tree.for_each(box_of(mesh.dimension, corners.data(), mesh.dimension + 1), [&](std::uint32_t i) {
+                    if (nested[i] == 0 && inner[i] != cell &&
+                        interiors_meet(mesh.dimension, corner_points(mesh, inner[i]), corners))
+                        part.push_back({i, static_cast<std::uint32_t>(cell)});
+                    return true;
+                });
+            }
+        },
+        [&](const std::vector<Pair>& part) {
+            for (const Pair& p : part) {
+                if (nested[p.first] != 0) continue;
+                nested[p.first] = 1;
+                const Place place{
+                    .cells = {static_cast<Mesh::Index>(inner[p.first]), static_cast<Mesh::Index>(p.second)}};
+                for (const Mesh::Index cell : place.cells) mark(measures, cell, Problem::nested_part);
+                findings.add(Problem::nested_part, place);
+            }
+            return true;
+        });
+}
+
+std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, Measures& measures, Findings& findings) {
+    std::vector<Mesh::Index> cells;
+    std::vector<Box> boxes;
+    for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
+        if (measures.orientation[cell] == 0) continue;
+        cells.push_back(static_cast<Mesh::Index>(cell));
+        boxes.push_back(box_of_cell(mesh, cell));
+    }
+    bool complete = true;
+    const auto conflict = [&](std::size_t i, std::size_t j) {
+        return interiors_meet(mesh.dimension, corner_points(mesh, static_cast<std::size_t>(cells[i])),
+                              corner_points(mesh, static_cast<std::size_t>(cells[j])));
+    };
+    std::vector<CellPair> pairs;
+    for (const Pair& p : conflicts(std::move(boxes), conflict, complete)) {
+        pairs.push_back({cells[p.first], cells[p.second]});
+        for (const Mesh::Index cell : pairs.back()) mark(measures, cell, Problem::overlapping_cells);
+        findings.add(Problem::overlapping_cells, {.cells = pairs.back()});
+    }
+    if (!complete) findings.add_at_least(Problem::overlapping_cells);
+    return pairs;
+}
+
+}  // namespace barycert::check

@@ -1,0 +1,30 @@
+/// Internal: the searches for facets and cells that meet where they must not.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "barycert/check/facets.hpp"
+#include "barycert/check/findings.hpp"
+#include "barycert/mesh/mesh.hpp"
+
+namespace barycert::check {
+
+/// A search is given up after so many pairs: a mesh that is wrong throughout has as many as the square of its cells.
+inline constexpr std::size_t pair_limit = 1000;
+
+using CellPair = std::array<Mesh::Index, 2>;
+
+/// P3: finds boundary_contact; the cells of the facets of each.
+std::vector<CellPair> find_boundary_contacts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
+                                             Measures& measures, Findings& findings);
+
+/// P4: finds nested_part. `pieces`: one of the `facets` of each piece of the boundary.
+void find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
+                       const std::vector<std::uint32_t>& pieces, Measures& measures, Findings& findings);
+
+/// Finds overlapping_cells among all that are not degenerate.
+std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, Measures& measures, Findings& findings);
+
+}  // namespace barycert::check

@@ -1,0 +1,18 @@
+/// Internal: an exact point that two cells have in common.
+#pragma once
+
+#include "barycert/check/contact.hpp"
+#include "barycert/check/overlap.hpp"
+
+namespace barycert::check {
+
+/// What two closed cells have in common: its dimension (-1: nothing), and a point in its relative interior, computed in
+/// rational numbers. If the interiors meet, that point lies in both. Precondition: coordinates finite. Slow: some
+/// hundred microseconds.
+struct Common {
+    int dimension = -1;
+    Witness witness;
+};
+Common common_part(int d, const Corners& a, const Corners& b);
+
+}  // namespace barycert::check
