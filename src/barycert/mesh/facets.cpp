@@ -13,29 +13,40 @@
 namespace barycert::detail {
 namespace {
 
-/// The nodes of a facet, ascending; in 2D the first stands twice.
-std::array<Mesh::Index, 3> sorted_nodes(const Mesh::Index* cell, std::size_t corners, std::size_t opposite) {
-    std::array<Mesh::Index, 3> nodes{};
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < corners; ++i) {
-        if (i != opposite) nodes[count++] = cell[i];
-    }
-    if (count == 2) nodes[2] = std::min(nodes[0], nodes[1]);
-    std::sort(nodes.begin(), nodes.end());
-    return nodes;
-}
+/// The corners of a cell by ascending node. Fixed comparisons: this is done twice for each cell.
+struct SortedCell {
+    std::array<Mesh::Index, 4> node;
+    std::array<std::int32_t, 4> corner;
 
-/// f(cell, corner, sorted nodes) for every facet that is asked for, on all threads.
+    SortedCell(const Mesh::Index* cell, std::size_t corners) {
+        std::array<std::uint64_t, 4> keys;
+        for (std::size_t i = 0; i < 4; ++i)
+            keys[i] = i < corners ? static_cast<std::uint64_t>(cell[i]) << 2 | i : ~std::uint64_t{0};
+        const auto order = [&](std::size_t i, std::size_t j) {
+            const std::uint64_t low = std::min(keys[i], keys[j]);
+            keys[j] = std::max(keys[i], keys[j]);
+            keys[i] = low;
+        };
+        order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
+        for (std::size_t i = 0; i < 4; ++i) {
+            node[i] = static_cast<Mesh::Index>(keys[i] >> 2);
+            corner[i] = static_cast<std::int32_t>(keys[i] & 3);
+        }
+    }
+};
+
+/// f(cell, its corners sorted) for every cell that is asked for, on all threads.
 template <class F>
-void for_each_facet(const Mesh& mesh, std::span<const std::uint8_t> use, F&& f) {
-    const std::size_t corners = mesh.corners();
+void for_each_cell(const Mesh& mesh, std::span<const std::uint8_t> use, F&& f) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.cell_count(), 4096), [&](const auto& range) {
         for (std::size_t cell = range.begin(); cell != range.end(); ++cell) {
-            if (!use.empty() && use[cell] == 0) continue;
-            for (std::size_t corner = 0; corner < corners; ++corner)
-                f(cell, corner, sorted_nodes(&mesh.cells[cell * corners], corners, corner));
+            if (use.empty() || use[cell] != 0) f(cell, SortedCell(&mesh.cells[cell * mesh.corners()], mesh.corners()));
         }
     });
+}
+
+std::size_t add(std::size_t& counter, std::size_t n) {
+    return std::atomic_ref(counter).fetch_add(n, std::memory_order_relaxed);
 }
 
 }  // namespace
@@ -43,17 +54,31 @@ void for_each_facet(const Mesh& mesh, std::span<const std::uint8_t> use, F&& f) 
 FacetTable::FacetTable(const Mesh& mesh, std::span<const std::uint8_t> use) {
     // A counting sort by the lowest node leaves lists as short as a node has cells. Threads place facets in any order;
     // sorting the lists makes it one.
+    // All facets of a cell but the one opposite to its lowest node have that node as their lowest.
+    const auto d = static_cast<std::size_t>(mesh.dimension);
     std::vector<std::size_t> next(mesh.point_count() + 1, 0);
-    for_each_facet(mesh, use, [&](std::size_t, std::size_t, const std::array<Mesh::Index, 3>& nodes) {
-        std::atomic_ref(next[static_cast<std::size_t>(nodes[0]) + 1]).fetch_add(1, std::memory_order_relaxed);
+    for_each_cell(mesh, use, [&](std::size_t, const SortedCell& c) {
+        add(next[static_cast<std::size_t>(c.node[0]) + 1], d);
+        add(next[static_cast<std::size_t>(c.node[1]) + 1], 1);
     });
     for (std::size_t node = 0; node + 1 < next.size(); ++node) next[node + 1] += next[node];
     begin_ = next;
     resize_large(facets_, begin_.back());
-    for_each_facet(mesh, use, [&](std::size_t cell, std::size_t corner, const std::array<Mesh::Index, 3>& nodes) {
-        const std::size_t place =
-            std::atomic_ref(next[static_cast<std::size_t>(nodes[0])]).fetch_add(1, std::memory_order_relaxed);
-        facets_[place] = {nodes[1], nodes[2], static_cast<Mesh::Index>(cell), static_cast<std::int32_t>(corner)};
+    for_each_cell(mesh, use, [&](std::size_t cell, const SortedCell& c) {
+        const auto [n, corner] = c;
+        const auto index = static_cast<Mesh::Index>(cell);
+        CellFacet* const at_first = facets_.data() + add(next[static_cast<std::size_t>(n[0])], d);
+        CellFacet* const at_second = facets_.data() + add(next[static_cast<std::size_t>(n[1])], 1);
+        if (d == 2) {
+            at_first[0] = {n[0], n[1], index, corner[2]};
+            at_first[1] = {n[0], n[2], index, corner[1]};
+            *at_second = {n[1], n[2], index, corner[0]};
+        } else {
+            at_first[0] = {n[1], n[2], index, corner[3]};
+            at_first[1] = {n[1], n[3], index, corner[2]};
+            at_first[2] = {n[2], n[3], index, corner[1]};
+            *at_second = {n[2], n[3], index, corner[0]};
+        }
     });
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, node_count(), 1024), [&](const auto& range) {
         for (std::size_t node = range.begin(); node != range.end(); ++node) {
