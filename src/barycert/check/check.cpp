@@ -13,6 +13,7 @@
 #include "barycert/check/facets.hpp"
 #include "barycert/check/files.hpp"
 #include "barycert/check/findings.hpp"
+#include "barycert/check/local_delaunay.hpp"
 #include "barycert/check/nodes.hpp"
 #include "barycert/check/pairs.hpp"
 #include "barycert/check/witness.hpp"
@@ -113,6 +114,10 @@ private:
             overlapping = find_overlapping_cells(mesh_, measures, findings_);
         }
         report.contacts = contacts(mesh_, measures, std::move(overlapping), std::move(touching), options_.contacts);
+        if (options_.delaunay) {
+            stage("Delaunay");
+            report.delaunay = check_delaunay(mesh_, facets.neighbours, measures.orientation);
+        }
     }
 
     /// One of P2 to P4 fails, or a cell is left out of them; otherwise the theorem says that there is none.

@@ -1,1 +1,121 @@
-// See check_delaunay in delaunay_check.hpp.
+#include "barycert/check/delaunay.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "barycert/check/cells.hpp"
+#include "barycert/check/findings.hpp"
+#include "barycert/check/local_delaunay.hpp"
+#include "barycert/core/insphere.hpp"
+
+namespace barycert::check {
+namespace {
+
+/// The radius of the sphere through the corners less the distance of `apex` from its centre, over the radius: plain
+/// double, relative to corner 0, in a unit in which nothing overflows. At least 0 for what is exactly inside.
+double depth(int d, const double* const* p, const double* apex) {
+    std::array<double, 9> e{};
+    std::array<double, 3> x{};
+    double largest = 0;
+    for (int k = 0; k < d; ++k) {
+        for (int i = 0; i < d; ++i) {
+            e[static_cast<std::size_t>(3 * i + k)] = p[i + 1][k] / 2 - p[0][k] / 2;
+            largest = std::max(largest, std::fabs(e[static_cast<std::size_t>(3 * i + k)]));
+        }
+        x[static_cast<std::size_t>(k)] = apex[k] / 2 - p[0][k] / 2;
+    }
+    if (d == 2) e[8] = largest;  // a third edge, normal to the plane: the centre's foot is the circle's
+    const int exponent = largest > 0 ? std::ilogb(largest) : 0;
+    for (double& v : e) v = std::scalbn(v, -exponent);
+    for (double& v : x) v = std::scalbn(v, -exponent);
+    const auto cross = [&](std::size_t i, std::size_t j, std::size_t k) {
+        const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+        return e[3 * i + l] * e[3 * j + m] - e[3 * i + m] * e[3 * j + l];
+    };
+    std::array<double, 3> square{};
+    for (std::size_t i = 0; i < 3; ++i)
+        square[i] = e[3 * i] * e[3 * i] + e[3 * i + 1] * e[3 * i + 1] + e[3 * i + 2] * e[3 * i + 2];
+    const double det = e[0] * cross(1, 2, 0) + e[1] * cross(1, 2, 1) + e[2] * cross(1, 2, 2);
+    double radius = 0, distance = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) {
+        const double c =
+            (square[0] * cross(1, 2, k) + square[1] * cross(2, 0, k) + square[2] * cross(0, 1, k)) / (2 * det);
+        radius += c * c;
+        distance += (x[k] - c) * (x[k] - c);
+    }
+    const double value = 1 - std::sqrt(distance / radius);
+    return std::isfinite(value) ? std::max(value, 0.0) : 0;
+}
+
+class FacetTester {
+public:
+    FacetTester(const Mesh& mesh, const std::vector<Mesh::Index>& neighbours,
+                const std::vector<std::int8_t>& orientation)
+        : mesh_(mesh), neighbours_(neighbours), orientation_(orientation) {}
+
+    /// The facets of `cell` to cells of higher number.
+    void operator()(std::size_t cell, Delaunay& out) const {
+        if (orientation_[cell] == 0) return;
+        const auto p = corner_points(mesh_, cell);
+        for (std::size_t i = 0; i < mesh_.corners(); ++i) {
+            const Mesh::Index other = neighbours_[cell * mesh_.corners() + i];
+            if (other <= static_cast<Mesh::Index>(cell) || orientation_[static_cast<std::size_t>(other)] == 0) continue;
+            test(cell, p, apex(static_cast<std::size_t>(other), static_cast<Mesh::Index>(cell)), out);
+        }
+    }
+
+private:
+    void test(std::size_t cell, const std::array<const double*, 4>& p, Mesh::Index node, Delaunay& out) const {
+        const int d = mesh_.dimension;
+        const double* const at = &mesh_.points[static_cast<std::size_t>(node) * static_cast<std::size_t>(d)];
+        const Sign s = *(d == 2 ? incircle(p[0], p[1], p[2], at) : insphere(p[0], p[1], p[2], p[3], at));
+        ++out.facets;
+        if (s == Sign::zero) ++out.cospherical;
+        if (static_cast<int>(s) * orientation_[cell] <= 0) return;
+        ++out.violations;
+        const double in = depth(d, p.data(), at);
+        if (out.worst_cell >= 0 && in <= out.worst_depth) return;
+        out.worst_depth = in;
+        out.worst_cell = static_cast<Mesh::Index>(cell);
+        out.worst_node = node;
+    }
+
+    /// The node of `cell` that is opposite to its facet to `to`.
+    Mesh::Index apex(std::size_t cell, Mesh::Index to) const {
+        const std::size_t n = mesh_.corners();
+        std::size_t i = 0;
+        while (i + 1 < n && neighbours_[cell * n + i] != to) ++i;
+        return mesh_.cells[cell * n + i];
+    }
+
+    const Mesh& mesh_;
+    const std::vector<Mesh::Index>& neighbours_;
+    const std::vector<std::int8_t>& orientation_;
+};
+
+}  // namespace
+
+Delaunay check_delaunay(const Mesh& mesh, const std::vector<Mesh::Index>& neighbours,
+                        const std::vector<std::int8_t>& orientation) {
+    Delaunay all;
+    const FacetTester test(mesh, neighbours, orientation);
+    in_blocks(
+        mesh.cell_count(), 8192, [] { return Delaunay(); },
+        [&](std::size_t first, std::size_t last, Delaunay& part) {
+            for (std::size_t cell = first; cell < last; ++cell) test(cell, part);
+        },
+        [&](const Delaunay& part) {
+            all.facets += part.facets;
+            all.violations += part.violations;
+            all.cospherical += part.cospherical;
+            if (part.worst_cell < 0 || (all.worst_cell >= 0 && part.worst_depth <= all.worst_depth)) return;
+            all.worst_depth = part.worst_depth;
+            all.worst_cell = part.worst_cell;
+            all.worst_node = part.worst_node;
+        });
+    return all;
+}
+
+}  // namespace barycert::check
