@@ -75,10 +75,12 @@ void run_block(const Family& family, Simplex simplex, std::uint64_t seed, std::u
     using Clock = std::chrono::steady_clock;
     thread_local std::vector<Case> cases(block_size);
     thread_local std::vector<exact::Answer> answers(block_size);
+    std::array<double, block_size> kappa{};
     const auto count = static_cast<std::size_t>(last - first);
     for (std::size_t i = 0; i < count; ++i) {
         cases[i] = make_case(family, simplex, seed, first + i, meshes);
         answers[i] = exact::ask(cases[i]);
+        kappa[i] = predicting_condition(cases[i], answers[i].region);
     }
     std::array<std::array<double, 4>, block_size> weights;
     std::array<int, block_size> status{};
@@ -103,6 +105,7 @@ void run_block(const Family& family, Simplex simplex, std::uint64_t seed, std::u
         for (std::size_t i = 0; i < count; ++i) {
             const Comparison r = compare(kernels[k], cases[i], answers[i], status[i], weights[i]);
             result.statistics.add(r, answers[i].region, first + i);
+            if (kappa[i] >= 1 && std::isfinite(r.weight_error)) result.prediction.add(kappa[i], r.weight_error);
             if (status[i] == 0 && answers[i].region != Region::degenerate) {
                 add_residuals(result.statistics, cases[i], answers[i], weights[i].data(), first + i);
             }

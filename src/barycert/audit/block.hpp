@@ -6,6 +6,7 @@
 
 #include "barycert/audit/families.hpp"
 #include "barycert/audit/mesh_source.hpp"
+#include "barycert/audit/prediction.hpp"
 #include "barycert/audit/statistics.hpp"
 #include "barycert/kernels/kernel.hpp"
 
@@ -17,6 +18,7 @@ inline constexpr std::uint64_t block_size = 256;
 /// What one thread has learnt of one kernel in one family.
 struct BlockResult {
     Statistics statistics;
+    Prediction prediction;
     std::vector<float> ns;  ///< per evaluation, one a block, the first `kept_times` blocks
     static constexpr std::size_t kept_times = 1024;
 };

@@ -105,7 +105,8 @@ Result<Report> run(const Options& options, const MeshSource& meshes) {
     report.families = options.families;
     for (const PreparedMesh& m : meshes.meshes()) report.meshes.push_back(m.name);
     for (const Kernel& k : options.kernels)
-        report.kernels.push_back({.kernel = k, .total = {}, .families = {}, .ns = 0, .witnesses = {}});
+        report.kernels.push_back(
+            {.kernel = k, .total = {}, .families = {}, .prediction = {}, .ns = 0, .witnesses = {}});
 
     const auto start = std::chrono::steady_clock::now();
     std::vector<std::vector<float>> times(options.kernels.size());
@@ -140,6 +141,7 @@ Result<Report> run(const Options& options, const MeshSource& meshes) {
             result.families.push_back({job.family, {}});
             for (const std::vector<BlockResult>& local : results) {
                 result.families.back().statistics.merge(local[k].statistics);
+                result.prediction.merge(local[k].prediction);
                 auto& all = times[job.kernels[k]];
                 all.insert(all.end(), local[k].ns.begin(), local[k].ns.end());
             }

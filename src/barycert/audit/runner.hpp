@@ -12,6 +12,7 @@
 
 #include "barycert/audit/families.hpp"
 #include "barycert/audit/mesh_source.hpp"
+#include "barycert/audit/prediction.hpp"
 #include "barycert/audit/statistics.hpp"
 #include "barycert/core/environment.hpp"
 #include "barycert/core/result.hpp"
@@ -55,6 +56,7 @@ struct KernelResult {
     Kernel kernel;
     Statistics total;  ///< indices in it are meaningless: ask the families
     std::vector<FamilyResult> families;
+    Prediction prediction;           ///< over all families
     double ns = 0;                   ///< median over blocks of the time per evaluation, call through a pointer included
     std::vector<Witness> witnesses;  ///< the worst of each reason, in the order of Finding, worst_weight_ulp last
 };

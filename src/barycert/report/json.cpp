@@ -36,6 +36,22 @@ void add_statistics(Json& j, const Statistics& s) {
     }
 }
 
+Json prediction_json(const audit::Prediction& p) {
+    Json j;
+    j["cases"] = p.cases();
+    j["worst_factor"] = figure(p.worst_factor());
+    j["bins"] = Json::array();
+    for (const audit::Prediction::Bin& bin : p.bins()) {
+        Json b;
+        b["bits"] = bin.bits;
+        b["cases"] = bin.cases;
+        b["median_error"] = figure(bin.median);
+        b["worst_error"] = figure(bin.worst);
+        j["bins"].push_back(std::move(b));
+    }
+    return j;
+}
+
 Json kernel_json(const Kernel& k) {
     Json j;
     j["name"] = k.name;
@@ -102,6 +118,7 @@ std::string json_report(const audit::Report& r) {
         Json entry = kernel_json(k.kernel);
         add_statistics(entry, k.total);
         entry["ns"] = figure(k.ns);
+        entry["prediction"] = prediction_json(k.prediction);
         entry["families"] = Json::array();
         for (const audit::FamilyResult& f : k.families) {
             Json part;
