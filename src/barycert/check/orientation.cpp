@@ -18,10 +18,11 @@ Mesh with_positive_cells(const Mesh& mesh, const std::vector<std::int8_t>& orien
     const auto edges = detail::edges_of(mesh.dimension);
     std::array<std::size_t, 6> edge_from{};
     for (std::size_t e = 0; e < edges.size(); ++e) {
-        const auto is_image = [&](const std::array<std::size_t, 2>& f) {
-            return std::minmax(f[0], f[1]) == std::minmax(swapped(edges[e][0]), swapped(edges[e][1]));
-        };
-        edge_from[e] = static_cast<std::size_t>(std::find_if(edges.begin(), edges.end(), is_image) - edges.begin());
+        const std::size_t a = swapped(edges[e][0]), b = swapped(edges[e][1]);
+        const auto same = std::find_if(edges.begin(), edges.end(), [&](const std::array<std::size_t, 2>& f) {
+            return (f[0] == a && f[1] == b) || (f[0] == b && f[1] == a);
+        });
+        edge_from[e] = static_cast<std::size_t>(same - edges.begin());
     }
     for (std::size_t cell = 0; cell < std::min(orientation.size(), mesh.cell_count()); ++cell) {
         if (orientation[cell] >= 0) continue;
