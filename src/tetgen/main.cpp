@@ -18,7 +18,7 @@
 #include "child.hpp"
 #include "mesher.hpp"
 #include "options.hpp"
-#include "plc.hpp"
+#include "barycert/plc/plc.hpp"
 
 namespace barycert {
 namespace {

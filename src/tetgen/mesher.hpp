@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "barycert/mesh/mesh.hpp"
-#include "plc.hpp"
+#include "barycert/plc/plc.hpp"
 
 namespace barycert {
 

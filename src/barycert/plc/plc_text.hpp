@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "plc.hpp"
+#include "barycert/plc/plc.hpp"
 
 namespace barycert {
 

@@ -1,4 +1,4 @@
-#include "plc_text.hpp"
+#include "barycert/plc/plc_text.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,7 +1,7 @@
 /// TetGen's .poly and .smesh, with their nodes inside or in STEM.node.
 #include <filesystem>
 
-#include "plc_text.hpp"
+#include "barycert/plc/plc_text.hpp"
 
 namespace barycert {
 namespace {

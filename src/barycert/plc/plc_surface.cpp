@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "plc_text.hpp"
+#include "barycert/plc/plc_text.hpp"
 
 namespace barycert {
 namespace {
