@@ -9,6 +9,7 @@
 #include "barycert/audit/mesh_source.hpp"
 #include "barycert/core/result.hpp"
 #include "barycert/kernels/kernel.hpp"
+#include "barycert/mesh/tetgen_io.hpp"
 
 namespace CLI {
 class App;
@@ -23,6 +24,7 @@ inline constexpr int exit_error = 2;
 
 /// Each adds its subcommand to the app; when it has run, `exit_code` is set.
 void add_audit(CLI::App& app, int& exit_code);
+void add_check(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_catalogue(CLI::App& app, int& exit_code);
 
@@ -34,6 +36,9 @@ void tell(std::string_view text);
 
 /// "error: ..." on stderr; returns exit_error.
 int fail(const Error& error);
+
+/// One mesh; the error of one that is not there has a hint at what was meant.
+Result<Mesh> load_mesh(const std::string& path, const ReadOptions& options);
 
 /// The meshes named by the user, or those of barycert's own data folder if none is.
 Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths);

@@ -17,7 +17,6 @@
 
 #include "barycert/core/output_file.hpp"
 #include "barycert/core/text.hpp"
-#include "barycert/mesh/tetgen_io.hpp"
 #include "command.hpp"
 
 namespace barycert::cli {
@@ -100,6 +99,12 @@ int fail(const Error& error) {
     return exit_error;
 }
 
+Result<Mesh> load_mesh(const std::string& path, const ReadOptions& options) {
+    Result<Mesh> mesh = read_tetgen(path, options);
+    if (!mesh) return with_hint(mesh.error(), path);
+    return mesh;
+}
+
 Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths) {
     std::vector<std::string> from = paths;
     if (from.empty()) {
@@ -109,8 +114,8 @@ Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths) {
     }
     audit::MeshSource source;
     for (const std::string& path : from) {
-        Result<Mesh> mesh = read_tetgen(path, {.faces = false, .neighbours = false, .threads = 0});
-        if (!mesh) return with_hint(mesh.error(), path);
+        Result<Mesh> mesh = load_mesh(path, {.faces = false, .neighbours = false, .threads = 0});
+        if (!mesh) return mesh.error();
         if (mesh->cell_count() == 0) return Error{.what = "the mesh has no cells", .file = path};
         source.add(paths.empty() ? fs::path(path).stem().string() : path, std::move(*mesh));
     }
@@ -177,8 +182,9 @@ bool same_output(const std::string& a, const std::string& b) {
     if (a.empty() || b.empty()) return false;
     std::error_code unknown;
     if (a == b || fs::equivalent(a, b, unknown)) return true;
-    const fs::path one = fs::weakly_canonical(a, unknown);
-    return !unknown && one == fs::weakly_canonical(b, unknown) && !unknown;
+    // Without absolute() a relative path of which nothing exists would stay relative.
+    const fs::path one = fs::weakly_canonical(fs::absolute(a, unknown), unknown);
+    return !unknown && one == fs::weakly_canonical(fs::absolute(b, unknown), unknown) && !unknown;
 }
 
 CLI::Validator whole_number() {

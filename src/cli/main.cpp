@@ -20,14 +20,15 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", "barycert " BARYCERT_VERSION);
     app.require_subcommand(1);
     app.footer(
-        "Exit codes: 0 clean, 1 findings beyond the thresholds given, 2 usage or input error.\nTables go to stdout, "
-        "all else to stderr. `barycert SUBCOMMAND --help` explains each.");
+        "Exit codes: 0 clean, 1 findings beyond the thresholds given or a mesh that is not certified, 2 usage or input "
+        "error.\nTables go to stdout, all else to stderr. `barycert SUBCOMMAND --help` explains each.");
     app.failure_message([](const CLI::App*, const CLI::Error& e) {
         return std::string("error: ") + e.what() +
                "; `barycert --help` and `barycert SUBCOMMAND --help` list what there is\n";
     });
     int exit_code = cli::exit_clean;
     cli::add_audit(app, exit_code);
+    cli::add_check(app, exit_code);
     cli::add_replay(app, exit_code);
     cli::add_catalogue(app, exit_code);
     app.add_subcommand("mesh", "Mesh a PLC (.poly .smesh .off .stl .ply) with TetGen: runs barycert-tetgen");

@@ -1,0 +1,213 @@
+// barycert check: is a mesh a partition of its domain? Proved in exact arithmetic, or the reasons why not.
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "barycert/check/check.hpp"
+#include "barycert/check/orientation.hpp"
+#include "barycert/core/environment.hpp"
+#include "barycert/report/check_json.hpp"
+#include "barycert/report/check_terminal.hpp"
+#include "command.hpp"
+
+#ifdef BARYCERT_WITH_VTK
+#include "barycert/vtk/vtu.hpp"
+#endif
+
+namespace barycert::cli {
+namespace {
+
+struct CheckArguments {
+    std::string mesh, json, vtu, fixed;
+    std::uint64_t examples = 10, contacts = 20;
+    int threads = 0;
+    bool delaunay = false, quiet = false;
+};
+
+constexpr std::array<const char*, 4> suffixes{".node", ".ele", ".face", ".neigh"};
+
+std::string stem_of(std::string path) {
+    for (const std::string_view suffix : suffixes) {
+        if (path.ends_with(suffix)) path.resize(path.size() - suffix.size());
+    }
+    return path;
+}
+
+/// A file that is written or read, and what the user calls it.
+struct NamedFile {
+    std::string what, path;
+};
+
+std::vector<NamedFile> outputs(const CheckArguments& a) {
+    std::vector<NamedFile> files{{"--json", a.json}, {"--vtu", a.vtu}};
+    for (const char* suffix : suffixes) {
+        if (!a.fixed.empty()) files.push_back({"--fix-orientation", a.fixed + suffix});
+    }
+    std::erase_if(files, [](const NamedFile& f) { return f.path.empty(); });
+    return files;
+}
+
+/// Everything that can be known of the outputs before the work.
+Status check_outputs(const CheckArguments& a, bool table) {
+    if (a.vtu == "-")
+        return Error{.what = "--vtu cannot write to stdout", .remedy = "name a file: its data are binary"};
+#ifndef BARYCERT_WITH_VTK
+    if (!a.vtu.empty())
+        return Error{.what = "this barycert was built without VTK and cannot write VTU files",
+                     .file = a.vtu,
+                     .remedy =
+                         "install VTK's development package (Debian: libvtk9-dev), then configure and build "
+                         "barycert again"};
+#endif
+    const std::vector<NamedFile> written = outputs(a);
+    std::vector<NamedFile> others;
+    for (const char* suffix : suffixes) others.push_back({"the mesh", stem_of(a.mesh) + suffix});
+    for (const NamedFile& file : written) {
+        for (const NamedFile& other : others) {
+            if (!same_output(file.path, other.path)) continue;
+            if (other.what == "the mesh")
+                return Error{.what = file.what + " names a file of the mesh itself",
+                             .file = file.path,
+                             .remedy = "choose another name"};
+            return Error{.what = other.what + " and " + file.what + " name the same output",
+                         .file = file.path,
+                         .remedy = "give each its own"};
+        }
+        others.push_back(file);
+    }
+    for (const NamedFile& file : written) {
+        if (const Status ok = check_output(file.path); !ok) return ok;
+    }
+    return check_output(table ? "-" : "");
+}
+
+/// write_tetgen leaves no file of another mesh beside its own. Told before the work.
+Status check_nothing_in_the_way(const Mesh& mesh, const std::string& stem) {
+    for (const auto& [suffix, written] :
+         {std::pair(".face", !mesh.faces.empty()), {".neigh", !mesh.neighbours.empty()}}) {
+        std::error_code ignored;
+        if (!written && std::filesystem::exists(stem + suffix, ignored))
+            return Error{.what = "a file of another mesh stands in the way",
+                         .file = stem + suffix,
+                         .remedy = "remove it, or give --fix-orientation another name"};
+    }
+    return Done{};
+}
+
+/// What is being done, on one line of stderr that is written over and over.
+class StageLine {
+public:
+    explicit StageLine(bool on) : on_(on) {}
+    void operator()(const char* stage) const {
+        if (on_) tell(fmt::format("\r\033[Kchecking: {}", stage));
+    }
+    void clear() const {
+        if (on_) tell("\r\033[K");
+    }
+
+private:
+    bool on_;
+};
+
+/// The mesh with the measures of its cells as fields.
+#ifdef BARYCERT_WITH_VTK
+Status write_measures(const check::Report& report, Mesh mesh, const std::string& path) {
+    const check::Measures& m = report.measures;
+    mesh.cell_fields.push_back({"orientation", 1, {m.orientation.begin(), m.orientation.end()}});
+    const std::array<std::pair<const char*, const std::vector<double>*>, 6> measures{{{"volume", &m.volume},
+                                                                                      {"condition", &m.condition},
+                                                                                      {"radius_edge", &m.radius_edge},
+                                                                                      {"aspect", &m.aspect},
+                                                                                      {"min_angle", &m.min_angle},
+                                                                                      {"max_angle", &m.max_angle}}};
+    for (const auto& [name, values] : measures) mesh.cell_fields.push_back({name, 1, *values});
+    mesh.cell_fields.push_back({"problems", 1, {m.problems.begin(), m.problems.end()}});
+    return write_vtu(mesh, path);
+}
+#else
+Status write_measures(const check::Report&, const Mesh&, const std::string&) {
+    return Done{};  // refused before the work
+}
+#endif
+
+int run_check(const CheckArguments& a) {
+    const bool table = !a.quiet && a.json != "-";
+    if (const Status ok = check_outputs(a, table); !ok) return fail(ok.error());
+    const StageLine line(!a.quiet && stderr_is_terminal());
+    line("reading");
+    const Result<Mesh> mesh = load_mesh(a.mesh, {.faces = true, .neighbours = true, .threads = a.threads});
+    line.clear();
+    if (!mesh) return fail(mesh.error());
+    if (!a.fixed.empty()) {
+        if (const Status ok = check_nothing_in_the_way(*mesh, a.fixed); !ok) return fail(ok.error());
+    }
+    check::Options options;
+    options.threads = a.threads;
+    options.delaunay = a.delaunay;
+    options.examples = a.examples;
+    options.contacts = a.contacts;
+    options.progress = line;
+    const check::Report report = check::run(*mesh, options);
+    line.clear();
+
+    // Files first: whoever reads the table may stop reading (`| head`). A file that could not be written does not cost
+    // the user the table, the fruit of the whole run.
+    const std::string name = stem_of(a.mesh);
+    std::vector<Status> written;
+    if (!a.json.empty())
+        written.push_back(write_output(a.json, report::check_json(report, a.mesh, measure_environment())));
+    if (!a.vtu.empty()) written.push_back(write_measures(report, *mesh, a.vtu));
+    if (!a.fixed.empty())
+        written.push_back(write_tetgen(check::with_positive_cells(*mesh, report.measures.orientation), a.fixed));
+    if (table) {
+        const report::TerminalStyle style{.colour = colour_on_stdout(), .command = command_name()};
+        written.push_back(write_output("-", report::terminal_check(report, *mesh, name, style)));
+    }
+    for (const Status& status : written) {
+        if (!status) return fail(status.error());
+    }
+    return report.certified() ? exit_clean : exit_findings;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, int& exit_code) {
+    auto* sub = app.add_subcommand(
+        "check", "Prove in exact arithmetic that a mesh is a partition of its domain, or say why not");
+    sub->footer(
+        "Exit codes: 0 certified, 1 not certified, 2 usage or input error.\nCertified: any two cells meet in a common "
+        "face or not at all, and .neigh and .face, where there are any, agree with\nthe cells. Cells of second order "
+        "are taken with straight sides.");
+    const auto a = std::make_shared<CheckArguments>();
+    sub->add_option("MESH", a->mesh, "A TetGen mesh (.node/.ele, .face and .neigh if there; Triangle's for 2D)")
+        ->required();
+    sub->add_flag("--delaunay", a->delaunay, "Test besides whether every interior facet is locally Delaunay, exactly");
+    sub->add_option("--examples", a->examples, "Places to list of each problem")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1000000))
+        ->type_name("N");
+    sub->add_option("--contacts", a->contacts, "Pairs of cells that overlap or touch to give a witness of")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1000000))
+        ->type_name("N");
+    sub->add_option("--threads", a->threads, "0: all of them")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 4096))
+        ->type_name("N");
+    sub->add_option("--json", a->json, "Write the whole report as JSON; - is stdout, and then there is no table")
+        ->type_name("FILE");
+    sub->add_option("--vtu", a->vtu, "Write the mesh with the measures and problems of its cells, for ParaView")
+        ->type_name("FILE");
+    sub->add_option("--fix-orientation", a->fixed,
+                    "Write a copy in which no cell has negative volume: STEM.node, STEM.ele (.face, .neigh)")
+        ->type_name("STEM");
+    sub->add_flag("--quiet", a->quiet, "No table and no progress: only files and the exit code");
+    sub->callback([a, &exit_code] { exit_code = run_check(*a); });
+}
+
+}  // namespace barycert::cli
