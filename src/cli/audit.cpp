@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <utility>
 
 #include "barycert/audit/runner.hpp"
 #include "barycert/audit/thresholds.hpp"
 #include "barycert/audit/witness_file.hpp"
 #include "barycert/core/text.hpp"
+#include "barycert/report/condition_plot.hpp"
 #include "barycert/report/json.hpp"
 #include "barycert/report/terminal.hpp"
 #include "command.hpp"
@@ -23,7 +25,7 @@ struct AuditArguments {
     std::uint64_t count = 10000;
     std::uint64_t seed = 1;
     int threads = 0;
-    std::string json, witnesses;
+    std::string json, witnesses, plot;
     bool quiet = false;
 };
 
@@ -54,12 +56,18 @@ int run_audit(const AuditArguments& a) {
         if (!rule) return fail(rule.error());
         rules.push_back(*rule);
     }
-    const bool table = !a.quiet && a.json != "-" && a.witnesses != "-";
+    const bool table = !a.quiet && a.json != "-" && a.witnesses != "-" && a.plot != "-";
     if (!a.json.empty() && same_output(a.json, a.witnesses))
         return fail({.what = "--json and --witnesses name the same output",
                      .file = a.json,
                      .remedy = "give each its own; the report of --json holds the witnesses too"});
-    for (const std::string& path : {a.json, a.witnesses, std::string(table ? "-" : "")}) {
+    for (const auto& [option, path] : {std::pair("--json", a.json), std::pair("--witnesses", a.witnesses)}) {
+        if (!a.plot.empty() && same_output(a.plot, path))
+            return fail({.what = fmt::format("--plot and {} name the same output", option),
+                         .file = a.plot,
+                         .remedy = "give each its own"});
+    }
+    for (const std::string& path : {a.json, a.witnesses, a.plot, std::string(table ? "-" : "")}) {
         if (const Status ok = check_output(path); !ok) return fail(ok.error());
     }
     audit::Options options;
@@ -89,6 +97,7 @@ int run_audit(const AuditArguments& a) {
     std::vector<Status> written;
     if (!a.json.empty()) written.push_back(write_output(a.json, report::json_report(*report)));
     if (!a.witnesses.empty()) written.push_back(write_output(a.witnesses, audit::witness_file(*report)));
+    if (!a.plot.empty()) written.push_back(write_output(a.plot, report::condition_plot(*report)));
     if (table) {
         const report::TerminalStyle style{.colour = colour_on_stdout(),
                                           .command = command_name(),
@@ -141,6 +150,9 @@ void add_audit(CLI::App& app, int& exit_code) {
     sub->add_option("--json", a->json, "Write the whole report as JSON; - is stdout, and then there is no table")
         ->type_name("FILE");
     sub->add_option("--witnesses", a->witnesses, "Write the worst cases as JSON, for `barycert replay`; - is stdout")
+        ->type_name("FILE");
+    sub->add_option("--plot", a->plot,
+                    "Draw the kernels' errors against the condition numbers of the cells, as SVG; - is stdout")
         ->type_name("FILE");
     std::string names;
     for (const std::string& rule : audit::rule_names()) names += " " + rule;

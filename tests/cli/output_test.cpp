@@ -28,7 +28,7 @@ void expect_told_before_the_work(const Words& more, const std::string& says, con
 
 TEST(output, missing_folders_and_folders_are_told_before_the_work) {
     const Scratch scratch;
-    for (const std::string option : {"--json", "--witnesses"}) {
+    for (const std::string option : {"--json", "--witnesses", "--plot"}) {
         const std::string missing = scratch.path("none/r.json");
         expect_told_before_the_work({option, missing}, "error: " + missing + ": cannot make a file beside the target");
         expect_told_before_the_work({option, missing}, "make the folder first");
@@ -45,6 +45,11 @@ TEST(output, one_place_for_two_outputs_is_refused) {
     fs::create_symlink(file, scratch.path("link"));
     scratch.put("r.json", "old");
     expect_told_before_the_work({"--json", file, "--witnesses", scratch.path("link")}, "the same output");
+    EXPECT_EQ(read_file(file), "old");
+    for (const std::string option : {"--json", "--witnesses"}) {
+        expect_told_before_the_work({option, "-", "--plot", "-"}, "--plot and " + option + " name the same output");
+        expect_told_before_the_work({option, file, "--plot", scratch.path("link")}, "name the same output");
+    }
     EXPECT_EQ(read_file(file), "old");
 }
 
@@ -93,6 +98,29 @@ TEST(output, a_full_disk_is_an_error_that_does_not_cost_the_table) {
         EXPECT_EQ(r.code, 2) << ::testing::PrintToString(arguments);
         EXPECT_EQ(r.err, "error: cannot write to stdout: found No space left on device\n");
     }
+}
+
+TEST(output, the_picture_appears_whole_and_alone_on_stdout) {
+    const Scratch scratch;
+    const Words some{"audit", "--count", "200", "--family", "sliver.*", "--kernel", "tetrahedron.cramer"};
+    const auto with = [&](const Words& more, const How& how = {}) {
+        Words arguments = some;
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments, how);
+    };
+    const std::string file = scratch.put("plot.svg", "old");
+    const Ended r = with({"--plot", file});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_TRUE(contains(r.out, "tetrahedron.cramer")) << "the table";
+    const std::string picture = read_file(file);
+    EXPECT_TRUE(picture.starts_with("<svg ") && picture.ends_with("</svg>\n"));
+    EXPECT_TRUE(contains(picture, ">cramer</text>"));
+    EXPECT_EQ(scratch.names(), Words{"plot.svg"});
+    for (const std::string threads : {"1", "2"}) EXPECT_EQ(with({"--plot", "-", "--threads", threads}).out, picture);
+    const Ended cut = with({"--quiet", "--plot", file}, {.largest_file = 4096});
+    EXPECT_EQ(cut.code, 2);
+    EXPECT_EQ(read_file(file), picture);
+    EXPECT_EQ(scratch.names(), Words{"plot.svg"});
 }
 
 TEST(output, a_file_that_may_not_grow_leaves_the_old_one) {

@@ -1,0 +1,161 @@
+// The picture of errors against condition numbers: what it shows, and that it can be read.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "barycert/report/condition_plot.hpp"
+#include "barycert/report/svg.hpp"
+#include "small_audit.hpp"
+
+namespace barycert::report_test {
+namespace {
+
+const audit::Report& audited() {
+    static const audit::Report report = small_audit();
+    return report;
+}
+
+audit::Report only(const std::string& glob) {
+    audit::Report report = audited();
+    const std::vector<Kernel> wanted = kernels_matching(glob);
+    std::erase_if(report.kernels, [&](const audit::KernelResult& k) {
+        return std::none_of(wanted.begin(), wanted.end(), [&](const Kernel& w) { return w.name == k.kernel.name; });
+    });
+    return report;
+}
+
+struct Text {
+    double left, right, top, bottom;
+    std::string words;
+};
+
+/// Texts that are read from left to right, with the room they take: letters are at most 0.6 of their size wide on
+/// average in the fonts named.
+std::vector<Text> texts(const std::string& svg) {
+    const std::regex text(
+        "<text x=\"([-0-9.]+)\" y=\"([-0-9.]+)\" font-size=\"(\\d+)\"[^>]*text-anchor=\"(\\w+)\"([^>]*)>"
+        "([^<]*)</text>");
+    std::vector<Text> out;
+    for (std::sregex_iterator it(svg.begin(), svg.end(), text), end; it != end; ++it) {
+        const double x = std::stod((*it)[1]), y = std::stod((*it)[2]), size = std::stod((*it)[3]);
+        const std::string anchor = (*it)[4], words = (*it)[6];
+        if ((*it)[5].str().find("rotate") != std::string::npos) continue;
+        const auto letters = std::count_if(words.begin(), words.end(), [](char c) { return (c & 0xc0) != 0x80; });
+        const double width = 0.53 * size * static_cast<double>(letters);
+        const double left = anchor == "start" ? x : anchor == "middle" ? x - width / 2 : x - width;
+        out.push_back({left, left + width, y - 0.75 * size, y + 0.2 * size, words});
+    }
+    return out;
+}
+
+/// Drawn, self-contained, inside its frame, no text over another.
+void expect_readable(const std::string& svg) {
+    EXPECT_TRUE(svg.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 980 620\""));
+    EXPECT_TRUE(svg.ends_with("</svg>\n"));
+    for (const char* alien : {"nan", "inf\"", "href", "url(", "<script", "<image"})
+        EXPECT_EQ(svg.find(alien), std::string::npos) << alien;
+    const std::regex number("(?:x|y|x1|x2|y1|y2|cx|cy)=\"([-0-9.]+)\"");
+    for (std::sregex_iterator it(svg.begin(), svg.end(), number), end; it != end; ++it) {
+        EXPECT_GE(std::stod((*it)[1]), 0) << it->str();
+        EXPECT_LE(std::stod((*it)[1]), 980) << it->str();
+    }
+    const std::vector<Text> all = texts(svg);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        EXPECT_GE(all[i].left, 0) << all[i].words;
+        EXPECT_LE(all[i].right, 980) << all[i].words;
+        EXPECT_LE(all[i].bottom, 620) << all[i].words;
+        for (std::size_t j = 0; j < i; ++j) {
+            const bool apart = all[i].left >= all[j].right || all[j].left >= all[i].right ||
+                               all[i].top >= all[j].bottom || all[j].top >= all[i].bottom;
+            EXPECT_TRUE(apart) << all[i].words << " / " << all[j].words;
+        }
+    }
+}
+
+/// Of the kernels in the legend.
+std::set<std::string> shown(const std::string& svg) {
+    std::set<std::string> names;
+    const std::vector<Text> all = texts(svg);
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        if (all[i].words.starts_with("worst factor ")) names.insert(all[i - 1].words);
+    }
+    return names;
+}
+
+TEST(Svg, TicksAreRoundAndFew) {
+    EXPECT_EQ(report::round_ticks(0, 10, 12), (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
+    EXPECT_EQ(report::round_ticks(-2, 58, 12), (std::vector<double>{0, 5, 10, 15, 20, 25, 30, 35, 40, 45, 50, 55}));
+    EXPECT_EQ(report::round_ticks(0, 1100, 6), (std::vector<double>{0, 200, 400, 600, 800, 1000}));
+    for (int most = 2; most < 15; ++most) {
+        for (double high = 0.37; high < 2000; high *= 1.7) {
+            const auto ticks = report::round_ticks(-high / 3, high, most);
+            EXPECT_LE(ticks.size(), static_cast<std::size_t>(most)) << high;
+            EXPECT_GE(ticks.size(), 1U) << high;
+        }
+    }
+}
+
+TEST(Svg, NamesCannotBreakOut) {
+    EXPECT_EQ(report::xml_escaped("a<b>&\"c\n\x01"), "a&lt;b&gt;&amp;&quot;c  ");
+    report::Svg svg(10, 10, "\"/><script>");
+    svg.text({0, 0}, "</text><script>");
+    EXPECT_EQ(std::move(svg).finish().find("<script"), std::string::npos);
+}
+
+TEST(Svg, ALineIsCutAtTheFrame) {
+    const report::Axis x{.low = 0, .high = 10, .from = 100, .to = 200, .title = ""};
+    const report::Axis y{.low = 0, .high = 5, .from = 300, .to = 200, .title = ""};
+    const auto drawn = [&](report::Svg::Point a, report::Svg::Point b) {
+        report::Svg svg(400, 400, "");
+        report::draw_line_through(svg, x, y, a, b, {});
+        return std::move(svg).finish();
+    };
+    EXPECT_NE(drawn({1, 1}, {2, 2}).find(R"(x1="100.0" y1="300.0" x2="150.0" y2="200.0")"), std::string::npos);
+    EXPECT_NE(drawn({0, 3}, {1, 3}).find(R"(x1="100.0" y1="240.0" x2="200.0" y2="240.0")"), std::string::npos);
+    EXPECT_EQ(drawn({0, 6}, {1, 6}).find("<line"), std::string::npos);
+}
+
+TEST(Plot, OfEverythingShowsSixKernels) {
+    const std::string svg = report::condition_plot(audited());
+    expect_readable(svg);
+    const auto names = shown(svg);
+    EXPECT_EQ(names.size(), 6U);
+    EXPECT_TRUE(names.contains("homogeneous") || names.contains("stubborn"));
+    for (const std::string& name : names) EXPECT_EQ(name.find('.'), std::string::npos) << name;
+    EXPECT_NE(svg.find("prediction: 8 κ"), std::string::npos);
+    EXPECT_NE(svg.find("without variants"), std::string::npos);
+    EXPECT_NE(svg.find(": tetrahedra</title>"), std::string::npos);
+    EXPECT_EQ(svg, report::condition_plot(audited()));
+}
+
+TEST(Plot, OfAFewShowsThemVariantsToo) {
+    const std::string svg = report::condition_plot(only("tetrahedron.signed-volume*"));
+    expect_readable(svg);
+    EXPECT_EQ(svg.find("without variants"), std::string::npos);
+    EXPECT_EQ(shown(svg), (std::set<std::string>{"signed-volume", "signed-volume.O0", "signed-volume.contracted",
+                                                 "signed-volume.fast-math", "signed-volume.float32"}));
+}
+
+TEST(Plot, OfTrianglesIfThereAreNoTetrahedra) {
+    const std::string svg = report::condition_plot(only("triangle.*"));
+    expect_readable(svg);
+    EXPECT_NE(svg.find(": triangles</title>"), std::string::npos);
+    EXPECT_EQ(shown(svg).size(), 6U);
+}
+
+TEST(Plot, WithNothingToShowSaysSo) {
+    for (const char* glob : {"segment.*", "triangle3d.*", "*.exact"}) {
+        const std::string svg = report::condition_plot(only(glob));
+        expect_readable(svg);
+        EXPECT_NE(svg.find("Nothing to show"), std::string::npos) << glob;
+        EXPECT_TRUE(shown(svg).empty());
+    }
+}
+
+}  // namespace
+}  // namespace barycert::report_test
