@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "barycert/audit/witness_file.hpp"
+#include "barycert/report/check_json.hpp"
 #include "barycert/report/json.hpp"
+#include "check_meshes.hpp"
 #include "schema_tables.hpp"
 #include "small_audit.hpp"
 
@@ -19,6 +21,19 @@ const audit::Report& audited() {
     return report;
 }
 
+/// Reports on meshes that have something of everything, and those that have nothing.
+void check_reports(Schema& schema) {
+    Mesh no_mesh = pair_of_cells();
+    no_mesh.cells.pop_back();
+    for (const Mesh& mesh : {own_mesh("bracket"), own_mesh("plate"), pair_of_cells(), thoroughly_broken(),
+                             broken_plane(), Mesh(), no_mesh}) {
+        for (const bool delaunay : {false, true}) {
+            const std::string text = report::check_json(checked(mesh, delaunay), "part", measure_environment());
+            schema.check("Check", Json::parse(text), "check");
+        }
+    }
+}
+
 /// Everything that is written, checked against a schema.
 Schema checked() {
     Schema schema(BARYCERT_SCHEMA);
@@ -26,6 +41,7 @@ Schema checked() {
     schema.check("Witnesses", Json::parse(audit::witness_file(audited())), "witnesses");
     schema.check("Kernels", Json::parse(report::kernels_json(catalogue())), "kernels");
     schema.check("Families", Json::parse(report::families_json(audit::all_families())), "families");
+    check_reports(schema);
     return schema;
 }
 
@@ -107,6 +123,7 @@ TEST(schema, an_infinite_residual_is_not_hidden_by_null) {
 TEST(schema, the_number_is_the_documented_one) {
     EXPECT_EQ(report::audit_schema, 1);
     EXPECT_EQ(audit::witness_schema, 1);
+    EXPECT_EQ(report::check_schema, 1);
 }
 
 }  // namespace

@@ -69,22 +69,25 @@ std::string certified(const Report& r, const std::string& name, const Colours& p
 
 /// As many reasons as fit in a line, at least one.
 std::string not_certified(const Report& r, const std::string& name, const Colours& paint) {
-    // What follows from other problems is left to the list below.
+    // Overlaps first: they are what it is about. What follows from other problems is left to the list below.
     std::vector<std::string> reasons;
     for (const Finding& f : r.findings) {
-        if (text_of(f.problem).breaks && f.problem != Problem::open_boundary) reasons.push_back(clause(f));
+        if (!text_of(f.problem).breaks || f.problem == Problem::open_boundary) continue;
+        reasons.insert(f.problem == Problem::overlapping_cells ? reasons.begin() : reasons.end(), clause(f));
     }
     const Finding* const open = r.find(Problem::open_boundary);
     if (reasons.empty() && open != nullptr) reasons.push_back(clause(*open));
-    std::string text = name + ": NOT certified";
+    std::string text = ": NOT certified";
     for (std::size_t i = 0; i < reasons.size(); ++i) {
         const std::size_t left = reasons.size() - i;
         constexpr std::size_t room = columns - std::string_view(", and 20 more problems").size();
-        if (i > 0 && text.size() + 2 + reasons[i].size() > (left == 1 ? columns : room))
-            return paint.bad(text + ", and " + plural(left, "more problem", "more problems")) + "\n";
+        if (i > 0 && text.size() + 2 + reasons[i].size() > (left == 1 ? columns : room)) {
+            text += ", and " + plural(left, "more problem", "more problems");
+            break;
+        }
         text += (i == 0 ? ": " : ", ") + reasons[i];
     }
-    return paint.bad(text) + "\n";
+    return paint.bad(name + text) + "\n";
 }
 
 struct Condition {
@@ -321,8 +324,8 @@ std::string terminal_check(const Report& r, const Mesh& mesh, const std::string&
     const Colours paint(style.colour);
     std::string out = r.certified() ? certified(r, name, paint) : not_certified(r, name, paint);
     if (!r.findings.empty() || r.cells != 0) {
-        out += fmt::format("Cells and nodes are named by their positions in the file, counted from 0{}.\n",
-                           mesh.index_base == 1 ? "; the file itself counts from 1" : "");
+        out += fmt::format("Cells and nodes are counted from 0, in the order of the file{}.\n",
+                           mesh.index_base == 1 ? " (which counts from 1)" : "");
     }
     out += "\n" + condition_table(r, mesh, paint);
     out += finding_list(r, true, paint) + contact_list(r, paint);

@@ -1,0 +1,62 @@
+/// Small meshes, good and broken, and what the check says of them.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "barycert/check/check.hpp"
+#include "barycert/mesh/tetgen_io.hpp"
+
+namespace barycert::report_test {
+
+inline Mesh own_mesh(const std::string& name) {
+    return read_tetgen(std::string(BARYCERT_DATA_DIR) + "/meshes/" + name + ".node").value();
+}
+
+inline Mesh tetrahedra(std::vector<double> points, std::vector<Mesh::Index> cells) {
+    Mesh mesh;
+    mesh.points = std::move(points);
+    mesh.cells = std::move(cells);
+    return mesh;
+}
+
+/// Two cells that share a facet.
+inline Mesh pair_of_cells() {
+    return tetrahedra({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1}, {0, 1, 2, 3, 0, 2, 1, 4});
+}
+
+/// Two cells of which one stands in the other.
+inline Mesh overlapping() {
+    return tetrahedra({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, .1, .1, .1, 1.1, .1, .1, .1, 1.1, .1, .1, .1, 1.1},
+                      {0, 1, 2, 3, 4, 5, 6, 7});
+}
+
+/// Something of everything: a flat cell, a cell twice in both orders, one that overlaps, one of three nodes, neighbours
+/// and faces of another mesh, a node of no cell, a node at the place of another.
+inline Mesh thoroughly_broken() {
+    Mesh mesh = overlapping();
+    mesh.points.insert(mesh.points.end(), {1, 1, 0, 5, 5, 5, 5, 5, 5});
+    mesh.cells.insert(mesh.cells.end(), {0, 2, 1, 3, 0, 1, 2, 8, 0, 1, 2, 2});
+    mesh.neighbours.assign(mesh.cells.size(), 0);
+    mesh.faces = {0, 1, 2, 0, 1, 7};
+    return mesh;
+}
+
+/// Triangles of which two lie on each other.
+inline Mesh broken_plane() {
+    Mesh mesh;
+    mesh.dimension = 2;
+    mesh.points = {0, 0, 1, 0, 0, 1, 0.5, 0.25};
+    mesh.cells = {0, 1, 2, 0, 1, 3};
+    return mesh;
+}
+
+inline check::Report checked(const Mesh& mesh, bool delaunay = false) {
+    check::Options options;
+    options.threads = 2;
+    options.delaunay = delaunay;
+    return check::run(mesh, options);
+}
+
+}  // namespace barycert::report_test

@@ -1,0 +1,325 @@
+// The report on a mesh: what a reader is told, as text and as JSON.
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "barycert/core/text.hpp"
+#include "barycert/report/check_json.hpp"
+#include "barycert/report/check_terminal.hpp"
+#include "check_meshes.hpp"
+#include "schema_tables.hpp"
+
+namespace barycert::report_test {
+namespace {
+
+using Json = nlohmann::json;
+using check::Problem;
+using Lines = std::vector<std::string>;
+
+std::string text(const check::Report& report, const Mesh& mesh, bool colour = false) {
+    return report::terminal_check(report, mesh, "part", {.colour = colour});
+}
+std::string text(const Mesh& mesh) {
+    return text(checked(mesh, true), mesh);
+}
+
+Lines lines_of(const std::string& text) {
+    std::istringstream in(text);
+    Lines lines;
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+Json json(const check::Report& report) {
+    return Json::parse(report::check_json(report, "part.1", measure_environment()));
+}
+
+/// A report of one problem, not of any mesh.
+check::Report with_finding(Problem problem, std::uint64_t count, bool at_least = false) {
+    check::Report r;
+    r.nodes = 8;
+    r.cells = 2;
+    r.findings.push_back({problem, count, at_least, {{.cells = {0, 1}}}});
+    return r;
+}
+
+TEST(check_terminal, the_first_line_is_the_verdict) {
+    EXPECT_EQ(lines_of(text(own_mesh("bracket"))).front(),
+              "part: certified: 2400 cells partition a domain of 1 part, 0 cavities, 1 tunnel");
+    EXPECT_EQ(lines_of(text(own_mesh("cube-hole"))).front(),
+              "part: certified: 1590 cells partition a domain of 1 part, 1 cavity, 0 tunnels");
+    EXPECT_EQ(lines_of(text(own_mesh("plate"))).front(),
+              "part: certified: 2040 cells partition a domain of 1 part, 1 hole");
+    EXPECT_EQ(lines_of(text(tetrahedra(pair_of_cells().points, {0, 1, 2, 3}))).front(),
+              "part: certified: 1 cell is a domain of 1 part, 0 cavities, 0 tunnels");
+    EXPECT_EQ(lines_of(text(Mesh())).front(), "part: certified, trivially: the mesh has no cells");
+    EXPECT_EQ(lines_of(text(overlapping())).front(),
+              "part: NOT certified: 1 pair of cells overlaps, 3 pairs of boundary facets meet, 2 parts overlap others");
+    EXPECT_EQ(lines_of(text(thoroughly_broken()))
+                  .front()
+                  .find("part: NOT certified: 3 pairs of cells overlap, 1 cell has a node twice, "),
+              0U)
+        << text(thoroughly_broken());
+    EXPECT_TRUE(contains(lines_of(text(thoroughly_broken())).front(), " more problems"));
+}
+
+TEST(check_terminal, every_problem_has_words_for_one_and_for_more) {
+    for (const check::ProblemText& t : check::problem_texts) {
+        if (!t.breaks) continue;
+        const std::string one = lines_of(text(with_finding(t.problem, 1), {})).front();
+        const std::string two = lines_of(text(with_finding(t.problem, 2), {})).front();
+        EXPECT_EQ(one.find("part: NOT certified: 1 "), 0U) << t.name;
+        EXPECT_EQ(two.find("part: NOT certified: 2 "), 0U) << t.name;
+        EXPECT_NE(one.substr(24), two.substr(24)) << t.name;
+        EXPECT_TRUE(contains(text(with_finding(t.problem, 1), {}), "\n" + std::string(t.name) + " ")) << t.name;
+    }
+}
+
+TEST(check_terminal, lines_fit_a_terminal) {
+    const std::vector<Mesh> meshes{own_mesh("bracket"), own_mesh("plate"),   Mesh(),
+                                   overlapping(),       thoroughly_broken(), broken_plane()};
+    for (const Mesh& mesh : meshes) {
+        for (const std::string& line : lines_of(text(mesh)))
+            EXPECT_LE(line.size(), 100U + std::string("part").size()) << line;
+    }
+    check::Report wide = with_finding(Problem::overlapping_cells, 1000, true);
+    const Mesh::Index big = std::numeric_limits<Mesh::Index>::max();
+    wide.findings[0].places.assign(20, {{big - 1, big}, {big - 2, big - 1, big}, "coplanar"});
+    check::Contact c;
+    c.cells = {big - 1, big};
+    c.witness.point.fill(-1.2345678901234567e-300);
+    c.witness.exact = true;
+    wide.contacts.assign(2, c);
+    wide.contacts[1].witness.exact = false;
+    wide.contacts[1].witness.fraction.fill("-" + std::string(79, '7'));
+    for (const std::string& line : lines_of(text(wide, {}))) EXPECT_LE(line.size(), 100U) << line;
+}
+
+TEST(check_terminal, conditions_say_how_often_they_fail) {
+    const auto row = [](const std::string& shown, const std::string& start) {
+        for (const std::string& line : lines_of(shown)) {
+            if (line.rfind(start, 0) == 0) return line.substr(line.find_last_of(' ') + 1);
+        }
+        return std::string();
+    };
+    const std::string good = text(own_mesh("bracket"));
+    for (const std::string name : {"P1 ", "P2 ", "P3 ", "P4 ", "    hence", "P5 "}) EXPECT_EQ(row(good, name), "ok");
+    EXPECT_TRUE(contains(text(own_mesh("torus")), "none came\n")) << "it has neither .neigh nor .face";
+    const std::string bad = text(overlapping());
+    EXPECT_EQ(row(bad, "P1 "), "ok");
+    EXPECT_EQ(row(bad, "P2 "), "ok");
+    EXPECT_EQ(row(bad, "P3 "), "3");
+    EXPECT_EQ(row(bad, "P4 "), "2");
+    EXPECT_EQ(row(bad, "    hence"), "1");
+    EXPECT_EQ(row(text(with_finding(Problem::boundary_contact, 1000, true), {}), "P3 "), "1000");
+    EXPECT_TRUE(contains(text(with_finding(Problem::boundary_contact, 1000, true), {}), ">= 1000"));
+    Mesh no_mesh = pair_of_cells();
+    no_mesh.cells.pop_back();
+    EXPECT_EQ(row(text(no_mesh), "P1 "), "1");
+    EXPECT_TRUE(contains(text(no_mesh), "not checked\n"));
+    EXPECT_TRUE(contains(text(no_mesh), "(corners without a whole cell)"));
+    EXPECT_TRUE(contains(text(thoroughly_broken()), "take no part in\nP2 to P5.\n"));
+}
+
+TEST(check_terminal, long_lists_are_cut_and_say_so) {
+    Mesh mesh = own_mesh("cube-hole");
+    for (std::size_t cell = 0; cell < 40; ++cell) std::swap(mesh.cells[4 * cell], mesh.cells[4 * cell + 1]);
+    mesh.neighbours.clear();
+    const std::string shown = text(mesh);
+    EXPECT_TRUE(contains(shown, "certified: 1590 cells")) << "the order of corners does not matter";
+    EXPECT_TRUE(contains(shown,
+                         "Notes, harmless to a partition\nmixed_orientation           40  cells of the rarer "
+                         "orientation\n    cells 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, and 30 more\n    -> --fix"));
+    EXPECT_FALSE(contains(shown, "What is wrong"));
+    const std::string more = text(with_finding(Problem::overlapping_cells, 1000, true), {});
+    EXPECT_TRUE(contains(more,
+                         "overlapping_cells      >= 1000  pairs of cells whose interiors meet\n    cells 0 and 1; "
+                         "and more\n"));
+    EXPECT_TRUE(contains(more, "NOT certified: at least 1000 pairs of cells overlap\n"));
+}
+
+TEST(check_terminal, witnesses_are_exact_or_say_that_they_are_rounded) {
+    const std::string shown = text(overlapping());
+    EXPECT_TRUE(contains(shown, "cells 0 and 1 overlap: (")) << shown;
+    EXPECT_TRUE(contains(shown, "\n    (0x1."));
+    EXPECT_FALSE(contains(shown, "rounded\n"));
+
+    check::Report r = with_finding(Problem::boundary_contact, 2);
+    check::Contact c;
+    c.cells = {0, 1};
+    c.dimension = 1;
+    c.witness.point = {1 / 3.0, 0.5, -2};
+    c.witness.fraction = {"1/3", "1/2", "-2"};
+    r.contacts = {c};
+    const std::string thirds = text(r, {});
+    EXPECT_TRUE(contains(thirds,
+                         "1 pair of cells that meet where they must not, each with an exact point of both\n"
+                         "cells 0 and 1 touch along a segment: (0.3333333333333333, 0.5, -2), rounded\n"
+                         "    x = 1/3\n    y = 1/2\n    z = -2\n"))
+        << thirds;
+    EXPECT_FALSE(contains(thirds, "--json"));
+    r.contacts[0].witness.fraction[1] = std::string(300, '1') + "/" + std::string(99, '2');
+    const std::string cut = text(r, {});
+    EXPECT_TRUE(contains(cut, "    y = 111111111111111111111111...222222222222222222222222 (400 characters)\n"));
+    EXPECT_TRUE(contains(cut, "--json FILE has the fractions whole.\n"));
+    r.contacts[0].dimension = 0;
+    EXPECT_TRUE(contains(text(r, {}), "touch in a point"));
+    r.contacts[0].dimension = 2;
+    EXPECT_TRUE(contains(text(r, {}), "touch in an area"));
+}
+
+TEST(check_terminal, places_are_positions_whatever_the_file_counts_from) {
+    EXPECT_TRUE(
+        contains(text(own_mesh("bracket")), "counted from 0, in the order of the file (which counts from 1).\n"));
+    EXPECT_TRUE(contains(text(own_mesh("torus")), "counted from 0, in the order of the file.\n"));
+}
+
+TEST(check_terminal, in_the_plane_there_are_areas_and_holes) {
+    const std::string shown = text(own_mesh("plate"));
+    EXPECT_FALSE(contains(shown, "volume"));
+    EXPECT_FALSE(contains(shown, "tunnel"));
+    EXPECT_FALSE(contains(shown, "dihedral"));
+    EXPECT_TRUE(contains(shown, "\narea       1.8042"));
+    EXPECT_TRUE(contains(shown, "domain     1 part, 1 hole\n"));
+    EXPECT_TRUE(contains(text(broken_plane()), "cells 0 and 1 overlap: ("));
+}
+
+TEST(check_terminal, volumes_tell_whether_they_are_equal) {
+    EXPECT_TRUE(contains(text(pair_of_cells()),
+                         "0.3333333333333333 in the cells, 0.3333333333333333 within the boundary: "
+                         "equal, exactly\n"));
+    EXPECT_TRUE(contains(text(thoroughly_broken()), "NOT equal\n"));
+}
+
+TEST(check_terminal, delaunay_only_if_asked) {
+    const Mesh mesh = own_mesh("plate");
+    EXPECT_FALSE(contains(text(checked(mesh), mesh), "Delaunay"));
+    check::Report r = checked(pair_of_cells(), true);
+    ASSERT_TRUE(r.delaunay);
+    EXPECT_TRUE(contains(text(r, {}), "Delaunay   1 interior facet tested: all are locally Delaunay"));
+    *r.delaunay = {10, 2, 3, 0.25, 7, 11};
+    EXPECT_TRUE(contains(text(r, {}),
+                         "10 interior facets tested: 2 are not locally Delaunay; 3 cospherical\n"
+                         "           worst: node 11 lies in the sphere of cell 7, 0.25 of its radius deep\n"));
+}
+
+TEST(check_terminal, measures_have_their_worst_cell) {
+    // Cell 1 is the flatter one.
+    const Mesh mesh = tetrahedra({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -0.125}, {0, 1, 2, 3, 0, 2, 1, 4});
+    Lines rows;
+    for (const std::string& line : lines_of(text(mesh))) {
+        if (line.size() == 79 && line.back() == '1' && line[77] == ' ') rows.push_back(line);
+    }
+    // All but the bits and the largest angle: both cells are right angled along the axes.
+    EXPECT_EQ(rows.size(), 4U);
+    const std::string flat = text(tetrahedra({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, {0, 1, 2, 3}));
+    EXPECT_TRUE(contains(flat, "         inf         inf         inf           0\n")) << flat;
+}
+
+TEST(check_terminal, colour_changes_no_letter) {
+    for (const Mesh& mesh : {own_mesh("bracket"), thoroughly_broken()}) {
+        const check::Report r = checked(mesh);
+        std::string coloured = text(r, mesh, true);
+        EXPECT_TRUE(contains(coloured, "\033["));
+        for (std::size_t at; (at = coloured.find('\033')) != std::string::npos;)
+            coloured.erase(at, coloured.find('m', at) - at + 1);
+        EXPECT_EQ(coloured, text(r, mesh));
+    }
+}
+
+TEST(check_json, says_what_the_report_says) {
+    const Mesh mesh = own_mesh("bracket");
+    const check::Report r = checked(mesh, true);
+    const Json j = json(r);
+    EXPECT_EQ(j["schema"], 1);
+    EXPECT_EQ(j["mesh"], "part.1");
+    EXPECT_EQ(j["verdict"], "certified");
+    EXPECT_EQ(j["cells"], mesh.cell_count());
+    EXPECT_EQ(j["nodes"], mesh.point_count());
+    ASSERT_EQ(j["conditions"].size(), 5U);
+    for (const Json& c : j["conditions"]) EXPECT_EQ(c["holds"], true);
+    EXPECT_EQ(j["findings"].size(), r.findings.size());
+    EXPECT_EQ(j["orientation"]["positive"], mesh.cell_count());
+    EXPECT_EQ(j["volume"]["cells"], r.volume.cells);
+    EXPECT_EQ(j["volume"]["equal"], true);
+    EXPECT_EQ(j["boundary"]["tunnels"], 1);
+    EXPECT_EQ(j["measures"]["min_angle"]["least"], check::distribution(r.measures.min_angle).least);
+    EXPECT_EQ(j["measures"]["condition"]["most_cell"], check::distribution(r.measures.condition).most_cell);
+    EXPECT_EQ(j["delaunay"]["facets"], r.delaunay->facets);
+    EXPECT_FALSE(json(checked(mesh)).contains("delaunay"));
+    for (std::size_t i = 0; i < check::problem_count; ++i)
+        EXPECT_EQ(j["problem_bits"][i], check::text_of(static_cast<Problem>(i)).name);
+    EXPECT_EQ(check::bit(Problem::degenerate_cell), 1U << 4U) << "position i is bit i";
+    EXPECT_EQ(j["problem_bits"][4], "degenerate_cell");
+}
+
+TEST(check_json, findings_and_contacts_stand_whole) {
+    const check::Report r = checked(thoroughly_broken());
+    const Json j = json(r);
+    EXPECT_EQ(j["verdict"], "not certified");
+    ASSERT_EQ(j["findings"].size(), r.findings.size());
+    for (std::size_t i = 0; i < r.findings.size(); ++i) {
+        const check::Finding& f = r.findings[i];
+        const Json& w = j["findings"][i];
+        EXPECT_EQ(w["name"], check::text_of(f.problem).name);
+        EXPECT_EQ(w["count"], f.count);
+        EXPECT_EQ(w["at_least"], f.at_least);
+        ASSERT_EQ(w["places"].size(), f.places.size());
+        for (const Json& place : w["places"]) {
+            for (const Json& cell : place["cells"]) EXPECT_GE(cell, 0) << "unused entries are left out";
+        }
+    }
+    ASSERT_EQ(j["contacts"].size(), r.contacts.size());
+    for (std::size_t i = 0; i < r.contacts.size(); ++i) {
+        const Json& w = j["contacts"][i]["witness"];
+        EXPECT_EQ(w["exact"], r.contacts[i].witness.exact);
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_EQ(parse_double(w["hex"][k].get<std::string>()), r.contacts[i].witness.point[k]);
+            EXPECT_EQ(parse_double(w["decimal"][k].get<std::string>()), r.contacts[i].witness.point[k]);
+            EXPECT_EQ(w["fraction"][k], r.contacts[i].witness.fraction[k]);
+        }
+    }
+    EXPECT_EQ(json(with_finding(Problem::overlapping_cells, 1000, true))["findings"][0]["at_least"], true);
+}
+
+/// No null but where it says something, and no number that JSON has not.
+void expect_numbers(const Json& value, const std::string& where) {
+    if (value.is_structured()) {
+        for (const auto& [key, inner] : value.items()) expect_numbers(inner, where + "." + key);
+    } else if (value.is_number_float()) {
+        EXPECT_TRUE(std::isfinite(value.get<double>())) << where;
+    } else {
+        EXPECT_FALSE(value.is_null()) << where;
+    }
+}
+
+TEST(check_json, knows_no_nan_and_does_not_hide_infinity) {
+    const Json flat = json(checked(tetrahedra({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, {0, 1, 2, 3})));
+    EXPECT_EQ(flat["measures"]["condition"]["most"], std::numeric_limits<double>::max());
+    EXPECT_EQ(flat["measures"]["aspect"]["most"], std::numeric_limits<double>::max());
+    EXPECT_EQ(flat["measures"]["volume"]["most"], 0);
+    Json whole = json(checked(thoroughly_broken(), true));
+    whole["boundary"].erase("tunnels");  // null: there is no such number
+    whole["delaunay"].erase("worst_cell");
+    whole["delaunay"].erase("worst_node");
+    expect_numbers(whole, "report");
+    Mesh far = pair_of_cells();
+    far.points[0] = std::numeric_limits<double>::quiet_NaN();
+    const Json nowhere = json(checked(far));
+    for (const Json& measure : nowhere["measures"]) EXPECT_TRUE(measure.is_null()) << "no cell has a place in space";
+    EXPECT_FALSE(contains(nowhere.dump(), "nan"));
+}
+
+TEST(check_json, a_name_that_is_no_utf8_is_no_crash) {
+    EXPECT_TRUE(contains(report::check_json(checked(pair_of_cells()), "\xff", measure_environment()), "\xef\xbf\xbd"));
+}
+
+}  // namespace
+}  // namespace barycert::report_test
