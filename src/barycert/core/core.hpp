@@ -6,8 +6,8 @@
 /// or exits, and only want of memory throws.
 ///
 /// Laws, each a test by its name (tests/core, tests/laws):
-///   S1  A sign is exact for every finite double, subnormals and 1e308 included.             predicates.hpp
-///   S2  Even permutations keep a sign, odd ones flip it; powers of two keep it.              predicates.hpp
+///   S1  A sign is exact for every finite double, subnormals and 1e308 included.          predicates.hpp, insphere.hpp
+///   S2  Even permutations keep a sign, odd ones flip it; powers of two keep it.          predicates.hpp, insphere.hpp
 ///   W1  A weight has the exact sign; it is zero only if the exact one is, or rounds to it.   weights.hpp
 ///   W2  A weight is the exact one rounded to nearest, ties to even.                          weights.hpp
 ///   V1  A value is the exact sum of weight times nodal value, rounded once.                  weights.hpp
@@ -32,6 +32,7 @@
 
 #include "barycert/core/batch.hpp"         // IWYU pragma: export
 #include "barycert/core/environment.hpp"   // IWYU pragma: export
+#include "barycert/core/insphere.hpp"      // IWYU pragma: export
 #include "barycert/core/inverse.hpp"       // IWYU pragma: export
 #include "barycert/core/predicates.hpp"    // IWYU pragma: export
 #include "barycert/core/result.hpp"        // IWYU pragma: export

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "barycert/core/fixed_integer.hpp"
+#include "barycert/core/lifted-inl.hpp"
 #include "barycert/core/numerators-inl.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
@@ -31,6 +32,9 @@ struct Lattice {
 ///   a numerator of degree 3 below 3 * 2^(64 N - 2) * that in 3 N limbs: 3 * 2^(192 N - 5),
 ///   four of them below 2^(192 N - 1), their range,
 ///   a numerator of degree 4 below 3 * (minor)^2           in 4 N limbs: 3 * 2^(256 N - 6),
+///   a square of a length below 3 * 2^(128 N - 4)          in 2 N limbs,
+///   three products of such a square and a minor below 9 * 2^(256 N - 7)         in 4 N limbs,
+///   four of one and a numerator of degree 3 below 36 * 2^(320 N - 9)            in 5 N limbs,
 /// so that no sum overflows.
 template <int count, int d, class Decide>
 auto with_integers(const double* const (&points)[count], bool common, Decide decide) {
@@ -110,6 +114,24 @@ int sign_of_determinant(const double* const (&points)[count], const int (&ends)[
         lattice.difference(ends[2][1], ends[2][0], w);
         formulas::cross(v, w, m);
         return sign_of(formulas::dot(u, m));
+    });
+}
+
+// In integers as wide as need be: differences of 2099 bits (see integer.hpp), products of 5, of which 4 * 6 * 3 are
+// added up. A product of two numbers has a limb more than its bits at most, a sum one more.
+static_assert(64 * (Integer::capacity - 2) >= 5 * 2099 + 7);
+
+/// Sign of sum n_i |r_i|^2, as lifted-inl.hpp has it, of vertices and point. All axes in one unit: squares are added
+/// up.
+template <Simplex s>
+int sign_of_lifted(const double* const (&points)[vertex_count(s) + 1]) {
+    constexpr int n = vertex_count(s), d = space_dimension(s);
+    return with_integers<n + 1, d>(points, true, []<class T>(const Lattice<n + 1, d, T>& lattice) {
+        formulas::Relative<s, T> c;
+        formulas::Lifted<s, T> lifted;
+        for (int i = 0; i < n; ++i) lattice.difference(i, n, c.r[i]);
+        formulas::lift(c, lifted);
+        return sign_of(lifted.sum);
     });
 }
 
@@ -203,6 +225,14 @@ int exact_orient3d(const double* a, const double* b, const double* c, const doub
 
 int exact_det3d(const double* p, const double* q, const double* r, const double* s, const double* t, const double* u) {
     return sign_of_determinant<6>({p, q, r, s, t, u}, {{0, 1}, {2, 3}, {4, 5}});
+}
+
+int exact_incircle(const double* a, const double* b, const double* c, const double* d) {
+    return sign_of_lifted<Simplex::triangle>({a, b, c, d});
+}
+
+int exact_insphere(const double* a, const double* b, const double* c, const double* d, const double* e) {
+    return sign_of_lifted<Simplex::tetrahedron>({a, b, c, d, e});
 }
 
 double exact_dot(const double* x, const double* y, int count) {

@@ -61,6 +61,10 @@ int exact_orient3d(const double* a, const double* b, const double* c, const doub
 /// Sign of det(q - p, s - r, u - t). Precondition: finite.
 int exact_det3d(const double* p, const double* q, const double* r, const double* s, const double* t, const double* u);
 
+/// The signs of insphere.hpp. Precondition: finite.
+int exact_incircle(const double* a, const double* b, const double* c, const double* d);
+int exact_insphere(const double* a, const double* b, const double* c, const double* d, const double* e);
+
 /// The dot product of `count` pairs (at most 5), correctly rounded. Precondition: finite.
 double exact_dot(const double* x, const double* y, int count);
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 
 #include "barycert/core/blocks.hpp"
 #include "barycert/core/exact_weights.hpp"
 #include "barycert/core/lanes.hpp"
+#include "barycert/core/point_arguments.hpp"
 
 namespace barycert {
 namespace {
@@ -42,23 +42,6 @@ Status batch_signs(const Batch& batch, std::span<WeightSigns> out, Tiers* tiers)
         });
     if (status && tiers != nullptr) tiers->add(counts);
     return status;
-}
-
-Sign as_sign(int s) {
-    return s < 0 ? Sign::negative : s > 0 ? Sign::positive : Sign::zero;
-}
-
-/// The error of an argument of orient2d, orient3d or det3d that is not finite.
-Error bad_argument(std::span<const double* const> points, int d) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        for (int k = 0; k < d; ++k) {
-            if (!std::isfinite(points[i][k]))
-                return {.what = "coordinate " + std::to_string(k) + " of point " + std::to_string(i),
-                        .expected = "a finite number",
-                        .found = std::to_string(points[i][k])};
-        }
-    }
-    return {};
 }
 
 double largest(double x, double y, double z) {
@@ -99,25 +82,20 @@ Result<Sign> orient2d(const double* a, const double* b, const double* c) {
     const double x = std::max(std::fabs(ux), std::fabs(vx)), y = std::max(std::fabs(uy), std::fabs(vy));
     const double det = ux * vy - uy * vx;
     if (in_range(x) && in_range(y) && std::fabs(det) > 8.5 * epsilon * (x * y)) return as_sign(det < 0 ? -1 : 1);
-    if (!all_finite(a, 2) || !all_finite(b, 2) || !all_finite(c, 2)) return bad_argument(std::array{a, b, c}, 2);
-    return as_sign(exact_orient2d(a, b, c));
+    return exact_sign(std::array{a, b, c}, 2, [=] { return exact_orient2d(a, b, c); });
 }
 
 Result<Sign> orient3d(const double* a, const double* b, const double* c, const double* d) {
     const int sign = filtered_det3d({a, b, a, c, a, d});
     if (sign != 0) return as_sign(sign);
-    if (!all_finite(a, 3) || !all_finite(b, 3) || !all_finite(c, 3) || !all_finite(d, 3))
-        return bad_argument(std::array{a, b, c, d}, 3);
-    return as_sign(exact_orient3d(a, b, c, d));
+    return exact_sign(std::array{a, b, c, d}, 3, [=] { return exact_orient3d(a, b, c, d); });
 }
 
 Result<Sign> det3d(const double* p, const double* q, const double* r, const double* s, const double* t,
                    const double* u) {
     const int sign = filtered_det3d({p, q, r, s, t, u});
     if (sign != 0) return as_sign(sign);
-    const std::array points{p, q, r, s, t, u};
-    if (!std::ranges::all_of(points, [](const double* x) { return all_finite(x, 3); })) return bad_argument(points, 3);
-    return as_sign(exact_det3d(p, q, r, s, t, u));
+    return exact_sign(std::array{p, q, r, s, t, u}, 3, [=] { return exact_det3d(p, q, r, s, t, u); });
 }
 
 Result<WeightSigns> weight_signs(Simplex simplex, const double* vertices, const double* point, Tiers* tiers) {
