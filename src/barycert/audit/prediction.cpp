@@ -13,6 +13,9 @@ namespace {
 
 constexpr double unit = 0x1p-53;
 
+/// From here on 8 * 2^-53 kappa exceeds 1/8 and so may the relative error of a denominator: no longer first order.
+constexpr double beyond_first_order = 0x1p47;
+
 // Bin 0 holds errors up to half a unit, which is how far the exact weight is itself rounded; bin k > 0 holds
 // [edge(k), edge(k+1)) with edges 1/2, 3/4, 1, 3/2, 2, ...: exponent and leading bit of the mantissa. The last bin,
 // from 2^200 on, takes all that is above.
@@ -60,7 +63,7 @@ void Prediction::add(double kappa, double error) {
     if (bin >= row.errors.size()) row.errors.resize(bin + 1);
     ++row.errors[bin];
     row.worst = std::max(row.worst, units);
-    worst_factor_ = std::max(worst_factor_, units / kappa);
+    if (kappa < beyond_first_order) worst_factor_ = std::max(worst_factor_, units / kappa);
 }
 
 void Prediction::merge(const Prediction& other) {

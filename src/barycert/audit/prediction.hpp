@@ -34,7 +34,8 @@ public:
 
     std::uint64_t cases() const;
 
-    /// The largest error / (2^-53 kappa): the constant C that would have held. -1 without cases.
+    /// The largest error / (2^-53 kappa) where kappa < 2^47, up to which the prediction is one of first order: the
+    /// constant C that would have held. -1 without such cases.
     double worst_factor() const { return worst_factor_; }
 
     /// Those that hold cases, ascending.

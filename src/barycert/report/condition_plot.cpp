@@ -72,6 +72,7 @@ std::uint64_t most_cases(const std::vector<const KernelResult*>& kernels) {
 }
 
 std::string factor_text(double factor) {
+    if (factor < 0) return "unknown";  // no case within first order
     if (factor < 1000) return fmt::format("{:.2f}", factor);
     constexpr std::array digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     std::string out = "2";
@@ -159,7 +160,8 @@ std::string condition_plot(const audit::Report& report) {
              fmt::format("Up to {} cases a kernel (seed {}, {} a family), the point in the cell or on its boundary.",
                          most_cases(kernels), report.seed, report.count),
              small);
-    svg.text({70, 586}, "Error: the largest |weight - exact weight| of a case. Factor: error / (κ · 2⁻⁵³).", small);
+    svg.text({70, 586},
+             "Error: the largest |weight - exact weight| of a case. Factor: error / (κ · 2⁻⁵³) where κ < 2⁴⁷.", small);
     if (kernels.size() < all.size())
         svg.text({70, 604},
                  fmt::format("{} of {} kernels: evenly from the least to the largest worst factor, without variants.",
