@@ -21,7 +21,7 @@
 ///   - anything about numbers before they were rounded to these doubles;
 ///   - that rounded weights sum to 1, or give back their point: rounding each one is incompatible with both;
 ///   - a time: an answer takes nanoseconds where the filter decides, up to about a microsecond where integers must, and
-///     several where coordinates differ by more than 2^72 in magnitude;
+///     several where coordinates differ by more than 2^72 in magnitude (insphere: tens where they differ by 2^1000);
 ///   - which tier decides (Tiers): it is the same on every machine, but may change with the version;
 ///   - checks of indices: those are preconditions;
 ///   - anything while floating-point exceptions are trapped; flags are not preserved.
@@ -31,6 +31,7 @@
 #pragma once
 
 #include "barycert/core/batch.hpp"         // IWYU pragma: export
+#include "barycert/core/condition.hpp"     // IWYU pragma: export
 #include "barycert/core/environment.hpp"   // IWYU pragma: export
 #include "barycert/core/insphere.hpp"      // IWYU pragma: export
 #include "barycert/core/inverse.hpp"       // IWYU pragma: export
