@@ -1,0 +1,316 @@
+// barycert check: exit codes, outputs and options, on meshes that are good, broken and none at all.
+
+#include <sys/stat.h>
+
+#include <csignal>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "process.hpp"
+
+namespace barycert::cli_test {
+namespace {
+
+const std::string apart = "8 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 2 0 0\n5 3 0 0\n6 2 1 0\n7 2 0 1\n";
+const std::string two_cells = "2 4 0\n0 0 1 2 3\n1 4 5 6 7\n";
+
+/// A mesh in small: its files but the coordinates, which are `apart`.
+std::string put_mesh(const Scratch& scratch, const std::string& stem, const std::string& ele,
+                     const std::string& node = apart) {
+    scratch.put(stem + ".node", node);
+    scratch.put(stem + ".ele", ele);
+    return scratch.path(stem);
+}
+
+/// Two cells of which one stands in the other.
+std::string put_overlapping(const Scratch& scratch) {
+    return put_mesh(scratch, "over", two_cells,
+                    "8 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 .1 .1 .1\n5 1.1 .1 .1\n6 .1 1.1 .1\n7 .1 .1 1.1\n");
+}
+
+/// Cells apart from each other, the second in the negative order.
+std::string put_mixed(const Scratch& scratch) {
+    return put_mesh(scratch, "mixed", "2 4 1\n0 0 1 2 3 0.1\n1 5 4 6 7 0.2\n");
+}
+
+Words check(const std::string& path, const Words& more = {}) {
+    Words arguments{"check", path};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+void expect_verdict(const std::string& path, int code, const std::string& says) {
+    const Ended r = run(check(path));
+    EXPECT_EQ(r.code, code) << r.err;
+    EXPECT_EQ(r.err, "");
+    ASSERT_FALSE(r.out.empty());
+    EXPECT_EQ(lines_of(r.out).front(), path + ": " + says);
+    EXPECT_EQ(run(check(path, {"--quiet"})).code, code);
+}
+
+TEST(check, a_good_mesh_is_certified) {
+    const Scratch scratch;
+    expect_verdict(put_mesh(scratch, "m", two_cells), 0,
+                   "certified: 2 cells partition a domain of 2 parts, 0 cavities, 0 tunnels");
+    expect_verdict(put_mixed(scratch), 0, "certified: 2 cells partition a domain of 2 parts, 0 cavities, 0 tunnels");
+    expect_verdict(put_mesh(scratch, "none", "0 4 0\n"), 0, "certified, trivially: the mesh has no cells");
+    for (const std::string name : {"bracket", "cube-hole-o2", "flange", "lattice-box", "plate"}) {
+        const Ended r = run(check(mesh(name)));
+        EXPECT_EQ(r.code, 0) << name << r.out;
+        EXPECT_TRUE(contains(lines_of(r.out).front(), ": certified: "));
+    }
+}
+
+TEST(check, a_broken_mesh_is_not) {
+    const Scratch scratch;
+    expect_verdict(put_overlapping(scratch), 1,
+                   "NOT certified: 1 pair of cells overlaps, 3 pairs of boundary facets meet, 2 parts overlap others");
+    expect_verdict(put_mesh(scratch, "flat", two_cells, apart.substr(0, apart.rfind("7 ")) + "7 3 1 0\n"), 1,
+                   "NOT certified: 1 cell is degenerate, 4 pairs of boundary facets meet");
+    const Ended twice = run(check(put_mesh(scratch, "twice", "3 4 0\n0 0 1 2 3\n1 4 5 6 7\n2 0 1 2 3\n")));
+    EXPECT_EQ(twice.code, 1);
+    EXPECT_TRUE(contains(twice.out,
+                         "\nduplicate_cell               1  cells with the same nodes as another\n    cells 0 and 2\n"))
+        << twice.out;
+    const std::string neigh = put_mesh(scratch, "neigh", two_cells);
+    scratch.put("neigh.neigh", "2 4\n0 1 -1 -1 -1\n1 -1 -1 -1 -1\n");
+    expect_verdict(neigh, 1, "NOT certified: 1 entry of .neigh is wrong");
+    const std::string face = put_mesh(scratch, "face", two_cells);
+    scratch.put("face.face", "2 0\n0 0 1 2\n1 0 1 7\n");
+    expect_verdict(face, 1, "NOT certified: 1 triangle of .face is no facet");
+}
+
+TEST(check, what_cannot_be_read_is_an_error) {
+    const Scratch scratch;
+    const std::string bad = put_mesh(scratch, "bad", "1 4 0\n0 0 1 2 99\n");
+    const std::vector<std::pair<Words, std::string>> refusals{
+        {check(bad), "error: " + bad + ".ele:2: "},
+        {check(scratch.path("none")), "error: " + scratch.path("none") + ".node: cannot read the file"},
+        {check(scratch.path("none")), "MESH is the stem of TetGen's files"},
+        {check(scratch.path("part.stl")), "mesh it first with `barycert mesh " + scratch.path("part.stl")},
+        {check(scratch.folder()), "this is a folder"},
+        {{"check"}, "MESH is required"},
+        {check(bad, {bad}), "error: "},
+        {check(bad, {"--threads", "-1"}), "--threads"},
+        {check(bad, {"--examples", "-1"}), "--examples"},
+        {check(bad, {"--contacts", "many"}), "--contacts"},
+        {check(bad, {"--json"}), "--json"},
+    };
+    for (const auto& [arguments, says] : refusals) {
+        const Ended r = run(arguments);
+        EXPECT_EQ(r.code, 2) << says;
+        EXPECT_EQ(r.out, "");
+        EXPECT_TRUE(contains(r.err, says)) << r.err;
+    }
+    EXPECT_EQ(run(check(scratch.path("none"), {"--json", scratch.path("r.json")})).code, 2);
+    EXPECT_FALSE(std::filesystem::exists(scratch.path("r.json")));
+}
+
+TEST(check, any_file_of_the_mesh_names_it) {
+    const Scratch scratch;
+    const std::string stem = put_mesh(scratch, "m", two_cells);
+    for (const std::string suffix : {"", ".node", ".ele"}) {
+        const Ended r = run(check(stem + suffix));
+        EXPECT_EQ(r.code, 0);
+        EXPECT_EQ(r.out.rfind(stem + ": certified", 0), 0U);
+    }
+}
+
+TEST(check, json_says_what_the_table_says) {
+    const Scratch scratch;
+    const std::string over = put_overlapping(scratch);
+    const Ended r = run(check(over, {"--json", "-"}));
+    EXPECT_EQ(r.code, 1);
+    EXPECT_EQ(r.err, "");
+    const auto j = parse(r.out);
+    EXPECT_EQ(j["schema"], 1);
+    EXPECT_EQ(j["mesh"], over);
+    EXPECT_EQ(j["verdict"], "not certified");
+    EXPECT_EQ(j["contacts"].size(), 1U);
+    EXPECT_EQ(j["findings"].back()["name"], "overlapping_cells");
+    EXPECT_EQ(j["environment"]["rounding"], "nearest");
+    EXPECT_FALSE(j.contains("delaunay"));
+    const Ended file = run(check(over, {"--json", scratch.path("r.json"), "--quiet"}));
+    EXPECT_EQ(file.code, 1);
+    EXPECT_EQ(file.out + file.err, "");
+    auto written = parse(read_file(scratch.path("r.json")));
+    auto shown = j;
+    for (auto* report : {&written, &shown}) (*report).erase("seconds");
+    EXPECT_EQ(written, shown);
+}
+
+TEST(check, options_reach_the_check) {
+    const Scratch scratch;
+    const std::string over = put_overlapping(scratch);
+    const auto j = parse(run(check(over, {"--json", "-", "--examples", "2", "--contacts", "0", "--threads", "1"})).out);
+    EXPECT_EQ(j["contacts"].size(), 0U);
+    EXPECT_EQ(j["findings"][0]["count"], 3);
+    EXPECT_EQ(j["findings"][0]["places"].size(), 2U);
+    EXPECT_EQ(j["threads"], 1);
+    const Ended few = run(check(over, {"--examples", "0", "--contacts", "0"}));
+    EXPECT_EQ(few.code, 1);
+    EXPECT_FALSE(contains(few.out, "cells 0 and 1"));
+    const Ended r = run(check(mesh("cube-hole"), {"--delaunay"}));
+    EXPECT_EQ(r.code, 0);
+    EXPECT_TRUE(contains(r.out, "\nDelaunay   "));
+    EXPECT_GT(parse(run(check(mesh("cube-hole"), {"--delaunay", "--json", "-"})).out)["delaunay"]["facets"], 1000);
+}
+
+TEST(check, threads_change_nothing) {
+    Words reports;
+    for (const std::string threads : {"1", "2", "7"}) {
+        auto j = parse(run(check(mesh("cube-hole"), {"--json", "-", "--delaunay", "--threads", threads})).out);
+        j.erase("seconds");
+        j.erase("threads");
+        reports.push_back(j.dump());
+    }
+    EXPECT_EQ(reports[0], reports[1]);
+    EXPECT_EQ(reports[0], reports[2]);
+}
+
+TEST(check, the_copy_has_positive_cells_and_all_else) {
+    const Scratch scratch;
+    const std::string mixed = put_mixed(scratch);
+    scratch.put("mixed.neigh", "2 4\n0 -1 -1 -1 -1\n1 -1 -1 -1 -1\n");
+    EXPECT_TRUE(contains(run(check(mixed)).out, "mixed_orientation            1 "));
+    const Ended r = run(check(mixed, {"--fix-orientation", scratch.path("fixed"), "--quiet"}));
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(r.out + r.err, "");
+    EXPECT_EQ(scratch.names(),
+              (Words{"fixed.ele", "fixed.neigh", "fixed.node", "mixed.ele", "mixed.neigh", "mixed.node"}));
+    EXPECT_EQ(read_file(scratch.path("fixed.ele")), "2 4 1\n0 0 1 2 3 0.1\n1 5 4 7 6 0.2\n");
+    const auto j = parse(run(check(scratch.path("fixed"), {"--json", "-"})).out);
+    EXPECT_EQ(j["orientation"]["positive"], 2);
+    EXPECT_EQ(j["orientation"]["negative"], 0);
+    // A copy of a good mesh is the mesh; also with nodes at mid-edges, and over an older copy.
+    for (const std::string name : {"cube-hole", "cube-hole-o2", "plate"}) {
+        for (int again = 0; again < 2; ++again)
+            EXPECT_EQ(run(check(mesh(name), {"--fix-orientation", scratch.path(name), "--quiet"})).code, 0);
+        EXPECT_EQ(run(check(scratch.path(name), {"--json", "-"})).code, 0);
+    }
+}
+
+TEST(check, the_copy_does_not_mix_with_another_mesh) {
+    const Scratch scratch;
+    const std::string m = put_mesh(scratch, "m", two_cells);
+    scratch.put("other.face", "1 0\n0 0 1 2\n");
+    const Ended r = run(check(m, {"--fix-orientation", scratch.path("other"), "--json", scratch.path("r.json")}));
+    EXPECT_EQ(r.code, 2);
+    EXPECT_EQ(r.out, "");
+    EXPECT_EQ(r.err,
+              "error: " + scratch.path("other.face") +
+                  ": a file of another mesh stands in the way; remove it, or give --fix-orientation another name\n");
+    EXPECT_EQ(scratch.names(), (Words{"m.ele", "m.node", "other.face"}));
+}
+
+TEST(check, vtu_is_written_or_it_is_told_how_to_get_it) {
+    const Scratch scratch;
+    const std::string over = put_overlapping(scratch), vtu = scratch.path("m.vtu");
+    const Ended r = run(check(over, {"--vtu", vtu}));
+#ifdef BARYCERT_WITH_VTK
+    EXPECT_EQ(r.code, 1) << r.err;
+    EXPECT_EQ(r.err, "");
+    const std::string written = read_file(vtu);
+    for (const std::string name :
+         {"orientation", "volume", "condition", "radius_edge", "aspect", "min_angle", "max_angle", "problems"})
+        EXPECT_TRUE(contains(written, "Name=\"" + name + "\"")) << name;
+    // Infinite ratios of a degenerate cell are values like others.
+    const std::string flat = put_mesh(scratch, "flat", two_cells, apart.substr(0, apart.rfind("7 ")) + "7 3 1 0\n");
+    EXPECT_EQ(run(check(flat, {"--vtu", vtu})).code, 1);
+    EXPECT_EQ(run(check(mesh("cube-hole-o2"), {"--vtu", vtu, "--quiet"})).code, 0);
+    EXPECT_EQ(run(check(mesh("plate"), {"--vtu", vtu, "--quiet"})).code, 0);
+    EXPECT_EQ(scratch.names(), (Words{"flat.ele", "flat.node", "m.vtu", "over.ele", "over.node"}));
+#else
+    EXPECT_EQ(r.code, 2);
+    EXPECT_EQ(r.out, "");
+    EXPECT_TRUE(contains(r.err, "built without VTK")) << r.err;
+    EXPECT_TRUE(contains(r.err, "libvtk9-dev")) << r.err;
+    EXPECT_FALSE(std::filesystem::exists(vtu));
+#endif
+}
+
+TEST(check, one_place_for_two_files_is_refused) {
+    const Scratch scratch;
+    const std::string m = put_mesh(scratch, "m", two_cells);
+    const How here{.folder = scratch.folder()};
+    const std::vector<std::pair<Words, std::string>> refusals{
+        {{"--json", "r", "--fix-orientation", "c", "--vtu", "-"}, "--vtu cannot write to stdout"},
+        {{"--json", "c.ele", "--fix-orientation", "./c"}, "--json and --fix-orientation name the same output"},
+        {{"--json", "m.node"}, "--json names a file of the mesh itself"},
+        {{"--json", "m.neigh"}, "--json names a file of the mesh itself"},
+        {{"--fix-orientation", "m"}, "--fix-orientation names a file of the mesh itself"},
+        {{"--json", "none/r"}, "cannot make a file beside the target"},
+        {{"--fix-orientation", "none/c"}, "cannot make a file beside the target"},
+#ifdef BARYCERT_WITH_VTK
+        {{"--json", "r", "--vtu", "./r"}, "--json and --vtu name the same output"},
+        {{"--vtu", "m.ele"}, "--vtu names a file of the mesh itself"},
+        {{"--vtu", "none/r"}, "cannot make a file beside the target"},
+#endif
+    };
+    for (const auto& [more, says] : refusals) {
+        const Ended r = run(check("m", more), here);
+        EXPECT_EQ(r.code, 2) << says;
+        EXPECT_EQ(r.out, "");
+        EXPECT_TRUE(contains(r.err, says)) << r.err;
+    }
+    EXPECT_EQ(scratch.names(), (Words{"m.ele", "m.node"}));
+    EXPECT_EQ(read_file(m + ".ele"), two_cells);
+}
+
+TEST(check, a_place_that_cannot_be_written_does_not_cost_the_table) {
+    const Scratch scratch;
+    const std::string m = put_mesh(scratch, "m", two_cells);
+    const Ended full = run(check(m, {"--json", "/dev/full"}));
+    EXPECT_EQ(full.code, 2);
+    EXPECT_TRUE(contains(full.err, "error: /dev/full: cannot write the file: found No space left on device"));
+    EXPECT_TRUE(contains(full.out, ": certified"));
+    const std::string old = scratch.put("r.json", "old");
+    const Ended small = run(check(m, {"--json", old}), {.largest_file = 512});
+    EXPECT_EQ(small.code, 2);
+    EXPECT_EQ(read_file(old), "old");
+    const Ended copy =
+        run(check(mesh("bracket"), {"--fix-orientation", scratch.path("c"), "--quiet"}), {.largest_file = 60000});
+    EXPECT_EQ(copy.code, 2) << "the .node file is larger, the others are not";
+    EXPECT_EQ(scratch.names(), (Words{"m.ele", "m.node", "r.json"}));
+    EXPECT_EQ(run(check(m), {.stdout_path = "/dev/full"}).code, 2);
+    EXPECT_EQ(run(check(m), {.close_stdout = true}).code, 2);
+    EXPECT_EQ(run(check(m, {"--quiet"}), {.close_stdout = true, .close_stderr = true}).code, 0);
+}
+
+TEST(check, killed_it_leaves_nothing) {
+    const Scratch scratch;
+    const std::string old = scratch.put("r.json", "old");
+    const Ended r = run(check(mesh("flange"), {"--json", old, "--fix-orientation", scratch.path("c")}),
+                        {.terminal = true, .kill_on = "checking: cells", .kill_with = SIGKILL});
+    EXPECT_EQ(r.signal, SIGKILL);
+    EXPECT_EQ(read_file(old), "old");
+    EXPECT_EQ(scratch.names(), Words{"r.json"});
+}
+
+TEST(check, progress_and_colour_are_for_terminals) {
+    const Ended shown = run(check(mesh("cube-hole")), {.environment = {"NO_COLOR"}, .terminal = true});
+    EXPECT_EQ(shown.code, 0);
+    EXPECT_TRUE(contains(shown.out, "\r\033[Kchecking: cells"));
+    EXPECT_TRUE(contains(shown.out, "\033[32m"));
+    const Ended plain = run(check(mesh("cube-hole")), {.environment = {"NO_COLOR=1"}, .terminal = true});
+    EXPECT_FALSE(contains(plain.out, "\033[32m"));
+    EXPECT_EQ(run(check(mesh("cube-hole"), {"--quiet"}), {.terminal = true}).out, "");
+    const Ended piped = run(check(mesh("cube-hole")));
+    EXPECT_FALSE(contains(piped.out + piped.err, "\033"));
+    EXPECT_FALSE(contains(piped.out + piped.err, "checking"));
+}
+
+TEST(check, help_tells_options_and_exit_codes) {
+    const Ended r = run({"check", "--help"});
+    EXPECT_EQ(r.code, 0);
+    for (const std::string word : {"--delaunay", "--threads", "--json", "--vtu", "--fix-orientation", "--examples",
+                                   "--contacts", "--quiet", "Exit codes: 0 certified, 1 not certified, 2 "})
+        EXPECT_TRUE(contains(r.out, word)) << word;
+    EXPECT_TRUE(contains(run({"--help"}).out, "\n  check "));
+    EXPECT_TRUE(
+        contains(run({"--help"}).out, "1 findings beyond the thresholds given or a mesh that is not certified"));
+}
+
+}  // namespace
+}  // namespace barycert::cli_test
