@@ -145,6 +145,16 @@ TEST(check_terminal, long_lists_are_cut_and_say_so) {
     EXPECT_TRUE(contains(more, "NOT certified: at least 1000 pairs of cells overlap\n"));
 }
 
+TEST(check_terminal, a_folded_cell_is_not_mended_by_its_orientation) {
+    // Cell 1 with its apex pushed through the common facet: the order of its corners is wrong for that reason.
+    Mesh mesh = pair_of_cells();
+    mesh.points[14] = 0.125;
+    EXPECT_TRUE(contains(text(mesh), "writes a copy with all positive; that mends no folded cell\n")) << text(mesh);
+    mesh = pair_of_cells();
+    std::swap(mesh.cells[0], mesh.cells[1]);
+    EXPECT_TRUE(contains(text(mesh), "writes a copy with all positive\n"));
+}
+
 TEST(check_terminal, witnesses_are_exact_or_say_that_they_are_rounded) {
     const std::string shown = text(overlapping());
     EXPECT_TRUE(contains(shown, "cells 0 and 1 overlap: (")) << shown;

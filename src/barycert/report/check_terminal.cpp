@@ -198,7 +198,7 @@ std::string places(const Finding& f) {
     return wrapped(pieces, cells || nodes ? ',' : ';');
 }
 
-std::string finding(const Finding& f, const Colours& paint) {
+std::string finding(const Report& r, const Finding& f, const Colours& paint) {
     const check::ProblemText& t = text_of(f.problem);
     const std::string count = (f.at_least ? ">= " : "") + std::to_string(f.count);
     std::string out = fmt::format("{} {:>11}  {}\n", paint.bold(fmt::format("{:<18}", t.name)), count, t.text);
@@ -206,13 +206,16 @@ std::string finding(const Finding& f, const Colours& paint) {
     constexpr std::string_view none = "none needed";
     std::string_view remedy = t.remedy;
     if (remedy.starts_with(none)) remedy.remove_prefix(std::min(remedy.size(), none.size() + 2));
-    return remedy.empty() ? out : out + fmt::format("    -> {}\n", remedy);
+    // Beside a folded cell that remedy could be taken for more than it is.
+    const bool folded = f.problem == Problem::mixed_orientation && r.find(Problem::same_side) != nullptr;
+    return remedy.empty() ? out
+                          : out + fmt::format("    -> {}{}\n", remedy, folded ? "; that mends no folded cell" : "");
 }
 
 std::string finding_list(const Report& r, bool breaking, const Colours& paint) {
     std::string out;
     for (const Finding& f : r.findings) {
-        if (text_of(f.problem).breaks == breaking) out += finding(f, paint);
+        if (text_of(f.problem).breaks == breaking) out += finding(r, f, paint);
     }
     if (out.empty()) return out;
     return "\n" + paint.bold(breaking ? "What is wrong, and what to do" : "Notes, harmless to a partition") + "\n" +
