@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -29,6 +30,20 @@ struct CheckArguments {
     bool delaunay = false, quiet = false;
 };
 
+/// A report that is text: in a file, or on stdout in place of the table.
+struct TextOutput {
+    const char* option;
+    const char* help;
+    std::string CheckArguments::*path;
+    std::string (*text)(const check::Report&, const Mesh&, const CheckArguments&);
+};
+constexpr std::array<TextOutput, 1> text_outputs{{
+    {"--json", "Write the whole report as JSON; - is stdout, and then there is no table", &CheckArguments::json,
+     [](const check::Report& report, const Mesh&, const CheckArguments& a) {
+         return report::check_json(report, a.mesh, measure_environment());
+     }},
+}};
+
 constexpr std::array<const char*, 4> suffixes{".node", ".ele", ".face", ".neigh"};
 
 std::string stem_of(std::string path) {
@@ -44,7 +59,9 @@ struct NamedFile {
 };
 
 std::vector<NamedFile> outputs(const CheckArguments& a) {
-    std::vector<NamedFile> files{{"--json", a.json}, {"--vtu", a.vtu}};
+    std::vector<NamedFile> files;
+    for (const TextOutput& t : text_outputs) files.push_back({t.option, a.*t.path});
+    files.push_back({"--vtu", a.vtu});
     for (const char* suffix : suffixes) {
         if (!a.fixed.empty()) files.push_back({"--fix-orientation", a.fixed + suffix});
     }
@@ -114,8 +131,8 @@ private:
     bool on_;
 };
 
-/// The mesh with the measures of its cells as fields.
 #ifdef BARYCERT_WITH_VTK
+/// The mesh with the measures of its cells as fields.
 Status write_measures(const check::Report& report, Mesh mesh, const std::string& path) {
     const check::Measures& m = report.measures;
     mesh.cell_fields.push_back({"orientation", 1, {m.orientation.begin(), m.orientation.end()}});
@@ -136,7 +153,8 @@ Status write_measures(const check::Report&, const Mesh&, const std::string&) {
 #endif
 
 int run_check(const CheckArguments& a) {
-    const bool table = !a.quiet && a.json != "-";
+    const bool table = !a.quiet && std::none_of(text_outputs.begin(), text_outputs.end(),
+                                                [&](const TextOutput& t) { return a.*t.path == "-"; });
     if (const Status ok = check_outputs(a, table); !ok) return fail(ok.error());
     const StageLine line(!a.quiet && stderr_is_terminal());
     line("reading");
@@ -159,8 +177,9 @@ int run_check(const CheckArguments& a) {
     // the user the table, the fruit of the whole run.
     const std::string name = stem_of(a.mesh);
     std::vector<Status> written;
-    if (!a.json.empty())
-        written.push_back(write_output(a.json, report::check_json(report, a.mesh, measure_environment())));
+    for (const TextOutput& t : text_outputs) {
+        if (!(a.*t.path).empty()) written.push_back(write_output(a.*t.path, t.text(report, *mesh, a)));
+    }
     if (!a.vtu.empty()) written.push_back(write_measures(report, *mesh, a.vtu));
     if (!a.fixed.empty())
         written.push_back(write_tetgen(check::with_positive_cells(*mesh, report.measures.orientation), a.fixed));
@@ -199,8 +218,7 @@ void add_check(CLI::App& app, int& exit_code) {
         ->capture_default_str()
         ->check(CLI::Range(0, 4096))
         ->type_name("N");
-    sub->add_option("--json", a->json, "Write the whole report as JSON; - is stdout, and then there is no table")
-        ->type_name("FILE");
+    for (const TextOutput& t : text_outputs) sub->add_option(t.option, (*a).*t.path, t.help)->type_name("FILE");
     sub->add_option("--vtu", a->vtu, "Write the mesh with the measures and problems of its cells, for ParaView")
         ->type_name("FILE");
     sub->add_option("--fix-orientation", a->fixed,
