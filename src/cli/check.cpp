@@ -60,6 +60,7 @@ struct NamedFile {
 
 std::vector<NamedFile> outputs(const CheckArguments& a) {
     std::vector<NamedFile> files;
+    files.reserve(text_outputs.size() + 1 + suffixes.size());
     for (const TextOutput& t : text_outputs) files.push_back({t.option, a.*t.path});
     files.push_back({"--vtu", a.vtu});
     for (const char* suffix : suffixes) {
@@ -83,6 +84,7 @@ Status check_outputs(const CheckArguments& a, bool table) {
 #endif
     const std::vector<NamedFile> written = outputs(a);
     std::vector<NamedFile> others;
+    others.reserve(suffixes.size() + written.size());
     for (const char* suffix : suffixes) others.push_back({"the mesh", stem_of(a.mesh) + suffix});
     for (const NamedFile& file : written) {
         for (const NamedFile& other : others) {
@@ -98,7 +100,7 @@ Status check_outputs(const CheckArguments& a, bool table) {
         others.push_back(file);
     }
     for (const NamedFile& file : written) {
-        if (const Status ok = check_output(file.path); !ok) return ok;
+        if (Status ok = check_output(file.path); !ok) return ok;
     }
     return check_output(table ? "-" : "");
 }

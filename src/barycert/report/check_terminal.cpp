@@ -163,7 +163,8 @@ std::string wrapped(const std::vector<std::string>& pieces, char between) {
     constexpr std::string_view indent = "    ";
     std::string out, line;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-        const std::string piece = pieces[i] + (i + 1 < pieces.size() ? std::string(1, between) : "");
+        std::string piece = pieces[i];
+        if (i + 1 < pieces.size()) piece += between;
         if (!line.empty() && line.size() + 1 + piece.size() > columns) {
             out += line + "\n";
             line.clear();
@@ -189,7 +190,7 @@ std::string places(const Finding& f) {
         if (cells || nodes) {
             const std::string number = text.substr(text.find(' ') + 1);
             const std::string what = cells ? "cell" : "node";
-            text = !pieces.empty() ? number : what + (f.places.size() > 1 ? "s " : " ") + number;
+            text = pieces.empty() ? fmt::format("{}{} {}", what, f.places.size() > 1 ? "s" : "", number) : number;
         }
         pieces.push_back(std::move(text));
     }
