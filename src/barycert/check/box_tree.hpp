@@ -33,10 +33,24 @@ struct Box {
 /// The box of `count` points with d coordinates.
 Box box_of(int d, const double* const* points, int count);
 
+/// Which sides of the box a point with d coordinates is beyond, a bit each: a set of points whose codes have a bit in
+/// common has a box that does not meet this one, and the other way round.
+inline std::uint8_t outcode(int d, const Box& box, const double* p) {
+    unsigned code = 0;
+    for (int k = 0; k < d; ++k) {
+        const auto axis = static_cast<std::size_t>(k);
+        code |= (p[k] < box.low[axis] ? 1U : 0U) << (2 * k) | (p[k] > box.high[axis] ? 2U : 0U) << (2 * k);
+    }
+    return static_cast<std::uint8_t>(code);
+}
+
 class BoxTree {
 public:
     /// Takes time O(n log n), on all threads of the calling arena. At most 2^31 boxes.
     explicit BoxTree(std::vector<Box> boxes);
+
+    /// The box of all; none if there are no boxes.
+    const Box* bounds() const { return nodes_.empty() ? nullptr : &nodes_.front().box; }
 
     /// found(i) for each box i that meets `box`, until it returns false. Returns false if it did.
     template <class F>

@@ -8,6 +8,7 @@
 #include "barycert/core/condition.hpp"
 #include "barycert/core/predicates.hpp"
 #include "barycert/core/simplex.hpp"
+#include "barycert/mesh/large_vector.hpp"
 
 namespace barycert::check {
 namespace {
@@ -64,7 +65,9 @@ int scaled_edges(int d, const double* const* p, double* edges) {
     }
     if (largest == 0) return 0;
     const int exponent = std::ilogb(largest);
-    for (int i = 0; i < d * d; ++i) edges[i] = std::scalbn(edges[i], -exponent);
+    const double factor = std::scalbn(1.0, -exponent);  // a product with it is exact, and quicker than scalbn
+    for (int i = 0; i < d * d; ++i)
+        edges[i] = std::isnormal(factor) ? edges[i] * factor : std::scalbn(edges[i], -exponent);
     return exponent + 1;
 }
 
@@ -178,7 +181,7 @@ Cells check_cells(const Mesh& mesh, const std::vector<std::uint8_t>& finite, con
     measures.problems.assign(count, 0);
     for (auto* measure : {&measures.volume, &measures.condition, &measures.radius_edge, &measures.aspect,
                           &measures.min_angle, &measures.max_angle})
-        measure->assign(count, 0);
+        barycert::detail::resize_large(*measure, count);
     const CellChecker check(mesh, finite, volumes, measures, cells.usable);
     in_blocks(
         count, 8192,

@@ -1,6 +1,7 @@
 #include "barycert/check/check.hpp"
 
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <chrono>
@@ -98,7 +99,20 @@ private:
         report.degenerate = cells.degenerate;
         stage("facets");
         const Facets facets = check_facets(mesh_, cells.usable, measures, findings_);
-        report.parts = count_parts(mesh_, cells.usable, facets.neighbours);
+        // What one thread does alone is done beside the rest.
+        tbb::task_group parts;
+        parts.run([&] { report.parts = count_parts(mesh_, cells.usable, facets.neighbours); });
+        check_boundary_and_pairs(report, cells, facets, volumes);
+        parts.wait();
+        if (options_.delaunay) {
+            stage("Delaunay");
+            report.delaunay = check_delaunay(mesh_, facets.neighbours, measures.orientation);
+        }
+    }
+
+    void check_boundary_and_pairs(Report& report, const Cells& cells, const Facets& facets,
+                                  const ExactVolumes& volumes) {
+        Measures& measures = report.measures;
         stage("boundary");
         const BoundaryPieces pieces = check_boundary(mesh_, facets.boundary, volumes, findings_);
         report.boundary = pieces.summary;
@@ -114,10 +128,6 @@ private:
             overlapping = find_overlapping_cells(mesh_, measures, findings_);
         }
         report.contacts = contacts(mesh_, measures, std::move(overlapping), std::move(touching), options_.contacts);
-        if (options_.delaunay) {
-            stage("Delaunay");
-            report.delaunay = check_delaunay(mesh_, facets.neighbours, measures.orientation);
-        }
     }
 
     /// One of P2 to P4 fails, or a cell is left out of them; otherwise the theorem says that there is none.

@@ -1,6 +1,7 @@
 #include "barycert/check/facet_contact.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -67,9 +68,21 @@ Projected project(Point p, int axis) {
     return {{p[(axis + 1) % 3], p[(axis + 2) % 3]}};
 }
 
-/// An axis along which the triangle can be projected; -1 if it is degenerate.
-int projection_of(const std::array<Point, 3>& t) {
+/// The axis along which the triangle's projection is largest, in plain double: where signs are quick to prove.
+int widest_projection(const std::array<Point, 3>& t) {
+    double area[3];
     for (int axis = 0; axis < 3; ++axis) {
+        const Projected a = project(t[0], axis), b = project(t[1], axis), c = project(t[2], axis);
+        area[axis] = std::fabs((b.at[0] - a.at[0]) * (c.at[1] - a.at[1]) - (b.at[1] - a.at[1]) * (c.at[0] - a.at[0]));
+    }
+    return static_cast<int>(std::max_element(area, area + 3) - area);
+}
+
+/// An axis along which the triangle's projection has an area; -1 if it is degenerate.
+int projection_of(const std::array<Point, 3>& t) {
+    const int widest = widest_projection(t);
+    for (int i = 0; i < 3; ++i) {
+        const int axis = (widest + i) % 3;
         const Projected a = project(t[0], axis), b = project(t[1], axis), c = project(t[2], axis);
         if (orient(a.at, b.at, c.at) != 0) return axis;
     }
@@ -111,18 +124,37 @@ bool strangers_meet(const std::array<Point, 3>& f, const std::array<Point, 3>& g
     return false;
 }
 
+/// In the projection, a side of f through v has f on one side, without v's other neighbour on it, and g on the other,
+/// without all of g but v: then f and g meet in v alone. It spares coplanar triangles, of which a boundary is full, the
+/// exact zeros of the general way.
+bool side_separates(const std::array<Projected, 3>& f, const std::array<Projected, 3>& g) {
+    for (std::size_t i = 1; i < 3; ++i) {
+        const int inner = orient(f[0].at, f[i].at, f[3 - i].at);
+        if (inner != 0 && opposite(inner, orient(f[0].at, f[i].at, g[1].at)) &&
+            opposite(inner, orient(f[0].at, f[i].at, g[2].at)))
+            return true;
+    }
+    return false;
+}
+
 /// Triangles vab and vcd: if they share another point than v, then on the ray from v through it the first side that is
 /// met, ab or cd, is met within the other triangle.
 bool meet_beyond_vertex(const std::array<Point, 3>& f, const std::array<Point, 3>& g) {
+    const int axis = widest_projection(f);
+    std::array<Projected, 3> p{}, q{};
+    for (std::size_t i = 0; i < 3; ++i) p[i] = project(f[i], axis), q[i] = project(g[i], axis);
+    if (side_separates(p, q) || side_separates(q, p)) return false;
     return segment_meets_triangle(f[1], f[2], g) || segment_meets_triangle(g[1], g[2], f);
 }
 
-/// Triangles abc and abd: they share more than the edge only if they lie in one plane, on one side of ab.
+/// Triangles abc and abd: they share more than the edge only if they lie in one plane, on one side of ab. They do not
+/// if c and d project to different sides of it.
 bool meet_beyond_edge(Point a, Point b, Point c, Point d) {
-    if (orient(a, b, c, d) != 0) return false;
     const int axis = projection_of({a, b, c});
     const Projected pa = project(a, axis), pb = project(b, axis), pc = project(c, axis), pd = project(d, axis);
-    return orient(pa.at, pb.at, pc.at) == orient(pa.at, pb.at, pd.at);
+    const int side = orient(pa.at, pb.at, pd.at);
+    if (orient(pa.at, pb.at, pc.at) != side) return false;
+    return orient(a, b, c, d) == 0;
 }
 
 /// Segments va and vb: they share more than v only if they lie on one line, on one side of v.

@@ -1,10 +1,12 @@
 #include "barycert/check/facets.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <span>
 #include <utility>
 
 #include "barycert/mesh/facets.hpp"
+#include "barycert/mesh/large_vector.hpp"
 
 namespace barycert::check {
 namespace {
@@ -108,7 +110,8 @@ std::array<Mesh::Index, 3> outward_nodes(const Mesh& mesh, std::size_t cell, std
 
 Facets check_facets(const Mesh& mesh, const std::vector<std::uint8_t>& usable, Measures& measures, Findings& findings) {
     Facets facets;
-    facets.neighbours.assign(mesh.cells.size(), -1);
+    detail::resize_large(facets.neighbours, mesh.cells.size());
+    std::fill(facets.neighbours.begin(), facets.neighbours.end(), -1);
     const detail::FacetTable table(mesh, usable);
     const FacetChecker check(mesh, measures, facets.neighbours);
     in_blocks(

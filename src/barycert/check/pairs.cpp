@@ -55,6 +55,20 @@ std::vector<Pair> conflicts(std::vector<Box> boxes, Conflict conflict, bool& com
     return all;
 }
 
+std::vector<std::uint8_t> outcodes(const Mesh& mesh, const Box& box) {
+    std::vector<std::uint8_t> codes(mesh.point_count());
+    for (std::size_t i = 0; i < codes.size(); ++i)
+        codes[i] = outcode(mesh.dimension, box, &mesh.points[i * static_cast<std::size_t>(mesh.dimension)]);
+    return codes;
+}
+
+unsigned common_outcode(const Mesh& mesh, const std::vector<std::uint8_t>& codes, std::size_t cell) {
+    unsigned common = ~0U;
+    for (std::size_t i = 0; i < mesh.corners(); ++i)
+        common &= codes[static_cast<std::size_t>(mesh.cells[cell * mesh.corners() + i])];
+    return common;
+}
+
 void mark(Measures& measures, Mesh::Index cell, Problem problem) {
     measures.problems[static_cast<std::size_t>(cell)] |= bit(problem);
 }
@@ -98,12 +112,15 @@ void find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facet
         boxes.push_back(box_of_cell(mesh, cell));
     }
     const BoxTree tree(std::move(boxes));
+    if (tree.bounds() == nullptr) return;
+    // Most cells are far from the few that are asked for: one byte a node tells.
+    const std::vector<std::uint8_t> codes = outcodes(mesh, *tree.bounds());
     std::vector<std::uint8_t> nested(inner.size(), 0);
     in_waves(
         mesh.cell_count(), 1024, [] { return std::vector<Pair>(); },
         [&](std::size_t first, std::size_t last, std::vector<Pair>& part) {
             for (std::size_t cell = first; cell < last; ++cell) {
-                if (measures.orientation[cell] == 0) continue;
+                if (measures.orientation[cell] == 0 || common_outcode(mesh, codes, cell) != 0) continue;
                 const auto corners = corner_points(mesh, cell);
                 tree.for_each(box_of(mesh.dimension, corners.data(), mesh.dimension + 1), [&](std::uint32_t i) {
                     if (nested[i] == 0 && inner[i] != cell &&
