@@ -1,0 +1,129 @@
+// Pairs that overlap or touch, and the points that prove it: as the judge has them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "check/judge.hpp"
+#include "check/meshes.hpp"
+#include "check/random_complexes.hpp"
+#include "check/signs.hpp"
+
+namespace barycert::testing {
+namespace {
+
+using Q = second_path::Q;
+using Vector = std::array<Q, 3>;
+
+/// Weights of the point in the cell times its determinant: the least of them, taken so that inside is positive.
+Q least_weight(const Mesh& mesh, Mesh::Index cell, const Vector& x) {
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    std::array<Vector, 4> p;
+    for (std::size_t i = 0; i <= d; ++i) {
+        const auto at = node_at(mesh, mesh.cells[static_cast<std::size_t>(cell) * (d + 1) + i]);
+        for (std::size_t k = 0; k < d; ++k) p[i][k] = Q(at[k]);
+    }
+    const auto det = [&](const std::array<Vector, 4>& v) {
+        std::array<Vector, 3> e;
+        for (std::size_t i = 0; i < d; ++i) {
+            for (std::size_t k = 0; k < d; ++k) e[i][k] = v[i + 1][k] - v[0][k];
+        }
+        if (d == 2) return Q(e[0][0] * e[1][1] - e[0][1] * e[1][0]);
+        return Q(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+                 e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]));
+    };
+    const Q whole = det(p);
+    Q least(1);
+    for (std::size_t i = 0; i <= d; ++i) {
+        auto q = p;
+        q[i] = x;
+        const Q weight = det(q) / whole;
+        least = std::min(least, weight);
+    }
+    return least;
+}
+
+struct Seen {
+    std::size_t overlaps = 0, touches = 0, exact = 0;
+    std::array<std::size_t, 4> dimensions{};
+};
+
+void expect_witness(const Mesh& mesh, const check::Contact& c, Seen& seen) {
+    const Meeting m = meeting(mesh, c.cells[0], c.cells[1]);
+    ASSERT_EQ(c.dimension, m.dimension);
+    ASSERT_EQ(c.overlap, m.dimension == mesh.dimension);
+    ++seen.dimensions[static_cast<std::size_t>(m.dimension)];
+    ++(c.overlap ? seen.overlaps : seen.touches);
+    Vector x, rounded;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(mesh.dimension); ++k) {
+        x[k] = Q(c.witness.fraction[k]);
+        x[k].canonicalize();
+        rounded[k] = Q(c.witness.point[k]);
+        ASSERT_EQ(c.witness.point[k], second_path::nearest(x[k]));
+    }
+    for (const Mesh::Index cell : c.cells) {
+        ASSERT_GE(least_weight(mesh, cell, x), c.overlap ? Q(0x1p-1000) : Q(0));
+        if (c.witness.exact) {
+            const Q least = least_weight(mesh, cell, rounded);
+            ASSERT_TRUE(c.overlap ? least > 0 : least >= 0);
+        }
+    }
+    seen.exact += c.witness.exact ? 1 : 0;
+}
+
+void compare(const Mesh& mesh, Seen& seen) {
+    const check::Report r = quick(mesh, 1000);
+    std::vector<std::array<Mesh::Index, 2>> overlaps;
+    for (const check::Contact& c : r.contacts) {
+        expect_witness(mesh, c, seen);
+        ASSERT_LT(c.cells[0], c.cells[1]);
+        if (c.overlap) overlaps.push_back(c.cells);
+    }
+    ASSERT_EQ(overlaps, judge(mesh).overlaps);
+    ASSERT_EQ(r.contacts.empty(),
+              r.find(Problem::boundary_contact) == nullptr && r.find(Problem::overlapping_cells) == nullptr);
+}
+
+TEST(Contacts, of_random_meshes) {
+    for (const int d : {2, 3}) {
+        Seen seen;
+        for (std::uint64_t i = 0; i < 400 && !HasFatalFailure(); ++i) {
+            Random random = Random::stream(31, static_cast<std::uint64_t>(d), i);
+            Mesh mesh = i % 2 == 0 ? random_soup(d, random) : damaged_box(d, random);
+            if (judge(mesh).degenerate > 0) continue;  // contacts of such cells have no witness
+            if (i % 5 == 0) mesh = mapped(mesh, {0x1p-500, 0x1p400, 3}, {0, 0, 0});
+            compare(mesh, seen);
+        }
+        EXPECT_GT(seen.overlaps, 100U);
+        EXPECT_GT(seen.touches, 15U);
+        EXPECT_GT(seen.exact, 100U);
+        for (int k = 0; k <= d; ++k) EXPECT_GT(seen.dimensions[static_cast<std::size_t>(k)], 2U) << k;
+    }
+}
+
+// Cells thinner than doubles lie: a fraction is the only witness.
+TEST(Contacts, no_double_between) {
+    Mesh mesh;
+    mesh.dimension = 2;
+    const double next = std::nextafter(1.0, 2.0);
+    mesh.points = {1, 0, next, 0, next, 1, 1, 1, 1, -1, next, 0.5};
+    mesh.cells = {0, 1, 2, 3, 4, 5};
+    const check::Report r = quick(mesh, 5);
+    ASSERT_EQ(r.contacts.size(), 1U);
+    Seen seen;
+    expect_witness(mesh, r.contacts[0], seen);
+    EXPECT_TRUE(r.contacts[0].overlap);
+    EXPECT_FALSE(r.contacts[0].witness.exact);
+}
+
+TEST(Contacts, as_many_as_asked) {
+    const Mesh mesh = joined(box(2, {3, 3, 0}), mapped(box(2, {3, 3, 0}), {1, 1, 1}, {0.5, 0.25, 0}));
+    EXPECT_EQ(quick(mesh, 0).contacts.size(), 0U);
+    EXPECT_EQ(quick(mesh, 3).contacts.size(), 3U);
+    const auto all = quick(mesh, 100000).contacts;
+    EXPECT_GT(all.size(), 18U);
+    EXPECT_TRUE(all.front().overlap);
+}
+
+}  // namespace
+}  // namespace barycert::testing

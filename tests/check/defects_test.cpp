@@ -1,0 +1,138 @@
+// Defects planted into good meshes at random places are found and named, alone and in pairs.
+#include <gtest/gtest.h>
+
+#include "check/defects.hpp"
+#include "check/judge.hpp"
+
+namespace barycert::testing {
+namespace {
+
+// What the mesh's own neighbours say of cells that are changed, added or taken away by another defect.
+constexpr ProblemSet follows = set_of(Problem::wrong_neighbour, Problem::wrong_face);
+
+void expect_named(const Mesh& mesh, ProblemSet must, ProblemSet may, bool good) {
+    const check::Report r = quick(mesh);
+    const ProblemSet all = found(r);
+    EXPECT_EQ(words(must & ~all), "nothing") << "was not found; found: " << words(all);
+    EXPECT_EQ(words(all & ~(must | may)), "nothing") << "was found besides";
+    EXPECT_EQ(r.certified(), good);
+    EXPECT_EQ(r.certificate.covers(mesh), good);
+}
+
+TEST(Defects, none) {
+    for (const int d : {2, 3}) expect_named(mesh_of_sites(d, 2), 0, 0, true);
+}
+
+TEST(Defects, alone) {
+    for (const int d : {2, 3}) {
+        for (const Defect& defect : defects) {
+            if (defect.only_3d && d == 2) continue;
+            for (std::uint64_t i = 0; i < 40; ++i) {
+                SCOPED_TRACE(std::string(defect.name) + ", " + std::to_string(d) + "D, " + std::to_string(i));
+                Random random = Random::stream(5, hash64(defect.name), i);
+                Mesh mesh = mesh_of_sites(d, 1);
+                const bool p5 = (defect.must & follows) != 0;
+                if (!p5) mesh.neighbours.clear(), mesh.faces.clear();
+                const Site site = site_of(mesh, 1, 0);
+                defect.plant(site, random);
+                expect_named(mesh, defect.must, defect.may, harmless(defect));
+            }
+        }
+    }
+}
+
+TEST(Defects, in_pairs) {
+    for (const int d : {2, 3}) {
+        for (const Defect& a : defects) {
+            for (const Defect& b : defects) {
+                if ((a.only_3d || b.only_3d) && d == 2) continue;
+                SCOPED_TRACE(std::string(a.name) + " and " + b.name + ", " + std::to_string(d) + "D");
+                Random random = Random::stream(6, hash64(a.name), hash64(b.name));
+                Mesh mesh = mesh_of_sites(d, 2);
+                const Site at = site_of(mesh, 2, 0), other = site_of(mesh, 2, 1);
+                if (((a.must | b.must) & follows) == 0) mesh.neighbours.clear(), mesh.faces.clear();
+                a.plant(at, random);
+                b.plant(other, random);
+                expect_named(mesh, a.must | b.must, a.may | b.may | follows | set_of(Problem::mixed_orientation),
+                             harmless(a) && harmless(b));
+            }
+        }
+    }
+}
+
+// In the same box they may hide each other, or even make good: the judge decides.
+TEST(Defects, in_pairs_in_one_place) {
+    std::size_t certified = 0;
+    for (const Defect& a : defects) {
+        for (const Defect& b : defects) {
+            if (a.only_3d || b.only_3d) continue;
+            SCOPED_TRACE(std::string(a.name) + " and " + b.name);
+            Random random = Random::stream(7, hash64(a.name), hash64(b.name));
+            Mesh mesh = mesh_of_sites(2, 1);
+            const Site site = site_of(mesh, 1, 0);
+            if (((a.must | b.must) & follows) == 0) mesh.neighbours.clear();
+            if (&a == &b) continue;
+            a.plant(site, random);
+            b.plant(site, random);
+            const check::Report r = quick(mesh);
+            EXPECT_FALSE(r.certified() && !judge(mesh).complex);
+            if (!r.certified() && (found(r) & (follows | set_of(Problem::not_finite))) == 0) {
+                EXPECT_FALSE(judge(mesh).complex);
+            }
+            certified += r.certified() ? 1 : 0;
+        }
+    }
+    EXPECT_GT(certified, 0U);
+}
+
+// A cell taken out is no defect: it leaves a cavity, or a notch.
+TEST(Defects, cell_taken_out) {
+    for (const int d : {2, 3}) {
+        for (std::uint64_t i = 0; i < 40; ++i) {
+            Random random(i);
+            Mesh mesh = mesh_of_sites(d, 1);
+            mesh.neighbours.clear(), mesh.faces.clear();
+            std::vector<bool> keep(mesh.cell_count(), true);
+            keep[random.below(keep.size())] = false;
+            mesh = only(mesh, keep);
+            expect_named(mesh, 0, set_of(Problem::unused_node, Problem::pinched_node, Problem::pinched_ridge), true);
+        }
+    }
+}
+
+// What kind of degenerate cell, and which cells and nodes, is told rightly.
+TEST(Defects, places) {
+    Mesh mesh = mesh_of_sites(3, 1);
+    mesh.neighbours.clear(), mesh.faces.clear();
+    const auto cells = static_cast<Mesh::Index>(mesh.cell_count());
+    const Site site = site_of(mesh, 1, 0);
+    Random random(1);
+    for (const Defect& defect : defects) {
+        const std::string name = defect.name;
+        if (name == "flat cell" || name == "cell on a line" || name == "cell in a point") defect.plant(site, random);
+    }
+    mesh.cells.insert(mesh.cells.end(), {8, 9, 8, 3, 2, 1, 0, -1});
+    const check::Report r = quick(mesh);
+    const check::Finding& degenerate = *r.find(Problem::degenerate_cell);
+    ASSERT_EQ(degenerate.places.size(), 3U);
+    const char* const kinds[] = {"coplanar", "collinear", "a point"};
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_STREQ(degenerate.places[i].detail, kinds[i]);
+        EXPECT_EQ(degenerate.places[i].cells[0], cells + static_cast<Mesh::Index>(i));
+    }
+    EXPECT_EQ(r.find(Problem::repeated_node)->places.at(0).cells[0], cells + 3);
+    EXPECT_EQ(r.find(Problem::index_out_of_range)->places.at(0).cells[0], cells + 4);
+    for (const check::Finding& f : r.findings) {
+        for (const check::Place& place : f.places) {
+            for (const Mesh::Index c : place.cells) {
+                EXPECT_TRUE(c < 0 || (r.measures.problems[static_cast<std::size_t>(c)] & check::bit(f.problem)) != 0 ||
+                            f.problem == Problem::pinched_node || f.problem == Problem::pinched_ridge ||
+                            f.problem == Problem::open_boundary)
+                    << words(check::bit(f.problem)) << " of cell " << c;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace barycert::testing

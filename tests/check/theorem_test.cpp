@@ -1,0 +1,103 @@
+// The theorem of check.hpp, both ways: certified exactly where the judge finds a simplicial complex.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "check/judge.hpp"
+#include "check/meshes.hpp"
+#include "check/random_complexes.hpp"
+
+namespace barycert::testing {
+namespace {
+
+std::string text_of(const Mesh& mesh) {
+    std::string text = "points";
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+        text += (i % static_cast<std::size_t>(mesh.dimension) == 0 ? " | " : " ");
+        char number[40];
+        std::snprintf(number, sizeof number, "%.17g", mesh.points[i]);
+        text += number;
+    }
+    text += "\ncells";
+    for (std::size_t i = 0; i < mesh.cells.size(); ++i)
+        text += (i % mesh.corners() == 0 ? " | " : " ") + std::to_string(mesh.cells[i]);
+    return text;
+}
+
+struct Tally {
+    std::uint64_t meshes = 0, certified = 0;
+    std::map<std::string, std::uint64_t> problems;
+};
+
+/// The verdict, the pairs that overlap, the cells that are flat: as the judge has them.
+void compare(const Mesh& mesh, Tally& tally) {
+    const Judgement j = judge(mesh);
+    const check::Report report = quick(mesh);
+    ASSERT_EQ(report.certified(), j.complex) << words(found(report)) << "\n" << text_of(mesh);
+    ASSERT_EQ(report.degenerate, j.degenerate) << text_of(mesh);
+    const check::Finding* const overlaps = report.find(Problem::overlapping_cells);
+    ASSERT_EQ(overlaps == nullptr ? 0 : overlaps->count, j.overlaps.size()) << words(found(report)) << "\n"
+                                                                            << text_of(mesh);
+    for (std::size_t i = 0; overlaps != nullptr && i < overlaps->places.size(); ++i)
+        ASSERT_EQ(overlaps->places[i].cells, j.overlaps[i]) << text_of(mesh);
+    ASSERT_TRUE(!j.complex || report.volume.equal) << text_of(mesh);
+    ++tally.meshes;
+    tally.certified += j.complex ? 1 : 0;
+    for (const check::Finding& f : report.findings) ++tally.problems[std::string(check::text_of(f.problem).name)];
+}
+
+using Recipe = Mesh (*)(int, Random&);
+
+Tally compare_many(const char* name, Recipe recipe, std::uint64_t count, bool nudged) {
+    Tally tally;
+    for (const int d : {2, 3}) {
+        for (std::uint64_t i = 0; i < count && !::testing::Test::HasFatalFailure(); ++i) {
+            Random random = Random::stream(11, hash64(name) + static_cast<std::uint64_t>(d), i);
+            Mesh mesh = recipe(d, random);
+            for (double& x : mesh.points) {
+                if (!nudged || random.below(3) != 0) continue;
+                x = std::nextafter(x, random.coin() ? 10 : -10);
+            }
+            compare(mesh, tally);
+        }
+    }
+    ::testing::Test::RecordProperty("certified",
+                                    std::to_string(tally.certified) + " of " + std::to_string(tally.meshes));
+    return tally;
+}
+
+/// The share is asserted so that the comparison cannot become one of bad meshes, or good ones, alone.
+void expect_share(const Tally& tally, double least, double most) {
+    const double share = static_cast<double>(tally.certified) / static_cast<double>(tally.meshes);
+    EXPECT_GT(share, least);
+    EXPECT_LT(share, most);
+}
+
+TEST(Theorem, soups) {
+    const Tally tally = compare_many("soup", random_soup, 25000, false);
+    expect_share(tally, 0.1, 0.5);
+    for (const Problem p :
+         {Problem::degenerate_cell, Problem::duplicate_cell, Problem::overfull_facet, Problem::same_side,
+          Problem::open_boundary, Problem::boundary_contact, Problem::nested_part, Problem::overlapping_cells}) {
+        EXPECT_GT(tally.problems.count(std::string(check::text_of(p).name)), 0U) << check::text_of(p).name;
+    }
+}
+
+TEST(Theorem, grown_complexes) {
+    expect_share(compare_many("grown", grown_complex, 12500, false), 0.5, 0.9);
+}
+
+TEST(Theorem, damaged_boxes) {
+    expect_share(compare_many("damaged", damaged_box, 15000, false), 0.2, 0.8);
+}
+
+TEST(Theorem, one_ulp_off) {
+    expect_share(compare_many("soup ulp", random_soup, 300, true), 0.05, 0.8);
+    expect_share(compare_many("grown ulp", grown_complex, 150, true), 0.05, 0.9);
+    expect_share(compare_many("damaged ulp", damaged_box, 60, true), 0.05, 0.9);
+}
+
+}  // namespace
+}  // namespace barycert::testing

@@ -1,0 +1,128 @@
+// Domains of several parts, with cavities and tunnels, and such as touch themselves: certified, and counted rightly.
+#include <gtest/gtest.h>
+
+#include "check/judge.hpp"
+#include "check/meshes.hpp"
+
+namespace barycert::testing {
+namespace {
+
+struct Counts {
+    std::uint64_t parts, pieces, cavities;
+    std::optional<std::int64_t> tunnels;
+};
+
+void expect_certified(const Mesh& mesh, ProblemSet told, const Counts& c) {
+    const check::Report r = quick(mesh);
+    EXPECT_TRUE(r.certified());
+    EXPECT_EQ(words(found(r)), words(told));
+    EXPECT_EQ(r.parts, c.parts);
+    EXPECT_EQ(r.boundary.pieces, c.pieces);
+    EXPECT_EQ(r.boundary.cavities, c.cavities);
+    if (mesh.dimension == 3 && r.boundary.manifold) {
+        EXPECT_EQ(r.boundary.tunnels, c.tunnels);
+    }
+    if (mesh.dimension == 2) {
+        EXPECT_FALSE(r.boundary.tunnels);
+    }
+    EXPECT_EQ(r.boundary.manifold, (told & set_of(Problem::pinched_node, Problem::pinched_ridge)) == 0);
+    EXPECT_TRUE(r.boundary.closed);
+    EXPECT_TRUE(r.volume.equal);
+}
+
+/// A box without the cubes for which `gone` holds; unused nodes are told.
+template <class F>
+Mesh box_without(int d, std::array<int, 3> cubes, F gone) {
+    const Mesh mesh = box(d, cubes);
+    const std::size_t in_cube = d == 2 ? 2 : 6;
+    std::vector<bool> keep;
+    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+        const int cube = static_cast<int>(c / in_cube);
+        keep.push_back(!gone(cube % cubes[0], cube / cubes[0] % cubes[1], cube / cubes[0] / cubes[1]));
+    }
+    return only(mesh, keep);
+}
+
+TEST(Topology, empty_and_one) {
+    for (const int d : {2, 3}) {
+        Mesh none;
+        none.dimension = d;
+        expect_certified(none, 0, {0, 0, 0, 0});
+        EXPECT_EQ(quick(none).volume.cells, 0);
+        none.points.assign(static_cast<std::size_t>(d), 7);
+        expect_certified(none, set_of(Problem::unused_node), {0, 0, 0, 0});
+        Mesh one = box(d, {1, 1, 1});
+        std::vector<bool> keep(one.cell_count(), false);
+        keep[0] = true;
+        expect_certified(only(one, keep), set_of(Problem::unused_node), {1, 1, 0, 0});
+        EXPECT_EQ(quick(one).volume.cells, 1);
+    }
+}
+
+TEST(Topology, parts_and_cavities) {
+    for (const int d : {2, 3}) {
+        const Mesh solid = box(d, {3, 3, 3});
+        expect_certified(solid, 0, {1, 1, 0, 0});
+        expect_certified(joined(solid, mapped(solid, {1, 1, 1}, {3.5, 0, 0})), 0, {2, 2, 0, 0});
+        const Mesh hollow =
+            box_without(d, {3, 3, 3}, [&](int x, int y, int z) { return x == 1 && y == 1 && (d == 2 || z == 1); });
+        expect_certified(hollow, 0, {1, 2, 1, 0});
+        EXPECT_EQ(quick(hollow).volume.cells, d == 2 ? 8 : 26);
+        // A part in the cavity of another: not nested in the sense of P4, for no cell is over it.
+        const Mesh inner = mapped(box(d, {1, 1, 1}), {0.5, 0.5, 0.5}, {1.25, 1.25, 1.25});
+        expect_certified(joined(hollow, inner), 0, {2, 3, 1, 0});
+        expect_certified(joined(inner, hollow), 0, {2, 3, 1, 0});
+    }
+}
+
+TEST(Topology, tunnels) {
+    const auto ring = [](int x, int y, int) { return x == 1 && y == 1; };
+    expect_certified(box_without(3, {3, 3, 1}, ring), 0, {1, 1, 0, 1});
+    expect_certified(box_without(3, {5, 3, 1}, [](int x, int y, int) { return x % 2 == 1 && y == 1; }), 0,
+                     {1, 1, 0, 2});
+    // A cavity in the shape of a ring: one tunnel more, of that piece.
+    expect_certified(box_without(3, {5, 5, 3},
+                                 [&](int x, int y, int z) {
+                                     return z == 1 && x >= 1 && x <= 3 && y >= 1 && y <= 3 && !(x == 2 && y == 2);
+                                 }),
+                     0, {1, 2, 1, 1});
+    // Three bars through the middle of a cube: six openings, genus five.
+    expect_certified(box_without(3, {3, 3, 3}, [](int x, int y, int z) { return (x == 1) + (y == 1) + (z == 1) >= 2; }),
+                     0, {1, 1, 0, 5});
+}
+
+// Cubes that touch in one node or along one edge, with common nodes: a complex, though no manifold.
+TEST(Topology, pinched) {
+    const auto diagonal = [](int x, int y, int z) { return x != y || y != z; };
+    expect_certified(box_without(3, {2, 2, 2}, diagonal), set_of(Problem::unused_node, Problem::pinched_node),
+                     {2, 2, 0, {}});
+    expect_certified(box_without(3, {2, 2, 1}, [](int x, int y, int) { return x != y; }),
+                     set_of(Problem::unused_node, Problem::pinched_ridge), {2, 2, 0, {}});
+    expect_certified(box_without(3, {3, 3, 3}, diagonal), set_of(Problem::unused_node, Problem::pinched_node),
+                     {3, 3, 0, {}});
+    const Mesh squares = box_without(2, {2, 2, 1}, [](int x, int y, int) { return x != y; });
+    const check::Report r = quick(squares);
+    EXPECT_TRUE(r.certified());
+    EXPECT_EQ(words(found(r)), "unused_node pinched_ridge");
+    EXPECT_EQ(r.find(Problem::pinched_ridge)->count, 1U);
+    EXPECT_EQ(r.find(Problem::pinched_ridge)->places[0].nodes[0], 4);
+    EXPECT_EQ(r.parts, 2U);
+}
+
+// The same touch without common nodes breaks P3.
+TEST(Topology, touch_without_common_nodes) {
+    for (const int d : {2, 3}) {
+        for (int axes = 1; axes <= d; ++axes) {
+            std::array<double, 3> shift{0, 0, 0};
+            for (int k = 0; k < axes; ++k) shift[static_cast<std::size_t>(k)] = 1;
+            const Mesh two = joined(box(d, {1, 1, 1}), mapped(box(d, {1, 1, 1}), {1, 1, 1}, shift));
+            const check::Report r = quick(two);
+            EXPECT_FALSE(r.certified());
+            EXPECT_FALSE(judge(two).complex);
+            EXPECT_EQ(words(found(r)), "boundary_contact coincident_nodes");
+        }
+    }
+}
+
+}  // namespace
+}  // namespace barycert::testing
