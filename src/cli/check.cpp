@@ -12,6 +12,7 @@
 #include "barycert/check/check.hpp"
 #include "barycert/check/orientation.hpp"
 #include "barycert/core/environment.hpp"
+#include "barycert/report/check_html.hpp"
 #include "barycert/report/check_json.hpp"
 #include "barycert/report/check_terminal.hpp"
 #include "command.hpp"
@@ -24,25 +25,11 @@ namespace barycert::cli {
 namespace {
 
 struct CheckArguments {
-    std::string mesh, json, vtu, fixed;
+    std::string mesh, json, html, vtu, fixed;
     std::uint64_t examples = 10, contacts = 20;
     int threads = 0;
     bool delaunay = false, quiet = false;
 };
-
-/// A report that is text: in a file, or on stdout in place of the table.
-struct TextOutput {
-    const char* option;
-    const char* help;
-    std::string CheckArguments::*path;
-    std::string (*text)(const check::Report&, const Mesh&, const CheckArguments&);
-};
-constexpr std::array<TextOutput, 1> text_outputs{{
-    {"--json", "Write the whole report as JSON; - is stdout, and then there is no table", &CheckArguments::json,
-     [](const check::Report& report, const Mesh&, const CheckArguments& a) {
-         return report::check_json(report, a.mesh, measure_environment());
-     }},
-}};
 
 constexpr std::array<const char*, 4> suffixes{".node", ".ele", ".face", ".neigh"};
 
@@ -52,6 +39,25 @@ std::string stem_of(std::string path) {
     }
     return path;
 }
+
+/// A report that is text: in a file, or on stdout in place of the table.
+struct TextOutput {
+    const char* option;
+    const char* help;
+    std::string CheckArguments::*path;
+    std::string (*text)(const check::Report&, const Mesh&, const CheckArguments&);
+};
+constexpr std::array<TextOutput, 2> text_outputs{{
+    {"--json", "Write the whole report as JSON; - is stdout, and then there is no table", &CheckArguments::json,
+     [](const check::Report& report, const Mesh&, const CheckArguments& a) {
+         return report::check_json(report, a.mesh, measure_environment());
+     }},
+    {"--html", "Write the report as one HTML page with histograms and pictures of cells; - is stdout likewise",
+     &CheckArguments::html,
+     [](const check::Report& report, const Mesh& mesh, const CheckArguments& a) {
+         return report::check_html(report, mesh, stem_of(a.mesh));
+     }},
+}};
 
 /// A file that is written or read, and what the user calls it.
 struct NamedFile {

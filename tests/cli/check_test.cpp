@@ -140,6 +140,22 @@ TEST(check, json_says_what_the_table_says) {
     EXPECT_EQ(written, shown);
 }
 
+TEST(check, html_is_a_page) {
+    const Scratch scratch;
+    const std::string over = put_overlapping(scratch);
+    const Ended r = run(check(over, {"--html", "-"}));
+    EXPECT_EQ(r.code, 1);
+    EXPECT_EQ(r.err, "");
+    EXPECT_TRUE(contains(r.out, "<html"));
+    EXPECT_TRUE(contains(r.out, "</html>"));
+    EXPECT_FALSE(contains(r.out, "NOT certified: 1 pair of cells overlaps, 3 pairs")) << "no table besides";
+    const Ended both = run(check(over, {"--html", scratch.path("r.html"), "--json", scratch.path("r.json")}));
+    EXPECT_EQ(both.code, 1);
+    EXPECT_TRUE(contains(both.out, ": NOT certified: "));
+    EXPECT_TRUE(contains(read_file(scratch.path("r.html")), "</html>"));
+    EXPECT_EQ(parse(read_file(scratch.path("r.json")))["schema"], 1);
+}
+
 TEST(check, options_reach_the_check) {
     const Scratch scratch;
     const std::string over = put_overlapping(scratch);
@@ -237,6 +253,8 @@ TEST(check, one_place_for_two_files_is_refused) {
     const std::vector<std::pair<Words, std::string>> refusals{
         {{"--json", "r", "--fix-orientation", "c", "--vtu", "-"}, "--vtu cannot write to stdout"},
         {{"--json", "c.ele", "--fix-orientation", "./c"}, "--json and --fix-orientation name the same output"},
+        {{"--json", "-", "--html", "-"}, "--json and --html name the same output"},
+        {{"--json", "r", "--html", "./r"}, "--json and --html name the same output"},
         {{"--json", "m.node"}, "--json names a file of the mesh itself"},
         {{"--json", "m.neigh"}, "--json names a file of the mesh itself"},
         {{"--fix-orientation", "m"}, "--fix-orientation names a file of the mesh itself"},
@@ -304,8 +322,9 @@ TEST(check, progress_and_colour_are_for_terminals) {
 TEST(check, help_tells_options_and_exit_codes) {
     const Ended r = run({"check", "--help"});
     EXPECT_EQ(r.code, 0);
-    for (const std::string word : {"--delaunay", "--threads", "--json", "--vtu", "--fix-orientation", "--examples",
-                                   "--contacts", "--quiet", "Exit codes: 0 certified, 1 not certified, 2 "})
+    for (const std::string word :
+         {"--delaunay", "--threads", "--json", "--html", "--vtu", "--fix-orientation", "--examples", "--contacts",
+          "--quiet", "Exit codes: 0 certified, 1 not certified, 2 "})
         EXPECT_TRUE(contains(r.out, word)) << word;
     EXPECT_TRUE(contains(run({"--help"}).out, "\n  check "));
     EXPECT_TRUE(
