@@ -80,8 +80,8 @@ TEST(Prediction, MergeIsAddInAnyOrder) {
 TEST(Prediction, IsOfPointsInProperCellsWithinRange) {
     Case c;
     c.vertices = {0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 2};
-    EXPECT_EQ(predicting_condition(c, Region::interior), 1);
-    EXPECT_EQ(predicting_condition(c, Region::boundary), 1);
+    EXPECT_EQ(predicting_condition(c, Region::interior), 6);
+    EXPECT_EQ(predicting_condition(c, Region::boundary), 6);
     EXPECT_TRUE(std::isnan(predicting_condition(c, Region::outside)));
     EXPECT_TRUE(std::isnan(predicting_condition(c, Region::degenerate)));
     for (const double far : {0x1p301, 0x1p-301}) {
@@ -138,10 +138,9 @@ const Report& everything() {
     return report;
 }
 
-/// Every kernel that works with differences alone, in all families together. The constants: for triangles the larger
-/// one of core/condition.hpp, 32/3 + 3; for tetrahedra, where none is proven, the 8 roundings of a determinant's terms,
-/// and four times that for kernels that refer all weights to one corner and have no determinant of their own for each.
-/// (Measured with 10,000 cases a family and six seeds: 4.4, 4 and 17.)
+/// Every kernel that works with differences alone, in all families together. The constants are those that
+/// core/condition.hpp proves, for weights over the sum of all numerators; what is measured stays far below
+/// (2.6 at most with 10,000 cases a family and three seeds): a kernel that loses more would show.
 TEST(Prediction, HoldsForKernelsThatWorkWithDifferences) {
     int met = 0;
     for (const KernelResult& k : everything().kernels) {
@@ -154,11 +153,8 @@ TEST(Prediction, HoldsForKernelsThatWorkWithDifferences) {
         if (!of_differences || name.ends_with("float32") || k.kernel.simplex == Simplex::triangle3d) continue;
         ++met;
         EXPECT_GT(k.prediction.cases(), 10000U) << name;
-        bool from_a_corner = false;
-        for (const char* formula : {"cramer", "one-minus-sum", "inverse", "vtk-tolerance"})
-            from_a_corner = from_a_corner || name.find(formula) != std::string::npos;
-        const double most = k.kernel.simplex == Simplex::triangle ? 32.0 / 3 + 3 : from_a_corner ? 32 : 8;
-        EXPECT_LE(k.prediction.worst_factor(), most) << name;
+        EXPECT_LE(k.prediction.worst_factor(), k.kernel.simplex == Simplex::triangle ? 23 : 49) << name;
+        EXPECT_LE(k.prediction.worst_factor(), 3) << name;
     }
     EXPECT_GE(met, 20);
 }
@@ -178,8 +174,9 @@ TEST(Prediction, ShowsKernelsThatLoseMore) {
     EXPECT_GE(met, 10);
 }
 
-/// The exception that core/condition.hpp tells of: opposite edges of length about h, a distance apart along (1, 1, 1).
-TEST(Prediction, DoesNotHoldInTheMiddleOfANeedleAlongTheSpaceDiagonal) {
+/// Opposite edges of length about h, a distance apart along (1, 1, 1): in the middle a kernel loses 1 / h^2, which no
+/// corner's permanent tells.
+TEST(Prediction, HoldsInTheMiddleOfANeedleAlongTheSpaceDiagonal) {
     Random r(5);
     const double h = 0x1p-12;
     Prediction p;
@@ -203,7 +200,8 @@ TEST(Prediction, DoesNotHoldInTheMiddleOfANeedleAlongTheSpaceDiagonal) {
         p.add(kappa, compare(kernel, c, answer, status, w).weight_error);
     }
     EXPECT_GT(p.cases(), 500U);
-    EXPECT_GT(p.worst_factor(), 100);
+    EXPECT_LE(p.worst_factor(), 1);
+    EXPECT_GE(p.worst_factor(), 0.01);
 }
 
 TEST(Prediction, DoesNotDependOnThreads) {

@@ -13,17 +13,6 @@ namespace {
 
 namespace formulas = HWY_NAMESPACE;
 
-Integer as_integer(const Integer& x) {
-    return x;
-}
-
-template <int N>
-Integer as_integer(const Fixed<N>& x) {
-    if (!x.negative()) return {false, x.limbs};
-    const Fixed<N> magnitude = Fixed<N>{} - x;
-    return {true, magnitude.limbs};
-}
-
 template <class T>
 Integer determinant(const T (&x)[2], const T (&y)[2]) {
     return as_integer(formulas::cross(x, y));
@@ -40,12 +29,6 @@ Integer determinant(const T (&x)[3], const T (&y)[3], const T (&z)[3]) {
 template <int d, class T>
 void load(const Unit (&units)[3], const double* p, T (&out)[d]) {
     for (int k = 0; k < d; ++k) out[k] = units[k].template multiple<T>(scaled(p[k]));
-}
-
-template <int d, class T>
-void load_edge(const Unit (&units)[3], const double* from, const double* to, T (&out)[d]) {
-    for (int k = 0; k < d; ++k)
-        out[k] = units[k].template multiple<T>(scaled(to[k])) - units[k].template multiple<T>(scaled(from[k]));
 }
 
 /// f.operator()<T>() with the narrowest integers that have room: with coordinates below 2^(64 N - 3) in N limbs a
@@ -73,17 +56,22 @@ ExactVolumes::ExactVolumes(int d, std::span<const double> points) : d_(d) {
 
 template <class T>
 Integer ExactVolumes::cell_as(const double* const* p) const {
+    const auto edges = [&]<int d>(T(&edge)[d][d]) {
+        T origin[d];
+        load(units_, p[0], origin);
+        for (int i = 0; i < d; ++i) {
+            load(units_, p[i + 1], edge[i]);
+            for (int k = 0; k < d; ++k) edge[i][k] = edge[i][k] - origin[k];
+        }
+    };
     if (d_ == 2) {
-        T x[2], y[2];
-        load_edge(units_, p[0], p[1], x);
-        load_edge(units_, p[0], p[2], y);
-        return determinant(x, y);
+        T edge[2][2];
+        edges(edge);
+        return determinant(edge[0], edge[1]);
     }
-    T x[3], y[3], z[3];
-    load_edge(units_, p[0], p[1], x);
-    load_edge(units_, p[0], p[2], y);
-    load_edge(units_, p[0], p[3], z);
-    return determinant(x, y, z);
+    T edge[3][3];
+    edges(edge);
+    return determinant(edge[0], edge[1], edge[2]);
 }
 
 template <class T>

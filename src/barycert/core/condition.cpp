@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
 #include "barycert/core/fixed_integer.hpp"
 #include "barycert/core/integer.hpp"
@@ -14,90 +13,66 @@
 namespace barycert {
 namespace {
 
-double absolute(double x) {
-    return std::fabs(x);
-}
-template <int N>
-Fixed<N> absolute(const Fixed<N>& x) {
-    return x.negative() ? Fixed<N>{} - x : x;
-}
-Integer absolute(const Integer& x) {
-    return x.sign() < 0 ? Integer() - x : x;
-}
-
 template <class T>
-auto permanent(const T (&a)[2], const T (&b)[2]) {
-    return a[0] * b[1] + a[1] * b[0];
-}
-template <class T>
-auto permanent(const T (&a)[3], const T (&b)[3], const T (&c)[3]) {
-    return a[0] * (b[1] * c[2] + b[2] * c[1]) + a[1] * (b[0] * c[2] + b[2] * c[0]) + a[2] * (b[0] * c[1] + b[1] * c[0]);
-}
-template <class T>
-auto determinant(const T (&a)[2], const T (&b)[2]) {
+[[gnu::always_inline]] inline auto determinant(const T (&a)[2], const T (&b)[2]) {
     return a[0] * b[1] - a[1] * b[0];
 }
 template <class T>
-auto determinant(const T (&a)[3], const T (&b)[3], const T (&c)[3]) {
+[[gnu::always_inline]] inline auto determinant(const T (&a)[3], const T (&b)[3], const T (&c)[3]) {
     return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
+template <class T>
+[[gnu::always_inline]] inline auto determinant(const T (&edges)[2][2]) {
+    return determinant(edges[0], edges[1]);
+}
+template <class T>
+[[gnu::always_inline]] inline auto determinant(const T (&edges)[3][3]) {
+    return determinant(edges[0], edges[1], edges[2]);
+}
 
-/// The determinant, and the permanent of absolute values at each corner.
-template <class V, int d>
-struct Volumes {
-    V det, perm[d + 1];
-};
+template <class T>
+[[gnu::always_inline]] inline auto product(const T (&x)[2]) {
+    return x[0] * x[1];
+}
+template <class T>
+[[gnu::always_inline]] inline auto product(const T (&x)[3]) {
+    return x[0] * (x[1] * x[2]);
+}
 
-template <class T, int d>
-[[gnu::always_inline]] inline auto volumes(const T (&x)[d + 1][d], T (&edge)[d + 1][d + 1][d]) {
-    T from_0[d][d];  // edges with their signs; edge[i][j] for i < j without
-    for (int i = 0; i < d; ++i) {
-        for (int j = i + 1; j <= d; ++j) {
-            for (int k = 0; k < d; ++k) {
-                const T difference = x[j][k] - x[i][k];
-                if (i == 0) from_0[j - 1][k] = difference;
-                edge[i][j][k] = absolute(difference);
+/// A triangle fills at most half of its box, a tetrahedron a third.
+template <int d>
+constexpr double least = d == 2 ? 2 : 3;
+
+/// The cell's vertices with the least and the largest coordinate on each axis.
+template <int d>
+struct Extremes {
+    int low[d]{}, high[d]{};
+
+    explicit Extremes(const double* vertices) {
+        for (int k = 0; k < d; ++k) {
+            for (int i = 1; i <= d; ++i) {
+                if (vertices[d * i + k] < vertices[d * low[k] + k]) low[k] = i;
+                if (vertices[d * i + k] > vertices[d * high[k] + k]) high[k] = i;
             }
         }
     }
-    const auto& e = edge;
-    if constexpr (d == 2) {
-        const auto det = determinant(from_0[0], from_0[1]);
-        return Volumes<std::remove_const_t<decltype(det)>, d>{
-            det, {permanent(e[0][1], e[0][2]), permanent(e[0][1], e[1][2]), permanent(e[0][2], e[1][2])}};
-    } else {
-        const auto det = determinant(from_0[0], from_0[1], from_0[2]);
-        return Volumes<std::remove_const_t<decltype(det)>, d>{
-            det,
-            {permanent(e[0][1], e[0][2], e[0][3]), permanent(e[0][1], e[1][2], e[1][3]),
-             permanent(e[0][2], e[1][2], e[2][3]), permanent(e[0][3], e[1][3], e[2][3])}};
-    }
-}
+};
 
-template <int N>
-Magnitude magnitude(const Fixed<N>& x) {
-    return x.limbs;
-}
-Magnitude magnitude(const Integer& x) {
-    return x.magnitude();
-}
-
-/// Rounded once. Widths: coordinates below 2^(64 N - 3) in N limbs give differences below 2^(64 N - 2), 2x2 permanents
-/// below 2^(128 N - 3) and 3x3 ones below 6 * 2^(192 N - 6) < 2^(192 N - 3): no sum overflows.
+/// Widths: coordinates below 2^(64 N - 3) in N limbs give differences below 2^(64 N - 2), 2x2 minors below 2^(128 N -
+/// 3) and 3x3 determinants below 6 * 2^(192 N - 6) < 2^(192 N - 3): no sum overflows.
 template <class T, int d>
-double quotient(const Unit (&units)[d], const ScaledDouble (&parts)[d + 1][d]) {
-    T x[d + 1][d], edge[d + 1][d + 1][d];
-    for (int i = 0; i <= d; ++i) {
-        for (int k = 0; k < d; ++k) x[i][k] = units[k].template multiple<T>(parts[i][k]);
+double quotient(const Unit (&units)[d], const ScaledDouble (&parts)[d + 1][d], const Extremes<d>& extremes) {
+    T edges[d][d], extents[d];
+    for (int k = 0; k < d; ++k) {
+        const auto at = [&](int i) { return units[k].template multiple<T>(parts[i][k]); };
+        for (int i = 0; i < d; ++i) edges[i][k] = at(i + 1) - at(0);
+        extents[k] = at(extremes.high[k]) - at(extremes.low[k]);
     }
-    const auto v = volumes<T, d>(x, edge);
-    const auto det = absolute(v.det);
-    const Magnitude limbs = magnitude(det);
-    if (std::all_of(limbs.begin(), limbs.end(), [](std::uint64_t limb) { return limb == 0; }))
-        return std::numeric_limits<double>::infinity();
-    double kappa = 1;
-    for (const auto& perm : v.perm) kappa = std::max(kappa, round_quotient(false, magnitude(perm), limbs, 0));
-    return std::min(kappa, std::numeric_limits<double>::max());
+    const Integer det = as_integer(determinant(edges)), box = as_integer(product(extents));
+    if (det.sign() == 0) return std::numeric_limits<double>::infinity();
+    const double factor = d == 2 ? 2 : 6;
+    return std::clamp(factor * round_quotient(false, box.magnitude(), det.magnitude(), 0), least<d>,
+                      std::numeric_limits<double>::max());
 }
 
 /// Each axis as integers in its own unit, which cancels in the quotient.
@@ -113,32 +88,38 @@ template <int d>
             units[k].add(parts[i][k]);
         }
     }
+    const Extremes<d> extremes(vertices);
     int bits = 0;
     for (const Unit& u : units) bits = std::max(bits, u.bits());
-    if (bits <= 64 - 3) return quotient<Fixed<1>, d>(units, parts);
-    if (bits <= 128 - 3) return quotient<Fixed<2>, d>(units, parts);
-    return quotient<Integer, d>(units, parts);
+    if (bits <= 64 - 3) return quotient<Fixed<1>, d>(units, parts, extremes);
+    if (bits <= 128 - 3) return quotient<Fixed<2>, d>(units, parts, extremes);
+    return quotient<Integer, d>(units, parts, extremes);
 }
 
 /// In floating point where that is certain to be right, else in integers.
 ///
-/// A term of det meets at most 8 roundings (3 differences, 2 products, 3 sums), each of at most 2^-52 in any rounding
-/// mode: det is off by at most 8 * 2^-52 perm[0], to first order. With perm[0] <= 2^38 |det| that is 2^-11 of |det|;
-/// 2^-10 leaves room for higher orders and the rounding of the permanents, whose terms are all positive. What underflow
-/// adds, even if it flushes to zero: with edges below 2^150, 2^-1022 to a difference or product is 2^-722 to each of 6
-/// terms and so nothing to a det above 2^-650. Where anything overflowed or is NaN, a comparison fails.
+/// A product of the determinant meets at most 8 roundings (3 differences, 2 products, 3 sums), each of at most 2^-52 in
+/// any rounding mode, and there are d! of them, none larger than the box: det is off by at most 8 * 2^-52 d! X Y Z, to
+/// first order. With d! X Y Z <= 2^38 |det| that is 2^-11 of |det|; 2^-10 leaves room for higher orders and the
+/// rounding of the box. What underflow adds, even if it flushes to zero: with extents below 2^150, 2^-1022 to a
+/// difference or product is 2^-720 to each product and so nothing to a det above 2^-650. Where anything overflowed or
+/// is NaN, a comparison fails; maxima and minima may forget a NaN, but then it is in det.
 template <int d>
 [[gnu::always_inline]] inline double condition(const double* vertices) {
-    double x[d + 1][d], edge[d + 1][d + 1][d];
-    for (int i = 0; i <= d; ++i) std::copy_n(vertices + d * i, d, x[i]);
-    const auto v = volumes<double, d>(x, edge);
-    double longest = 0, perm = 0;  // corner 0's edges: no other is more than twice as long
-    for (int j = 1; j <= d; ++j) {
-        for (int k = 0; k < d; ++k) longest = std::max(longest, edge[0][j][k]);
+    double edges[d][d], extents[d], longest = 0;
+    for (int k = 0; k < d; ++k) {
+        double low = vertices[k], high = vertices[k];
+        for (int i = 0; i < d; ++i) {
+            const double x = vertices[d * (i + 1) + k];
+            edges[i][k] = x - vertices[k];
+            low = std::min(low, x);
+            high = std::max(high, x);
+        }
+        extents[k] = high - low;
+        longest = std::max(longest, extents[k]);
     }
-    for (const double p : v.perm) perm = std::max(perm, p);
-    const double det = std::fabs(v.det);
-    if (longest <= 0x1p149 && det >= 0x1p-650 && v.perm[0] <= 0x1p38 * det) return std::max(perm / det, 1.0);
+    const double det = std::fabs(determinant(edges)), box = (d == 2 ? 2 : 6) * product(extents);
+    if (longest <= 0x1p149 && det >= 0x1p-650 && box <= 0x1p38 * det) return std::max(box / det, least<d>);
     return exact_condition<d>(vertices);
 }
 

@@ -1,35 +1,31 @@
 /// The condition number of a cell: how many bits a plain kernel may lose in the weights of points of the cell.
 ///
-/// For a corner v of a triangle or tetrahedron let E be the matrix of its edges from v, perm the permanent (the
-/// determinant with every sign a plus). Then
+///     kappa = (volume of the cell's box along the axes) / (volume of the cell)        (areas in 2D)
+///           = d! X Y Z / |det E|,    X, Y, Z the extents of the cell, E the matrix of its edges from a corner
 ///
-///     kappa = max over corners v of  perm |E| / |det E|
+/// 6 for a right-angled tetrahedron along the axes, however long its sides, and at least 3; 2 at least for a triangle.
+/// Multiplying an axis by a number changes neither kappa nor what a kernel loses. It is large where a cell is thin
+/// askew to the axes: there the products of a determinant are as large as the box and cancel to the cell.
 ///
-/// |det E| is the same for every v, twice the area or six times the volume. kappa is at least 1, and 1 for a right
-/// angled cell along the axes, however long its sides: multiplying an axis by a number changes neither the quotient nor
-/// what a kernel loses. It is large for a cell that is thin askew to the axes, where the products of a determinant
-/// cancel.
+/// What it means. Let u = 2^-53 and p a point of the cell. Every difference of coordinates that a kernel forms, of two
+/// vertices or of a vertex and p, is at most the extent X, Y or Z; so every product in a determinant is at most X Y Z.
+/// To first order a sum of n such products, each of which meets k roundings on its way, is off by at most k n u X Y Z.
+/// Counted as in filter-inl.hpp:
+///   2D  a numerator has 2 products of 4 roundings: 4 u kappa |det E|. So has the denominator if it comes from the
+///   edges;
+///       as the sum of three numerators it has 6 of 6: 18 u kappa |det E|.
+///   3D  a numerator has 6 products of 8 roundings: 8 u kappa |det E|. So has the denominator if it comes from the
+///   edges;
+///       as the sum of four numerators it has 24 of 10: 40 u kappa |det E|.
+/// A weight w = numerator / denominator, 0 <= w <= 1, is off by the first, by w times the second, and by u w: at most
+/// 8 u kappa + u or 22 u kappa + u in 2D, and 16 u kappa + u or 48 u kappa + u in 3D. A weight that is computed as 1
+/// less the others is off by the sum of their errors. Kernels that multiply by a rounded inverse of E meet the same
+/// products with a few more roundings. Measured, the constant is about 1 in 3D and
+/// 2 in 2D (tests/audit/prediction_test.cpp).
 ///
-/// What it means. Let u = 2^-53, p a point of the cell, r_j = v_j - p. A kernel of signed areas or volumes computes the
-/// numerator of weight i, det of all r_j but r_i, from rounded differences; a term of it meets at most 4 roundings (2D)
-/// or 8 (3D), as in filter-inl.hpp, so that to first order the numerator is off by at most 4 u or 8 u times perm of
-/// those |r_j|, and the weight by that over |det E|, besides one rounding of the quotient and the denominator's error.
-///   2D: r_j = sum of w_m (v_j - v_m), w the exact weights, and perm is monotone and linear in each row. With P_v the
-///   permanent at corner v, and perm(|e|, |e|) <= P_j + P_k for the edge e between j and k (replace one |e| by the
-///   larger sum of the other two edges),
-///     perm(|r_j|, |r_k|) <= w_i^2 P_i + w_i w_j P_j + w_i w_k P_k + w_j w_k (P_j + P_k)
-///                        <= (w_i + 2 w_j w_k) max P <= max P,
-///   since 2 w_j w_k <= (1 - w_i)^2 / 2. So each numerator is off by at most 4 u kappa |det E|, and so is the
-///   denominator if it comes from the edges: a weight w <= 1 is off by at most 4 u kappa (1 + w) + u w <= 9 u kappa. If
-///   the denominator is the sum of the three numerators, it is off by at most the sum of their bounds, 4 u times the
-///   sum of the three permanents, at most (1 + 2 (w_i w_j + w_j w_k + w_k w_i)) max P <= 5/3 max P: 32/3 u kappa + 3 u.
-///   3D: there is no such bound. Where two opposite edges of length h are a distance 1 apart along (1, 1, 1), |det E|
-///   is about h^2 and every P_v about h, but perm |r| is about 1 in the middle between them: kappa is about 1 / h, and
-///   a kernel may lose 1 / h^2. (The largest |e_x e_y e_z| of an edge e taken in with the permanents would cover such
-///   cells.) With random such needles of h = 2^-12 the signed volumes are off by 800 u kappa.
-/// Measured where kappa < 2^47, above which denominators may be all error: with six seeds, over all families of the
-/// audit, which have no such needles, signed areas are within 4 u kappa, signed volumes too, Cramer's rule within 7.2,
-/// the inverse matrix, whose weights are sums, within 17 (tests/audit/prediction_test.cpp; `barycert audit --plot`).
+/// Why not perm |E| / |det E|, the usual quotient: at no corner need the permanent be as large as in the middle. Where
+/// two opposite edges of length h are a distance 1 apart along (1, 1, 1), |det E| is about h^2, every corner's
+/// permanent about h, and the kernel loses 1 / h^2 in between.
 #pragma once
 
 #include "barycert/core/simplex.hpp"

@@ -56,4 +56,15 @@ template <int N, int M>
     return r;
 }
 
+/// The same number without a fixed width.
+template <int N>
+inline Integer as_integer(const Fixed<N>& x) {
+    if (!x.negative()) return {false, x.limbs};
+    const Fixed<N> magnitude = Fixed<N>{} - x;
+    return {true, magnitude.limbs};
+}
+inline const Integer& as_integer(const Integer& x) {
+    return x;
+}
+
 }  // namespace barycert

@@ -115,7 +115,7 @@ void draw_legend(Svg& svg, const std::vector<const KernelResult*>& kernels, doub
     sample(at + 22, {.colour = "#444", .width = 1.2, .dashes = "3 3"});
     svg.text({left + 38, at + 26}, "its median case", small);
     sample(at + 44, {.colour = "#000", .width = 2});
-    svg.text({left + 38, at + 48}, fmt::format("prediction: {:.0f} κ · 2⁻⁵³", predicted_factor), small);
+    svg.text({left + 38, at + 48}, "prediction: κ · 2⁻⁵³", small);
     sample(at + 66, {.colour = "#888", .width = 1.2, .dashes = "8 4"});
     svg.text({left + 38, at + 70}, "a weight is off by 1", small);
 }
@@ -150,8 +150,7 @@ std::string condition_plot(const audit::Report& report) {
                  .title = "log2 (error / 2⁻⁵³): bits that are lost"};
     draw_frame(svg, x, y);
     draw_line_through(svg, x, y, {0, 53}, {1, 53}, {.colour = "#888", .width = 1.2, .dashes = "8 4"});
-    const double constant = std::log2(predicted_factor);
-    draw_line_through(svg, x, y, {0, constant}, {1, constant + 1}, {.colour = "#000", .width = 2});
+    draw_line_through(svg, x, y, {0, 0}, {1, 1}, {.colour = "#000", .width = 2});
     for (std::size_t i = kernels.size(); i-- > 0;) draw_kernel(svg, x, y, *kernels[i], looks[i]);
     draw_legend(svg, kernels, 730, 76);
 

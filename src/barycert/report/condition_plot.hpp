@@ -7,12 +7,8 @@
 
 namespace barycert::report {
 
-/// The constant of the line that the picture draws as the prediction, error = 8 * 2^-53 * kappa: the roundings that a
-/// term of a volume meets, to first order (core/condition.hpp).
-inline constexpr double predicted_factor = 8;
-
 /// An SVG of its own. Across: log2 of the condition number; upwards: the error in units of 2^-53, worst and median of a
-/// bin, as bits.
+/// bin, as bits. The line drawn as prediction is error = 2^-53 * kappa.
 ///
 /// Which kernels: those on tetrahedra if any has cases to show, else those on triangles; of these those with an error
 /// beyond half of 2^-53; if more than six, without variants (names with a second dot); if still more than six, six of
