@@ -16,6 +16,9 @@ namespace {
 
 using Cells = std::array<Mesh::Index, 2>;
 
+/// Of exhibits with one kind of problem.
+constexpr std::size_t longest_queue = 200;
+
 bool has_a_place(const Mesh& mesh, Mesh::Index cell) {
     return cell >= 0 && static_cast<std::size_t>(cell) < mesh.cell_count() &&
            drawable(mesh, static_cast<std::size_t>(cell));
@@ -80,7 +83,7 @@ std::vector<Exhibit> problem_cells(const check::Report& report, const Mesh& mesh
     std::vector<std::vector<Exhibit>> queues;
     const auto open_queue = [&] { queues.emplace_back(); };
     const auto add = [&](Exhibit e) {
-        if (e.cells[0] >= 0 && queues.back().size() < most) queues.back().push_back(std::move(e));
+        if (e.cells[0] >= 0 && queues.back().size() < longest_queue) queues.back().push_back(std::move(e));
     };
     for (const bool overlap : {true, false}) {
         open_queue();
@@ -93,12 +96,23 @@ std::vector<Exhibit> problem_cells(const check::Report& report, const Mesh& mesh
         open_queue();
         for (const check::Place& p : f.places) add(of_place(f.problem, p, drawn_of(mesh, p.cells)));
     }
+    // First such as have only cells that were not shown yet; one cell may overlap many.
     std::vector<Exhibit> exhibits;
-    std::set<Cells> shown;
-    for (std::size_t round = 0; round < most; ++round) {
-        for (const std::vector<Exhibit>& queue : queues) {
-            if (round < queue.size() && exhibits.size() < most && shown.insert(queue[round].cells).second)
-                exhibits.push_back(queue[round]);
+    std::set<Cells> pairs;
+    std::set<Mesh::Index> cells;
+    for (const bool others : {true, false}) {
+        for (std::size_t round = 0; round < longest_queue; ++round) {
+            for (const std::vector<Exhibit>& queue : queues) {
+                if (round >= queue.size() || exhibits.size() == most) continue;
+                const Exhibit& e = queue[round];
+                if (pairs.contains(e.cells) || (others && (cells.contains(e.cells[0]) || cells.contains(e.cells[1]))))
+                    continue;
+                exhibits.push_back(e);
+                pairs.insert(e.cells);
+                for (const Mesh::Index c : e.cells) {
+                    if (c >= 0) cells.insert(c);
+                }
+            }
         }
     }
     return exhibits;

@@ -193,7 +193,10 @@ std::string facts(const check::Report& r, const Mesh& mesh, Mesh::Index cell, st
     std::string out = fmt::format("<p>{}<b>cell {}</b>, nodes {}<br/>", swatch, cell, fmt::join(nodes, " "));
     if (std::isnan(m.volume[c])) return out + "not measured: it has a node twice</p>\n";
     out += fmt::format("angles {}° to {}°, {} {}<br/>", figure(m.min_angle[c]), figure(m.max_angle[c]),
-                       r.dimension == 2 ? "area" : "volume", figure(m.volume[c]));
+                       r.dimension == 2 ? "area" : "volume",
+                       std::isinf(m.volume[c])                     ? "beyond the largest double"
+                       : m.volume[c] == 0 && m.orientation[c] != 0 ? "too small for a double"
+                                                                   : figure(m.volume[c]));
     const double kappa = m.condition[c];
     out += fmt::format("condition {}{}, aspect {}, radius / edge {}</p>\n", figure(kappa),
                        std::isfinite(kappa) ? fmt::format(" ({:.1f} bits)", std::max(0.0, std::log2(kappa))) : "",
