@@ -278,7 +278,7 @@ std::string measure_table(const Report& r, const Colours& paint) {
     const bool plane = r.dimension == 2;
     std::vector<double> size(m.volume), bits(m.condition);
     for (double& x : size) x = std::fabs(x);
-    for (double& x : bits) x = std::max(0.0, std::log2(x));  // kappa is at least 1, and has a rounding error
+    for (double& x : bits) x = std::log2(x);
     std::string out = "\n" +
                       paint.bold(fmt::format("{:<31}{:>12}{:>12}{:>12}{:>12}", "measure of a cell", "least", "median",
                                              "most", "worst cell")) +
