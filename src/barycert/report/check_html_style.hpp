@@ -37,7 +37,7 @@ figure{margin:0;break-inside:avoid}
 .views{display:flex;justify-content:space-around}
 .card{border:1px solid #ddd;border-radius:4px;padding:10px 12px}
 .card p{margin:4px 0;font-size:13px;overflow-wrap:anywhere}
-.map{display:flex;gap:24px;align-items:center}.map div{flex:1}.map table{font-size:13px;margin:0}.map p{margin:8px 0 0}
+.map{display:flex;gap:24px;align-items:center}.map div{flex:1}.map table{font-size:13px;margin:0}.map td{white-space:nowrap}
 .badge{display:inline-block;min-width:22px;padding:0 6px;border-radius:11px;background:#0072b2;color:#fff;
  text-align:center;font-size:13px;line-height:22px}.badge.problem{background:#c8102e}
 .swatch{display:inline-block;width:11px;height:11px;margin-right:6px;border-radius:2px}
@@ -64,7 +64,8 @@ svg .dots{stroke-width:2.4px}.dots.l0{stroke:#a3acb5}.dots.l1{stroke:#c3cad0}.do
 .box{stroke:#999;stroke-width:.8px;stroke-dasharray:2 4}
 .spot{fill:#0072b2;stroke:#fff;stroke-width:1px}.spot.problem{fill:#c8102e}
 @page{margin:12mm}
-@media print{body{padding:0;max-width:none;font-size:12px}.half{min-width:0}.figures{gap:14px 20px}h2{margin-top:22px}}
+@media print{body{padding:0;max-width:none;font-size:12px}.half{min-width:0}.figures{gap:14px 20px}
+ h2{font-size:16px}.small,.places,.witness-at,.card p,.map table,.map th,th,code{font-size:10.5px}h2{margin-top:22px}}
 )";
 
 }  // namespace barycert::report
