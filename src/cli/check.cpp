@@ -25,7 +25,7 @@ namespace barycert::cli {
 namespace {
 
 struct CheckArguments {
-    std::string mesh, json, html, vtu, fixed;
+    std::string mesh, plc, json, html, vtu, fixed;
     std::uint64_t examples = 10, contacts = 20;
     int threads = 0;
     bool delaunay = false, quiet = false;
@@ -172,7 +172,18 @@ int run_check(const CheckArguments& a) {
     if (!a.fixed.empty()) {
         if (const Status ok = check_nothing_in_the_way(*mesh, a.fixed); !ok) return fail(ok.error());
     }
+    Result<Plc> plc = Plc();
+    if (!a.plc.empty()) {
+        if (mesh->dimension == 2)
+            return fail({.what = "--conforms-to needs a mesh of tetrahedra",
+                         .file = a.mesh,
+                         .found = "triangles in the plane",
+                         .remedy = "leave the option out"});
+        plc = read_plc(a.plc);
+        if (!plc) return fail(plc.error());
+    }
     check::Options options;
+    if (!a.plc.empty()) options.plc = &*plc;
     options.threads = a.threads;
     options.delaunay = a.delaunay;
     options.examples = a.examples;
@@ -214,6 +225,10 @@ void add_check(CLI::App& app, int& exit_code) {
     sub->add_option("MESH", a->mesh, "A TetGen mesh (.node/.ele, .face and .neigh if there; Triangle's for 2D)")
         ->required();
     sub->add_flag("--delaunay", a->delaunay, "Test besides whether every interior facet is locally Delaunay, exactly");
+    sub->add_option(
+           "--conforms-to", a->plc,
+           "Test besides whether the facets of this PLC (.poly .smesh .off .stl .ply) are unions of faces of cells")
+        ->type_name("PLC");
     sub->add_option("--examples", a->examples, "Places to list of each problem")
         ->capture_default_str()
         ->check(CLI::Range(0, 1000000))

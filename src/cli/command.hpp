@@ -41,7 +41,8 @@ int fail(const Error& error);
 Result<Mesh> load_mesh(const std::string& path, const ReadOptions& options);
 
 /// The meshes named by the user, or those of barycert's own data folder if none is.
-Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths);
+/// `certify`: check each (see check/check.hpp), so that its certificate is known.
+Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths, bool certify);
 
 /// Catalogue entries that match any of the globs ("*" if there are none), then the kernels of the libraries.
 Result<std::vector<Kernel>> select_kernels(const std::vector<std::string>& globs,

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "barycert/check/check.hpp"
 #include "barycert/core/output_file.hpp"
 #include "barycert/core/text.hpp"
 #include "command.hpp"
@@ -105,7 +106,7 @@ Result<Mesh> load_mesh(const std::string& path, const ReadOptions& options) {
     return mesh;
 }
 
-Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths) {
+Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths, bool certify) {
     std::vector<std::string> from = paths;
     if (from.empty()) {
         auto own = own_meshes();
@@ -117,7 +118,8 @@ Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths) {
         Result<Mesh> mesh = load_mesh(path, {.faces = false, .neighbours = false, .threads = 0});
         if (!mesh) return mesh.error();
         if (mesh->cell_count() == 0) return Error{.what = "the mesh has no cells", .file = path};
-        source.add(paths.empty() ? fs::path(path).stem().string() : path, std::move(*mesh));
+        const check::Certificate certificate = certify ? check::run(*mesh).certificate : check::Certificate();
+        source.add(paths.empty() ? fs::path(path).stem().string() : path, std::move(*mesh), certificate);
     }
     return source;
 }

@@ -55,7 +55,7 @@ Result<std::vector<audit::Witness>> made_again(const ReplayArguments& a, const s
     }
     audit::MeshSource meshes;
     if (family.needs_mesh) {
-        auto loaded = load_meshes(a.meshes);
+        auto loaded = load_meshes(a.meshes, false);
         if (!loaded) return loaded.error();
         meshes = std::move(*loaded);
         if (!meshes.supplies(*simplex))

@@ -57,6 +57,23 @@ TEST(audit, every_kernel_meets_every_family_that_applies) {
     }
 }
 
+TEST(audit, tells_whether_meshes_are_partitions) {
+    const Scratch scratch;
+    // Two triangles, one over the other.
+    const std::string folded = scratch.put("folded.node", "4 2 0 0\n1 0 0\n2 1 0\n3 0 1\n4 0.2 0.3\n");
+    scratch.put("folded.ele", "2 3 0\n1 1 2 3\n2 1 2 4\n");
+    const std::vector<std::string> some{"--family", "mesh.inside", "--count", "20"};
+    const auto verdicts = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), some.begin(), some.end());
+        return report_of(arguments)["verdicts"];
+    };
+    EXPECT_EQ(verdicts({folded, mesh("plate")}), Json::array({"not certified", "certified"}));
+    EXPECT_EQ(verdicts({mesh("plate"), "--no-check"}), Json::array({"not checked"}));
+    const auto text = run({"audit", folded, mesh("plate"), "--family", "mesh.inside", "--count", "20"}).out;
+    EXPECT_NE(text.find("meshes, certified to be partitions: " + mesh("plate")), std::string::npos) << text;
+    EXPECT_NE(text.find("meshes, NOT certified to be partitions: " + folded), std::string::npos) << text;
+}
+
 TEST(audit, a_mesh_of_the_users_takes_the_place_of_the_own) {
     const Json plate = report_of({mesh("plate"), "--family", "mesh.inside", "--count", "20"});
     EXPECT_EQ(plate["meshes"], Json::array({mesh("plate")}));

@@ -15,11 +15,12 @@ bool serves(const PreparedMesh& m, Simplex s) {
 
 }  // namespace
 
-void MeshSource::add(std::string name, Mesh mesh) {
+void MeshSource::add(std::string name, Mesh mesh, const check::Certificate& certificate) {
     if (mesh.cell_count() == 0) return;
     PreparedMesh p;
     p.name = std::move(name);
     p.mesh = std::move(mesh);
+    p.certificate = certificate;
     p.neighbours = compute_neighbours(p.mesh);
     const auto hull = hull_facets(p.mesh, p.neighbours);
     p.hull_facets.assign(hull.begin(), hull.end());

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "barycert/check/certificate.hpp"
 #include "barycert/core/random.hpp"
 #include "barycert/core/simplex.hpp"
 #include "barycert/mesh/mesh.hpp"
@@ -18,6 +19,7 @@ struct PreparedMesh {
     std::vector<Mesh::Index> neighbours;    ///< as compute_neighbours gives them
     std::vector<std::int64_t> hull_facets;  ///< cell * corners + opposite corner
     std::array<double, 3> low{}, high{};    ///< bounding box
+    check::Certificate certificate;         ///< what is known of the mesh
 };
 
 /// A simplex drawn from a mesh, with the cell it belongs to.
@@ -30,7 +32,8 @@ struct Draw {
 
 class MeshSource {
 public:
-    void add(std::string name, Mesh mesh);
+    /// `certificate`: of this mesh, if it was checked.
+    void add(std::string name, Mesh mesh, const check::Certificate& certificate = {});
 
     bool supplies(Simplex s) const;
     const std::vector<PreparedMesh>& meshes() const { return meshes_; }

@@ -103,7 +103,10 @@ Result<Report> run(const Options& options, const MeshSource& meshes) {
     report.threads =
         options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     report.families = options.families;
-    for (const PreparedMesh& m : meshes.meshes()) report.meshes.push_back(m.name);
+    for (const PreparedMesh& m : meshes.meshes()) {
+        report.meshes.push_back(m.name);
+        report.verdicts.push_back(m.certificate.verdict_on(m.mesh));
+    }
     for (const Kernel& k : options.kernels)
         report.kernels.push_back(
             {.kernel = k, .total = {}, .families = {}, .prediction = {}, .ns = 0, .witnesses = {}});

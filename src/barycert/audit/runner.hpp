@@ -14,6 +14,7 @@
 #include "barycert/audit/mesh_source.hpp"
 #include "barycert/audit/prediction.hpp"
 #include "barycert/audit/statistics.hpp"
+#include "barycert/check/certificate.hpp"
 #include "barycert/core/environment.hpp"
 #include "barycert/core/result.hpp"
 #include "barycert/kernels/kernel.hpp"
@@ -67,6 +68,8 @@ struct Report {
     std::uint64_t count = 0;
     int threads = 0;
     std::vector<std::string> meshes;
+    std::vector<check::Verdict>
+        verdicts;  ///< one a mesh: whether it is certified to be a partition, or was not checked
     std::vector<Family> families;
     std::uint64_t cases = 0;                 ///< asked of the oracle
     std::array<std::uint64_t, 4> regions{};  ///< how many of them were what, exactly; by Region

@@ -108,6 +108,10 @@ private:
             stage("Delaunay");
             report.delaunay = check_delaunay(mesh_, facets.neighbours, measures.orientation);
         }
+        if (options_.plc != nullptr && mesh_.dimension == 3) {
+            stage("conformity");
+            report.conformity = check_conformity(mesh_, cells.usable, *options_.plc, options_.examples);
+        }
     }
 
     void check_boundary_and_pairs(Report& report, const Cells& cells, const Facets& facets,

@@ -54,6 +54,7 @@
 #include <vector>
 
 #include "barycert/check/certificate.hpp"
+#include "barycert/check/conformity.hpp"
 #include "barycert/check/contact.hpp"
 #include "barycert/check/delaunay.hpp"
 #include "barycert/check/measures.hpp"
@@ -65,6 +66,7 @@ namespace barycert::check {
 struct Options {
     int threads = 0;                                  ///< 0: as many as the machine has
     bool delaunay = false;                            ///< test every interior facet, exactly
+    const Plc* plc = nullptr;                         ///< test conformity to its facets; tetrahedra only
     std::size_t examples = 10;                        ///< places kept of each problem
     std::size_t contacts = 20;                        ///< overlapping or touching pairs for which a witness is computed
     std::function<void(const char* stage)> progress;  ///< called as each stage begins, from the calling thread
@@ -118,6 +120,7 @@ struct Report {
     Measures measures;              ///< of each cell
     std::vector<Contact> contacts;  ///< pairs that overlap or touch where they must not
     std::optional<Delaunay> delaunay;
+    std::optional<Conformity> conformity;
 
     bool certified() const { return certificate.verdict() == Verdict::certified; }
     const Finding* find(Problem problem) const;

@@ -1,8 +1,5 @@
 #include "barycert/check/conformity.hpp"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -82,7 +79,8 @@ private:
 
 class ConformityChecker {
 public:
-    ConformityChecker(const Mesh& mesh, const Plc& plc) : mesh_(mesh), plc_(plc), extent_(extent_of(plc)) {
+    ConformityChecker(const Mesh& mesh, std::span<const std::uint8_t> use, const Plc& plc)
+        : mesh_(mesh), use_(use), extent_(extent_of(plc)) {
         for (const PlcFacet& facet : plc.facets) regions_.emplace_back(plc, facet);
     }
 
@@ -113,7 +111,7 @@ private:
             numbers.push_back(static_cast<std::uint32_t>(i));
         }
         const BoxTree tree(std::move(boxes));
-        const detail::FacetTable table(mesh_);
+        const detail::FacetTable table(mesh_, use_);
         std::vector<Candidate> all;
         in_blocks(
             table.node_count(), 4096, [] { return std::vector<Candidate>(); },
@@ -179,8 +177,11 @@ private:
     /// Vertices of proper facets that are no node, bit for bit (0 and -0 are the same).
     std::uint64_t count_missing() const {
         using Point = std::array<double, 3>;
-        std::vector<Point> nodes(mesh_.point_count());
-        for (std::size_t i = 0; i < nodes.size(); ++i) std::copy_n(&mesh_.points[3 * i], 3, nodes[i].begin());
+        std::vector<Point> nodes;
+        for (std::size_t i = 0; i < mesh_.point_count(); ++i) {
+            const Point p{mesh_.points[3 * i], mesh_.points[3 * i + 1], mesh_.points[3 * i + 2]};
+            if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) nodes.push_back(p);
+        }
         std::sort(nodes.begin(), nodes.end());
         std::vector<Point> vertices;
         for (const PlcRegion& region : regions_) {
@@ -196,18 +197,15 @@ private:
     }
 
     const Mesh& mesh_;
-    const Plc& plc_;
+    std::span<const std::uint8_t> use_;
     double extent_;
     std::vector<PlcRegion> regions_;
 };
 
 }  // namespace
 
-Conformity check_conformity(const Mesh& mesh, const Plc& plc, int threads, std::size_t examples) {
-    Conformity out;
-    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-    arena.execute([&] { out = ConformityChecker(mesh, plc).run(examples); });
-    return out;
+Conformity check_conformity(const Mesh& mesh, std::span<const std::uint8_t> use, const Plc& plc, std::size_t examples) {
+    return ConformityChecker(mesh, use, plc).run(examples);
 }
 
 }  // namespace barycert::check

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "barycert/mesh/mesh.hpp"
@@ -33,7 +34,8 @@ struct Conformity {
     std::vector<ViolatedFacet> examples;  ///< the first ones violated
 };
 
-/// `mesh` is a certified mesh of tetrahedra (else areas mean little). On `threads` threads; 0: all of them.
-Conformity check_conformity(const Mesh& mesh, const Plc& plc, int threads = 0, std::size_t examples = 10);
+/// Of the cells for which use[cell] is not 0: their corners are nodes with finite coordinates. Areas mean little where
+/// the mesh is not certified. Precondition: tetrahedra. On all threads of the calling arena.
+Conformity check_conformity(const Mesh& mesh, std::span<const std::uint8_t> use, const Plc& plc, std::size_t examples);
 
 }  // namespace barycert::check

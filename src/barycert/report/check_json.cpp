@@ -149,6 +149,21 @@ Json delaunay_json(const check::Delaunay& d) {
     return j;
 }
 
+Json conformity_json(const check::Conformity& c) {
+    Json j;
+    j["facets"] = c.facets;
+    j["exact"] = c.exact;
+    j["rounded"] = c.rounded;
+    j["violated"] = c.violated;
+    j["missing_vertices"] = c.missing_vertices;
+    j["largest_distance"] = figure(c.largest_distance);
+    j["relative_distance"] = figure(c.relative_distance);
+    j["examples"] = Json::array();
+    for (const check::ViolatedFacet& f : c.examples)
+        j["examples"].push_back(Json{{"facet", f.facet}, {"covered", figure(f.covered)}});
+    return j;
+}
+
 }  // namespace
 
 std::string check_json(const check::Report& r, const std::string& name, const Environment& environment) {
@@ -174,6 +189,7 @@ std::string check_json(const check::Report& r, const std::string& name, const En
     j["volume"]["equal"] = r.volume.equal;
     j["measures"] = measures_json(r.measures);
     if (r.delaunay) j["delaunay"] = delaunay_json(*r.delaunay);
+    if (r.conformity) j["conformity"] = conformity_json(*r.conformity);
     j["problem_bits"] = Json::array();
     for (const check::ProblemText& t : check::problem_texts) j["problem_bits"].push_back(t.name);
     j["seconds"] = r.seconds;

@@ -292,6 +292,25 @@ std::string measure_table(const Report& r, const Colours& paint) {
     return out + paint.dim("bits: log2 of the condition number, what a plain kernel's weights may lose of 53.") + "\n";
 }
 
+std::string conformity_lines(const check::Conformity& c) {
+    std::string out = fmt::format("PLC        {} of the PLC: {} respected exactly, {} by rounding, {} violated\n",
+                                  plural(c.facets, "facet", "facets"), c.exact, c.rounded, c.violated);
+    if (c.rounded != 0)
+        out += fmt::format("           nodes lie up to {:.3g} off their facet's plane, {:.3g} of the PLC's extent\n",
+                           c.largest_distance, c.relative_distance);
+    if (c.missing_vertices != 0)
+        out += fmt::format("           {} of these facets {} no node\n",
+                           plural(c.missing_vertices, "vertex", "vertices"), c.missing_vertices == 1 ? "is" : "are");
+    std::string violated;
+    for (const check::ViolatedFacet& f : c.examples) {
+        const std::string one = fmt::format("{}{} ({:.3g} %)", violated.empty() ? "" : ", ", f.facet, 100 * f.covered);
+        if (violated.size() + one.size() > columns - 40) break;
+        violated += one;
+    }
+    if (!violated.empty()) out += "           violated, and covered so far: facets " + violated + "\n";
+    return out;
+}
+
 std::string whole_mesh(const Report& r) {
     const check::Boundary& b = r.boundary;
     const std::string_view what = r.dimension == 2 ? "area" : "volume";
@@ -319,6 +338,7 @@ std::string whole_mesh(const Report& r) {
                                d.worst_node, d.worst_cell, d.worst_depth);
         }
     }
+    if (r.conformity) out += conformity_lines(*r.conformity);
     return out;
 }
 

@@ -107,6 +107,7 @@ std::string json_report(const audit::Report& r) {
     j["count"] = r.count;
     j["threads"] = r.threads;
     j["meshes"] = r.meshes;
+    j["verdicts"] = list(r.verdicts, [](check::Verdict v) { return Json(check::name(v)); });
     j["cases"] = r.cases;
     for (const Region region : all_regions)
         j["regions"][std::string(name(region))] = r.regions[static_cast<std::size_t>(region)];

@@ -159,12 +159,32 @@ std::string witness_list(const Report& report, const TerminalStyle& style, const
     return out;
 }
 
+/// The meshes, by what is known of them.
+std::string mesh_lines(const Report& report, const TerminalStyle& style, const Colours& paint) {
+    if (report.meshes.empty()) return "meshes: none\n";
+    std::string out;
+    const auto line = [&](check::Verdict verdict, std::string_view text, std::string_view hint) {
+        std::string names;
+        for (std::size_t i = 0; i < report.meshes.size(); ++i) {
+            if (report.verdicts[i] == verdict) names += (names.empty() ? "" : ", ") + report.meshes[i];
+        }
+        if (names.empty()) return;
+        const std::string whole = fmt::format("meshes, {}: {}{}", text, names, hint);
+        out += (verdict == check::Verdict::not_certified ? paint.bad(whole) : whole) + "\n";
+    };
+    line(check::Verdict::certified, "certified to be partitions", "");
+    line(check::Verdict::not_certified, "NOT certified to be partitions",
+         fmt::format(" (why: {} check MESH)", style.command));
+    line(check::Verdict::not_checked, "not checked", "");
+    return out;
+}
+
 }  // namespace
 
 std::string environment_line(const Environment& e) {
-    return fmt::format("barycert {}, {}, rounding {}, contraction {}, subnormals {}, SIMD {}{}", e.version,
-                       e.compiler, e.rounding, e.contraction ? "ON" : "off", e.flush_to_zero ? "FLUSHED" : "kept",
-                       e.simd, e.fma ? ", FMA" : "");
+    return fmt::format("barycert {}, {}, rounding {}, contraction {}, subnormals {}, SIMD {}{}", e.version, e.compiler,
+                       e.rounding, e.contraction ? "ON" : "off", e.flush_to_zero ? "FLUSHED" : "kept", e.simd,
+                       e.fma ? ", FMA" : "");
 }
 
 std::string terminal_report(const Report& report, const TerminalStyle& style) {
@@ -174,9 +194,7 @@ std::string terminal_report(const Report& report, const TerminalStyle& style) {
         "seed {}, {} cases per family and simplex, {} in all, {} kernels, {} families, {} threads, {:.1f} s\n",
         report.seed, report.count, report.cases, report.kernels.size(), report.families.size(), report.threads,
         report.seconds);
-    std::string meshes;
-    for (const std::string& m : report.meshes) meshes += (meshes.empty() ? "" : ", ") + m;
-    out += "meshes: " + (meshes.empty() ? std::string("none") : meshes) + "\n" + exact_regions(report) + "\n";
+    out += mesh_lines(report, style, paint) + exact_regions(report) + "\n";
     out += kernel_table(report, paint) + "\n" + family_table(report, paint) + "\n";
     out += paint.bold("Worst witness of each kernel, and the command that replays it:") + "\n" +
            witness_list(report, style, paint);
