@@ -67,6 +67,7 @@ TEST(Conditions, p3) {
     const Mesh crack =
         solid({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, -1}, {0, 1, 2, 3, 4, 5, 6, 7});
     expect_only(crack, set_of(Problem::boundary_contact, Problem::coincident_nodes), 1);
+    EXPECT_EQ(quick(crack).find(Problem::boundary_contact)->count, 16U);  // every facet meets every other
     // A corner on a face.
     const Mesh corner =
         solid({0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4, 1, 1, 0, 1, 1, -1, 2, 1, -1, 1, 2, -1}, {0, 1, 2, 3, 4, 5, 6, 7});
@@ -75,6 +76,16 @@ TEST(Conditions, p3) {
     const Mesh edges =
         solid({-1, 0, 0, 1, 0, 0, 0, -1, -1, 0, 1, -1, 0, -1, 0, 0, 1, 0, -1, 0, 1, 1, 0, 1}, {0, 1, 2, 3, 4, 5, 6, 7});
     expect_only(edges, set_of(Problem::boundary_contact), 1);
+}
+
+// Two facets in one plane that cross as a hexagram: each edge of one crosses two of the other, no corner is on the
+// other. Pairs: these two; each with three facets at the edges of the other; and of these facets the six that cross.
+TEST(Conditions, p3_in_one_plane) {
+    const Mesh star = solid({3, 0, 0, -3, 3, 0, -3, -3, 0, 0, 0, 5, -3.5, 0, 0, 2, 3, 0, 2, -3, 0, 0, 0, -5},
+                            {0, 1, 2, 3, 4, 5, 6, 7});
+    expect_only(star, set_of(Problem::boundary_contact), 1);
+    EXPECT_EQ(quick(star).find(Problem::boundary_contact)->count, 13U);
+    EXPECT_EQ(quick(star, 1).contacts[0].dimension, 2);
 }
 
 // A cell inside another: the boundaries keep clear of each other.

@@ -27,7 +27,7 @@ TEST(Defects, alone) {
     for (const int d : {2, 3}) {
         for (const Defect& defect : defects) {
             if (defect.only_3d && d == 2) continue;
-            for (std::uint64_t i = 0; i < 40; ++i) {
+            for (std::uint64_t i = 0; i < 15; ++i) {
                 SCOPED_TRACE(std::string(defect.name) + ", " + std::to_string(d) + "D, " + std::to_string(i));
                 Random random = Random::stream(5, hash64(defect.name), i);
                 Mesh mesh = mesh_of_sites(d, 1);
@@ -88,7 +88,7 @@ TEST(Defects, in_pairs_in_one_place) {
 // A cell taken out is no defect: it leaves a cavity, or a notch.
 TEST(Defects, cell_taken_out) {
     for (const int d : {2, 3}) {
-        for (std::uint64_t i = 0; i < 40; ++i) {
+        for (std::uint64_t i = 0; i < 15; ++i) {
             Random random(i);
             Mesh mesh = mesh_of_sites(d, 1);
             mesh.neighbours.clear(), mesh.faces.clear();

@@ -94,9 +94,9 @@ TEST(Theorem, damaged_boxes) {
 }
 
 TEST(Theorem, one_ulp_off) {
-    expect_share(compare_many("soup ulp", random_soup, 300, true), 0.05, 0.8);
-    expect_share(compare_many("grown ulp", grown_complex, 150, true), 0.05, 0.9);
-    expect_share(compare_many("damaged ulp", damaged_box, 60, true), 0.05, 0.9);
+    expect_share(compare_many("soup ulp", random_soup, 150, true), 0.05, 0.8);
+    expect_share(compare_many("grown ulp", grown_complex, 80, true), 0.05, 0.9);
+    expect_share(compare_many("damaged ulp", damaged_box, 25, true), 0.05, 0.9);
 }
 
 }  // namespace
