@@ -1,0 +1,141 @@
+// Conformity to a PLC: on meshes whose PLC is known, and on planted differences.
+#include <gtest/gtest.h>
+
+#include "barycert/mesh/tetgen_io.hpp"
+#include "check/meshes.hpp"
+
+namespace barycert::testing {
+namespace {
+
+Mesh mesh_of(const std::string& name) {
+    return read_tetgen(BARYCERT_DATA_DIR "/meshes/" + name).value();
+}
+Plc plc_of(const std::string& name) {
+    return read_plc(BARYCERT_DATA_DIR "/plc/" + name).value();
+}
+
+check::Conformity conformity(const Mesh& mesh, const Plc& plc, int threads = 1) {
+    check::Options options;
+    options.plc = &plc;
+    options.threads = threads;
+    options.contacts = 0;
+    return check::run(mesh, options).conformity.value();
+}
+
+/// The unit cube: six squares, one of them with a square hole in which another facet lies.
+Plc cube() {
+    Plc plc;
+    for (int i = 0; i < 8; ++i) plc.points.insert(plc.points.end(), {i % 2 * 4.0, i / 2 % 2 * 4.0, i / 4 * 4.0});
+    plc.points.insert(plc.points.end(), {1, 1, 0, 3, 1, 0, 3, 3, 0, 1, 3, 0});
+    plc.facets = {{{{0, 1, 3, 2}, {8, 9, 10, 11}}, {}, 0},
+                  {{{8, 9, 10, 11}}, {}, 0},
+                  {{{4, 5, 7, 6}}, {}, 0},
+                  {{{0, 1, 5, 4}}, {}, 0},
+                  {{{2, 3, 7, 6}}, {}, 0},
+                  {{{0, 2, 6, 4}}, {}, 0},
+                  {{{1, 3, 7, 5}}, {}, 0},
+                  {{{0, 1}, {1, 3}}, {}, 0}};
+    return plc;
+}
+
+TEST(Conformity, OfTheProjectsOwnMeshes) {
+    struct Known {
+        const char *mesh, *plc;
+        std::uint64_t facets, exact, rounded;
+    };
+    // The torus is given by triangles, of which TetGen joins coplanar ones and cuts them the other way.
+    for (const Known& k : {Known{"cube-hole", "cube-hole.poly", 326, 326, 0},
+                           {"bracket", "bracket.poly", 32, 32, 0},
+                           {"cube-hole-o2", "cube-hole.poly", 326, 326, 0},
+                           {"flange", "flange.poly", 194, 24, 170},
+                           {"lattice-box", "lattice-box.poly", 6, 6, 0},
+                           {"torus", "torus.off", 1296, 720, 0},
+                           {"needle-slit", "needle-slit.smesh", 13, 5, 8}}) {
+        const check::Conformity c = conformity(mesh_of(k.mesh), plc_of(k.plc));
+        EXPECT_EQ(c.facets, k.facets) << k.mesh;
+        EXPECT_EQ(c.exact, k.exact) << k.mesh;
+        EXPECT_EQ(c.rounded, k.rounded) << k.mesh;
+        EXPECT_EQ(c.violated, k.facets - k.exact - k.rounded) << k.mesh;
+        EXPECT_EQ(c.missing_vertices, 0U) << k.mesh;
+        EXPECT_LE(c.relative_distance, 0x1p-50) << k.mesh;
+        EXPECT_EQ(c.relative_distance > 0, k.rounded > 0) << k.mesh;
+    }
+}
+
+TEST(Conformity, FacetsWithHolesAndWithoutArea) {
+    const Mesh mesh = box(3, {4, 4, 4});
+    const check::Conformity c = conformity(mesh, cube());
+    EXPECT_EQ(c.facets, 7U);  // the last has segments alone
+    EXPECT_EQ(c.exact, 7U);
+    EXPECT_EQ(c.missing_vertices, 0U);
+    // Coarser cells do not respect the square in the bottom.
+    const check::Conformity coarse = conformity(mapped(box(3, {1, 1, 1}), {4, 4, 4}, {0, 0, 0}), cube());
+    EXPECT_EQ(coarse.exact, 5U);
+    EXPECT_EQ(coarse.violated, 2U);
+    EXPECT_EQ(coarse.missing_vertices, 4U);
+    ASSERT_EQ(coarse.examples.size(), 2U);
+    EXPECT_EQ(coarse.examples[0].facet, 0);
+    EXPECT_EQ(coarse.examples[1].facet, 1);
+}
+
+TEST(Conformity, AFaceCanLieInside) {
+    Plc plc;
+    plc.points = {2, 0, 0, 2, 4, 0, 2, 4, 4, 2, 0, 4};
+    plc.facets = {{{{0, 1, 2, 3}}, {}, 0}};
+    EXPECT_EQ(conformity(box(3, {4, 4, 4}), plc).exact, 1U);
+    for (double& x : plc.points) x = x == 2 ? 2.5 : x;  // between the layers
+    EXPECT_EQ(conformity(box(3, {4, 4, 4}), plc).violated, 1U);
+}
+
+TEST(Conformity, ANodeThatIsMovedIsTold) {
+    const auto node = [](int x, int y, int z) { return static_cast<std::size_t>(x + 5 * (y + 5 * z)); };
+    const Mesh good = box(3, {4, 4, 4});
+    // On the middle of the side x = 0, off its plane: by an ulp of 4, then by a thousandth.
+    ASSERT_EQ(node_at(good, static_cast<Mesh::Index>(node(0, 2, 2))), (std::vector<double>{0, 2, 2}));
+    Mesh rounded = good, moved = good;
+    rounded.points[3 * node(0, 2, 2)] = 0x1p-50;
+    moved.points[3 * node(0, 2, 2)] = 0x1p-10;
+    const check::Conformity r = conformity(rounded, cube()), m = conformity(moved, cube());
+    EXPECT_EQ(r.exact, 6U);
+    EXPECT_EQ(r.rounded, 1U);
+    EXPECT_EQ(r.largest_distance, 0x1p-50);
+    EXPECT_EQ(r.relative_distance, 0x1p-52);
+    EXPECT_EQ(m.exact, 6U);
+    ASSERT_EQ(m.violated, 1U);
+    EXPECT_EQ(m.examples[0].facet, 5);
+    EXPECT_EQ(m.examples[0].covered, 13.0 / 16);  // six triangles of half a square are gone
+    // A corner of the cube off its place by an ulp is missing.
+    Mesh corner = good;
+    corner.points[3 * node(4, 4, 4)] += 0x1p-50;
+    EXPECT_EQ(conformity(corner, cube()).missing_vertices, 1U);
+}
+
+TEST(Conformity, DoesNotDependOnThreadsOrderOrOrientation) {
+    Random random(2);
+    const Mesh flange = mesh_of("flange");
+    Mesh other = renumbered(flange, random);
+    flip_some(other, random);
+    const Plc plc = plc_of("flange.poly");
+    const check::Conformity a = conformity(flange, plc, 1), b = conformity(other, plc, 3);
+    EXPECT_EQ(a.exact, b.exact);
+    EXPECT_EQ(a.rounded, b.rounded);
+    EXPECT_EQ(a.largest_distance, b.largest_distance);
+}
+
+TEST(Conformity, OfBrokenMeshesEndsWell) {
+    Mesh mesh = box(3, {2, 2, 2});
+    mesh.cells[5] = -1;
+    mesh.cells[9] = 1000;
+    mesh.points[4] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(conformity(mesh, cube()).facets, 7U);
+    EXPECT_EQ(conformity(Mesh(), cube()).violated, 7U);
+    EXPECT_EQ(conformity(mesh, Plc()).facets, 0U);
+    Mesh plane = box(2, {2, 2, 1});
+    const Plc plc = cube();
+    check::Options options;
+    options.plc = &plc;
+    EXPECT_FALSE(check::run(plane, options).conformity);
+}
+
+}  // namespace
+}  // namespace barycert::testing
