@@ -187,7 +187,8 @@ TEST(Robustness, at_the_limit_of_pairs) {
         const check::Report r = quick(mesh);
         EXPECT_EQ(r.find(Problem::overlapping_cells)->count, static_cast<std::uint64_t>(std::min(overlapping, 1000)));
         EXPECT_EQ(r.find(Problem::overlapping_cells)->at_least, overlapping > 1000);
-        EXPECT_EQ(r.find(Problem::nested_part)->count, 2U * static_cast<std::uint64_t>(overlapping));
+        EXPECT_EQ(r.find(Problem::nested_part)->count, 1000U);  // of two a pair
+        EXPECT_TRUE(r.find(Problem::nested_part)->at_least);
     }
 }
 

@@ -32,16 +32,11 @@ void check_reports(Schema& schema) {
             schema.check("Check", Json::parse(text), "check");
         }
     }
-    Plc bow_tie;  // its area is zero
-    bow_tie.points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
-    bow_tie.facets = {{{{0, 1, 2, 3}}, {}, 0}};
-    for (const Plc& plc : {read_plc(BARYCERT_DATA_DIR "/plc/torus.off").value(), bow_tie}) {
-        check::Options options;
-        options.plc = &plc;
-        const check::Report report = check::run(own_mesh("torus"), options);
-        const std::string text = report::check_json(report, "part", measure_environment());
-        schema.check("Check", Json::parse(text), "check");
-    }
+    const Plc plc = read_plc(BARYCERT_DATA_DIR "/plc/torus.off").value();
+    check::Options options;
+    options.plc = &plc;
+    const std::string text = report::check_json(check::run(own_mesh("torus"), options), "part", measure_environment());
+    schema.check("Check", Json::parse(text), "check");
 }
 
 /// Everything that is written, checked against a schema.

@@ -65,8 +65,10 @@ public:
         const std::size_t fans = d_ == 3 ? find_pinched_nodes() : distinct;
         out_.summary.facets = facets_.size();
         gather_pieces(volumes);
+        const bool counted = out_.summary.closed && findings_.count(Problem::pinched_ridge) == 0;
+        if (counted) out_.summary.cavities = cavities_;
         // Vertices - edges + faces is 2 - 2 tunnels, summed over closed surfaces.
-        if (d_ == 3 && out_.summary.closed && findings_.count(Problem::pinched_ridge) == 0) {
+        if (d_ == 3 && counted) {
             const auto euler = static_cast<std::int64_t>(fans) - static_cast<std::int64_t>(distinct) +
                                static_cast<std::int64_t>(facets_.size());
             out_.summary.tunnels = static_cast<std::int64_t>(out_.summary.pieces) - euler / 2;
@@ -139,7 +141,7 @@ private:
             for (; i < order.size() && root[order[i]] == root[first]; ++i)
                 enclosed = enclosed + cone(order[i], volumes);
             out_.facets.push_back(first);
-            out_.summary.cavities += enclosed.sign() < 0 ? 1 : 0;
+            cavities_ += enclosed.sign() < 0 ? 1 : 0;
             out_.enclosed = out_.enclosed + enclosed;
         }
         out_.summary.pieces = out_.facets.size();
@@ -159,6 +161,7 @@ private:
     Findings& findings_;
     DisjointSets piece_;
     DisjointSets fans_;
+    std::uint64_t cavities_ = 0;
     BoundaryPieces out_;
 };
 

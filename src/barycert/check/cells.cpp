@@ -53,22 +53,36 @@ const char* kind(int d, const double* const* p) {
     return "collinear";
 }
 
-/// Edges from corner 0, divided by a power of two so that the largest component is in [1, 2); its exponent.
-int scaled_edges(int d, const double* const* p, double* edges) {
-    double largest = 0;
+/// Edges from corner 0, divided by a power of two so that the largest component is in [1, 2); its exponent. Infinite if
+/// a difference overflows.
+template <class Real>
+int scaled_edges(int d, const double* const* p, Real* edges) {
+    Real largest = 0;
     for (int i = 0; i < d; ++i) {
-        // Halved, for a difference may overflow; what this loses of subnormals only shapes notice.
         for (int k = 0; k < d; ++k) {
-            edges[i * d + k] = p[i + 1][k] / 2 - p[0][k] / 2;
+            edges[i * d + k] = static_cast<Real>(p[i + 1][k]) - static_cast<Real>(p[0][k]);
             largest = std::max(largest, std::fabs(edges[i * d + k]));
         }
     }
-    if (largest == 0) return 0;
+    if (largest == 0 || !std::isfinite(largest)) return 0;
     const int exponent = std::ilogb(largest);
-    const double factor = std::scalbn(1.0, -exponent);  // a product with it is exact, and quicker than scalbn
-    for (int i = 0; i < d * d; ++i)
-        edges[i] = std::isnormal(factor) ? edges[i] * factor : std::scalbn(edges[i], -exponent);
-    return exponent + 1;
+    const Real factor = std::scalbn(Real(1), -exponent);  // exact to multiply by unless it is infinite
+    for (int i = 0; i < d * d; ++i) edges[i] *= factor;
+    return exponent;
+}
+
+Shape shape_of(int d, const double* const* p, double volume, const Integer& exact, const ExactVolumes& volumes) {
+    double edges[9];
+    const int exponent = scaled_edges(d, p, edges);
+    const double scaled = std::scalbn(std::fabs(volume), -d * exponent);
+    if (exact.sign() == 0 || (std::isnormal(volume) && scaled >= 0x1p-300 && scaled <= 8))
+        return shape(d, edges, scaled);
+    // The volume, near 1 first: it may be no double.
+    long double wide[9];
+    const int wide_exponent = scaled_edges(d, p, wide);
+    const int scale = volumes.exponent(exact) / d;
+    const long double near_one = std::fabs(volumes.rounded(exact, scale));
+    return shape(d, wide, std::scalbn(near_one, d * (scale - wide_exponent)));
 }
 
 struct Part {
@@ -129,14 +143,8 @@ private:
         }
         if (plain_sign(d, p) != sign) note(Problem::plain_sign_wrong, cell, place, part);
 
-        double edges[9];
-        const int exponent = scaled_edges(d, p, edges);
-        const double scaled_volume = volumes_.rounded(volume, exponent);
-        // Scaling back is exact unless the result is subnormal or too large: then it is rounded from the start.
-        const double unscaled = std::scalbn(scaled_volume, d * exponent);
-        m_.volume[cell] = std::isnormal(unscaled) ? unscaled : volumes_.rounded(volume);
-
-        const Shape s = shape(d, edges, std::fabs(scaled_volume));
+        m_.volume[cell] = volumes_.rounded(volume);
+        const Shape s = shape_of(d, p, m_.volume[cell], volume, volumes_);
         m_.radius_edge[cell] = s.radius_edge;
         m_.aspect[cell] = s.aspect;
         m_.min_angle[cell] = s.min_angle;

@@ -40,6 +40,8 @@ std::uint64_t fingerprint(const Mesh& mesh) {
     f.add(std::span(&dimension, 1));
     f.add(std::span<const double>(mesh.points));
     f.add(std::span<const Mesh::Index>(mesh.cells));
+    f.add(std::span<const Mesh::Index>(mesh.neighbours));
+    f.add(std::span<const Mesh::Index>(mesh.faces));
     return f.value();
 }
 

@@ -17,8 +17,8 @@ constexpr std::string_view name(Verdict v) {
     return v == Verdict::certified ? "certified" : v == Verdict::not_certified ? "not certified" : "not checked";
 }
 
-/// Only check::run makes one that is not `not_checked`. It remembers which mesh it speaks of by a fingerprint of the
-/// coordinates and the corners of its cells.
+/// Only check::run makes one that is not `not_checked`. It remembers which mesh it speaks of by a fingerprint of its
+/// coordinates, cells, neighbours and faces.
 class Certificate {
 public:
     Certificate() = default;

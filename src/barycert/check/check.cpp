@@ -1,5 +1,6 @@
 #include "barycert/check/check.hpp"
 
+#include <tbb/info.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
@@ -159,7 +160,9 @@ Report run(const Mesh& mesh, const Options& options) {
     const auto start = std::chrono::steady_clock::now();
     Report report;
     report.dimension = mesh.dimension;
-    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+    // oneTBB prints a warning when asked for more than there are.
+    const int available = tbb::info::default_concurrency();
+    tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, available) : available);
     arena.execute([&] {
         report.threads = tbb::this_task_arena::max_concurrency();
         const bool whole = Check(mesh, options).run(report);

@@ -11,7 +11,7 @@
 /// boundary facets are connected to over ridges that exactly two of them hold.
 ///
 /// Theorem. Let a mesh satisfy
-///   P1  every corner of every cell is a node with finite coordinates, and no cell is degenerate;
+///   P1  every coordinate is finite, every corner of every cell is a node, and no cell is degenerate;
 ///   P2  no facet belongs to more than two cells, and where it belongs to two these lie on opposite sides of it;
 ///   P3  two boundary facets meet, if at all, in a common vertex or edge of both (the same nodes);
 ///   P4  of each piece of the boundary, one cell at it has its interior free of all other cells.
@@ -90,10 +90,13 @@ struct Finding {
 struct Boundary {
     std::uint64_t facets = 0;
     std::uint64_t pieces = 0;
-    bool closed = true;                   ///< at every ridge boundary facets continue each other
-    bool manifold = true;                 ///< every ridge in two boundary facets, every node in one fan of them
-    std::uint64_t cavities = 0;           ///< pieces that enclose no cells: signed volume negative
-    std::optional<std::int64_t> tunnels;  ///< of all pieces (their genus); none in 2D or where not manifold
+    bool closed = true;    ///< at every ridge boundary facets continue each other
+    bool manifold = true;  ///< every ridge in two boundary facets, every node in one fan of them
+    /// Pieces that enclose no cells: their signed volume is negative (2D: holes). Not counted where the boundary is
+    /// open or pinched along a ridge, for what belongs together is not decided there.
+    std::optional<std::uint64_t> cavities;
+    /// Of all pieces, their genus: handles and holes through. Not counted likewise, and in 2D.
+    std::optional<std::int64_t> tunnels;
 };
 
 /// Signed volumes (areas in 2D), each an exact number rounded once.

@@ -1,6 +1,7 @@
 #include "barycert/check/exact_volumes.hpp"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -95,6 +96,11 @@ Integer ExactVolumes::cell(const double* const* p) const {
 
 Integer ExactVolumes::cone(const double* const* p) const {
     return with_width(bits_, [&]<class T>() { return cone_as<T>(p); });
+}
+
+int ExactVolumes::exponent(const Integer& n) const {
+    const auto limbs = n.magnitude();
+    return exponent_ + 64 * static_cast<int>(limbs.size()) - std::countl_zero(limbs.back()) - 1;
 }
 
 double ExactVolumes::rounded(const Integer& n, int scale) const {

@@ -24,6 +24,9 @@ public:
     /// d! times the signed volume of the cone from the origin over the facet with d corners: det(p0, p1, ...).
     Integer cone(const double* const* p) const;
 
+    /// floor(log2) of the volume that `n` from above stands for, to within d. Precondition: not zero.
+    int exponent(const Integer& n) const;
+
     /// The volume that `n` from above stands for, divided by 2^(d * scale), correctly rounded.
     double rounded(const Integer& n, int scale = 0) const;
 

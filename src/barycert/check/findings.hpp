@@ -67,17 +67,16 @@ void in_blocks(std::size_t count, std::size_t block, Make make, Work work, Join 
     for (auto& part : parts) join(part);
 }
 
-/// The same in waves of a fixed number of blocks, for searches that may find more than anybody wants: when join(part)
-/// returns false, nothing is done after that wave. So the outcome does not depend on threads.
-template <class Make, class Work, class Join>
-void in_waves(std::size_t count, std::size_t block, Make make, Work work, Join join) {
+/// The same in waves of a fixed number of blocks, for searches that may find more than anybody wants: when more()
+/// returns false after a wave, nothing else is done. So the outcome does not depend on threads.
+template <class Make, class Work, class Join, class More>
+void in_waves(std::size_t count, std::size_t block, Make make, Work work, Join join, More more) {
     constexpr std::size_t blocks = 64;
-    bool more = true;
-    for (std::size_t from = 0; from < count && more; from += block * blocks) {
+    for (std::size_t from = 0; from < count; from += block * blocks) {
         in_blocks(
             std::min(count - from, block * blocks), block, make,
-            [&](std::size_t first, std::size_t last, auto& part) { work(from + first, from + last, part); },
-            [&](auto& part) { more = more && join(part); });
+            [&](std::size_t first, std::size_t last, auto& part) { work(from + first, from + last, part); }, join);
+        if (!more()) return;
     }
 }
 

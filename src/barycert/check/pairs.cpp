@@ -1,6 +1,7 @@
 #include "barycert/check/pairs.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <numeric>
 
@@ -46,10 +47,8 @@ std::vector<Pair> conflicts(std::vector<Box> boxes, Conflict conflict, bool& com
                           [](const Pair& a, const Pair& b) { return a.second < b.second; });
             }
         },
-        [&](const std::vector<Pair>& part) {
-            all.insert(all.end(), part.begin(), part.end());
-            return all.size() <= pair_limit;
-        });
+        [&](const std::vector<Pair>& part) { all.insert(all.end(), part.begin(), part.end()); },
+        [&] { return all.size() <= pair_limit; });
     complete = all.size() <= pair_limit;
     all.resize(std::min(all.size(), pair_limit));
     return all;
@@ -115,32 +114,46 @@ void find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facet
     if (tree.bounds() == nullptr) return;
     // Most cells are far from the few that are asked for: one byte a node tells.
     const std::vector<std::uint8_t> codes = outcodes(mesh, *tree.bounds());
-    std::vector<std::uint8_t> nested(inner.size(), 0);
+    // For each piece the lowest cell that overlaps: no cell above it needs to be asked, and threads agree on it.
+    constexpr std::uint32_t none = ~std::uint32_t{0};
+    std::vector<std::uint32_t> lowest(inner.size(), none);
+    const auto ask = [&](std::size_t cell, std::size_t piece, const Corners& corners) {
+        const std::atomic_ref<std::uint32_t> known(lowest[piece]);
+        const auto number = static_cast<std::uint32_t>(cell);
+        if (inner[piece] == cell || known.load(std::memory_order_relaxed) <= number ||
+            !interiors_meet(mesh.dimension, corner_points(mesh, inner[piece]), corners))
+            return;
+        std::uint32_t now = known.load(std::memory_order_relaxed);
+        while (now > number && !known.compare_exchange_weak(now, number, std::memory_order_relaxed)) {
+        }
+    };
+    bool complete = true;
+    struct Nothing {};
     in_waves(
-        mesh.cell_count(), 1024, [] { return std::vector<Pair>(); },
-        [&](std::size_t first, std::size_t last, std::vector<Pair>& part) {
+        mesh.cell_count(), 1024, [] { return Nothing(); },
+        [&](std::size_t first, std::size_t last, Nothing&) {
             for (std::size_t cell = first; cell < last; ++cell) {
                 if (measures.orientation[cell] == 0 || common_outcode(mesh, codes, cell) != 0) continue;
                 const auto corners = corner_points(mesh, cell);
                 tree.for_each(box_of(mesh.dimension, corners.data(), mesh.dimension + 1), [&](std::uint32_t i) {
-                    if (nested[i] == 0 && inner[i] != cell &&
-                        interiors_meet(mesh.dimension, corner_points(mesh, inner[i]), corners))
-                        part.push_back({i, static_cast<std::uint32_t>(cell)});
+                    ask(cell, i, corners);
                     return true;
                 });
             }
         },
-        [&](const std::vector<Pair>& part) {
-            for (const Pair& p : part) {
-                if (nested[p.first] != 0) continue;
-                nested[p.first] = 1;
-                const Place place{
-                    .cells = {static_cast<Mesh::Index>(inner[p.first]), static_cast<Mesh::Index>(p.second)}};
-                for (const Mesh::Index cell : place.cells) mark(measures, cell, Problem::nested_part);
-                findings.add(Problem::nested_part, place);
-            }
-            return true;
+        [](const Nothing&) {},
+        [&] {
+            const auto found = lowest.size() - static_cast<std::size_t>(std::count(lowest.begin(), lowest.end(), none));
+            return complete = found <= pair_limit;
         });
+    for (std::size_t i = 0, found = 0; i < inner.size() && found < pair_limit; ++i) {
+        if (lowest[i] == none) continue;
+        ++found;
+        const Place place{.cells = {static_cast<Mesh::Index>(inner[i]), static_cast<Mesh::Index>(lowest[i])}};
+        for (const Mesh::Index cell : place.cells) mark(measures, cell, Problem::nested_part);
+        findings.add(Problem::nested_part, place);
+    }
+    if (!complete) findings.add_at_least(Problem::nested_part);
 }
 
 std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, Measures& measures, Findings& findings) {

@@ -41,9 +41,10 @@ std::string words(std::string_view name) {
 }
 
 std::string domain(const Report& r) {
-    std::string text = counted(r.parts, "part", "parts") + " with ";
-    if (r.dimension == 2) return text + counted(r.boundary.cavities, "hole", "holes");
-    text += counted(r.boundary.cavities, "cavity", "cavities");
+    std::string text = counted(r.parts, "part", "parts");
+    if (!r.boundary.cavities) return text;
+    text += " with " + (r.dimension == 2 ? counted(*r.boundary.cavities, "hole", "holes")
+                                         : counted(*r.boundary.cavities, "cavity", "cavities"));
     if (r.boundary.tunnels)
         text += " and " + counted(static_cast<std::uint64_t>(*r.boundary.tunnels), "tunnel", "tunnels");
     return text;
@@ -88,7 +89,7 @@ std::string tiles(const Report& r) {
     tile(r.dimension == 2 ? "triangles" : "tetrahedra", grouped(r.cells));
     tile("nodes", grouped(r.nodes));
     tile("parts", grouped(r.parts));
-    tile(r.dimension == 2 ? "holes" : "cavities", grouped(b.cavities));
+    tile(r.dimension == 2 ? "holes" : "cavities", b.cavities ? grouped(*b.cavities) : "–");
     if (r.dimension == 3) tile("tunnels", b.tunnels ? std::to_string(*b.tunnels) : "–");
     tile(r.dimension == 2 ? "boundary edges" : "boundary faces", grouped(b.facets));
     tile("pieces of boundary", grouped(b.pieces));
@@ -109,11 +110,12 @@ std::string whole_mesh(const Report& r) {
     out += row("Cells",
                fmt::format("{} positive, {} negative, {} degenerate, by the exact sign of the {}", grouped(r.positive),
                            grouped(r.negative), grouped(r.degenerate), r.dimension == 2 ? "area" : "volume"));
-    out += row("Boundary", fmt::format("{}, {}{}", b.closed ? "closed" : "<b class=\"bad\">not closed</b>",
-                                       b.manifold ? "manifold" : "touching itself (not manifold)",
-                                       r.dimension == 3 && !b.tunnels ? "; tunnels are counted only where it is closed "
-                                                                        "and does not touch itself"
-                                                                      : ""));
+    out +=
+        row("Boundary", fmt::format("{}, {}{}", b.closed ? "closed" : "<b class=\"bad\">not closed</b>",
+                                    b.manifold ? "manifold" : "touching itself (not manifold)",
+                                    b.cavities ? ""
+                                               : "; cavities and tunnels are counted only where it is closed and does "
+                                                 "not touch itself along a ridge"));
     if (r.delaunay) {
         const check::Delaunay& d = *r.delaunay;
         std::string text = counted(d.facets, "interior facet", "interior facets") + " tested, exactly: ";
@@ -124,6 +126,22 @@ std::string whole_mesh(const Report& r) {
             text += fmt::format(". Worst: node {} lies in the sphere of cell {}, {:.3g} of its radius deep",
                                 d.worst_node, d.worst_cell, d.worst_depth);
         out += row("Delaunay", text);
+    }
+    if (r.conformity) {
+        const check::Conformity& c = *r.conformity;
+        std::string text = fmt::format("of {}: {} respected exactly, {} by rounding, {} violated",
+                                       counted(c.facets, "facet", "facets"), grouped(c.exact), grouped(c.rounded),
+                                       grouped(c.violated));
+        if (c.rounded != 0)
+            text += fmt::format(". Nodes lie up to {:.3g} off their facet's plane, {:.3g} of the PLC's extent",
+                                c.largest_distance, c.relative_distance);
+        if (c.missing_vertices != 0)
+            text += fmt::format(". Vertices that are no node: {}", grouped(c.missing_vertices));
+        for (const check::ViolatedFacet& f : c.examples)
+            text += fmt::format("{}{} ({:.3g} %)",
+                                &f == c.examples.data() ? ". Violated, and covered so far: facets " : ", ", f.facet,
+                                100 * f.covered);
+        out += row("PLC", text);
     }
     return out + "</table>\n";
 }

@@ -92,7 +92,7 @@ Json boundary_json(const check::Boundary& b) {
     j["pieces"] = b.pieces;
     j["closed"] = b.closed;
     j["manifold"] = b.manifold;
-    j["cavities"] = b.cavities;
+    j["cavities"] = b.cavities ? Json(*b.cavities) : Json(nullptr);
     j["tunnels"] = b.tunnels ? Json(*b.tunnels) : Json(nullptr);
     return j;
 }

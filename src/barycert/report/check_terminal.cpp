@@ -51,9 +51,11 @@ std::string clause(const Finding& f) {
 
 /// "1 part, 0 cavities, 7 tunnels"; in the plane a cavity is a hole.
 std::string domain(const Report& r) {
-    std::string text = plural(r.parts, "part", "parts") + ", ";
-    if (r.dimension == 2) return text + plural(r.boundary.cavities, "hole", "holes");
-    text += plural(r.boundary.cavities, "cavity", "cavities");
+    std::string text = plural(r.parts, "part", "parts");
+    if (r.boundary.cavities) {
+        text += ", " + (r.dimension == 2 ? plural(*r.boundary.cavities, "hole", "holes")
+                                         : plural(*r.boundary.cavities, "cavity", "cavities"));
+    }
     if (r.boundary.tunnels) {
         text += ", " + plural(static_cast<std::uint64_t>(*r.boundary.tunnels), "tunnel", "tunnels");
     }
@@ -317,9 +319,10 @@ std::string whole_mesh(const Report& r) {
     std::string out = fmt::format("\ncells      {} positive, {} negative, {} degenerate, by the exact sign of the {}\n",
                                   r.positive, r.negative, r.degenerate, what);
     out += fmt::format("domain     {}{}\n", domain(r),
-                       r.dimension == 2 || b.tunnels ? ""
-                       : b.closed                    ? "; tunnels are not counted where the boundary touches itself"
-                                                     : "; tunnels are not counted where the boundary is open");
+                       b.cavities ? ""
+                                  : fmt::format("; {} are not counted where the boundary is {}",
+                                                r.dimension == 2 ? "holes" : "cavities and tunnels",
+                                                b.closed ? "pinched along a ridge" : "open"));
     out += fmt::format("boundary   {} in {}, {}, {}\n", plural(b.facets, "facet", "facets"),
                        plural(b.pieces, "piece", "pieces"), b.closed ? "closed" : "NOT closed",
                        b.manifold ? "manifold" : "touching itself (not manifold)");

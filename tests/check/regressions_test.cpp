@@ -1,0 +1,116 @@
+// Cases that once went wrong: rounding twice, counts that depend on the origin, underflow in shapes, time.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "barycert/check/pairs.hpp"
+#include "check/meshes.hpp"
+#include "check/signs.hpp"
+
+namespace barycert::testing {
+namespace {
+
+Mesh flat(std::vector<double> points, std::vector<Mesh::Index> cells) {
+    Mesh mesh;
+    mesh.dimension = 2;
+    mesh.points = std::move(points);
+    mesh.cells = std::move(cells);
+    return mesh;
+}
+
+// The scaled volume is subnormal, is rounded there, and scaled back: rounded twice.
+TEST(Regressions, volume_of_an_anisotropic_cell) {
+    const Mesh mesh = flat({0, 0, 1.1e200, 0, 0, 1.3e-110}, {0, 1, 2});
+    const check::Report r = quick(mesh);
+    EXPECT_EQ(r.measures.volume[0], exact_volume(mesh, 0));
+    EXPECT_EQ(r.measures.volume[0], r.volume.cells);
+}
+
+// Three triangles around a triangular hole: the number of cavities depends on where the origin is.
+TEST(Regressions, cavities_of_a_pinched_boundary) {
+    const Mesh mesh = flat({0, 0, 4, 0, 0, 4, 2, 0, 2, 2, 0, 2}, {0, 3, 5, 1, 4, 3, 2, 5, 4});
+    for (const double x : {0.0, 10.0, -10.0}) {
+        for (const double y : {0.0, 10.0}) {
+            const check::Report r = quick(mapped(mesh, {1, 1, 1}, {x, y, 0}));
+            EXPECT_EQ(r.boundary.cavities, quick(mesh).boundary.cavities) << x << " " << y;
+        }
+    }
+}
+
+// Parts that touch in a node do not hide what can be counted; along an edge they do.
+TEST(Regressions, tunnels_and_cavities_where_pinched) {
+    Mesh mesh;
+    mesh.points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, -1, 0, 0, 0, -1, 0, 0, 0, -1};
+    mesh.cells = {0, 1, 2, 3, 0, 4, 6, 5};
+    const check::Report node = quick(mesh);
+    EXPECT_FALSE(node.boundary.manifold);
+    EXPECT_EQ(node.boundary.tunnels, 0);
+    EXPECT_EQ(node.boundary.cavities, 0U);
+    mesh.cells = {0, 1, 2, 3, 0, 1, 5, 6};  // both have the edge 0 1
+    const check::Report edge = quick(mesh);
+    EXPECT_TRUE(edge.certified());
+    EXPECT_FALSE(edge.boundary.tunnels);
+    EXPECT_FALSE(edge.boundary.cavities);
+}
+
+// "It is the mesh that was checked, and P1 to P5 of check.hpp hold."
+TEST(Regressions, covers_after_neighbours_were_spoilt) {
+    Mesh mesh = box(3, {1, 1, 1});
+    const check::Certificate c = quick(mesh).certificate;
+    mesh.neighbours.assign(mesh.cells.size(), 0);
+    EXPECT_FALSE(c.covers(mesh));
+}
+
+TEST(Regressions, shape_of_needles) {
+    for (const double t : {1e-90, 1e-120, 1e-160, 1e-200}) {
+        Mesh mesh;
+        mesh.points = {0, 0, 0, t, 0, 0, 0, t, 0, 0, 0, 1};
+        mesh.cells = {0, 1, 2, 3};
+        const check::Measures m = quick(mesh).measures;
+        EXPECT_NEAR(m.radius_edge[0] / (0.5 / t), 1, 1e-12) << t;
+        EXPECT_NEAR(m.min_angle[0], 45, 1e-12) << t;
+        EXPECT_NEAR(m.max_angle[0], 90, 1e-12) << t;
+    }
+    const check::Measures m = quick(flat({0, 0, 1.1e200, 0, 0, 1.3e-110}, {0, 1, 2})).measures;
+    EXPECT_FALSE(std::isnan(m.radius_edge[0]));
+    // Corner cells at the end of the range are as good as any.
+    for (const double t : {0x1p-1074, 0x1p1022}) {
+        Mesh mesh;
+        mesh.points = {0, 0, 0, t, 0, 0, 0, t, 0, 0, 0, t};
+        mesh.cells = {0, 1, 2, 3};
+        EXPECT_NEAR(quick(mesh).measures.min_angle[0], std::atan(std::sqrt(2)) * 180 / 3.141592653589793, 1e-12) << t;
+    }
+}
+
+// Time and memory of find_nested_parts grow with pieces times cells.
+TEST(Regressions, time_of_cells_one_in_another) {
+    const auto nest = [](int n) {
+        Mesh mesh;
+        for (int i = 0; i < n; ++i) {
+            const double s = 1 + i * 1e-3;
+            for (const int x : {0, 0, 0, 0, 0, 1, 0, 1, 0, 1, 0, 0}) mesh.points.push_back(x == 0 ? -s : 4 * s);
+            for (int k = 0; k < 4; ++k) mesh.cells.push_back(4 * i + k);
+        }
+        return mesh;
+    };
+    const auto start = std::chrono::steady_clock::now();
+    const check::Report report = quick(nest(10000));
+    // It took minutes; now less than a second on an idle machine.
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 30);
+    ASSERT_NE(report.find(Problem::nested_part), nullptr);
+    EXPECT_EQ(report.find(Problem::nested_part)->count, check::pair_limit);
+    EXPECT_TRUE(report.find(Problem::nested_part)->at_least);
+}
+
+// An odd number of indices: the last one stands alone in the fingerprint.
+TEST(Regressions, covers_sees_the_last_index_of_a_single_triangle) {
+    Mesh mesh = flat({0, 0, 1, 0, 0, 1, 1, 1}, {0, 1, 2});
+    const check::Certificate c = quick(mesh).certificate;
+    EXPECT_TRUE(c.covers(mesh));
+    mesh.cells[2] = 3;
+    EXPECT_FALSE(c.covers(mesh));
+}
+
+}  // namespace
+}  // namespace barycert::testing
