@@ -81,6 +81,33 @@ TEST(check, a_broken_mesh_is_not) {
     expect_verdict(face, 1, "NOT certified: 1 triangle of .face is no facet");
 }
 
+TEST(check, conformity_to_the_plc_if_asked) {
+    const std::string plc = std::string(BARYCERT_DATA_DIR) + "/plc/";
+    const Ended good = run(check(mesh("cube-hole"), {"--conforms-to", plc + "cube-hole.poly"}));
+    EXPECT_EQ(good.code, 0) << good.err;
+    EXPECT_TRUE(
+        contains(good.out, "\nPLC        326 facets of the PLC: 326 respected exactly, 0 by rounding, 0 violated\n"))
+        << good.out;
+    // Another shape: told, and the mesh is a partition nevertheless.
+    const Ended other = run(check(mesh("cube-hole"), {"--conforms-to", plc + "torus.off"}));
+    EXPECT_EQ(other.code, 0) << other.err;
+    EXPECT_TRUE(contains(other.out, "0 by rounding, 1296 violated\n")) << other.out;
+    EXPECT_FALSE(contains(run(check(mesh("cube-hole"))).out, "PLC"));
+    const Scratch scratch;
+    const std::string cut = scratch.put("cut.off", "OFF\n3 1 0\n0 0 0\n");
+    const std::vector<std::pair<Words, std::string>> refusals{
+        {check(mesh("cube-hole"), {"--conforms-to", scratch.path("none.poly")}), "error: " + scratch.path("none.poly")},
+        {check(mesh("cube-hole"), {"--conforms-to", cut}), "error: " + cut + ":"},
+        {check(mesh("cube-hole"), {"--conforms-to", mesh("cube-hole")}), "error: " + mesh("cube-hole")},
+        {check(mesh("plate"), {"--conforms-to", plc + "torus.off"}), "--conforms-to needs a mesh of tetrahedra"}};
+    for (const auto& [arguments, says] : refusals) {
+        const Ended r = run(arguments);
+        EXPECT_EQ(r.code, 2) << says;
+        EXPECT_TRUE(contains(r.err, says)) << r.err;
+        EXPECT_EQ(r.out, "");
+    }
+}
+
 TEST(check, what_cannot_be_read_is_an_error) {
     const Scratch scratch;
     const std::string bad = put_mesh(scratch, "bad", "1 4 0\n0 0 1 2 99\n");

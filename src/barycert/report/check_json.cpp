@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "barycert/core/text.hpp"
+#include "barycert/report/environment_json.hpp"
 
 namespace barycert::report {
 namespace {
@@ -17,20 +18,6 @@ using Json = nlohmann::ordered_json;
 Json figure(double x) {
     constexpr double largest = std::numeric_limits<double>::max();
     return std::isnan(x) ? Json(nullptr) : Json(std::clamp(x, -largest, largest));
-}
-
-Json environment_json(const Environment& e) {
-    Json j;
-    j["version"] = e.version;
-    j["rounding"] = e.rounding;
-    j["flush_to_zero"] = e.flush_to_zero;
-    j["contraction"] = e.contraction;
-    j["excess_precision"] = e.excess_precision;
-    j["simd"] = e.simd;
-    j["fma"] = e.fma;
-    j["compiler"] = e.compiler;
-    j["hardware_threads"] = e.hardware_threads;
-    return j;
 }
 
 Json conditions_json(const check::Report& r) {

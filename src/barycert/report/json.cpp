@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "barycert/audit/witness_json.hpp"
+#include "barycert/report/environment_json.hpp"
 
 namespace barycert::report {
 namespace {
@@ -80,20 +81,6 @@ Json family_json(const audit::Family& f) {
 Json list(const auto& items, auto convert) {
     Json j = Json::array();
     for (const auto& item : items) j.push_back(convert(item));
-    return j;
-}
-
-Json environment_json(const Environment& e) {
-    Json j;
-    j["version"] = e.version;
-    j["rounding"] = e.rounding;
-    j["flush_to_zero"] = e.flush_to_zero;
-    j["contraction"] = e.contraction;
-    j["excess_precision"] = e.excess_precision;
-    j["simd"] = e.simd;
-    j["fma"] = e.fma;
-    j["compiler"] = e.compiler;
-    j["hardware_threads"] = e.hardware_threads;
     return j;
 }
 
