@@ -2,22 +2,16 @@
 // of cases.
 
 #include <benchmark/benchmark.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 
 #include "barycert/audit/runner.hpp"
 #include "barycert/mesh/tetgen_io.hpp"
+#include "peak_memory.hpp"
 
 namespace {
 
 using namespace barycert;
-
-double peak_mib() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024;
-}
 
 void audit_mesh_cases(benchmark::State& state) {
     audit::MeshSource meshes;
@@ -42,7 +36,7 @@ void audit_mesh_cases(benchmark::State& state) {
     state.counters["cases/s"] =
         benchmark::Counter(static_cast<double>(state.range(1)), benchmark::Counter::kIsIterationInvariantRate);
     state.counters["kernels"] = static_cast<double>(options.kernels.size());
-    state.counters["peak MiB so far"] = peak_mib();
+    state.counters["peak MiB so far"] = barycert::bench::peak_mib();
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 // Before any time is taken, the mesh must be certified, its volume must be exactly that of the cube, smallest angles
 // must be those that another formula gives, and aspects those of VTK. (VTK 9.1's smallest angle leaves out some of the
 // six dihedral angles: how many cells it is wrong for is printed.) Medians of several runs, taken in turn.
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
@@ -20,6 +19,7 @@
 #include "barycert/check/check.hpp"
 #include "barycert/mesh/tetgen_io.hpp"
 #include "large_mesh.hpp"
+#include "peak_memory.hpp"
 #ifdef BARYCERT_WITH_VTK
 #include "check_peers.hpp"
 #endif
@@ -27,12 +27,6 @@
 namespace {
 
 using namespace barycert;
-
-double peak_mib() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024;
-}
 
 struct Line {
     std::string what;
@@ -99,9 +93,9 @@ check::Report check_with(const Mesh& mesh, int threads, bool delaunay = false) {
 
 int main() {
     const Mesh mesh = read_tetgen(large_mesh_stem()).value();
-    const double before = peak_mib();
+    const double before = barycert::bench::peak_mib();
     const check::Report report = check_with(mesh, 2);
-    const double after = peak_mib();
+    const double after = barycert::bench::peak_mib();
     if (!report.certified() || report.volume.cells != 1 || !report.volume.equal || !report.findings.empty()) {
         std::fprintf(stderr, "the mesh is not certified, or not the unit cube\n");
         return 1;

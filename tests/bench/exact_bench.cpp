@@ -27,6 +27,7 @@
 #include "barycert/exact/oracle.hpp"
 #include "exact_peers.hpp"
 #include "exact_table.hpp"
+#include "numerators.hpp"
 
 namespace {
 
@@ -287,7 +288,7 @@ void plain_signs(const Batch& batch, WeightSigns* out) {
         peers::plain_signs(block, out + first);
         return 0;
     };
-    for_blocks(batch, decide, [](std::size_t, const lanes::Cases&, std::size_t) -> Status { return Done{}; }).value();
+    for_blocks(batch, decide, [](std::size_t, std::size_t, const SingleCase&) {}).value();
 }
 
 void lean_values(const Cases& cases, double* out) {
@@ -332,26 +333,6 @@ void lean_values(const CubeMesh& mesh, const Queries& queries, double* out) {
         }
         peers::plain_values(block, f.data(), out + first);
     }
-}
-
-/// The exact value in any field of numbers; still to be rounded.
-template <class Number>
-Number value_in(const Case& c) {
-    std::array<std::array<Number, 3>, 4> v;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Number p(c.point[k]);
-        for (std::size_t i = 0; i < 4; ++i) v[i][k] = Number(c.vertices[3 * i + k]) - p;
-    }
-    const auto cross = [](const auto& a, const auto& b) {
-        return std::array<Number, 3>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    };
-    const auto dot = [](const auto& a, const auto& b) { return Number(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]); };
-    const auto ab = cross(v[0], v[1]), cd = cross(v[2], v[3]);
-    const std::array<Number, 4> n{dot(v[1], cd), Number(-dot(v[0], cd)), dot(v[3], ab), Number(-dot(v[2], ab))};
-    const Number whole = n[0] + n[1] + n[2] + n[3];
-    Number sum(0);
-    for (std::size_t i = 0; i < 4; ++i) sum += n[i] * Number(c.values[i]);
-    return sum / whole;
 }
 
 // ---- Verification --------------------------------------------------------------------------------------------------
@@ -538,11 +519,12 @@ Group values_of_all(const Table& table, const CubeMesh& mesh, const Queries& que
     constexpr std::size_t rational_count = 1000;
     const std::vector<Case>* const list = &large.list;
     const auto gmpq = g.add_peer("value, CGAL Gmpq, then to_double", rational_count, [=] {
-        for (std::size_t j = 0; j < rational_count; ++j) out[j] = CGAL::to_double(value_in<CGAL::Gmpq>((*list)[j]));
+        for (std::size_t j = 0; j < rational_count; ++j)
+            out[j] = CGAL::to_double(barycert::bench::value_in<CGAL::Gmpq>((*list)[j]));
     });
     g.add_peer("value, CGAL Epeck, exact(), then to_double", rational_count, [=] {
         for (std::size_t j = 0; j < rational_count; ++j)
-            out[j] = CGAL::to_double(value_in<Epeck::FT>((*list)[j]).exact());
+            out[j] = CGAL::to_double(barycert::bench::value_in<Epeck::FT>((*list)[j]).exact());
     });
 
     const std::span<double> one = std::span(out).first(all), three = std::span(out).first(3 * all);

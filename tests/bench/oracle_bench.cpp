@@ -16,6 +16,7 @@
 
 #include "barycert/core/random.hpp"
 #include "barycert/exact/oracle.hpp"
+#include "numerators.hpp"
 
 namespace {
 
@@ -41,25 +42,9 @@ std::vector<Case> make_cases(Kind kind) {
     return cases;
 }
 
-/// Numerators of the four weights relative to the point, in any ring.
-template <class Number>
-std::array<Number, 4> numerators(const Case& c) {
-    std::array<std::array<Number, 3>, 4> v;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Number p(c.point[k]);
-        for (std::size_t i = 0; i < 4; ++i) v[i][k] = Number(c.vertices[3 * i + k]) - p;
-    }
-    const auto cross = [](const auto& a, const auto& b) {
-        return std::array<Number, 3>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    };
-    const auto dot = [](const auto& a, const auto& b) { return Number(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]); };
-    const auto ab = cross(v[0], v[1]), cd = cross(v[2], v[3]);
-    return {dot(v[1], cd), Number(-dot(v[0], cd)), dot(v[3], ab), Number(-dot(v[2], ab))};
-}
-
 void verify(const std::vector<Case>& cases) {
     for (const Case& c : cases) {
-        const auto n = numerators<CGAL::Gmpq>(c);
+        const auto n = barycert::bench::numerators<CGAL::Gmpq>(c);
         const CGAL::Gmpq whole = n[0] + n[1] + n[2] + n[3];
         const exact::Answer a = exact::ask(c), w = exact::ask_wide(c);
         for (std::size_t i = 0; i < 4; ++i) {
@@ -85,7 +70,7 @@ void run(benchmark::State& state, Kind kind, Work work) {
 }
 
 double exact_gmpq(const Case& c) {
-    const auto n = numerators<CGAL::Gmpq>(c);
+    const auto n = barycert::bench::numerators<CGAL::Gmpq>(c);
     const CGAL::Gmpq whole = n[0] + n[1] + n[2] + n[3];
     if (whole == CGAL::Gmpq(0)) return 0;
     return CGAL::to_double(n[0] / whole) + CGAL::to_double(n[1] / whole) + CGAL::to_double(n[2] / whole) +
@@ -94,7 +79,7 @@ double exact_gmpq(const Case& c) {
 
 double exact_epeck(const Case& c) {
     using FT = CGAL::Exact_predicates_exact_constructions_kernel::FT;
-    const auto n = numerators<FT>(c);
+    const auto n = barycert::bench::numerators<FT>(c);
     const FT whole = n[0] + n[1] + n[2] + n[3];
     if (CGAL::is_zero(whole)) return 0;
     double sum = 0;
@@ -103,7 +88,7 @@ double exact_epeck(const Case& c) {
 }
 
 double signs_mpzf(const Case& c) {
-    const auto n = numerators<CGAL::Mpzf>(c);
+    const auto n = barycert::bench::numerators<CGAL::Mpzf>(c);
     return static_cast<double>(CGAL::sign(n[0]) + CGAL::sign(n[1]) + CGAL::sign(n[2]) + CGAL::sign(n[3]));
 }
 

@@ -9,6 +9,7 @@
 
 #include "barycert/core/environment.hpp"
 #include "barycert/core/text.hpp"
+#include "barycert/report/check_conditions.hpp"
 #include "barycert/report/check_html_cells.hpp"
 #include "barycert/report/check_html_histogram.hpp"
 #include "barycert/report/check_html_picture.hpp"
@@ -146,51 +147,20 @@ std::string whole_mesh(const Report& r) {
     return out + "</table>\n";
 }
 
-struct Condition {
-    std::string_view name, text;
-};
-
 std::string conditions(const Report& r, const Mesh& mesh) {
-    const bool plane = r.dimension == 2;
-    const std::array<Condition, 6> list{{
-        {"P1", plane ? "every cell has 3 different nodes, finite coordinates and an area"
-                     : "every cell has 4 different nodes, finite coordinates and a volume"},
-        {"P2", "a facet belongs to one cell, or to two on opposite sides of it"},
-        {"P3", plane ? "boundary facets meet only in nodes that they share"
-                     : "boundary facets meet only in nodes and edges that they share"},
-        {"P4", "no piece of the boundary lies inside cells"},
-        {"", "hence, by P1 to P4: no two cells overlap"},
-        {"P5", plane ? "neighbours that came with the mesh are those of its cells"
-                     : "neighbours and faces that came with the mesh are those of its cells"},
-    }};
-    const bool files = !mesh.neighbours.empty() || !mesh.faces.empty();
-    const bool looked_at = r.find(Problem::bad_structure) == nullptr;
     std::string out =
         "<h2>What was checked</h2>\n<table><tr><th>condition</th><th></th><th class=\"n\">violations</th></tr>\n";
-    for (const Condition& c : list) {
-        std::uint64_t count = 0;
-        bool at_least = false;
-        for (const Finding& f : r.findings) {
-            if (!text_of(f.problem).breaks || text_of(f.problem).condition != c.name) continue;
-            count += f.count;
-            at_least |= f.at_least;
-        }
-        const std::string what = count != 0                 ? (at_least ? "at least " : "") + grouped(count)
-                                 : !looked_at               ? "not checked"
-                                 : c.name == "P5" && !files ? "none came"
-                                                            : "ok";
-        out += fmt::format("<tr><td class=\"k\">{}</td><td>{}</td><td class=\"n{}\">{}</td></tr>\n", c.name, c.text,
-                           count != 0     ? " bad"
+    for (const ConditionRow& row : condition_rows(r, mesh)) {
+        const std::string what =
+            row.count != 0 ? (row.at_least ? "at least " : "") + grouped(row.count) : std::string(row.instead);
+        out += fmt::format("<tr><td class=\"k\">{}</td><td>{}</td><td class=\"n{}\">{}</td></tr>\n", row.name, row.text,
+                           row.count != 0 ? " bad"
                            : what == "ok" ? " ok"
                                           : "",
                            what);
     }
     out += "</table>\n";
-    const bool left_out = std::any_of(r.findings.begin(), r.findings.end(), [](const Finding& f) {
-        return f.problem == Problem::index_out_of_range || f.problem == Problem::not_finite ||
-               f.problem == Problem::repeated_node;
-    });
-    if (left_out)
+    if (left_cells_out(r))
         out +=
             "<p class=\"small\">Cells with a corner that is no node, a coordinate that is not finite or a node twice "
             "take no part in P2 to P5.</p>\n";

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "barycert/core/text.hpp"
+#include "barycert/report/check_conditions.hpp"
 #include "barycert/report/terminal_text.hpp"
 
 namespace barycert::report {
@@ -92,47 +93,16 @@ std::string not_certified(const Report& r, const std::string& name, const Colour
     return paint.bad(name + text) + "\n";
 }
 
-struct Condition {
-    std::string_view name, text;
-};
-
 /// What must hold, and how often it does not.
 std::string condition_table(const Report& r, const Mesh& mesh, const Colours& paint) {
-    const bool plane = r.dimension == 2;
-    const std::array<Condition, 6> conditions{{
-        {"P1", plane ? "every cell has 3 different nodes, finite coordinates and an area"
-                     : "every cell has 4 different nodes, finite coordinates and a volume"},
-        {"P2", "a facet belongs to one cell, or to two on opposite sides of it"},
-        {"P3", plane ? "boundary facets meet only in nodes that they share"
-                     : "boundary facets meet only in nodes and edges that they share"},
-        {"P4", "no piece of the boundary lies inside cells"},
-        {"", "hence, by P1 to P4: no two cells overlap"},
-        {"P5", plane ? "neighbours that came with the mesh are those of its cells"
-                     : "neighbours and faces that came with the mesh are those of its cells"},
-    }};
-    const bool files = !mesh.neighbours.empty() || !mesh.faces.empty();
-    const bool looked_at = r.find(Problem::bad_structure) == nullptr;
     std::string out = paint.bold(fmt::format("{:<75}{:>13}", "condition", "violations")) + "\n";
-    for (const Condition& c : conditions) {
-        std::uint64_t count = 0;
-        bool at_least = false;
-        for (const Finding& f : r.findings) {
-            if (!text_of(f.problem).breaks || text_of(f.problem).condition != c.name) continue;
-            count += f.count;
-            at_least |= f.at_least;
-        }
-        const std::string what = count != 0                 ? (at_least ? ">= " : "") + std::to_string(count)
-                                 : !looked_at               ? "not checked"
-                                 : c.name == "P5" && !files ? "none came"
-                                                            : "ok";
-        const std::string line = fmt::format("{:<3} {:<71}{:>13}", c.name, c.text, what);
-        out += (count != 0 ? paint.bad(line) : what == "ok" ? paint.good(line) : line) + "\n";
+    for (const ConditionRow& row : condition_rows(r, mesh)) {
+        const std::string what =
+            row.count != 0 ? (row.at_least ? ">= " : "") + std::to_string(row.count) : std::string(row.instead);
+        const std::string line = fmt::format("{:<3} {:<71}{:>13}", row.name, row.text, what);
+        out += (row.count != 0 ? paint.bad(line) : what == "ok" ? paint.good(line) : line) + "\n";
     }
-    const bool left_out = std::any_of(r.findings.begin(), r.findings.end(), [](const Finding& f) {
-        return f.problem == Problem::index_out_of_range || f.problem == Problem::not_finite ||
-               f.problem == Problem::repeated_node;
-    });
-    if (left_out) {
+    if (left_cells_out(r)) {
         out +=
             "Cells with a corner that is no node, a coordinate that is not finite or a node twice take no part in\n"
             "P2 to P5.\n";
