@@ -21,6 +21,7 @@ public:
             std::memcpy(&w, bytes, 8);
             word(w);
         }
+        if (left == 0) return;  // an empty array may have no address to copy from
         std::uint64_t rest = 0;
         std::memcpy(&rest, bytes, left);
         word(rest);
