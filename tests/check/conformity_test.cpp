@@ -27,7 +27,7 @@ Plc cube() {
     Plc plc;
     for (int i = 0; i < 8; ++i) plc.points.insert(plc.points.end(), {i % 2 * 4.0, i / 2 % 2 * 4.0, i / 4 * 4.0});
     plc.points.insert(plc.points.end(), {1, 1, 0, 3, 1, 0, 3, 3, 0, 1, 3, 0});
-    plc.facets = {{{{0, 1, 3, 2}, {8, 9, 10, 11}}, {}, 0},
+    plc.facets = {{{{0, 1, 3, 2}, {8, 9, 10, 11}}, {2, 2, 0}, 0},
                   {{{8, 9, 10, 11}}, {}, 0},
                   {{{4, 5, 7, 6}}, {}, 0},
                   {{{0, 1, 5, 4}}, {}, 0},
@@ -108,6 +108,66 @@ TEST(Conformity, ANodeThatIsMovedIsTold) {
     Mesh corner = good;
     corner.points[3 * node(4, 4, 4)] += 0x1p-50;
     EXPECT_EQ(conformity(corner, cube()).missing_vertices, 1U);
+}
+
+/// Square prisms over a polygon of nodes in the plane z = 0, by a fan from its first node.
+Mesh slab(const std::vector<std::array<double, 2>>& polygon) {
+    Mesh mesh;
+    for (const double z : {0.0, 1.0}) {
+        for (const auto& p : polygon) mesh.points.insert(mesh.points.end(), {p[0], p[1], z});
+    }
+    const auto n = static_cast<Mesh::Index>(polygon.size());
+    for (Mesh::Index i = 1; i + 1 < n; ++i) {
+        const Mesh::Index a = 0, b = i, c = i + 1;  // the prism over a b c in three cells
+        for (const Mesh::Index corner : {a, b, c, c + n, a, b, c + n, b + n, a, b + n, c + n, a + n})
+            mesh.cells.push_back(corner);
+    }
+    return mesh;
+}
+
+TEST(Conformity, EqualAreasAreNotEnough) {
+    // A bulge at the top as large as the dent at the bottom: all corners of the square are nodes.
+    const Mesh bulge = slab({{0.5, 0.25}, {1, 0}, {1, 1}, {0.5, 1.25}, {0, 1}, {0, 0}});
+    ASSERT_TRUE(check::run(bulge).certified());
+    Plc square;
+    square.points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+    square.facets = {{{{0, 1, 2, 3}}, {}, 0}};
+    const check::Conformity c = conformity(bulge, square);
+    EXPECT_EQ(c.missing_vertices, 0U);
+    EXPECT_EQ(c.violated, 1U);
+    // The whole mesh beside its place by a twentieth.
+    const check::Conformity shifted = conformity(mapped(box(3, {4, 4, 4}), {1, 1, 1}, {0.05, 0, 0}), cube());
+    EXPECT_EQ(shifted.violated, 7U);
+}
+
+TEST(Conformity, PolygonsSideBySideOrOneInAnotherAreOneFilledFacet) {
+    const Mesh mesh = mapped(box(3, {4, 2, 1}), {0.5, 0.5, 1}, {0, 0, 0});
+    Plc plc;
+    plc.points = {0, 0, 0, 1, 0, 0, 2, 0, 0, 2, 1, 0, 1, 1, 0, 0, 1, 0, 0.5, 0, 0, 1, 0.5, 0};
+    plc.facets = {{{{0, 1, 4, 5}, {1, 2, 3, 4}}, {}, 0}, {{{1, 2, 3, 4}, {4, 5, 0, 1}}, {}, 0}};
+    EXPECT_EQ(conformity(mesh, plc).exact, 2U);
+    plc.facets = {{{{0, 2, 3, 5}, {0, 1, 4, 5}}, {}, 0}};
+    EXPECT_EQ(conformity(mesh, plc).exact, 1U);
+    // The second as a hole: the mesh fills it, so the faces in it are no part of the facet, and the rest is whole.
+    plc.facets[0].holes = {0.25, 0.25, 0};
+    EXPECT_EQ(conformity(mesh, plc).exact, 1U);
+    // A polygon without an area first.
+    plc.facets = {{{{0, 6, 1}, {0, 2, 3, 5}}, {}, 0}};
+    EXPECT_EQ(conformity(mesh, plc).facets, 1U);
+    EXPECT_EQ(conformity(mesh, plc).exact, 1U);
+}
+
+TEST(Conformity, AtTheEndsOfTheRange) {
+    for (const double s : {0x1p-1060, 0x1p-560, 0x1p560, 0x1p1021}) {
+        Plc plc = cube();
+        for (double& x : plc.points) x *= s;
+        for (PlcFacet& f : plc.facets) {
+            for (double& x : f.holes) x *= s;
+        }
+        EXPECT_EQ(conformity(mapped(box(3, {4, 4, 4}), {s, s, s}, {0, 0, 0}), plc).exact, 7U) << s;
+        // A cell aside: the square in the bottom, and the side that is now inside.
+        EXPECT_EQ(conformity(mapped(box(3, {4, 4, 4}), {s, s, s}, {s, 0, 0}), plc).exact, 2U) << s;
+    }
 }
 
 TEST(Conformity, DoesNotDependOnThreadsOrderOrOrientation) {

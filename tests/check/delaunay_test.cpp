@@ -146,6 +146,17 @@ TEST(Delaunay, AtTheEndsOfTheRange) {
     }
 }
 
+// Cells on one side of a facet: either apex may be in the other's circle.
+TEST(Delaunay, OfFoldedCellsDoesNotDependOnTheirOrder) {
+    Mesh mesh;
+    mesh.dimension = 2;
+    mesh.points = {0, 0, 1, 0, 0.5, 0.2, 0.5, 2};
+    mesh.cells = {0, 1, 2, 0, 1, 3};
+    EXPECT_EQ(delaunay(mesh).violations, 1U);
+    mesh.cells = {0, 1, 3, 0, 1, 2};
+    EXPECT_EQ(delaunay(mesh).violations, 1U);
+}
+
 TEST(Delaunay, OnlyIfAskedAndNeverOfDegenerateCells) {
     const Mesh flat = mapped(box(3, {1, 1, 1}), {1, 1, 0}, {0, 0, 0});
     EXPECT_EQ(delaunay(flat).facets, 0U);

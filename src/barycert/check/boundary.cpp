@@ -79,10 +79,14 @@ public:
 private:
     void at_ridge(std::span<const FacetRidge> same) {
         std::size_t forward = 0;
-        for (const FacetRidge& r : same) forward += r.forward ? 1 : 0;
+        bool oriented = true;
+        for (const FacetRidge& r : same) {
+            forward += r.forward ? 1 : 0;
+            oriented = oriented && facets_[r.facet].oriented;
+        }
         const Place place{.cells = {cell(same.front()), cell(same.back())},
                           .nodes = {same[0].low, d_ == 2 ? -1 : same[0].high, -1}};
-        if (2 * forward != same.size()) {
+        if (oriented ? 2 * forward != same.size() : same.size() % 2 != 0) {
             out_.summary.closed = false;
             findings_.add(Problem::open_boundary, place);
         }

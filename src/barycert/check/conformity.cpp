@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <span>
 
 #include "barycert/check/exact_volumes.hpp"
@@ -20,13 +21,18 @@ struct Candidate {
     std::array<const double*, 3> nodes;
 };
 
-double extent_of(const Plc& plc) {
-    std::array<double, 3> low{}, high{};
-    for (std::size_t i = 0; i < plc.points.size(); ++i) {
-        low[i % 3] = i < 3 ? plc.points[i] : std::min(low[i % 3], plc.points[i]);
-        high[i % 3] = i < 3 ? plc.points[i] : std::max(high[i % 3], plc.points[i]);
+/// Half of the largest extent of the PLC: a difference may overflow.
+double half_extent_of(const Plc& plc) {
+    double extent = 0;
+    for (std::size_t k = 0; k < 3 && plc.points.size() >= 3; ++k) {
+        double low = plc.points[k], high = low;
+        for (std::size_t i = k; i < plc.points.size(); i += 3) {
+            low = std::min(low, plc.points[i]);
+            high = std::max(high, plc.points[i]);
+        }
+        extent = std::max(extent, high / 2 - low / 2);
     }
-    return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+    return extent;
 }
 
 /// Twice the area of a facet and of the faces on it, projected, as exact integers in one unit.
@@ -41,7 +47,8 @@ public:
                 const double* const ends[] = {a.data(), b.data()};
                 twice = twice + volumes_.cone(ends);
             }
-            facet_ = (twice.sign() < 0) == ring.hole ? facet_ + twice : facet_ - twice;
+            if (ring.counts == 0) continue;
+            facet_ = (twice.sign() < 0) == (ring.counts < 0) ? facet_ + twice : facet_ - twice;
         }
         for (const Candidate& face : faces) {
             const auto a = projected(face.nodes[0]), b = projected(face.nodes[1]), c = projected(face.nodes[2]);
@@ -80,11 +87,15 @@ private:
 class ConformityChecker {
 public:
     ConformityChecker(const Mesh& mesh, std::span<const std::uint8_t> use, const Plc& plc)
-        : mesh_(mesh), use_(use), extent_(extent_of(plc)) {
-        for (const PlcFacet& facet : plc.facets) regions_.emplace_back(plc, facet);
+        : mesh_(mesh),
+          use_(use),
+          half_extent_(half_extent_of(plc)),
+          exponent_(half_extent_ > 0 ? std::ilogb(half_extent_) + 1 : 0) {
+        for (const PlcFacet& facet : plc.facets) regions_.emplace_back(plc, facet, exponent_);
     }
 
     Conformity run(std::size_t examples) {
+        missing_ = find_missing();
         const std::vector<Candidate> candidates = find_candidates();
         Conformity out;
         auto at = candidates.begin();
@@ -93,13 +104,14 @@ public:
             if (regions_[i].proper()) judge(i, {at, end}, examples, out);
             at = end;
         }
-        out.relative_distance = extent_ > 0 ? out.largest_distance / extent_ : 0;
-        out.missing_vertices = count_missing();
+        out.largest_distance = std::scalbn(out.relative_distance, exponent_);
+        if (half_extent_ > 0) out.relative_distance /= std::scalbn(half_extent_, 1 - exponent_);
+        out.missing_vertices = missing_.size();
         return out;
     }
 
 private:
-    double slack() const { return 0x1p-40 * extent_; }
+    static constexpr double slack = 0x1p-40;  ///< in the unit of the regions: the PLC's extent, or down to half of it
 
     /// Faces close to the plane of a facet and over its polygons; by facet.
     std::vector<Candidate> find_candidates() const {
@@ -107,7 +119,7 @@ private:
         std::vector<std::uint32_t> numbers;
         for (std::size_t i = 0; i < regions_.size(); ++i) {
             if (!regions_[i].proper()) continue;
-            boxes.push_back(regions_[i].box(2 * slack()));
+            boxes.push_back(regions_[i].box(2 * std::scalbn(slack, exponent_)));
             numbers.push_back(static_cast<std::uint32_t>(i));
         }
         const BoxTree tree(std::move(boxes));
@@ -142,10 +154,11 @@ private:
     }
 
     bool close(const PlcRegion& region, const std::array<const double*, 3>& nodes) const {
-        double centroid[3]{};
+        PlcRegion::Place centroid{};
         for (const double* p : nodes) {
-            if (region.distance(p) > slack()) return false;
-            for (int k = 0; k < 3; ++k) centroid[k] += p[k] / 3;
+            if (region.distance(p) > slack) return false;
+            const PlcRegion::Place at = region.place(p);
+            for (std::size_t k = 0; k < 2; ++k) centroid[k] += at[k] / 3;
         }
         return region.holds(centroid);
     }
@@ -156,50 +169,66 @@ private:
         const Areas areas(region, faces);
         bool in_plane = true;
         double farthest = 0;
+        auto crossing = PlcRegion::Crossing::none;
         for (const Candidate& face : faces) {
-            for (const double* p : face.nodes) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double* const p = face.nodes[k];
                 in_plane = in_plane && region.in_plane(p);
                 farthest = std::max(farthest, region.distance(p));
+                crossing = std::max(crossing, region.crossing(p, face.nodes[(k + 1) % 3], slack));
             }
         }
         const double share = areas.share();
-        if (in_plane && areas.equal()) {
+        if (in_plane && crossing == PlcRegion::Crossing::none && areas.equal() && !misses_vertex(region)) {
             ++out.exact;
-        } else if (std::fabs(share - 1) <= 0x1p-30) {
+        } else if (crossing != PlcRegion::Crossing::deep && std::fabs(share - 1) <= 0x1p-30) {
             ++out.rounded;
-            out.largest_distance = std::max(out.largest_distance, farthest);
+            out.relative_distance = std::max(out.relative_distance, farthest);
         } else {
             ++out.violated;
             if (out.examples.size() < examples) out.examples.push_back({static_cast<std::int64_t>(i), share});
         }
     }
 
-    /// Vertices of proper facets that are no node, bit for bit (0 and -0 are the same).
-    std::uint64_t count_missing() const {
-        using Point = std::array<double, 3>;
-        std::vector<Point> nodes;
-        for (std::size_t i = 0; i < mesh_.point_count(); ++i) {
-            const Point p{mesh_.points[3 * i], mesh_.points[3 * i + 1], mesh_.points[3 * i + 2]};
-            if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) nodes.push_back(p);
-        }
-        std::sort(nodes.begin(), nodes.end());
-        std::vector<Point> vertices;
-        for (const PlcRegion& region : regions_) {
-            for (const PlcRegion::Ring& ring : region.rings()) {
-                for (const double* p : ring.points) vertices.push_back({p[0], p[1], p[2]});
+    using Point = std::array<double, 3>;
+    static Point point(const double* p) { return {p[0], p[1], p[2]}; }
+
+    bool misses_vertex(const PlcRegion& region) const {
+        if (missing_.empty()) return false;
+        for (const PlcRegion::Ring& ring : region.rings()) {
+            for (const double* p : ring.points) {
+                if (std::binary_search(missing_.begin(), missing_.end(), point(p))) return true;
             }
         }
-        std::sort(vertices.begin(), vertices.end());
-        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-        return static_cast<std::uint64_t>(std::count_if(vertices.begin(), vertices.end(), [&](const Point& p) {
-            return !std::binary_search(nodes.begin(), nodes.end(), p);
-        }));
+        return false;
+    }
+
+    /// Vertices of polygons that are no node, bit for bit (0 and -0 are the same); sorted.
+    std::vector<Point> find_missing() const {
+        std::vector<Point> nodes, vertices, missing;
+        for (std::size_t i = 0; i < mesh_.point_count(); ++i) {
+            const Point p = point(&mesh_.points[3 * i]);
+            if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) nodes.push_back(p);
+        }
+        for (const PlcRegion& region : regions_) {
+            for (const PlcRegion::Ring& ring : region.rings()) {
+                for (const double* p : ring.points) vertices.push_back(point(p));
+            }
+        }
+        for (auto* list : {&nodes, &vertices}) {
+            std::sort(list->begin(), list->end());
+            list->erase(std::unique(list->begin(), list->end()), list->end());
+        }
+        std::set_difference(vertices.begin(), vertices.end(), nodes.begin(), nodes.end(), std::back_inserter(missing));
+        return missing;
     }
 
     const Mesh& mesh_;
     std::span<const std::uint8_t> use_;
-    double extent_;
+    double half_extent_;
+    int exponent_;  ///< of the unit of the regions, the largest power of two in the extent
     std::vector<PlcRegion> regions_;
+    std::vector<Point> missing_;
 };
 
 }  // namespace

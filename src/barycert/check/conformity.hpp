@@ -1,12 +1,15 @@
 /// Does a mesh conform to the facets of the PLC that it was made from?
 ///
-/// A PLC facet is respected if it is a union of faces of cells. That is decided by area: faces whose three nodes lie in
-/// the facet's plane, and whose centroid lies in its polygons, must add up to the facet's own area, both projected
-/// along an axis and summed exactly. A mesher that puts new nodes on slanted facets has to round them, so a facet may
-/// be respected
-///   exactly        all these nodes lie in the plane of the facet, and the areas are the same, or
-///   by rounding    the nodes lie within 2^-40 of the PLC's extent from it, and the areas agree to 2^-30; how far the
-///                  farthest node is off is measured;
+/// A PLC facet is respected if it is a union of faces of cells. Faces that may be part of it have their three nodes
+/// close to its plane and their centroid in its region. It is respected
+///   exactly        if all these nodes lie in its plane, no side of these faces crosses a side of its polygons, the
+///                  polygons' vertices are nodes, and the faces add up to its area, all exactly. In a certified mesh
+///                  then each of the faces lies in the region, for a side of a polygon that entered it would have to
+///                  end in a node inside it or cross one of its sides; faces do not overlap; so equal areas mean equal
+///                  sets;
+///   by rounding    if that fails by little: a mesher that puts new nodes on slanted facets has to round them. Nodes
+///                  within 2^-40 of the PLC's extent from the plane, crossings within that of an end, areas that agree
+///                  to 2^-30. How far the farthest node is off the plane is measured;
 /// else it is violated, and the share of it that is covered is told. Facets without area (single segments) are left
 /// out.
 #pragma once
@@ -29,7 +32,7 @@ struct Conformity {
     std::uint64_t facets = 0;  ///< of the PLC, with an area
     std::uint64_t exact = 0, rounded = 0, violated = 0;
     std::uint64_t missing_vertices = 0;   ///< of PLC facets, where the mesh has no node
-    double largest_distance = 0;          ///< of a node on a respected facet from its plane
+    double largest_distance = 0;          ///< of a node from the plane of a facet respected by rounding
     double relative_distance = 0;         ///< the same over the PLC's extent
     std::vector<ViolatedFacet> examples;  ///< the first ones violated
 };

@@ -8,6 +8,7 @@
 #include "barycert/check/cells.hpp"
 #include "barycert/check/findings.hpp"
 #include "barycert/check/local_delaunay.hpp"
+#include "barycert/check/signs.hpp"
 #include "barycert/core/insphere.hpp"
 
 namespace barycert::check {
@@ -62,24 +63,41 @@ public:
         for (std::size_t i = 0; i < mesh_.corners(); ++i) {
             const Mesh::Index other = neighbours_[cell * mesh_.corners() + i];
             if (other <= static_cast<Mesh::Index>(cell) || orientation_[static_cast<std::size_t>(other)] == 0) continue;
-            test(cell, p, apex(static_cast<std::size_t>(other), static_cast<Mesh::Index>(cell)), out);
+            ++out.facets;
+            const auto there = static_cast<std::size_t>(other);
+            const Mesh::Index node = apex(there, static_cast<Mesh::Index>(cell));
+            // One apex is in the other's sphere if that one is in its own, where the cells lie on opposite sides.
+            if (!test(cell, p, node, out) && !opposite(cell, p, i, node))
+                test(there, corner_points(mesh_, there), mesh_.cells[cell * mesh_.corners() + i], out);
         }
     }
 
 private:
-    void test(std::size_t cell, const std::array<const double*, 4>& p, Mesh::Index node, Delaunay& out) const {
+    const double* point(Mesh::Index node) const {
+        return &mesh_.points[static_cast<std::size_t>(node) * static_cast<std::size_t>(mesh_.dimension)];
+    }
+
+    /// The node lies on the other side of the facet opposite to corner i than the cell.
+    bool opposite(std::size_t cell, std::array<const double*, 4> p, std::size_t i, Mesh::Index node) const {
+        p[i] = point(node);
+        const int side = sign(mesh_.dimension == 2 ? orient2d(p[0], p[1], p[2]) : orient3d(p[0], p[1], p[2], p[3]));
+        return side * orientation_[cell] < 0;
+    }
+
+    /// True if the node lies strictly in the cell's sphere.
+    bool test(std::size_t cell, const std::array<const double*, 4>& p, Mesh::Index node, Delaunay& out) const {
         const int d = mesh_.dimension;
-        const double* const at = &mesh_.points[static_cast<std::size_t>(node) * static_cast<std::size_t>(d)];
+        const double* const at = point(node);
         const Sign s = *(d == 2 ? incircle(p[0], p[1], p[2], at) : insphere(p[0], p[1], p[2], p[3], at));
-        ++out.facets;
         if (s == Sign::zero) ++out.cospherical;
-        if (static_cast<int>(s) * orientation_[cell] <= 0) return;
+        if (static_cast<int>(s) * orientation_[cell] <= 0) return false;
         ++out.violations;
         const double in = depth(d, p.data(), at);
-        if (out.worst_cell >= 0 && in <= out.worst_depth) return;
+        if (out.worst_cell >= 0 && in <= out.worst_depth) return true;
         out.worst_depth = in;
         out.worst_cell = static_cast<Mesh::Index>(cell);
         out.worst_node = node;
+        return true;
     }
 
     /// The node of `cell` that is opposite to its facet to `to`.

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "barycert/check/signs.hpp"
 #include "barycert/core/predicates.hpp"
 
 namespace barycert::check {
@@ -12,9 +13,6 @@ namespace {
 
 using Point = const double*;
 
-int sign(const Result<Sign>& s) {
-    return *s == Sign::positive ? 1 : *s == Sign::negative ? -1 : 0;
-}
 int orient(Point a, Point b, Point c) {
     return sign(orient2d(a, b, c));
 }

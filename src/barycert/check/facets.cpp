@@ -33,11 +33,11 @@ public:
     void operator()(std::span<const CellFacet> equal, Part& part) const {
         if (equal.size() == 1) {
             const CellFacet& f = equal.front();
-            part.boundary.push_back({f.cell, f.corner, outward(f)});
+            part.boundary.push_back({f.cell, f.corner, outward(f), m_.orientation[index(f)] != 0});
             return;
         }
         detail::pair_facets(equal, mesh_.corners(), neighbours_);
-        find_duplicates(equal, part);
+        if (equal.size() > 2 || apex(equal[0]) == apex(equal[1])) find_duplicates(equal, part);
         if (equal.size() > 2) {
             Place place{.cells = {equal[0].cell, equal[1].cell}, .nodes = outward(equal[0])};
             for (const CellFacet& f : equal) mark(f, Problem::overfull_facet);
@@ -68,15 +68,18 @@ private:
     /// Two cells with a common facet and apex are the same. They share every facet: it is told at the one opposite to
     /// their highest node.
     void find_duplicates(std::span<const CellFacet> equal, Part& part) const {
-        for (std::size_t i = 1; i < equal.size(); ++i) {
-            for (std::size_t j = 0; j < i; ++j) {
-                if (apex(equal[i]) != apex(equal[j])) continue;
-                if (apex(equal[i]) > equal[i].highest) {
-                    part.findings.add(Problem::duplicate_cell, {.cells = {equal[j].cell, equal[i].cell}});
-                    mark(equal[i], Problem::duplicate_cell);
-                    mark(equal[j], Problem::duplicate_cell);
-                }
-                break;
+        std::vector<CellFacet> by_apex(equal.begin(), equal.end());
+        std::sort(by_apex.begin(), by_apex.end(), [&](const CellFacet& a, const CellFacet& b) {
+            return std::pair(apex(a), a.cell) < std::pair(apex(b), b.cell);
+        });
+        for (std::size_t i = 1, first = 0; i < by_apex.size(); ++i) {
+            const CellFacet &original = by_apex[first], &copy = by_apex[i];
+            if (apex(copy) != apex(original)) {
+                first = i;
+            } else if (apex(copy) > copy.highest) {
+                part.findings.add(Problem::duplicate_cell, {.cells = {original.cell, copy.cell}});
+                mark(original, Problem::duplicate_cell);
+                mark(copy, Problem::duplicate_cell);
             }
         }
     }

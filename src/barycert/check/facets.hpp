@@ -14,8 +14,9 @@ namespace barycert::check {
 struct BoundaryFacet {
     Mesh::Index cell = -1;
     std::int32_t corner = 0;  ///< opposite to it
-    std::array<Mesh::Index, 3>
-        nodes{};  ///< in the order that turns its normal outward (2D: two, the cell to their left)
+    /// In the order that turns its normal outward (2D: two, the cell to their left).
+    std::array<Mesh::Index, 3> nodes{};
+    bool oriented = true;  ///< false if the cell is degenerate, and the order of the nodes by chance
 };
 
 struct Facets {

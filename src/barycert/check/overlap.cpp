@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "barycert/check/signs.hpp"
 #include "barycert/core/predicates.hpp"
 
 namespace barycert::check {
@@ -11,10 +12,6 @@ namespace {
 // Two open convex polytopes are disjoint if and only if a plane separates them weakly, and then there is one whose
 // normal is that of a facet of their Minkowski difference: the normal of a face of one, or the product of an edge of
 // one and an edge of the other (in the plane: the normal of an edge of one).
-
-int sign(const Result<Sign>& s) {
-    return *s == Sign::positive ? 1 : *s == Sign::negative ? -1 : 0;
-}
 
 /// The other corners, when corner i is left out.
 constexpr std::array<std::array<std::size_t, 3>, 4> faces{{{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};

@@ -20,7 +20,8 @@ using CellPair = std::array<Mesh::Index, 2>;
 std::vector<CellPair> find_boundary_contacts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
                                              Measures& measures, Findings& findings);
 
-/// P4: finds nested_part, each with the lowest cell that overlaps. `pieces`: one of the `facets` of each piece of the boundary.
+/// P4: finds nested_part, each with the lowest cell that overlaps. `pieces`: one of the `facets` of each piece of the
+/// boundary.
 void find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
                        const std::vector<std::uint32_t>& pieces, Measures& measures, Findings& findings);
 

@@ -3,25 +3,38 @@
 #include <algorithm>
 #include <cmath>
 
+#include "barycert/check/signs.hpp"
 #include "barycert/core/predicates.hpp"
 
 namespace barycert::check {
 namespace {
 
 using Vector = std::array<double, 3>;
+using Place = PlcRegion::Place;
 
-Vector cross(const double* o, const double* a, const double* b) {
-    const double u[] = {a[0] - o[0], a[1] - o[1], a[2] - o[2]}, v[] = {b[0] - o[0], b[1] - o[1], b[2] - o[2]};
-    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+Vector cross(const Vector& a, const Vector& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-
+Vector minus(const Vector& a, const Vector& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 double length(const Vector& v) {
     return std::hypot(v[0], v[1], v[2]);
+}
+double cross(const Place& o, const Place& a, const Place& b) {
+    return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+}
+
+/// Distance of p from the segment ab.
+double distance_from(const Place& p, const Place& a, const Place& b) {
+    const double x = b[0] - a[0], y = b[1] - a[1], square = x * x + y * y;
+    const double t = square > 0 ? std::clamp(((p[0] - a[0]) * x + (p[1] - a[1]) * y) / square, 0.0, 1.0) : 0;
+    return std::hypot(a[0] + t * x - p[0], a[1] + t * y - p[1]);
 }
 
 }  // namespace
 
-PlcRegion::PlcRegion(const Plc& plc, const PlcFacet& facet) {
+PlcRegion::PlcRegion(const Plc& plc, const PlcFacet& facet, int exponent) : exponent_(exponent) {
     for (const auto& polygon : facet.polygons) {
         if (polygon.size() < 3) continue;
         Ring ring;
@@ -29,56 +42,147 @@ PlcRegion::PlcRegion(const Plc& plc, const PlcFacet& facet) {
         rings_.push_back(std::move(ring));
     }
     if (rings_.empty()) return;
-    // The plane through the widest triangle at the first two different vertices.
-    const std::vector<const double*>& first = rings_.front().points;
-    const double* const o = first.front();
-    const double* const a = *std::max_element(first.begin(), first.end(), [&](const double* p, const double* q) {
-        return std::hypot(p[0] - o[0], p[1] - o[1], p[2] - o[2]) < std::hypot(q[0] - o[0], q[1] - o[1], q[2] - o[2]);
-    });
-    const double* const b = *std::max_element(first.begin(), first.end(), [&](const double* p, const double* q) {
-        return length(cross(o, a, p)) < length(cross(o, a, q));
-    });
-    plane_ = {o, a, b};
-    normal_ = cross(o, a, b);
-    length_ = length(normal_);
-    if (!proper()) return;
+    set_plane();
+    if (proper_) set_holes(facet);
+}
+
+/// Less the first vertex. Halved first: a difference may overflow.
+Vector PlcRegion::relative(const double* p) const {
+    const double* const o = rings_.front().points.front();
+    Vector v{};
+    for (std::size_t k = 0; k < 3; ++k) v[k] = std::scalbn(p[k] / 2 - o[k] / 2, 1 - exponent_);
+    return v;
+}
+
+Place PlcRegion::place(const double* p) const {
+    const Vector v = relative(p);
+    return {v[axes()[0]], v[axes()[1]]};
+}
+
+/// The plane through the widest triangle, at the first vertex of a ring, of all rings.
+void PlcRegion::set_plane() {
+    double widest = 0;
+    for (const Ring& ring : rings_) {
+        const Vector o = relative(ring.points.front());
+        const auto from = [&](const double* p) { return minus(relative(p), o); };
+        const double* const a =
+            *std::max_element(ring.points.begin(), ring.points.end(),
+                              [&](const double* p, const double* q) { return length(from(p)) < length(from(q)); });
+        const double* const b =
+            *std::max_element(ring.points.begin(), ring.points.end(), [&](const double* p, const double* q) {
+                return length(cross(from(a), from(p))) < length(cross(from(a), from(q)));
+            });
+        const Vector normal = cross(from(a), from(b));
+        if (length(normal) <= widest) continue;
+        widest = length(normal);
+        normal_ = normal;
+        plane_ = {ring.points.front(), a, b};
+    }
+    proper_ = widest > 0;
+    if (!proper_) return;
+    for (double& x : normal_) x /= widest;
     for (std::size_t k = 0; k < 3; ++k) {
-        normal_[k] /= length_;
         if (std::fabs(normal_[k]) > std::fabs(normal_[axis_])) axis_ = k;
     }
+}
+
+void PlcRegion::set_holes(const PlcFacet& facet) {
     for (Ring& ring : rings_) {
-        for (const Ring& other : rings_) {
-            if (&other != &ring && in_ring(other, ring.points.front())) ring.hole = !ring.hole;
-        }
+        double twice = 0;
+        for (std::size_t i = 0, j = ring.points.size() - 1; i < ring.points.size(); j = i++)
+            twice += cross(place(ring.points.front()), place(ring.points[j]), place(ring.points[i]));
+        ring.area = std::fabs(twice) / 2;
     }
+    for (std::size_t i = 0; i + 2 < facet.holes.size(); i += 3) {
+        const Ring* const ring = innermost(place(&facet.holes[i]), nullptr);
+        for (Ring& r : rings_) r.hole = r.hole || &r == ring;
+    }
+    for (Ring& ring : rings_) {
+        const Ring* const around = innermost(inner_place(ring), &ring);
+        const bool filled = around != nullptr && !around->hole;
+        ring.counts = ring.hole == filled ? (ring.hole ? -1 : 1) : 0;
+    }
+}
+
+/// Inside the ring: at its lowest corner, which is convex, between it and what of the ring lies deepest in the triangle
+/// with its neighbours, or in the middle of that triangle.
+Place PlcRegion::inner_place(const Ring& ring) const {
+    std::vector<Place> at;
+    for (const double* p : ring.points) at.push_back(place(p));
+    const auto n = at.size();
+    const auto corner = static_cast<std::size_t>(std::min_element(at.begin(), at.end()) - at.begin());
+    const Place &v = at[corner], &a = at[(corner + n - 1) % n], &b = at[(corner + 1) % n];
+    const double turn = cross(a, v, b) < 0 ? -1 : 1;
+    const Place* deepest = nullptr;
+    double depth = 0;
+    for (const Place& p : at) {
+        if (turn * cross(a, v, p) <= 0 || turn * cross(v, b, p) <= 0 || turn * cross(b, a, p) <= 0) continue;
+        if (turn * cross(b, a, p) <= depth) continue;
+        depth = turn * cross(b, a, p);
+        deepest = &p;
+    }
+    if (deepest != nullptr) return {(v[0] + (*deepest)[0]) / 2, (v[1] + (*deepest)[1]) / 2};
+    return {(a[0] + v[0] + b[0]) / 3, (a[1] + v[1] + b[1]) / 3};
 }
 
 double PlcRegion::distance(const double* p) const {
-    const double* const o = plane_[0];
-    return std::fabs(normal_[0] * (p[0] - o[0]) + normal_[1] * (p[1] - o[1]) + normal_[2] * (p[2] - o[2]));
+    const Vector v = minus(relative(p), relative(plane_[0]));
+    return std::fabs(normal_[0] * v[0] + normal_[1] * v[1] + normal_[2] * v[2]);
 }
 
 bool PlcRegion::in_plane(const double* p) const {
-    const Result<Sign> s = orient3d(plane_[0], plane_[1], plane_[2], p);
-    return s && *s == Sign::zero;
+    return sign(orient3d(plane_[0], plane_[1], plane_[2], p)) == 0;
 }
 
-bool PlcRegion::in_ring(const Ring& ring, const double* p) const {
-    const auto [x, y] = axes();
+bool PlcRegion::in_ring(const Ring& ring, const Place& p) const {
     bool inside = false;
     for (std::size_t i = 0, j = ring.points.size() - 1; i < ring.points.size(); j = i++) {
-        const double *const a = ring.points[i], *const b = ring.points[j];
-        // A ray along x crosses the side ab.
-        if ((a[y] > p[y]) != (b[y] > p[y]) && p[x] < (b[x] - a[x]) * ((p[y] - a[y]) / (b[y] - a[y])) + a[x])
+        const Place a = place(ring.points[i]), b = place(ring.points[j]);
+        // A ray along the first axis crosses the side ab.
+        if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < (b[0] - a[0]) * ((p[1] - a[1]) / (b[1] - a[1])) + a[0])
             inside = !inside;
     }
     return inside;
 }
 
-bool PlcRegion::holds(const double* p) const {
-    bool inside = false;
-    for (const Ring& ring : rings_) inside = inside != in_ring(ring, p);
-    return inside;
+const PlcRegion::Ring* PlcRegion::innermost(const Place& p, const Ring* but) const {
+    const Ring* found = nullptr;
+    for (const Ring& ring : rings_) {
+        if (&ring != but && (found == nullptr || ring.area < found->area) &&
+            (but == nullptr || ring.area > but->area || (ring.area == but->area && &ring < but)) && in_ring(ring, p))
+            found = &ring;
+    }
+    return found;
+}
+
+bool PlcRegion::holds(const Place& p) const {
+    const Ring* const ring = innermost(p, nullptr);
+    return ring != nullptr && !ring->hole;
+}
+
+PlcRegion::Crossing PlcRegion::crossing(const double* a, const double* b, double slack) const {
+    const auto [x, y] = axes();
+    const auto projected = [x = x, y = y](const double* p) { return std::array<double, 2>{p[x], p[y]}; };
+    const auto pa = projected(a), pb = projected(b);
+    Crossing worst = Crossing::none;
+    for (const Ring& ring : rings_) {
+        for (std::size_t i = 0, j = ring.points.size() - 1; i < ring.points.size(); j = i++) {
+            const double *const c = ring.points[i], *const d = ring.points[j];
+            const auto pc = projected(c), pd = projected(d);
+            if (std::max(pa[0], pb[0]) < std::min(pc[0], pd[0]) || std::min(pa[0], pb[0]) > std::max(pc[0], pd[0]))
+                continue;
+            const auto turn = [](const auto& u, const auto& v, const auto& w) {
+                return sign(orient2d(u.data(), v.data(), w.data()));
+            };
+            if (turn(pa, pb, pc) * turn(pa, pb, pd) >= 0 || turn(pc, pd, pa) * turn(pc, pd, pb) >= 0) continue;
+            const Place u = place(a), v = place(b), w = place(c), z = place(d);
+            const double nearest = std::min(
+                {distance_from(u, w, z), distance_from(v, w, z), distance_from(w, u, v), distance_from(z, u, v)});
+            if (nearest > slack) return Crossing::deep;
+            worst = Crossing::shallow;
+        }
+    }
+    return worst;
 }
 
 Box PlcRegion::box(double margin) const {

@@ -10,39 +10,59 @@
 
 namespace barycert::check {
 
-/// Rings of the facet, projected along the axis on which its normal is largest; inside by the even-odd rule.
+/// The polygons of a facet, projected along the axis on which its normal is largest. Its region is what lies in them
+/// but in holes, as for TetGen: a ring is a hole if one of the facet's hole points lies in it, and of rings one in
+/// another the smallest decides. Rings inside that are no holes only cut the region.
+///
+/// Plain geometry works in a unit of 2^exponent, relative to a vertex, so that nothing over- or underflows; what is
+/// said to be exact works on the coordinates as they are.
 class PlcRegion {
 public:
-    PlcRegion(const Plc& plc, const PlcFacet& facet);
+    struct Ring {
+        std::vector<const double*> points;
+        bool hole = false;
+        double area = 0;  ///< projected, in the unit
+        int counts = 0;   ///< +1 its area is part of the region, -1 it is taken off, 0 another ring's has it
+    };
+
+    PlcRegion(const Plc& plc, const PlcFacet& facet, int exponent);
 
     /// It has an area.
-    bool proper() const { return length_ > 0; }
-
-    /// Distance of a point from the plane, in plain double, and whether it is exactly zero.
-    double distance(const double* p) const;
-    bool in_plane(const double* p) const;
-
-    /// A point, projected, is inside the rings: plain double, for points that are not close to them.
-    bool holds(const double* p) const;
-
-    Box box(double margin) const;
+    bool proper() const { return proper_; }
+    const std::vector<Ring>& rings() const { return rings_; }
 
     /// The two axes of the projection.
     std::array<std::size_t, 2> axes() const { return {(axis_ + 1) % 3, (axis_ + 2) % 3}; }
 
-    struct Ring {
-        std::vector<const double*> points;
-        bool hole = false;  ///< inside an odd number of other rings
-    };
-    const std::vector<Ring>& rings() const { return rings_; }
+    /// Distance of a point from the plane, in the unit; and whether it is exactly zero.
+    double distance(const double* p) const;
+    bool in_plane(const double* p) const;
+
+    /// A place, relative and projected, lies in the region.
+    using Place = std::array<double, 2>;
+    Place place(const double* p) const;
+    bool holds(const Place& p) const;
+
+    /// How a side of a face passes the sides of the rings: properly across none, across one within `slack` of an end of
+    /// either, or else deeply. The first is exact.
+    enum class Crossing : unsigned char { none, shallow, deep };
+    Crossing crossing(const double* a, const double* b, double slack) const;
+
+    Box box(double margin) const;
 
 private:
-    bool in_ring(const Ring& ring, const double* p) const;
+    std::array<double, 3> relative(const double* p) const;
+    bool in_ring(const Ring& ring, const Place& p) const;
+    const Ring* innermost(const Place& p, const Ring* but) const;
+    Place inner_place(const Ring& ring) const;
+    void set_plane();
+    void set_holes(const PlcFacet& facet);
 
     std::vector<Ring> rings_;
+    int exponent_;
     std::array<double, 3> normal_{};        ///< of length 1
     std::array<const double*, 3> plane_{};  ///< three vertices that span it
-    double length_ = 0;
+    bool proper_ = false;
     std::size_t axis_ = 2;
 };
 

@@ -18,7 +18,7 @@ enum class Problem : std::uint8_t {
     duplicate_cell,      ///< P2  two cells have the same nodes
     overfull_facet,      ///< P2  a facet belongs to more than two cells
     same_side,           ///< P2  two cells lie on the same side of their common facet
-    open_boundary,       ///< P2  at a ridge boundary facets do not continue each other
+    open_boundary,       ///< at a ridge boundary facets do not continue each other: what follows from P2 failing
     boundary_contact,    ///< P3  two boundary facets meet outside common vertices and edges
     nested_part,         ///< P4  a piece of the boundary at which a cell overlaps others
     overlapping_cells,   ///< the interiors of two cells meet: what follows from the above
@@ -59,8 +59,8 @@ inline constexpr std::array<ProblemText, 20> problem_texts{{
      "cells overlap there, or were added twice", true},
     {Problem::same_side, "same_side", "P2", "facets with both cells on the same side",
      "a cell is folded over: a node went through a facet", true},
-    {Problem::open_boundary, "open_boundary", "P2", "ridges where the boundary does not close",
-     "follows from the above", true},
+    {Problem::open_boundary, "open_boundary", "", "ridges where the boundary does not close", "follows from the above",
+     true},
     {Problem::boundary_contact, "boundary_contact", "P3",
      "pairs of boundary facets that meet outside common vertices and edges",
      "merge coincident nodes, or move the parts apart", true},

@@ -1,11 +1,12 @@
-/// The condition number of a cell: how many bits a plain kernel may lose in the weights of points of the cell.
+/// The condition number of a cell: how many bits a kernel that works with differences of coordinates may lose in the
+/// weights of points of the cell.
 ///
 ///     kappa = (volume of the cell's box along the axes) / (volume of the cell)        (areas in 2D)
 ///           = d! X Y Z / |det E|,    X, Y, Z the extents of the cell, E the matrix of its edges from a corner
 ///
 /// 6 for a right-angled tetrahedron along the axes, however long its sides, and at least 3; 2 at least for a triangle.
-/// Multiplying an axis by a number changes neither kappa nor what a kernel loses. It is large where a cell is thin
-/// askew to the axes: there the products of a determinant are as large as the box and cancel to the cell.
+/// Multiplying an axis by a power of two changes neither kappa nor what such a kernel loses. It is large where a cell
+/// is thin askew to the axes: there the products of a determinant are as large as the box and cancel to the cell.
 ///
 /// What it means. Let u = 2^-53 and p a point of the cell. Every difference of coordinates that a kernel forms, of two
 /// vertices or of a vertex and p, is at most the extent X, Y or Z; so every product in a determinant is at most X Y Z.

@@ -24,7 +24,9 @@ std::vector<ConditionRow> condition_rows(const check::Report& report, const Mesh
     const bool looked_at = report.find(Problem::bad_structure) == nullptr;
     for (ConditionRow& row : rows) {
         for (const Finding& f : report.findings) {
-            if (!text_of(f.problem).breaks || text_of(f.problem).condition != row.name) continue;
+            const bool here =
+                row.name.empty() ? f.problem == Problem::overlapping_cells : text_of(f.problem).condition == row.name;
+            if (!text_of(f.problem).breaks || !here) continue;
             row.count += f.count;
             row.at_least |= f.at_least;
         }

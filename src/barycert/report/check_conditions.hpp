@@ -10,10 +10,10 @@
 namespace barycert::report {
 
 struct ConditionRow {
-    std::string_view name;     ///< "P1" ...; empty for what follows from P1 to P4
-    std::string_view text;     ///< what holds if it does
-    std::uint64_t count = 0;   ///< violations
-    bool at_least = false;     ///< there may be more
+    std::string_view name;          ///< "P1" ...; empty for what follows from P1 to P4
+    std::string_view text;          ///< what holds if it does
+    std::uint64_t count = 0;        ///< violations
+    bool at_least = false;          ///< there may be more
     std::string_view instead = {};  ///< without violations: "ok", "none came" or "not checked"
 };
 

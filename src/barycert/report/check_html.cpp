@@ -140,8 +140,10 @@ std::string whole_mesh(const Report& r) {
             text += fmt::format(". Vertices that are no node: {}", grouped(c.missing_vertices));
         for (const check::ViolatedFacet& f : c.examples)
             text += fmt::format("{}{} ({:.3g} %)",
-                                &f == c.examples.data() ? ". Violated, and covered so far: facets " : ", ", f.facet,
+                                &f == c.examples.data() ? ". Violated facets (share that is covered): " : ", ", f.facet,
                                 100 * f.covered);
+        if (c.violated > c.examples.size() && !c.examples.empty())
+            text += fmt::format(", and {} more", grouped(c.violated - c.examples.size()));
         out += row("PLC", text);
     }
     return out + "</table>\n";

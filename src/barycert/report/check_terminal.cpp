@@ -38,7 +38,7 @@ constexpr std::array<Clause, 14> clauses{{
     {Problem::same_side, "facet has both cells on the same side", "facets have both cells on the same side"},
     {Problem::open_boundary, "ridge leaves the boundary open", "ridges leave the boundary open"},
     {Problem::boundary_contact, "pair of boundary facets meets", "pairs of boundary facets meet"},
-    {Problem::nested_part, "part overlaps others", "parts overlap others"},
+    {Problem::nested_part, "piece of the boundary lies in cells", "pieces of the boundary lie in cells"},
     {Problem::overlapping_cells, "pair of cells overlaps", "pairs of cells overlap"},
     {Problem::wrong_neighbour, "entry of .neigh is wrong", "entries of .neigh are wrong"},
     {Problem::wrong_face, "triangle of .face is no facet", "triangles of .face are no facets"},
@@ -261,7 +261,10 @@ std::string measure_table(const Report& r, const Colours& paint) {
     out += measure_row("aspect (regular cell: 1)", m.aspect, true) + "\n";
     out += measure_row(plane ? "smallest angle, degrees" : "smallest dihedral angle, deg", m.min_angle, false) + "\n";
     out += measure_row(plane ? "largest angle, degrees" : "largest dihedral angle, deg", m.max_angle, true) + "\n";
-    return out + paint.dim("bits: log2 of the condition number, what a plain kernel's weights may lose of 53.") + "\n";
+    return out +
+           paint.dim(
+               "bits: log2 of the condition number, what weights from differences of coordinates may lose of 53.") +
+           "\n";
 }
 
 std::string conformity_lines(const check::Conformity& c) {
@@ -274,12 +277,15 @@ std::string conformity_lines(const check::Conformity& c) {
         out += fmt::format("           {} of these facets {} no node\n",
                            plural(c.missing_vertices, "vertex", "vertices"), c.missing_vertices == 1 ? "is" : "are");
     std::string violated;
+    std::size_t shown = 0;
     for (const check::ViolatedFacet& f : c.examples) {
         const std::string one = fmt::format("{}{} ({:.3g} %)", violated.empty() ? "" : ", ", f.facet, 100 * f.covered);
-        if (violated.size() + one.size() > columns - 40) break;
+        if (violated.size() + one.size() > columns - 60) break;
         violated += one;
+        ++shown;
     }
-    if (!violated.empty()) out += "           violated, and covered so far: facets " + violated + "\n";
+    if (c.violated > shown && shown > 0) violated += fmt::format(", and {} more", c.violated - shown);
+    if (!violated.empty()) out += "           violated (share that is covered): " + violated + "\n";
     return out;
 }
 

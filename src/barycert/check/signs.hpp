@@ -1,0 +1,13 @@
+/// Internal: signs as numbers, to be multiplied.
+#pragma once
+
+#include "barycert/core/predicates.hpp"
+
+namespace barycert::check {
+
+/// Precondition: not an Error, for the coordinates are finite.
+inline int sign(const Result<Sign>& s) {
+    return static_cast<int>(*s);
+}
+
+}  // namespace barycert::check
