@@ -65,7 +65,7 @@ TEST(check, a_good_mesh_is_certified) {
 TEST(check, a_broken_mesh_is_not) {
     const Scratch scratch;
     expect_verdict(put_overlapping(scratch), 1,
-                   "NOT certified: 1 pair of cells overlaps, 3 pairs of boundary facets meet, 2 pieces of the boundary lie in cells");
+                   "NOT certified: 1 pair of cells overlaps, 3 pairs of boundary facets meet, and 1 more problem");
     expect_verdict(put_mesh(scratch, "flat", two_cells, apart.substr(0, apart.rfind("7 ")) + "7 3 1 0\n"), 1,
                    "NOT certified: 1 cell is degenerate, 4 pairs of boundary facets meet");
     const Ended twice = run(check(put_mesh(scratch, "twice", "3 4 0\n0 0 1 2 3\n1 4 5 6 7\n2 0 1 2 3\n")));
