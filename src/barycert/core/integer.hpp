@@ -7,9 +7,9 @@
 ///
 /// Widths. The finite doubles are multiples of 2^-1074 below 2^1024: 2098 bits, a difference of two 2099. The largest
 /// polynomial that is divided is the numerator of a value on a triangle in 3-space, of degree 4 in differences and 1 in
-/// nodal values, summed over 4 x 18 terms: 4 * 2099 + 2098 + 7 = 10501 bits, 165 limbs. Division shifts one operand left
-/// by at most 64 bits more than the other's length and by up to 63 bits: 167 limbs. One bit more, and no division, has
-/// that of insphere, of degree 5 in differences: see exact_weights.cpp.
+/// nodal values, summed over 4 x 18 terms: 4 * 2099 + 2098 + 7 = 10501 bits, 165 limbs. Division shifts one operand
+/// left by at most 64 bits more than the other's length and by up to 63 bits: 167 limbs. One bit more, and no division,
+/// has that of insphere, of degree 5 in differences: see exact_weights.cpp.
 #pragma once
 
 #include <algorithm>
