@@ -15,10 +15,10 @@
 #include <sstream>
 
 #include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/plc/plc.hpp"
 #include "child.hpp"
 #include "mesher.hpp"
 #include "options.hpp"
-#include "barycert/plc/plc.hpp"
 
 namespace barycert {
 namespace {

@@ -147,7 +147,8 @@ double integer_of(Random& random, int bits) {
     return static_cast<double>((random.bits() >> (64 - bits)) | 1);
 }
 
-/// A segment of length 2^-500 with a numerator of three products, of which two are below 2^-1022 and outweigh the third.
+/// A segment of length 2^-500 with a numerator of three products, of which two are below 2^-1022 and outweigh the
+/// third.
 Case underflowing(Random& random) {
     Case c;
     c.simplex = Simplex::segment;

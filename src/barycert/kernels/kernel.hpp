@@ -2,7 +2,8 @@
 ///
 /// Enters: the vertices of one simplex and a point, as doubles. Leaves: one weight a vertex, or the kernel's own
 /// statement that the simplex is degenerate. Kernels are what the audit puts to the test: the plain ones are written as
-/// the literature writes them, faults included, and nothing in barycert relies on them; `*.exact` call core/weights.hpp.
+/// the literature writes them, faults included, and nothing in barycert relies on them; `*.exact` call
+/// core/weights.hpp.
 #pragma once
 
 #include <span>
