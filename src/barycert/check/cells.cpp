@@ -53,8 +53,8 @@ const char* kind(int d, const double* const* p) {
     return "collinear";
 }
 
-/// Edges from corner 0, divided by a power of two so that the largest component is in [1, 2); its exponent. Infinite if
-/// a difference overflows.
+/// Edges from corner 0, divided by a power of two so that the largest component is in [1, 2); its exponent. If a
+/// difference overflows, some are infinite, and the exponent is above those of all doubles.
 template <class Real>
 int scaled_edges(int d, const double* const* p, Real* edges) {
     Real largest = 0;
@@ -64,7 +64,8 @@ int scaled_edges(int d, const double* const* p, Real* edges) {
             largest = std::max(largest, std::fabs(edges[i * d + k]));
         }
     }
-    if (largest == 0 || !std::isfinite(largest)) return 0;
+    if (largest == 0) return 0;
+    if (!std::isfinite(largest)) return 1024;
     const int exponent = std::ilogb(largest);
     const Real factor = std::scalbn(Real(1), -exponent);  // exact to multiply by unless it is infinite
     for (int i = 0; i < d * d; ++i) edges[i] *= factor;
@@ -77,7 +78,7 @@ Shape shape_of(int d, const double* const* p, double volume, const Integer& exac
     const double scaled = std::scalbn(std::fabs(volume), -d * exponent);
     if (exact.sign() == 0 || (std::isnormal(volume) && scaled >= 0x1p-300 && scaled <= 8))
         return shape(d, edges, scaled);
-    // The volume, near 1 first: it may be no double.
+    // Too thin for double, or its edges are too long. The volume, near 1 first: it may be no double.
     long double wide[9];
     const int wide_exponent = scaled_edges(d, p, wide);
     const int scale = volumes.exponent(exact) / d;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "barycert/core/text.hpp"
+#include "barycert/report/check_conditions.hpp"
 #include "barycert/report/environment_json.hpp"
 
 namespace barycert::report {
@@ -20,24 +21,17 @@ Json figure(double x) {
     return std::isnan(x) ? Json(nullptr) : Json(std::clamp(x, -largest, largest));
 }
 
-Json conditions_json(const check::Report& r) {
+Json conditions_json(const check::Report& r, const Mesh& mesh) {
     Json list = Json::array();
-    for (const char* name : {"P1", "P2", "P3", "P4", "P5"}) {
-        Json j;
-        j["name"] = name;
-        std::uint64_t violations = 0;
-        bool at_least = false;
-        for (const check::Finding& f : r.findings) {
-            const check::ProblemText& t = text_of(f.problem);
-            if (!t.breaks || t.condition != name) continue;
-            violations += f.count;
-            at_least |= f.at_least;
-        }
+    for (const ConditionRow& row : condition_rows(r, mesh)) {
+        if (row.name.empty()) continue;  // what follows from the others
         // Arrays that do not make cells are no cells to look at: nothing is known of the rest.
-        const bool looked_at = r.find(check::Problem::bad_structure) == nullptr || j["name"] == "P1";
-        j["holds"] = looked_at ? Json(violations == 0) : Json(nullptr);
-        j["violations"] = looked_at ? Json(violations) : Json(nullptr);
-        j["at_least"] = at_least;
+        const bool looked_at = row.count != 0 || row.instead != "not checked";
+        Json j;
+        j["name"] = row.name;
+        j["holds"] = looked_at ? Json(row.count == 0) : Json(nullptr);
+        j["violations"] = looked_at ? Json(row.count) : Json(nullptr);
+        j["at_least"] = row.at_least;
         list.push_back(std::move(j));
     }
     return list;
@@ -161,7 +155,7 @@ std::string check_json(const check::Report& r, const std::string& name, const En
     j["dimension"] = r.dimension;
     j["nodes"] = r.nodes;
     j["cells"] = r.cells;
-    j["conditions"] = conditions_json(r);
+    j["conditions"] = conditions_json(r, Mesh());  // whether files came changes no count
     j["findings"] = Json::array();
     for (const check::Finding& f : r.findings) j["findings"].push_back(finding_json(f));
     j["contacts"] = Json::array();
