@@ -12,6 +12,7 @@
 ///   W2  A weight is the exact one rounded to nearest, ties to even.                          weights.hpp
 ///   V1  A value is the exact sum of weight times nodal value, rounded once.                  weights.hpp
 ///   V2  A point that two cells share has the same value, to the bit, from both.              weights.hpp
+///   G1  A gradient's component is the exact one rounded to nearest, ties to even.             gradient.hpp
 ///   D1  Results depend on the input bits alone: not on threads, SIMD target, compiler,
 ///       optimisation, or the order of cases.
 ///   A degenerate simplex is told, never weighed. NaN or infinity is an Error, never a sign. An environment in which
@@ -33,6 +34,7 @@
 #include "barycert/core/batch.hpp"         // IWYU pragma: export
 #include "barycert/core/condition.hpp"     // IWYU pragma: export
 #include "barycert/core/environment.hpp"   // IWYU pragma: export
+#include "barycert/core/gradient.hpp"      // IWYU pragma: export
 #include "barycert/core/insphere.hpp"      // IWYU pragma: export
 #include "barycert/core/inverse.hpp"       // IWYU pragma: export
 #include "barycert/core/predicates.hpp"    // IWYU pragma: export

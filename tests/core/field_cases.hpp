@@ -1,0 +1,61 @@
+/// Cells for the tests of gradients and quadratic fields, and their exact gradients by elimination.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "barycert/core/random.hpp"
+#include "barycert/core/simplex.hpp"
+#include "exact/cases.hpp"
+#include "exact/second_path.hpp"
+
+namespace barycert::testing_fields {
+
+/// A number of ordinary size, or of any from 2^-4 to 2^4.
+inline double nodal_value(Random& r) {
+    return r.coin() ? r.uniform(-1, 1) : r.scaled(-1, 1, -4, 4);
+}
+
+/// Cells that are round, flat askew to the axes by up to 2^-flattest, anisotropic, far from the origin; the point
+/// inside, outside, or level with a vertex. Mostly within the ranges of the double-double tier.
+inline Case stretched_cell(Random& r, Simplex s, int flattest = 36) {
+    Case c{.simplex = s};
+    const int n = vertex_count(s), d = space_dimension(s);
+    const int flat = r.coin() ? 0 : r.integer(0, flattest);
+    const double distance = r.coin() ? 0 : r.scaled(1, 2, 0, 24);
+    const double height = std::ldexp(1, -flat);
+    for (int i = 0; i < n; ++i) {
+        double v[3], mean = 0;
+        for (double& x : v) x = r.uniform(-1, 1);
+        for (int k = 0; k < d; ++k) mean += v[k] / d;
+        for (int k = 0; k < d; ++k) c.vertex(i, k) = v[k] - mean * (1 - height);
+        c.values[static_cast<std::size_t>(i)] = nodal_value(r);
+    }
+    double w[4];
+    for (double& x : w) x = r.uniform(-0.5, 1);
+    for (int k = 0; k < d; ++k) {
+        const int shift = r.integer(0, 3) == 0 ? r.integer(-60, 60) : 0;
+        double p = 0;
+        for (int i = 0; i < n; ++i) p += w[i] * c.vertex(i, k);
+        for (int i = 0; i < n; ++i) c.vertex(i, k) = std::ldexp(c.vertex(i, k) + distance, shift);
+        c.point[static_cast<std::size_t>(k)] = std::ldexp(p + distance, shift);
+        const bool level = r.integer(0, 9) == 0;
+        if (level) c.point[static_cast<std::size_t>(k)] = c.vertex(0, k);
+    }
+    return c;
+}
+
+/// The exact gradient of the values at the vertices; nothing if degenerate.
+inline std::optional<std::vector<mpq_class>> exact_gradient(const Case& c) {
+    using second_path::Q;
+    auto rows = second_path::edges(c);
+    const std::size_t d = rows.size();
+    for (std::size_t j = 0; j < d; ++j) rows[j].push_back(Q(c.values[j + 1]) - Q(c.values[0]));
+    if (second_path::eliminate(rows, d) < d) return std::nullopt;
+    std::vector<Q> g;
+    for (const auto& row : rows) g.push_back(row[d]);
+    return g;
+}
+
+}  // namespace barycert::testing_fields

@@ -1,0 +1,108 @@
+// The bound of the double-double tier of gradients, on every target of this build: plain + correction is nowhere
+// farther from the exact gradient than `error`. Far sharper than the gradients: a wrong rounding needs a tie nearby,
+// this does not.
+#include <gtest/gtest.h>
+
+#include "barycert/core/simd.hpp"
+#include "core/rational.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/gradient_bound_test.cpp"
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#include <hwy/foreach_target.h>
+// After foreach_target.h.
+#include <hwy/highway.h>
+
+#include "barycert/core/gradient-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace barycert {
+namespace HWY_NAMESPACE {
+
+/// plain, correction and error of each component; whether they are valid.
+template <int d>
+bool refined_in(const double* vertices, const double* values, double (*out)[3]) {
+    using Wide = hn::ScalableTag<double>;
+    using Lane = hn::Vec<Wide>;
+    Lane v[d + 1][d], f[d + 1];
+    for (int i = 0; i <= d; ++i) {
+        for (int k = 0; k < d; ++k) v[i][k] = hn::Set(Wide(), vertices[d * i + k]);
+        f[i] = hn::Set(Wide(), values[i]);
+    }
+    const auto m = cell_matrix<d>(Wide(), v);
+    const auto g = refined_gradient<d>(Wide(), m, f);
+    for (int k = 0; k < d; ++k) {
+        out[k][0] = hn::GetLane(g.plain[k]);
+        out[k][1] = hn::GetLane(g.correction[k]);
+        out[k][2] = hn::GetLane(g.error[k]);
+    }
+    return hn::AllTrue(Wide(), hn::And(m.valid, g.valid));
+}
+
+bool refined_gradients(Simplex s, const double* vertices, const double* values, double (*out)[3]) {
+    return s == Simplex::triangle ? refined_in<2>(vertices, values, out) : refined_in<3>(vertices, values, out);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace barycert
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "core/field_cases.hpp"
+
+namespace barycert {
+
+HWY_EXPORT(refined_gradients);
+
+namespace {
+
+using testing_rational::Q;
+
+/// Cells of every kind, and values that are large against their differences.
+Case bound_case(Random& r, Simplex s) {
+    const int how = r.integer(0, 3);
+    if (how == 0) {
+        const auto kind = testing_cases::all_kinds[r.below(testing_cases::all_kinds.size())];
+        return testing_cases::random_case(r, s, kind);
+    }
+    Case c = testing_fields::stretched_cell(r, s);
+    if (how == 1) {
+        const double offset = r.scaled(1, 2, 0, 40);
+        for (double& f : c.values) f += offset;
+    }
+    return c;
+}
+
+TEST(GradientBound, holds_on_every_target) {
+    for (const std::string& target : simd_targets()) {
+        ASSERT_TRUE(use_simd_target(target));
+        for (const Simplex s : {Simplex::triangle, Simplex::tetrahedron}) {
+            int valid = 0;
+            double nearest_to_bound = 0;
+            for (std::uint64_t k = 0; k < 6000 && !HasFailure(); ++k) {
+                Random r = Random::stream(21, hash64("gradient bound"), k);
+                const Case c = bound_case(r, s);
+                double g[3][3];
+                if (!HWY_DYNAMIC_DISPATCH(refined_gradients)(s, c.vertices.data(), c.values.data(), g)) continue;
+                const auto exact = testing_fields::exact_gradient(c);
+                ASSERT_TRUE(exact) << "degenerate, and told valid: " << testing_cases::describe(c);
+                ++valid;
+                for (std::size_t i = 0; i < exact->size(); ++i) {
+                    if (!std::isfinite(g[i][2])) continue;
+                    const Q off = abs(Q(Q(g[i][0]) + Q(g[i][1]) - (*exact)[i]));
+                    EXPECT_LE(off, Q(g[i][2])) << target << ' ' << i << ' ' << testing_cases::describe(c);
+                    if (g[i][2] > 0) nearest_to_bound = std::max(nearest_to_bound, Q(off / Q(g[i][2])).get_d());
+                }
+            }
+            EXPECT_GT(valid, 4000) << name(s);
+            // The bound is no idle one: cases come within a small factor of it.
+            EXPECT_GT(nearest_to_bound, 0x1p-7) << name(s);
+            RecordProperty(target + " " + std::string(name(s)), std::to_string(nearest_to_bound));
+        }
+    }
+    use_simd_target("");
+}
+
+}  // namespace
+}  // namespace barycert
+#endif
