@@ -23,6 +23,7 @@
 
 #include "mesh/mesh_files.hpp"
 #include "mesh/random_mesh.hpp"
+#include "vtk/vtk_files.hpp"
 
 #ifndef BARYCERT_WITH_VTK
 #error "who links barycert::vtk is told so"
@@ -40,10 +41,6 @@ Mesh tetrahedron() {
     mesh.points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0.1};
     mesh.cells = {0, 1, 2, 3};
     return mesh;
-}
-
-Mesh mesh_of_data(const char* name) {
-    return read_tetgen(std::string(BARYCERT_DATA_DIR) + "/meshes/" + name, {.threads = 1}).value();
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> read_by_vtk(const std::string& path) {

@@ -1,7 +1,6 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
-#include <vtkCommand.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkExecutive.h>
@@ -21,20 +20,19 @@
 #include <new>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "barycert/core/output_file.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
+#include "barycert/vtk/messages.hpp"
+#include "barycert/vtk/raw_grid.hpp"
 #include "barycert/vtk/vtu.hpp"
 #include "barycert/vtk/xml_name.hpp"
 
 namespace barycert {
 namespace {
-
-constexpr const char* marker_name = "marker";
 
 /// VTK's writer on a stream of ours: what it makes of a string would be copied twice on the way out.
 class StreamWriter : public vtkXMLUnstructuredGridWriter {
@@ -53,29 +51,6 @@ protected:
 StreamWriter* StreamWriter::New() {
     VTK_STANDARD_NEW_BODY(StreamWriter);
 }
-
-/// What VTK has to say, kept from the terminal.
-class Messages {
-public:
-    /// `object` must not outlive this.
-    void listen_to(vtkObject* object) {
-        object->AddObserver(vtkCommand::ErrorEvent, this, &Messages::keep);
-        object->AddObserver(vtkCommand::WarningEvent, this, &Messages::keep);
-    }
-    /// The first one; empty if there was none.
-    const std::string& first() const { return first_; }
-
-private:
-    void keep(vtkObject*, unsigned long, void* text) {
-        if (!first_.empty()) return;
-        // "ERROR: In FILE, line N", the object with its address, then the clause.
-        std::string_view clause = text == nullptr ? "" : static_cast<const char*>(text);
-        if (const std::size_t at = clause.find("): "); at != std::string_view::npos) clause.remove_prefix(at + 3);
-        first_ = clause.substr(0, clause.find('\n'));
-        if (first_.empty()) first_ = "an error without words";
-    }
-    std::string first_;
-};
 
 /// An array of VTK's on the mesh's own memory, which VTK neither frees nor writes to: its interface knows no const.
 vtkNew<vtkDoubleArray> view_of(const std::vector<double>& values, int components) {
@@ -125,24 +100,20 @@ void set_cells(vtkUnstructuredGrid* grid, const Mesh& mesh) {
     grid->SetCells(cell_type(mesh), cells);
 }
 
-std::string in_quotes(const std::string& name) {
-    return "'" + name + "'";
-}
-
 /// Empty if every name can be written and is the only one of its kind, as VTK keeps but one array of a name.
 std::string fault_of_names(const std::vector<Field>& fields, bool markers) {
     std::vector<std::string> names;
-    if (markers) names.emplace_back(marker_name);
+    if (markers) names.emplace_back(detail::marker_name);
     for (const Field& field : fields) {
         if (field.name.empty()) return "a field has no name";
         if (!detail::xml_attribute(field.name)) {
-            return "the name of field " + in_quotes(field.name) + " has bytes that XML cannot hold";
+            return "the name of field " + detail::in_quotes(field.name) + " has bytes that XML cannot hold";
         }
         names.push_back(field.name);
     }
     std::sort(names.begin(), names.end());
     const auto twice = std::adjacent_find(names.begin(), names.end());
-    return twice == names.end() ? "" : "two fields are named " + in_quotes(*twice);
+    return twice == names.end() ? "" : "two fields are named " + detail::in_quotes(*twice);
 }
 
 void add_fields(vtkFieldData* data, const std::vector<Field>& fields) {
@@ -184,14 +155,14 @@ Status write(const Mesh& mesh, const std::string& path) {
         vtkNew<vtkTypeInt64Array> markers;
         markers->SetNumberOfValues(static_cast<vtkIdType>(mesh.point_markers.size()));
         std::copy(mesh.point_markers.begin(), mesh.point_markers.end(), markers->GetPointer(0));
-        markers->SetName(marker_name);
+        markers->SetName(detail::marker_name);
         grid->GetPointData()->AddArray(markers);
     }
 
     std::string room;
     room.reserve(file_size(mesh, wide ? 8 : 4));
     std::ostringstream stream(std::move(room));
-    Messages messages;
+    detail::Messages messages;
     {
         vtkNew<StreamWriter> writer;
         messages.listen_to(writer);
