@@ -1,0 +1,134 @@
+#include "barycert/locate/finder.hpp"
+
+#include <algorithm>
+
+#include "barycert/core/predicates.hpp"
+
+namespace barycert::detail {
+namespace {
+
+/// A walk in floating point can go round in circles, in cells that are almost flat or not Delaunay.
+constexpr int most_rounds = 128;
+
+/// The vertices of a cell in the mesh's own order.
+std::array<double, 12> vertices_of(const CellIndex& index, Place cell) {
+    std::array<double, 12> vertices{};
+    const CellRecord& record = index.cells[static_cast<std::size_t>(cell)];
+    const std::size_t d = index.dimension();
+    for (std::size_t i = 0; i <= d; ++i) {
+        const auto& at = index.nodes[static_cast<std::size_t>(record.node[i])].at;
+        for (std::size_t k = 0; k < d; ++k) vertices[d * i + k] = at[k];
+    }
+    return vertices;
+}
+
+/// The cell of a bin from which to start: any one of its cells, or of the next that has some.
+Place start_of(const CellIndex& index, std::uint32_t bin) {
+    const Place middle = (index.first[bin] + index.first[bin + 1]) / 2;
+    return std::min(middle, static_cast<Place>(index.cell_count()) - 1);
+}
+
+}  // namespace
+
+void Finder::find(const PointRecord* points, std::size_t count, Place* owner, Feature* feature,
+                  LocationCounts& counts) {
+    asked_count_ = 0;
+    if (data_.method == Method::walk) {
+        start(points, count);
+        walk(points, count, owner, feature, counts.tests);
+    } else {
+        for (std::size_t i = 0; i < count; ++i) {
+            asked_[asked_count_] = static_cast<std::uint32_t>(i);
+            asked_count_ += data_.index.box_holds(points[i].at.data()) ? 1 : 0;
+            owner[i] = -1;
+            feature[i] = Feature::outside;
+        }
+    }
+    if (asked_count_ != 0) ask_candidates(points, owner, feature, counts.tests);
+    for (std::size_t i = 0; i < count; ++i) counts.add(feature[i]);
+}
+
+void Finder::find_from(Place start, const PointRecord& point, Place& owner, Feature& feature) {
+    LocationCounts ignored;
+    if (data_.method != Method::walk || !data_.index.box_holds(point.at.data()))
+        return find(&point, 1, &owner, &feature, ignored);
+    asked_count_ = 0;
+    walks_[0] = {0, start};
+    walking_ = 1;
+    walk(&point, 1, &owner, &feature, ignored.tests);
+    if (asked_count_ != 0) ask_candidates(&point, &owner, &feature, ignored.tests);
+}
+
+void Finder::start(const PointRecord* points, std::size_t count) {
+    const CellIndex& index = data_.index;
+    walking_ = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Place cell = start_of(index, points[i].bin);
+        __builtin_prefetch(&index.cells[static_cast<std::size_t>(cell)]);
+        walks_[walking_] = {static_cast<std::uint32_t>(i), cell};
+        walking_ += index.box_holds(points[i].at.data()) ? 1 : 0;
+    }
+}
+
+void Finder::walk(const PointRecord* points, std::size_t count, Place* owner, Feature* feature, Tiers& tests) {
+    const CellIndex& index = data_.index;
+    std::fill(owner, owner + count, -1);
+    std::size_t stuck = 0;
+    for (int round = 0; walking_ > 0 && round < most_rounds; ++round)
+        walking_ = step_walks(index, points, walks_.data(), walking_, owner, stuck_.data(), stuck);
+    std::uint64_t arrived = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        feature[i] = owner[i] >= 0 ? Feature::interior : Feature::outside;
+        arrived += owner[i] >= 0 ? 1 : 0;
+    }
+    tests.add(Tier::filter, arrived);
+    for (std::size_t i = 0; i < stuck; ++i) resolve(points[stuck_[i].point], stuck_[i], owner, feature, tests);
+    for (std::size_t i = 0; i < walking_; ++i) resolve(points[walks_[i].point], walks_[i], owner, feature, tests);
+}
+
+void Finder::resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, Tiers& tests) {
+    const CellIndex& index = data_.index;
+    const std::array<double, 12> vertices = vertices_of(index, stuck.cell);
+    const WeightSigns signs = *weight_signs(index.simplex, vertices.data(), point.at.data(), &tests);
+    if (!signs.contains()) {
+        asked_[asked_count_++] = stuck.point;
+        return;
+    }
+    feature[stuck.point] = signs.feature(index.simplex);
+    owner[stuck.point] = stuck.cell;
+    if (signs.region() == Region::interior) return;
+    data_.node_cells().for_each_around(index, stuck.cell, signs, [&](Place first) {
+        owner[stuck.point] = first;
+        return false;
+    });
+}
+
+void Finder::ask_candidates(const PointRecord* points, Place* owner, Feature* feature, Tiers& tests) {
+    const CellIndex& index = data_.index;
+    const auto original = [&](Place place) { return index.original[static_cast<std::size_t>(place)]; };
+    for_candidates(points, asked_.data(), asked_count_, tests, [&](const Candidate& c, WeightSigns signs) {
+        if (!signs.contains()) return;
+        Place& best = owner[c.point];
+        if (best >= 0 && original(best) < original(c.cell)) return;
+        best = c.cell;
+        feature[c.point] = signs.feature(index.simplex);
+    });
+}
+
+void Finder::test_candidates(const PointRecord* points, Tiers& tests) {
+    const CellIndex& index = data_.index;
+    const std::size_t d = index.dimension();
+    cells_.clear();
+    points_.clear();
+    for (const Candidate& c : candidates_) {
+        cells_.push_back(index.original[static_cast<std::size_t>(c.cell)]);
+        points_.insert(points_.end(), points[c.point].at.begin(),
+                       points[c.point].at.begin() + static_cast<std::ptrdiff_t>(d));
+    }
+    signs_.resize(candidates_.size());
+    const MeshQueries queries{index.simplex, data_.mesh->points, data_.mesh->cells, cells_, points_};
+    // Sizes fit, and everything is finite: there is no Error.
+    static_cast<void>(weight_signs(queries, signs_, &tests).has_value());
+}
+
+}  // namespace barycert::detail

@@ -1,0 +1,164 @@
+#include "barycert/locate/locator.hpp"
+
+#include <utility>
+
+#include "barycert/core/predicates.hpp"
+#include "barycert/locate/batch.hpp"
+#include "barycert/locate/locator_data.hpp"
+#include "barycert/mesh/consistency.hpp"
+
+namespace barycert {
+namespace {
+
+Status check_points(const Locator& locator, std::span<const double> points) {
+    const std::size_t d = locator.data().index.dimension();
+    if (points.size() % d != 0)
+        return Error{.what = "size of the points",
+                     .expected = std::to_string(d) + " coordinates a point",
+                     .found = std::to_string(points.size()) + " numbers"};
+    return detail::check_finite(points, d);
+}
+
+}  // namespace
+
+void LocationCounts::add(Feature f, std::uint64_t count) {
+    switch (f) {
+        case Feature::interior: interior += count; break;
+        case Feature::face: face += count; break;
+        case Feature::edge: edge += count; break;
+        case Feature::vertex: vertex += count; break;
+        default: outside += count; break;
+    }
+}
+
+void LocationCounts::add(const LocationCounts& other) {
+    interior += other.interior;
+    face += other.face;
+    edge += other.edge;
+    vertex += other.vertex;
+    outside += other.outside;
+    tests.add(other.tests);
+}
+
+Locator::Locator(std::unique_ptr<detail::LocatorData> data) : data_(std::move(data)) {}
+Locator::Locator(Locator&&) noexcept = default;
+Locator& Locator::operator=(Locator&&) noexcept = default;
+Locator::~Locator() = default;
+
+Result<Locator> Locator::build(const Mesh& mesh, const check::Certificate& certificate) {
+    if (const char* const wrong = detail::inconsistency(mesh, detail::FieldValues::any))
+        return Error{.what = std::string("the mesh is inconsistent: ") + wrong};
+    auto data = std::make_unique<detail::LocatorData>();
+    data->mesh = &mesh;
+    const bool certified = certificate.covers(mesh);
+    data->method = certified ? Method::walk : Method::candidates;
+    data->index = detail::make_cell_index(mesh, certified);
+    return Locator(std::move(data));
+}
+
+const Mesh& Locator::mesh() const {
+    return *data_->mesh;
+}
+
+Method Locator::method() const {
+    return data_->method;
+}
+
+std::size_t Locator::bytes() const {
+    return data_->bytes();
+}
+
+Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> cells, std::span<Feature> features,
+                       LocationCounts* counts, int threads) const {
+    if (Status status = check_points(*this, points); !status) return status;
+    const std::size_t count = points.size() / data_->index.dimension();
+    if (cells.size() != count || features.size() != count)
+        return Error{.what = "size of the output",
+                     .expected = "one cell and one feature for each of " + std::to_string(count) + " points",
+                     .found = std::to_string(cells.size()) + " and " + std::to_string(features.size())};
+    LocationCounts all;
+    detail::in_arena(threads, [&] {
+        detail::for_chunks(*data_, points, all, [&](std::size_t first, std::size_t) {
+            return [&, first](const detail::PointRecord* records, std::size_t n, const detail::Place* owner,
+                              const Feature* feature) {
+                for (std::size_t i = 0; i < n; ++i) {
+                    const std::size_t to = first + records[i].number;
+                    cells[to] = owner[i] < 0 ? -1 : data_->index.original[static_cast<std::size_t>(owner[i])];
+                    features[to] = feature[i];
+                }
+            };
+        });
+    });
+    if (counts != nullptr) counts->add(all);
+    return Done{};
+}
+
+Result<AllLocations> Locator::locate_all(std::span<const double> points, LocationCounts* counts, int threads) const {
+    if (Status status = check_points(*this, points); !status) return status.error();
+    struct Found {
+        std::size_t point;
+        Mesh::Index cell;
+        Feature feature;
+    };
+    const std::size_t d = data_->index.dimension(), count = points.size() / d;
+    constexpr std::size_t block = std::size_t{1} << 13;
+    const std::size_t blocks = (count + block - 1) / block;
+    std::vector<std::vector<Found>> found(blocks);
+    std::vector<LocationCounts> parts(blocks);
+    detail::in_arena(threads, [&] {
+        tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+            const std::size_t first = b * block, size = std::min(block, count - first);
+            detail::SortedPoints sorted;
+            sorted.sort(d, data_->index.bins, points.subspan(d * first, d * size));
+            detail::Finder finder(*data_);
+            for (std::size_t at = 0; at < size; at += detail::chunk_size) {
+                const detail::PointRecord* const chunk = sorted.data() + at;
+                finder.find_all(chunk, std::min(detail::chunk_size, size - at), parts[b],
+                                [&](std::uint32_t point, Mesh::Index cell, Feature feature) {
+                                    found[b].push_back({first + chunk[point].number, cell, feature});
+                                });
+            }
+            std::sort(found[b].begin(), found[b].end(), [](const Found& x, const Found& y) {
+                return std::pair(x.point, x.cell) < std::pair(y.point, y.cell);
+            });
+        });
+    });
+    AllLocations all;
+    LocationCounts sum;
+    for (std::size_t b = 0; b < blocks; ++b) {
+        sum.add(parts[b]);
+        std::size_t at = 0;
+        for (std::size_t i = b * block; i < std::min(count, (b + 1) * block); ++i) {
+            const bool inside = at < found[b].size() && found[b][at].point == i;
+            sum.add(inside ? found[b][at].feature : Feature::outside);
+            for (; at < found[b].size() && found[b][at].point == i; ++at) {
+                all.cells.push_back(found[b][at].cell);
+                all.features.push_back(found[b][at].feature);
+            }
+            all.begin.push_back(all.cells.size());
+        }
+    }
+    if (counts != nullptr) counts->add(sum);
+    return all;
+}
+
+Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
+    const detail::CellIndex& index = data_->index;
+    const std::size_t d = index.dimension();
+    if (Status status = detail::check_finite({point, d}, d); !status) return status.error();
+    detail::PointRecord record{};
+    for (std::size_t k = 0; k < d; ++k) record.at[k] = point[k];
+    record.bin = index.bins.of(point);
+    detail::Finder finder(*data_);
+    detail::Place owner = -1;
+    Feature feature = Feature::outside;
+    LocationCounts ignored;
+    if (hint >= 0 && static_cast<std::size_t>(hint) < index.cell_count()) {
+        finder.find_from(data_->places()[static_cast<std::size_t>(hint)], record, owner, feature);
+    } else {
+        finder.find(&record, 1, &owner, &feature, ignored);
+    }
+    return Location{owner < 0 ? -1 : index.original[static_cast<std::size_t>(owner)], feature};
+}
+
+}  // namespace barycert

@@ -1,0 +1,64 @@
+/// Internal: all that a Locator keeps.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "barycert/locate/cell_index.hpp"
+#include "barycert/locate/cell_tree.hpp"
+#include "barycert/locate/locator.hpp"
+#include "barycert/locate/node_cells.hpp"
+
+namespace barycert::detail {
+
+/// Made on first need, by one thread while others wait.
+template <class T>
+class Lazy {
+public:
+    template <class Make>
+    const T& get(Make make) const {
+        std::call_once(once_, [&] { value_ = std::make_unique<T>(make()); });
+        return *value_;
+    }
+    /// What there is; for sums that need not be up to date.
+    const T* made() const { return value_.get(); }
+
+private:
+    mutable std::once_flag once_;
+    mutable std::unique_ptr<T> value_;
+};
+
+struct LocatorData {
+    const Mesh* mesh = nullptr;
+    Method method = Method::candidates;
+    CellIndex index;
+
+    const CellTree& tree() const {
+        return tree_.get([&] { return CellTree(index); });
+    }
+    const NodeCells& node_cells() const {
+        return node_cells_.get([&] { return NodeCells(index); });
+    }
+    /// Place of each cell of the mesh.
+    const std::vector<Place>& places() const {
+        return places_.get([&] {
+            std::vector<Place> places(index.cell_count());
+            for (std::size_t c = 0; c < places.size(); ++c)
+                places[static_cast<std::size_t>(index.original[c])] = static_cast<Place>(c);
+            return places;
+        });
+    }
+    std::size_t bytes() const {
+        return index.bytes() + (tree_.made() ? tree_.made()->bytes() : 0) +
+               (node_cells_.made() ? node_cells_.made()->bytes() : 0) +
+               (places_.made() ? places_.made()->size() * sizeof(Place) : 0);
+    }
+
+private:
+    Lazy<CellTree> tree_;
+    Lazy<NodeCells> node_cells_;
+    Lazy<std::vector<Place>> places_;
+};
+
+}  // namespace barycert::detail

@@ -1,0 +1,53 @@
+/// Internal: the cells at each node, to name all cells around a vertex or edge.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "barycert/core/weight_signs.hpp"
+#include "barycert/locate/cell_index.hpp"
+
+namespace barycert::detail {
+
+class NodeCells {
+public:
+    explicit NodeCells(const CellIndex& index);
+
+    /// Those of a node, by ascending cell of the mesh.
+    std::span<const Place> of(Place node) const {
+        const auto i = static_cast<std::size_t>(node);
+        return {cells_.data() + begin_[i], begin_[i + 1] - begin_[i]};
+    }
+    std::size_t bytes() const { return begin_.size() * sizeof(std::uint32_t) + cells_.size() * sizeof(Place); }
+
+    /// found(cell) for each cell that has the vertex, edge or face on which a point with these signs lies, by ascending
+    /// cell of the mesh, until it returns false. In a simplicial complex these are the cells that hold the point.
+    /// Precondition: the signs are those of a point in the closed cell.
+    template <class F>
+    void for_each_around(const CellIndex& index, Place cell, WeightSigns signs, F found) const {
+        const std::size_t corners = index.corners();
+        const CellRecord& record = index.cells[static_cast<std::size_t>(cell)];
+        std::array<Place, 4> support;
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < corners; ++i) {
+            if (signs.sign(static_cast<int>(i)) != Sign::zero) support[count++] = record.node[i];
+        }
+        for (const Place candidate : of(support[0])) {
+            const auto& nodes = index.cells[static_cast<std::size_t>(candidate)].node;
+            bool all = true;
+            for (std::size_t i = 1; i < count; ++i) {
+                bool has = false;
+                for (std::size_t k = 0; k < corners; ++k) has |= nodes[k] == support[i];
+                all &= has;
+            }
+            if (all && !found(candidate)) return;
+        }
+    }
+
+private:
+    std::vector<std::uint32_t> begin_;
+    std::vector<Place> cells_;
+};
+
+}  // namespace barycert::detail

@@ -1,0 +1,133 @@
+#include "barycert/locate/walk_lanes.hpp"
+
+// The targets are those of core/lanes.cpp.
+#define HWY_DISABLED_TARGETS \
+    (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "barycert/locate/walk_lanes.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, as Highway wants it.
+#include <hwy/highway.h>
+
+#include "barycert/core/filter-inl.hpp"
+#include "barycert/locate/records-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace barycert {
+namespace HWY_NAMESPACE {
+
+using detail::CellRecord;
+using detail::NodeRecord;
+using detail::Place;
+using detail::PointRecord;
+using detail::Walk;
+
+struct StepTargets {
+    Place* inside;
+    Walk* going;
+    Walk* stuck;
+    std::size_t going_count, stuck_count;
+};
+
+/// Steps of the walks [at, at + width). What is proved is proved as in filter-inl.hpp. If all numerators are certainly
+/// of one sign, so is the denominator, their exact sum.
+template <Simplex s, class D>
+HWY_INLINE void step(D tag, const CellRecord* cells, const NodeRecord* nodes, const PointRecord* points,
+                     const Walk* walks, StepTargets& to) {
+    using V = hn::Vec<D>;
+    constexpr std::size_t width = hn::MaxLanes(D());
+    constexpr int n = vertex_count(s), d = space_dimension(s);
+    V p[4];
+    load_records(
+        tag, [&](std::size_t l) HWY_ATTR { return points[walks[l].point].at.data(); }, p);
+    Relative<s, V> c;
+    for (int i = 0; i < n; ++i) {
+        V v[4];
+        load_records(
+            tag,
+            [&](std::size_t l) HWY_ATTR {
+                const Place node = cells[walks[l].cell].node[static_cast<std::size_t>(i)];
+                return nodes[node].at.data();
+            },
+            v);
+        for (int k = 0; k < d; ++k) c.r[i][k] = v[k] - p[k];
+    }
+    Fractions<s, V> f;
+    solve(c, hn::Zero(tag), f);
+    const Bounds<D> bound = filter_bounds<s>(tag, c);
+
+    const V flip = hn::And(f.denominator, hn::SignBit(tag));
+    V lowest = hn::Xor(f.numerator[0], flip);
+    V face = hn::Zero(tag);
+    V numerator[n];
+    numerator[0] = lowest;
+    for (int i = 1; i < n; ++i) {
+        numerator[i] = hn::Xor(f.numerator[i], flip);
+        face = hn::IfThenElse(hn::Lt(numerator[i], lowest), hn::Set(tag, i), face);
+        lowest = hn::Min(lowest, numerator[i]);
+    }
+    const auto inside = hn::And(bound.valid, hn::Gt(lowest, bound.numerator));
+    const auto beyond = hn::And(bound.valid, hn::Lt(lowest, hn::Neg(bound.numerator)));
+    std::uint8_t inside_bits[8] = {}, beyond_bits[8] = {};
+    hn::StoreMaskBits(tag, inside, inside_bits);
+    hn::StoreMaskBits(tag, beyond, beyond_bits);
+    HWY_ALIGN double faces[width];
+    hn::Store(face, tag, faces);
+    // Without branches: nothing could predict them.
+    for (std::size_t l = 0; l < width; ++l) {
+        const Walk walk = walks[l];
+        const Place next = cells[walk.cell].next[static_cast<std::size_t>(faces[l])];
+        const std::size_t arrived = inside_bits[0] >> l & 1;
+        const std::size_t goes_on = beyond_bits[0] >> l & (next >= 0 ? 1U : 0U);
+        to.inside[walk.point] = arrived != 0 ? walk.cell : -1;
+        __builtin_prefetch(&cells[next >= 0 ? next : 0]);  // what it names is read in the next round
+        to.going[to.going_count] = {walk.point, next};
+        to.going_count += goes_on;
+        to.stuck[to.stuck_count] = walk;
+        to.stuck_count += 1 - (arrived | goes_on);
+    }
+}
+
+template <Simplex s>
+std::size_t step_all(const detail::CellIndex& index, const PointRecord* points, Walk* walks, std::size_t count,
+                     Place* inside, Walk* stuck, std::size_t& stuck_count) {
+    StepTargets to{inside, walks, stuck, 0, stuck_count};
+    std::size_t at = 0;
+    const auto run = [&](auto tag) HWY_ATTR {
+        constexpr std::size_t width = hn::MaxLanes(decltype(tag)());
+        // Copied before the walks that go on are moved over them.
+        Walk block[width];
+        for (; at + width <= count; at += width) {
+            for (std::size_t l = 0; l < width; ++l) block[l] = walks[at + l];
+            step<s>(tag, index.cells.data(), index.nodes.data(), points, block, to);
+        }
+    };
+    run(hn::ScalableTag<double>());
+    run(hn::CappedTag<double, 1>());
+    stuck_count = to.stuck_count;
+    return to.going_count;
+}
+
+std::size_t step_walks(const detail::CellIndex& index, const PointRecord* points, Walk* walks, std::size_t count,
+                       Place* inside, Walk* stuck, std::size_t& stuck_count) {
+    return index.simplex == Simplex::triangle
+               ? step_all<Simplex::triangle>(index, points, walks, count, inside, stuck, stuck_count)
+               : step_all<Simplex::tetrahedron>(index, points, walks, count, inside, stuck, stuck_count);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace barycert
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace barycert {
+
+HWY_EXPORT(step_walks);
+
+std::size_t detail::step_walks(const CellIndex& index, const PointRecord* points, Walk* walks, std::size_t count,
+                               Place* inside, Walk* stuck, std::size_t& stuck_count) {
+    return HWY_DYNAMIC_DISPATCH(step_walks)(index, points, walks, count, inside, stuck, stuck_count);
+}
+
+}  // namespace barycert
+#endif
