@@ -39,24 +39,27 @@ inline Status check_finite(std::span<const double> points, std::size_t d, std::s
                  .found = std::to_string(points[bad])};
 }
 
-/// For blocks of the points, on all threads of the calling arena: worker = make(number of the first point of the block,
-/// its count); then worker(records, count, owners, features) for each chunk of the sorted block, where the number of a
-/// record counts within its block. Precondition: finite points.
-template <class Make>
-void for_chunks(const LocatorData& data, std::span<const double> points, LocationCounts& counts, Make make) {
-    const std::size_t d = data.index.dimension(), count = points.size() / d;
-    // Points of a block are sorted together: the more there are, the nearer they lie to each other.
+/// How many points are sorted together: the more there are, the nearer they lie to each other.
+inline std::size_t block_of(std::size_t count) {
     constexpr std::size_t least = std::size_t{1} << 13, most = std::size_t{1} << 20;
     const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-    const std::size_t block = std::clamp((count + threads - 1) / threads, least, most);
-    const std::size_t blocks = (count + block - 1) / block;
+    return std::clamp((count + threads - 1) / threads, least, most);
+}
+
+/// For blocks of the points, on all threads of the calling arena: worker = make(number of the first point of the
+/// block); worker(records, count, owners, features) for each chunk of the sorted block, where the number of a record
+/// counts within its block; done(number of the first point, worker) in the end. Precondition: finite points.
+template <class Make, class Done>
+void for_chunks(const LocatorData& data, std::span<const double> points, LocationCounts& counts, Make make, Done done) {
+    const std::size_t d = data.index.dimension(), count = points.size() / d;
+    const std::size_t block = block_of(count), blocks = (count + block - 1) / block;
     std::vector<LocationCounts> parts(blocks);
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
         const std::size_t first = b * block, size = std::min(block, count - first);
         SortedPoints sorted;
         sorted.sort(d, data.index.bins, points.subspan(d * first, d * size));
         Finder finder(data);
-        auto worker = make(first, size);
+        auto worker = make(first);
         std::array<Place, chunk_size> owner;
         std::array<Feature, chunk_size> feature;
         for (std::size_t at = 0; at < size; at += chunk_size) {
@@ -64,6 +67,7 @@ void for_chunks(const LocatorData& data, std::span<const double> points, Locatio
             finder.find(sorted.data() + at, n, owner.data(), feature.data(), parts[b]);
             worker(sorted.data() + at, n, owner.data(), feature.data());
         }
+        done(first, worker);
     });
     for (const LocationCounts& part : parts) counts.add(part);
 }

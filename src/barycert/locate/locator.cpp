@@ -77,17 +77,18 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
                      .expected = "one cell and one feature for each of " + std::to_string(count) + " points",
                      .found = std::to_string(cells.size()) + " and " + std::to_string(features.size())};
     LocationCounts all;
+    const auto write_to = [&](std::size_t first) {
+        return [&, first](const detail::PointRecord* records, std::size_t n, const detail::Place* owner,
+                          const Feature* feature) {
+            for (std::size_t i = 0; i < n; ++i) {
+                const std::size_t to = first + records[i].number;
+                cells[to] = owner[i] < 0 ? -1 : data_->index.original[static_cast<std::size_t>(owner[i])];
+                features[to] = feature[i];
+            }
+        };
+    };
     detail::in_arena(threads, [&] {
-        detail::for_chunks(*data_, points, all, [&](std::size_t first, std::size_t) {
-            return [&, first](const detail::PointRecord* records, std::size_t n, const detail::Place* owner,
-                              const Feature* feature) {
-                for (std::size_t i = 0; i < n; ++i) {
-                    const std::size_t to = first + records[i].number;
-                    cells[to] = owner[i] < 0 ? -1 : data_->index.original[static_cast<std::size_t>(owner[i])];
-                    features[to] = feature[i];
-                }
-            };
-        });
+        detail::for_chunks(*data_, points, all, write_to, [](std::size_t, const auto&) {});
     });
     if (counts != nullptr) counts->add(all);
     return Done{};
