@@ -1,12 +1,15 @@
 /// Cells for the tests of gradients and quadratic fields, and their exact gradients by elimination.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "barycert/core/random.hpp"
 #include "barycert/core/simplex.hpp"
+#include "barycert/core/text.hpp"
 #include "exact/cases.hpp"
 #include "exact/second_path.hpp"
 
@@ -56,6 +59,46 @@ inline std::optional<std::vector<mpq_class>> exact_gradient(const Case& c) {
     std::vector<Q> g;
     for (const auto& row : rows) g.push_back(row[d]);
     return g;
+}
+
+/// A case with values at the mid-edge nodes besides, in the order of quadratic.hpp.
+struct QuadraticCase {
+    Case linear;
+    std::vector<double> mids;
+
+    /// Corners first.
+    std::vector<double> nodal() const {
+        const auto n = static_cast<std::ptrdiff_t>(vertex_count(linear.simplex));
+        std::vector<double> all(linear.values.begin(), linear.values.begin() + n);
+        all.insert(all.end(), mids.begin(), mids.end());
+        return all;
+    }
+};
+
+inline std::string describe(const QuadraticCase& q) {
+    std::string text = testing_cases::describe(q.linear) + "\n  mids";
+    for (const double f : q.mids) text += ' ' + hexadecimal(f);
+    return text;
+}
+
+/// The corners of edge e.
+inline std::array<int, 2> edge(std::size_t e) {
+    constexpr std::array<std::array<int, 2>, 6> edges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+    return edges[e];
+}
+
+/// The exact value by the formula as it stands; nothing if degenerate.
+inline std::optional<mpq_class> exact_quadratic(const QuadraticCase& q) {
+    using second_path::Q;
+    const auto l = second_path::weights(q.linear);
+    if (!l) return std::nullopt;
+    Q sum(0);
+    for (std::size_t i = 0; i < l->size(); ++i) sum += (*l)[i] * (2 * (*l)[i] - 1) * Q(q.linear.values[i]);
+    for (std::size_t e = 0; e < q.mids.size(); ++e) {
+        const auto [i, j] = edge(e);
+        sum += 4 * (*l)[static_cast<std::size_t>(i)] * (*l)[static_cast<std::size_t>(j)] * Q(q.mids[e]);
+    }
+    return sum;
 }
 
 }  // namespace barycert::testing_fields

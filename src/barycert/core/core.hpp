@@ -10,8 +10,8 @@
 ///   S2  Even permutations keep a sign, odd ones flip it; powers of two keep it.          predicates.hpp, insphere.hpp
 ///   W1  A weight has the exact sign; it is zero only if the exact one is, or rounds to it.   weights.hpp
 ///   W2  A weight is the exact one rounded to nearest, ties to even.                          weights.hpp
-///   V1  A value is the exact sum of weight times nodal value, rounded once.                  weights.hpp
-///   V2  A point that two cells share has the same value, to the bit, from both.              weights.hpp
+///   V1  A value is the exact sum of weight times nodal value, rounded once.                  weights.hpp, quadratic.hpp
+///   V2  A point that two cells share has the same value, to the bit, from both.              weights.hpp, quadratic.hpp
 ///   G1  A gradient's component is the exact one rounded to nearest, ties to even.             gradient.hpp
 ///   D1  Results depend on the input bits alone: not on threads, SIMD target, compiler,
 ///       optimisation, or the order of cases.
@@ -38,6 +38,7 @@
 #include "barycert/core/insphere.hpp"      // IWYU pragma: export
 #include "barycert/core/inverse.hpp"       // IWYU pragma: export
 #include "barycert/core/predicates.hpp"    // IWYU pragma: export
+#include "barycert/core/quadratic.hpp"     // IWYU pragma: export
 #include "barycert/core/result.hpp"        // IWYU pragma: export
 #include "barycert/core/simd.hpp"          // IWYU pragma: export
 #include "barycert/core/simplex.hpp"       // IWYU pragma: export

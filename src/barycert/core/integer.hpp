@@ -6,10 +6,11 @@
 /// rounding mode, and each operation is exact by the schoolbook, not by an error analysis.
 ///
 /// Widths. The finite doubles are multiples of 2^-1074 below 2^1024: 2098 bits, a difference of two 2099. The largest
-/// polynomial that is divided is the numerator of a value on a triangle in 3-space, of degree 4 in differences and 1 in
-/// nodal values, summed over 4 x 18 terms: 4 * 2099 + 2098 + 7 = 10501 bits, 165 limbs. Division shifts one operand
-/// left by at most 64 bits more than the other's length and by up to 63 bits: 167 limbs. One bit more, and no division,
-/// has that of insphere, of degree 5 in differences: see exact_weights.cpp.
+/// polynomial is that of a quadratic field on a tetrahedron, of degree 6 in differences and 1 in nodal values, 14704
+/// bits: see quadratic_exact.cpp. Next comes insphere, of degree 5 in differences, which is not divided: see
+/// exact_weights.cpp. The numerator of a value on a triangle in 3-space, of degree 4 in differences and 1 in nodal
+/// values, summed over 4 x 18 terms, has 4 * 2099 + 2098 + 7 = 10501 bits. Division shifts one operand left by at most
+/// 64 bits more than the other's length and by up to 63 bits: two limbs more.
 #pragma once
 
 #include <algorithm>
@@ -53,8 +54,8 @@ inline std::uint64_t subtract_with_borrow(std::uint64_t x, std::uint64_t y, Carr
 
 class Integer {
 public:
-    static constexpr int capacity = 168;
-    static_assert(64 * (capacity - 2) >= 4 * 2099 + 2098 + 7);
+    static constexpr int capacity = 232;
+    static_assert(64 * (capacity - 2) >= 14704);
 
     Integer() {}  // not `= default`: Integer() would then clear all limbs
     Integer(const Integer& other) { assign(other); }
