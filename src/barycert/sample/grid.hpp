@@ -1,0 +1,44 @@
+/// Regular grids of points.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "barycert/core/result.hpp"
+#include "barycert/mesh/mesh.hpp"
+
+namespace barycert {
+
+/// Points on lines parallel to the axes, the first coordinate running fastest. In 2D there is one layer and no third
+/// coordinate.
+struct Grid {
+    int dimension = 3;
+    std::array<std::int64_t, 3> counts{1, 1, 1};
+    std::array<double, 3> origin{}, spacing{}, last{};
+
+    /// origin + i * spacing, each operation rounded; the last one is `last` to the bit, so that a grid over a box ends
+    /// on it.
+    double coordinate(std::size_t axis, std::int64_t i) const {
+        return i == counts[axis] - 1 && i != 0 ? last[axis] : origin[axis] + static_cast<double>(i) * spacing[axis];
+    }
+    std::uint64_t layer_size() const { return static_cast<std::uint64_t>(counts[0]) * static_cast<std::uint64_t>(counts[1]); }
+    std::uint64_t point_count() const { return layer_size() * static_cast<std::uint64_t>(counts[2]); }
+};
+
+/// From low to high, ends included. An axis of one point has it in the middle of low and high. In 2D the third entries
+/// are not looked at. Errors: a count below 1 or more than 2^31 points on an axis or 2^62 in all; bounds that are not
+/// finite, or not ascending (low < high where there are several points).
+Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts, const std::array<double, 3>& low,
+                       const std::array<double, 3>& high);
+
+/// From low on in steps of `spacing` (> 0) as far as high. Errors: as above.
+Result<Grid> grid_spaced(int dimension, const std::array<double, 3>& spacing, const std::array<double, 3>& low,
+                         const std::array<double, 3>& high);
+
+/// The box of the nodes that cells have; nothing but zeros if there are no cells.
+struct Bounds3 {
+    std::array<double, 3> low{}, high{};
+};
+Bounds3 bounds_of_cells(const Mesh& mesh);
+
+}  // namespace barycert
