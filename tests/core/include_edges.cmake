@@ -5,6 +5,7 @@ set(may_core core)
 set(may_kernels core kernels)
 set(may_mesh core mesh)
 set(may_plc core plc)
+set(may_points core mesh points)
 set(may_check core mesh plc check)
 set(may_vtk core mesh vtk)  # and no other folder may include it: VTK is optional
 set(may_locate core mesh check locate)

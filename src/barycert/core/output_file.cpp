@@ -73,6 +73,17 @@ OutputFile::OutputFile(std::string target) : target_(std::move(target)), real_pa
     }
 }
 
+OutputFile::OutputFile(std::string name, int descriptor, int error_number)
+    : target_(std::move(name)), descriptor_(descriptor) {
+    if (descriptor_ < 0) fail("cannot open the file for writing", error_number);
+}
+
+OutputFile OutputFile::standard_output() {
+    // A copy, so that it can be closed and tell of errors. Not 0 to 2: a process may run with those closed.
+    const int copy = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    return {"standard output", copy, errno};
+}
+
 void OutputFile::open_beside() {
     static std::atomic<unsigned> count{0};
     // O_EXCL: a name left over by a killed run, or planted as a link, is passed over.
@@ -102,6 +113,20 @@ void OutputFile::write(std::string_view bytes) {
     }
 }
 
+void OutputFile::replace(std::uint64_t offset, std::string_view bytes) {
+    if (descriptor_ < 0) return;
+    flush();
+    while (!bytes.empty() && error_.what.empty()) {
+        const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (written >= 0) {
+            bytes.remove_prefix(static_cast<std::size_t>(written));
+            offset += static_cast<std::uint64_t>(written);
+        } else if (errno != EINTR) {
+            fail("cannot write the file", errno);
+        }
+    }
+}
+
 void OutputFile::flush() {
     std::string_view rest = buffer_;
     while (!rest.empty() && error_.what.empty()) {
@@ -121,6 +146,10 @@ Status OutputFile::close() {
         // Network file systems report a full disk only here.
         if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot write the file", errno);
     }
+    return status();
+}
+
+Status OutputFile::status() const {
     if (!error_.what.empty()) return error_;
     return Done{};
 }

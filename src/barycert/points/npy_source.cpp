@@ -1,0 +1,230 @@
+// Points from an NPY file, read by blocks and not mapped: memory is bounded, and a file that shrinks meanwhile is told.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "barycert/core/text.hpp"
+#include "barycert/mesh/row_errors.hpp"
+#include "barycert/points/formats.hpp"
+#include "barycert/points/npy_header.hpp"
+
+namespace barycert::points {
+namespace {
+
+/// Numbers read at a time.
+constexpr std::size_t block_size = std::size_t{1} << 15;
+
+/// Floating-point numbers of 8 or 4 bytes as they stand in the file.
+template <class Number, class Bits>
+double number_at(const char* at, bool swapped) {
+    Bits bits = 0;
+    std::memcpy(&bits, at, sizeof bits);
+    if (swapped)
+        bits = sizeof bits == 8 ? static_cast<Bits>(__builtin_bswap64(bits))
+                                : static_cast<Bits>(__builtin_bswap32(static_cast<std::uint32_t>(bits)));
+    return std::bit_cast<Number>(bits);
+}
+
+class NpySource final : public Source {
+public:
+    NpySource(std::string path, int dimension)
+        : path_(std::move(path)), dimension_(static_cast<std::size_t>(dimension)) {}
+    ~NpySource() override {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
+    NpySource(const NpySource&) = delete;
+    NpySource& operator=(const NpySource&) = delete;
+
+    Status begin();
+
+    int dimension() const override { return static_cast<int>(dimension_); }
+    std::optional<std::uint64_t> count() const override { return count_; }
+    Result<std::size_t> read(std::size_t most, std::vector<double>& out) override;
+
+private:
+    Error failure(const char* what, std::string expected, std::string found, std::string remedy) const {
+        return {.what = what,
+                .file = path_,
+                .line = 0,
+                .expected = std::move(expected),
+                .found = std::move(found),
+                .remedy = std::move(remedy)};
+    }
+    Status open();
+    Status read_bytes(std::uint64_t offset, std::size_t size);
+    Status settle_type(const NpyHeader& header);
+    Status settle_shape(const NpyHeader& header);
+    Status read_numbers(std::uint64_t first, std::size_t count, double* out, std::size_t stride);
+
+    std::string path_;
+    std::size_t dimension_;
+    int descriptor_ = -1;
+    std::uint64_t file_size_ = 0;
+    std::uint64_t data_ = 0;  // where the numbers begin
+    std::uint64_t count_ = 0;
+    std::uint64_t next_ = 0;
+    std::size_t item_ = 8;  // bytes a number
+    bool swapped_ = false;  // the other byte order
+    bool fortran_ = false;  // all x, then all y, then all z
+    std::vector<char> bytes_;
+    Error error_;
+};
+
+Status NpySource::open() {
+    descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // must not wait for the writer of a pipe
+    struct stat status {};
+    if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
+        return failure("cannot read the file", {}, std::strerror(errno),
+                       errno == EACCES ? "ask for permission to read it" : "check the path");
+    }
+    if (!S_ISREG(status.st_mode)) {
+        return failure("cannot read the file", "a regular file",
+                       S_ISDIR(status.st_mode) ? "a folder" : "a pipe or device",
+                       "save the array to a file first; CSV can be read from a pipe");
+    }
+    file_size_ = static_cast<std::uint64_t>(status.st_size);
+    return Done{};
+}
+
+Status NpySource::read_bytes(std::uint64_t offset, std::size_t size) {
+    bytes_.resize(size);
+    for (std::size_t done = 0; done < size;) {
+        const ssize_t got = ::pread(descriptor_, bytes_.data() + done, size - done, static_cast<off_t>(offset + done));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return failure("cannot read the file", {}, std::strerror(errno), "check the disk");
+        if (got == 0) {
+            return failure("the file ends too early", "byte " + std::to_string(offset + size - 1),
+                           "the end of the file", "do not change the file while it is read");
+        }
+        done += static_cast<std::size_t>(got);
+    }
+    return Done{};
+}
+
+Status NpySource::begin() {
+    if (Status opened = open(); !opened) return opened;
+    if (Status head = read_bytes(0, std::min<std::uint64_t>(npy_head, file_size_)); !head) return head;
+    const Result<NpyText> text = find_npy_text({bytes_.data(), bytes_.size()}, path_);
+    if (!text) return text.error();
+    data_ = text->offset + text->size;
+    if (data_ > file_size_) {
+        return failure("the file ends too early", "a header of " + std::to_string(data_) + " bytes",
+                       std::to_string(file_size_), "the file may be cut short: write it again");
+    }
+    if (Status read = read_bytes(text->offset, text->size); !read) return read;
+    const Result<NpyHeader> header = parse_npy_text({bytes_.data(), bytes_.size()}, path_);
+    if (!header) return header.error();
+    if (Status type = settle_type(*header); !type) return type;
+    return settle_shape(*header);
+}
+
+Status NpySource::settle_type(const NpyHeader& header) {
+    if (header.structured) {
+        return failure("cannot read points of that type", "float64 or float32", "a structured array",
+                       dimension_ == 2 ? "save numpy.stack([a['x'], a['y']], axis=1)"
+                                       : "save numpy.stack([a['x'], a['y'], a['z']], axis=1)");
+    }
+    const std::string& type = header.descr;
+    const bool known = type == "<f8" || type == ">f8" || type == "<f4" || type == ">f4";
+    if (!known) {
+        return failure("cannot read points of that type", "float64 or float32 ('<f8', '>f8', '<f4', '>f4')",
+                       barycert::detail::quoted(type), "save a.astype('f8')");
+    }
+    item_ = type[2] == '8' ? 8 : 4;
+    swapped_ = (type[0] == '>') == (std::endian::native == std::endian::little);
+    fortran_ = header.fortran_order;
+    return Done{};
+}
+
+Status NpySource::settle_shape(const NpyHeader& header) {
+    const std::vector<std::uint64_t>& shape = header.shape;
+    const std::string d = std::to_string(dimension_);
+    if (shape.size() != 2 || shape[1] != dimension_) {
+        std::string found = "(";
+        for (const std::uint64_t n : shape) found += std::to_string(n) + (shape.size() == 1 ? "," : ", ");
+        if (shape.size() > 1) found.resize(found.size() - 2);
+        std::string remedy = "save an array with a row of " + d + " coordinates for each point";
+        if (shape.size() == 1)
+            remedy = "if it is x, y, ... of one point after the other, save a.reshape(-1, " + d + ")";
+        if (shape.size() == 2 && shape[0] == dimension_) remedy = "if it has a column for each point, save a.T";
+        if (shape.size() == 2 && shape[1] > dimension_)
+            remedy = "if the first " + d + " columns are the coordinates, save a[:, :" + d + "]";
+        return failure("an array of another shape", "(n, " + d + "), for the mesh is " + d + "-dimensional",
+                       found + ")", std::move(remedy));
+    }
+    count_ = shape[0];
+    const std::uint64_t room = file_size_ - data_;
+    const std::uint64_t row = dimension_ * item_;
+    if (count_ > room / row) {
+        return failure("the file ends too early",
+                       std::to_string(count_) + " points of " + std::to_string(row) + " bytes, as its header tells",
+                       std::to_string(room) + " bytes", "the file may be cut short: write it again");
+    }
+    if (count_ * row != room) {
+        return failure("bytes after the array", std::to_string(count_ * row) + " bytes, as the header tells",
+                       std::to_string(room), "save one array a file");
+    }
+    return Done{};
+}
+
+/// The `count` numbers of the file from number `first` on, to out[0], out[stride], ...
+Status NpySource::read_numbers(std::uint64_t first, std::size_t count, double* out, std::size_t stride) {
+    for (std::size_t done = 0; done < count;) {
+        const std::size_t size = std::min(block_size, count - done);
+        if (Status read = read_bytes(data_ + (first + done) * item_, size * item_); !read) return read;
+        for (std::size_t i = 0; i < size; ++i) {
+            const char* const at = bytes_.data() + i * item_;
+            out[(done + i) * stride] = item_ == 8 ? number_at<double, std::uint64_t>(at, swapped_)
+                                                  : static_cast<double>(number_at<float, std::uint32_t>(at, swapped_));
+        }
+        done += size;
+    }
+    return Done{};
+}
+
+Result<std::size_t> NpySource::read(std::size_t most, std::vector<double>& out) {
+    if (!error_.what.empty()) return error_;
+    const std::size_t taken = std::min<std::uint64_t>(most, count_ - next_);
+    const std::size_t before = out.size();
+    out.resize(before + taken * dimension_);
+    double* const points = out.data() + before;
+    Status read = Done{};
+    if (fortran_) {
+        for (std::size_t axis = 0; axis < dimension_ && read; ++axis) {
+            read = read_numbers(axis * count_ + next_, taken, points + axis, dimension_);
+        }
+    } else {
+        read = read_numbers(next_ * dimension_, taken * dimension_, points, 1);
+    }
+    for (std::size_t i = 0; i < taken * dimension_ && read; ++i) {
+        if (std::isfinite(points[i])) continue;
+        read = failure("a point that is not finite", "finite coordinates",
+                       shortest(points[i]) + " at [" + std::to_string(next_ + i / dimension_) + ", " +
+                           std::to_string(i % dimension_) + "]",
+                       "remove the point, or give it coordinates: a[numpy.isfinite(a).all(axis=1)]");
+    }
+    if (!read) {
+        out.resize(before);
+        return error_ = read.error();
+    }
+    next_ += taken;
+    return taken;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Source>> open_npy_source(const std::string& path, int dimension) {
+    auto source = std::make_unique<NpySource>(path, dimension);
+    if (Status begun = source->begin(); !begun) return begun.error();
+    return std::unique_ptr<Source>(std::move(source));
+}
+
+}  // namespace barycert::points
