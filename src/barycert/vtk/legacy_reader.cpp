@@ -306,6 +306,14 @@ private:
             if (Status s = text_.skip_strings(what, type, numbers); !s) return s;
         } else {
             const std::optional<NumberType> known = LegacyText::number_type_named(type);
+            if (known == NumberType::bit && components > 1 && text_.binary()) {
+                // VTK writes, and reads back, as many bits as there are rows.
+                std::vector<double> part;
+                array.fault = "VTK writes only the first bits of such an array";
+                if (Status s = text_.numbers(what, *known, rows, part); !s) return s;
+                arrays.push_back(std::move(array));
+                return Done{};
+            }
             if (!known.has_value()) {
                 return text_.error("the type of " + what, "double, float, int and the like", in_quotes(type));
             }

@@ -19,6 +19,7 @@ public:
     /// The first three lines: version, title, ASCII or BINARY.
     Status read_head();
     int major_version() const { return major_version_; }
+    bool binary() const { return binary_; }
 
     /// The next word; empty at the end of the file.
     std::string word();
