@@ -15,6 +15,9 @@
 
 namespace barycert::testing_fields {
 
+/// The simplices that fill their space.
+inline constexpr std::array<Simplex, 2> full{Simplex::triangle, Simplex::tetrahedron};
+
 /// A number of ordinary size, or of any from 2^-4 to 2^4.
 inline double nodal_value(Random& r) {
     return r.coin() ? r.uniform(-1, 1) : r.scaled(-1, 1, -4, 4);
@@ -46,6 +49,26 @@ inline Case stretched_cell(Random& r, Simplex s, int flattest = 36) {
         const bool level = r.integer(0, 9) == 0;
         if (level) c.point[static_cast<std::size_t>(k)] = c.vertex(0, k);
     }
+    return c;
+}
+
+/// A multiple of 1 of at most 2^bits in magnitude, often the largest that is a double.
+inline double of_width(Random& r, int bits) {
+    const int how = r.integer(0, 3);
+    const double sign = r.coin() ? 1 : -1;
+    if (how < 2) return sign * (std::ldexp(1, bits) - std::ldexp(1, bits > 53 ? bits - 53 : 0));
+    return how == 2 ? sign * std::trunc(std::ldexp(r.uniform(0, 1), bits)) : sign * r.integer(0, 1);
+}
+
+/// A cell, point and values whose coordinates and values need about so many bits as integers.
+inline Case case_of_widths(Random& r, Simplex s, int coordinate_bits, int value_bits) {
+    Case c{.simplex = s};
+    for (double& x : c.vertices) x = of_width(r, coordinate_bits);
+    for (double& x : c.point) x = of_width(r, coordinate_bits);
+    for (double& f : c.values) f = of_width(r, value_bits);
+    // An odd number in each: the unit is 1.
+    for (int k = 0; k < space_dimension(s); ++k) c.vertex(0, k) = r.coin() ? 1 : -1;
+    c.values[0] = 1;
     return c;
 }
 

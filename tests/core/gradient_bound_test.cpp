@@ -73,6 +73,66 @@ Case bound_case(Random& r, Simplex s) {
     return c;
 }
 
+/// The double nearest to x . y, and the double nearest to what that leaves.
+std::array<double, 2> dot_product(const std::array<double, 3>& x, const std::array<double, 3>& y, std::size_t d) {
+    double high = 0, low = 0;
+    for (std::size_t k = 0; k < d; ++k) {
+        const double p = x[k] * y[k], sum = high + p, part = sum - high;
+        low += ((high - (sum - part)) + (p - part)) + std::fma(x[k], y[k], -p);
+        high = sum;
+    }
+    const double sum = high + low;
+    return {sum, low - (sum - high)};
+}
+
+/// A field whose gradient y is nearly a double: only then may the plain solution be so good that residuals are far
+/// below their own remainders, and the bound is made of the errors of these alone. With the last vertex at the origin,
+/// the first edge takes the low part of its E.y to the last value; others are drawn until theirs is nearly the same.
+std::optional<Case> nearly_solved(Random& r, Simplex s) {
+    const auto d = static_cast<std::size_t>(space_dimension(s));
+    std::array<double, 3> y{};
+    for (double& x : y) x = r.uniform(1, 2);
+    Case c{.simplex = s};
+    for (std::size_t j = 0; j < d; ++j) {
+        std::array<double, 3> e{};
+        for (int tries = 0; tries < 10000; ++tries) {
+            for (std::size_t k = 0; k < d; ++k) e[k] = r.uniform(-1, 1) + (k == j ? 2 : 0);
+            const auto [high, low] = dot_product(e, y, d);
+            if (j == 0) c.values[d] = -low;
+            c.values[j] = high;
+            if (std::fabs(low + c.values[d]) < 0x1p-64 * std::fabs(high)) break;
+            if (tries == 9999) return std::nullopt;
+        }
+        for (std::size_t k = 0; k < d; ++k) c.vertices[d * j + k] = e[k];
+    }
+    return c;
+}
+
+TEST(GradientBound, holds_where_residuals_nearly_vanish) {
+    for (const Simplex s : {Simplex::triangle, Simplex::tetrahedron}) {
+        int close = 0;
+        double nearest_to_bound = 0;
+        for (std::uint64_t k = 0; k < 1500 && !HasFailure(); ++k) {
+            Random r = Random::stream(21, hash64("nearly solved"), k);
+            const auto c = nearly_solved(r, s);
+            if (!c) continue;
+            double g[3][3];
+            ASSERT_TRUE(HWY_DYNAMIC_DISPATCH(refined_gradients)(s, c->vertices.data(), c->values.data(), g));
+            const auto exact = testing_fields::exact_gradient(*c);
+            for (std::size_t i = 0; i < exact->size(); ++i) {
+                const Q off = abs(Q(Q(g[i][0]) + Q(g[i][1]) - (*exact)[i]));
+                EXPECT_LE(off, Q(g[i][2])) << i << ' ' << testing_cases::describe(*c);
+                nearest_to_bound = std::max(nearest_to_bound, Q(off / Q(g[i][2])).get_d());
+                close += std::fabs(g[i][1]) < 0x1p-60 ? 1 : 0;
+            }
+        }
+        EXPECT_GT(close, 40) << name(s);
+        EXPECT_GT(nearest_to_bound, 0x1p-9) << name(s);
+        RecordProperty(std::string(name(s)), std::to_string(nearest_to_bound));
+        RecordProperty(std::string(name(s)) + " close", std::to_string(close));
+    }
+}
+
 TEST(GradientBound, holds_on_every_target) {
     for (const std::string& target : simd_targets()) {
         ASSERT_TRUE(use_simd_target(target));

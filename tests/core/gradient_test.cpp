@@ -1,11 +1,8 @@
-// Laws G1 and D1 of gradients: against the oracle and against exact rationals rounded by the definition.
-#include "barycert/core/gradient.hpp"
+// Law G1 of gradients: against the oracle and against exact rationals rounded by the definition.
+#include <algorithm>
 
-#include "barycert/core/simd.hpp"
-#include "barycert/exact/gradient.hpp"
-#include "core/environments.hpp"
-#include "core/field_cases.hpp"
-#include "core/rational.hpp"
+#include "barycert/core/gradient_exact.hpp"
+#include "core/gradient_cases.hpp"
 
 namespace barycert {
 namespace {
@@ -14,42 +11,16 @@ using testing_cases::all_kinds;
 using testing_cases::describe;
 using testing_cases::Kind;
 using testing_cases::random_case;
-using testing_environments::Columns;
+using testing_fields::expect_as_oracle;
+using testing_fields::expect_gradient_law;
+using testing_fields::full;
+using testing_fields::gradient_in;
 using testing_fields::stretched_cell;
 using testing_rational::bits;
 using testing_rational::infinity;
 using testing_rational::largest;
-using testing_rational::nearest;
 
-constexpr std::array<Simplex, 2> full{Simplex::triangle, Simplex::tetrahedron};
 constexpr double tiny = 0x1p-1074;
-
-Gradient gradient_in(const Case& c) {
-    return gradient(c.simplex, c.vertices.data(), c.values.data()).value();
-}
-
-/// The oracle's bits; its degeneracy, and NaN there.
-void expect_as_oracle(const Case& c, const Gradient& g) {
-    const exact::GradientAnswer answer = exact::gradient(c);
-    ASSERT_EQ(g.degenerate, answer.degenerate) << describe(c);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(space_dimension(c.simplex)); ++k) {
-        if (answer.degenerate) {
-            EXPECT_TRUE(std::isnan(g.gradient[k]));
-        } else {
-            EXPECT_EQ(bits(g.gradient[k]), bits(answer.gradient[k])) << k << ' ' << describe(c);
-        }
-    }
-}
-
-/// Core and oracle, each rounded rightly by the definition.
-void expect_law(const Case& c) {
-    const Gradient g = gradient_in(c);
-    expect_as_oracle(c, g);
-    const auto exact = testing_fields::exact_gradient(c);
-    ASSERT_EQ(g.degenerate, !exact) << describe(c);
-    for (std::size_t k = 0; exact && k < exact->size(); ++k)
-        EXPECT_TRUE(nearest(g.gradient[k], (*exact)[k])) << k << ' ' << describe(c);
-}
 
 TEST(LawG1, by_hand) {
     // f = 1 + 2x - 3y (+ 5z) in the unit cell.
@@ -71,7 +42,7 @@ TEST(LawG1, every_kind_of_number) {
         for (const Kind kind : all_kinds) {
             for (std::uint64_t k = 0; k < 600 && !HasFailure(); ++k) {
                 Random r = Random::stream(22, hash64("gradients"), k);
-                expect_law(random_case(r, s, kind));
+                expect_gradient_law(random_case(r, s, kind));
             }
         }
     }
@@ -96,7 +67,7 @@ TEST(LawG1, rounded_at_the_ends_of_the_range) {
     const auto slope = [](double length, double rise) {
         Case c{.simplex = Simplex::triangle, .values = {0, rise, 0}};
         c.vertices = {0, 0, length, 0, 0, 1};
-        expect_law(c);
+        expect_gradient_law(c);
         return gradient_in(c).gradient[0];
     };
     EXPECT_EQ(slope(tiny, 1), infinity);
@@ -119,6 +90,23 @@ TEST(LawG1, rounded_at_the_ends_of_the_range) {
     c.values = {-0.0, -0.0, 0.0};  // zero is +0
     EXPECT_EQ(bits(gradient_in(c).gradient[0]), 0U);
     EXPECT_EQ(gradient_in(c).tier, Tier::double_double);
+}
+
+// The last tier alone, where integers of one limb give way to two, and two to more.
+TEST(LawG1, integers_of_every_width) {
+    for (const Simplex s : full) {
+        for (const int coordinate_bits : {3, 58, 60, 61, 62, 63, 64, 122, 124, 125, 126, 127, 128, 400}) {
+            for (const int value_bits : {3, 59, 60, 61, 62, 63, 64, 123, 125, 126, 128, 900}) {
+                for (std::uint64_t k = 0; k < 30 && !HasFailure(); ++k) {
+                    Random r = Random::stream(22, hash64("widths"), k);
+                    const Case c = testing_fields::case_of_widths(r, s, coordinate_bits, value_bits);
+                    Gradient g;
+                    g.degenerate = !exact_gradient(s, c.vertices.data(), c.values.data(), g.gradient.data());
+                    expect_as_oracle(c, g);
+                }
+            }
+        }
+    }
 }
 
 // A linear field with short coefficients on short coordinates is given back to the bit.
@@ -164,208 +152,6 @@ TEST(LawG1, the_order_of_vertices_does_not_matter) {
                 for (std::size_t m = 0; m < d; ++m) ASSERT_EQ(bits(g.gradient[m]), bits(first.gradient[m]));
             }
         }
-    }
-}
-
-/// A mesh of the cells of cases, each with nodes of its own, and `components` values a node: those of the case, then
-/// others.
-struct CellMesh {
-    std::vector<Case> cases;
-    Columns columns;
-    std::vector<double> values;
-    int components;
-
-    CellMesh(Simplex s, std::vector<Case> all, int count, Random& r)
-        : cases(std::move(all)), columns(s, cases), components(count) {
-        for (const Case& c : cases) {
-            for (int i = 0; i < vertex_count(s); ++i) {
-                values.push_back(c.values[static_cast<std::size_t>(i)]);
-                for (int m = 1; m < count; ++m) values.push_back(testing_fields::nodal_value(r));
-            }
-        }
-    }
-    Status ask(std::vector<double>& out, Tiers* tiers) const {
-        const MeshQueries q = columns.mesh();
-        out.assign(cases.size() * static_cast<std::size_t>(components * space_dimension(q.simplex)), -1);
-        return gradients(q.simplex, q.nodes, q.corners, {values, components}, out, tiers);
-    }
-    /// Case j with the values of component m.
-    Case at(std::size_t j, int m) const {
-        Case c = cases[j];
-        const auto n = static_cast<std::size_t>(vertex_count(c.simplex)), count = static_cast<std::size_t>(components);
-        for (std::size_t i = 0; i < n; ++i) c.values[i] = values[count * (n * j + i) + static_cast<std::size_t>(m)];
-        return c;
-    }
-};
-
-// Every count around the width of vectors and blocks; every target; the tiers are those of single calls.
-TEST(GradientBatch, is_single_calls_on_every_target) {
-    for (const Simplex s : full) {
-        const auto d = static_cast<std::size_t>(space_dimension(s));
-        for (const std::size_t count : {0, 1, 2, 7, 8, 9, 127, 128, 129, 300}) {
-            for (const int components : {1, 2, 3}) {
-                Random r = Random::stream(23, hash64("batch"), 10 * count + static_cast<std::size_t>(components));
-                std::vector<Case> cases;
-                for (std::size_t j = 0; j < count; ++j) {
-                    const Kind kind = all_kinds[r.below(all_kinds.size())];
-                    const bool easy = r.integer(0, 3) != 0;
-                    cases.push_back(easy ? stretched_cell(r, s) : random_case(r, s, kind));
-                }
-                const CellMesh mesh(s, cases, components, r);
-                Tiers single;
-                std::vector<std::uint64_t> expected;
-                for (std::size_t j = 0; j < count; ++j) {
-                    Tier highest = Tier::double_double;
-                    bool degenerate = false;
-                    for (int m = 0; m < components; ++m) {
-                        const Gradient g = gradient_in(mesh.at(j, m));
-                        highest = std::max(highest, g.tier);
-                        degenerate = g.degenerate;
-                        for (std::size_t k = 0; k < d; ++k) expected.push_back(g.degenerate ? 0 : bits(g.gradient[k]));
-                    }
-                    single.add(highest);
-                    single.degenerate += degenerate ? 1 : 0;
-                }
-                for (const std::string& target : simd_targets()) {
-                    ASSERT_TRUE(use_simd_target(target));
-                    std::vector<double> out;
-                    Tiers tiers;
-                    ASSERT_TRUE(mesh.ask(out, &tiers));
-                    EXPECT_EQ(tiers, single) << target;
-                    ASSERT_EQ(out.size(), expected.size());
-                    for (std::size_t i = 0; i < out.size(); ++i)
-                        EXPECT_EQ(std::isnan(out[i]) ? 0 : bits(out[i]), expected[i]) << target << ' ' << i;
-                }
-                use_simd_target("");
-            }
-        }
-    }
-}
-
-TEST(GradientTiers, ordinary_cells_need_double_double_alone) {
-    for (const Simplex s : full) {
-        Random r = Random::stream(23, hash64("ordinary"), 0);
-        std::vector<Case> cases;
-        for (int j = 0; j < 20000; ++j) {
-            Case c = random_case(r, s, Kind::ordinary);
-            for (std::size_t i = 0; i < 12; ++i) c.vertices[i] = r.uniform(-1, 1);
-            for (double& f : c.values) f = r.uniform(-1, 1);
-            cases.push_back(c);
-        }
-        const CellMesh mesh(s, cases, 1, r);
-        std::vector<double> out;
-        Tiers tiers;
-        ASSERT_TRUE(mesh.ask(out, &tiers));
-        EXPECT_LE(tiers.exact, 5U) << name(s);
-        EXPECT_EQ(tiers.cases(), cases.size());
-    }
-}
-
-TEST(GradientTiers, exact_zeros_and_wide_exponents_need_integers) {
-    Case c{.simplex = Simplex::tetrahedron, .values = {1, 2, 1, 1}};
-    c.vertices = {0, 0, 0, 1, 0.1, 0.3, 0, 1, 0, 0, 0, 1};
-    EXPECT_EQ(gradient_in(c).tier, Tier::exact);  // (1, 0, 0)
-    c.values = {1, 2.3, 3.6, 7.7};
-    EXPECT_EQ(gradient_in(c).tier, Tier::double_double);
-    for (const double scale : {0x1p-520, 0x1p910}) {  // values out of range
-        Case scaled = c;
-        for (double& f : scaled.values) f *= scale;
-        EXPECT_EQ(gradient_in(scaled).tier, Tier::exact);
-        expect_law(scaled);
-    }
-    for (const double scale : {0x1p-210, 0x1p200}) {  // cells out of range
-        Case scaled = c;
-        for (double& x : scaled.vertices) x *= scale;
-        EXPECT_EQ(gradient_in(scaled).tier, Tier::exact);
-        expect_law(scaled);
-    }
-}
-
-TEST(GradientBatch, degenerate_and_not_finite_are_counted) {
-    for (const Simplex s : full) {
-        const auto d = static_cast<std::size_t>(space_dimension(s));
-        Random r = Random::stream(23, hash64("counted"), 0);
-        std::vector<Case> cases;
-        for (int j = 0; j < 20; ++j) cases.push_back(stretched_cell(r, s, 0));
-        CellMesh mesh(s, cases, 2, r);
-        // Cell 3 is degenerate: two corners are one.
-        std::vector<std::int32_t> corners(mesh.columns.mesh().corners.begin(), mesh.columns.mesh().corners.end());
-        corners[(d + 1) * 3] = corners[(d + 1) * 3 + 1];
-        const std::size_t node_5 = static_cast<std::size_t>(corners[(d + 1) * 5 + 2]);
-        const std::size_t node_7 = static_cast<std::size_t>(corners[(d + 1) * 7]);
-        mesh.values[2 * node_5] = infinity;                                           // component 0 of cell 5
-        mesh.values[2 * node_7 + 1] = std::nan("");                                   // component 1 of cell 7
-        mesh.values[2 * static_cast<std::size_t>(corners[(d + 1) * 3])] = -infinity;  // of the degenerate one
-        std::vector<double> out(cases.size() * d * 2);
-        Tiers tiers;
-        const MeshQueries q = mesh.columns.mesh();
-        ASSERT_TRUE(gradients(s, q.nodes, corners, {mesh.values, 2}, out, &tiers));
-        EXPECT_EQ(tiers.degenerate, 1U);
-        EXPECT_EQ(tiers.not_finite, 3U);
-        EXPECT_EQ(tiers.exact, 3U);
-        EXPECT_EQ(tiers.double_double, 17U);
-        for (std::size_t j = 0; j < cases.size(); ++j) {
-            for (std::size_t m = 0; m < 2; ++m) {
-                const bool bad = j == 3 || (j == 5 && m == 0) || (j == 7 && m == 1);
-                for (std::size_t k = 0; k < d; ++k)
-                    EXPECT_EQ(std::isnan(out[(2 * j + m) * d + k]), bad) << j << ' ' << m;
-                if (j == 5 && m == 1) expect_as_oracle(mesh.at(j, 1), gradient_in(mesh.at(j, 1)));
-            }
-        }
-        // The usable component of a cell with a NaN is right to the bit.
-        const auto other = exact::gradient(mesh.at(5, 1));
-        for (std::size_t k = 0; k < d; ++k) EXPECT_EQ(bits(out[(2 * 5 + 1) * d + k]), bits(other.gradient[k]));
-        // A single call says the same.
-        const Gradient g = gradient_in(mesh.at(5, 0));
-        EXPECT_TRUE(std::isnan(g.gradient[0]));
-        EXPECT_FALSE(g.degenerate);
-    }
-}
-
-TEST(GradientBatch, errors_are_told) {
-    const std::array<double, 6> v{0, 0, 1, 0, 0, 1};
-    const std::array<double, 3> f{0, 1, 2};
-    const std::array<std::int32_t, 3> corners{0, 1, 2};
-    std::array<double, 2> out{};
-    Tiers tiers;
-    const auto ask = [&](Simplex s, std::span<const std::int32_t> cells, int components, std::span<double> to) {
-        return gradients(s, v, cells, {f, components}, to, &tiers);
-    };
-    EXPECT_TRUE(ask(Simplex::triangle, corners, 1, out));
-    EXPECT_EQ(tiers.cases(), 1U);
-    for (const Simplex s : {Simplex::segment, Simplex::triangle3d}) {
-        ASSERT_FALSE(ask(s, corners, 1, out));
-        EXPECT_EQ(ask(s, corners, 1, out).error().expected, "triangle or tetrahedron");
-        EXPECT_FALSE(gradient(s, v.data(), f.data()));
-    }
-    EXPECT_EQ(ask(Simplex::triangle, corners, 0, out).error().what, "number of components");
-    EXPECT_EQ(ask(Simplex::triangle, {corners.data(), 2}, 1, out).error().what, "size of the corners");
-    EXPECT_EQ(ask(Simplex::triangle, corners, 1, {out.data(), 1}).error().what, "size of the output");
-    auto spoilt = v;
-    spoilt[3] = infinity;
-    const auto status = gradients(Simplex::triangle, spoilt, corners, {f, 1}, out, &tiers);
-    ASSERT_FALSE(status);
-    EXPECT_EQ(status.error().what, "cell 0: coordinate 1 of vertex 1");
-    EXPECT_EQ(gradient(Simplex::triangle, spoilt.data(), f.data()).error().what, "coordinate 1 of vertex 1");
-    EXPECT_EQ(tiers.cases(), 1U);  // failures add nothing
-}
-
-TEST(GradientEnvironment, what_could_not_round_is_refused) {
-    const std::array<double, 6> v{0, 0, 1, 0, 0, 1};
-    const std::array<double, 3> f{0, 1, 2};
-    const std::array<std::int32_t, 3> corners{0, 1, 2};
-    for (const auto& environment : testing_environments::all_environments()) {
-        std::array<double, 2> out{};
-        std::string single, batch;
-        {
-            const testing_environments::Changed changed(environment);
-            const auto g = gradient(Simplex::triangle, v.data(), f.data());
-            const auto s = gradients(Simplex::triangle, v, corners, {f, 1}, out);
-            if (!g) single = g.error().found;
-            if (!s) batch = s.error().found;
-        }
-        EXPECT_EQ(single, environment.found) << environment.name;
-        EXPECT_EQ(batch, environment.found) << environment.name;
     }
 }
 

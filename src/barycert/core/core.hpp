@@ -2,17 +2,18 @@
 /// of floating point where floating point is enough.
 ///
 /// Enters: vertices of segments, triangles (in the plane or in 3-space) and tetrahedra, points, nodal values, as
-/// doubles in any unit. Leaves: signs, weights, values, points. Errors come as Result or Status; nothing prints
-/// or exits, and only want of memory throws.
+/// doubles in any unit. Leaves: signs, weights, values, gradients, points. Errors come as Result or Status; nothing
+/// prints or exits, and only want of memory throws.
 ///
 /// Laws, each a test by its name (tests/core, tests/laws):
 ///   S1  A sign is exact for every finite double, subnormals and 1e308 included.          predicates.hpp, insphere.hpp
 ///   S2  Even permutations keep a sign, odd ones flip it; powers of two keep it.          predicates.hpp, insphere.hpp
 ///   W1  A weight has the exact sign; it is zero only if the exact one is, or rounds to it.   weights.hpp
 ///   W2  A weight is the exact one rounded to nearest, ties to even.                          weights.hpp
-///   V1  A value is the exact sum of weight times nodal value, rounded once.                  weights.hpp, quadratic.hpp
-///   V2  A point that two cells share has the same value, to the bit, from both.              weights.hpp, quadratic.hpp
-///   G1  A gradient's component is the exact one rounded to nearest, ties to even.             gradient.hpp
+///   V1  A value is the exact sum of weight (quadratic field: of shape function) times nodal
+///       value, rounded once.                                                weights.hpp, quadratic.hpp
+///   V2  A point that two cells share has the same value, to the bit, from both.      the same headers
+///   G1  A gradient's component is the exact one rounded to nearest, ties to even.        gradient.hpp
 ///   D1  Results depend on the input bits alone: not on threads, SIMD target, compiler,
 ///       optimisation, or the order of cases.
 ///   A degenerate simplex is told, never weighed. NaN or infinity is an Error, never a sign. An environment in which

@@ -19,13 +19,14 @@ namespace formulas = HWY_NAMESPACE;
 // is one of squares and products of numerators with 4 values of 2098 bits and 6 of 6 times that: 40 in all, 6 bits.
 static_assert(64 * (Integer::capacity - 2) >= 2 * (3 * 2099 + 3) + 2098 + 6);
 
-/// sum_i n_i (sum_{j >= i} n_j b_ij), b_ii = f_i, b_ij = 4 f_ij - f_i - f_j, over the square of the denominator: the
-/// form of quadratic-inl.hpp, without its division.
+/// sum_i n_i (sum_{j >= i} n_j b_ij) over the square of the denominator, with b_ii = f_i and b_ij = 4 f_ij - f_i - f_j:
+/// the form of quadratic-inl.hpp, without its division.
 ///
 /// Widths. Numerators in 3 N limbs are below 3 * 2^(192 N - 5) (exact_weights.cpp; triangle: 2 N limbs, 2^(128 N - 3)),
 /// the denominator below their range; values below 2^(64 M - 4) in M limbs give b below 6 * 2^(64 M - 4). An inner sum
-/// is below (1 + 3 * 6) * 3 * 2^(192 N + 64 M - 9), the outer one below (4 + 6 * 6) * 9 * 2^(384 N + 64 M - 14): less
-/// than 2^(-1) of what their limbs hold, as in the plane.
+/// is below (1 + 3 * 6) * 3 * 2^(192 N + 64 M - 9) < 2^(192 N + 64 M - 3), the outer one below
+/// (4 + 6 * 6) * 9 * 2^(384 N + 64 M - 14) < 2^(384 N + 64 M - 5); in the plane below 13 * 2^(128 N + 64 M - 7) and
+/// 21 * 2^(256 N + 64 M - 10): no sum overflows.
 template <class T, Simplex s, class Number>
 double value(const formulas::Fractions<s, Number>& w, const ScaledDouble* parts, const Unit& unit) {
     constexpr int n = vertex_count(s);
