@@ -129,6 +129,17 @@ std::size_t CellIndex::bytes() const {
            first.size() * sizeof(Place);
 }
 
+std::array<double, 12> vertices_of(const CellIndex& index, Place cell) {
+    std::array<double, 12> vertices{};
+    const CellRecord& record = index.cells[static_cast<std::size_t>(cell)];
+    const std::size_t d = index.dimension();
+    for (std::size_t i = 0; i <= d; ++i) {
+        const auto& at = index.nodes[static_cast<std::size_t>(record.node[i])].at;
+        for (std::size_t k = 0; k < d; ++k) vertices[d * i + k] = at[k];
+    }
+    return vertices;
+}
+
 CellIndex make_cell_index(const Mesh& mesh, bool link) {
     CellIndex index;
     index.simplex = mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron;

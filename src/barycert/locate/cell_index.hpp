@@ -53,6 +53,9 @@ struct CellIndex {
     }
 };
 
+/// The vertices of a cell, vertex after vertex (see Case).
+std::array<double, 12> vertices_of(const CellIndex& index, Place cell);
+
 /// `link`: find the neighbours, which is right where no facet has more than two cells. Precondition: the mesh is
 /// consistent. Time O(cells).
 CellIndex make_cell_index(const Mesh& mesh, bool link);

@@ -10,18 +10,6 @@ namespace {
 /// A walk in floating point can go round in circles, in cells that are almost flat or not Delaunay.
 constexpr int most_rounds = 128;
 
-/// The vertices of a cell in the mesh's own order.
-std::array<double, 12> vertices_of(const CellIndex& index, Place cell) {
-    std::array<double, 12> vertices{};
-    const CellRecord& record = index.cells[static_cast<std::size_t>(cell)];
-    const std::size_t d = index.dimension();
-    for (std::size_t i = 0; i <= d; ++i) {
-        const auto& at = index.nodes[static_cast<std::size_t>(record.node[i])].at;
-        for (std::size_t k = 0; k < d; ++k) vertices[d * i + k] = at[k];
-    }
-    return vertices;
-}
-
 /// The cell of a bin from which to start: any one of its cells, or of the next that has some.
 Place start_of(const CellIndex& index, std::uint32_t bin) {
     const Place middle = (index.first[bin] + index.first[bin + 1]) / 2;

@@ -41,13 +41,9 @@ void ChunkSampler::interpolate_linear(const PointRecord* points, std::size_t cou
 
 void ChunkSampler::interpolate_exactly(const PointRecord& point, Place cell) {
     const CellIndex& index = data_.index();
-    const std::size_t d = index.dimension(), corners = index.corners();
+    const std::size_t corners = index.corners();
     const auto& node = index.cells[static_cast<std::size_t>(cell)].node;
-    std::array<double, 12> vertices{};
-    for (std::size_t i = 0; i < corners; ++i) {
-        for (std::size_t k = 0; k < d; ++k)
-            vertices[d * i + k] = index.nodes[static_cast<std::size_t>(node[i])].at[k];
-    }
+    const std::array<double, 12> vertices = vertices_of(index, cell);
     const ExactWeights weights(index.simplex, vertices.data(), point.at.data());
     counts_.values.add(Tier::exact);
     bool finite = true;

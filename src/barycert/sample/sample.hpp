@@ -106,6 +106,9 @@ public:
                     std::span<const Feature> features, const SampleOptions& options, Samples& out,
                     SampleCounts& counts, std::size_t first_point = 0) const;
 
+    /// For the library's own use.
+    const detail::SamplerData& data() const { return *data_; }
+
 private:
     explicit Sampler(std::unique_ptr<detail::SamplerData> data);
     std::unique_ptr<detail::SamplerData> data_;

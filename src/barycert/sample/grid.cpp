@@ -1,0 +1,101 @@
+#include "barycert/sample/grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "barycert/core/text.hpp"
+
+namespace barycert {
+namespace {
+
+constexpr const char* axis_names[] = {"x", "y", "z"};
+
+Status check_bounds(std::size_t axis, double low, double high) {
+    if (std::isfinite(low) && std::isfinite(high) && low <= high && std::isfinite(high - low)) return Done{};
+    return Error{.what = std::string("bounds of the grid along ") + axis_names[axis],
+                 .expected = "finite numbers, the lower one first, with a finite difference",
+                 .found = shortest(low) + ", " + shortest(high)};
+}
+
+Status check_count(std::size_t axis, double count) {
+    if (count >= 1 && count <= 0x1p31 - 1) return Done{};
+    return Error{.what = std::string("points of the grid along ") + axis_names[axis],
+                 .expected = "1 to 2147483647",
+                 .found = shortest(count)};
+}
+
+Result<Grid> checked(const Grid& grid) {
+    const double points = static_cast<double>(grid.counts[0]) * static_cast<double>(grid.counts[1]) *
+                          static_cast<double>(grid.counts[2]);
+    if (points <= 0x1p62) return grid;
+    return Error{.what = "points of the grid", .expected = "at most 2^62", .found = shortest(points)};
+}
+
+}  // namespace
+
+Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts, const std::array<double, 3>& low,
+                       const std::array<double, 3>& high) {
+    Grid grid;
+    grid.dimension = dimension;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
+        if (Status status = check_bounds(k, low[k], high[k]); !status) return status.error();
+        if (Status status = check_count(k, static_cast<double>(counts[k])); !status) return status.error();
+        grid.counts[k] = counts[k];
+        if (counts[k] == 1) {
+            grid.origin[k] = grid.last[k] = low[k] + (high[k] - low[k]) / 2;
+            continue;
+        }
+        grid.origin[k] = low[k];
+        grid.last[k] = high[k];
+        grid.spacing[k] = (high[k] - low[k]) / static_cast<double>(counts[k] - 1);
+        if (!(grid.spacing[k] > 0))
+            return Error{.what = std::string("bounds of the grid along ") + axis_names[k],
+                         .expected = "some distance between the ends of " + std::to_string(counts[k]) + " points",
+                         .found = shortest(low[k]) + ", " + shortest(high[k])};
+    }
+    return checked(grid);
+}
+
+Result<Grid> grid_spaced(int dimension, const std::array<double, 3>& spacing, const std::array<double, 3>& low,
+                         const std::array<double, 3>& high) {
+    Grid grid;
+    grid.dimension = dimension;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
+        if (Status status = check_bounds(k, low[k], high[k]); !status) return status.error();
+        if (!(spacing[k] > 0) || !std::isfinite(spacing[k]))
+            return Error{.what = std::string("spacing of the grid along ") + axis_names[k],
+                         .expected = "a positive number",
+                         .found = shortest(spacing[k])};
+        // A quotient rounded down by an ulp must not lose the last point.
+        double steps = std::floor((high[k] - low[k]) / spacing[k]);
+        if (low[k] + (steps + 1) * spacing[k] <= high[k]) ++steps;
+        while (steps > 0 && low[k] + steps * spacing[k] > high[k]) --steps;
+        if (Status status = check_count(k, steps + 1); !status) return status.error();
+        grid.counts[k] = static_cast<std::int64_t>(steps) + 1;
+        grid.origin[k] = low[k];
+        grid.spacing[k] = spacing[k];
+        grid.last[k] = low[k] + steps * spacing[k];
+    }
+    return checked(grid);
+}
+
+Bounds3 bounds_of_cells(const Mesh& mesh) {
+    Bounds3 bounds;
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    for (std::size_t k = 0; k < d && !mesh.cells.empty(); ++k) {
+        bounds.low[k] = std::numeric_limits<double>::infinity();
+        bounds.high[k] = -bounds.low[k];
+    }
+    for (const Mesh::Index node : mesh.cells) {
+        for (std::size_t k = 0; k < d; ++k) {
+            const double x = mesh.points[d * static_cast<std::size_t>(node) + k];
+            bounds.low[k] = std::min(bounds.low[k], x);
+            bounds.high[k] = std::max(bounds.high[k], x);
+        }
+    }
+    return bounds;
+}
+
+}  // namespace barycert

@@ -1,0 +1,35 @@
+/// Internal: which points of a grid a cell holds, row by row, on SIMD lanes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "barycert/locate/cell_index.hpp"
+
+namespace barycert::detail {
+
+/// The points of a grid as a raster: columns along x, rows along y (and z). 2D: z has one entry.
+struct Raster {
+    std::array<std::vector<double>, 3> at;  ///< coordinates of each axis, ascending
+    double origin = 0, inverse_spacing = 0;  ///< of x: point i is near origin + i / inverse_spacing
+    /// Places along x computed in double are off by less than `slack`, in points. If that cannot be said, by whatever it
+    /// takes: rows are then not cut short, and nothing is certain.
+    double slack = 0;
+    bool precise = false;
+};
+
+/// Points first to last - 1 of a row may be in the cell; those from inner_first to inner_last - 1 are certainly in its
+/// interior. All others of the row are certainly outside.
+struct Span {
+    Place cell;
+    std::int32_t row, layer;  ///< along y and z
+    std::int32_t first, inner_first, inner_last, last;
+};
+
+/// Appends the spans of the cells in `which`, rows in the layers [first_layer, last_layer) of z (2D: rows of y in it).
+void find_spans(const CellIndex& index, const Raster& raster, const Place* which, std::size_t count,
+                std::int32_t first_layer, std::int32_t last_layer, std::vector<Span>& out);
+
+}  // namespace barycert::detail
