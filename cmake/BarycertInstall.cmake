@@ -9,8 +9,8 @@ set(internal_headers core/*-inl core/blocks core/exact_weights core/fixed_intege
   exact/integers exact/rounding exact/solve kernels/registry kernels/scanline kernels/variants
   kernels/vectors kernels/*_formulas mesh/facets mesh/integer_row mesh/row_errors mesh/scanner mesh/tetgen_reader mesh/text_table plc/plc_text
   check/box_tree check/boundary check/cells check/disjoint_sets check/exact_volumes check/facet_contact check/facets check/files
-  check/findings check/local_delaunay check/nodes check/overlap check/pairs check/plc_facet check/shape check/signs check/witness audit/witness_json report/check_conditions report/environment_json report/terminal_text
-  vtk/blocks vtk/byte_stream vtk/grid_to_mesh vtk/legacy_text vtk/messages vtk/numbers vtk/raw_grid vtk/xml_arrays vtk/xml_name vtk/xml_tree)
+  check/findings check/local_delaunay check/nodes check/overlap check/pairs check/plc_facet check/shape check/signs check/witness audit/witness_json report/check_conditions report/environment_json report/terminal_text vti/xml_name
+  vtk/blocks vtk/byte_stream vtk/grid_to_mesh vtk/legacy_text vtk/mesh_to_grid vtk/messages vtk/numbers vtk/raw_grid vtk/vtu_output vtk/xml_arrays vtk/xml_tree)
 list(TRANSFORM internal_headers REPLACE "(.+)" "PATTERN;\\1.hpp;EXCLUDE")
 if(NOT TARGET barycert_vtk)
   list(APPEND internal_headers PATTERN vtk EXCLUDE)

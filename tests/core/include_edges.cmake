@@ -7,7 +7,8 @@ set(may_mesh core mesh)
 set(may_plc core plc)
 set(may_points core mesh points)
 set(may_check core mesh plc check)
-set(may_vtk core mesh vtk)  # and no other folder may include it: VTK is optional
+set(may_vti core mesh vti)
+set(may_vtk core mesh vti vtk)  # and no other folder may include it: VTK is optional
 set(may_locate core mesh check locate)
 set(may_sample core mesh check locate sample)
 set(may_raster core raster)

@@ -16,7 +16,7 @@
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 #include "barycert/vtk/raw_grid.hpp"
-#include "barycert/vtk/xml_name.hpp"
+#include "barycert/vti/xml_name.hpp"
 
 namespace barycert::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include "barycert/vtk/xml_name.hpp"
+#include "barycert/vti/xml_name.hpp"
 
 #include <gtest/gtest.h>
 
