@@ -53,7 +53,7 @@ struct CellMesh {
 TEST(GradientBatch, is_single_calls_on_every_target) {
     for (const Simplex s : full) {
         const auto d = static_cast<std::size_t>(space_dimension(s));
-        for (const std::size_t count : {0, 1, 2, 7, 8, 9, 127, 128, 129, 300}) {
+        for (const std::size_t count : std::array<std::size_t, 10>{0, 1, 2, 7, 8, 9, 127, 128, 129, 300}) {
             for (const int components : {1, 2, 3}) {
                 Random r = Random::stream(23, hash64("batch"), 10 * count + static_cast<std::size_t>(components));
                 std::vector<Case> cases;
