@@ -1,10 +1,12 @@
 #include "barycert/core/output_file.hpp"
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 
@@ -88,6 +90,59 @@ TEST_F(OutputFileTest, a_link_is_followed_and_permissions_stay) {
     EXPECT_EQ(status.st_mode & 0777U, 0640U);
 }
 
+TEST_F(OutputFileTest, bytes_are_replaced) {
+    put(path("f"), "old");
+    OutputFile file(path("f"));
+    ASSERT_TRUE(file.can_replace());
+    file.write("count: ....\n");
+    file.replace(7, "12  ");  // nothing of it has reached the disk yet
+    const std::string rows(300000, 'x');
+    file.write(rows);
+    file.replace(9, "34");
+    file.write("end");
+    file.replace(0, "C");
+    EXPECT_EQ(get(path("f")), "old");
+    ASSERT_TRUE(file.commit());
+    EXPECT_EQ(get(path("f")), "Count: 1234\n" + rows + "end");
+    EXPECT_EQ(file_count(), 1U);
+    EXPECT_FALSE(OutputFile("/dev/null").can_replace());
+    EXPECT_FALSE(OutputFile::standard_output().can_replace());
+    EXPECT_FALSE(OutputFile(path("none/f")).can_replace());
+}
+
+TEST_F(OutputFileTest, the_standard_output_is_written_where_it_stands_and_stays_open) {
+    put(path("f"), "before ");
+    std::fflush(stdout);
+    const int real = ::dup(STDOUT_FILENO);
+    const int file = ::open(path("f").c_str(), O_WRONLY | O_APPEND);
+    ::dup2(file, STDOUT_FILENO);
+    OutputFile output = OutputFile::standard_output();
+    output.write("text ");
+    const Status committed = output.commit();
+    const ssize_t after = ::write(STDOUT_FILENO, "after", 5);
+    ::dup2(real, STDOUT_FILENO);
+    ::close(file);
+    ::close(real);
+    EXPECT_TRUE(committed);
+    EXPECT_EQ(after, 5);
+    EXPECT_EQ(get(path("f")), "before text after");
+    EXPECT_EQ(file_count(), 1U);
+}
+
+TEST_F(OutputFileTest, the_standard_output_may_be_closed) {
+    std::fflush(stdout);
+    const int real = ::dup(STDOUT_FILENO);
+    ::close(STDOUT_FILENO);
+    OutputFile output = OutputFile::standard_output();
+    ::dup2(real, STDOUT_FILENO);
+    ::close(real);
+    output.write("text");
+    const Status committed = output.commit();
+    ASSERT_FALSE(committed);
+    EXPECT_EQ(committed.error().file, "standard output");
+    EXPECT_EQ(committed.error().found, "Bad file descriptor");
+}
+
 TEST_F(OutputFileTest, a_device_is_written_and_stays_a_device) {
     OutputFile file("/dev/null");
     file.write("text");
@@ -121,7 +176,9 @@ TEST_F(OutputFileTest, errors) {
 TEST_F(OutputFileTest, a_full_device_is_told) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
     OutputFile file("/dev/full");
-    file.write(std::string(1 << 20, 'x'));  // fails here already; told at the end
+    EXPECT_TRUE(file.status());
+    file.write(std::string(1 << 20, 'x'));
+    EXPECT_FALSE(file.status());
     const Status status = file.commit();
     ASSERT_FALSE(status);
     EXPECT_EQ(status.error().what, "cannot write the file");

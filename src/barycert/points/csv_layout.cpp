@@ -65,6 +65,14 @@ bool holds_fields(std::string_view line, char separator) {
 }
 
 Result<CsvLayout> settle_csv_layout(std::string_view line, int dimension, const LinePlace& place) {
+    if (line.find('\r') != std::string_view::npos) {
+        return Error{.what = "lines that have no LF at their end",
+                     .file = place.file,
+                     .line = place.line,
+                     .expected = "LF or CR LF",
+                     .found = "CR alone",
+                     .remedy = "save the file with other line ends"};
+    }
     CsvLayout layout;
     layout.separator = separator_of(line);
     std::vector<std::string_view> fields;

@@ -42,7 +42,7 @@ std::string as_field(const std::string& name) {
 class CsvSink final : public Sink {
 public:
     CsvSink(const std::string& path, RowFormat format)
-        : path_(path),
+        : path_(path == "-" ? "standard output" : path),
           format_(std::move(format)),
           file_(path == "-" ? OutputFile::standard_output() : OutputFile(path)) {
         const std::size_t numbers =
@@ -53,7 +53,7 @@ public:
 
     Status begin();
     Status write(const Rows& rows) override;
-    Status commit() override { return file_.commit(); }
+    Status commit() override { return error_.what.empty() ? file_.commit() : Status(error_); }
 
 private:
     /// The rows [first, last) as text; the place after it.
@@ -65,6 +65,7 @@ private:
     std::size_t longest_row_ = 0;
     std::size_t rows_a_piece_ = 0;
     std::vector<std::vector<char>> pieces_;
+    Error error_;  // rows that do not fit
 };
 
 Status CsvSink::begin() {
@@ -99,7 +100,8 @@ char* CsvSink::format(const Rows& rows, std::size_t first, std::size_t last, cha
 }
 
 Status CsvSink::write(const Rows& rows) {
-    if (Status fits = check_rows(rows, format_, path_); !fits) return fits;
+    if (!error_.what.empty()) return error_;
+    if (Status fits = check_rows(rows, format_, path_); !fits) return error_ = fits.error();
     const std::size_t count = rows.cells.size();
     // Pieces are formatted side by side and written in order: the bytes do not depend on the threads.
     for (std::size_t row = 0; row < count && file_.status();) {

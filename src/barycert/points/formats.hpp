@@ -16,7 +16,7 @@ Result<std::unique_ptr<Source>> open_node_source(const std::string& path, int di
 Result<std::unique_ptr<Sink>> open_csv_sink(const std::string& path, const RowFormat& format);
 Result<std::unique_ptr<Sink>> open_npy_sink(const std::string& path, const RowFormat& format);
 
-/// Refuses rows whose spans do not fit together and the format.
+/// Refuses rows whose spans do not fit together and the format, and the feature degenerate.
 Status check_rows(const Rows& rows, const RowFormat& format, const std::string& path);
 
 }  // namespace barycert::points

@@ -37,4 +37,16 @@ Result<NpyText> find_npy_text(std::string_view head, const std::string& file);
 /// From the text of the header: a Python dictionary of descr, fortran_order and shape.
 Result<NpyHeader> parse_npy_text(std::string_view text, const std::string& file);
 
+/// How the numbers of an array of points stand in the file.
+struct NpyLayout {
+    std::uint64_t count = 0;     ///< points
+    std::size_t item = 8;        ///< bytes a number: 8 or 4
+    bool swapped = false;        ///< in the byte order that is not this machine's
+    bool fortran_order = false;  ///< all x, then all y, then all z
+};
+
+/// `room`: the bytes after the header. Errors: another type or shape; more or fewer bytes than the shape tells.
+Result<NpyLayout> settle_npy_layout(const NpyHeader& header, std::size_t dimension, std::uint64_t room,
+                                    const std::string& file);
+
 }  // namespace barycert::points

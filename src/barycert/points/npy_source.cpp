@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "barycert/core/text.hpp"
-#include "barycert/mesh/row_errors.hpp"
 #include "barycert/points/formats.hpp"
 #include "barycert/points/npy_header.hpp"
 
@@ -46,7 +45,7 @@ public:
     Status begin();
 
     int dimension() const override { return static_cast<int>(dimension_); }
-    std::optional<std::uint64_t> count() const override { return count_; }
+    std::optional<std::uint64_t> count() const override { return layout_.count; }
     Result<std::size_t> read(std::size_t most, std::vector<double>& out) override;
 
 private:
@@ -60,8 +59,6 @@ private:
     }
     Status open();
     Status read_bytes(std::uint64_t offset, std::size_t size);
-    Status settle_type(const NpyHeader& header);
-    Status settle_shape(const NpyHeader& header);
     Status read_numbers(std::uint64_t first, std::size_t count, double* out, std::size_t stride);
 
     std::string path_;
@@ -69,11 +66,8 @@ private:
     int descriptor_ = -1;
     std::uint64_t file_size_ = 0;
     std::uint64_t data_ = 0;  // where the numbers begin
-    std::uint64_t count_ = 0;
+    NpyLayout layout_;
     std::uint64_t next_ = 0;
-    std::size_t item_ = 8;  // bytes a number
-    bool swapped_ = false;  // the other byte order
-    bool fortran_ = false;  // all x, then all y, then all z
     std::vector<char> bytes_;
     Error error_;
 };
@@ -122,56 +116,9 @@ Status NpySource::begin() {
     if (Status read = read_bytes(text->offset, text->size); !read) return read;
     const Result<NpyHeader> header = parse_npy_text({bytes_.data(), bytes_.size()}, path_);
     if (!header) return header.error();
-    if (Status type = settle_type(*header); !type) return type;
-    return settle_shape(*header);
-}
-
-Status NpySource::settle_type(const NpyHeader& header) {
-    if (header.structured) {
-        return failure("cannot read points of that type", "float64 or float32", "a structured array",
-                       dimension_ == 2 ? "save numpy.stack([a['x'], a['y']], axis=1)"
-                                       : "save numpy.stack([a['x'], a['y'], a['z']], axis=1)");
-    }
-    const std::string& type = header.descr;
-    const bool known = type == "<f8" || type == ">f8" || type == "<f4" || type == ">f4";
-    if (!known) {
-        return failure("cannot read points of that type", "float64 or float32 ('<f8', '>f8', '<f4', '>f4')",
-                       barycert::detail::quoted(type), "save a.astype('f8')");
-    }
-    item_ = type[2] == '8' ? 8 : 4;
-    swapped_ = (type[0] == '>') == (std::endian::native == std::endian::little);
-    fortran_ = header.fortran_order;
-    return Done{};
-}
-
-Status NpySource::settle_shape(const NpyHeader& header) {
-    const std::vector<std::uint64_t>& shape = header.shape;
-    const std::string d = std::to_string(dimension_);
-    if (shape.size() != 2 || shape[1] != dimension_) {
-        std::string found = "(";
-        for (const std::uint64_t n : shape) found += std::to_string(n) + (shape.size() == 1 ? "," : ", ");
-        if (shape.size() > 1) found.resize(found.size() - 2);
-        std::string remedy = "save an array with a row of " + d + " coordinates for each point";
-        if (shape.size() == 1)
-            remedy = "if it is x, y, ... of one point after the other, save a.reshape(-1, " + d + ")";
-        if (shape.size() == 2 && shape[0] == dimension_) remedy = "if it has a column for each point, save a.T";
-        if (shape.size() == 2 && shape[1] > dimension_)
-            remedy = "if the first " + d + " columns are the coordinates, save a[:, :" + d + "]";
-        return failure("an array of another shape", "(n, " + d + "), for the mesh is " + d + "-dimensional",
-                       found + ")", std::move(remedy));
-    }
-    count_ = shape[0];
-    const std::uint64_t room = file_size_ - data_;
-    const std::uint64_t row = dimension_ * item_;
-    if (count_ > room / row) {
-        return failure("the file ends too early",
-                       std::to_string(count_) + " points of " + std::to_string(row) + " bytes, as its header tells",
-                       std::to_string(room) + " bytes", "the file may be cut short: write it again");
-    }
-    if (count_ * row != room) {
-        return failure("bytes after the array", std::to_string(count_ * row) + " bytes, as the header tells",
-                       std::to_string(room), "save one array a file");
-    }
+    const Result<NpyLayout> layout = settle_npy_layout(*header, dimension_, file_size_ - data_, path_);
+    if (!layout) return layout.error();
+    layout_ = *layout;
     return Done{};
 }
 
@@ -179,11 +126,12 @@ Status NpySource::settle_shape(const NpyHeader& header) {
 Status NpySource::read_numbers(std::uint64_t first, std::size_t count, double* out, std::size_t stride) {
     for (std::size_t done = 0; done < count;) {
         const std::size_t size = std::min(block_size, count - done);
-        if (Status read = read_bytes(data_ + (first + done) * item_, size * item_); !read) return read;
+        if (Status read = read_bytes(data_ + (first + done) * layout_.item, size * layout_.item); !read) return read;
         for (std::size_t i = 0; i < size; ++i) {
-            const char* const at = bytes_.data() + i * item_;
-            out[(done + i) * stride] = item_ == 8 ? number_at<double, std::uint64_t>(at, swapped_)
-                                                  : static_cast<double>(number_at<float, std::uint32_t>(at, swapped_));
+            const char* const at = bytes_.data() + i * layout_.item;
+            out[(done + i) * stride] = layout_.item == 8
+                                           ? number_at<double, std::uint64_t>(at, layout_.swapped)
+                                           : static_cast<double>(number_at<float, std::uint32_t>(at, layout_.swapped));
         }
         done += size;
     }
@@ -192,14 +140,14 @@ Status NpySource::read_numbers(std::uint64_t first, std::size_t count, double* o
 
 Result<std::size_t> NpySource::read(std::size_t most, std::vector<double>& out) {
     if (!error_.what.empty()) return error_;
-    const std::size_t taken = std::min<std::uint64_t>(most, count_ - next_);
+    const std::size_t taken = std::min<std::uint64_t>(most, layout_.count - next_);
     const std::size_t before = out.size();
     out.resize(before + taken * dimension_);
     double* const points = out.data() + before;
     Status read = Done{};
-    if (fortran_) {
+    if (layout_.fortran_order) {
         for (std::size_t axis = 0; axis < dimension_ && read; ++axis) {
-            read = read_numbers(axis * count_ + next_, taken, points + axis, dimension_);
+            read = read_numbers(axis * layout_.count + next_, taken, points + axis, dimension_);
         }
     } else {
         read = read_numbers(next_ * dimension_, taken * dimension_, points, 1);

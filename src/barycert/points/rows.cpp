@@ -14,6 +14,15 @@ Status check_rows(const Rows& rows, const RowFormat& format, const std::string& 
                       rows.points.size() == count * static_cast<std::size_t>(format.dimension) &&
                       rows.features.size() == count && rows.values.size() == count * format.columns.size() &&
                       rows.distances.size() == (format.distances ? count : 0);
+    const auto degenerate = std::find(rows.features.begin(), rows.features.end(), Feature::degenerate);
+    if (good && degenerate != rows.features.end()) {
+        return Error{
+            .what = "a row that lies in a degenerate cell",
+            .file = path,
+            .expected = "interior, face, edge, vertex or outside",
+            .found = "degenerate, in row " + std::to_string(degenerate - rows.features.begin()) + " of a block",
+            .remedy = "degenerate cells hold no points: call it outside"};
+    }
     if (good) return Done{};
     return Error{.what = "a block of rows whose parts do not fit together",
                  .file = path,

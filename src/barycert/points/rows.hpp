@@ -21,17 +21,17 @@ namespace barycert::points {
 /// A block of rows, one a point (or a point and a cell that holds it).
 struct Rows {
     int dimension = 3;
-    std::span<const double> points;       ///< dimension a row
-    std::span<const std::int32_t> cells;  ///< one a row; 0-based, -1 outside
-    std::span<const Feature> features;    ///< one a row: interior, face, edge, vertex, outside
-    std::span<const double> values;       ///< as many a row as the format has columns, row after row
-    std::span<const double> distances;    ///< one a row where the format has distances, else empty
+    std::span<const double> points = {};       ///< dimension a row
+    std::span<const std::int32_t> cells = {};  ///< one a row; 0-based, -1 outside
+    std::span<const Feature> features = {};    ///< one a row: interior, face, edge, vertex, outside
+    std::span<const double> values = {};       ///< as many a row as the format has columns, row after row
+    std::span<const double> distances = {};    ///< one a row where the format has distances, else empty
 };
 
 struct RowFormat {
     int dimension = 3;
-    std::vector<std::string> columns;  ///< names of the values of a row
-    bool distances = false;            ///< a last column `distance`
+    std::vector<std::string> columns = {};  ///< names of the values of a row
+    bool distances = false;                 ///< a last column `distance`
 };
 
 /// A file of rows. Without a commit() nothing appears, except on the standard output.
@@ -39,7 +39,7 @@ class Sink {
 public:
     virtual ~Sink();
 
-    /// Appends the rows. Error: disk full and the like, or spans whose sizes do not fit together.
+    /// Appends the rows. Error: disk full and the like, or spans whose sizes do not fit together; then nothing appears.
     virtual Status write(const Rows& rows) = 0;
 
     /// Makes the file appear, if nothing failed. Nothing may be written after it.
