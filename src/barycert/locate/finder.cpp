@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "barycert/core/predicates.hpp"
 
 namespace barycert::detail {
 namespace {
@@ -76,8 +75,7 @@ void Finder::walk(const PointRecord* points, std::size_t count, Place* owner, Fe
 
 void Finder::resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, Tiers& tests) {
     const CellIndex& index = data_.index;
-    const std::array<double, 12> vertices = vertices_of(index, stuck.cell);
-    const WeightSigns signs = *weight_signs(index.simplex, vertices.data(), point.at.data(), &tests);
+    const WeightSigns signs = cell_signs(index, stuck.cell, point.at.data(), tests);
     if (!signs.contains()) {
         asked_[asked_count_++] = stuck.point;
         return;
@@ -101,22 +99,6 @@ void Finder::ask_candidates(const PointRecord* points, Place* owner, Feature* fe
         best = c.cell;
         feature[c.point] = signs.feature(index.simplex);
     });
-}
-
-void Finder::test_candidates(const PointRecord* points, Tiers& tests) {
-    const CellIndex& index = data_.index;
-    const std::size_t d = index.dimension();
-    cells_.clear();
-    points_.clear();
-    for (const Candidate& c : candidates_) {
-        cells_.push_back(index.original[static_cast<std::size_t>(c.cell)]);
-        points_.insert(points_.end(), points[c.point].at.begin(),
-                       points[c.point].at.begin() + static_cast<std::ptrdiff_t>(d));
-    }
-    signs_.resize(candidates_.size());
-    const MeshQueries queries{index.simplex, data_.mesh->points, data_.mesh->cells, cells_, points_};
-    // Sizes fit, and everything is finite: there is no Error.
-    static_cast<void>(weight_signs(queries, signs_, &tests).has_value());
 }
 
 }  // namespace barycert::detail

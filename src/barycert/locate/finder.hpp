@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "barycert/core/weight_signs.hpp"
+#include "barycert/locate/cell_signs.hpp"
 #include "barycert/locate/locator_data.hpp"
 #include "barycert/locate/walk_lanes.hpp"
 
@@ -59,12 +59,11 @@ private:
             find_candidates(data_.index, data_.tree(), points, which + i, std::min(points_at_once, count - i),
                             candidates_);
             if (candidates_.size() < enough && i + points_at_once < count) continue;
-            test_candidates(points, tests);
-            for (std::size_t c = 0; c < candidates_.size(); ++c) use(candidates_[c], signs_[c]);
+            for (const Candidate& c : candidates_)
+                use(c, cell_signs(data_.index, c.cell, points[c.point].at.data(), tests));
             candidates_.clear();
         }
     }
-    void test_candidates(const PointRecord* points, Tiers& tests);
 
     const LocatorData& data_;
     std::array<Walk, chunk_size> walks_;
@@ -73,9 +72,6 @@ private:
     std::array<std::uint32_t, chunk_size> asked_;  ///< points for which every candidate is asked
     std::size_t asked_count_ = 0;
     std::vector<Candidate> candidates_;
-    std::vector<Mesh::Index> cells_;
-    std::vector<double> points_;
-    std::vector<WeightSigns> signs_;
 };
 
 }  // namespace barycert::detail

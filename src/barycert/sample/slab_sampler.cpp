@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "barycert/core/predicates.hpp"
+#include "barycert/locate/cell_signs.hpp"
 
 namespace barycert::detail {
 
@@ -69,9 +69,7 @@ void SlabSampler::test(Place cell, std::int32_t column, std::int32_t row, std::i
     const std::array<double, 3> at{raster_.at[0][static_cast<std::size_t>(column)],
                                    raster_.at[1][static_cast<std::size_t>(row)],
                                    raster_.at[2][static_cast<std::size_t>(layer)]};
-    const std::array<double, 12> vertices = vertices_of(index, cell);
-    const WeightSigns signs =
-        *weight_signs(index.simplex, vertices.data(), at.data(), &counts_.locations.tests);
+    const WeightSigns signs = cell_signs(index, cell, at.data(), counts_.locations.tests);
     if (!signs.contains()) return;
     owner = cell;
     rows_.features[point] = signs.feature(index.simplex);

@@ -1,0 +1,16 @@
+/// Internal: the exact signs of one point in one cell, cheaply where points lie on faces along the axes.
+#pragma once
+
+#include "barycert/core/tiers.hpp"
+#include "barycert/core/weight_signs.hpp"
+#include "barycert/locate/cell_index.hpp"
+
+namespace barycert::detail {
+
+/// weight_signs of core/predicates.hpp, with one more shortcut: where the vertices of a facet and the point agree in a
+/// coordinate to the bit, that weight is zero, and nothing needs to be multiplied. On the sides of a box, and in meshes
+/// along the axes, integers would else have to find most zeros. `point` has 3 coordinates (2D: the last is not looked
+/// at), all finite.
+WeightSigns cell_signs(const CellIndex& index, Place cell, const double* point, Tiers& tiers);
+
+}  // namespace barycert::detail
