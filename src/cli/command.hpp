@@ -26,6 +26,7 @@ inline constexpr int exit_error = 2;
 void add_audit(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
+void add_sample(CLI::App& app, int& exit_code);
 void add_catalogue(CLI::App& app, int& exit_code);
 
 /// Replaces this process by barycert-tetgen with the same arguments; returns exit_error if it cannot be found.
@@ -37,7 +38,10 @@ void tell(std::string_view text);
 /// "error: ..." on stderr; returns exit_error.
 int fail(const Error& error);
 
-/// One mesh; the error of one that is not there has a hint at what was meant.
+/// True if the name ends as those of VTK's files do: .vtu .vtk .vtp.
+bool is_vtk_file(const std::string& path);
+
+/// One mesh, TetGen's or VTK's; the error of one that is not there has a hint at what was meant.
 Result<Mesh> load_mesh(const std::string& path, const ReadOptions& options);
 
 /// The meshes named by the user, or those of barycert's own data folder if none is.

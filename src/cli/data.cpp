@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
@@ -18,7 +19,12 @@
 #include "barycert/check/check.hpp"
 #include "barycert/core/output_file.hpp"
 #include "barycert/core/text.hpp"
+#include "barycert/mesh/vtk_missing.hpp"
 #include "command.hpp"
+
+#ifdef BARYCERT_WITH_VTK
+#include "barycert/vtk/read_vtk.hpp"
+#endif
 
 namespace barycert::cli {
 namespace {
@@ -89,6 +95,12 @@ Error with_hint(Error error, const fs::path& path) {
 
 }  // namespace
 
+bool is_vtk_file(const std::string& path) {
+    std::string suffix = fs::path(path).extension().string();
+    for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return suffix == ".vtu" || suffix == ".vtk" || suffix == ".vtp";
+}
+
 void tell(std::string_view text) {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
@@ -101,6 +113,13 @@ int fail(const Error& error) {
 }
 
 Result<Mesh> load_mesh(const std::string& path, const ReadOptions& options) {
+    if (is_vtk_file(path)) {
+#ifdef BARYCERT_WITH_VTK
+        return read_vtk(path);
+#else
+        return vtk_missing(path);
+#endif
+    }
     Result<Mesh> mesh = read_tetgen(path, options);
     if (!mesh) return with_hint(mesh.error(), path);
     return mesh;

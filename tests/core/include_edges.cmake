@@ -14,7 +14,7 @@ set(may_sample core mesh check locate sample)
 set(may_raster core raster)
 set(may_exact exact)  # and core/simplex.hpp: shared code would be shared bugs
 set(may_audit core kernels mesh check exact audit)
-set(may_report core kernels mesh check exact audit report)
+set(may_report core kernels mesh check locate sample exact audit report)
 
 set(errors "")
 file(GLOB_RECURSE files RELATIVE ${SOURCE_DIR}/barycert ${SOURCE_DIR}/barycert/*.hpp ${SOURCE_DIR}/barycert/*.cpp

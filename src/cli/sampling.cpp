@@ -1,0 +1,180 @@
+// Options, progress and reports of sampling.
+
+#include "sampling.hpp"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <thread>
+
+#include "barycert/core/text.hpp"
+#include "barycert/report/sample_json.hpp"
+#include "barycert/report/sample_terminal.hpp"
+#include "command.hpp"
+
+namespace barycert::cli {
+namespace {
+
+/// The number after `word=`; nothing if the text is something else.
+std::optional<double> number_after(std::string_view word, std::string_view text) {
+    if (!text.starts_with(word) || text.substr(word.size(), 1) != "=") return std::nullopt;
+    return parse_double(text.substr(word.size() + 1));
+}
+
+OutsidePolicy policy_of(const std::string& text) {
+    if (text == "nan") return {};
+    if (text == "error") return {.kind = Outside::error};
+    if (text == "extrapolate") return {.kind = Outside::extrapolate};
+    if (text == "nearest") return {.kind = Outside::nearest};
+    if (const auto value = number_after("fill", text)) return {.kind = Outside::fill, .fill = *value};
+    if (const auto limit = number_after("nearest", text); limit && std::isfinite(*limit) && *limit >= 0)
+        return {.kind = Outside::nearest, .limit = *limit};
+    throw CLI::ValidationError("--outside",
+                               "expected nan, error, fill=NUMBER, nearest, nearest=DISTANCE (at least 0) or "
+                               "extrapolate, found \"" +
+                                   text + '"');
+}
+
+/// An option of a few words, each of which stands for a value.
+template <class Value>
+void choice_option(CLI::App& sub, const std::string& name, Value& value, const std::map<std::string, Value>& words,
+                   const std::string& type, const std::string& help) {
+    const auto set = [&value, words](const std::string& word) { value = words.at(word); };
+    sub.add_option_function<std::string>(name, set, help)->check(CLI::IsMember(words).description(""))->type_name(type);
+}
+
+FieldFile field_file_of(const std::string& option, FieldFile::Of of, const std::string& text) {
+    const std::size_t sign = text.find('=');
+    if (sign == std::string::npos || sign == 0 || sign + 1 == text.size())
+        throw CLI::ValidationError(option, "expected NAME=FILE, found \"" + text + '"');
+    return {of, text.substr(0, sign), text.substr(sign + 1)};
+}
+
+void add_field_files(CLI::App& sub, SamplingArguments& a) {
+    struct Option {
+        const char* name;
+        FieldFile::Of of;
+        const char* help;
+    };
+    for (const Option& o :
+         {Option{"--field", FieldFile::Of::either,
+                 "One more field: a row of numbers for each node, or for each cell (text, blanks or commas between "
+                 "numbers; or .npy)"},
+          Option{"--point-field", FieldFile::Of::points,
+                 "The same where the rows are for nodes, whatever their number"},
+          Option{"--cell-field", FieldFile::Of::cells, "The same where the rows are for cells"}}) {
+        sub.add_option_function<std::vector<std::string>>(
+               o.name,
+               [&a, o](const std::vector<std::string>& all) {
+                   for (const std::string& text : all) a.field_files.push_back(field_file_of(o.name, o.of, text));
+               },
+               o.help)
+            ->allow_extra_args(false)
+            ->type_name("NAME=FILE");
+    }
+}
+
+}  // namespace
+
+CLI::Option* file_option(CLI::App& sub, const std::string& name, std::string& path, const std::string& help) {
+    const auto set = [&path, name](const std::string& text) {
+        if (text.empty()) throw CLI::ValidationError(name, "expected the name of a file, found \"\"");
+        path = text;
+    };
+    return sub.add_option_function<std::string>(name, set, help)->type_name("FILE");
+}
+
+void add_sampling_options(CLI::App& sub, SamplingArguments& a) {
+    add_field_files(sub, a);
+    sub.add_option("--fields", a.fields,
+                   "The fields to sample, in that order: A,B,...; cell:A for the field A of cells "
+                   "where there is one of nodes, too; default: all there are")
+        ->allow_extra_args(false)
+        ->type_name("NAMES");
+    choice_option<Rounding>(sub, "--rounding", a.options.rounding,
+                            {{"correct", Rounding::correct}, {"plain", Rounding::plain}}, "correct|plain",
+                            "correct: values are the exact ones, rounded once (default); plain: faster, in double");
+    sub.add_option_function<std::string>(
+           "--outside", [&a](const std::string& text) { a.options.outside = policy_of(text); },
+           "What points outside every cell get: nan (default); error: none may be; fill=NUMBER; nearest[=DISTANCE]: "
+           "the "
+           "value at the nearest point of the mesh, within DISTANCE; extrapolate: the function of the nearest cell")
+        ->type_name("nan|error|fill=V|nearest[=D]|extrapolate");
+    choice_option<Certify>(
+        sub, "--certify", a.certify,
+        {{"auto", Certify::automatic}, {"always", Certify::always}, {"never", Certify::never}}, "auto|always|never",
+        "Check the mesh first, for then points are found faster: auto (default): where there are at least half as many "
+        "points as cells. No row depends on it");
+    sub.add_option("--threads", a.options.threads, "0: all of them")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 4096).description(""))
+        ->type_name("N");
+    file_option(sub, "--json", a.json, "Write what was done as JSON; - is stdout");
+    sub.add_flag("--quiet", a.quiet, "No summary and no progress");
+}
+
+void Progress::stage(std::string_view text) {
+    if (!on_) return;
+    tell(fmt::format("\r\033[K{}", text));
+    shown_ = true;
+    last_ = std::chrono::steady_clock::now();
+}
+
+void Progress::count(std::string_view what, std::uint64_t done) {
+    if (on_ && std::chrono::steady_clock::now() - last_ > std::chrono::milliseconds(100))
+        stage(fmt::format("{}: {}", what, done));
+}
+
+void Progress::clear() {
+    if (shown_) tell("\r\033[K");
+    shown_ = false;
+}
+
+bool wants_progress(const SamplingArguments& a) {
+    // Rows on the same terminal would run into it.
+    const bool rows_on_terminal = a.output == "-" && isatty(STDOUT_FILENO) == 1;
+    return !a.quiet && stderr_is_terminal() && !rows_on_terminal;
+}
+
+Status write_reports(const SamplingArguments& a, const report::SampleRun& run) {
+    Status json = Done{};
+    if (!a.json.empty()) json = write_output(a.json, report::sample_json(run, measure_environment()));
+    if (!a.quiet) {
+        if (a.output == "-" || a.json == "-") {
+            tell(report::terminal_sample(run, false));
+        } else if (Status told = write_output("-", report::terminal_sample(run, colour_on_stdout())); !told) {
+            return json ? told : json;
+        }
+    }
+    return json;
+}
+
+report::SampleRun run_of(const std::string& command, const SamplingArguments& a) {
+    report::SampleRun run;
+    run.command = command;
+    run.mesh = a.mesh;
+    run.output = a.output;
+    run.rounding = a.options.rounding;
+    run.outside = a.options.outside;
+    const unsigned machine = std::max(1U, std::thread::hardware_concurrency());
+    run.threads = a.options.threads > 0 ? a.options.threads : static_cast<int>(machine);
+    return run;
+}
+
+struct ThreadLimit::Control {
+    tbb::global_control control;
+};
+
+ThreadLimit::ThreadLimit(int threads) {
+    if (threads > 0)
+        control_ = std::make_unique<Control>(Control{
+            tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads))});
+}
+ThreadLimit::~ThreadLimit() = default;
+
+}  // namespace barycert::cli

@@ -1,0 +1,133 @@
+#include "sampling_engine.hpp"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <array>
+#include <functional>
+
+#include "barycert/check/check.hpp"
+#include "barycert/core/predicates.hpp"
+#include "command.hpp"
+#include "sampling_fields.hpp"
+
+namespace barycert::cli {
+namespace {
+
+/// Where there are at least this many points a cell, walks repay the check: it costs about as much a cell as a walk
+/// saves at two points.
+constexpr double points_a_cell = 0.5;
+
+bool is_degenerate(const Mesh& mesh, std::size_t cell) {
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    std::array<const double*, 4> at{};
+    for (std::size_t i = 0; i <= d; ++i)
+        at[i] = mesh.points.data() + d * static_cast<std::size_t>(mesh.cells[(d + 1) * cell + i]);
+    const Result<Sign> sign = d == 2 ? orient2d(at[0], at[1], at[2]) : orient3d(at[0], at[1], at[2], at[3]);
+    return sign && *sign == Sign::zero;
+}
+
+std::uint64_t count_degenerate(const Mesh& mesh) {
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, mesh.cell_count(), 1 << 14), std::uint64_t{0},
+        [&](const tbb::blocked_range<std::size_t>& range, std::uint64_t n) {
+            for (std::size_t c = range.begin(); c != range.end(); ++c) n += is_degenerate(mesh, c) ? 1 : 0;
+            return n;
+        },
+        std::plus<>());
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SamplingEngine>> SamplingEngine::open(const SamplingArguments& a, Progress& progress) {
+    Stopwatch watch;
+    progress.stage("reading " + a.mesh);
+    Result<Mesh> mesh = load_mesh(a.mesh, {.faces = false, .neighbours = false, .threads = a.options.threads});
+    if (!mesh) return mesh.error();
+    std::unique_ptr<SamplingEngine> engine(new SamplingEngine);
+    engine->mesh_ = std::move(*mesh);
+    if (Status added = add_fields(a.field_files, engine->mesh_); !added) return added.error();
+    Result<std::vector<FieldChoice>> fields = choose_fields(engine->mesh_, a.fields);
+    if (!fields) return fields.error();
+    engine->fields_ = std::move(*fields);
+    engine->certify_ = a.certify;
+    engine->threads_ = a.options.threads;
+    engine->seconds_mesh_ = watch.lap();
+    return engine;
+}
+
+void SamplingEngine::check_mesh(Progress& progress) {
+    Stopwatch watch;
+    check::Options options;
+    options.threads = threads_;
+    options.examples = 0;
+    options.contacts = 0;
+    options.progress = [&](const char* stage) { progress.stage(fmt::format("checking the mesh: {}", stage)); };
+    const check::Report report = check::run(mesh_, options);
+    certificate_ = report.certificate;
+    degenerate_ = report.degenerate;
+    seconds_certify_ += watch.lap();
+}
+
+Status SamplingEngine::build(const check::Certificate& certificate, Progress& progress) {
+    Stopwatch watch;
+    progress.stage("building the locator");
+    sampler_.reset();
+    locator_.reset();
+    Result<Locator> locator = Locator::build(mesh_, certificate);
+    if (!locator) return locator.error();
+    locator_.emplace(std::move(*locator));
+    Result<Sampler> sampler = Sampler::build(*locator_, fields_);
+    if (!sampler) return sampler.error();
+    sampler_.emplace(std::move(*sampler));
+    seconds_build_ += watch.lap();
+    return Done{};
+}
+
+Status SamplingEngine::prepare_for(std::uint64_t points, bool at_least, Progress& progress) {
+    const bool checked = certificate_.verdict() != check::Verdict::not_checked;
+    const std::size_t cells = mesh_.cell_count();
+    const bool pays = static_cast<double>(points) >= points_a_cell * static_cast<double>(cells);
+    if (locator_ && (checked || certify_ != Certify::automatic || !pays)) return Done{};
+    std::string why = certify_ == Certify::always ? "as asked for by --certify always" : "";
+    if (certify_ == Certify::automatic)
+        why = fmt::format("{}{} points are {} half as many as cells", at_least ? "with more to come, " : "", points,
+                          pays ? "at least" : "fewer than");
+    if (certify_ == Certify::never || (certify_ == Certify::automatic && !pays)) {
+        reason_ = "the mesh was not checked, " + (why.empty() ? "as asked for by --certify never" : "for " + why);
+        return build({}, progress);
+    }
+    check_mesh(progress);
+    if (Status built = build(certificate_, progress); !built) return built;
+    const bool walks = locator_->method() == Method::walk;
+    method_ = walks ? report::FoundBy::walk : report::FoundBy::candidates;
+    if (!why.starts_with("as ")) why = "for " + why;
+    reason_ =
+        walks ? fmt::format("the mesh is certified; it was checked, {}", why)
+              : fmt::format("the mesh is not certified: `{} check` tells why; it was checked, {}", command_name(), why);
+    return Done{};
+}
+
+Status SamplingEngine::prepare_without_search(report::FoundBy method, const std::string& reason, Progress& progress) {
+    method_ = method;
+    reason_ = reason;
+    if (certify_ == Certify::always) check_mesh(progress);
+    return build(certificate_, progress);
+}
+
+void SamplingEngine::tell(report::SampleRun& run) const {
+    run.dimension = mesh_.dimension;
+    run.nodes = mesh_.point_count();
+    run.cells = mesh_.cell_count();
+    run.degenerate_cells = degenerate_ ? *degenerate_ : count_degenerate(mesh_);
+    if (sampler_) run.columns = sampler_->columns();
+    run.method = method_;
+    run.reason = reason_;
+    run.verdict = certificate_.verdict();
+    run.seconds.mesh = seconds_mesh_;
+    run.seconds.certify = seconds_certify_;
+    run.seconds.build = seconds_build_;
+}
+
+}  // namespace barycert::cli

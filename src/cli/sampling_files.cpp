@@ -1,0 +1,184 @@
+#include "sampling_files.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "barycert/mesh/vtk_missing.hpp"
+#include "command.hpp"
+
+#ifdef BARYCERT_WITH_VTK
+#include "barycert/vtk/read_vtk.hpp"
+#include "barycert/vtk/write_vtk.hpp"
+#endif
+
+namespace barycert::cli {
+namespace {
+
+Status check_input(const std::string& path) {
+    if (path == "-") {
+        if (fcntl(STDIN_FILENO, F_GETFD) < 0)
+            return Error{.what = "cannot read the standard input", .found = std::strerror(errno)};
+        return Done{};
+    }
+    if (access(path.c_str(), R_OK) == 0) return Done{};
+    return Error{.what = "cannot read the file",
+                 .file = path,
+                 .found = std::strerror(errno),
+                 .remedy = "check the name and the rights"};
+}
+
+#ifdef BARYCERT_WITH_VTK
+/// Rows to one .vtu file. They are kept in memory until the commit: the format has its arrays one after the other.
+class VtkSink final : public points::Sink {
+public:
+    VtkSink(std::string path, int dimension, const std::vector<FieldChoice>& fields, bool distances)
+        : path_(std::move(path)), dimension_(dimension), distances_(distances) {
+        for (const FieldChoice& c : fields) fields_.push_back({c.field->name, c.field->components, {}});
+    }
+
+    Status write(const points::Rows& rows) override {
+        points_.insert(points_.end(), rows.points.begin(), rows.points.end());
+        cells_.insert(cells_.end(), rows.cells.begin(), rows.cells.end());
+        features_.insert(features_.end(), rows.features.begin(), rows.features.end());
+        away_.insert(away_.end(), rows.distances.begin(), rows.distances.end());
+        for (const std::int32_t cell : rows.cells) inside_.push_back(cell >= 0 ? 1 : 0);
+        const double* at = rows.values.data();
+        for (std::size_t i = 0; i < rows.cells.size(); ++i) {
+            for (Field& f : fields_) {
+                f.data.insert(f.data.end(), at, at + f.components);
+                at += f.components;
+            }
+        }
+        return Done{};
+    }
+
+    Status commit() override {
+        PointRows rows{.dimension = dimension_,
+                       .points = points_,
+                       .cells = cells_,
+                       .features = features_,
+                       .inside = inside_,
+                       .fields = std::move(fields_),
+                       .distances = {}};
+        if (distances_) rows.distances = away_;
+        return write_vtk_points(path_, rows);
+    }
+
+private:
+    std::string path_;
+    int dimension_;
+    bool distances_;
+    std::vector<double> points_, away_;
+    std::vector<Mesh::Index> cells_;
+    std::vector<Feature> features_;
+    std::vector<std::uint8_t> inside_;
+    std::vector<Field> fields_;
+};
+#endif
+
+}  // namespace
+
+bool has_suffix(const std::string& path, std::string_view suffix) {
+    if (path.size() < suffix.size()) return false;
+    return std::equal(
+        suffix.begin(), suffix.end(), path.end() - static_cast<std::ptrdiff_t>(suffix.size()),
+        [](char a, char b) { return a == static_cast<char>(std::tolower(static_cast<unsigned char>(b))); });
+}
+
+std::vector<NamedFile> files_of_mesh(const std::string& what, const std::string& path) {
+    if (is_vtk_file(path)) return {{what, path}};
+    std::string stem = path;
+    constexpr std::array<std::string_view, 4> suffixes{".node", ".ele", ".face", ".neigh"};
+    for (const std::string_view suffix : suffixes) {
+        if (stem.ends_with(suffix)) {
+            stem.resize(stem.size() - suffix.size());
+            break;
+        }
+    }
+    std::vector<NamedFile> files;
+    for (const std::string_view suffix : suffixes) files.push_back({what, stem + std::string(suffix)});
+    return files;
+}
+
+std::vector<NamedFile> inputs_of(const SamplingArguments& a) {
+    std::vector<NamedFile> files = files_of_mesh("the mesh", a.mesh);
+    for (const FieldFile& f : a.field_files) files.push_back({"field " + f.name, f.path});
+    return files;
+}
+
+Status check_files(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
+    for (const NamedFile& in : inputs) {
+        // The reader of the mesh has hints at what may be meant.
+        if (in.what.starts_with("the mesh")) continue;
+        if (Status ok = check_input(in.path); !ok) return ok;
+    }
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        const NamedFile& out = outputs[i];
+        for (const NamedFile& in : inputs) {
+            if (out.path == "-" || !same_output(out.path, in.path)) continue;
+            return Error{
+                .what = out.what + " would overwrite " + in.what, .file = out.path, .remedy = "choose another name"};
+        }
+        for (std::size_t k = 0; k < i; ++k) {
+            if (same_output(out.path, outputs[k].path))
+                return Error{.what = outputs[k].what + " and " + out.what + " name the same output",
+                             .file = out.path,
+                             .remedy = "give each its own"};
+        }
+    }
+    for (const NamedFile& out : outputs) {
+        if (Status ok = check_output(out.path); !ok) return ok;
+    }
+    return Done{};
+}
+
+Result<std::unique_ptr<points::Source>> open_points(const std::string& path, int dimension) {
+    if (!is_vtk_file(path)) return points::open_source(path, dimension);
+#ifdef BARYCERT_WITH_VTK
+    Result<std::vector<double>> all = read_vtk_points(path, dimension);
+    if (!all) return all.error();
+    return points::memory_source(std::move(*all), dimension);
+#else
+    return vtk_missing(path);
+#endif
+}
+
+Status check_rows_format(const std::string& path) {
+    if (path == "-" || has_suffix(path, ".csv") || has_suffix(path, ".npy")) return Done{};
+    if (has_suffix(path, ".vtu")) {
+#ifndef BARYCERT_WITH_VTK
+        return vtk_missing(path);
+#endif
+        return Done{};
+    }
+    const std::size_t dot = path.find_last_of("./");
+    const bool suffix = dot != std::string::npos && path[dot] == '.';
+    return Error{.what = "--output in a format that is not known by its suffix",
+                 .file = path,
+                 .expected = ".csv, .npy or .vtu, or - for CSV on stdout",
+                 .found = suffix ? '"' + path.substr(dot) + '"' : "no suffix",
+                 .remedy = "choose another name"};
+}
+
+Result<std::unique_ptr<points::Sink>> open_rows(const std::string& path, int dimension,
+                                                const std::vector<FieldChoice>& fields,
+                                                const std::vector<std::string>& columns, const OutsidePolicy& outside) {
+    const bool distances = outside.kind == Outside::nearest || outside.kind == Outside::extrapolate;
+    if (!has_suffix(path, ".vtu")) return points::open_sink(path, {dimension, columns, distances});
+#ifdef BARYCERT_WITH_VTK
+    return std::unique_ptr<points::Sink>(std::make_unique<VtkSink>(path, dimension, fields, distances));
+#else
+    static_cast<void>(fields);
+    return vtk_missing(path);
+#endif
+}
+
+}  // namespace barycert::cli
