@@ -15,8 +15,8 @@
 
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
-#include "barycert/vtk/raw_grid.hpp"
 #include "barycert/vti/xml_name.hpp"
+#include "barycert/vtk/raw_grid.hpp"
 
 namespace barycert::detail {
 namespace {
