@@ -23,7 +23,8 @@ void ChunkSampler::operator()(const PointRecord* points, std::size_t count, cons
     }
     if (data_.point_components != 0)
         data_.quadratic ? interpolate_second_order(points, inside) : interpolate_linear(points, inside);
-    if (!data_.cell_fields.empty()) copy_cell_values(points, inside);
+    for (std::size_t i = 0; !data_.cell_fields.empty() && i < inside; ++i)
+        copy_cell_values(data_, index.original[static_cast<std::size_t>(inside_[i].cell)], row(points[inside_[i].point]));
 }
 
 void ChunkSampler::interpolate_linear(const PointRecord* points, std::size_t count) {
@@ -81,14 +82,12 @@ void ChunkSampler::interpolate_second_order(const PointRecord* points, std::size
     }
 }
 
-void ChunkSampler::copy_cell_values(const PointRecord* points, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto cell = static_cast<std::size_t>(data_.index().original[static_cast<std::size_t>(inside_[i].cell)]);
-        double* to = row(points[inside_[i].point]) + data_.point_components;
-        for (const Field* field : data_.cell_fields) {
-            const auto components = static_cast<std::size_t>(field->components);
-            to = std::copy_n(field->data.begin() + static_cast<std::ptrdiff_t>(components * cell), components, to);
-        }
+void copy_cell_values(const SamplerData& data, Mesh::Index cell, double* row) {
+    double* to = row + data.point_components;
+    for (const Field* field : data.cell_fields) {
+        const auto components = static_cast<std::size_t>(field->components);
+        to = std::copy_n(field->data.begin() + static_cast<std::ptrdiff_t>(components * static_cast<std::size_t>(cell)),
+                         components, to);
     }
 }
 

@@ -19,6 +19,9 @@ struct BlockRows {
     double* distances;  ///< nullptr unless the policy gives some
 };
 
+/// The values of the cell fields of a cell into their columns of a row.
+void copy_cell_values(const SamplerData& data, Mesh::Index cell, double* row);
+
 /// Not shared between threads.
 class ChunkSampler {
 public:
@@ -36,7 +39,6 @@ private:
     void interpolate_linear(const PointRecord* points, std::size_t count);
     void interpolate_exactly(const PointRecord& point, Place cell);
     void interpolate_second_order(const PointRecord* points, std::size_t count);
-    void copy_cell_values(const PointRecord* points, std::size_t count);
     void outside(const PointRecord& point);
     double* row(const PointRecord& point) { return rows_.values + data_.columns.size() * point.number; }
 

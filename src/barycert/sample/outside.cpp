@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "barycert/core/quadratic.hpp"
+#include "barycert/sample/chunk_sampler.hpp"
 
 namespace barycert::detail {
 namespace {
@@ -118,11 +119,7 @@ std::optional<double> value_outside(const SamplerData& data, const SampleOptions
             tiers.not_finite += used.not_finite != 0 ? 1 : 0;
         }
     }
-    double* to = values + data.point_components;
-    for (const Field* field : data.cell_fields) {
-        const auto components = static_cast<std::size_t>(field->components);
-        to = std::copy_n(field->data.begin() + static_cast<std::ptrdiff_t>(components * cell), components, to);
-    }
+    copy_cell_values(data, nearest.cell, values);
     return nearest.distance;
 }
 

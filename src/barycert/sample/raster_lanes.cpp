@@ -166,7 +166,7 @@ HWY_INLINE void row_spans(D tag, const Raster& raster, const CellPlanes& planes,
             inner_high = hn::Min(inner_high, inner);
         }
     }
-    const V origin = hn::Set(tag, raster.origin), scale = hn::Set(tag, raster.inverse_spacing);
+    const V origin = hn::Set(tag, raster.origin[0]), scale = hn::Set(tag, raster.scale[0]);
     const V slack = hn::Set(tag, raster.slack), one = hn::Set(tag, 1);
     const V least = hn::Set(tag, columns.first), most = hn::Set(tag, columns.last);
     const auto clamp = [&](V x) HWY_ATTR { return hn::Min(hn::Max(x, least), most); };

@@ -13,9 +13,11 @@ namespace barycert::detail {
 /// The points of a grid as a raster: columns along x, rows along y (and z). 2D: z has one entry.
 struct Raster {
     std::array<std::vector<double>, 3> at;  ///< coordinates of each axis, ascending
-    double origin = 0, inverse_spacing = 0;  ///< of x: point i is near origin + i / inverse_spacing
-    /// Places along x computed in double are off by less than `slack`, in points. If that cannot be said, by whatever it
-    /// takes: rows are then not cut short, and nothing is certain.
+    /// Place i of an axis is near origin + i / scale.
+    std::array<double, 3> origin{}, scale{};
+    /// Places (x - origin) * scale computed in double, of anything in the grid or the mesh, are off by less than half of
+    /// `slack`, and so are ends of intervals along x. If that cannot be said, by whatever it takes: rows are then not
+    /// cut short, and nothing is certain.
     double slack = 0;
     bool precise = false;
 };

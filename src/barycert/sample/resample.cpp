@@ -21,27 +21,29 @@ std::size_t layer_axis(const Grid& grid) {
 
 detail::Raster raster_of(const Grid& grid, const detail::CellIndex& index) {
     detail::Raster raster;
-    double largest = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        raster.at[k].resize(static_cast<std::size_t>(grid.counts[k]));
-        for (std::int64_t i = 0; i < grid.counts[k]; ++i)
-            raster.at[k][static_cast<std::size_t>(i)] = grid.coordinate(k, i);
-    }
-    const std::vector<double>& x = raster.at[0];
-    for (const double value : {x.front(), x.back(), index.low[0], index.high[0]})
-        largest = std::max(largest, std::abs(value));
-    raster.origin = grid.origin[0];
-    // One point alone stands at place 0, whatever the scale: one in which the slack is nothing beside the mesh.
-    const double extent = index.high[0] - index.low[0];
-    raster.inverse_spacing = grid.spacing[0] > 0 ? 1 / grid.spacing[0] : extent > 0 ? 0x1p16 / extent : 1;
-    // Ends of intervals, in x: some roundings of numbers up to `largest`; the same for coordinates of the grid. In
-    // points: these divided by the spacing, the roundings of that, and the deviation of the last point.
-    const double count = static_cast<double>(grid.counts[0]);
-    const double regular_last = grid.origin[0] + (count - 1) * grid.spacing[0];
-    const double error = (32 * 0x1p-53 * largest + 2 * std::abs(x.back() - regular_last)) * raster.inverse_spacing +
-                         16 * 0x1p-53 * count;
     raster.slack = 0x1p-8;
-    raster.precise = error <= 0x1p-9 && raster.inverse_spacing <= 0x1p300 && largest <= 0x1p300;
+    raster.precise = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+        std::vector<double>& at = raster.at[k];
+        at.reserve(static_cast<std::size_t>(grid.counts[k]));
+        for (std::int64_t i = 0; i < grid.counts[k]; ++i) at.push_back(grid.coordinate(k, i));
+        if (k >= index.dimension()) break;
+        double largest = 0;
+        for (const double x : {at.front(), at.back(), index.low[k], index.high[k]})
+            largest = std::max(largest, std::abs(x));
+        // One point alone stands at place 0, whatever the scale: one in which the slack is nothing beside the mesh.
+        const double extent = index.high[k] - index.low[k];
+        raster.origin[k] = grid.origin[k];
+        raster.scale[k] = grid.spacing[k] > 0 ? 1 / grid.spacing[k] : extent > 0 ? 0x1p16 / extent : 1;
+        // Ends of intervals: some roundings of numbers up to `largest`; the same for coordinates of the grid. In places:
+        // these times the scale, the roundings of that, and how far the last point is from where it were by the spacing.
+        const double count = static_cast<double>(grid.counts[k]);
+        const double regular_last = grid.origin[k] + (count - 1) * grid.spacing[k];
+        const double error = (32 * 0x1p-53 * largest + 2 * std::abs(at.back() - regular_last)) * raster.scale[k] +
+                             16 * 0x1p-53 * count;
+        raster.precise = raster.precise && error <= raster.slack / 2 && raster.scale[k] <= 0x1p300 &&
+                         raster.scale[k] >= 0x1p-300 && largest <= 0x1p300;
+    }
     return raster;
 }
 

@@ -28,25 +28,28 @@ public:
     std::optional<std::uint64_t> refused() const;
 
 private:
-    void take(const Span& span, std::size_t row);
-    void test(Place cell, std::int32_t column, std::int32_t row, std::int32_t layer, std::size_t point);
-    void push(std::size_t point, Place cell, Feature feature, std::int32_t column, std::int32_t row,
-              std::int32_t layer);
-    void flush();
+    void raster(std::span<const Place> cells);
+    void fill(std::span<const Place> cells);
+    void take(const Span& span);
+    void test(const Span& span, std::int32_t column, std::size_t point);
+    void own(std::size_t point, Mesh::Index cell, Feature feature);
     void evaluate_rest();
+    void push(std::size_t point);
+    void flush();
+    std::size_t line_of(std::int32_t row, std::int32_t layer) const;
 
     const SamplerData& data_;
     const Grid& grid_;
     const Raster& raster_;
     const SampleOptions& options_;
-    std::int32_t first_ = 0;
+    std::int32_t first_ = 0, last_ = 0;
     std::size_t points_ = 0;
-    std::vector<Place> owner_;
     std::vector<std::uint8_t> left_;  ///< 1: a point whose value is still to be found
     Samples rows_;
     SampleCounts counts_;
     std::optional<ChunkSampler> sampler_;
     std::vector<Span> spans_;
+    std::vector<Place> hard_;
     std::array<PointRecord, chunk_size> records_{};
     std::array<Place, chunk_size> cells_{};
     std::array<Feature, chunk_size> features_{};

@@ -1,0 +1,31 @@
+/// Internal: cells fill in the points of a grid that they hold, on SIMD lanes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "barycert/sample/raster_lanes.hpp"
+#include "barycert/sample/value_lanes.hpp"
+
+namespace barycert::detail {
+
+/// The points of some layers (2D: lines) of a grid, line after line.
+struct FillTarget {
+    Mesh::Index* owner = nullptr;  ///< -1: none yet
+    Feature* feature = nullptr;
+    std::uint8_t* left = nullptr;  ///< 1: the value is still to be found
+    double* values = nullptr;
+    std::size_t stride = 1;  ///< numbers a point in `values`, of which the first are the components of the nodes
+    std::size_t columns = 0, rows = 0;
+    std::int32_t first_layer = 0, last_layer = 0;
+    bool overlapping = false;  ///< cells may overlap: the lowest keeps a point
+};
+
+/// For points that are certainly in the interior of one of the cells: sets owner and feature, values where their
+/// rounding is certain, and `left`. Spans with points of which that is not certain go to `unsure`, without the cells in `hard`, of
+/// which nothing is known. Components: those of `nodes`, at least 1; cells are linear. Precondition: raster.precise.
+void fill_cells(const CellIndex& index, const NodeValues& nodes, const Raster& raster, const Place* cells,
+                std::size_t count, const FillTarget& target, std::vector<Span>& unsure, std::vector<Place>& hard);
+
+}  // namespace barycert::detail
