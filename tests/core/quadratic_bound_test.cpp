@@ -188,7 +188,7 @@ TEST(QuadraticBound, covers_the_arithmetic) {
                                                                      c.values.data(), v));
                 const Q off = abs(Q(Q(v[0]) + Q(v[1]) - polynomial(c.exact, c.values)));
                 EXPECT_LE(off, Q(v[2])) << target;
-                nearest_to_bound = std::max(nearest_to_bound, Q(off / Q(v[2])).get_d());
+                if (v[2] > 0) nearest_to_bound = std::max(nearest_to_bound, Q(off / Q(v[2])).get_d());
             }
             EXPECT_GT(nearest_to_bound, 0x1p-7) << name(s);
             RecordProperty(target + " " + std::string(name(s)), std::to_string(nearest_to_bound));
@@ -206,10 +206,19 @@ TEST(QuadraticBound, covers_errors_of_weights) {
             for (std::uint64_t k = 0; k < 1500 && !HasFailure(); ++k) {
                 Random r = Random::stream(31, hash64("quadratic weights"), k);
                 Synthetic c(r, s);
-                const bool constant = r.integer(0, 3) == 0;
-                for (double& f : c.values) f = constant ? 1 : f;
-                if (constant) {  // b of one sign and magnitude
-                    for (std::size_t i = c.exact.size(); i < c.values.size(); ++i) c.values[i] = 0.75;
+                const int how = r.integer(0, 3);
+                const std::size_t n = c.exact.size();
+                if (how == 0) {  // b of one sign and magnitude
+                    for (std::size_t i = 0; i < c.values.size(); ++i) c.values[i] = i < n ? 1 : 0.75;
+                } else if (how == 1) {  // b of one corner alone
+                    const std::size_t corner = r.below(n);
+                    for (std::size_t i = 0; i < n; ++i) c.values[i] = i == corner ? 1 : 0;
+                    for (std::size_t e = 0; n + e < c.values.size(); ++e) {
+                        const auto [i, j] = testing_fields::edge(e);
+                        const bool on_edge =
+                            corner == static_cast<std::size_t>(i) || corner == static_cast<std::size_t>(j);
+                        c.values[n + e] = on_edge ? 0.25 : 0;
+                    }
                 }
                 const double eta = std::ldexp(1, -r.integer(10, 90));
                 double v[3];
@@ -220,7 +229,7 @@ TEST(QuadraticBound, covers_errors_of_weights) {
                     for (std::size_t i = 0; i < l.size(); ++i) l[i] += (signs >> i & 1) != 0 ? Q(eta) : Q(-eta);
                     const Q off = abs(Q(Q(v[0]) + Q(v[1]) - polynomial(l, c.values)));
                     EXPECT_LE(off, Q(v[2])) << target;
-                    nearest_to_bound = std::max(nearest_to_bound, Q(off / Q(v[2])).get_d());
+                    if (v[2] > 0) nearest_to_bound = std::max(nearest_to_bound, Q(off / Q(v[2])).get_d());
                 }
             }
             EXPECT_GT(nearest_to_bound, 0.5) << name(s);
