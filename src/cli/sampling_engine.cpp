@@ -92,7 +92,7 @@ Status SamplingEngine::prepare_for(std::uint64_t points, bool at_least, Progress
     if (locator_ && (checked || certify_ != Certify::automatic || !pays)) return Done{};
     std::string why = certify_ == Certify::always ? "as asked for by --certify always" : "";
     if (certify_ == Certify::automatic)
-        why = fmt::format("{}{} points are {} half as many as cells", at_least ? "with more to come, " : "", points,
+        why = fmt::format("{} points{} are {} half as many as cells", points, at_least ? " and more" : "",
                           pays ? "at least" : "fewer than");
     if (certify_ == Certify::never || (certify_ == Certify::automatic && !pays)) {
         reason_ = "the mesh was not checked, " + (why.empty() ? "as asked for by --certify never" : "for " + why);

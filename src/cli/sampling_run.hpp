@@ -2,12 +2,18 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "barycert/core/result.hpp"
+#include "barycert/points/rows.hpp"
 #include "barycert/points/source.hpp"
 #include "barycert/report/sample_run.hpp"
+#include "barycert/sample/map_file.hpp"
 #include "barycert/sample/sample.hpp"
 #include "sampling.hpp"
 #include "sampling_engine.hpp"
@@ -29,8 +35,27 @@ struct SampledBlock {
 Status sample_block(const SamplingArguments& arguments, const SamplingEngine& engine, const std::string& file,
                     std::uint64_t first, SampledBlock& block, report::SampleRun& run);
 
-/// All points of the source into a.output. Tells all of the run but what the engine tells.
+/// That "point 7" or the like, at `where`, is outside, and none may be.
+Error outside_error(const std::string& what, std::span<const double> where, const std::string& file);
+
+/// Adds how many values of rows inside are NaN.
+void count_nan(std::span<const Mesh::Index> cells, std::span<const double> values, std::size_t columns,
+               std::uint64_t& count);
+
+/// Opens what takes the rows, when the columns are known.
+using SinkFactory = std::function<Result<std::unique_ptr<points::Sink>>(const SamplingEngine&)>;
+
+/// The sink of --output as rows.
+SinkFactory rows_to_output(const SamplingArguments& arguments);
+
+/// All points of the source into rows and, if `save_map` is not empty, into a map. Tells all of the run but what the
+/// engine tells.
 Status sample_stream(const SamplingArguments& arguments, SamplingEngine& engine, points::Source& source,
-                     report::SampleRun& run, Progress& progress);
+                     const SinkFactory& factory, const std::string& save_map, report::SampleRun& run,
+                     Progress& progress);
+
+/// The rows of a map likewise; the engine is prepared for it.
+Status sample_map(const SamplingArguments& arguments, SamplingEngine& engine, MapReader& map,
+                  const SinkFactory& factory, report::SampleRun& run, Progress& progress);
 
 }  // namespace barycert::cli
