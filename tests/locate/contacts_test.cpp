@@ -1,5 +1,9 @@
-// Certified meshes whose parts touch: there the owner of a point need not be connected over facets to where a walk ends.
+// Certified meshes whose parts touch: there the owner of a point need not be connected over facets to where a walk
+// ends.
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
 
 #include "check/meshes.hpp"
 #include "locate/points.hpp"

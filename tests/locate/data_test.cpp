@@ -31,9 +31,9 @@ TEST(LocateData, L1_L2_OwnMeshesElsewhere) {
         std::array<double, 3> factor, shift;
     };
     for (const char* stem : {"bracket", "needle-slit", "lattice-eighths", "plate"}) {
-        for (const Place& place : {Place{{1, 1, 1}, {1e6, -1e6, 1e6}}, Place{{0x1p-1000, 0x1p-1000, 0x1p-1000}, {}},
-                                   Place{{1e300, 1e300, 1e300}, {}}, Place{{1e-9, 1, 1e9}, {}},
-                                   Place{{-1e-6, 1, 1}, {1, 0, 0}}}) {
+        for (const Place& place :
+             {Place{{1, 1, 1}, {1e6, -1e6, 1e6}}, Place{{0x1p-1000, 0x1p-1000, 0x1p-1000}, {}},
+              Place{{1e300, 1e300, 1e300}, {}}, Place{{1e-9, 1, 1e9}, {}}, Place{{-1e-6, 1, 1}, {1, 0, 0}}}) {
             Random random(hash64(stem));
             const Mesh mesh = mapped(own(stem), place.factor, place.shift);
             expect_right(mesh, awkward_points(mesh, 25, random), random,

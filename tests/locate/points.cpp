@@ -58,8 +58,7 @@ public:
         for (std::size_t k = 0; k < d_; ++k) points.push_back(at(node, k));
     }
     void mixed_nodes() {
-        for (std::size_t k = 0; k < d_; ++k)
-            points.push_back(at(mesh_.cells[random_.below(mesh_.cells.size())], k));
+        for (std::size_t k = 0; k < d_; ++k) points.push_back(at(mesh_.cells[random_.below(mesh_.cells.size())], k));
     }
     /// A corner of the box, a point of its side, in it or around it.
     void box(double corner, double beyond) {

@@ -48,10 +48,10 @@ TEST(LocateSoups, L1_L2_SmallComplexes) {
             Random random = Random::stream(2, n, static_cast<std::uint64_t>(d));
             Mesh mesh = n % 2 == 0 ? grown_complex(d, random) : damaged_box(d, random);
             if (random.coin()) flip_some(mesh, random);
-            certified += expect_right(mesh, awkward_points(mesh, 15, random), random, "complex " + std::to_string(n),
-                                      quick_ways)
-                             ? 1
-                             : 0;
+            certified +=
+                expect_right(mesh, awkward_points(mesh, 15, random), random, "complex " + std::to_string(n), quick_ways)
+                    ? 1
+                    : 0;
         }
     }
     EXPECT_GT(certified, 200);
@@ -112,8 +112,8 @@ TEST(LocateSoups, L1_L2_L3_CellsTwiceFlatOnesAndLonelyNodes) {
             flat.cells.insert(flat.cells.end(), cell.begin(), cell.end());
         }
         // A square is flat with four nodes, a segment with three.
-        const std::vector<Mesh::Index> lower = d == 2 ? std::vector<Mesh::Index>{0, 1, 2}
-                                                      : std::vector<Mesh::Index>{0, 1, 4, 5};
+        const std::vector<Mesh::Index> lower =
+            d == 2 ? std::vector<Mesh::Index>{0, 1, 2} : std::vector<Mesh::Index>{0, 1, 4, 5};
         flat.cells.insert(flat.cells.begin(), lower.begin(), lower.end());
         expect_right(flat, awkward_points(flat, 40, random), random, "flat cells");
         Mesh lonely = good;

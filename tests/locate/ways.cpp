@@ -1,6 +1,7 @@
 #include "locate/ways.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <limits>
@@ -112,6 +113,8 @@ bool expect_right(const Mesh& mesh, const std::vector<double>& points, Random& r
     const bool certified = certificate.verdict() == check::Verdict::certified;
     const std::vector<std::string> targets = ways.targets ? simd_targets() : std::vector<std::string>{simd_target()};
     const std::vector<int> threads = ways.threads ? std::vector<int>{1, 2, 8} : std::vector<int>{1};
+    // As many as are asked for, also on a machine with fewer.
+    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
     Asking asking(mesh, points, what, ways);
     for (const bool with : {true, false}) {
         const auto locator = with ? Locator::build(mesh, certificate) : Locator::build(mesh);

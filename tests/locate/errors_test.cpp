@@ -1,0 +1,122 @@
+// What a Locator refuses, and what it does with a certificate that is none for its mesh.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "barycert/locate/locator.hpp"
+#include "check/meshes.hpp"
+#include "locate/points.hpp"
+#include "locate/ways.hpp"
+
+namespace barycert::testing {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+const double nan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(LocateErrors, TheFirstPointThatIsNotFiniteIsNamed) {
+    for (const int d : {2, 3}) {
+        const Mesh mesh = box(d, {2, 2, 2});
+        for (const check::Certificate& certificate : {check::Certificate{}, quick(mesh).certificate}) {
+            const auto locator = Locator::build(mesh, certificate);
+            for (const double bad : {nan, infinity, -infinity}) {
+                std::vector<double> points(static_cast<std::size_t>(20 * d), 0.5);
+                points[static_cast<std::size_t>(7 * d + 1)] = bad;
+                points[static_cast<std::size_t>(13 * d)] = bad;
+                std::vector<Mesh::Index> cells(20);
+                std::vector<Feature> features(20);
+                const Status status = locator->locate(points, cells, features);
+                ASSERT_FALSE(status);
+                EXPECT_NE(status.error().message().find("coordinate 1 of point 7"), std::string::npos)
+                    << status.error().message();
+                const auto all = locator->locate_all(points);
+                ASSERT_FALSE(all);
+                EXPECT_NE(all.error().message().find("point 7"), std::string::npos);
+                EXPECT_FALSE(locator->locate(&points[static_cast<std::size_t>(7 * d)]));
+                EXPECT_FALSE(locator->locate(&points[static_cast<std::size_t>(7 * d)], 1));
+            }
+        }
+    }
+}
+
+TEST(LocateErrors, SizesThatDoNotFit) {
+    const Mesh mesh = box(3, {1, 1, 1});
+    const auto locator = Locator::build(mesh);
+    std::vector<Mesh::Index> cells(2);
+    std::vector<Feature> features(2);
+    EXPECT_FALSE(locator->locate(std::vector<double>(5), cells, features));
+    EXPECT_FALSE(locator->locate(std::vector<double>(9), cells, features));
+    EXPECT_FALSE(locator->locate(std::vector<double>(3), cells, features));
+    EXPECT_FALSE(locator->locate(std::vector<double>(6), cells, std::span(features).first(1)));
+    EXPECT_FALSE(locator->locate(std::vector<double>(6), std::span(cells).first(1), features));
+    EXPECT_FALSE(locator->locate_all(std::vector<double>(4)));
+    EXPECT_TRUE(locator->locate(std::vector<double>(6), cells, features));
+}
+
+TEST(LocateErrors, InconsistentMeshes) {
+    const Mesh good = box(3, {1, 1, 1});
+    const auto refused = [&](auto spoil) {
+        Mesh mesh = good;
+        spoil(mesh);
+        const auto locator = Locator::build(mesh);
+        EXPECT_FALSE(locator.has_value());
+        return locator ? std::string() : locator.error().message();
+    };
+    EXPECT_NE(refused([](Mesh& m) { m.cells[3] = 8; }).find("no node"), std::string::npos);
+    EXPECT_NE(refused([](Mesh& m) { m.cells[3] = -1; }).find("no node"), std::string::npos);
+    EXPECT_NE(refused([](Mesh& m) { m.cells.pop_back(); }), "");
+    EXPECT_NE(refused([](Mesh& m) { m.points.pop_back(); }), "");
+    EXPECT_NE(refused([](Mesh& m) { m.points[5] = nan; }).find("finite"), std::string::npos);
+    EXPECT_NE(refused([](Mesh& m) { m.points[5] = infinity; }).find("finite"), std::string::npos);
+    EXPECT_NE(refused([](Mesh& m) { m.dimension = 4; }), "");
+    EXPECT_NE(refused([](Mesh& m) { m.dimension = 0; }), "");
+    EXPECT_NE(refused([](Mesh& m) { m.mid_nodes = {0, 1}; }), "");
+    EXPECT_NE(refused([](Mesh& m) { m.point_fields.push_back({"f", 1, {1.0}}); }), "");
+}
+
+// Values of fields are nobody's business here.
+TEST(LocateErrors, FieldsMayHoldAnything) {
+    Mesh mesh = box(3, {1, 1, 1});
+    mesh.point_fields.push_back({"f", 1, std::vector<double>(8, nan)});
+    EXPECT_TRUE(Locator::build(mesh));
+}
+
+TEST(LocateErrors, ACertificateOfAnotherMeshIsNone) {
+    for (const int d : {2, 3}) {
+        const Mesh mesh = box(d, {3, 3, 2});
+        const check::Certificate certificate = quick(mesh).certificate;
+        ASSERT_TRUE(certificate.covers(mesh));
+        Mesh folded = mesh;  // the same sizes, but a node went through facets
+        for (int k = 0; k < d; ++k) folded.points[static_cast<std::size_t>(k)] += 1.5;
+        const auto other = Locator::build(folded, certificate);
+        ASSERT_TRUE(other);
+        EXPECT_EQ(other->method(), Method::candidates);
+        const PointJudge judge(folded);
+        Random random(1);
+        const std::vector<double> points = awkward_points(folded, 40, random);
+        for (std::size_t i = 0; i < points.size(); i += static_cast<std::size_t>(d)) {
+            const std::vector<Held> all = judge.holders(&points[i]);
+            const Held owner = all.empty() ? Held{} : all.front();
+            ASSERT_EQ(*other->locate(&points[i]), (Location{owner.cell, owner.feature}));
+        }
+        // One that says "not certified" is none either, on its own mesh.
+        const check::Certificate refused = quick(folded).certificate;
+        EXPECT_EQ(refused.verdict(), check::Verdict::not_certified);
+        EXPECT_EQ(Locator::build(folded, refused)->method(), Method::candidates);
+    }
+}
+
+TEST(LocateErrors, MovedLocatorsAnswer) {
+    const Mesh mesh = box(3, {2, 1, 1});
+    Locator first = Locator::build(mesh).value();
+    const std::array<double, 3> p{1.5, 0.5, 0.25};
+    const Location before = *first.locate(p.data());
+    Locator second = std::move(first);
+    EXPECT_EQ(*second.locate(p.data()), before);
+    EXPECT_EQ(&second.mesh(), &mesh);
+    EXPECT_GT(second.bytes(), 0U);
+}
+
+}  // namespace
+}  // namespace barycert::testing

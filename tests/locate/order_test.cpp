@@ -1,0 +1,161 @@
+// D1: answers depend on the points and the mesh alone.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "barycert/check/check.hpp"
+#include "barycert/core/simd.hpp"
+#include "barycert/locate/locator.hpp"
+#include "barycert/mesh/tetgen_io.hpp"
+#include "check/meshes.hpp"
+#include "locate/points.hpp"
+
+namespace barycert::testing {
+namespace {
+
+struct Answers {
+    std::vector<Mesh::Index> cells;
+    std::vector<Feature> features;
+
+    friend bool operator==(const Answers&, const Answers&) = default;
+};
+
+Answers ask(const Locator& locator, const std::vector<double>& points, int threads) {
+    const std::size_t count = points.size() / static_cast<std::size_t>(locator.mesh().dimension);
+    Answers a{std::vector<Mesh::Index>(count, -9), std::vector<Feature>(count)};
+    EXPECT_TRUE(locator.locate(points, a.cells, a.features, nullptr, threads));
+    return a;
+}
+
+std::vector<std::size_t> shuffled(std::size_t n, Random& random) {
+    std::vector<std::size_t> order(n);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (std::size_t i = n; i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+    return order;
+}
+
+Mesh own(const std::string& stem) {
+    return read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
+}
+
+// More points than fit in a block, of all kinds: threads, targets, methods and the order of points change nothing.
+TEST(LocateOrder, D1_ManyPoints) {
+    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
+    for (const char* stem : {"cube-hole", "lattice-eighths", "plate"}) {
+        Random random(hash64(stem));
+        const Mesh mesh = own(stem);
+        std::vector<double> points = awkward_points(mesh, 1200, random);
+        const std::vector<double> inner = inner_points(mesh, 30000, random);
+        points.insert(points.end(), inner.begin(), inner.end());
+        const check::Certificate certificate = quick(mesh).certificate;
+        const auto walks = Locator::build(mesh, certificate), asks = Locator::build(mesh);
+        const Answers right = ask(*walks, points, 1);
+        EXPECT_TRUE(ask(*asks, points, 1) == right) << stem;
+        for (const std::string& target : simd_targets()) {
+            ASSERT_TRUE(use_simd_target(target));
+            for (const int threads : {0, 2, 7}) EXPECT_TRUE(ask(*walks, points, threads) == right) << stem << target;
+        }
+        EXPECT_TRUE(use_simd_target(""));
+        const auto d = static_cast<std::size_t>(mesh.dimension);
+        const std::vector<std::size_t> order = shuffled(right.cells.size(), random);
+        std::vector<double> other(points.size());
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            for (std::size_t k = 0; k < d; ++k) other[d * i + k] = points[d * order[i] + k];
+        }
+        for (const Locator* locator : {&*walks, &*asks}) {
+            const Answers answers = ask(*locator, other, 2);
+            for (std::size_t i = 0; i < order.size(); ++i) {
+                ASSERT_EQ(answers.cells[i], right.cells[order[i]]) << stem;
+                ASSERT_EQ(answers.features[i], right.features[order[i]]) << stem;
+            }
+        }
+    }
+}
+
+// Cells in another order: owners are those of lowest index in the new order among the same cells.
+TEST(LocateOrder, L1_CellsPermuted) {
+    for (const char* stem : {"cube-hole", "lattice-box", "plate"}) {
+        Random random(hash64(stem));
+        const Mesh mesh = own(stem);
+        Mesh other = mesh;
+        other.neighbours.clear();
+        other.faces.clear();
+        other.face_markers.clear();
+        const std::vector<std::size_t> old = shuffled(mesh.cell_count(), random);
+        std::vector<Mesh::Index> now(old.size());
+        for (std::size_t c = 0; c < old.size(); ++c) {
+            now[old[c]] = static_cast<Mesh::Index>(c);
+            for (std::size_t i = 0; i < mesh.corners(); ++i)
+                other.cells[mesh.corners() * c + i] = mesh.cells[mesh.corners() * old[c] + (i + c) % mesh.corners()];
+        }
+        const std::vector<double> points = awkward_points(mesh, 300, random);
+        const auto first = Locator::build(mesh, quick(mesh).certificate);
+        const auto second = Locator::build(other, quick(other).certificate);
+        EXPECT_EQ(second->method(), Method::walk) << stem;
+        const auto all = first->locate_all(points), all_of_other = second->locate_all(points);
+        ASSERT_TRUE(all && all_of_other);
+        ASSERT_EQ(all->begin, all_of_other->begin);
+        const Answers answers = ask(*second, points, 2), before = ask(*first, points, 2);
+        for (std::size_t i = 0; i < answers.cells.size(); ++i) {
+            std::vector<Mesh::Index> mapped_cells;
+            for (std::size_t j = all->begin[i]; j < all->begin[i + 1]; ++j)
+                mapped_cells.push_back(now[static_cast<std::size_t>(all->cells[j])]);
+            std::sort(mapped_cells.begin(), mapped_cells.end());
+            for (std::size_t j = 0; j < mapped_cells.size(); ++j)
+                ASSERT_EQ(all_of_other->cells[all->begin[i] + j], mapped_cells[j]) << stem;
+            ASSERT_EQ(answers.cells[i], mapped_cells.empty() ? -1 : mapped_cells.front()) << stem;
+            ASSERT_EQ(answers.features[i], before.features[i]) << stem;  // in a complex the same from every cell
+        }
+    }
+}
+
+// A walk from any cell to any point.
+TEST(LocateOrder, D1_Hints) {
+    for (const char* stem : {"bracket", "torus", "plate"}) {
+        Random random(hash64(stem));
+        const Mesh mesh = own(stem);
+        const std::vector<double> points = awkward_points(mesh, 400, random);
+        const auto locator = Locator::build(mesh, quick(mesh).certificate);
+        const Answers right = ask(*locator, points, 1);
+        for (std::size_t i = 0; i < right.cells.size(); ++i) {
+            const double* const p = &points[i * static_cast<std::size_t>(mesh.dimension)];
+            for (int n = 0; n < 6; ++n) {
+                const auto hint = static_cast<Mesh::Index>(random.below(mesh.cell_count()));
+                ASSERT_EQ(*locator->locate(p, hint), (Location{right.cells[i], right.features[i]})) << stem << hint;
+            }
+        }
+    }
+}
+
+TEST(LocateOrder, CountsAreAddedTo) {
+    Random random(9);
+    const Mesh mesh = own("lattice-eighths");
+    const std::vector<double> points = awkward_points(mesh, 50, random);
+    const auto locator = Locator::build(mesh);
+    std::vector<Mesh::Index> cells(points.size() / 3);
+    std::vector<Feature> features(cells.size());
+    LocationCounts counts;
+    ASSERT_TRUE(locator->locate(points, cells, features, &counts));
+    const LocationCounts once = counts;
+    ASSERT_TRUE(locator->locate(points, cells, features, &counts));
+    ASSERT_TRUE(locator->locate_all(points, &counts));
+    EXPECT_EQ(counts.points(), 3 * cells.size());
+    EXPECT_EQ(counts.vertex, 3 * once.vertex);
+    EXPECT_EQ(counts.edge, 3 * once.edge);
+    EXPECT_EQ(counts.face, 3 * once.face);
+    EXPECT_EQ(counts.interior, 3 * once.interior);
+    EXPECT_EQ(counts.inside() + counts.outside, counts.points());
+    EXPECT_GT(counts.tests.filter, 0U);
+    EXPECT_GT(counts.tests.exact, 0U);
+    std::vector<double> bad = points;
+    bad[4] = std::numeric_limits<double>::quiet_NaN();
+    const LocationCounts before = counts;
+    EXPECT_FALSE(locator->locate(bad, cells, features, &counts));
+    EXPECT_EQ(counts.points(), before.points());
+}
+
+}  // namespace
+}  // namespace barycert::testing
