@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
     cli::add_audit(app, exit_code);
     cli::add_check(app, exit_code);
     cli::add_sample(app, exit_code);
+    cli::add_resample(app, exit_code);
     cli::add_replay(app, exit_code);
     cli::add_catalogue(app, exit_code);
     app.add_subcommand("mesh", "Mesh a PLC (.poly .smesh .off .stl .ply) with TetGen: runs barycert-tetgen");

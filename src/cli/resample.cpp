@@ -1,0 +1,168 @@
+// barycert resample: the fields of a mesh on a regular grid, or at the nodes of another mesh.
+
+#include "resample.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include "barycert/core/text.hpp"
+#include "command.hpp"
+#include "sampling_files.hpp"
+
+namespace barycert::cli {
+namespace {
+
+/// The parts of the text between separators, each read by `read`; throws what the parser of options tells.
+template <class Number, class Read>
+std::vector<Number> numbers_of(const std::string& option, std::string_view text, char separator, Read read,
+                               const char* expected) {
+    std::vector<Number> all;
+    for (std::string_view rest = text;;) {
+        const std::size_t end = rest.find(separator);
+        const std::optional<Number> x = read(rest.substr(0, end));
+        if (!x) throw CLI::ValidationError(option, fmt::format("expected {}, found \"{}\"", expected, text));
+        all.push_back(*x);
+        if (end == std::string_view::npos) return all;
+        rest.remove_prefix(end + 1);
+    }
+}
+
+std::optional<std::int64_t> count_of(std::string_view text) {
+    std::int64_t n = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
+    if (error != std::errc{} || end != text.data() + text.size() || n < 1) return std::nullopt;
+    return n;
+}
+
+std::optional<double> finite(std::string_view text) {
+    const auto x = parse_double(text);
+    return x && std::isfinite(*x) ? x : std::nullopt;
+}
+
+std::optional<double> positive(std::string_view text) {
+    const auto x = finite(text);
+    return x && *x > 0 ? x : std::nullopt;
+}
+
+void add_targets(CLI::App& sub, ResampleArguments& a) {
+    sub.add_option_function<std::string>(
+           "--grid",
+           [&a](const std::string& text) {
+               constexpr const char* expected = "numbers of points along the axes, at least 1, such as 200x200x100";
+               a.counts = numbers_of<std::int64_t>("--grid", text, 'x', count_of, expected);
+               if (a.counts.size() < 2 || a.counts.size() > 3)
+                   throw CLI::ValidationError("--grid", fmt::format("expected {}, found \"{}\"", expected, text));
+           },
+           "So many points along each axis, from one end of the bounds to the other; where it is one, in the middle")
+        ->type_name("NXxNYxNZ");
+    sub.add_option_function<std::string>(
+           "--spacing",
+           [&a](const std::string& text) {
+               constexpr const char* expected = "a positive number, or one for each axis, such as 0.1x0.1x0.2";
+               a.spacing = numbers_of<double>("--spacing", text, 'x', positive, expected);
+               if (a.spacing.size() > 3)
+                   throw CLI::ValidationError("--spacing", fmt::format("expected {}, found \"{}\"", expected, text));
+           },
+           "Points at that distance along the axes, from the lower end of the bounds on")
+        ->type_name("H|HXxHYxHZ");
+    sub.add_option_function<std::string>(
+           "--bounds",
+           [&a](const std::string& text) {
+               constexpr const char* expected = "XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX (2D: the first four), finite numbers";
+               a.bounds = numbers_of<double>("--bounds", text, ',', finite, expected);
+               if (a.bounds.size() != 4 && a.bounds.size() != 6)
+                   throw CLI::ValidationError("--bounds", fmt::format("expected {}, found \"{}\"", expected, text));
+           },
+           "The box of the grid; default: that of the cells")
+        ->type_name("XMIN,XMAX,...");
+    sub.add_option_function<std::string>(
+           "--onto",
+           [&a](const std::string& text) {
+               if (text.empty()) throw CLI::ValidationError("--onto", "expected a mesh, found \"\"");
+               a.onto = text;
+           },
+           "At the nodes of that mesh")
+        ->type_name("MESH2");
+}
+
+Status check_arguments(const ResampleArguments& a) {
+    const int targets = (a.counts.empty() ? 0 : 1) + (a.spacing.empty() ? 0 : 1) + (a.onto.empty() ? 0 : 1);
+    if (targets != 1)
+        return Error{.what = targets == 0 ? "no target" : "more than one target",
+                     .expected = "one of --grid, --spacing and --onto",
+                     .found = targets == 0 ? "none" : "several",
+                     .remedy = "`barycert resample --help` explains them"};
+    if (!a.bounds.empty() && !a.onto.empty())
+        return Error{.what = "--bounds beside --onto", .remedy = "bounds are for --grid and --spacing: leave them out"};
+    if (Status known = a.onto.empty() ? check_grid_output(a) : check_onto_output(a); !known) return known;
+    std::vector<NamedFile> inputs = inputs_of(a), outputs;
+    if (!a.onto.empty()) {
+        for (NamedFile& file : files_of_mesh("the mesh of --onto", a.onto)) inputs.push_back(std::move(file));
+        for (const std::string& file : files_of_onto(a)) outputs.push_back({"--output", file});
+    } else {
+        outputs.push_back({"--output", a.output});
+    }
+    if (!a.json.empty()) outputs.push_back({"--json", a.json});
+    return check_files(inputs, outputs);
+}
+
+Status run_resample(const ResampleArguments& a) {
+    if (Status ok = check_arguments(a); !ok) return ok;
+    const ThreadLimit limit(a.options.threads);
+    Progress progress(wants_progress(a));
+    Stopwatch whole;
+    auto engine = SamplingEngine::open(a, progress);
+    if (!engine) return engine.error();
+    report::SampleRun run = run_of("resample", a);
+    Status done =
+        a.onto.empty() ? resample_grid(a, **engine, run, progress) : resample_onto(a, **engine, run, progress);
+    if (!done) return done;
+    (*engine)->tell(run);
+    run.seconds.total = whole.lap();
+    progress.clear();
+    return write_reports(a, run);
+}
+
+}  // namespace
+
+void add_resample(CLI::App& app, int& exit_code) {
+    auto* sub = app.add_subcommand(
+        "resample", "Sample the fields of a mesh on a regular grid, or onto another mesh, correctly rounded");
+    sub->footer(
+        "Grids go, by the suffix, to .vti (an array a field, and vtkValidPointMask and cell), .npy (an array of shape\n"
+        "nz,ny,nx, or nz,ny,nx,columns), .csv (rows as of `barycert sample`; - is stdout), .png (one layer of one\n"
+        "column). With --onto to .vtu or .vtk (MESH2, its fields of nodes replaced by those sampled, "
+        "vtkValidPointMask\n"
+        "and cell), STEM or STEM.node (TetGen's, with attributes), .csv, .npy.\n"
+        "Values are those of `barycert sample` at the same points, bit for bit. Exit codes: 0 done, 2 usage or input\n"
+        "error.");
+    const auto a = std::make_shared<ResampleArguments>();
+    sub->add_option("MESH", a->mesh, "A TetGen mesh (.node/.ele; Triangle's for 2D), or a VTK file (.vtu .vtk)")
+        ->required();
+    add_targets(*sub, *a);
+    file_option(*sub, "--output", a->output, "Of a grid: .vti .npy .csv .png; with --onto: .vtu .vtk .node .csv .npy")
+        ->required();
+    sub->add_option_function<std::string>(
+           "--range",
+           [a](const std::string& text) {
+               constexpr const char* expected = "MIN,MAX, finite numbers, MIN < MAX";
+               const auto ends = numbers_of<double>("--range", text, ',', finite, expected);
+               if (ends.size() != 2 || !(ends[0] < ends[1]))
+                   throw CLI::ValidationError("--range", fmt::format("expected {}, found \"{}\"", expected, text));
+               a->range = {ends[0], ends[1]};
+           },
+           "Of a picture: the values of the first and the last colour; default: the least and the largest value")
+        ->type_name("MIN,MAX");
+    add_sampling_options(*sub, *a);
+    sub->callback([a, &exit_code] {
+        const Status done = run_resample(*a);
+        exit_code = done ? exit_clean : fail(done.error());
+    });
+}
+
+}  // namespace barycert::cli
