@@ -1,0 +1,83 @@
+// What it takes before the first point is asked: time and memory.
+
+#include <optional>
+#include <string>
+
+#include "barycert/check/check.hpp"
+#include "sample_rounds.hpp"
+
+namespace barycert::bench {
+namespace {
+
+using Which = VtkPeer::Which;
+
+void add_all(Round& round, Contest& contest, std::optional<Locator>& locator, std::optional<Sampler>& sampler) {
+    const Subject& subject = round.subject;
+    contest.add(
+        "locator", [&] { locator = demand_value(Locator::build(subject.mesh, subject.certificate)); },
+        [&] { locator.reset(); });
+    contest.add(
+        "candidates",
+        [&] {
+            locator = demand_value(Locator::build(subject.mesh));
+            demand_value(locator->locate(subject.points.data()));  // the first one makes the tree
+        },
+        [&] { locator.reset(); });
+    contest.add(
+        "sampler", [&] { sampler = demand_value(Sampler::build(round.ours.walk, {{&subject.linear}})); },
+        [&] { sampler.reset(); });
+    for (const int threads : {1, 2}) {
+        contest.add("check " + std::to_string(threads), [&subject, threads] {
+            check::Options how;
+            how.threads = threads;
+            require(check::run(subject.mesh, how).certified(), "the mesh is not certified any more");
+        });
+    }
+    if (VtkPeer* const vtk = round.vtk.get(); vtk != nullptr) {
+        contest.add(
+            "VTK static", [vtk] { vtk->build(Which::static_locator); }, [vtk] { vtk->drop(Which::static_locator); });
+        contest.add(
+            "VTK tree", [vtk] { vtk->build(Which::cell_tree); }, [vtk] { vtk->drop(Which::cell_tree); });
+    }
+    if (CgalPeer* const cgal = round.cgal.get(); cgal != nullptr)
+        contest.add(
+            "CGAL", [cgal] { cgal->build(); }, [cgal] { cgal->drop(); });
+}
+
+}  // namespace
+
+void run_builds(Round& round, SampleTable& table) {
+    Contest contest;
+    std::optional<Locator> locator;
+    std::optional<Sampler> sampler;
+    add_all(round, contest, locator, sampler);
+    contest.run(round.how.repetitions);
+
+    const std::string& name = round.subject.name;
+    const auto cells = static_cast<double>(round.subject.mesh.cell_count());
+    const auto ms = [&](const std::string& what) { return with_unit(1e3 * contest.cpu(what), "ms"); };
+    const auto bytes = [&](std::size_t of) { return with_unit(static_cast<double>(of) / cells, "B"); };
+    table.add({.what = name + ": locator built, mesh certified",
+               .ours = ms("locator"),
+               .vtk = contest.has("VTK tree") ? "tree " + ms("VTK tree") + ", static " + ms("VTK static") : "",
+               .cgal = contest.has("CGAL") ? ms("CGAL") + ", the triangulation" : "",
+               .ratio = times_as_long(contest, "VTK's tree", "VTK tree", "locator")});
+    table.add({.what = name + ": the same, not certified",
+               .ours = ms("candidates"),
+               .ratio = times_as_long(contest, "VTK's tree", "VTK tree", "candidates")});
+    table.add({.what = name + ": sampler built, one field", .ours = ms("sampler")});
+    table.add({.what = name + ": certified, once for each mesh",
+               .ours = ms("check 1") + "; 2 threads " + with_unit(1e3 * contest.wall("check 2"), "ms")});
+    const double tree = static_cast<double>(round.vtk_tree_bytes);
+    table.add({.what = name + ": memory of the locator besides the mesh, a cell",
+               .ours = bytes(round.bytes) + "; by malloc " + bytes(round.handed_out),
+               .vtk = round.vtk != nullptr
+                          ? "tree " + bytes(round.vtk_tree_bytes) + ", static " + bytes(round.vtk_static_bytes)
+                          : "",
+               .ratio = round.vtk != nullptr
+                            ? "VTK's tree " + with_unit(tree / static_cast<double>(round.handed_out), "x")
+                            : ""});
+    table.demand(name + ": VTK's cell tree over ours, built", contest.cpu_ratio("VTK tree", "locator"), 5);
+}
+
+}  // namespace barycert::bench

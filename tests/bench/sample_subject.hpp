@@ -1,0 +1,60 @@
+/// What bench_sample runs on: a certified mesh with fields, points, a grid, and what barycert makes of it.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "barycert/check/check.hpp"
+#include "barycert/locate/locator.hpp"
+#include "barycert/sample/grid.hpp"
+#include "barycert/sample/sample.hpp"
+
+namespace barycert::bench {
+
+/// Says what is wrong and ends the program: nothing is timed whose answers are not right.
+void require(bool holds, const std::string& what);
+
+/// The value of a Result or Status, which must be there.
+template <class T>
+T demand_value(Result<T> result) {
+    if (!result) require(false, result.error().message());
+    return std::move(*result);
+}
+inline void demand_done(const Status& status) {
+    if (!status) require(false, status.error().message());
+}
+
+struct Subject {
+    /// Checks the mesh, which must be certified, on two threads.
+    Subject(std::string name, Mesh mesh, std::size_t point_count, std::int64_t grid_side);
+    Subject(const Subject&) = delete;
+    Subject& operator=(const Subject&) = delete;
+
+    std::size_t point_count() const { return points.size() / 3; }
+
+    std::string name;
+    Mesh mesh;
+    check::Certificate certificate;
+    Field linear;                ///< 1.5 x + 2.5 y - z at the nodes, rounded
+    Field three;                 ///< the same, and two that are not linear
+    double largest_value = 0;    ///< of `linear`
+    std::vector<double> points;  ///< uniform in the box of the cells
+    Grid grid;                   ///< over that box
+};
+
+/// The locators and samplers of a subject. They are on its mesh: the subject must outlive them.
+struct Ours {
+    explicit Ours(const Subject& subject);
+
+    Locator walk, candidates;  ///< with the certificate, and without
+    Sampler one, three, uncertified;
+};
+
+/// Bytes that malloc has handed out and not got back: the difference tells what something holds.
+std::size_t handed_out();
+
+SampleOptions options(int threads, Rounding rounding = Rounding::correct);
+
+}  // namespace barycert::bench
