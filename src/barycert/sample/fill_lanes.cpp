@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 // The targets are those of core/lanes.cpp.
 #define HWY_DISABLED_TARGETS \
@@ -45,6 +46,7 @@ namespace barycert {
 namespace HWY_NAMESPACE {
 
 using detail::FillTarget;
+using detail::interior_without_value;
 using detail::NodeValues;
 using detail::Place;
 using detail::Raster;
@@ -204,20 +206,29 @@ HWY_INLINE PlaceRange places_between(const std::vector<double>& at, double first
     return {i, j};
 }
 
-/// Up to MaxLanes rows of a cell.
-struct RowBlock {
-    HWY_ALIGN double y[most_lanes], z[most_lanes];
-    HWY_ALIGN std::int32_t first[most_lanes], inner_first[most_lanes], inner_last[most_lanes], last[most_lanes];
-    std::int32_t row[most_lanes], layer[most_lanes];
+/// Rows of a cell, for several vectors: what was stored one by one is loaded as a vector only after a while, or the
+/// processor would have to wait.
+struct Rows {
+    static constexpr std::size_t most = 8 * most_lanes;
+    HWY_ALIGN double y[most], z[most];
+    std::int32_t row[most], layer[most];
     std::size_t count;
 };
 
+/// What MaxLanes of them have in common with the cell.
+struct RowBlock {
+    HWY_ALIGN std::int32_t first[most_lanes], inner_first[most_lanes], inner_last[most_lanes], last[most_lanes];
+    std::uint32_t with_points = 0;  ///< bits: rows with certain points
+    std::uint32_t unsure = 0;       ///< bits: rows with others
+};
+
 template <int d, class D>
-HWY_INLINE void find_intervals(D tag, const CellBlock<d>& cell, std::size_t l, PlaceRange columns, RowBlock& rows) {
+HWY_INLINE void find_intervals(D tag, const CellBlock<d>& cell, std::size_t l, PlaceRange columns, const Rows& rows,
+                               std::size_t at, RowBlock& out) {
     using V = hn::Vec<D>;
-    const V wy = hn::Load(tag, rows.y) - hn::Set(tag, cell.origin[1][l]);
+    const V wy = hn::Load(tag, rows.y + at) - hn::Set(tag, cell.origin[1][l]);
     V wz = hn::Zero(tag);
-    if constexpr (d == 3) wz = hn::Load(tag, rows.z) - hn::Set(tag, cell.origin[2][l]);
+    if constexpr (d == 3) wz = hn::Load(tag, rows.z + at) - hn::Set(tag, cell.origin[2][l]);
     V low = hn::Set(tag, -8 * far), high = hn::Set(tag, 8 * far), inner_low = low, inner_high = high;
     for (int j = 0; j <= d; ++j) {
         const PlaneBlock& p = cell.plane[j];
@@ -237,10 +248,15 @@ HWY_INLINE void find_intervals(D tag, const CellBlock<d>& cell, std::size_t l, P
     const V first = clamp(hn::Ceil(low)), last = hn::Max(first, clamp(hn::Floor(high) + one));
     const V inner_first = hn::Min(clamp(hn::Ceil(inner_low)), last);
     const V inner_last = hn::Max(inner_first, hn::Min(clamp(hn::Floor(inner_high) + one), last));
-    hn::Store(hn::DemoteTo(whole, first), whole, rows.first);
-    hn::Store(hn::DemoteTo(whole, last), whole, rows.last);
-    hn::Store(hn::DemoteTo(whole, inner_first), whole, rows.inner_first);
-    hn::Store(hn::DemoteTo(whole, inner_last), whole, rows.inner_last);
+    hn::Store(hn::DemoteTo(whole, first), whole, out.first);
+    hn::Store(hn::DemoteTo(whole, last), whole, out.last);
+    hn::Store(hn::DemoteTo(whole, inner_first), whole, out.inner_first);
+    hn::Store(hn::DemoteTo(whole, inner_last), whole, out.inner_last);
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(tag, hn::Lt(inner_first, inner_last), bits);
+    out.with_points = bits[0];
+    hn::StoreMaskBits(tag, hn::Or(hn::Ne(first, inner_first), hn::Ne(last, inner_last)), bits);
+    out.unsure = bits[0];
 }
 
 /// Of a component, by row.
@@ -257,10 +273,10 @@ struct Partial {
 /// What f_o and the terms of y and z give in each row.
 template <int d, class D, class V = hn::Vec<D>>
 HWY_INLINE Partial<V> row_terms(D tag, const CellBlock<d>& cell, const ValueBlock& value, std::size_t l,
-                                const RowBlock& rows) {
+                                const Rows& rows, std::size_t at) {
     Accumulator<V> sum{hn::Set(tag, value.at_origin[l]), hn::Zero(tag), hn::Zero(tag)};
     for (int k = 1; k < d; ++k) {
-        const TwoTerms<V> w = two_difference(hn::Load(tag, k == 1 ? rows.y : rows.z), hn::Set(tag, cell.origin[k][l]));
+        const TwoTerms<V> w = two_difference(hn::Load(tag, (k == 1 ? rows.y : rows.z) + at), hn::Set(tag, cell.origin[k][l]));
         const V plain = hn::Set(tag, value.plain[k][l]);
         sum.add_product(plain, w.high);
         sum.product_rest = sum.product_rest + (plain * w.low + hn::Set(tag, value.correction[k][l]) * w.high);
@@ -286,48 +302,96 @@ HWY_INLINE Partial<V> column_terms(D tag, const Raster& raster, const CellBlock<
     return {p.high, p.low + (plain * w.low + hn::Set(tag, value.correction[0][l]) * w.high)};
 }
 
-/// Owners and values of the certain points of one row.
+/// The sum of a row and its columns, and a bit where its rounding is certain.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V value_of(D tag, const ValueBlock& value, std::size_t l, const RowTerms& terms, std::size_t r,
+                      const Partial<V>& column, std::uint32_t& certain) {
+    const TwoTerms<V> sum = two_sum(hn::Set(tag, terms.sum[r]), column.sum);
+    auto mask = hn::Ne(hn::Set(tag, value.valid[l]), hn::Zero(tag));
+    const V out = rounded_if_certain<D>(sum.high, sum.low + (column.rest + hn::Set(tag, terms.rest[r])),
+                                        hn::Set(tag, value.error[l]), mask) +
+                  hn::Zero(tag);
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(tag, mask, bits);
+    certain &= bits[0];
+    return out;
+}
+
+/// What the rows of a cell are filled with.
+template <int d, class V>
+struct CellFill {
+    const CellBlock<d>& cell;
+    const ValueBlock* values;
+    std::size_t components, l;
+    Mesh::Index id;
+    PlaceRange columns;
+    const Partial<V>* known;  ///< the columns' terms if one vector holds them all, else nullptr
+    RowTerms* terms;
+};
+
+/// Points [first, last) of the line that begins at point `at`, whatever the number of components and columns.
 template <int d, class D, class V = hn::Vec<D>>
-HWY_INLINE void fill_row(D tag, const Raster& raster, const CellBlock<d>& cell, const ValueBlock* values,
-                         std::size_t components, std::size_t l, Mesh::Index id, const RowBlock& rows, std::size_t r,
-                         const RowTerms* terms, PlaceRange columns, const Partial<V>* known,
-                         const FillTarget& target) {
+HWY_INLINE void fill_row(D tag, const Raster& raster, const CellFill<d, V>& fill, std::size_t r, std::int32_t first,
+                         std::int32_t last, std::size_t at, const FillTarget& target) {
     constexpr auto width = static_cast<std::int32_t>(hn::MaxLanes(D()));
-    const auto line = static_cast<std::size_t>(d == 3 ? rows.layer[r] - target.first_layer : 0) * target.rows +
-                      static_cast<std::size_t>(d == 3 ? rows.row[r] : rows.row[r] - target.first_layer);
-    const std::size_t at = line * target.columns;
-    const std::int32_t first = rows.inner_first[r], last = rows.inner_last[r];
-    const bool one_block = known != nullptr;
-    for (std::int32_t column = one_block ? columns.first : first; column < last; column += width) {
+    const auto kept = [&](std::size_t point) {
+        return target.overlapping && target.owner[point] >= 0 && target.owner[point] < fill.id;
+    };
+    for (std::int32_t column = fill.known != nullptr ? fill.columns.first : first; column < last; column += width) {
+        const std::int32_t from = std::max(first, column), to = std::min(last, column + width);
         std::uint32_t certain = ~0U;
-        HWY_ALIGN double lanes[most_lanes];
-        for (std::size_t c = 0; c < components; ++c) {
-            const Partial<V> x = one_block ? known[c] : column_terms<d>(tag, raster, cell, values[c], l, column);
-            const TwoTerms<V> sum = two_sum(hn::Set(tag, terms[c].sum[r]), x.sum);
-            auto mask = hn::Ne(hn::Set(tag, values[c].valid[l]), hn::Zero(tag));
-            const V value = rounded_if_certain<D>(sum.high, sum.low + (x.rest + hn::Set(tag, terms[c].rest[r])),
-                                                  hn::Set(tag, values[c].error[l]), mask) +
-                            hn::Zero(tag);
-            std::uint8_t bits[8] = {};
-            hn::StoreMaskBits(tag, mask, bits);
-            certain &= bits[0];
-            hn::Store(value, tag, lanes);
-            const std::int32_t from = std::max(first, column), to = std::min(last, column + width);
+        for (std::size_t c = 0; c < fill.components; ++c) {
+            const Partial<V> x = fill.known != nullptr
+                                     ? fill.known[c]
+                                     : column_terms<d>(tag, raster, fill.cell, fill.values[c], fill.l, column);
+            HWY_ALIGN double lanes[most_lanes];
+            hn::Store(value_of(tag, fill.values[c], fill.l, fill.terms[c], r, x, certain), tag, lanes);
             for (std::int32_t i = from; i < to; ++i) {
                 const std::size_t point = at + static_cast<std::size_t>(i);
-                if (target.overlapping && target.owner[point] >= 0 && target.owner[point] < id) continue;
-                target.values[target.stride * point + c] = lanes[i - column];
+                if (!kept(point)) target.values[target.stride * point + c] = lanes[i - column];
             }
         }
-        const std::int32_t from = std::max(first, column), to = std::min(last, column + width);
         for (std::int32_t i = from; i < to; ++i) {
             const std::size_t point = at + static_cast<std::size_t>(i);
-            if (target.overlapping && target.owner[point] >= 0 && target.owner[point] < id) continue;
-            target.owner[point] = id;
-            target.feature[point] = Feature::interior;
-            target.left[point] = (certain >> (i - column) & 1) != 0 ? 0 : 1;
+            if (kept(point)) continue;
+            target.owner[point] = fill.id;
+            target.feature[point] =
+                (certain >> (i - column) & 1) != 0 ? Feature::interior : interior_without_value;
         }
     }
+}
+
+/// The eight bytes that begin at `at`: those of which the bit is set get `value`.
+HWY_INLINE void set_bytes(Feature* at, std::uint32_t bits, Feature value) {
+    static_assert(sizeof(Feature) == 1);
+    // Each of the eight bits to the lowest of its byte, then to all of it.
+    const std::uint64_t spread = (bits * 0x0101010101010101U & 0x8040201008040201U) + 0x7f7f7f7f7f7f7f7fU;
+    const std::uint64_t mask = (spread >> 7 & 0x0101010101010101U) * 0xff;
+    std::uint64_t bytes;
+    std::memcpy(&bytes, at, 8);
+    bytes = (bytes & ~mask) | (mask & static_cast<std::uint64_t>(value) * 0x0101010101010101U);
+    std::memcpy(at, &bytes, 8);
+}
+
+/// The same without branches, for the usual case: one number a point, cells that do not overlap, one vector of columns.
+template <int d, class D, class V = hn::Vec<D>>
+HWY_INLINE void fill_short_row(D tag, const CellFill<d, V>& fill, std::size_t r, std::int32_t first, std::int32_t last,
+                               std::size_t at, const FillTarget& target) {
+    std::uint32_t certain = ~0U;
+    const V value = value_of(tag, fill.values[0], fill.l, fill.terms[0], r, fill.known[0], certain);
+    const std::int32_t begin = fill.columns.first;
+    const std::size_t point = at + static_cast<std::size_t>(begin);
+    const std::uint32_t bits = ((1U << (last - begin)) - 1) & ~((1U << (first - begin)) - 1);
+    const std::uint8_t stored[8] = {static_cast<std::uint8_t>(bits)};
+    hn::BlendedStore(value, hn::LoadMaskBits(tag, stored), tag, target.values + point);
+    const hn::CappedTag<std::int32_t, most_lanes> whole;
+    constexpr std::size_t width = hn::MaxLanes(hn::CappedTag<std::int32_t, most_lanes>());
+    for (std::size_t i = 0; i < hn::MaxLanes(D()); i += width) {
+        const std::uint8_t part[8] = {static_cast<std::uint8_t>(bits >> i)};
+        hn::BlendedStore(hn::Set(whole, fill.id), hn::LoadMaskBits(whole, part), whole, target.owner + point + i);
+    }
+    set_bytes(target.feature + point, bits & certain, Feature::interior);
+    if ((bits & ~certain) != 0) set_bytes(target.feature + point, bits & ~certain, interior_without_value);
 }
 
 template <Simplex s, class D>
@@ -350,33 +414,48 @@ HWY_INLINE void fill_cell(D tag, const Raster& raster, const CellBlock<space_dim
 
     constexpr std::size_t most_known = 4;
     Partial<V> known[most_known];
-    const bool one_block = static_cast<std::size_t>(columns.last - columns.first) <= width && components <= most_known;
-    for (std::size_t c = 0; one_block && c < components; ++c)
+    const bool one_vector = static_cast<std::size_t>(columns.last - columns.first) <= width && components <= most_known;
+    for (std::size_t c = 0; one_vector && c < components; ++c)
         known[c] = column_terms<d>(tag, raster, cell, values[c], l, columns.first);
+    const CellFill<d, V> fill{cell, values, components, l, id, columns, one_vector ? known : nullptr, terms};
+    const bool usual = one_vector && target.stride == 1 && components == 1 && !target.overlapping;
 
-    RowBlock rows;
+    Rows rows;
     rows.count = 0;
     const auto run = [&]() HWY_ATTR {
-        for (std::size_t r = rows.count; r < width; ++r) {  // lanes without a row repeat one
+        for (std::size_t r = rows.count; r % width != 0; ++r) {  // lanes without a row repeat one
             rows.y[r] = rows.y[0];
             rows.z[r] = rows.z[0];
         }
-        find_intervals<d>(tag, cell, l, columns, rows);
-        bool any = false;
-        for (std::size_t r = 0; r < rows.count; ++r) any |= rows.inner_first[r] < rows.inner_last[r];
-        for (std::size_t c = 0; any && c < components; ++c) {
-            const Partial<V> t = row_terms<d>(tag, cell, values[c], l, rows);
-            hn::Store(t.sum, tag, terms[c].sum);
-            hn::Store(t.rest, tag, terms[c].rest);
-        }
-        for (std::size_t r = 0; r < rows.count; ++r) {
-            const bool all_sure = rows.first[r] == rows.inner_first[r] && rows.last[r] == rows.inner_last[r];
-            if (!all_sure)
-                unsure.push_back({place, rows.row[r], rows.layer[r], rows.first[r], rows.inner_first[r],
-                                  rows.inner_last[r], rows.last[r]});
-            if (rows.inner_first[r] < rows.inner_last[r])
-                fill_row<d>(tag, raster, cell, values, components, l, id, rows, r, terms, columns,
-                            one_block ? known : nullptr, target);
+        for (std::size_t at = 0; at < rows.count; at += width) {
+            RowBlock block;
+            find_intervals<d>(tag, cell, l, columns, rows, at, block);
+            const std::uint32_t real = rows.count - at >= width ? ~0U : (1U << (rows.count - at)) - 1;
+            for (std::uint32_t bits = block.unsure & real; bits != 0; bits &= bits - 1) {
+                const auto r = static_cast<std::size_t>(__builtin_ctz(bits));
+                unsure.push_back({place, rows.row[at + r], rows.layer[at + r], block.first[r], block.inner_first[r],
+                                  block.inner_last[r], block.last[r]});
+            }
+            block.with_points &= real;
+            if (block.with_points == 0) continue;
+            for (std::size_t c = 0; c < components; ++c) {
+                const Partial<V> t = row_terms<d>(tag, cell, values[c], l, rows, at);
+                hn::Store(t.sum, tag, terms[c].sum);
+                hn::Store(t.rest, tag, terms[c].rest);
+            }
+            for (std::uint32_t bits = block.with_points; bits != 0; bits &= bits - 1) {
+                const auto r = static_cast<std::size_t>(__builtin_ctz(bits));
+                const std::int32_t row = rows.row[at + r], layer = rows.layer[at + r];
+                const auto line = static_cast<std::size_t>(d == 3 ? layer - target.first_layer : 0) * target.rows +
+                                  static_cast<std::size_t>(d == 3 ? row : row - target.first_layer);
+                if (usual) {
+                    fill_short_row<d>(tag, fill, r, block.inner_first[r], block.inner_last[r], line * target.columns,
+                                      target);
+                } else {
+                    fill_row<d>(tag, raster, fill, r, block.inner_first[r], block.inner_last[r], line * target.columns,
+                                target);
+                }
+            }
         }
         rows.count = 0;
     };
@@ -386,7 +465,7 @@ HWY_INLINE void fill_cell(D tag, const Raster& raster, const CellBlock<space_dim
             rows.z[rows.count] = raster.at[2][static_cast<std::size_t>(layer)];
             rows.row[rows.count] = row;
             rows.layer[rows.count] = layer;
-            if (++rows.count == width) run();
+            if (++rows.count == Rows::most) run();
         }
     }
     if (rows.count != 0) run();

@@ -22,10 +22,10 @@ void SlabSampler::run(std::int32_t first, std::int32_t last, std::span<const Pla
     last_ = last;
     const std::size_t layer = grid_.dimension == 3 ? grid_.layer_size() : static_cast<std::size_t>(grid_.counts[0]);
     points_ = layer * static_cast<std::size_t>(last - first);
-    left_.assign(points_, 1);
-    rows_.cells.assign(points_, -1);
-    rows_.features.assign(points_, Feature::outside);
-    rows_.values.resize(points_ * data_.columns.size());
+    constexpr std::size_t more = 8;  // FillTarget
+    rows_.cells.assign(points_ + more, -1);
+    rows_.features.assign(points_ + more, Feature::outside);
+    rows_.values.resize((points_ + more) * data_.columns.size());
     const bool distances = options_.outside.kind == Outside::nearest || options_.outside.kind == Outside::extrapolate;
     rows_.distances.assign(distances ? points_ : 0, 0);
     counts_ = {};
@@ -33,14 +33,13 @@ void SlabSampler::run(std::int32_t first, std::int32_t last, std::span<const Pla
                                                 distances ? rows_.distances.data() : nullptr});
     can_fill(data_, raster_, options_) ? fill(cells) : raster(cells);
     evaluate_rest();
-    for (const Feature f : rows_.features) counts_.locations.add(f);
+    for (std::size_t point = 0; point < points_; ++point) counts_.locations.add(rows_.features[point]);
     counts_.add(sampler_->counts());
 }
 
 void SlabSampler::fill(std::span<const Place> cells) {
     const FillTarget target{rows_.cells.data(),
                             rows_.features.data(),
-                            left_.data(),
                             rows_.values.data(),
                             data_.columns.size(),
                             static_cast<std::size_t>(grid_.counts[0]),
@@ -68,7 +67,7 @@ void SlabSampler::raster(std::span<const Place> cells) {
             const std::size_t line = line_of(span.row, span.layer);
             const Mesh::Index cell = data_.index().original[static_cast<std::size_t>(span.cell)];
             for (std::int32_t i = span.inner_first; i < span.inner_last; ++i)
-                own(line + static_cast<std::size_t>(i), cell, Feature::interior);
+                own(line + static_cast<std::size_t>(i), cell, interior_without_value);
         }
     }
 }
@@ -95,28 +94,30 @@ void SlabSampler::test(const Span& span, std::int32_t column, std::size_t point)
                                    raster_.at[1][static_cast<std::size_t>(span.row)],
                                    raster_.at[2][static_cast<std::size_t>(span.layer)]};
     const WeightSigns signs = cell_signs(index, span.cell, at.data(), counts_.locations.tests);
-    if (signs.contains()) own(point, cell, signs.feature(index.simplex));
+    if (!signs.contains()) return;
+    const Feature feature = signs.feature(index.simplex);
+    own(point, cell, feature == Feature::interior ? interior_without_value : feature);
 }
 
 void SlabSampler::own(std::size_t point, Mesh::Index cell, Feature feature) {
     if (rows_.cells[point] >= 0 && rows_.cells[point] < cell) return;
     rows_.cells[point] = cell;
     rows_.features[point] = feature;
-    left_[point] = 1;
 }
 
 void SlabSampler::evaluate_rest() {
+    std::uint64_t found = 0;
     for (std::size_t point = 0; point < points_; ++point) {
-        if (left_[point] != 0) push(point);
+        if (rows_.features[point] == Feature::interior) {
+            ++found;
+            if (!data_.cell_fields.empty())
+                copy_cell_values(data_, rows_.cells[point], rows_.values.data() + data_.columns.size() * point);
+        } else {
+            push(point);
+        }
     }
     flush();
-    const auto found = static_cast<std::uint64_t>(std::count(left_.begin(), left_.end(), 0));
     counts_.values.add(Tier::double_double, found);
-    if (found == 0 || data_.cell_fields.empty()) return;
-    for (std::size_t point = 0; point < points_; ++point) {
-        if (left_[point] == 0)
-            copy_cell_values(data_, rows_.cells[point], rows_.values.data() + data_.columns.size() * point);
-    }
 }
 
 void SlabSampler::push(std::size_t point) {
@@ -128,7 +129,8 @@ void SlabSampler::push(std::size_t point) {
     records_[pending_].number = static_cast<std::uint32_t>(point);
     const Mesh::Index cell = rows_.cells[point];
     cells_[pending_] = cell < 0 ? -1 : data_.located().places()[static_cast<std::size_t>(cell)];
-    features_[pending_] = rows_.features[point];
+    const Feature feature = rows_.features[point];
+    features_[pending_] = feature == interior_without_value ? Feature::interior : feature;
     if (++pending_ == chunk_size) flush();
 }
 
@@ -139,7 +141,9 @@ void SlabSampler::flush() {
 
 GridBlock SlabSampler::block() const {
     const std::size_t layer = grid_.dimension == 3 ? grid_.layer_size() : static_cast<std::size_t>(grid_.counts[0]);
-    return {layer * static_cast<std::size_t>(first_), rows_.cells, rows_.features, rows_.values, rows_.distances};
+    return {layer * static_cast<std::size_t>(first_), std::span(rows_.cells).first(points_),
+            std::span(rows_.features).first(points_), std::span(rows_.values).first(points_ * data_.columns.size()),
+            rows_.distances};
 }
 
 std::optional<std::uint64_t> SlabSampler::refused() const {

@@ -44,7 +44,6 @@ private:
     const SampleOptions& options_;
     std::int32_t first_ = 0, last_ = 0;
     std::size_t points_ = 0;
-    std::vector<std::uint8_t> left_;  ///< 1: a point whose value is still to be found
     Samples rows_;
     SampleCounts counts_;
     std::optional<ChunkSampler> sampler_;
