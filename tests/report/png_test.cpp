@@ -289,7 +289,7 @@ TEST(Png, the_bar_stands_beside_the_slice) {
     std::vector<double> values(40 * 30);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i % 97);
     values[5] = nan;
-    for (const std::size_t height : {1, 24, 25, 30}) {
+    for (const std::size_t height : {1U, 24U, 25U, 30U}) {
         const Slice slice{.width = 40, .height = height, .values = std::span(values).first(40 * height)};
         ASSERT_TRUE(write_png(folder / "bar.png", slice));
         const Picture plain = drawn(slice), p = picture(folder / "bar.png");
@@ -335,7 +335,7 @@ TEST(Png, numbers_at_the_bar) {
         EXPECT_EQ(rows[4 + r].substr(18, 24), high[r]);
         EXPECT_EQ(rows[14 + r].substr(18, 24), low[r]);
     }
-    for (const std::size_t r : {0, 3, 11, 13, 21, 24}) EXPECT_EQ(rows[r].find('#'), std::string::npos) << r;
+    for (const std::size_t r : {0U, 3U, 11U, 13U, 21U, 24U}) EXPECT_EQ(rows[r].find('#'), std::string::npos) << r;
     // Every character that a number may hold has dots, and no two the same.
     const std::vector<std::string> all = panel(-1.234567890123e-300, 1e+300, 25);
     EXPECT_EQ(all[4 + 3].size(), 12 + 10 + 6 * std::string("-1.234567890123e-300").size());
@@ -405,7 +405,7 @@ TEST(Png, a_full_disk_leaves_the_target) {
     struct rlimit before {};
     ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
     const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-    for (const rlim_t limit : {0, 1000, 500000}) {
+    for (const rlim_t limit : {0U, 1000U, 500000U}) {
         const struct rlimit small { limit, before.rlim_max };
         ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
         failures.push_back(write_png(folder / "s.png", {.width = 1000, .height = 1000, .values = values}));

@@ -48,7 +48,7 @@ TEST(MapDamage, every_bit_counts) {
     const TemporaryFolder folder;
     Random random(7);
     for (const int dimension : {2, 3}) {
-        for (const std::size_t count : {0, 1, 6}) {
+        for (const std::size_t count : {0U, 1U, 6U}) {
             const Mesh mesh = small_mesh(dimension);
             const LocationMap rows = any_rows(random, dimension, 5, count);
             ASSERT_TRUE(write_map(folder / "map", mesh, true, rows));
@@ -98,7 +98,7 @@ TEST(MapDamage, a_map_cut_off_or_with_more) {
             ASSERT_FALSE(reader) << "cut to " << size;
             ASSERT_EQ(reader.error().what, size == 0 ? "not a map" : "the map is cut off") << "cut to " << size;
         }
-        for (const std::size_t more : {1, 8, 40, 100000}) {
+        for (const std::size_t more : {1U, 8U, 40U, 100000U}) {
             put(folder / "map", text + std::string(more, '\0'));
             const Result<MapReader> reader = MapReader::open(folder / "map", mesh);
             ASSERT_FALSE(reader);
