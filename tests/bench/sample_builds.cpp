@@ -56,7 +56,7 @@ void run_builds(Round& round, SampleTable& table) {
     const std::string& name = round.subject.name;
     const auto cells = static_cast<double>(round.subject.mesh.cell_count());
     const auto ms = [&](const std::string& what) { return with_unit(1e3 * contest.cpu(what), "ms"); };
-    const auto bytes = [&](std::size_t of) { return with_unit(static_cast<double>(of) / cells, "B"); };
+    const auto bytes = [&](std::size_t of) { return with_unit(static_cast<double>(of) / cells, "bytes"); };
     table.add({.what = name + ": locator built, mesh certified",
                .ours = ms("locator"),
                .vtk = contest.has("VTK tree") ? "tree " + ms("VTK tree") + ", static " + ms("VTK static") : "",

@@ -14,7 +14,7 @@ namespace {
 /// One size: its mesh, and what is timed on it.
 struct Size {
     Size(int n, std::size_t points)
-        : subject("generated " + std::to_string(6 * n * n * n), jittered_cube(n, 7), points, 2),
+        : subject("generated", jittered_cube(n, 7), points, 2),
           locator(demand_value(Locator::build(subject.mesh, subject.certificate))),
           sampler(demand_value(Sampler::build(locator, {{&subject.linear}}))) {
         require(locator.method() == Method::walk, "no walk on " + subject.name);
@@ -60,21 +60,21 @@ void run_growth(std::span<const int> sizes, std::size_t point_count, const Round
         const std::string& name = size->subject.name;
         const std::size_t cells = size->subject.mesh.cell_count();
         table.add(
-            {.what = name + " cells: a random point, found and interpolated",
+            {.what = name + ": a random point, found and interpolated",
              .ours = with_unit(1e9 * contest.cpu("sample, " + name) / points, "ns"),
              .ratio = with_unit(contest.cpu_ratio("sample, " + name, "sample, " + all.front()->subject.name), "x") +
                       " the smallest"});
         table.add(
-            {.what = name + " cells: found alone",
+            {.what = name + ": found alone",
              .ours = with_unit(1e9 * contest.cpu("locate, " + name) / points, "ns"),
              .ratio = with_unit(contest.cpu_ratio("locate, " + name, "locate, " + all.front()->subject.name), "x") +
                       " the smallest"});
-        table.add({.what = name + " cells: locator built, per cell",
+        table.add({.what = name + ": locator built, per cell",
                    .ours = per_cell(1e9 * contest.cpu("build, " + name), cells, "ns") + ", " +
                            per_cell(static_cast<double>(size->locator.bytes()), cells, "bytes")});
     }
-    table.demand("growth of a query from " + std::to_string(all.front()->subject.mesh.cell_count()) + " to " +
-                     std::to_string(all.back()->subject.mesh.cell_count()) + " cells",
+    table.demand("growth of a query from " + in_thousands(all.front()->subject.mesh.cell_count()) + " to " +
+                     in_thousands(all.back()->subject.mesh.cell_count()) + " cells",
                  contest.cpu_ratio("sample, " + all.back()->subject.name, "sample, " + all.front()->subject.name), 1.5,
                  true);
 }

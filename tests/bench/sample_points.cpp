@@ -145,7 +145,7 @@ void run_points(Round& round, SampleTable& table) {
     add_peers(round, out, contest);
     contest.run(round.how.repetitions);
     const ScipyRun scipy = scipy_of(round);
-    table.scipy = table.scipy || scipy.why_not.empty();
+    if (round.how.scipy) table.scipy = scipy.why_not.empty();
     const std::string best = contest.cpu("VTK static") < contest.cpu("VTK tree") ? "VTK static" : "VTK tree";
     tell(round, contest, best, scipy, table);
 

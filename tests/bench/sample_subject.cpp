@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "barycert/core/random.hpp"
+#include "sample_table.hpp"
 
 namespace barycert::bench {
 
@@ -23,6 +24,11 @@ std::size_t handed_out() {
     return info.uordblks + info.hblkhd;
 }
 
+std::string in_thousands(std::size_t count) {
+    const double n = static_cast<double>(count);
+    return n < 1e6 ? with_unit(n / 1e3, "k") : with_unit(n / 1e6, "M");
+}
+
 SampleOptions options(int threads, Rounding rounding) {
     SampleOptions out;
     out.threads = threads;
@@ -30,8 +36,8 @@ SampleOptions options(int threads, Rounding rounding) {
     return out;
 }
 
-Subject::Subject(std::string name_, Mesh mesh_, std::size_t point_count, std::int64_t grid_side)
-    : name(std::move(name_)), mesh(std::move(mesh_)) {
+Subject::Subject(const std::string& name_, Mesh mesh_, std::size_t point_count, std::int64_t grid_side)
+    : name(name_ + " " + in_thousands(mesh_.cell_count())), mesh(std::move(mesh_)) {
     check::Options how;
     how.threads = 2;
     const check::Report report = check::run(mesh, how);

@@ -27,8 +27,8 @@ inline void demand_done(const Status& status) {
 }
 
 struct Subject {
-    /// Checks the mesh, which must be certified, on two threads.
-    Subject(std::string name, Mesh mesh, std::size_t point_count, std::int64_t grid_side);
+    /// Checks the mesh, which must be certified, on two threads. Its size is added to the name.
+    Subject(const std::string& name, Mesh mesh, std::size_t point_count, std::int64_t grid_side);
     Subject(const Subject&) = delete;
     Subject& operator=(const Subject&) = delete;
 
@@ -54,6 +54,9 @@ struct Ours {
 
 /// Bytes that malloc has handed out and not got back: the difference tells what something holds.
 std::size_t handed_out();
+
+/// A count in three digits, with k or M.
+std::string in_thousands(std::size_t count);
 
 SampleOptions options(int threads, Rounding rounding = Rounding::correct);
 

@@ -12,7 +12,7 @@ std::string with_unit(double value, const char* unit) {
     if (std::isnan(value)) return {};
     char text[64];
     const int digits = value < 0.995 ? 3 : value < 9.95 ? 2 : value < 99.5 ? 1 : 0;
-    std::snprintf(text, sizeof text, "%.*f%s%s", digits, value, *unit != '\0' && *unit != 'x' ? " " : "", unit);
+    std::snprintf(text, sizeof text, "%.*f%s%s", digits, value, *unit != '\0' && unit[1] != '\0' ? " " : "", unit);
     return text;
 }
 
