@@ -324,7 +324,7 @@ struct CellFill {
     const ValueBlock* values;
     std::size_t components, l;
     Mesh::Index id;
-    PlaceRange columns;
+    std::int32_t first_column;
     const Partial<V>* known;  ///< the columns' terms if one vector holds them all, else nullptr
     RowTerms* terms;
 };
@@ -337,7 +337,7 @@ HWY_INLINE void fill_row(D tag, const Raster& raster, const CellFill<d, V>& fill
     const auto kept = [&](std::size_t point) {
         return target.overlapping && target.owner[point] >= 0 && target.owner[point] < fill.id;
     };
-    for (std::int32_t column = fill.known != nullptr ? fill.columns.first : first; column < last; column += width) {
+    for (std::int32_t column = fill.known != nullptr ? fill.first_column : first; column < last; column += width) {
         const std::int32_t from = std::max(first, column), to = std::min(last, column + width);
         std::uint32_t certain = ~0U;
         for (std::size_t c = 0; c < fill.components; ++c) {
@@ -379,7 +379,7 @@ HWY_INLINE void fill_short_row(D tag, const CellFill<d, V>& fill, std::size_t r,
                                std::size_t at, const FillTarget& target) {
     std::uint32_t certain = ~0U;
     const V value = value_of(tag, fill.values[0], fill.l, fill.terms[0], r, fill.known[0], certain);
-    const std::int32_t begin = fill.columns.first;
+    const std::int32_t begin = fill.first_column;
     const std::size_t point = at + static_cast<std::size_t>(begin);
     const std::uint32_t bits = ((1U << (last - begin)) - 1) & ~((1U << (first - begin)) - 1);
     const std::uint8_t stored[8] = {static_cast<std::uint8_t>(bits)};
@@ -417,7 +417,7 @@ HWY_INLINE void fill_cell(D tag, const Raster& raster, const CellBlock<space_dim
     const bool one_vector = static_cast<std::size_t>(columns.last - columns.first) <= width && components <= most_known;
     for (std::size_t c = 0; one_vector && c < components; ++c)
         known[c] = column_terms<d>(tag, raster, cell, values[c], l, columns.first);
-    const CellFill<d, V> fill{cell, values, components, l, id, columns, one_vector ? known : nullptr, terms};
+    const CellFill<d, V> fill{cell, values, components, l, id, columns.first, one_vector ? known : nullptr, terms};
     const bool usual = one_vector && target.stride == 1 && components == 1 && !target.overlapping;
 
     Rows rows;
@@ -459,14 +459,19 @@ HWY_INLINE void fill_cell(D tag, const Raster& raster, const CellBlock<space_dim
         }
         rows.count = 0;
     };
-    for (std::int32_t layer = layers.first; layer < layers.last; ++layer) {
-        for (std::int32_t row = lines.first; row < lines.last; ++row) {
-            rows.y[rows.count] = raster.at[1][static_cast<std::size_t>(row)];
-            rows.z[rows.count] = raster.at[2][static_cast<std::size_t>(layer)];
-            rows.row[rows.count] = row;
-            rows.layer[rows.count] = layer;
-            if (++rows.count == Rows::most) run();
-        }
+    // One loop over both: nothing could predict where the inner one ends.
+    const double* const y = raster.at[1].data();
+    const double* const z = raster.at[2].data();
+    std::int32_t row = lines.first, layer = layers.first;
+    for (std::int64_t left = std::int64_t{lines.last - lines.first} * (layers.last - layers.first); left > 0; --left) {
+        rows.y[rows.count] = y[row];
+        rows.z[rows.count] = z[layer];
+        rows.row[rows.count] = row;
+        rows.layer[rows.count] = layer;
+        ++row;
+        layer += row == lines.last ? 1 : 0;
+        row = row == lines.last ? lines.first : row;
+        if (++rows.count == Rows::most) run();
     }
     if (rows.count != 0) run();
 }
