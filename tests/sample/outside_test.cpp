@@ -65,7 +65,8 @@ void expect_outside(const Mesh& mesh, const std::vector<double>& points, const O
     ASSERT_EQ(samples.distances.size(), rows) << what;
     double farthest = 0;
     std::size_t with = 0, without = 0;
-    for (std::size_t i = 0; i < rows && !::testing::Test::HasFailure(); ++i) {
+    std::size_t told = 0;
+    for (std::size_t i = 0; i < rows; ++i) {
         const double* const point = &points[d * i];
         const std::string where = what + " at " + text_of(point, mesh.dimension);
         if (samples.cells[i] >= 0) {
@@ -90,8 +91,9 @@ void expect_outside(const Mesh& mesh, const std::vector<double>& points, const O
                                      : policy.kind == Outside::nearest
                                          ? true_projected(mesh, *f.field, c, nearest, point)
                                          : true_value(mesh, *f.field, c, nearest.cell, point);
-                EXPECT_TRUE(same(*found, right)) << where << ": " << f.field->name << "." << c << " is "
-                                                 << hexadecimal(right) << ", found " << hexadecimal(*found);
+                if (same(*found, right) || told++ >= 3) continue;
+                ADD_FAILURE() << where << ": " << f.field->name << "." << c << " is " << hexadecimal(right)
+                              << ", found " << hexadecimal(*found);
             }
         }
     }
