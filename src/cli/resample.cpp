@@ -13,6 +13,7 @@
 #include "barycert/core/text.hpp"
 #include "command.hpp"
 #include "sampling_files.hpp"
+#include "sampling_signals.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -113,6 +114,9 @@ Status check_arguments(const ResampleArguments& a) {
 
 Status run_resample(const ResampleArguments& a) {
     if (Status ok = check_arguments(a); !ok) return ok;
+    std::vector<std::string> targets = a.onto.empty() ? std::vector<std::string>{a.output} : files_of_onto(a);
+    targets.push_back(a.json);
+    const RemoveOnSignal tidy(std::move(targets));
     const ThreadLimit limit(a.options.threads);
     Progress progress(wants_progress(a));
     Stopwatch whole;

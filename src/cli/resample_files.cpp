@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -133,19 +135,88 @@ private:
     std::vector<double> points_;
 };
 
+/// A picture of one column. It is kept in memory: its colours depend on all of it.
+class PngOutput final : public GridOutput {
+public:
+    PngOutput(std::string path, const report::Slice& slice) : path_(std::move(path)), slice_(slice) {}
+
+    Status write(const GridBlock& block) override {
+        values_.insert(values_.end(), block.values.begin(), block.values.end());
+        // A point outside is transparent only where it has got no value.
+        for (std::size_t i = 0; i < block.cells.size(); ++i)
+            valid_.push_back(block.cells[i] >= 0 || std::isfinite(block.values[i]) ? 1 : 0);
+        return Done{};
+    }
+    Status commit() override {
+        slice_.values = values_;
+        slice_.valid = valid_;
+        return report::write_png(path_, slice_, &counts_);
+    }
+    std::optional<report::SliceCounts> picture() const override { return counts_; }
+
+private:
+    std::string path_;
+    report::Slice slice_;
+    std::vector<double> values_;
+    std::vector<std::uint8_t> valid_;
+    report::SliceCounts counts_;
+};
+
+/// The two axes of a grid in a plane.
+Result<std::array<std::size_t, 2>> axes_of_picture(const Grid& grid, const std::string& path) {
+    std::vector<std::size_t> axes;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k) {
+        if (grid.counts[k] > 1 || grid.dimension == 2) axes.push_back(k);
+    }
+    if (axes.size() != 2)
+        return Error{.what = "a picture shows one layer",
+                     .file = path,
+                     .expected = "one point along exactly one axis, such as --grid 800x600x1",
+                     .found = fmt::format("{} x {} x {} points", grid.counts[0], grid.counts[1], grid.counts[2]),
+                     .remedy = "set where the layer is by --bounds: it lies in their middle"};
+    constexpr std::int64_t most = 1000000;
+    if (grid.counts[axes[0]] > most || grid.counts[axes[1]] > most)
+        return Error{.what = "too many points for a picture",
+                     .file = path,
+                     .expected = "at most 1000000 along each axis",
+                     .found = fmt::format("{} x {}", grid.counts[axes[0]], grid.counts[axes[1]]),
+                     .remedy = "choose a coarser grid"};
+    return std::array{axes[0], axes[1]};
+}
+
+Result<std::unique_ptr<GridOutput>> open_picture(const ResampleArguments& a, const std::vector<std::string>& columns,
+                                                 const Grid& grid) {
+    const auto axes = axes_of_picture(grid, a.output);
+    if (!axes) return axes.error();
+    if (columns.size() != 1)
+        return Error{.what = "a picture shows one column",
+                     .file = a.output,
+                     .expected = "a field of one component, chosen by --fields",
+                     .found = columns.empty() ? "no field" : fmt::format("{}", fmt::join(columns, ", ")),
+                     .remedy = columns.empty() ? "add one by --field NAME=FILE" : "name one in --fields"};
+    const auto [w, h] = *axes;
+    report::Slice slice;
+    slice.width = static_cast<std::size_t>(grid.counts[w]);
+    slice.height = static_cast<std::size_t>(grid.counts[h]);
+    if (grid.spacing[w] > 0 && grid.spacing[h] > 0) slice.aspect = grid.spacing[w] / grid.spacing[h];
+    if (a.range) slice.range = std::pair((*a.range)[0], (*a.range)[1]);
+    return std::unique_ptr<GridOutput>(std::make_unique<PngOutput>(a.output, slice));
+}
+
 }  // namespace
 
 Status check_grid_output(const ResampleArguments& a) {
     const bool picture = has_suffix(a.output, ".png");
     if (a.range && !picture)
         return Error{.what = "--range without a picture", .file = a.output, .remedy = "it is for --output FILE.png"};
-    if (a.output == "-" || has_suffix(a.output, ".csv") || has_suffix(a.output, ".npy") || has_suffix(a.output, ".vti"))
+    if (a.output == "-" || has_suffix(a.output, ".csv") || has_suffix(a.output, ".npy") ||
+        has_suffix(a.output, ".vti") || picture)
         return Done{};
     const std::size_t dot = a.output.find_last_of("./");
     const bool suffix = dot != std::string::npos && a.output[dot] == '.';
     return Error{.what = "--output in a format that is not known by its suffix",
                  .file = a.output,
-                 .expected = ".vti, .npy or .csv for a grid, or - for CSV on stdout",
+                 .expected = ".vti, .npy, .csv or .png for a grid, or - for CSV on stdout",
                  .found = suffix ? '"' + a.output.substr(dot) + '"' : "no suffix",
                  .remedy = "choose another name"};
 }
@@ -155,6 +226,7 @@ Result<std::unique_ptr<GridOutput>> open_grid_output(const ResampleArguments& a,
     const bool distances = a.options.outside.kind == Outside::nearest || a.options.outside.kind == Outside::extrapolate;
     const std::vector<std::string>& columns = engine.sampler().columns();
     if (has_suffix(a.output, ".vti")) return VtiOutput::open(a.output, engine, grid, distances);
+    if (has_suffix(a.output, ".png")) return open_picture(a, columns, grid);
     if (has_suffix(a.output, ".npy")) {
         if (columns.empty())
             return Error{.what = "no field to write",

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "barycert/core/result.hpp"
+#include "barycert/report/png.hpp"
 #include "barycert/sample/resample.hpp"
 #include "resample.hpp"
 #include "sampling_engine.hpp"
@@ -16,6 +18,9 @@ public:
     virtual ~GridOutput() = default;
     virtual Status write(const GridBlock& block) = 0;
     virtual Status commit() = 0;
+
+    /// After the commit of a picture, what became of the values.
+    virtual std::optional<report::SliceCounts> picture() const { return std::nullopt; }
 };
 
 /// By the suffix of --output. Errors: a format that cannot hold these fields or that grid; a path that cannot be

@@ -96,6 +96,7 @@ Status resample_grid(const ResampleArguments& a, SamplingEngine& engine, report:
     run.seconds.sample = watch.lap() - writing;
     Status committed = (*output)->commit();
     run.seconds.write = writing + watch.lap();
+    run.picture = (*output)->picture();
     return committed;
 }
 

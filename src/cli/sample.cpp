@@ -13,6 +13,7 @@
 #include "sampling_engine.hpp"
 #include "sampling_files.hpp"
 #include "sampling_run.hpp"
+#include "sampling_signals.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -68,6 +69,7 @@ Status with_map(const SampleArguments& a, SamplingEngine& engine, report::Sample
 
 Status run_sample(const SampleArguments& a) {
     if (Status ok = check_arguments(a); !ok) return ok;
+    const RemoveOnSignal tidy({a.output, a.save_map, a.json});
     const ThreadLimit limit(a.options.threads);
     Progress progress(wants_progress(a));
     Stopwatch whole;

@@ -1,6 +1,7 @@
 #include "sampling_fields.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "sampling_field_file.hpp"
@@ -40,15 +41,25 @@ Result<bool> is_of_cells(const FieldFile& file, std::size_t rows, const Mesh& me
                  .remedy = "use a file that was made for this mesh"};
 }
 
+/// What rows, grids and meshes have besides fields.
+bool is_taken(const std::string& name) {
+    constexpr std::array<std::string_view, 7> taken{"x", "y", "z", "cell", "feature", "distance", "vtkValidPointMask"};
+    return std::find(taken.begin(), taken.end(), name) != taken.end();
+}
+
 /// True, and the choice made, if there is that field.
 bool choose(const Mesh& mesh, std::string_view name, std::vector<FieldChoice>& chosen) {
-    if (const Field* const field = named(mesh.point_fields, name)) {
-        chosen.push_back({field, false});
-        return true;
+    for (const std::string& full : {std::string(name), std::string(of_points) + std::string(name)}) {
+        if (const Field* const field = named(mesh.point_fields, full)) {
+            chosen.push_back({field, false});
+            return true;
+        }
     }
-    if (const Field* const field = named(mesh.cell_fields, name)) {
-        chosen.push_back({field, true});
-        return true;
+    for (const std::string& full : {std::string(name), std::string(of_cells) + std::string(name)}) {
+        if (const Field* const field = named(mesh.cell_fields, full)) {
+            chosen.push_back({field, true});
+            return true;
+        }
     }
     const bool cells = name.starts_with(of_cells);
     if (!cells && !name.starts_with(of_points)) return false;
@@ -104,8 +115,12 @@ Status add_fields(const std::vector<FieldFile>& files, Mesh& mesh) {
                          .remedy = "give it another name: --field OTHER=" + file.path};
         fields.push_back(std::move(*field));
     }
+    for (Field& field : mesh.point_fields) {
+        if (is_taken(field.name)) field.name = std::string(of_points) + field.name;
+    }
     for (Field& field : mesh.cell_fields) {
-        if (named(mesh.point_fields, field.name) != nullptr) field.name = std::string(of_cells) + field.name;
+        if (named(mesh.point_fields, field.name) != nullptr || is_taken(field.name))
+            field.name = std::string(of_cells) + field.name;
     }
     return Done{};
 }

@@ -7,6 +7,7 @@
 #include "barycert/audit/witness_file.hpp"
 #include "barycert/report/check_json.hpp"
 #include "barycert/report/json.hpp"
+#include "barycert/report/sample_json.hpp"
 #include "check_meshes.hpp"
 #include "schema_tables.hpp"
 #include "small_audit.hpp"
@@ -39,6 +40,17 @@ void check_reports(Schema& schema) {
     schema.check("Check", Json::parse(text), "check");
 }
 
+/// Runs of sampling with something of everything.
+void sample_reports(Schema& schema) {
+    report::SampleRun run;
+    run.columns = {"t"};
+    for (const double low : {0.25, std::numeric_limits<double>::quiet_NaN()}) {
+        run.picture = report::SliceCounts{.drawn = 3, .below = 1, .above = 2, .low = low, .high = low};
+        schema.check("Sample", Json::parse(report::sample_json(run, measure_environment())), "sample");
+        run.grid = Grid{.dimension = 3, .counts = {2, 1, 2}, .origin = {-1, 0, 0}, .spacing = {1, 0, 1}, .last = {}};
+    }
+}
+
 /// Everything that is written, checked against a schema.
 Schema checked() {
     Schema schema(BARYCERT_SCHEMA);
@@ -47,6 +59,7 @@ Schema checked() {
     schema.check("Kernels", Json::parse(report::kernels_json(catalogue())), "kernels");
     schema.check("Families", Json::parse(report::families_json(audit::all_families())), "families");
     check_reports(schema);
+    sample_reports(schema);
     return schema;
 }
 
@@ -129,6 +142,7 @@ TEST(schema, the_number_is_the_documented_one) {
     EXPECT_EQ(report::audit_schema, 1);
     EXPECT_EQ(audit::witness_schema, 1);
     EXPECT_EQ(report::check_schema, 1);
+    EXPECT_EQ(report::sample_schema, 1);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "barycert/report/sample_json.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -58,6 +59,17 @@ Json values_json(const SampleRun& run) {
     return j;
 }
 
+Json picture_json(const SliceCounts& n) {
+    const auto figure = [](double x) { return std::isnan(x) ? Json(nullptr) : Json(x); };
+    Json j;
+    j["low"] = figure(n.low);
+    j["high"] = figure(n.high);
+    j["drawn"] = n.drawn;
+    j["below"] = n.below;
+    j["above"] = n.above;
+    return j;
+}
+
 Json seconds_json(const SampleSeconds& s) {
     Json j;
     j["mesh"] = s.mesh;
@@ -96,6 +108,7 @@ std::string sample_json(const SampleRun& run, const Environment& environment) {
     j["inside"] = inside_json(run.counts.locations);
     j["outside"] = outside_json(run);
     j["values"] = values_json(run);
+    if (run.picture) j["picture"] = picture_json(*run.picture);
     j["method"] = name(run.method);
     j["reason"] = run.reason;
     j["seconds"] = seconds_json(run.seconds);

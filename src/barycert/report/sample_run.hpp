@@ -8,6 +8,7 @@
 
 #include "barycert/check/certificate.hpp"
 #include "barycert/core/weights.hpp"
+#include "barycert/report/png.hpp"
 #include "barycert/sample/grid.hpp"
 #include "barycert/sample/sample.hpp"
 
@@ -44,6 +45,7 @@ struct SampleRun {
     PointsFrom from = PointsFrom::points;
     std::string points;        ///< the file they came from; empty for a grid
     std::optional<Grid> grid;  ///< of resample --grid and --spacing
+    std::optional<SliceCounts> picture;
     int dimension = 3;
     std::uint64_t nodes = 0, cells = 0, degenerate_cells = 0;
     std::vector<std::string> columns;  ///< of values

@@ -1,5 +1,6 @@
 #include "barycert/report/sample_terminal.hpp"
 
+#include <cmath>
 #include <vector>
 
 #include "barycert/core/text.hpp"
@@ -55,6 +56,16 @@ std::string values(const SampleRun& run) {
     return text;
 }
 
+std::string picture(const SliceCounts& n) {
+    if (std::isnan(n.low)) return "nothing is drawn: no point of it has a finite value";
+    std::string text = fmt::format("colours from {} to {}", shortest(n.low), shortest(n.high));
+    if (n.below != 0) text += fmt::format("; {} below, drawn as the first", plural(n.below, "point", "points"));
+    if (n.above != 0) text += fmt::format("; {} above, drawn as the last", plural(n.above, "point", "points"));
+    const std::uint64_t clear = n.outside + n.not_finite;
+    return text +
+           (clear == 0 ? "" : fmt::format("; {} without a value, transparent", plural(clear, "point", "points")));
+}
+
 std::string times(const SampleRun& run) {
     const SampleSeconds& s = run.seconds;
     std::string text = fmt::format("{:.3g} s on {}: mesh {:.3g}", s.total,
@@ -102,6 +113,7 @@ std::string terminal_sample(const SampleRun& run, bool colour) {
     if (run.nan_values != 0)
         out += line("NaN", paint.bold(fmt::format("{} of points inside: values of nodes or cells there are not finite",
                                                   plural(run.nan_values, "value", "values"))));
+    if (run.picture) out += line("picture", picture(*run.picture));
     std::string cells = plural(run.cells, "cell", "cells") + ", " + plural(run.nodes, "node", "nodes");
     if (run.degenerate_cells != 0)
         cells += paint.bold(fmt::format("; {} degenerate and own{} nothing",
