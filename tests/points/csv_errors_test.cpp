@@ -82,6 +82,7 @@ TEST(CsvErrors, quotes) {
     const char* const what = "a quoted field without an end";
     expect_refused("1,2,3,\"a\n4,5,6,b\"\n", 3, {1, what, nullptr, "'1,2,3,\"a'", "close the quote"});
     expect_refused("1,2,3,a\n4,5,6,\"b\"c\n", 3, {2, what, nullptr, nullptr, nullptr});
+    expect_refused("1,2,3\n4,5,6,\"b\n", 3, {2, what, nullptr, nullptr, nullptr});  // beyond the fields
     expect_refused("1 2 3 a\n4 5 6 \"b\"c\n", 3, {2, what, nullptr, nullptr, nullptr});
     expect_refused("1,2,3,a\n4,5,6,\"\"\"\n", 3, {2, what, nullptr, nullptr, nullptr});
 }

@@ -38,6 +38,8 @@ TEST(CsvSource, headers) {
     expect_points("v,Points:0,Points:1,Points:2\n9,1,2,3\n", 3, {1, 2, 3});
     expect_points("\"v\",\"Points_0\",\"Points_1\",\"Points_2\"\n9,1,2,3\n", 3, {1, 2, 3});
     expect_points("id,x,y,Points:0,Points:1,Points:2\n9,7,7,1,2,3\n", 3, {1, 2, 3});  // no z: the others are whole
+    expect_points("\"a;\tb\",x,y,z\n9,1,2,3\n", 3, {1, 2, 3});
+    expect_points("\"a,\"\";b\" x y z\n9 1 2 3\n", 3, {1, 2, 3});
     expect_points("2020,x,y,z\n9,1,2,3\n", 3, {1, 2, 3});
     expect_points("x,y,z\n", 3, {});
     expect_points("x,y,z", 3, {});

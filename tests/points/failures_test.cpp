@@ -88,7 +88,8 @@ TEST_P(Failures, no_permission) {
     ASSERT_EQ(::chmod((folder / "").c_str(), 0500), 0);
     const auto sink = open_sink(folder / GetParam(), one_column);
     ASSERT_EQ(::chmod((folder / "").c_str(), 0700), 0);
-    expect_error(sink, GetParam(), {0, nullptr, nullptr, "Permission denied", "may write"});
+    expect_error(sink, GetParam(),
+                 {0, "cannot make a file beside the target", nullptr, "Permission denied", "may write"});
 }
 
 TEST_P(Failures, nothing_without_a_commit) {

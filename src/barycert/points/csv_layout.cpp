@@ -99,7 +99,7 @@ Result<CsvLayout> settle_csv_layout(std::string_view line, int dimension, const 
                 at = i;
             }
             if (!at) break;
-            layout.axis_of[*at] = static_cast<std::int8_t>(axis);
+            layout.axis_of[*at] = static_cast<int>(axis);
             ++named;
         }
         layout.header = named == axes;
@@ -125,7 +125,7 @@ Result<CsvLayout> settle_csv_layout(std::string_view line, int dimension, const 
             .found = listed(fields),
             .remedy = "write one point a line, its coordinates separated by commas, semicolons, tabs or blanks"};
     }
-    for (std::size_t axis = 0; axis < axes; ++axis) layout.axis_of[axis] = static_cast<std::int8_t>(axis);
+    for (std::size_t axis = 0; axis < axes; ++axis) layout.axis_of[axis] = static_cast<int>(axis);
     return layout;
 }
 

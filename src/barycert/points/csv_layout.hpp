@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,9 +11,9 @@
 namespace barycert::points {
 
 struct CsvLayout {
-    char separator = ',';                ///< ',' ';' '\t', or ' ' for blanks
-    std::vector<std::int8_t> axis_of{};  ///< one a field: the coordinate it holds, or -1
-    bool header = false;                 ///< the first line is a header
+    char separator = ',';        ///< ',' ';' '\t', or ' ' for blanks
+    std::vector<int> axis_of{};  ///< one a field: the coordinate it holds, or -1
+    bool header = false;         ///< the first line is a header
 };
 
 /// Where a line stands.
