@@ -48,8 +48,9 @@ void verify_vtk(Round& round) {
     }
 }
 
-/// Its triangulation is another one, so that a linear field is all that can be compared: nodal values are off by a
-/// rounding of three terms each, 2^-52 of sum |terms|, and so are exact interpolations of them.
+/// Its triangulation is another one, so that a linear field is all that can be compared. Nodal values are off by three
+/// roundings of at most 2^-53 sum |terms| each, and so is what is interpolated from them exactly, here and there; then
+/// both values are rounded: they are 8 such roundings apart at most.
 void verify_cgal(Round& round) {
     const Subject& subject = round.subject;
     round.cgal->build();
