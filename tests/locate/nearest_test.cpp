@@ -250,6 +250,19 @@ TEST(LocateNearest, NothingIsNearerThanAllDistances) {
     EXPECT_EQ(locator->nearest(outside.data(), 0.5)->distance, 0.5);
 }
 
+// Halves of the smallest subnormal are nothing: boxes of such cells have no width in them.
+TEST(LocateNearest, OneOrTwoSubnormalsWide) {
+    for (const int d : {2, 3}) {
+        for (const int cubes : {1, 2}) {
+            const Mesh mesh = mapped(box(d, {cubes, cubes, cubes}), {5e-324, 5e-324, 5e-324}, {});
+            std::vector<double> points;
+            Random random(9);
+            for (int i = 0; i < 60 * d; ++i) points.push_back(5e-324 * random.integer(-4, 6));
+            expect_nearest(mesh, points, "subnormals");
+        }
+    }
+}
+
 // Squares of such distances are zero in double.
 TEST(LocateNearest, VeryNearIsNotZero) {
     const Mesh mesh = box(3, {1, 1, 1});
