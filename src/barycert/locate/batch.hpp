@@ -8,9 +8,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
-#include <thread>
+#include <utility>
 #include <vector>
 
 #include "barycert/locate/finder.hpp"
@@ -47,8 +48,8 @@ inline std::size_t block_of(std::size_t count) {
 }
 
 /// For blocks of the points, on all threads of the calling arena: worker = make(number of the first point of the
-/// block); worker(records, count, owners, features) for each chunk of the sorted block, where the number of a record
-/// counts within its block; done(number of the first point, worker) in the end. Precondition: finite points.
+/// block, their count); worker(records, count, owners, features) for each chunk of the sorted block; in the end
+/// done(number of the first point, sorted block, worker). Precondition: finite points.
 template <class Make, class Done>
 void for_chunks(const LocatorData& data, std::span<const double> points, LocationCounts& counts, Make make, Done done) {
     const std::size_t d = data.index.dimension(), count = points.size() / d;
@@ -56,18 +57,19 @@ void for_chunks(const LocatorData& data, std::span<const double> points, Locatio
     std::vector<LocationCounts> parts(blocks);
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
         const std::size_t first = b * block, size = std::min(block, count - first);
-        SortedPoints sorted;
-        sorted.sort(d, data.index.bins, points.subspan(d * first, d * size));
+        std::unique_ptr<SortedPoints> sorted = data.sorted.take();
+        sorted->sort(d, data.index.bins, points.subspan(d * first, d * size));
         Finder finder(data);
-        auto worker = make(first);
+        auto worker = make(first, size);
         std::array<Place, chunk_size> owner;
         std::array<Feature, chunk_size> feature;
         for (std::size_t at = 0; at < size; at += chunk_size) {
             const std::size_t n = std::min(chunk_size, size - at);
-            finder.find(sorted.data() + at, n, owner.data(), feature.data(), parts[b]);
-            worker(sorted.data() + at, n, owner.data(), feature.data());
+            finder.find(sorted->data() + at, n, owner.data(), feature.data(), parts[b]);
+            worker(sorted->data() + at, n, owner.data(), feature.data());
         }
-        done(first, worker);
+        done(first, *sorted, worker);
+        data.sorted.put(std::move(sorted));
     });
     for (const LocationCounts& part : parts) counts.add(part);
 }

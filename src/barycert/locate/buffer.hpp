@@ -25,17 +25,39 @@ public:
         data_.get_deleter().alignment = alignment(size);
     }
 
-    T* data() { return data_.get(); }
-    const T* data() const { return data_.get(); }
-    std::size_t size() const { return size_; }
-    std::size_t bytes() const { return size_ * sizeof(T); }
-    T& operator[](std::size_t i) { return data_.get()[i]; }
-    const T& operator[](std::size_t i) const { return data_.get()[i]; }
-    T* begin() { return data(); }
-    T* end() { return data() + size_; }
-    const T* begin() const { return data(); }
-    const T* end() const { return data() + size_; }
-    operator std::span<const T>() const { return {data(), size_}; }
+    T* data() {
+        return data_.get();
+    }
+    const T* data() const {
+        return data_.get();
+    }
+    std::size_t size() const {
+        return size_;
+    }
+    std::size_t bytes() const {
+        return size_ * sizeof(T);
+    }
+    T& operator[](std::size_t i) {
+        return data_.get()[i];
+    }
+    const T& operator[](std::size_t i) const {
+        return data_.get()[i];
+    }
+    T* begin() {
+        return data();
+    }
+    T* end() {
+        return data() + size_;
+    }
+    const T* begin() const {
+        return data();
+    }
+    const T* end() const {
+        return data() + size_;
+    }
+    operator std::span<const T>() const {
+        return {data(), size_};
+    }
 
 private:
     static constexpr std::size_t large_page = std::size_t{1} << 21;

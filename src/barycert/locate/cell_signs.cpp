@@ -46,12 +46,12 @@ std::optional<WeightSigns> filtered(const Situation<d>& s) {
     }
     double n[d + 1], denominator;
     if constexpr (d == 3) {
-        const auto cross = [&](std::size_t i, std::size_t j, double (&out)[3]) {
+        const auto cross = [&](std::size_t i, std::size_t j, double(&out)[3]) {
             out[0] = r[i][1] * r[j][2] - r[i][2] * r[j][1];
             out[1] = r[i][2] * r[j][0] - r[i][0] * r[j][2];
             out[2] = r[i][0] * r[j][1] - r[i][1] * r[j][0];
         };
-        const auto dot = [&](std::size_t i, const double (&x)[3]) {
+        const auto dot = [&](std::size_t i, const double(&x)[3]) {
             return r[i][0] * x[0] + r[i][1] * x[1] + r[i][2] * x[2];
         };
         double m01[3], m23[3];

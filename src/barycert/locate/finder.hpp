@@ -35,12 +35,11 @@ public:
             which[in_box] = static_cast<std::uint32_t>(i);
             in_box += data_.index.box_holds(points[i].at.data()) ? 1 : 0;
         }
-        for_candidates(points, which.data(), in_box, counts.tests,
-                       [&](const Candidate& c, WeightSigns signs) {
-                           if (signs.contains())
-                               found(c.point, data_.index.original[static_cast<std::size_t>(c.cell)],
-                                     signs.feature(data_.index.simplex));
-                       });
+        for_candidates(points, which.data(), in_box, counts.tests, [&](const Candidate& c, WeightSigns signs) {
+            if (signs.contains())
+                found(c.point, data_.index.original[static_cast<std::size_t>(c.cell)],
+                      signs.feature(data_.index.simplex));
+        });
     }
 
 private:

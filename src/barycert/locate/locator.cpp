@@ -23,11 +23,21 @@ Status check_points(const Locator& locator, std::span<const double> points) {
 
 void LocationCounts::add(Feature f, std::uint64_t count) {
     switch (f) {
-        case Feature::interior: interior += count; break;
-        case Feature::face: face += count; break;
-        case Feature::edge: edge += count; break;
-        case Feature::vertex: vertex += count; break;
-        default: outside += count; break;
+        case Feature::interior:
+            interior += count;
+            break;
+        case Feature::face:
+            face += count;
+            break;
+        case Feature::edge:
+            edge += count;
+            break;
+        case Feature::vertex:
+            vertex += count;
+            break;
+        default:
+            outside += count;
+            break;
     }
 }
 
@@ -77,19 +87,30 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
                      .expected = "one cell and one feature for each of " + std::to_string(count) + " points",
                      .found = std::to_string(cells.size()) + " and " + std::to_string(features.size())};
     LocationCounts all;
-    const auto write_to = [&](std::size_t first) {
-        return [&, first](const detail::PointRecord* records, std::size_t n, const detail::Place* owner,
-                          const Feature* feature) {
+    struct Worker {
+        const detail::CellIndex& index;
+        std::vector<Mesh::Index> cells;
+        std::vector<Feature> features;
+
+        void operator()(const detail::PointRecord* records, std::size_t n, const detail::Place* owner,
+                        const Feature* feature) {
             for (std::size_t i = 0; i < n; ++i) {
-                const std::size_t to = first + records[i].number;
-                cells[to] = owner[i] < 0 ? -1 : data_->index.original[static_cast<std::size_t>(owner[i])];
-                features[to] = feature[i];
+                cells[records[i].number] = owner[i] < 0 ? -1 : index.original[static_cast<std::size_t>(owner[i])];
+                features[records[i].number] = feature[i];
             }
-        };
+        }
     };
-    detail::in_arena(threads, [&] {
-        detail::for_chunks(*data_, points, all, write_to, [](std::size_t, const auto&) {});
-    });
+    const auto make = [&](std::size_t, std::size_t size) {
+        return Worker{data_->index, std::vector<Mesh::Index>(size), std::vector<Feature>(size)};
+    };
+    const auto write = [&](std::size_t first, const detail::SortedPoints& sorted, const Worker& worker) {
+        sorted.for_each_in_callers_order([&](std::size_t place) { __builtin_prefetch(&worker.cells[place]); },
+                                         [&](std::size_t i, std::size_t place) {
+                                             cells[first + i] = worker.cells[place];
+                                             features[first + i] = worker.features[place];
+                                         });
+    };
+    detail::in_arena(threads, [&] { detail::for_chunks(*data_, points, all, make, write); });
     if (counts != nullptr) counts->add(all);
     return Done{};
 }
@@ -112,11 +133,13 @@ Result<AllLocations> Locator::locate_all(std::span<const double> points, Locatio
             detail::SortedPoints sorted;
             sorted.sort(d, data_->index.bins, points.subspan(d * first, d * size));
             detail::Finder finder(*data_);
+            std::vector<std::size_t> number(size);
+            sorted.for_each_in_callers_order([](std::size_t) {},
+                                             [&](std::size_t i, std::size_t place) { number[place] = first + i; });
             for (std::size_t at = 0; at < size; at += detail::chunk_size) {
-                const detail::PointRecord* const chunk = sorted.data() + at;
-                finder.find_all(chunk, std::min(detail::chunk_size, size - at), parts[b],
+                finder.find_all(sorted.data() + at, std::min(detail::chunk_size, size - at), parts[b],
                                 [&](std::uint32_t point, Mesh::Index cell, Feature feature) {
-                                    found[b].push_back({first + chunk[point].number, cell, feature});
+                                    found[b].push_back({number[at + point], cell, feature});
                                 });
             }
             std::sort(found[b].begin(), found[b].end(), [](const Found& x, const Found& y) {

@@ -98,13 +98,13 @@ public:
     /// Bytes besides the mesh, with what has been made on first need until now.
     std::size_t bytes() const;
 
-    /// One point of mesh().dimension coordinates. `hint`: a cell thought to be near, such as that of the last point of a
-    /// moving particle; -1: none. Error: a coordinate is not finite.
+    /// One point of mesh().dimension coordinates. `hint`: a cell thought to be near, such as that of the last point of
+    /// a moving particle; -1: none. Error: a coordinate is not finite.
     Result<Location> locate(const double* point, Mesh::Index hint = -1) const;
 
     /// Many points: cells[i] and features[i] are the answer for point i. `threads`: 0 for as many as the machine has.
-    /// Errors: sizes that do not fit; a coordinate that is not finite (it names the point). The output is then not to be
-    /// used.
+    /// Errors: sizes that do not fit; a coordinate that is not finite (it names the point). The output is then not to
+    /// be used.
     Status locate(std::span<const double> points, std::span<Mesh::Index> cells, std::span<Feature> features,
                   LocationCounts* counts = nullptr, int threads = 0) const;
 
@@ -112,9 +112,9 @@ public:
     Result<AllLocations> locate_all(std::span<const double> points, LocationCounts* counts = nullptr,
                                     int threads = 0) const;
 
-    /// The nearest point of all cells that are not degenerate, for a point outside. Distances are compared in double, so
-    /// among points of the mesh that are equally far up to rounding it may be any, always the same one.
-    /// Only points nearer than or as near as `limit` count. Error: a coordinate is not finite.
+    /// The nearest point of all cells that are not degenerate, for a point outside. Distances are compared in double,
+    /// so among points of the mesh that are equally far up to rounding it may be any, always the same one. Only points
+    /// nearer than or as near as `limit` count. Error: a coordinate is not finite.
     Result<Nearest> nearest(const double* point, double limit) const;
 
     /// For the library's own use.

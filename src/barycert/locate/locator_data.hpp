@@ -9,6 +9,7 @@
 #include "barycert/locate/cell_tree.hpp"
 #include "barycert/locate/locator.hpp"
 #include "barycert/locate/node_cells.hpp"
+#include "barycert/locate/sorted_points.hpp"
 
 namespace barycert::detail {
 
@@ -29,10 +30,35 @@ private:
     mutable std::unique_ptr<T> value_;
 };
 
+/// Things that are dear to make, kept for the next user.
+template <class T>
+class Pool {
+public:
+    /// One that nobody uses; give it back by put().
+    std::unique_ptr<T> take() const {
+        const std::lock_guard lock(mutex_);
+        if (kept_.empty()) return std::make_unique<T>();
+        std::unique_ptr<T> one = std::move(kept_.back());
+        kept_.pop_back();
+        return one;
+    }
+    void put(std::unique_ptr<T> one) const {
+        const std::lock_guard lock(mutex_);
+        kept_.push_back(std::move(one));
+    }
+
+private:
+    mutable std::mutex mutex_;
+    mutable std::vector<std::unique_ptr<T>> kept_;
+};
+
 struct LocatorData {
     const Mesh* mesh = nullptr;
     Method method = Method::candidates;
     CellIndex index;
+
+    /// Up to 36 MiB a thread: the system would have to clear as much for every block of points.
+    Pool<SortedPoints> sorted;
 
     const CellTree& tree() const {
         return tree_.get([&] { return CellTree(index); });

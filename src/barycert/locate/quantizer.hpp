@@ -10,9 +10,9 @@
 
 namespace barycert::detail {
 
-/// Maps each axis of a box onto integers of 31 bits. The map is monotone: x <= y gives at(k, x) <= at(k, y), whatever is
-/// rounded, because halving, subtracting, multiplying by a positive number, cutting off and clamping all are. So what
-/// lies in a box lies in its image, and comparing images excludes no cell that holds a point.
+/// Maps each axis of a box onto integers of 31 bits. The map is monotone: x <= y gives at(k, x) <= at(k, y), whatever
+/// is rounded, because halving, subtracting, multiplying by a positive number, cutting off and clamping all are. So
+/// what lies in a box lies in its image, and comparing images excludes no cell that holds a point.
 class Quantizer {
 public:
     static constexpr int bits = 31;

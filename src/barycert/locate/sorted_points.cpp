@@ -6,16 +6,17 @@
 namespace barycert::detail {
 namespace {
 
-constexpr int most_bits = 12;
+constexpr int most_bits = 10;
 
 template <std::size_t d>
 void place(std::span<const double> points, const std::vector<std::uint32_t>& bin, int shift,
-           std::vector<std::uint32_t>& next, PointRecord* records) {
+           std::vector<std::uint32_t>& next, PointRecord* records, std::uint32_t* places) {
     for (std::size_t i = 0; i < bin.size(); ++i) {
-        PointRecord& to = records[next[bin[i] >> shift]++];
+        const std::uint32_t at = places[i] = next[bin[i] >> shift]++;
+        PointRecord& to = records[at];
         const double* const from = points.data() + d * i;
         to.at = {from[0], from[1], d == 3 ? from[d - 1] : 0};
-        to.number = static_cast<std::uint32_t>(i);
+        to.number = at;
         to.bin = bin[i];
     }
 }
@@ -34,7 +35,9 @@ void SortedPoints::sort(std::size_t d, const Bins& bins, std::span<const double>
     }
     std::uint32_t sum = 0;
     for (std::uint32_t& n : next_) sum += std::exchange(n, sum);
-    d == 2 ? place<2>(points, bin_, shift, next_, records_.data()) : place<3>(points, bin_, shift, next_, records_.data());
+    place_.resize(size_);
+    d == 2 ? place<2>(points, bin_, shift, next_, records_.data(), place_.data())
+           : place<3>(points, bin_, shift, next_, records_.data(), place_.data());
 }
 
 }  // namespace barycert::detail

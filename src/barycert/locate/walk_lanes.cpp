@@ -88,6 +88,18 @@ HWY_INLINE void step(D tag, const CellRecord* cells, const NodeRecord* nodes, co
     }
 }
 
+/// How many vectors ahead the nodes of cells are asked for.
+constexpr std::size_t vectors_ahead = 4;
+
+template <Simplex s, std::size_t width>
+HWY_INLINE void fetch_nodes(const detail::CellIndex& index, const Walk* walks) {
+    for (std::size_t l = 0; l < width; ++l) {
+        const auto& node = index.cells[static_cast<std::size_t>(walks[l].cell)].node;
+        for (std::size_t i = 0; i < vertex_count(s); ++i)
+            __builtin_prefetch(&index.nodes[static_cast<std::size_t>(node[i])]);
+    }
+}
+
 template <Simplex s>
 std::size_t step_all(const detail::CellIndex& index, const PointRecord* points, Walk* walks, std::size_t count,
                      Place* inside, Walk* stuck, std::size_t& stuck_count) {
@@ -99,6 +111,8 @@ std::size_t step_all(const detail::CellIndex& index, const PointRecord* points, 
         Walk block[width];
         for (; at + width <= count; at += width) {
             for (std::size_t l = 0; l < width; ++l) block[l] = walks[at + l];
+            if (at + (vectors_ahead + 1) * width <= count)
+                fetch_nodes<s, width>(index, walks + at + vectors_ahead * width);
             step<s>(tag, index.cells.data(), index.nodes.data(), points, block, to);
         }
     };

@@ -24,7 +24,8 @@ void ChunkSampler::operator()(const PointRecord* points, std::size_t count, cons
     if (data_.point_components != 0)
         data_.quadratic ? interpolate_second_order(points, inside) : interpolate_linear(points, inside);
     for (std::size_t i = 0; !data_.cell_fields.empty() && i < inside; ++i)
-        copy_cell_values(data_, index.original[static_cast<std::size_t>(inside_[i].cell)], row(points[inside_[i].point]));
+        copy_cell_values(data_, index.original[static_cast<std::size_t>(inside_[i].cell)],
+                         row(points[inside_[i].point]));
 }
 
 void ChunkSampler::interpolate_linear(const PointRecord* points, std::size_t count) {
@@ -53,8 +54,7 @@ void ChunkSampler::interpolate_exactly(const PointRecord& point, Place cell) {
         for (std::size_t i = 0; i < corners; ++i) f[i] = data_.value_at(static_cast<std::size_t>(node[i]), c);
         const bool usable = std::all_of(f.begin(), f.end(), [](double x) { return std::isfinite(x); });
         finite &= usable;
-        row(point)[c] =
-            usable ? weights.interpolate({f.data(), corners}) : std::numeric_limits<double>::quiet_NaN();
+        row(point)[c] = usable ? weights.interpolate({f.data(), corners}) : std::numeric_limits<double>::quiet_NaN();
     }
     counts_.values.not_finite += finite ? 0 : 1;
 }
@@ -96,9 +96,15 @@ void ChunkSampler::outside(const PointRecord& point) {
     double* const end = values + data_.columns.size();
     if (rows_.distances != nullptr) rows_.distances[point.number] = 0;
     switch (options_.outside.kind) {
-        case Outside::error: refused_ = std::min(refused_.value_or(point.number), point.number); [[fallthrough]];
-        case Outside::nan: std::fill(values, end, std::numeric_limits<double>::quiet_NaN()); break;
-        case Outside::fill: std::fill(values, end, options_.outside.fill); break;
+        case Outside::error:
+            refused_ = std::min(refused_.value_or(point.number), point.number);
+            [[fallthrough]];
+        case Outside::nan:
+            std::fill(values, end, std::numeric_limits<double>::quiet_NaN());
+            break;
+        case Outside::fill:
+            std::fill(values, end, options_.outside.fill);
+            break;
         default:
             if (const auto distance = value_outside(data_, options_, point.at.data(), values, counts_.values)) {
                 ++(options_.outside.kind == Outside::nearest ? counts_.snapped : counts_.extrapolated);

@@ -54,9 +54,9 @@ using detail::Span;
 
 constexpr std::size_t most_lanes = 8;
 
-/// Of each plane, by cell of a block: the weight along a row at (w_y, w_z) is a = constant + sy w_y + sz w_z at w_x = 0.
-/// It bounds the row from below at t = lower - a * lower_factor -+ lower_width, from above likewise; where it does not,
-/// the bound is far away and its factor 0.
+/// Of each plane, by cell of a block: the weight along a row at (w_y, w_z) is a = constant + sy w_y + sz w_z at w_x =
+/// 0. It bounds the row from below at t = lower - a * lower_factor -+ lower_width, from above likewise; where it does
+/// not, the bound is far away and its factor 0.
 struct PlaneBlock {
     HWY_ALIGN double constant[most_lanes], sy[most_lanes], sz[most_lanes];
     HWY_ALIGN double lower[most_lanes], lower_factor[most_lanes], lower_width[most_lanes];
@@ -89,7 +89,8 @@ HWY_INLINE void set_plane(D tag, const Raster& raster, V constant, const V (&s)[
     const auto parallel = hn::Le(hn::Abs(s[0]) * extent, error);
     const auto rising = hn::Or(parallel, hn::Gt(s[0], zero));
     const V factor = hn::IfThenElse(parallel, hn::Set(tag, far) / error, scale / s[0]);
-    const V width = hn::IfThenElse(parallel, hn::Set(tag, 3 * far), error * hn::Abs(factor) + hn::Set(tag, raster.slack));
+    const V width =
+        hn::IfThenElse(parallel, hn::Set(tag, 3 * far), error * hn::Abs(factor) + hn::Set(tag, raster.slack));
     const V place = hn::IfThenElse(parallel, zero, base);
     const V none = hn::Set(tag, 4 * far);
     hn::Store(constant, tag, out.constant);
@@ -118,8 +119,9 @@ HWY_INLINE void set_values(D tag, const CellMatrix<d, D>& m, const V (&extent)[d
     }
     const V error = hn::Set(tag, 1.01) * eta + hn::Set(tag, 80 * u * u) * size + hn::Set(tag, 20 * u) * corrections;
     const auto nothing = hn::Eq(size + corrections, hn::Zero(tag));
-    const auto valid = hn::And(hn::And(m.valid, g.valid), hn::And(hn::Le(size, hn::Set(tag, 0x1p900)),
-                                                                 hn::Or(nothing, hn::Ge(error, hn::Set(tag, 0x1p-960)))));
+    const auto valid =
+        hn::And(hn::And(m.valid, g.valid),
+                hn::And(hn::Le(size, hn::Set(tag, 0x1p900)), hn::Or(nothing, hn::Ge(error, hn::Set(tag, 0x1p-960)))));
     hn::Store(f[d], tag, out.at_origin);
     hn::Store(error, tag, out.error);
     hn::Store(hn::IfThenElse(valid, hn::Set(tag, 1), hn::Zero(tag)), tag, out.valid);
@@ -163,8 +165,8 @@ HWY_INLINE void set_block(D tag, const detail::CellIndex& index, const NodeValue
         hn::Store(clamp(hn::Floor((high - origin) * scale) + hn::Set(tag, 1)), tag, out.last[k]);
     }
     const V condition = m.reach[0] * extent[0];
-    const V error = hn::Set(tag, 1000 * u) * condition * condition + hn::Set(tag, 400 * u) * condition +
-                    hn::Set(tag, 8 * u);
+    const V error =
+        hn::Set(tag, 1000 * u) * condition * condition + hn::Set(tag, 400 * u) * condition + hn::Set(tag, 8 * u);
     V last[d];
     for (int j = 0; j < d; ++j) {
         V slope[d];
@@ -195,7 +197,8 @@ struct PlaceRange {
 };
 
 /// The places of an axis within [low, high], from guesses that are off by one at most.
-HWY_INLINE PlaceRange places_between(const std::vector<double>& at, double first, double last, double low, double high) {
+HWY_INLINE PlaceRange places_between(const std::vector<double>& at, double first, double last, double low,
+                                     double high) {
     const auto size = static_cast<std::int32_t>(at.size());
     const auto x = [&](std::int32_t i) { return at[static_cast<std::size_t>(i)]; };
     auto i = static_cast<std::int32_t>(first), j = static_cast<std::int32_t>(last);
@@ -276,7 +279,8 @@ HWY_INLINE Partial<V> row_terms(D tag, const CellBlock<d>& cell, const ValueBloc
                                 const Rows& rows, std::size_t at) {
     Accumulator<V> sum{hn::Set(tag, value.at_origin[l]), hn::Zero(tag), hn::Zero(tag)};
     for (int k = 1; k < d; ++k) {
-        const TwoTerms<V> w = two_difference(hn::Load(tag, (k == 1 ? rows.y : rows.z) + at), hn::Set(tag, cell.origin[k][l]));
+        const TwoTerms<V> w =
+            two_difference(hn::Load(tag, (k == 1 ? rows.y : rows.z) + at), hn::Set(tag, cell.origin[k][l]));
         const V plain = hn::Set(tag, value.plain[k][l]);
         sum.add_product(plain, w.high);
         sum.product_rest = sum.product_rest + (plain * w.low + hn::Set(tag, value.correction[k][l]) * w.high);
@@ -355,8 +359,7 @@ HWY_INLINE void fill_row(D tag, const Raster& raster, const CellFill<d, V>& fill
             const std::size_t point = at + static_cast<std::size_t>(i);
             if (kept(point)) continue;
             target.owner[point] = fill.id;
-            target.feature[point] =
-                (certain >> (i - column) & 1) != 0 ? Feature::interior : interior_without_value;
+            target.feature[point] = (certain >> (i - column) & 1) != 0 ? Feature::interior : interior_without_value;
         }
     }
 }
@@ -396,8 +399,8 @@ HWY_INLINE void fill_short_row(D tag, const CellFill<d, V>& fill, std::size_t r,
 
 template <Simplex s, class D>
 HWY_INLINE void fill_cell(D tag, const Raster& raster, const CellBlock<space_dimension(s)>& cell,
-                          const ValueBlock* values, std::size_t components, std::size_t l, Place place,
-                          Mesh::Index id, const FillTarget& target, std::vector<Span>& unsure, RowTerms* terms) {
+                          const ValueBlock* values, std::size_t components, std::size_t l, Place place, Mesh::Index id,
+                          const FillTarget& target, std::vector<Span>& unsure, RowTerms* terms) {
     using V = hn::Vec<D>;
     constexpr int d = space_dimension(s);
     constexpr std::size_t width = hn::MaxLanes(D());

@@ -27,8 +27,8 @@ Status check_count(std::size_t axis, double count) {
 }
 
 Result<Grid> checked(const Grid& grid) {
-    const double points = static_cast<double>(grid.counts[0]) * static_cast<double>(grid.counts[1]) *
-                          static_cast<double>(grid.counts[2]);
+    const double points =
+        static_cast<double>(grid.counts[0]) * static_cast<double>(grid.counts[1]) * static_cast<double>(grid.counts[2]);
     if (points <= 0x1p62) return grid;
     return Error{.what = "points of the grid", .expected = "at most 2^62", .found = shortest(points)};
 }

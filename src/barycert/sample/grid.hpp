@@ -21,7 +21,9 @@ struct Grid {
     double coordinate(std::size_t axis, std::int64_t i) const {
         return i == counts[axis] - 1 && i != 0 ? last[axis] : origin[axis] + static_cast<double>(i) * spacing[axis];
     }
-    std::uint64_t layer_size() const { return static_cast<std::uint64_t>(counts[0]) * static_cast<std::uint64_t>(counts[1]); }
+    std::uint64_t layer_size() const {
+        return static_cast<std::uint64_t>(counts[0]) * static_cast<std::uint64_t>(counts[1]);
+    }
     std::uint64_t point_count() const { return layer_size() * static_cast<std::uint64_t>(counts[2]); }
 };
 

@@ -69,9 +69,9 @@ void quadratic(const SamplerData& data, Rounding rounding, std::size_t cell, con
     const auto d = static_cast<std::size_t>(mesh.dimension);
     const MeshQueries query{data.index().simplex, mesh.points, mesh.cells, std::span(&index, 1), std::span(point, d)};
     const NodalValues<double> values{data.values, static_cast<int>(data.point_components)};
-    static_cast<void>(interpolate_quadratic(query, mesh.mid_nodes, values, std::span(out, data.point_components),
-                                            &tiers, rounding)
-                          .has_value());
+    static_cast<void>(
+        interpolate_quadratic(query, mesh.mid_nodes, values, std::span(out, data.point_components), &tiers, rounding)
+            .has_value());
 }
 
 /// The orthogonal projection of the point to what the piece spans, rounded.

@@ -8,9 +8,10 @@
 namespace barycert::detail {
 
 /// Under the policies nearest and extrapolate: sets one value a column and returns the distance to the mesh; nothing if
-/// no point of the mesh is within the limit. Point fields get, correctly rounded or plain as asked for, the value at the
-/// orthogonal projection to the nearest vertex, edge or face, or that of the function of the nearest cell; cell fields
-/// that of the nearest cell. On cells of second order the projection is rounded first, then interpolated in the cell.
+/// no point of the mesh is within the limit. Point fields get, correctly rounded or plain as asked for, the value at
+/// the orthogonal projection to the nearest vertex, edge or face, or that of the function of the nearest cell; cell
+/// fields that of the nearest cell. On cells of second order the projection is rounded first, then interpolated in the
+/// cell.
 std::optional<double> value_outside(const SamplerData& data, const SampleOptions& options, const double* point,
                                     double* values, Tiers& tiers);
 

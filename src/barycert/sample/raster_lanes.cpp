@@ -1,11 +1,11 @@
 // Rows of a grid against the planes of a cell's facets.
 //
-// For each corner i, the volume n_i (2D: area) that the point takes from it, as a function along a row: n_i = N_x x' + A
-// with x' the distance from a vertex v of the facet, N its normal, A = N_y y' + N_z z'. As in filter-inl.hpp, with e =
-// 2^-52 and X, Y, Z the sides of the cell's box, which also holds the points that are asked about: n_i has 6 terms of at
-// most X Y Z, each with at most 8 roundings, so that N_x and A as computed give n_i up to E = 49 e X Y Z (2D: 2 terms, 4
-// roundings, 8.5 e X Y), whatever the rounding mode, provided that the sides are within [2^-300, 2^300]. The signed
-// volume of the cell has the same form and bound, by which its sign is certain or not.
+// For each corner i, the volume n_i (2D: area) that the point takes from it, as a function along a row: n_i = N_x x' +
+// A with x' the distance from a vertex v of the facet, N its normal, A = N_y y' + N_z z'. As in filter-inl.hpp, with e
+// = 2^-52 and X, Y, Z the sides of the cell's box, which also holds the points that are asked about: n_i has 6 terms of
+// at most X Y Z, each with at most 8 roundings, so that N_x and A as computed give n_i up to E = 49 e X Y Z (2D: 2
+// terms, 4 roundings, 8.5 e X Y), whatever the rounding mode, provided that the sides are within [2^-300, 2^300]. The
+// signed volume of the cell has the same form and bound, by which its sign is certain or not.
 //
 // So with all signs turned such that the volume is positive, a point in the closed cell has N_x x' + A >= -E for all i,
 // and one with N_x x' + A > E for all i is certainly inside. Solved for x', that is an interval; its ends are off by a

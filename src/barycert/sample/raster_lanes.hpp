@@ -15,9 +15,9 @@ struct Raster {
     std::array<std::vector<double>, 3> at;  ///< coordinates of each axis, ascending
     /// Place i of an axis is near origin + i / scale.
     std::array<double, 3> origin{}, scale{};
-    /// Places (x - origin) * scale computed in double, of anything in the grid or the mesh, are off by less than half of
-    /// `slack`, and so are ends of intervals along x. If that cannot be said, by whatever it takes: rows are then not
-    /// cut short, and nothing is certain.
+    /// Places (x - origin) * scale computed in double, of anything in the grid or the mesh, are off by less than half
+    /// of `slack`, and so are ends of intervals along x. If that cannot be said, by whatever it takes: rows are then
+    /// not cut short, and nothing is certain.
     double slack = 0;
     bool precise = false;
 };

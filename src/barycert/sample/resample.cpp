@@ -35,12 +35,13 @@ detail::Raster raster_of(const Grid& grid, const detail::CellIndex& index) {
         const double extent = index.high[k] - index.low[k];
         raster.origin[k] = grid.origin[k];
         raster.scale[k] = grid.spacing[k] > 0 ? 1 / grid.spacing[k] : extent > 0 ? 0x1p16 / extent : 1;
-        // Ends of intervals: some roundings of numbers up to `largest`; the same for coordinates of the grid. In places:
-        // these times the scale, the roundings of that, and how far the last point is from where it were by the spacing.
+        // Ends of intervals: some roundings of numbers up to `largest`; the same for coordinates of the grid. In
+        // places: these times the scale, the roundings of that, and how far the last point is from where it were by the
+        // spacing.
         const double count = static_cast<double>(grid.counts[k]);
         const double regular_last = grid.origin[k] + (count - 1) * grid.spacing[k];
-        const double error = (32 * 0x1p-53 * largest + 2 * std::abs(at.back() - regular_last)) * raster.scale[k] +
-                             16 * 0x1p-53 * count;
+        const double error =
+            (32 * 0x1p-53 * largest + 2 * std::abs(at.back() - regular_last)) * raster.scale[k] + 16 * 0x1p-53 * count;
         raster.precise = raster.precise && error <= raster.slack / 2 && raster.scale[k] <= 0x1p300 &&
                          raster.scale[k] >= 0x1p-300 && largest <= 0x1p300;
     }

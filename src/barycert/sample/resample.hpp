@@ -14,10 +14,10 @@ namespace barycert {
 /// Some layers of a grid (2D: some lines), whole, in the order of the grid's points.
 struct GridBlock {
     std::uint64_t first_point = 0;
-    std::span<const Mesh::Index> cells;     ///< the owner, -1 outside
+    std::span<const Mesh::Index> cells;  ///< the owner, -1 outside
     std::span<const Feature> features;
-    std::span<const double> values;         ///< sampler.columns().size() a point, point after point
-    std::span<const double> distances;      ///< as in Samples
+    std::span<const double> values;     ///< sampler.columns().size() a point, point after point
+    std::span<const double> distances;  ///< as in Samples
 };
 
 using GridSink = std::function<Status(const GridBlock&)>;

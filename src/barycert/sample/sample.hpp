@@ -1,7 +1,7 @@
 /// Fields at points: the value of every field of a mesh at any point, correctly rounded.
 ///
-/// Enters: a Locator on a mesh, fields of its nodes or cells, points in the unit of the mesh. Leaves: for each point the
-/// owner, the feature and a value for each component of each field.
+/// Enters: a Locator on a mesh, fields of its nodes or cells, points in the unit of the mesh. Leaves: for each point
+/// the owner, the feature and a value for each component of each field.
 ///
 /// What holds (each law is a test of that name in tests/sample):
 ///   V1  A value of a point field is the exact interpolation in the owner, linear, or quadratic on cells of second
@@ -55,11 +55,11 @@ struct SampleOptions {
 /// Functions add to what is there, unless they fail.
 struct SampleCounts {
     LocationCounts locations;
-    Tiers values;                   ///< of points with point fields, by the highest tier that one of their values needed
-    std::uint64_t snapped = 0;      ///< points outside that got the value of the nearest point
+    Tiers values;               ///< of points with point fields, by the highest tier that one of their values needed
+    std::uint64_t snapped = 0;  ///< points outside that got the value of the nearest point
     std::uint64_t extrapolated = 0;
     std::uint64_t without_value = 0;  ///< points outside that got NaN, or the number to fill in
-    double farthest = 0;            ///< largest distance of those snapped or extrapolated
+    double farthest = 0;              ///< largest distance of those snapped or extrapolated
 
     void add(const SampleCounts& other);
 };
@@ -100,11 +100,11 @@ public:
                   std::size_t first_point = 0) const;
 
     /// The same for points whose owners are known: row i is for point i in cells[i], or outside if that is -1, with
-    /// the feature given. So `Locator::locate` once serves many fields, and every cell of `locate_all` can have its row.
-    /// Error besides: an index of a cell that is out of range.
+    /// the feature given. So `Locator::locate` once serves many fields, and every cell of `locate_all` can have its
+    /// row. Error besides: an index of a cell that is out of range.
     Status evaluate(std::span<const double> points, std::span<const Mesh::Index> cells,
-                    std::span<const Feature> features, const SampleOptions& options, Samples& out,
-                    SampleCounts& counts, std::size_t first_point = 0) const;
+                    std::span<const Feature> features, const SampleOptions& options, Samples& out, SampleCounts& counts,
+                    std::size_t first_point = 0) const;
 
     /// For the library's own use.
     const detail::SamplerData& data() const { return *data_; }

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include "barycert/core/environment.hpp"
@@ -55,10 +57,12 @@ void arrange_by_place(SamplerData& data) {
     std::fill(data.more.begin(), data.more.end(), detail::ValueRecord{});
     for_values(data, [&](std::size_t first, std::size_t components, const std::vector<double>& values) {
         for (std::size_t place = 0; place < nodes; ++place) {
-            const double* const from = values.data() + components * static_cast<std::size_t>(index.original_node[place]);
+            const double* const from =
+                values.data() + components * static_cast<std::size_t>(index.original_node[place]);
             for (std::size_t i = 0; i < components; ++i) {
                 const std::size_t c = first + i;
-                (c == 0 ? data.nodes[place].value : data.more[(c - 1) / 4 * nodes + place].value[(c - 1) % 4]) = from[i];
+                (c == 0 ? data.nodes[place].value : data.more[(c - 1) / 4 * nodes + place].value[(c - 1) % 4]) =
+                    from[i];
             }
         }
     });
@@ -104,14 +108,58 @@ detail::BlockRows rows_from(const SamplerData& data, std::size_t first, Samples&
             out.distances.empty() ? nullptr : out.distances.data() + first};
 }
 
+/// The rows of a block in the order in which they are found.
+class SortedRows {
+public:
+    SortedRows(const SamplerData& data, const SampleOptions& options, std::size_t size)
+        : data_(data), rows_(data.rows.take()) {
+        resize(data, options, size, *rows_);
+        sampler_.emplace(data, options, rows_from(data, 0, *rows_));
+    }
+    SortedRows(SortedRows&&) = default;
+    ~SortedRows() {
+        if (rows_) data_.rows.put(std::move(rows_));
+    }
+
+    void operator()(const detail::PointRecord* points, std::size_t count, const Place* owner, const Feature* feature) {
+        (*sampler_)(points, count, owner, feature);
+    }
+    const detail::ChunkSampler& sampler() const { return *sampler_; }
+
+    void write(const detail::SortedPoints& sorted, std::size_t first, Samples& out) const {
+        const std::size_t columns = data_.columns.size();
+        const Samples& rows = *rows_;
+        sorted.for_each_in_callers_order(
+            [&](std::size_t place) {
+                __builtin_prefetch(&rows.cells[place]);
+                __builtin_prefetch(rows.values.data() + columns * place);
+            },
+            [&](std::size_t i, std::size_t place) {
+                out.cells[first + i] = rows.cells[place];
+                out.features[first + i] = rows.features[place];
+                for (std::size_t c = 0; c < columns; ++c)
+                    out.values[columns * (first + i) + c] = rows.values[columns * place + c];
+                if (!out.distances.empty()) out.distances[first + i] = rows.distances[place];
+            });
+    }
+
+private:
+    const SamplerData& data_;
+    std::unique_ptr<Samples> rows_;
+    std::optional<detail::ChunkSampler> sampler_;
+};
+
 /// What becomes of the blocks of a call: their counts, and the first point that the policy refuses.
 class Outcome {
 public:
     explicit Outcome(std::size_t blocks) : counts_(blocks), refused_(blocks) {}
 
-    void set(std::size_t block, std::size_t first, const detail::ChunkSampler& sampler) {
+    /// `first`: where the rows of the block begin in `out`.
+    void set(std::size_t block, std::size_t first, const detail::ChunkSampler& sampler, const Samples& out) {
         counts_[block] = sampler.counts();
-        if (sampler.refused()) refused_[block] = first + *sampler.refused();
+        if (!sampler.refused()) return;
+        const auto begin = out.cells.begin() + static_cast<std::ptrdiff_t>(first);
+        refused_[block] = static_cast<std::size_t>(std::find(begin, out.cells.end(), -1) - out.cells.begin());
     }
 
     Status status(std::size_t first_point) const {
@@ -166,8 +214,8 @@ const std::vector<std::string>& Sampler::columns() const {
     return data_->columns;
 }
 
-Status Sampler::sample(std::span<const double> points, const SampleOptions& options, Samples& out,
-                       SampleCounts& counts, std::size_t first_point) const {
+Status Sampler::sample(std::span<const double> points, const SampleOptions& options, Samples& out, SampleCounts& counts,
+                       std::size_t first_point) const {
     if (Status status = check_call(*data_, points, options, first_point); !status) return status;
     resize(*data_, options, points.size() / data_->index().dimension(), out);
     LocationCounts locations;
@@ -176,11 +224,10 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
     detail::in_arena(options.threads, [&] {
         const std::size_t count = out.cells.size(), block = detail::block_of(count);
         Outcome outcome((count + block - 1) / block);
-        const auto make = [&](std::size_t first) {
-            return detail::ChunkSampler(*data_, options, rows_from(*data_, first, out));
-        };
-        const auto keep = [&](std::size_t first, const detail::ChunkSampler& sampler) {
-            outcome.set(first / block, first, sampler);
+        const auto make = [&](std::size_t, std::size_t size) { return SortedRows(*data_, options, size); };
+        const auto keep = [&](std::size_t first, const detail::SortedPoints& sorted, SortedRows& rows) {
+            rows.write(sorted, first, out);
+            outcome.set(first / block, first, rows.sampler(), out);
         };
         detail::for_chunks(data_->located(), points, locations, make, keep);
         status = outcome.status(first_point);
@@ -226,7 +273,7 @@ Status Sampler::evaluate(std::span<const double> points, std::span<const Mesh::I
                 }
                 sampler(records.data(), n, owner.data(), features.data() + at);
             }
-            outcome.set(b, first, sampler);
+            outcome.set(b, first, sampler, out);
         });
     });
     if (Status status = outcome.status(first_point); !status) return status;

@@ -23,6 +23,8 @@ struct SamplerData {
     // Quadratic ones: component c of node i of the mesh at values[point_components * i + c].
     std::vector<double> values;
 
+    Pool<Samples> rows;  ///< room for blocks of them, in the order in which they are found
+
     const LocatorData& located() const { return locator->data(); }
     const CellIndex& index() const { return locator->data().index; }
     NodeValues node_values() const {

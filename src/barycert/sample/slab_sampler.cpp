@@ -29,8 +29,9 @@ void SlabSampler::run(std::int32_t first, std::int32_t last, std::span<const Pla
     const bool distances = options_.outside.kind == Outside::nearest || options_.outside.kind == Outside::extrapolate;
     rows_.distances.assign(distances ? points_ : 0, 0);
     counts_ = {};
-    sampler_.emplace(data_, options_, BlockRows{rows_.cells.data(), rows_.features.data(), rows_.values.data(),
-                                                distances ? rows_.distances.data() : nullptr});
+    sampler_.emplace(data_, options_,
+                     BlockRows{rows_.cells.data(), rows_.features.data(), rows_.values.data(),
+                               distances ? rows_.distances.data() : nullptr});
     can_fill(data_, raster_, options_) ? fill(cells) : raster(cells);
     evaluate_rest();
     for (std::size_t point = 0; point < points_; ++point) counts_.locations.add(rows_.features[point]);

@@ -106,9 +106,8 @@ HWY_INLINE hn::Mask<D> evaluate(D tag, const CellRecord* cells, const NodeValues
 }
 
 template <Simplex s, template <Simplex, class, class> class Values>
-std::size_t evaluate_all(const CellRecord* cells, const NodeValues& nodes, const PointRecord* points,
-                         const Walk* items, std::size_t count, double* out, std::size_t stride,
-                         std::uint32_t* undecided) {
+std::size_t evaluate_all(const CellRecord* cells, const NodeValues& nodes, const PointRecord* points, const Walk* items,
+                         std::size_t count, double* out, std::size_t stride, std::uint32_t* undecided) {
     std::size_t found = 0, at = 0;
     const auto run = [&](auto tag) HWY_ATTR {
         using D = decltype(tag);
@@ -139,12 +138,12 @@ std::size_t evaluate_rounded(const CellRecord* cells, const NodeValues& nodes, c
 }
 
 std::size_t interpolate_lanes(Simplex s, const CellRecord* cells, const NodeValues& nodes, const PointRecord* points,
-                              const Walk* items, std::size_t count, Rounding rounding, double* out,
-                              std::size_t stride, std::uint32_t* undecided) {
+                              const Walk* items, std::size_t count, Rounding rounding, double* out, std::size_t stride,
+                              std::uint32_t* undecided) {
     return s == Simplex::triangle ? evaluate_rounded<Simplex::triangle>(cells, nodes, points, items, count, rounding,
                                                                         out, stride, undecided)
-                                  : evaluate_rounded<Simplex::tetrahedron>(cells, nodes, points, items, count,
-                                                                           rounding, out, stride, undecided);
+                                  : evaluate_rounded<Simplex::tetrahedron>(cells, nodes, points, items, count, rounding,
+                                                                           out, stride, undecided);
 }
 
 }  // namespace HWY_NAMESPACE
