@@ -78,7 +78,7 @@ void expect_outside(const Mesh& mesh, const std::vector<double>& points, const O
         if (nearest.cell < 0) {
             ++without;
             for (std::size_t c = 0; c < columns; ++c) EXPECT_TRUE(std::isnan(found[c])) << where;
-            EXPECT_EQ(samples.distances[i], 0) << where;
+            EXPECT_TRUE(std::isnan(samples.distances[i])) << where;
             continue;
         }
         ++with;

@@ -94,7 +94,7 @@ void copy_cell_values(const SamplerData& data, Mesh::Index cell, double* row) {
 void ChunkSampler::outside(const PointRecord& point) {
     double* const values = row(point);
     double* const end = values + data_.columns.size();
-    if (rows_.distances != nullptr) rows_.distances[point.number] = 0;
+    if (rows_.distances != nullptr) rows_.distances[point.number] = std::numeric_limits<double>::quiet_NaN();
     switch (options_.outside.kind) {
         case Outside::error:
             refused_ = std::min(refused_.value_or(point.number), point.number);

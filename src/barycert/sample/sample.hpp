@@ -69,8 +69,8 @@ struct Samples {
     std::vector<Mesh::Index> cells;  ///< -1 outside
     std::vector<Feature> features;
     std::vector<double> values;     ///< columns a row, row after row
-    std::vector<double> distances;  ///< to the mesh, of points outside that were snapped or extrapolated; else 0.
-                                    ///< Empty unless the policy is nearest or extrapolate
+    /// To the mesh: 0 inside; NaN where a point outside got no value. Empty unless the policy is nearest or extrapolate.
+    std::vector<double> distances;
 };
 
 /// One field to be sampled.
