@@ -126,6 +126,7 @@ Status run_resample(const ResampleArguments& a) {
     Status done =
         a.onto.empty() ? resample_grid(a, **engine, run, progress) : resample_onto(a, **engine, run, progress);
     if (!done) return done;
+    if (a.quiet && a.json.empty()) return done;
     (*engine)->tell(run);
     run.seconds.total = whole.lap();
     progress.clear();

@@ -78,6 +78,7 @@ Status run_sample(const SampleArguments& a) {
     report::SampleRun run = run_of("sample", a);
     Status done = a.map.empty() ? with_points(a, **engine, run, progress) : with_map(a, **engine, run, progress);
     if (!done) return done;
+    if (a.quiet && a.json.empty()) return done;
     (*engine)->tell(run);
     run.seconds.total = whole.lap();
     progress.clear();

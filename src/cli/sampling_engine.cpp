@@ -66,7 +66,6 @@ void SamplingEngine::check_mesh(Progress& progress) {
     options.progress = [&](const char* stage) { progress.stage(fmt::format("checking the mesh: {}", stage)); };
     const check::Report report = check::run(mesh_, options);
     certificate_ = report.certificate;
-    degenerate_ = report.degenerate;
     seconds_certify_ += watch.lap();
 }
 
@@ -120,7 +119,8 @@ void SamplingEngine::tell(report::SampleRun& run) const {
     run.dimension = mesh_.dimension;
     run.nodes = mesh_.point_count();
     run.cells = mesh_.cell_count();
-    run.degenerate_cells = degenerate_ ? *degenerate_ : count_degenerate(mesh_);
+    const bool certified = certificate_.verdict() == check::Verdict::certified;
+    run.degenerate_cells = certified ? 0 : count_degenerate(mesh_);
     if (sampler_) run.columns = sampler_->columns();
     run.method = method_;
     run.reason = reason_;

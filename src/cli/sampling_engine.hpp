@@ -52,7 +52,6 @@ private:
     std::optional<Locator> locator_;
     std::optional<Sampler> sampler_;
     check::Certificate certificate_;
-    std::optional<std::uint64_t> degenerate_;  ///< cells, where the check has counted them
     report::FoundBy method_ = report::FoundBy::candidates;
     std::string reason_;
     double seconds_mesh_ = 0, seconds_certify_ = 0, seconds_build_ = 0;

@@ -172,7 +172,7 @@ Status sample_stream(const SamplingArguments& a, SamplingEngine& engine, points:
     Stopwatch watch;
     for (bool more = true; more;) {
         block.points.clear();
-        progress.count("points", done);
+        if (done != 0) progress.count("points", done);
         const Result<std::size_t> count = source.read(block_of_points, block.points);
         if (!count) return count.error();
         more = *count == block_of_points;
@@ -207,7 +207,7 @@ Status sample_map(const SamplingArguments& a, SamplingEngine& engine, MapReader&
     LocationCounts locations;
     Stopwatch watch;
     for (;;) {
-        progress.count("rows", run.rows);
+        if (run.rows != 0) progress.count("rows", run.rows);
         const Result<std::size_t> count = map.read(block_of_points, block);
         if (!count) return count.error();
         if (*count == 0) break;
