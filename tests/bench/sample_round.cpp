@@ -99,11 +99,9 @@ void run_subject(const Subject& subject, const RoundOptions& options_, SampleTab
     verify_points(subject, round.ours, round.rows);
     verify_grid(subject, round.ours, round.grid_values);
 #ifdef BARYCERT_WITH_VTK
-    table.vtk = true;
     round.vtk = make_vtk_peer(subject.mesh, subject.linear.data, subject.points, subject.grid);
     verify_vtk(round);
 #endif
-    table.cgal = true;
     round.cgal = std::make_unique<CgalPeer>(subject.mesh);
     verify_cgal(round);
     run_points(round, table);
