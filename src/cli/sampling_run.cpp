@@ -168,6 +168,8 @@ Status sample_stream(const SamplingArguments& a, SamplingEngine& engine, points:
                      Progress& progress) {
     Rows rows(factory, save_map);
     SampledBlock block;
+    block.points.reserve(std::min<std::uint64_t>(block_of_points, source.count().value_or(block_of_points)) *
+                         static_cast<std::size_t>(source.dimension()));
     std::uint64_t done = 0;
     Stopwatch watch;
     for (bool more = true; more;) {
