@@ -7,8 +7,8 @@
 //
 //     bench_sample [--quick] [--repetitions N] [cube] [flange] [bracket] [generated] [growth]
 //
-// Without names all of them: about 15 minutes, of which VTK's image takes most, and 4 GiB of memory. --quick: small meshes
-// and few points, to see that all of it works.
+// Without names all of them: about 15 minutes, of which VTK's image takes most, and 4 GiB of memory. --quick: small
+// meshes and few points, to see that all of it works.
 
 #include <cstdio>
 #include <cstdlib>
