@@ -231,6 +231,8 @@ TEST(LocateNearest, TheLimitIncludesItself) {
         for (std::size_t i = 0; i < points.size(); i += d) {
             const Nearest found = *locator->nearest(&points[i], infinity);
             lost += locator->nearest(&points[i], found.distance)->cell != found.cell ? 1 : 0;
+            // Very near a slanted face the distance computed in double may be zero: there is no lower limit.
+            if (found.distance == 0) continue;
             beyond += locator->nearest(&points[i], std::nextafter(found.distance, 0))->cell >= 0 ? 1 : 0;
         }
         EXPECT_EQ(lost, 0U) << stem << ": of " << points.size() / d;

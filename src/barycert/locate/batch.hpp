@@ -19,10 +19,11 @@
 
 namespace barycert::detail {
 
-/// Work on `threads` threads, 0 for as many as the machine has.
+/// Work on `threads` threads, 0 for as many as the machine has, and never on more.
 template <class F>
 void in_arena(int threads, F&& work) {
-    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+    const int available = tbb::this_task_arena::max_concurrency();
+    tbb::task_arena arena(threads > 0 ? std::min(threads, available) : available);
     arena.execute(std::forward<F>(work));
 }
 

@@ -6,7 +6,7 @@
 namespace barycert::detail {
 
 Bins::Bins(std::size_t d, const double* low, const double* high, std::size_t bins) : quantizer_(d, low, high), d_(d) {
-    constexpr std::size_t most = std::size_t{1} << 24;
+    constexpr std::size_t most = std::size_t{1} << 27;
     const auto wanted = static_cast<std::size_t>(std::bit_width(std::min(bins, most) | 1)) - 1;
 
     // The axis of each bit of a bin, from the highest down. No axis gets more than its table should hold.

@@ -16,7 +16,7 @@ class Bins {
 public:
     Bins() = default;
 
-    /// About `bins` of them, at most 2^24.
+    /// About `bins` of them, at most 2^27.
     Bins(std::size_t d, const double* low, const double* high, std::size_t bins);
 
     const Quantizer& quantizer() const { return quantizer_; }

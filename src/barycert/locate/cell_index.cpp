@@ -102,7 +102,7 @@ void place_cells(const Mesh& mesh, bool link, const Buffer<KeyedPlace>& order, C
             numbers.fetch(corners_at(place + nodes_ahead));
             numbers.fetch_new(corners_at(place + coordinates_ahead));
         }
-        while (bin <= order[place].key) index.first[bin++] = static_cast<Place>(place);
+        while (bin <= order[place].key >> CellIndex::part_bits) index.first[bin++] = static_cast<Place>(place);
         const Mesh::Index* const corner = corners_at(place);
         CellRecord& record = index.cells[place];
         for (std::size_t i = 0; i <= d; ++i) record.node[i] = numbers.of(corner[i]);
@@ -151,8 +151,9 @@ CellIndex make_cell_index(const Mesh& mesh, bool link) {
         index.first.assign(2, 0);
         return index;
     }
-    index.bins = Bins(index.dimension(), index.low.data(), index.high.data(), mesh.cell_count());
-    index.first.resize(index.bins.count() + 1);
+    index.bins =
+        Bins(index.dimension(), index.low.data(), index.high.data(), mesh.cell_count() << CellIndex::part_bits);
+    index.first.resize((index.bins.count() >> CellIndex::part_bits) + 2);
     mesh.dimension == 2 ? build<2>(mesh, link, index) : build<3>(mesh, link, index);
     return index;
 }

@@ -1,6 +1,7 @@
 /// Internal: the cells of a mesh in the order of a space-filling curve, ready to be walked through.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -32,18 +33,29 @@ struct alignas(32) NodeRecord {
 struct CellIndex {
     Simplex simplex = Simplex::tetrahedron;
     std::array<double, 3> low{}, high{};  ///< the box of all cells, exactly
-    Bins bins;
+    Bins bins;                            ///< of which several make a bin of `first`: by them cells are ordered there
+    static constexpr int part_bits = 3;
     Buffer<CellRecord> cells;
     Buffer<Mesh::Index> original;  ///< cell of the mesh by place
     Buffer<NodeRecord> nodes;
     std::vector<Mesh::Index> original_node;  ///< node of the mesh by place; those of no cell have none
-    std::vector<Place> first;                ///< by bin: the first cell there or later; one more at the end
-    bool linked = false;                     ///< `next` is set
+    /// By bin, without its last part_bits bits: the first cell there or later; one more at the end.
+    std::vector<Place> first;
+    bool linked = false;  ///< `next` is set
 
     std::size_t dimension() const { return static_cast<std::size_t>(space_dimension(simplex)); }
     std::size_t corners() const { return dimension() + 1; }
     std::size_t cell_count() const { return cells.size(); }
     std::size_t bytes() const;
+
+    /// A cell near the points of a bin: where it would stand among the cells of its bin of `first`, or the next cell.
+    /// Precondition: there is a cell.
+    Place start(std::uint32_t bin) const {
+        const Place begin = first[bin >> part_bits], count = first[(bin >> part_bits) + 1] - begin;
+        constexpr std::uint32_t parts = 1U << part_bits;
+        const auto before = static_cast<std::int64_t>(2 * (bin & (parts - 1)) + 1) * count / (2 * parts);
+        return std::min(begin + static_cast<Place>(before), static_cast<Place>(cells.size()) - 1);
+    }
 
     bool box_holds(const double* p) const {
         for (std::size_t k = 0; k < dimension(); ++k) {

@@ -13,4 +13,20 @@ namespace barycert::detail {
 /// at), all finite.
 WeightSigns cell_signs(const CellIndex& index, Place cell, const double* point, Tiers& tiers);
 
+/// False if the cell's box does not hold the point, told by comparisons alone.
+inline bool box_holds(const CellIndex& index, Place cell, const double* point) {
+    const CellRecord& record = index.cells[static_cast<std::size_t>(cell)];
+    bool holds = true;
+    for (std::size_t k = 0; k < index.dimension(); ++k) {
+        bool below = false, above = false;  // some vertex is not above, not below
+        for (const Place node : record.node) {
+            const double x = index.nodes[static_cast<std::size_t>(node)].at[k];
+            below |= x <= point[k];
+            above |= x >= point[k];
+        }
+        holds &= below && above;
+    }
+    return holds;
+}
+
 }  // namespace barycert::detail

@@ -8,12 +8,6 @@ namespace {
 /// A walk in floating point can go round in circles, in cells that are almost flat or not Delaunay.
 constexpr int most_rounds = 128;
 
-/// The cell of a bin from which to start: any one of its cells, or of the next that has some.
-Place start_of(const CellIndex& index, std::uint32_t bin) {
-    const Place middle = (index.first[bin] + index.first[bin + 1]) / 2;
-    return std::min(middle, static_cast<Place>(index.cell_count()) - 1);
-}
-
 }  // namespace
 
 void Finder::find(const PointRecord* points, std::size_t count, Place* owner, Feature* feature,
@@ -49,7 +43,7 @@ void Finder::start(const PointRecord* points, std::size_t count) {
     const CellIndex& index = data_.index;
     walking_ = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const Place cell = start_of(index, points[i].bin);
+        const Place cell = index.start(points[i].bin);
         __builtin_prefetch(&index.cells[static_cast<std::size_t>(cell)]);
         walks_[walking_] = {static_cast<std::uint32_t>(i), cell};
         walking_ += index.box_holds(points[i].at.data()) ? 1 : 0;

@@ -58,8 +58,11 @@ private:
             find_candidates(data_.index, data_.tree(), points, which + i, std::min(points_at_once, count - i),
                             candidates_);
             if (candidates_.size() < enough && i + points_at_once < count) continue;
-            for (const Candidate& c : candidates_)
-                use(c, cell_signs(data_.index, c.cell, points[c.point].at.data(), tests));
+            for (const Candidate& c : candidates_) {
+                // Boxes in whole numbers are larger; in cells far smaller than their domain, much.
+                const double* const at = points[c.point].at.data();
+                if (box_holds(data_.index, c.cell, at)) use(c, cell_signs(data_.index, c.cell, at, tests));
+            }
             candidates_.clear();
         }
     }

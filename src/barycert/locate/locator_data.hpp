@@ -1,6 +1,7 @@
 /// Internal: all that a Locator keeps.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -19,15 +20,19 @@ class Lazy {
 public:
     template <class Make>
     const T& get(Make make) const {
-        std::call_once(once_, [&] { value_ = std::make_unique<T>(make()); });
+        std::call_once(once_, [&] {
+            value_ = std::make_unique<T>(make());
+            made_.store(value_.get(), std::memory_order_release);
+        });
         return *value_;
     }
-    /// What there is; for sums that need not be up to date.
-    const T* made() const { return value_.get(); }
+    /// nullptr until it is made.
+    const T* made() const { return made_.load(std::memory_order_acquire); }
 
 private:
     mutable std::once_flag once_;
     mutable std::unique_ptr<T> value_;
+    mutable std::atomic<const T*> made_ = nullptr;
 };
 
 /// Things that are dear to make, kept for the next user.

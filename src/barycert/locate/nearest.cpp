@@ -28,21 +28,26 @@ Vector cross(const Vector& x, const Vector& y) {
 
 constexpr double none = std::numeric_limits<double>::infinity();
 
-/// Squared distance of the origin to the inside of the segment or triangle, infinite if its nearest point is on its
-/// boundary.
+/// Not by squares alone: those of distances below 1e-154 vanish.
+double length(const Vector& v) {
+    const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+    if (largest == 0) return 0;
+    const Vector scaled{v[0] / largest, v[1] / largest, v[2] / largest};
+    return largest * std::sqrt(dot(scaled, scaled));
+}
+
+/// Distance of the origin to the inside of the segment or triangle, infinite if its nearest point is on its boundary.
 double to_edge(const Vector& a, const Vector& b) {
     const Vector e = minus(b, a);
-    const double length = dot(e, e), t = -dot(a, e);
-    if (!(t > 0 && t < length)) return none;
-    const Vector n = cross(a, e);
-    return dot(n, n) / length;
+    const double square = dot(e, e), t = -dot(a, e);
+    if (!(t > 0 && t < square)) return none;
+    return length(cross(a, e)) / std::sqrt(square);
 }
 double to_face(const Vector& a, const Vector& b, const Vector& c) {
     const Vector e = minus(b, a), f = minus(c, a), n = cross(e, f);
     const double square = dot(n, n), beta = dot(cross(f, a), n), gamma = dot(cross(a, e), n);
     if (!(beta > 0 && gamma > 0 && beta + gamma < square)) return none;
-    const double height = dot(a, n);
-    return height * height / square;
+    return std::abs(dot(a, n)) / std::sqrt(square);
 }
 
 class Search {
@@ -53,11 +58,11 @@ public:
             point_[k] = point[k];
             largest = std::max({largest, std::abs(point[k]), std::abs(index_.low[k]), std::abs(index_.high[k])});
         }
-        // Squares neither overflow nor vanish in coordinates below 1.
-        exponent_ = largest > 0 ? -std::ilogb(largest) - 1 : 0;
-        slack_ = 0x1p-48;
-        best_square_ = std::ldexp(limit, exponent_);
-        best_square_ *= best_square_;
+        // Squares of coordinates neither overflow nor vanish; numbers in between stay as they are, to the last bit.
+        constexpr double least = 0x1p-300, most = 0x1p300;
+        if (largest > most || (largest < least && largest > 0)) exponent_ = -std::ilogb(largest);
+        slack_ = std::ldexp(largest, exponent_) * 0x1p-48;
+        best_ = std::ldexp(limit, exponent_) * (1 + 0x1p-50);  // what is beyond the limit is told in the end
     }
 
     Nearest run() {
@@ -70,26 +75,26 @@ public:
         while (!stack.empty() && index_.cell_count() != 0) {
             const Open open = stack.back();
             stack.pop_back();
-            if (open.bound > best_square_) continue;
+            if (open.bound > best_) continue;
             std::array<std::pair<double, std::size_t>, 8> boxes;
             const detail::BoxGroup& group = tree.level(open.level)[open.group];
             for (std::size_t b = 0; b < 8; ++b) boxes[b] = {bound(group, b), b};
             std::sort(boxes.begin(), boxes.end(), std::greater<>());
             for (const auto& [bound, b] : boxes) {
-                if (bound > best_square_ || bound == none) continue;
+                if (bound > best_ || bound == none) continue;
                 if (open.level != 0) stack.push_back({bound, open.level - 1, 8 * open.group + b});
             }
             if (open.level != 0) continue;
             for (auto box = boxes.rbegin(); box != boxes.rend(); ++box) {
-                if (box->first <= best_square_ && box->first != none) try_cell(8 * open.group + box->second);
+                if (box->first <= best_ && box->first != none) try_cell(8 * open.group + box->second);
             }
         }
-        best_.distance = best_.cell < 0 ? none : std::ldexp(std::sqrt(best_square_), -exponent_);
-        return best_;
+        found_.distance = found_.cell < 0 ? none : std::ldexp(best_, -exponent_);
+        return found_;
     }
 
 private:
-    /// Of the squared distance to a box, from below; infinite if there is no box.
+    /// Of the distance to a box, from below; infinite if there is no box.
     double bound(const detail::BoxGroup& group, std::size_t b) const {
         if (group.low[0][b] > group.high[0][b]) return none;
         double sum = 0;
@@ -101,7 +106,7 @@ private:
             const double away = std::max({below - x, x - above, 0.0}) - slack_;
             if (away > 0) sum += away * away * (1 - 0x1p-40);
         }
-        return sum;
+        return std::sqrt(sum);
     }
 
     void try_cell(std::size_t place) {
@@ -118,14 +123,14 @@ private:
         for (std::size_t i = 1; i < corners; ++i) {
             for (std::size_t j = i; j > 0 && v[j].first < v[j - 1].first; --j) std::swap(v[j], v[j - 1]);
         }
-        double square = none;
+        double distance = none;
         std::array<Mesh::Index, 3> nodes{-1, -1, -1};
-        const auto take = [&](double s, Mesh::Index a, Mesh::Index b, Mesh::Index c) {
-            if (!(s < square)) return;
-            square = s;
+        const auto take = [&](double x, Mesh::Index a, Mesh::Index b, Mesh::Index c) {
+            if (!(x < distance)) return;
+            distance = x;
             nodes = {a, b, c};
         };
-        for (std::size_t i = 0; i < corners; ++i) take(dot(v[i].second, v[i].second), v[i].first, -1, -1);
+        for (std::size_t i = 0; i < corners; ++i) take(length(v[i].second), v[i].first, -1, -1);
         for (std::size_t i = 0; i < corners; ++i) {
             for (std::size_t j = i + 1; j < corners; ++j)
                 take(to_edge(v[i].second, v[j].second), v[i].first, v[j].first, -1);
@@ -135,11 +140,11 @@ private:
             take(to_face(v[a].second, v[b].second, v[c].second), v[a].first, v[b].first, v[c].first);
         }
         const Mesh::Index cell = index_.original[place];
-        const bool better = square < best_square_ || (square == best_square_ && (best_.cell < 0 || cell < best_.cell));
+        const bool better = distance < best_ || (distance == best_ && (found_.cell < 0 || cell < found_.cell));
         if (!better || degenerate(cell)) return;
-        best_square_ = square;
-        best_.cell = cell;
-        best_.nodes = nodes;
+        best_ = distance;
+        found_.cell = cell;
+        found_.nodes = nodes;
     }
 
     bool degenerate(Mesh::Index cell) const {
@@ -156,9 +161,9 @@ private:
     const detail::CellIndex& index_;
     Vector point_{};
     int exponent_ = 0;
-    double slack_ = 0;
-    double best_square_ = none;
-    Nearest best_;
+    double slack_ = 0;    ///< more than the roundings of bounds of boxes
+    double best_ = none;  ///< distance, scaled
+    Nearest found_;
 };
 
 }  // namespace
@@ -166,7 +171,9 @@ private:
 Result<Nearest> Locator::nearest(const double* point, double limit) const {
     const std::size_t d = data_->index.dimension();
     if (Status status = detail::check_finite({point, d}, d); !status) return status.error();
-    return Search(*data_, point, limit).run();
+    if (!(limit >= 0)) return Nearest{.distance = none};
+    const Nearest found = Search(*data_, point, limit).run();
+    return found.distance <= limit ? found : Nearest{.distance = none};
 }
 
 }  // namespace barycert

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -91,7 +93,8 @@ std::optional<double> value_outside(const SamplerData& data, const SampleOptions
     const Mesh& mesh = *data.located().mesh;
     const bool snap = options.outside.kind == Outside::nearest;
     // The points are finite.
-    const Nearest nearest = *data.locator->nearest(point, options.outside.limit);
+    const double limit = snap ? options.outside.limit : std::numeric_limits<double>::infinity();
+    const Nearest nearest = *data.locator->nearest(point, limit);
     if (nearest.cell < 0) return std::nullopt;
     const auto cell = static_cast<std::size_t>(nearest.cell);
 
@@ -102,8 +105,17 @@ std::optional<double> value_outside(const SamplerData& data, const SampleOptions
         if (node >= 0) nodes.push_back(node);
     }
     Tiers used;
-    if (snap && nodes.size() == 1) {
-        for (std::size_t c = 0; c < data.point_components; ++c) values[c] = nodal_value(data, nodes[0], c);
+    if (snap && nodes.size() == 1 && data.point_components != 0) {
+        bool finite = true;
+        for (std::size_t c = 0; c < data.point_components; ++c) {
+            const double value = nodal_value(data, nodes[0], c);
+            finite &= std::isfinite(value);
+            values[c] = std::isfinite(value) ? value + 0.0 : std::numeric_limits<double>::quiet_NaN();
+        }
+        if (options.rounding == Rounding::correct) {
+            tiers.add(Tier::filter);
+            tiers.not_finite += finite ? 0 : 1;
+        }
     } else if (data.point_components != 0) {
         const Piece piece = snap ? Piece(mesh, nodes.size() == 3 ? Simplex::triangle3d : Simplex::segment, nodes)
                                  : cell_piece(data, cell);

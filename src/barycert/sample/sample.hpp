@@ -48,7 +48,7 @@ struct OutsidePolicy {
 
 struct SampleOptions {
     Rounding rounding = Rounding::correct;
-    OutsidePolicy outside;
+    OutsidePolicy outside = {};
     int threads = 0;  ///< 0: as many as the machine has
 };
 
@@ -68,8 +68,9 @@ struct SampleCounts {
 struct Samples {
     std::vector<Mesh::Index> cells;  ///< -1 outside
     std::vector<Feature> features;
-    std::vector<double> values;     ///< columns a row, row after row
-    /// To the mesh: 0 inside; NaN where a point outside got no value. Empty unless the policy is nearest or extrapolate.
+    std::vector<double> values;  ///< columns a row, row after row
+    /// To the mesh: 0 inside; NaN where a point outside got no value. Empty unless the policy is nearest or
+    /// extrapolate.
     std::vector<double> distances;
 };
 
@@ -90,7 +91,7 @@ public:
     Sampler& operator=(Sampler&&) noexcept;
     ~Sampler();
 
-    /// NAME for a field of one component, else NAME.0, NAME.1, ...
+    /// NAME for a field of one component, else NAME.0, NAME.1, ...; fields of nodes first, then those of cells.
     const std::vector<std::string>& columns() const;
 
     /// All points; `out` is resized. Errors: a coordinate is not finite; rounding is correct and the floating-point
