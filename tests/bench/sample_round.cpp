@@ -100,8 +100,8 @@ void run_subject(const Subject& subject, const RoundOptions& options_, SampleTab
     verify_grid(subject, round.ours, round.grid_values);
 #ifdef BARYCERT_WITH_VTK
     round.vtk = make_vtk_peer(subject.mesh, subject.linear.data, subject.points, subject.grid);
-    verify_vtk(round);
 #endif
+    if (round.vtk != nullptr) verify_vtk(round);
     round.cgal = std::make_unique<CgalPeer>(subject.mesh);
     verify_cgal(round);
     run_points(round, table);
