@@ -15,8 +15,9 @@
 namespace barycert::cli {
 namespace {
 
-/// Where there are at least this many points a cell, walks repay the check: it costs about as much a cell as a walk
-/// saves at two points.
+/// From so many points a cell on the mesh is checked. On 203,693 cells, one thread, the check cost 1.3 to 1.6 us a
+/// cell, and a walk saved 1.0 to 1.3 us a point inside: it is repaid between one and two points a cell, and half of
+/// that is never far from either way. Streams may go on, and the check tells what the mesh is worth.
 constexpr double points_a_cell = 0.5;
 
 bool is_degenerate(const Mesh& mesh, std::size_t cell) {
@@ -89,21 +90,21 @@ Status SamplingEngine::prepare_for(std::uint64_t points, bool at_least, Progress
     const std::size_t cells = mesh_.cell_count();
     const bool pays = static_cast<double>(points) >= points_a_cell * static_cast<double>(cells);
     if (locator_ && (checked || certify_ != Certify::automatic || !pays)) return Done{};
-    std::string why = certify_ == Certify::always ? "as asked for by --certify always" : "";
+    std::string why =
+        certify_ == Certify::always ? "as asked for by --certify always" : "as asked for by --certify never";
     if (certify_ == Certify::automatic)
-        why = fmt::format("{} points{} are {} half as many as cells", points, at_least ? " and more" : "",
-                          pays ? "at least" : "fewer than");
+        why = fmt::format("with {} point{}{} for {} cell{}", points, points == 1 ? "" : "s",
+                          at_least ? " and more" : "", cells, cells == 1 ? "" : "s");
     if (certify_ == Certify::never || (certify_ == Certify::automatic && !pays)) {
-        reason_ = "the mesh was not checked, " + (why.empty() ? "as asked for by --certify never" : "for " + why);
+        reason_ = "the mesh was not checked, " + why + (certify_ == Certify::never ? "" : ": too few to repay it");
         return build({}, progress);
     }
     check_mesh(progress);
     if (Status built = build(certificate_, progress); !built) return built;
     const bool walks = locator_->method() == Method::walk;
     method_ = walks ? report::FoundBy::walk : report::FoundBy::candidates;
-    if (!why.starts_with("as ")) why = "for " + why;
     reason_ =
-        walks ? fmt::format("the mesh is certified; it was checked, {}", why)
+        walks ? "the mesh is certified; it was checked, " + why
               : fmt::format("the mesh is not certified: `{} check` tells why; it was checked, {}", command_name(), why);
     return Done{};
 }

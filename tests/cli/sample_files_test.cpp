@@ -146,16 +146,19 @@ TEST(sample_files, appear_whole_or_not_at_all) {
     expect_error(plus(line, {out}), "p.csv: cannot read the file: found Permission denied", nobody);
 }
 
-/// Memory of a run on that many points from a pipe, in KiB, when it has read all but the last of them.
-std::size_t peak_memory(int points) {
+/// Memory of a run on so many times 100,000 points from a pipe, in KiB, when it has read all but the last of them.
+std::size_t peak_memory(int times) {
     const Scratch scratch;
-    EXPECT_EQ(::mkfifo(scratch.path("pipe").c_str(), 0666), 0);
-    const Ended r = run_shell("barycert sample " + mesh("cube-hole") +
-                                  " --points - --output - --quiet < pipe > rows & id=$!; { " + lattice(points) +
-                                  "; grep VmHWM /proc/$id/status | tr -dc 0-9 > peak; } > pipe; wait $id; wc -l < rows",
-                              {.folder = scratch.folder()});
+    for (const char* pipe : {"points", "rows"}) EXPECT_EQ(::mkfifo(scratch.path(pipe).c_str(), 0666), 0);
+    const Ended r =
+        run_shell(lattice(100000) + " > some; barycert sample " + mesh("cube-hole") +
+                      " --points - --output - --fields attribute0 --quiet < points > rows & id=$!; wc -l < rows & { "
+                      "for i in $(seq " +
+                      std::to_string(times) +
+                      "); do cat some; done; grep VmHWM /proc/$id/status | tr -dc 0-9 > peak; } > points; wait",
+                  {.folder = scratch.folder()});
     EXPECT_EQ(r.code, 0) << r.err;
-    EXPECT_EQ(r.out, std::to_string(points + 1) + "\n");
+    EXPECT_EQ(r.out, std::to_string(100000 * times + 1) + "\n");
     return std::stoul("0" + read_file(scratch.path("peak")));
 }
 
@@ -164,7 +167,7 @@ TEST(sample_stream, memory_does_not_grow_with_the_points) {
     GTEST_SKIP() << "the sanitizer keeps what was freed";
 #endif
     // Three blocks and four. Were only the coordinates kept, a million points more would take 24 MB more.
-    const std::size_t some = peak_memory(3200000), more = peak_memory(4300000);
+    const std::size_t some = peak_memory(32), more = peak_memory(43);
     EXPECT_GT(some, 20000U);
     EXPECT_LT(more, some + 12 * 1024) << some;
     RecordProperty("KiB", std::to_string(more));
