@@ -1,7 +1,8 @@
 /// Which cell holds a point? Exactly, on any mesh.
 ///
-/// Enters: a Mesh of tetrahedra or triangles and points in its unit. Leaves: for each point the owner, the cell of
-/// lowest index among all closed cells that hold it, and the feature of that cell on which it lies.
+/// Enters: a Mesh of tetrahedra or triangles (those of second order are taken with straight sides) and points in its
+/// unit. Leaves: for each point the owner, the cell of lowest index among all closed cells that hold it, and the
+/// feature of that cell on which it lies.
 ///
 /// What holds (each law is a test of that name in tests/locate):
 ///   L1  A point in the union of the closed cells of non-zero volume is always found, and its owner is the lowest cell
@@ -95,7 +96,8 @@ public:
     const Mesh& mesh() const;
     Method method() const;
 
-    /// Bytes besides the mesh, with what has been made on first need until now.
+    /// Bytes besides the mesh, with what has been made on first need until now, but for buffers of points (up to 36 MiB
+    /// a thread).
     std::size_t bytes() const;
 
     /// One point of mesh().dimension coordinates. `hint`: a cell thought to be near, such as that of the last point of
@@ -114,7 +116,8 @@ public:
 
     /// The nearest point of all cells that are not degenerate, for a point outside. Distances are compared in double,
     /// so among points of the mesh that are equally far up to rounding it may be any, always the same one. Only points
-    /// nearer than or as near as `limit` count. Error: a coordinate is not finite.
+    /// nearer than or as near as `limit` count; none if it is negative or NaN. Near faces of cells that are almost flat
+    /// a distance is off by as much as double precision costs there. Error: a coordinate is not finite.
     Result<Nearest> nearest(const double* point, double limit) const;
 
     /// For the library's own use.

@@ -42,12 +42,15 @@ public:
     /// One that nobody uses; give it back by put().
     std::unique_ptr<T> take() const {
         const std::lock_guard lock(mutex_);
-        if (kept_.empty()) return std::make_unique<T>();
+        if (kept_.empty()) {
+            kept_.reserve(++made_);  // so that put() needs no memory
+            return std::make_unique<T>();
+        }
         std::unique_ptr<T> one = std::move(kept_.back());
         kept_.pop_back();
         return one;
     }
-    void put(std::unique_ptr<T> one) const {
+    void put(std::unique_ptr<T> one) const noexcept {
         const std::lock_guard lock(mutex_);
         kept_.push_back(std::move(one));
     }
@@ -55,6 +58,7 @@ public:
 private:
     mutable std::mutex mutex_;
     mutable std::vector<std::unique_ptr<T>> kept_;
+    mutable std::size_t made_ = 0;
 };
 
 struct LocatorData {

@@ -36,16 +36,25 @@ double length(const Vector& v) {
     return largest * std::sqrt(dot(scaled, scaled));
 }
 
+/// Largest |component|, by which v is divided: what is made of directions then neither overflows nor vanishes.
+double normalise(Vector& v) {
+    const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+    for (double& x : v) x /= largest;
+    return largest;
+}
+
 /// Distance of the origin to the inside of the segment or triangle, infinite if its nearest point is on its boundary.
 double to_edge(const Vector& a, const Vector& b) {
-    const Vector e = minus(b, a);
-    const double square = dot(e, e), t = -dot(a, e);
-    if (!(t > 0 && t < square)) return none;
+    Vector e = minus(b, a);
+    const double size = normalise(e), square = dot(e, e), t = -dot(a, e);
+    if (!(t > 0 && t < square * size)) return none;
     return length(cross(a, e)) / std::sqrt(square);
 }
 double to_face(const Vector& a, const Vector& b, const Vector& c) {
-    const Vector e = minus(b, a), f = minus(c, a), n = cross(e, f);
-    const double square = dot(n, n), beta = dot(cross(f, a), n), gamma = dot(cross(a, e), n);
+    Vector e = minus(b, a), f = minus(c, a);
+    const double size_e = normalise(e), size_f = normalise(f);
+    const Vector n = cross(e, f);
+    const double square = dot(n, n), beta = dot(cross(f, a), n) / size_e, gamma = dot(cross(a, e), n) / size_f;
     if (!(beta > 0 && gamma > 0 && beta + gamma < square)) return none;
     return std::abs(dot(a, n)) / std::sqrt(square);
 }
@@ -59,7 +68,7 @@ public:
             largest = std::max({largest, std::abs(point[k]), std::abs(index_.low[k]), std::abs(index_.high[k])});
         }
         // Squares of coordinates neither overflow nor vanish; numbers in between stay as they are, to the last bit.
-        constexpr double least = 0x1p-300, most = 0x1p300;
+        constexpr double least = 0x1p-200, most = 0x1p200;
         if (largest > most || (largest < least && largest > 0)) exponent_ = -std::ilogb(largest);
         slack_ = std::ldexp(largest, exponent_) * 0x1p-48;
         best_ = std::ldexp(limit, exponent_) * (1 + 0x1p-50);  // what is beyond the limit is told in the end

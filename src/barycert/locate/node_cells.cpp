@@ -11,7 +11,7 @@ NodeCells::NodeCells(const CellIndex& index)
         for (std::size_t i = 0; i < corners; ++i) ++begin_[static_cast<std::size_t>(index.cells[c].node[i]) + 1];
     }
     for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
-    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+    std::vector<std::uint64_t> next(begin_.begin(), begin_.end() - 1);
     for (const Place c : place) {
         for (std::size_t i = 0; i < corners; ++i)
             cells_[next[static_cast<std::size_t>(index.cells[static_cast<std::size_t>(c)].node[i])]++] = c;

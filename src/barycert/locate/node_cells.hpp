@@ -19,7 +19,7 @@ public:
         const auto i = static_cast<std::size_t>(node);
         return {cells_.data() + begin_[i], begin_[i + 1] - begin_[i]};
     }
-    std::size_t bytes() const { return begin_.size() * sizeof(std::uint32_t) + cells_.size() * sizeof(Place); }
+    std::size_t bytes() const { return begin_.size() * sizeof(std::uint64_t) + cells_.size() * sizeof(Place); }
 
     /// found(cell) for each cell that has the vertex, edge or face on which a point with these signs lies, by ascending
     /// cell of the mesh, until it returns false. In a simplicial complex these are the cells that hold the point.
@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    std::vector<std::uint32_t> begin_;
+    std::vector<std::uint64_t> begin_;
     std::vector<Place> cells_;
 };
 

@@ -11,6 +11,7 @@
 #include <hwy/highway.h>
 
 #include <cstddef>
+#include <cstring>
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert {
@@ -48,7 +49,8 @@ HWY_INLINE void load_records(D tag, Address address, V (&out)[4]) {
     {
         HWY_ALIGN double rows[4][width];
         for (std::size_t l = 0; l < width; ++l) {
-            const double* const from = address(l);
+            double from[4];
+            std::memcpy(from, address(l), sizeof from);
             for (std::size_t k = 0; k < 4; ++k) rows[k][l] = from[k];
         }
         for (std::size_t k = 0; k < 4; ++k) out[k] = hn::Load(tag, rows[k]);

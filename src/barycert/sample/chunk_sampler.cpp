@@ -48,6 +48,11 @@ void ChunkSampler::interpolate_exactly(const PointRecord& point, Place cell) {
     const std::array<double, 12> vertices = vertices_of(index, cell);
     const ExactWeights weights(index.simplex, vertices.data(), point.at.data());
     counts_.values.add(Tier::exact);
+    if (weights.degenerate()) {  // an owner never is, but a caller of evaluate() may name any cell
+        ++counts_.values.degenerate;
+        std::fill_n(row(point), data_.point_components, std::numeric_limits<double>::quiet_NaN());
+        return;
+    }
     bool finite = true;
     for (std::size_t c = 0; c < data_.point_components; ++c) {
         std::array<double, 4> f{};

@@ -19,10 +19,15 @@ Status check_bounds(std::size_t axis, double low, double high) {
                  .found = shortest(low) + ", " + shortest(high)};
 }
 
+Status check_dimension(int dimension) {
+    if (dimension == 2 || dimension == 3) return Done{};
+    return Error{.what = "dimension of the grid", .expected = "2 or 3", .found = std::to_string(dimension)};
+}
+
 Status check_count(std::size_t axis, double count) {
-    if (count >= 1 && count <= 0x1p31 - 1) return Done{};
+    if (count >= 1 && count <= static_cast<double>(Grid::most_on_axis)) return Done{};
     return Error{.what = std::string("points of the grid along ") + axis_names[axis],
-                 .expected = "1 to 2147483647",
+                 .expected = "1 to " + std::to_string(Grid::most_on_axis),
                  .found = shortest(count)};
 }
 
@@ -37,6 +42,7 @@ Result<Grid> checked(const Grid& grid) {
 
 Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts, const std::array<double, 3>& low,
                        const std::array<double, 3>& high) {
+    if (Status status = check_dimension(dimension); !status) return status.error();
     Grid grid;
     grid.dimension = dimension;
     for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
@@ -60,6 +66,7 @@ Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts,
 
 Result<Grid> grid_spaced(int dimension, const std::array<double, 3>& spacing, const std::array<double, 3>& low,
                          const std::array<double, 3>& high) {
+    if (Status status = check_dimension(dimension); !status) return status.error();
     Grid grid;
     grid.dimension = dimension;
     for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
@@ -70,6 +77,7 @@ Result<Grid> grid_spaced(int dimension, const std::array<double, 3>& spacing, co
                          .found = shortest(spacing[k])};
         // A quotient rounded down by an ulp must not lose the last point.
         double steps = std::floor((high[k] - low[k]) / spacing[k]);
+        if (Status status = check_count(k, steps + 1); !status) return status.error();
         if (low[k] + (steps + 1) * spacing[k] <= high[k]) ++steps;
         while (steps > 0 && low[k] + steps * spacing[k] > high[k]) --steps;
         if (Status status = check_count(k, steps + 1); !status) return status.error();

@@ -12,6 +12,8 @@ namespace barycert {
 /// Points on lines parallel to the axes, the first coordinate running fastest. In 2D there is one layer and no third
 /// coordinate.
 struct Grid {
+    static constexpr std::int64_t most_on_axis = 0x7fffffff - 64;
+
     int dimension = 3;
     std::array<std::int64_t, 3> counts{1, 1, 1};
     std::array<double, 3> origin{}, spacing{}, last{};
@@ -28,8 +30,8 @@ struct Grid {
 };
 
 /// From low to high, ends included. An axis of one point has it in the middle of low and high. In 2D the third entries
-/// are not looked at. Errors: a count below 1 or more than 2^31 points on an axis or 2^62 in all; bounds that are not
-/// finite, or not ascending (low < high where there are several points).
+/// are not looked at. Errors: a dimension other than 2 and 3; a count below 1 or above most_on_axis, or more than 2^62
+/// points in all; bounds that are not finite, or not ascending (low < high where there are several points).
 Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts, const std::array<double, 3>& low,
                        const std::array<double, 3>& high);
 

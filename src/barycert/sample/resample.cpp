@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "barycert/core/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/sample/slab_sampler.hpp"
 
@@ -34,14 +33,14 @@ detail::Raster raster_of(const Grid& grid, const detail::CellIndex& index) {
         // One point alone stands at place 0, whatever the scale: one in which the slack is nothing beside the mesh.
         const double extent = index.high[k] - index.low[k];
         raster.origin[k] = grid.origin[k];
-        raster.scale[k] = grid.spacing[k] > 0 ? 1 / grid.spacing[k] : extent > 0 ? 0x1p16 / extent : 1;
+        raster.scale[k] = grid.counts[k] > 1 ? 1 / grid.spacing[k] : extent > 0 ? 0x1p16 / extent : 1;
         // Ends of intervals: some roundings of numbers up to `largest`; the same for coordinates of the grid. In
         // places: these times the scale, the roundings of that, and how far the last point is from where it were by the
         // spacing.
         const double count = static_cast<double>(grid.counts[k]);
         const double regular_last = grid.origin[k] + (count - 1) * grid.spacing[k];
         const double error =
-            (32 * 0x1p-53 * largest + 2 * std::abs(at.back() - regular_last)) * raster.scale[k] + 16 * 0x1p-53 * count;
+            (48 * 0x1p-53 * largest + 2 * std::abs(at.back() - regular_last)) * raster.scale[k] + 16 * 0x1p-53 * count;
         raster.precise = raster.precise && error <= raster.slack / 2 && raster.scale[k] <= 0x1p300 &&
                          raster.scale[k] >= 0x1p-300 && largest <= 0x1p300;
     }
@@ -91,19 +90,22 @@ SlabCells cells_of_slabs(const detail::CellIndex& index, const std::vector<doubl
 }
 
 Status check_grid(const detail::SamplerData& data, const Grid& grid, const SampleOptions& options) {
-    if (options.rounding == Rounding::correct && !rounds_correctly()) return check_environment(measure_environment());
+    if (Status status = detail::check_rounding(data, options); !status) return status;
     const int dimension = data.located().mesh->dimension;
     if (grid.dimension != dimension)
         return Error{.what = "dimension of the grid",
                      .expected = std::to_string(dimension) + ", that of the mesh",
                      .found = std::to_string(grid.dimension)};
     for (std::size_t k = 0; k < 3; ++k) {
-        const bool good = grid.counts[k] >= 1 && grid.counts[k] < INT32_MAX && std::isfinite(grid.origin[k]) &&
-                          std::isfinite(grid.last[k]) && grid.spacing[k] >= 0 && std::isfinite(grid.spacing[k]) &&
-                          (grid.counts[k] == 1 || grid.coordinate(k, grid.counts[k] - 2) <= grid.last[k]);
+        const bool several = grid.counts[k] > 1;
+        const bool good = grid.counts[k] >= 1 && grid.counts[k] <= Grid::most_on_axis &&
+                          std::isfinite(grid.origin[k]) && std::isfinite(grid.last[k]) && grid.spacing[k] >= 0 &&
+                          std::isfinite(grid.spacing[k]) && (!several || grid.spacing[k] > 0) &&
+                          (!several || grid.coordinate(k, grid.counts[k] - 2) <= grid.last[k]) &&
+                          (grid.dimension == 3 || k < 2 || !several);
         if (!good) return Error{.what = "the grid is none", .remedy = "make it by grid_over or grid_spaced"};
     }
-    const std::uint64_t layer = grid.point_count() / static_cast<std::uint64_t>(grid.counts[layer_axis(grid)]);
+    const std::int64_t layer = grid.counts[0] * (grid.dimension == 3 ? grid.counts[1] : 1);
     if (layer > 0x7fffffff)
         return Error{.what = "points of one layer of the grid",
                      .expected = "at most 2147483647",

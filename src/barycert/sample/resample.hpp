@@ -23,9 +23,9 @@ struct GridBlock {
 using GridSink = std::function<Status(const GridBlock&)>;
 
 /// The rows that sampler.sample gives for the points of the grid, bit for bit: owners, features, values, counts (but
-/// LocationCounts::tests). Blocks come in order and are gone after the call; memory is that of a few layers. Works on
-/// every mesh; no certificate is needed. Errors: those of sample (a point outside, with policy `error`), and of `sink`,
-/// after which nothing is done any more.
+/// LocationCounts::tests, and which tier decided a value). Blocks come in order and are gone after the call; memory is
+/// that of a few layers. Works on every mesh; no certificate is needed. Errors: those of sample (a point outside, with
+/// policy `error`), and of `sink`, after which nothing is done any more.
 Status resample(const Sampler& sampler, const Grid& grid, const SampleOptions& options, const GridSink& sink,
                 SampleCounts& counts);
 

@@ -6,7 +6,8 @@
 /// What holds (each law is a test of that name in tests/sample):
 ///   V1  A value of a point field is the exact interpolation in the owner, linear, or quadratic on cells of second
 ///       order, rounded once to nearest, ties to even. A value of a cell field is that of the owner.
-///   V2  Where cells meet in a proper mesh, point fields have the same bits from every cell that holds the point.
+///   V2  Where cells meet in a proper mesh, point fields have the same bits from every cell that holds the point, if
+///       their nodal values are finite: a component is NaN if any nodal value of its cell is not.
 ///   D1  Rows depend on point, mesh and fields alone: not on threads, SIMD target, blocks, order, or the method that
 ///       found the owner; so a map that was saved gives the same bytes.
 ///   E1  Nothing is silent: a point outside has NaN unless asked otherwise, and SampleCounts tells how many were where.
@@ -102,7 +103,8 @@ public:
 
     /// The same for points whose owners are known: row i is for point i in cells[i], or outside if that is -1, with
     /// the feature given. So `Locator::locate` once serves many fields, and every cell of `locate_all` can have its
-    /// row. Error besides: an index of a cell that is out of range.
+    /// row. In a degenerate cell point fields are NaN, and counted. Error besides: an index of a cell that is out of
+    /// range.
     Status evaluate(std::span<const double> points, std::span<const Mesh::Index> cells,
                     std::span<const Feature> features, const SampleOptions& options, Samples& out, SampleCounts& counts,
                     std::size_t first_point = 0) const;

@@ -87,7 +87,7 @@ Status check_call(const SamplerData& data, std::span<const double> points, const
         return Error{.what = "size of the points",
                      .expected = std::to_string(d) + " coordinates a point",
                      .found = std::to_string(points.size()) + " numbers"};
-    if (options.rounding == Rounding::correct && !rounds_correctly()) return check_environment(measure_environment());
+    if (Status status = detail::check_rounding(data, options); !status) return status;
     return detail::check_finite(points, d, first_point);
 }
 
@@ -180,6 +180,13 @@ private:
 };
 
 }  // namespace
+
+Status detail::check_rounding(const SamplerData& data, const SampleOptions& options) {
+    // On cells of second order the nearest point itself is rounded.
+    const bool matters =
+        options.rounding == Rounding::correct || (data.quadratic && options.outside.kind == Outside::nearest);
+    return matters && !rounds_correctly() ? check_environment(measure_environment()) : Done{};
+}
 
 void SampleCounts::add(const SampleCounts& other) {
     locations.add(other.locations);
