@@ -90,8 +90,9 @@ Status check_outputs(const CheckArguments& a, bool table) {
 #endif
     const std::vector<NamedFile> written = outputs(a);
     std::vector<NamedFile> others;
-    others.reserve(suffixes.size() + written.size());
+    others.reserve(suffixes.size() + 1 + written.size());
     for (const char* suffix : suffixes) others.push_back({"the mesh", stem_of(a.mesh) + suffix});
+    others.push_back({"the mesh", a.mesh});  // a VTK file
     for (const NamedFile& file : written) {
         for (const NamedFile& other : others) {
             if (!same_output(file.path, other.path)) continue;

@@ -108,8 +108,8 @@ void add_sampling_options(CLI::App& sub, SamplingArguments& a) {
     choice_option<Certify>(
         sub, "--certify", a.certify,
         {{"auto", Certify::automatic}, {"always", Certify::always}, {"never", Certify::never}}, "auto|always|never",
-        "Check the mesh first, for then points are found faster: auto (default): where there are at least half as many "
-        "points as cells. No row depends on it");
+        "Check the mesh first, for then points are found faster: auto (default): where there are at least 1.25 points a "
+        "cell. No row depends on it");
     sub.add_option("--threads", a.options.threads, "0: all of them")
         ->capture_default_str()
         ->check(CLI::Range(0, 4096).description(""))

@@ -16,9 +16,8 @@ namespace barycert::cli {
 namespace {
 
 /// From so many points a cell on the mesh is checked. On 203,693 cells and one thread the check cost 1.3 to 1.6 us a
-/// cell, and a walk saved 1.0 to 1.3 us a point inside: time alone is repaid from about 1.3 points a cell on. Below
-/// that the user pays up to 1 us a cell to be told whether the mesh is a partition.
-constexpr double points_a_cell = 0.5;
+/// cell, and a walk saved 1.0 to 1.3 us a point inside: so many points repay it.
+constexpr double points_a_cell = 1.25;
 
 bool is_degenerate(const Mesh& mesh, std::size_t cell) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
