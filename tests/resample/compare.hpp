@@ -29,7 +29,7 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b);
 /// Owners, features, values, distances, bit for bit.
 void expect_same_rows(const Samples& expected, const Samples& found, const Grid& grid, const std::string& what);
 
-/// All but LocationCounts::tests, and which tiers decided values (there is a test of that alone).
+/// All but LocationCounts::tests, and which tiers decided values.
 void expect_same_counts(const SampleCounts& expected, const SampleCounts& found, const std::string& what);
 
 /// The law of resample.hpp. Returns the counts.

@@ -149,7 +149,7 @@ std::uint64_t number_in(const char* variable, std::uint64_t otherwise) {
 }
 
 TEST(ResampleFuzz, AnythingGoes) {
-    const std::uint64_t first = number_in("BARYCERT_FUZZ_FIRST", 0), rounds = number_in("BARYCERT_FUZZ_ROUNDS", 5000);
+    const std::uint64_t first = number_in("BARYCERT_FUZZ_FIRST", 0), rounds = number_in("BARYCERT_FUZZ_ROUNDS", 3000);
     const std::vector<std::string> targets = simd_targets();
     std::uint64_t interior = 0, boundary = 0, outside = 0, certified = 0;
     for (std::uint64_t round = first; round < first + rounds && !HasFailure(); ++round) {

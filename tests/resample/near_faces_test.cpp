@@ -137,5 +137,56 @@ TEST(ResampleBounds, NearFacesOfSlivers) {
     EXPECT_GT(near, 100000U);
 }
 
+/// A cell with a face (2D: a side) that holds the direction of x but for some ulps, and rows of points that lie in it
+/// but for some ulps: what tells them is the bound E alone, not the slack along the row.
+void expect_right_along_faces(int d, int flat, int rounds, Tally& tally) {
+    Random random(static_cast<std::uint64_t>(5000 * d + flat));
+    const auto n = static_cast<std::size_t>(d);
+    const double h = std::ldexp(1.0, -flat);
+    for (int round = 0; round < rounds; ++round) {
+        // The face lies in z = b y (2D: y = 0), with the last vertex h away from it, anywhere along it.
+        const double b = random.uniform(-2, 2), shift = random.below(3) == 0 ? random.uniform(1, 3) : 0;
+        Mesh mesh;
+        mesh.dimension = d;
+        std::array<double, 3> low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
+        for (std::size_t i = 0; i <= n; ++i) {
+            std::array<double, 3> at{random.uniform(-1, 1), random.uniform(-1, 1), 0};
+            const double off = i == n ? h * random.uniform(-1, 1) : 0;
+            at[n - 1] = (d == 3 ? b * at[1] : 0) + off + shift;
+            if (i == n && d == 2) at[0] *= std::ldexp(1.0, flat);  // else no triangle with such a side is flat askew
+            for (std::size_t k = 0; k < n; ++k) {
+                mesh.points.push_back(k + 1 == n && i < n ? some_ulps(at[k], random) : at[k]);
+                low[k] = std::min(low[k], at[k]);
+                high[k] = std::max(high[k], at[k]);
+            }
+            mesh.cells.push_back(static_cast<Mesh::Index>(i));
+        }
+        for (std::size_t i = 0; i < random.below(n + 1); ++i) std::swap(mesh.cells[i], mesh.cells[n]);
+        mesh.point_fields = random_fields(mesh.point_count(), {1}, false, random);
+        if (d == 3) low[1] = high[1] = random.uniform(low[1], high[1]);
+        low[n - 1] = high[n - 1] = some_ulps((d == 3 ? b * low[1] : 0) + shift, random);
+        if (d == 2) {  // along the side, which is short beside the cell
+            low[0] = std::min(mesh.points[0], mesh.points[2]);
+            high[0] = std::max(mesh.points[0], mesh.points[2]);
+        }
+        const auto far = [](const double*) { return false; };
+        if (const auto grid = grid_over(d, {random.integer(2, 24), 1, 1}, low, high)) judge(mesh, *grid, far, tally);
+    }
+}
+
+TEST(ResampleBounds, AlongFaces) {
+    for (const int d : {2, 3}) {
+        Tally tally;
+        for (const int flat : {0, 2, 4, 6, 8, 10, 12, 14, 15, 16, 17, 18, 19, 20, 21, 22, 25, 30, 34, 36, 40, 45})
+            expect_right_along_faces(d, flat, 500, tally);
+        EXPECT_EQ(tally.wrong_owner, 0U) << "of " << tally.points;
+        EXPECT_EQ(tally.wrong_feature, 0U) << "of " << tally.points;
+        EXPECT_EQ(tally.wrong_value, 0U) << "of " << tally.points;
+        EXPECT_GT(tally.inside, tally.points / 20) << "of " << tally.points;
+        EXPECT_LT(tally.inside, tally.points / 20 * 19) << "of " << tally.points;
+        EXPECT_GT(tally.near, tally.points / 4) << "of " << tally.points;
+    }
+}
+
 }  // namespace
 }  // namespace barycert::testing
