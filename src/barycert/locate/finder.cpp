@@ -68,8 +68,10 @@ void Finder::walk(const PointRecord* points, std::size_t count, Place* owner, Fe
 
 void Finder::resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, Tiers& tests) {
     const CellIndex& index = data_.index;
-    const WeightSigns signs = cell_signs(index, stuck.cell, point.at.data(), tests);
-    if (!signs.contains()) {
+    // At the end of the domain the point may still be in another part of it.
+    WeightSigns signs;
+    if (stuck.cell >= 0) signs = cell_signs(index, stuck.cell, point.at.data(), tests);
+    if (stuck.cell < 0 || !signs.contains()) {
         asked_[asked_count_++] = stuck.point;
         return;
     }

@@ -83,7 +83,8 @@ HWY_INLINE void step(D tag, const CellRecord* cells, const NodeRecord* nodes, co
         __builtin_prefetch(&cells[next >= 0 ? next : 0]);  // what it names is read in the next round
         to.going[to.going_count] = {walk.point, next};
         to.going_count += goes_on;
-        to.stuck[to.stuck_count] = walk;
+        const bool outside_cell = (beyond_bits[0] >> l & 1) != 0;
+        to.stuck[to.stuck_count] = {walk.point, outside_cell ? ~walk.cell : walk.cell};
         to.stuck_count += 1 - (arrived | goes_on);
     }
 }

@@ -34,8 +34,16 @@ Status check_count(std::size_t axis, double count) {
 Result<Grid> checked(const Grid& grid) {
     const double points =
         static_cast<double>(grid.counts[0]) * static_cast<double>(grid.counts[1]) * static_cast<double>(grid.counts[2]);
-    if (points <= 0x1p62) return grid;
-    return Error{.what = "points of the grid", .expected = "at most 2^62", .found = shortest(points)};
+    if (!(points <= 0x1p62))
+        return Error{.what = "points of the grid", .expected = "at most 2^62", .found = shortest(points)};
+    for (std::size_t k = 0; k < 3; ++k) {
+        // The spacing is rounded: among subnormal numbers, or far from zero, by more than it may.
+        if (grid.counts[k] > 1 && grid.coordinate(k, grid.counts[k] - 2) > grid.last[k])
+            return Error{.what = std::string("points of the grid along ") + axis_names[k],
+                         .expected = "so few that doubles tell them apart",
+                         .found = std::to_string(grid.counts[k])};
+    }
+    return grid;
 }
 
 }  // namespace

@@ -125,14 +125,16 @@ Status resample(const Sampler& sampler, const Grid& grid, const SampleOptions& o
     const std::size_t layer = static_cast<std::size_t>(grid.point_count()) / layers.size();
     // Many layers, for a cell that lies in two slabs is looked at twice; few enough for 64 MiB or so.
     const std::size_t room = (std::size_t{1} << 26) / (16 + 8 * data.columns.size());
-    const std::size_t depth = std::clamp<std::size_t>(room / layer, 1, layers.size());
-    const std::size_t slabs = (layers.size() + depth - 1) / depth;
 
     Status status = Done{};
     SampleCounts all;
     detail::in_arena(options.threads, [&] {
+        const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+        const std::size_t share = (layers.size() + threads - 1) / threads;
+        const std::size_t depth = std::clamp<std::size_t>(room / layer, 1, share);
+        const std::size_t slabs = (layers.size() + depth - 1) / depth;
         const SlabCells cells = cells_of_slabs(data.index(), layers, depth);
-        const auto width = std::min(slabs, static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
+        const std::size_t width = std::min(slabs, threads);
         std::vector<detail::SlabSampler> samplers(width, detail::SlabSampler(data, grid, raster, options));
         for (std::size_t wave = 0; wave < slabs && status; wave += width) {
             const std::size_t count = std::min(width, slabs - wave);
