@@ -105,11 +105,12 @@ void add_sampling_options(CLI::App& sub, SamplingArguments& a) {
            "the "
            "value at the nearest point of the mesh, within DISTANCE; extrapolate: the function of the nearest cell")
         ->type_name("nan|error|fill=V|nearest[=D]|extrapolate");
-    choice_option<Certify>(
-        sub, "--certify", a.certify,
-        {{"auto", Certify::automatic}, {"always", Certify::always}, {"never", Certify::never}}, "auto|always|never",
-        "Check the mesh first, for then points are found faster: auto (default): where there are at least 1.25 points a "
-        "cell. No row depends on it");
+    choice_option<Certify>(sub, "--certify", a.certify,
+                           {{"auto", Certify::automatic}, {"always", Certify::always}, {"never", Certify::never}},
+                           "auto|always|never",
+                           "Check the mesh first, for then points are found faster: auto (default): where there are at "
+                           "least 1.25 points a "
+                           "cell. No row depends on it");
     sub.add_option("--threads", a.options.threads, "0: all of them")
         ->capture_default_str()
         ->check(CLI::Range(0, 4096).description(""))
