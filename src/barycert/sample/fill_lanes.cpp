@@ -1,27 +1,5 @@
-// Cells against the points of a grid: where each row enters and leaves a cell, and the values between.
-//
-// u = 2^-53, rounding to nearest. As in gradient-inl.hpp: o the last vertex, e_j = fl(v_j - o), X_k their extents,
-// a_k = G / X_k, K = G / |d|, n_j the normals, inv = fl(1/d); the cell is not degenerate and K <= 2^36.
-//
-// Inside or not. Weight j < last of a point p in the cell's box, w = fl(p - o), is l_j = sum_k S_jk w_k with
-// S_jk = fl(n_jk inv); the last is 1 + sum_k S_k w_k with S = -sum_j S_j. As |w_k| <= X_k there, refinement-inl.hpp
-// bounds the error of l_j by u B(w)/|d| (98.1 K + 21) 1.002, and B(w)/|d| <= 3 K: 296 K^2 + 64 K, with the rounding of
-// the difference w (2.0001 u B(w)/|d|) below u (300 K^2 + 75 K). Of the last weight: three times that, and three
-// roundings of sums of numbers that are below 3 * 3 K: u (900 K^2 + 300 K + 2). E = u (1000 K^2 + 400 K + 8) bounds all
-// of them, however the sums are arranged. Along a row only w_x changes, as a real number: l_j = a_j + S_jx w_x, so a
-// point with a_j + S_jx w_x < -E for some j is certainly outside, and one with > E for all j certainly inside. Solved
-// for the place along the row, t = (o_x + w_x - origin) / spacing, these are intervals, whose ends are off by less than
-// raster.slack: so much is added outside and taken off inside. Where |S_jx| X_x <= E, the weight is a_j up to E along
-// the row, and nothing is solved: certainly outside below -2 E, certainly inside above 2 E.
-//
-// Values. V(p) = f_o + sum_k g_k (w_k + t_k), where p_k - o_k = w_k + t_k exactly and g_k = y_k + c_k up to eta_k
-// (gradient-inl.hpp). Let M = |f_o| + sum |y_k| X_k, C = sum |c_k| X_k. The sum of f_o and the products y_k w_k runs
-// through two_sum and two_product: 3 + 3 remainders of at most 1.001 u M and u M together; y_k t_k, in double, <= u M
-// together, c_k w_k <= C: their plain sum rounds by at most 11 u (5.1 u M + C) 1.001, the products by u^2 M + u C, and
-// c_k t_k, left out, is below u C. Adding the error in the end rounds by u (5.1 u M + C) once more, for each sign. So
-//   error = 1.01 sum eta_k X_k + 80 u^2 M + 20 u C
-// bounds all that is lost. Ranges: M <= 2^900, so nothing overflows; and error >= 2^-960, or M = C = 0, as
-// underflow takes at most 2^-1070 in each of some 20 operations.
+// Cells against the points of a grid: where each row enters and leaves a cell (fill_rows-inl.hpp), and the values
+// between (fill_values-inl.hpp).
 #include "barycert/sample/fill_lanes.hpp"
 
 #include <algorithm>
@@ -37,9 +15,9 @@
 // After foreach_target.h, as Highway wants it.
 #include <hwy/highway.h>
 
-#include "barycert/core/gradient-inl.hpp"
 #include "barycert/core/strict_math.hpp"
 #include "barycert/locate/records-inl.hpp"
+#include "barycert/sample/fill_values-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert {
@@ -49,83 +27,7 @@ using detail::FillTarget;
 using detail::interior_without_value;
 using detail::NodeValues;
 using detail::Place;
-using detail::Raster;
 using detail::Span;
-
-constexpr std::size_t most_lanes = 8;
-
-/// Of each plane, by cell of a block: the weight along a row at (w_y, w_z) is a = constant + sy w_y + sz w_z at w_x =
-/// 0. It bounds the row from below at t = lower - a * lower_factor -+ lower_width, from above likewise; where it does
-/// not, the bound is far away and its factor 0.
-struct PlaneBlock {
-    HWY_ALIGN double constant[most_lanes], sy[most_lanes], sz[most_lanes];
-    HWY_ALIGN double lower[most_lanes], lower_factor[most_lanes], lower_width[most_lanes];
-    HWY_ALIGN double upper[most_lanes], upper_factor[most_lanes], upper_width[most_lanes];
-};
-
-/// Of each component.
-struct ValueBlock {
-    HWY_ALIGN double at_origin[most_lanes], plain[3][most_lanes], correction[3][most_lanes], error[most_lanes];
-    HWY_ALIGN double valid[most_lanes];  ///< 1 or 0
-};
-
-template <int d>
-struct CellBlock {
-    HWY_ALIGN double origin[d][most_lanes], low[d][most_lanes], high[d][most_lanes];
-    HWY_ALIGN double first[d][most_lanes], last[d][most_lanes];  ///< guesses of places
-    HWY_ALIGN double valid[most_lanes];                          ///< 1 or 0
-    PlaneBlock plane[d + 1];
-};
-
-/// Farther than any place along a row.
-constexpr double far = 0x1p40;
-
-template <int d, class D, class V = hn::Vec<D>>
-HWY_INLINE void set_plane(D tag, const Raster& raster, V constant, const V (&s)[d], V origin, V extent, V error,
-                          PlaneBlock& out) {
-    const V scale = hn::Set(tag, raster.scale[0]), zero = hn::Zero(tag);
-    const V base = (origin - hn::Set(tag, raster.origin[0])) * scale;
-    // t = far * -a / E, widened by 3 far: beyond all places below -3 E, before all of them above 3 E.
-    const auto parallel = hn::Le(hn::Abs(s[0]) * extent, error);
-    const auto rising = hn::Or(parallel, hn::Gt(s[0], zero));
-    const V factor = hn::IfThenElse(parallel, hn::Set(tag, far) / error, scale / s[0]);
-    const V width =
-        hn::IfThenElse(parallel, hn::Set(tag, 3 * far), error * hn::Abs(factor) + hn::Set(tag, raster.slack));
-    const V place = hn::IfThenElse(parallel, zero, base);
-    const V none = hn::Set(tag, 4 * far);
-    hn::Store(constant, tag, out.constant);
-    hn::Store(s[1], tag, out.sy);
-    if constexpr (d == 3) hn::Store(s[2], tag, out.sz);
-    hn::Store(hn::IfThenElse(rising, place, hn::Neg(none)), tag, out.lower);
-    hn::Store(hn::IfThenElse(rising, factor, zero), tag, out.lower_factor);
-    hn::Store(hn::IfThenElse(rising, width, zero), tag, out.lower_width);
-    hn::Store(hn::IfThenElse(rising, none, place), tag, out.upper);
-    hn::Store(hn::IfThenElse(rising, zero, factor), tag, out.upper_factor);
-    hn::Store(hn::IfThenElse(rising, zero, width), tag, out.upper_width);
-}
-
-template <int d, class D, class V = hn::Vec<D>>
-HWY_INLINE void set_values(D tag, const CellMatrix<d, D>& m, const V (&extent)[d], const V (&f)[d + 1],
-                           ValueBlock& out) {
-    constexpr double u = 0x1p-53;
-    const RefinedGradient<d, D> g = refined_gradient<d>(tag, m, f);
-    V size = hn::Abs(f[d]), corrections = hn::Zero(tag), eta = hn::Zero(tag);
-    for (int k = 0; k < d; ++k) {
-        size = size + hn::Abs(g.plain[k]) * extent[k];
-        corrections = corrections + hn::Abs(g.correction[k]) * extent[k];
-        eta = eta + g.error[k] * extent[k];
-        hn::Store(g.plain[k], tag, out.plain[k]);
-        hn::Store(g.correction[k], tag, out.correction[k]);
-    }
-    const V error = hn::Set(tag, 1.01) * eta + hn::Set(tag, 80 * u * u) * size + hn::Set(tag, 20 * u) * corrections;
-    const auto nothing = hn::Eq(size + corrections, hn::Zero(tag));
-    const auto valid =
-        hn::And(hn::And(m.valid, g.valid),
-                hn::And(hn::Le(size, hn::Set(tag, 0x1p900)), hn::Or(nothing, hn::Ge(error, hn::Set(tag, 0x1p-960)))));
-    hn::Store(f[d], tag, out.at_origin);
-    hn::Store(error, tag, out.error);
-    hn::Store(hn::IfThenElse(valid, hn::Set(tag, 1), hn::Zero(tag)), tag, out.valid);
-}
 
 /// Cells [0, MaxLanes).
 template <Simplex s, class D>
@@ -190,135 +92,6 @@ HWY_INLINE void set_block(D tag, const detail::CellIndex& index, const NodeValue
         }
         set_values<d>(tag, m, extent, f, values[c]);
     }
-}
-
-struct PlaceRange {
-    std::int32_t first, last;
-};
-
-/// The places of an axis within [low, high], from guesses that are off by one at most.
-HWY_INLINE PlaceRange places_between(const std::vector<double>& at, double first, double last, double low,
-                                     double high) {
-    const auto size = static_cast<std::int32_t>(at.size());
-    const auto x = [&](std::int32_t i) { return at[static_cast<std::size_t>(i)]; };
-    auto i = static_cast<std::int32_t>(first), j = static_cast<std::int32_t>(last);
-    i -= i > 0 && x(i - 1) >= low ? 1 : 0;
-    i += i < size && x(i) < low ? 1 : 0;
-    j -= j > 0 && x(j - 1) > high ? 1 : 0;
-    j += j < size && x(j) <= high ? 1 : 0;
-    return {i, j};
-}
-
-/// Rows of a cell, for several vectors: what was stored one by one is loaded as a vector only after a while, or the
-/// processor would have to wait.
-struct Rows {
-    static constexpr std::size_t most = 8 * most_lanes;
-    HWY_ALIGN double y[most], z[most];
-    std::int32_t row[most], layer[most];
-    std::size_t count;
-};
-
-/// What MaxLanes of them have in common with the cell.
-struct RowBlock {
-    HWY_ALIGN std::int32_t first[most_lanes], inner_first[most_lanes], inner_last[most_lanes], last[most_lanes];
-    std::uint32_t with_points = 0;  ///< bits: rows with certain points
-    std::uint32_t unsure = 0;       ///< bits: rows with others
-};
-
-template <int d, class D>
-HWY_INLINE void find_intervals(D tag, const CellBlock<d>& cell, std::size_t l, PlaceRange columns, const Rows& rows,
-                               std::size_t at, RowBlock& out) {
-    using V = hn::Vec<D>;
-    const V wy = hn::Load(tag, rows.y + at) - hn::Set(tag, cell.origin[1][l]);
-    V wz = hn::Zero(tag);
-    if constexpr (d == 3) wz = hn::Load(tag, rows.z + at) - hn::Set(tag, cell.origin[2][l]);
-    V low = hn::Set(tag, -8 * far), high = hn::Set(tag, 8 * far), inner_low = low, inner_high = high;
-    for (int j = 0; j <= d; ++j) {
-        const PlaneBlock& p = cell.plane[j];
-        V a = hn::Set(tag, p.constant[l]) + hn::Set(tag, p.sy[l]) * wy;
-        if constexpr (d == 3) a = a + hn::Set(tag, p.sz[l]) * wz;
-        const V lower = hn::Set(tag, p.lower[l]) - a * hn::Set(tag, p.lower_factor[l]);
-        const V upper = hn::Set(tag, p.upper[l]) - a * hn::Set(tag, p.upper_factor[l]);
-        const V lower_width = hn::Set(tag, p.lower_width[l]), upper_width = hn::Set(tag, p.upper_width[l]);
-        low = hn::Max(low, lower - lower_width);
-        inner_low = hn::Max(inner_low, lower + lower_width);
-        high = hn::Min(high, upper + upper_width);
-        inner_high = hn::Min(inner_high, upper - upper_width);
-    }
-    const V least = hn::Set(tag, columns.first), most = hn::Set(tag, columns.last), one = hn::Set(tag, 1);
-    const auto clamp = [&](V x) HWY_ATTR { return hn::Min(hn::Max(x, least), most); };
-    const hn::Rebind<std::int32_t, D> whole;
-    const V first = clamp(hn::Ceil(low)), last = hn::Max(first, clamp(hn::Floor(high) + one));
-    const V inner_first = hn::Min(clamp(hn::Ceil(inner_low)), last);
-    const V inner_last = hn::Max(inner_first, hn::Min(clamp(hn::Floor(inner_high) + one), last));
-    hn::Store(hn::DemoteTo(whole, first), whole, out.first);
-    hn::Store(hn::DemoteTo(whole, last), whole, out.last);
-    hn::Store(hn::DemoteTo(whole, inner_first), whole, out.inner_first);
-    hn::Store(hn::DemoteTo(whole, inner_last), whole, out.inner_last);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(tag, hn::Lt(inner_first, inner_last), bits);
-    out.with_points = bits[0];
-    hn::StoreMaskBits(tag, hn::Or(hn::Ne(first, inner_first), hn::Ne(last, inner_last)), bits);
-    out.unsure = bits[0];
-}
-
-/// Of a component, by row.
-struct RowTerms {
-    HWY_ALIGN double sum[most_lanes], rest[most_lanes];
-};
-
-/// Numbers whose exact sum is sum + rest, up to the error that `error` of ValueBlock bounds.
-template <class V>
-struct Partial {
-    V sum, rest;
-};
-
-/// What f_o and the terms of y and z give in each row.
-template <int d, class D, class V = hn::Vec<D>>
-HWY_INLINE Partial<V> row_terms(D tag, const CellBlock<d>& cell, const ValueBlock& value, std::size_t l,
-                                const Rows& rows, std::size_t at) {
-    Accumulator<V> sum{hn::Set(tag, value.at_origin[l]), hn::Zero(tag), hn::Zero(tag)};
-    for (int k = 1; k < d; ++k) {
-        const TwoTerms<V> w =
-            two_difference(hn::Load(tag, (k == 1 ? rows.y : rows.z) + at), hn::Set(tag, cell.origin[k][l]));
-        const V plain = hn::Set(tag, value.plain[k][l]);
-        sum.add_product(plain, w.high);
-        sum.product_rest = sum.product_rest + (plain * w.low + hn::Set(tag, value.correction[k][l]) * w.high);
-    }
-    return {sum.sum, sum.sum_rest + sum.product_rest};
-}
-
-/// The terms of x in `width` columns.
-template <int d, class D, class V = hn::Vec<D>>
-HWY_INLINE Partial<V> column_terms(D tag, const Raster& raster, const CellBlock<d>& cell, const ValueBlock& value,
-                                   std::size_t l, std::int32_t column) {
-    const auto at = static_cast<std::size_t>(column), size = raster.at[0].size();
-    HWY_ALIGN double lanes[most_lanes];
-    const double* from = raster.at[0].data() + at;
-    if (at + hn::MaxLanes(D()) > size) {
-        for (std::size_t i = 0; i < hn::MaxLanes(D()); ++i) lanes[i] = raster.at[0][std::min(at + i, size - 1)];
-        from = lanes;
-    }
-    const V x = hn::LoadU(tag, from);
-    const TwoTerms<V> w = two_difference(x, hn::Set(tag, cell.origin[0][l]));
-    const V plain = hn::Set(tag, value.plain[0][l]);
-    const TwoTerms<V> p = two_product(plain, w.high);
-    return {p.high, p.low + (plain * w.low + hn::Set(tag, value.correction[0][l]) * w.high)};
-}
-
-/// The sum of a row and its columns, and a bit where its rounding is certain.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V value_of(D tag, const ValueBlock& value, std::size_t l, const RowTerms& terms, std::size_t r,
-                      const Partial<V>& column, std::uint32_t& certain) {
-    const TwoTerms<V> sum = two_sum(hn::Set(tag, terms.sum[r]), column.sum);
-    auto mask = hn::Ne(hn::Set(tag, value.valid[l]), hn::Zero(tag));
-    const V out = rounded_if_certain<D>(sum.high, sum.low + (column.rest + hn::Set(tag, terms.rest[r])),
-                                        hn::Set(tag, value.error[l]), mask) +
-                  hn::Zero(tag);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(tag, mask, bits);
-    certain &= bits[0];
-    return out;
 }
 
 /// What the rows of a cell are filled with.
