@@ -16,6 +16,7 @@
 #include "barycert/report/json.hpp"
 #include "barycert/report/terminal.hpp"
 #include "command.hpp"
+#include "files.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -49,6 +50,22 @@ private:
     std::chrono::steady_clock::time_point last_;
 };
 
+/// What can be known of files before the work.
+Status check_files(const AuditArguments& a, bool table) {
+    std::vector<NamedFile> inputs;
+    Result<std::vector<std::string>> meshes = a.meshes;
+    if (a.meshes.empty()) meshes = own_meshes();
+    if (meshes) {
+        for (const std::string& mesh : *meshes) {
+            for (NamedFile& file : files_of_mesh("the mesh", mesh)) inputs.push_back(std::move(file));
+        }
+    }
+    for (const std::string& library : a.libraries) inputs.push_back({"--kernel-library", library});
+    std::vector<NamedFile> outputs{{"--json", a.json}, {"--witnesses", a.witnesses}, {"--plot", a.plot}};
+    if (table) outputs.push_back({"the table", "-"});
+    return check_outputs(inputs, std::move(outputs));
+}
+
 int run_audit(const AuditArguments& a) {
     std::vector<audit::Rule> rules;
     for (const std::string& text : a.fail_on) {
@@ -57,19 +74,7 @@ int run_audit(const AuditArguments& a) {
         rules.push_back(*rule);
     }
     const bool table = !a.quiet && a.json != "-" && a.witnesses != "-" && a.plot != "-";
-    if (!a.json.empty() && same_output(a.json, a.witnesses))
-        return fail({.what = "--json and --witnesses name the same output",
-                     .file = a.json,
-                     .remedy = "give each its own; the report of --json holds the witnesses too"});
-    for (const auto& [option, path] : {std::pair("--json", a.json), std::pair("--witnesses", a.witnesses)}) {
-        if (!a.plot.empty() && same_output(a.plot, path))
-            return fail({.what = fmt::format("--plot and {} name the same output", option),
-                         .file = a.plot,
-                         .remedy = "give each its own"});
-    }
-    for (const std::string& path : {a.json, a.witnesses, a.plot, std::string(table ? "-" : "")}) {
-        if (const Status ok = check_output(path); !ok) return fail(ok.error());
-    }
+    if (const Status ok = check_files(a, table); !ok) return fail(ok.error());
     audit::Options options;
     options.count = a.count;
     options.seed = a.seed;
@@ -122,20 +127,18 @@ void add_audit(CLI::App& app, int& exit_code) {
     auto* sub = app.add_subcommand(
         "audit", "Count how often each floating-point kernel is wrong, and by how much, against exact arithmetic");
     const auto a = std::make_shared<AuditArguments>();
-    sub->add_option(
-        "MESH", a->meshes,
-        "TetGen meshes (.node/.ele; Triangle's for 2D) to draw cases from; barycert's own if none is given");
+    file_option(*sub, "MESH", a->meshes,
+                "TetGen meshes (.node/.ele; Triangle's for 2D) to draw cases from; barycert's own if none is given")
+        ->allow_extra_args(true);
     sub->add_option("--kernel", a->kernels, "Audit only kernels that match NAME|GLOB; may be repeated")
         ->type_name("NAME|GLOB")
         ->allow_extra_args(false);
     sub->add_option("--family", a->families, "Use only families that match NAME|GLOB; may be repeated")
         ->type_name("NAME|GLOB")
         ->allow_extra_args(false);
-    sub->add_option("--kernel-library", a->libraries,
-                    "A kernel of your own: a shared library with the functions of barycert/kernel.h; alone unless "
-                    "--kernel is given too")
-        ->type_name("FILE")
-        ->allow_extra_args(false);
+    file_option(*sub, "--kernel-library", a->libraries,
+                "A kernel of your own: a shared library with the functions of barycert/kernel.h; alone unless "
+                "--kernel is given too");
     sub->add_option("--count", a->count, "Cases per family and simplex")
         ->capture_default_str()
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48))
@@ -148,13 +151,10 @@ void add_audit(CLI::App& app, int& exit_code) {
         ->capture_default_str()
         ->check(CLI::Range(0, 4096))
         ->type_name("N");
-    sub->add_option("--json", a->json, "Write the whole report as JSON; - is stdout, and then there is no table")
-        ->type_name("FILE");
-    sub->add_option("--witnesses", a->witnesses, "Write the worst cases as JSON, for `barycert replay`; - is stdout")
-        ->type_name("FILE");
-    sub->add_option("--plot", a->plot,
-                    "Draw the kernels' errors against the condition numbers of the cells, as SVG; - is stdout")
-        ->type_name("FILE");
+    file_option(*sub, "--json", a->json, "Write the whole report as JSON; - is stdout, and then there is no table");
+    file_option(*sub, "--witnesses", a->witnesses, "Write the worst cases as JSON, for `barycert replay`; - is stdout");
+    file_option(*sub, "--plot", a->plot,
+                "Draw the kernels' errors against the condition numbers of the cells, as SVG; - is stdout");
     std::string names;
     for (const std::string& rule : audit::rule_names()) names += " " + rule;
     sub->add_option("--fail-on", a->fail_on,

@@ -6,6 +6,7 @@
 #include "barycert/report/json.hpp"
 #include "barycert/report/terminal.hpp"
 #include "command.hpp"
+#include "files.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -31,10 +32,8 @@ void add_catalogue(CLI::App& app, int& exit_code) {
     const auto k = std::make_shared<ListArguments>();
     auto* kernels = app.add_subcommand("kernels", "List the kernels: formula, source, where each fails");
     kernels->add_option("NAME|GLOB", k->globs, "Only those that match");
-    kernels->add_option("--kernel-library", k->libraries, "Describe the kernel of a shared library too")
-        ->type_name("FILE")
-        ->allow_extra_args(false);
-    kernels->add_option("--json", k->json, "Write the list as JSON; - is stdout")->type_name("FILE");
+    file_option(*kernels, "--kernel-library", k->libraries, "Describe the kernel of a shared library too");
+    file_option(*kernels, "--json", k->json, "Write the list as JSON; - is stdout");
     kernels->callback([k, &exit_code] {
         const auto chosen = select_kernels(k->globs, k->libraries);
         exit_code =
@@ -43,7 +42,7 @@ void add_catalogue(CLI::App& app, int& exit_code) {
     const auto f = std::make_shared<ListArguments>();
     auto* families = app.add_subcommand("families", "List the families of cases: what each is after, and its recipe");
     families->add_option("NAME|GLOB", f->globs, "Only those that match");
-    families->add_option("--json", f->json, "Write the list as JSON; - is stdout")->type_name("FILE");
+    file_option(*families, "--json", f->json, "Write the list as JSON; - is stdout");
     families->callback([f, &exit_code] {
         const auto chosen = select_families(f->globs);
         exit_code = chosen ? print(*f, report::terminal_families(*chosen), report::families_json(*chosen))

@@ -16,6 +16,7 @@
 #include "barycert/report/check_json.hpp"
 #include "barycert/report/check_terminal.hpp"
 #include "command.hpp"
+#include "files.hpp"
 
 #ifdef BARYCERT_WITH_VTK
 #include "barycert/vtk/vtu.hpp"
@@ -30,15 +31,6 @@ struct CheckArguments {
     int threads = 0;
     bool delaunay = false, quiet = false;
 };
-
-constexpr std::array<const char*, 4> suffixes{".node", ".ele", ".face", ".neigh"};
-
-std::string stem_of(std::string path) {
-    for (const std::string_view suffix : suffixes) {
-        if (path.ends_with(suffix)) path.resize(path.size() - suffix.size());
-    }
-    return path;
-}
 
 /// A report that is text: in a file, or on stdout in place of the table.
 struct TextOutput {
@@ -55,29 +47,20 @@ constexpr std::array<TextOutput, 2> text_outputs{{
     {"--html", "Write the report as one HTML page with histograms and pictures of cells; - is stdout likewise",
      &CheckArguments::html,
      [](const check::Report& report, const Mesh& mesh, const CheckArguments& a) {
-         return report::check_html(report, mesh, stem_of(a.mesh));
+         return report::check_html(report, mesh, tetgen_stem(a.mesh));
      }},
 }};
 
-/// A file that is written or read, and what the user calls it.
-struct NamedFile {
-    std::string what, path;
-};
-
 std::vector<NamedFile> outputs(const CheckArguments& a) {
-    std::vector<NamedFile> files;
-    files.reserve(text_outputs.size() + 1 + suffixes.size());
+    std::vector<NamedFile> files{{"--vtu", a.vtu}};
     for (const TextOutput& t : text_outputs) files.push_back({t.option, a.*t.path});
-    files.push_back({"--vtu", a.vtu});
-    for (const char* suffix : suffixes) {
-        if (!a.fixed.empty()) files.push_back({"--fix-orientation", a.fixed + suffix});
-    }
-    std::erase_if(files, [](const NamedFile& f) { return f.path.empty(); });
+    if (a.fixed.empty()) return files;
+    for (std::string& path : tetgen_files(a.fixed)) files.push_back({"--fix-orientation", std::move(path)});
     return files;
 }
 
 /// Everything that can be known of the outputs before the work.
-Status check_outputs(const CheckArguments& a, bool table) {
+Status check_files(const CheckArguments& a, bool table) {
     if (a.vtu == "-")
         return Error{.what = "--vtu cannot write to stdout", .remedy = "name a file: its data are binary"};
 #ifndef BARYCERT_WITH_VTK
@@ -88,28 +71,13 @@ Status check_outputs(const CheckArguments& a, bool table) {
                          "install VTK's development package (Debian: libvtk9-dev), then configure and build "
                          "barycert again"};
 #endif
-    const std::vector<NamedFile> written = outputs(a);
-    std::vector<NamedFile> others;
-    others.reserve(suffixes.size() + 1 + written.size());
-    for (const char* suffix : suffixes) others.push_back({"the mesh", stem_of(a.mesh) + suffix});
-    others.push_back({"the mesh", a.mesh});  // a VTK file
-    for (const NamedFile& file : written) {
-        for (const NamedFile& other : others) {
-            if (!same_output(file.path, other.path)) continue;
-            if (other.what == "the mesh")
-                return Error{.what = file.what + " names a file of the mesh itself",
-                             .file = file.path,
-                             .remedy = "choose another name"};
-            return Error{.what = other.what + " and " + file.what + " name the same output",
-                         .file = file.path,
-                         .remedy = "give each its own"};
-        }
-        others.push_back(file);
+    std::vector<NamedFile> inputs = files_of_mesh("the mesh", a.mesh);
+    if (!a.plc.empty()) {
+        for (NamedFile& file : files_of_plc("the PLC of --conforms-to", a.plc)) inputs.push_back(std::move(file));
     }
-    for (const NamedFile& file : written) {
-        if (Status ok = check_output(file.path); !ok) return ok;
-    }
-    return check_output(table ? "-" : "");
+    std::vector<NamedFile> written = outputs(a);
+    if (table) written.push_back({"the table", "-"});
+    return check_outputs(inputs, std::move(written));
 }
 
 /// write_tetgen leaves no file of another mesh beside its own. Told before the work.
@@ -164,7 +132,7 @@ Status write_measures(const check::Report&, const Mesh&, const std::string&) {
 int run_check(const CheckArguments& a) {
     const bool table = !a.quiet && std::none_of(text_outputs.begin(), text_outputs.end(),
                                                 [&](const TextOutput& t) { return a.*t.path == "-"; });
-    if (const Status ok = check_outputs(a, table); !ok) return fail(ok.error());
+    if (const Status ok = check_files(a, table); !ok) return fail(ok.error());
     const StageLine line(!a.quiet && stderr_is_terminal());
     line("reading");
     const Result<Mesh> mesh = load_mesh(a.mesh, {.faces = true, .neighbours = true, .threads = a.threads});
@@ -195,7 +163,7 @@ int run_check(const CheckArguments& a) {
 
     // Files first: whoever reads the table may stop reading (`| head`). A file that could not be written does not cost
     // the user the table, the fruit of the whole run.
-    const std::string name = stem_of(a.mesh);
+    const std::string name = tetgen_stem(a.mesh);
     std::vector<Status> written;
     for (const TextOutput& t : text_outputs) {
         if (!(a.*t.path).empty()) written.push_back(write_output(a.*t.path, t.text(report, *mesh, a)));
@@ -223,12 +191,12 @@ void add_check(CLI::App& app, int& exit_code) {
         "face or not at all, and .neigh and .face, where there are any, agree with\nthe cells. Cells of second order "
         "are taken with straight sides.");
     const auto a = std::make_shared<CheckArguments>();
-    sub->add_option("MESH", a->mesh, "A TetGen mesh (.node/.ele, .face and .neigh if there; Triangle's for 2D)")
+    file_option(*sub, "MESH", a->mesh, "A TetGen mesh (.node/.ele, .face and .neigh if there; Triangle's for 2D)")
         ->required();
     sub->add_flag("--delaunay", a->delaunay, "Test besides whether every interior facet is locally Delaunay, exactly");
-    sub->add_option(
-           "--conforms-to", a->plc,
-           "Test besides whether the facets of this PLC (.poly .smesh .off .stl .ply) are unions of faces of cells")
+    file_option(
+        *sub, "--conforms-to", a->plc,
+        "Test besides whether the facets of this PLC (.poly .smesh .off .stl .ply) are unions of faces of cells")
         ->type_name("PLC");
     sub->add_option("--examples", a->examples, "Places to list of each problem")
         ->capture_default_str()
@@ -242,11 +210,10 @@ void add_check(CLI::App& app, int& exit_code) {
         ->capture_default_str()
         ->check(CLI::Range(0, 4096))
         ->type_name("N");
-    for (const TextOutput& t : text_outputs) sub->add_option(t.option, (*a).*t.path, t.help)->type_name("FILE");
-    sub->add_option("--vtu", a->vtu, "Write the mesh with the measures and problems of its cells, for ParaView")
-        ->type_name("FILE");
-    sub->add_option("--fix-orientation", a->fixed,
-                    "Write a copy in which no cell has negative volume: STEM.node, STEM.ele (.face, .neigh)")
+    for (const TextOutput& t : text_outputs) file_option(*sub, t.option, (*a).*t.path, t.help);
+    file_option(*sub, "--vtu", a->vtu, "Write the mesh with the measures and problems of its cells, for ParaView");
+    file_option(*sub, "--fix-orientation", a->fixed,
+                "Write a copy in which no cell has negative volume: STEM.node, STEM.ele (.face, .neigh)")
         ->type_name("STEM");
     sub->add_flag("--quiet", a->quiet, "No table and no progress: only files and the exit code");
     sub->callback([a, &exit_code] { exit_code = run_check(*a); });

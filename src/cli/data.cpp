@@ -1,15 +1,11 @@
-// Selection and loading: meshes, kernels, families; and output files.
+// Selection and loading: meshes, kernels, families; and what is said on stderr.
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <cerrno>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
@@ -17,10 +13,10 @@
 #include <filesystem>
 
 #include "barycert/check/check.hpp"
-#include "barycert/core/output_file.hpp"
 #include "barycert/core/text.hpp"
 #include "barycert/mesh/vtk_missing.hpp"
 #include "command.hpp"
+#include "files.hpp"
 
 #ifdef BARYCERT_WITH_VTK
 #include "barycert/vtk/read_vtk.hpp"
@@ -42,22 +38,6 @@ fs::path data_folder() {
     }
     if (fs::is_directory(BARYCERT_SOURCE_DATA_DIR, ignored)) return BARYCERT_SOURCE_DATA_DIR;
     return {};
-}
-
-Result<std::vector<std::string>> own_meshes() {
-    const fs::path folder = data_folder();
-    std::vector<std::string> paths;
-    std::error_code trouble;
-    for (const auto& entry : fs::directory_iterator(folder / "meshes", trouble)) {
-        if (entry.path().extension() == ".node") paths.push_back(entry.path().string());
-    }
-    if (paths.empty()) {
-        return Error{.what = "barycert's own meshes are not there",
-                     .file = (folder / "meshes").string(),
-                     .remedy = "name a mesh, or set BARYCERT_DATA_DIR to the folder `data` of barycert's sources"};
-    }
-    std::sort(paths.begin(), paths.end());
-    return paths;
 }
 
 /// Items of `all(glob)` for each glob, without repetition, in the order of the catalogue.
@@ -95,12 +75,6 @@ Error with_hint(Error error, const fs::path& path) {
 
 }  // namespace
 
-bool is_vtk_file(const std::string& path) {
-    std::string suffix = fs::path(path).extension().string();
-    for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return suffix == ".vtu" || suffix == ".vtk" || suffix == ".vtp";
-}
-
 void tell(std::string_view text) {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
@@ -110,6 +84,22 @@ int fail(const Error& error) {
     std::fflush(stdout);
     tell(fmt::format("error: {}\n", error.message()));
     return exit_error;
+}
+
+Result<std::vector<std::string>> own_meshes() {
+    const fs::path folder = data_folder();
+    std::vector<std::string> paths;
+    std::error_code trouble;
+    for (const auto& entry : fs::directory_iterator(folder / "meshes", trouble)) {
+        if (entry.path().extension() == ".node") paths.push_back(entry.path().string());
+    }
+    if (paths.empty()) {
+        return Error{.what = "barycert's own meshes are not there",
+                     .file = (folder / "meshes").string(),
+                     .remedy = "name a mesh, or set BARYCERT_DATA_DIR to the folder `data` of barycert's sources"};
+    }
+    std::sort(paths.begin(), paths.end());
+    return paths;
 }
 
 Result<Mesh> load_mesh(const std::string& path, const ReadOptions& options) {
@@ -171,43 +161,6 @@ Result<std::vector<audit::Family>> select_families(const std::vector<std::string
                                  "`barycert families` lists them; * and ? are wildcards");
 }
 
-Status write_output(const std::string& path, std::string_view bytes) {
-    if (path == "-") {
-        if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
-            return Error{.what = "cannot write to stdout", .found = std::strerror(errno)};
-        return Done{};
-    }
-    OutputFile file(path);
-    file.write(bytes);
-    return file.commit();
-}
-
-Status check_output(const std::string& path) {
-    if (path.empty()) return Done{};
-    if (path == "-") {
-        if (fcntl(STDOUT_FILENO, F_GETFD) < 0)
-            return Error{.what = "cannot write to stdout", .found = std::strerror(errno)};
-        return Done{};
-    }
-    // A pipe would see its writer come and go: only ask of it whether it may be written.
-    struct stat status {};
-    if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
-        if (access(path.c_str(), W_OK) != 0)
-            return Error{.what = "cannot write the file", .file = path, .found = std::strerror(errno)};
-        return Done{};
-    }
-    return OutputFile(path).close();
-}
-
-bool same_output(const std::string& a, const std::string& b) {
-    if (a.empty() || b.empty()) return false;
-    std::error_code unknown;
-    if (a == b || fs::equivalent(a, b, unknown)) return true;
-    // Without absolute() a relative path of which nothing exists would stay relative.
-    const fs::path one = fs::weakly_canonical(fs::absolute(a, unknown), unknown);
-    return !unknown && one == fs::weakly_canonical(fs::absolute(b, unknown), unknown) && !unknown;
-}
-
 CLI::Validator whole_number() {
     return {[](std::string& text) {
                 std::uint64_t ignored = 0;
@@ -222,7 +175,7 @@ CLI::Validator whole_number() {
 
 std::string command_name() {
     const char* wrapper = std::getenv("BARYCERT_COMMAND");
-    return wrapper == nullptr || *wrapper == '\0' ? "barycert" : wrapper;
+    return wrapper == nullptr || *wrapper == '\0' ? "barycert" : printable(wrapper);
 }
 
 bool colour_on_stdout() {

@@ -1,18 +1,24 @@
 // The executable barycert: one subcommand a file.
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <csignal>
-#include <cstdio>
+#include <cstring>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <string_view>
 
+#include "barycert/core/begun_files.hpp"
+#include "barycert/core/text.hpp"
 #include "command.hpp"
+#include "files.hpp"
 
 int main(int argc, char** argv) {
     using namespace barycert;
     const std::string_view first = argc > 1 ? argv[1] : "";
     if (first == "mesh") return cli::exec_mesh(argc, argv);
+    remove_begun_files_on_signals();
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, like a full disk
 
     CLI::App app("barycert: barycentric interpolation at the speed of floating point, audited against exact arithmetic",
@@ -23,7 +29,7 @@ int main(int argc, char** argv) {
         "Exit codes: 0 clean, 1 findings beyond the thresholds given or a mesh that is not certified, 2 usage or input "
         "error.\nTables go to stdout, all else to stderr. `barycert SUBCOMMAND --help` explains each.");
     app.failure_message([](const CLI::App*, const CLI::Error& e) {
-        return std::string("error: ") + e.what() +
+        return "error: " + printable(e.what()) +
                "; `barycert --help` and `barycert SUBCOMMAND --help` list what there is\n";
     });
     int exit_code = cli::exit_clean;
@@ -43,7 +49,11 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        return app.exit(e) == 0 ? cli::exit_clean : cli::exit_error;
+        if (app.exit(e) != 0) return cli::exit_error;
+        // --help and --version were printed: to a full disk, perhaps.
+        std::cout.flush();
+        if (std::cout && cli::write_output("-", "")) return cli::exit_clean;
+        return cli::fail({.what = "cannot write to stdout", .found = std::strerror(errno)});
     } catch (const std::bad_alloc&) {
         return cli::fail({.what = "out of memory", .remedy = "use a smaller mesh or fewer threads"});
     } catch (const std::exception& e) {

@@ -14,6 +14,7 @@
 #include "barycert/core/text.hpp"
 #include "barycert/report/terminal.hpp"
 #include "command.hpp"
+#include "files.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -97,7 +98,8 @@ int run_replay(const ReplayArguments& a) {
         if (!written) return fail(written.error());
         any = true;
         if (!replay.not_reproduced.empty()) {
-            tell(fmt::format("not reproduced: {} of {}: {}\n", w.reason, w.kernel, replay.not_reproduced));
+            tell(printable(fmt::format("not reproduced: {} of {}: {}", w.reason, w.kernel, replay.not_reproduced)) +
+                 "\n");
             all_reproduced = false;
         }
     }
@@ -113,7 +115,7 @@ void add_replay(CLI::App& app, int& exit_code) {
     auto* sub = app.add_subcommand("replay", "Show witnesses: every kernel's weights next to the exact ones");
     sub->footer("Exit code 1 if a witness of a file no longer shows what it says.");
     const auto a = std::make_shared<ReplayArguments>();
-    sub->add_option("FILE", a->file, "Witnesses from `barycert audit --witnesses FILE`, or its --json report");
+    file_option(*sub, "FILE", a->file, "Witnesses from `barycert audit --witnesses FILE`, or its --json report");
     sub->add_option("--kernel", a->kernel, "Only witnesses of kernels that match; with --case, the kernel to point at")
         ->type_name("NAME|GLOB");
     sub->add_option("--reason", a->reason, "Only witnesses of that class of finding")->type_name("NAME|GLOB");
@@ -122,12 +124,9 @@ void add_replay(CLI::App& app, int& exit_code) {
     sub->add_option("--seed", a->seed, "and its seed")->capture_default_str()->check(whole_number())->type_name("S");
     sub->add_option("--simplex", a->simplex, "and its simplex, where neither family nor kernel tells")
         ->type_name("NAME");
-    sub->add_option("--mesh", a->meshes, "and its meshes, in the order given to the audit; barycert's own if none")
-        ->type_name("MESH")
-        ->allow_extra_args(false);
-    sub->add_option("--kernel-library", a->libraries, "Show this kernel too")
-        ->type_name("FILE")
-        ->allow_extra_args(false);
+    file_option(*sub, "--mesh", a->meshes, "and its meshes, in the order given to the audit; barycert's own if none")
+        ->type_name("MESH");
+    file_option(*sub, "--kernel-library", a->libraries, "Show this kernel too");
     sub->callback([a, &exit_code] { exit_code = run_replay(*a); });
 }
 

@@ -13,7 +13,6 @@
 #include "barycert/core/text.hpp"
 #include "command.hpp"
 #include "sampling_files.hpp"
-#include "sampling_signals.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -81,14 +80,7 @@ void add_targets(CLI::App& sub, ResampleArguments& a) {
            },
            "The box of the grid; default: that of the cells")
         ->type_name("XMIN,XMAX,...");
-    sub.add_option_function<std::string>(
-           "--onto",
-           [&a](const std::string& text) {
-               if (text.empty()) throw CLI::ValidationError("--onto", "expected a mesh, found \"\"");
-               a.onto = text;
-           },
-           "At the nodes of that mesh")
-        ->type_name("MESH2");
+    file_option(sub, "--onto", a.onto, "At the nodes of that mesh")->type_name("MESH2");
 }
 
 Status check_arguments(const ResampleArguments& a) {
@@ -101,22 +93,14 @@ Status check_arguments(const ResampleArguments& a) {
     if (!a.bounds.empty() && !a.onto.empty())
         return Error{.what = "--bounds beside --onto", .remedy = "bounds are for --grid and --spacing: leave them out"};
     if (Status known = a.onto.empty() ? check_grid_output(a) : check_onto_output(a); !known) return known;
-    std::vector<NamedFile> inputs = inputs_of(a), outputs;
-    if (!a.onto.empty()) {
-        for (NamedFile& file : files_of_mesh("the mesh of --onto", a.onto)) inputs.push_back(std::move(file));
-        for (const std::string& file : files_of_onto(a)) outputs.push_back({"--output", file});
-    } else {
-        outputs.push_back({"--output", a.output});
-    }
-    if (!a.json.empty()) outputs.push_back({"--json", a.json});
-    return check_files(inputs, outputs);
+    if (a.onto.empty()) return check_files(a, {}, {{"--output", a.output}});
+    std::vector<NamedFile> outputs;
+    for (const std::string& file : files_of_onto(a)) outputs.push_back({"--output", file});
+    return check_files(a, files_of_mesh("the mesh of --onto", a.onto), outputs);
 }
 
 Status run_resample(const ResampleArguments& a) {
     if (Status ok = check_arguments(a); !ok) return ok;
-    std::vector<std::string> targets = a.onto.empty() ? std::vector<std::string>{a.output} : files_of_onto(a);
-    targets.push_back(a.json);
-    const RemoveOnSignal tidy(std::move(targets));
     const ThreadLimit limit(a.options.threads);
     Progress progress(wants_progress(a));
     Stopwatch whole;
@@ -147,7 +131,7 @@ void add_resample(CLI::App& app, int& exit_code) {
         "Values are those of `barycert sample` at the same points, bit for bit. Exit codes: 0 done, 2 usage or input\n"
         "error.");
     const auto a = std::make_shared<ResampleArguments>();
-    sub->add_option("MESH", a->mesh, "A TetGen mesh (.node/.ele; Triangle's for 2D), or a VTK file (.vtu .vtk)")
+    file_option(*sub, "MESH", a->mesh, "A TetGen mesh (.node/.ele; Triangle's for 2D), or a VTK file (.vtu .vtk)")
         ->required();
     add_targets(*sub, *a);
     file_option(*sub, "--output", a->output, "Of a grid: .vti .npy .csv .png; with --onto: .vtu .vtk .node .csv .npy")

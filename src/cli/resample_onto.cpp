@@ -9,6 +9,7 @@
 #include "barycert/mesh/tetgen_io.hpp"
 #include "barycert/mesh/vtk_missing.hpp"
 #include "command.hpp"
+#include "files.hpp"
 #include "resample.hpp"
 #include "sampling_files.hpp"
 #include "sampling_run.hpp"
@@ -22,16 +23,6 @@ namespace {
 
 bool is_rows(const std::string& path) {
     return path == "-" || has_suffix(path, ".csv") || has_suffix(path, ".npy");
-}
-
-std::string stem_of(std::string path) {
-    for (const std::string_view suffix : {".node", ".ele", ".face", ".neigh"}) {
-        if (path.ends_with(suffix)) {
-            path.resize(path.size() - suffix.size());
-            break;
-        }
-    }
-    return path;
 }
 
 /// The other mesh with what was sampled at its nodes, written when all is there.
@@ -85,7 +76,7 @@ private:
                 .expected = "finite attributes: a .node file holds no others",
                 .remedy = "choose --outside nearest, extrapolate or fill=V for nodes outside, or another format"};
         }
-        return write_tetgen(mesh_, stem_of(path_));
+        return write_tetgen(mesh_, tetgen_stem(path_));
     }
 
     Mesh mesh_;
@@ -97,7 +88,7 @@ private:
 
 std::vector<std::string> files_of_onto(const ResampleArguments& a) {
     if (is_rows(a.output) || is_vtk_file(a.output)) return {a.output};
-    const std::string stem = stem_of(a.output);
+    const std::string stem = tetgen_stem(a.output);
     return {stem + ".node", stem + ".ele"};
 }
 

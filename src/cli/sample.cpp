@@ -13,7 +13,6 @@
 #include "sampling_engine.hpp"
 #include "sampling_files.hpp"
 #include "sampling_run.hpp"
-#include "sampling_signals.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -34,12 +33,8 @@ Status check_arguments(const SampleArguments& a) {
     if (a.map == "-" || a.save_map == "-")
         return Error{.what = "a map cannot come from stdin or go to stdout", .remedy = "name a file"};
     if (Status known = check_rows_format(a.output); !known) return known;
-    std::vector<NamedFile> inputs = inputs_of(a);
-    inputs.push_back(a.map.empty() ? NamedFile{"--points", a.points} : NamedFile{"--map", a.map});
-    std::vector<NamedFile> outputs{{"--output", a.output}};
-    if (!a.save_map.empty()) outputs.push_back({"--save-map", a.save_map});
-    if (!a.json.empty()) outputs.push_back({"--json", a.json});
-    return check_files(inputs, outputs);
+    return check_files(a, {a.map.empty() ? NamedFile{"--points", a.points} : NamedFile{"--map", a.map}},
+                       {{"--output", a.output}, {"--save-map", a.save_map}});
 }
 
 Status with_points(const SampleArguments& a, SamplingEngine& engine, report::SampleRun& run, Progress& progress) {
@@ -69,7 +64,6 @@ Status with_map(const SampleArguments& a, SamplingEngine& engine, report::Sample
 
 Status run_sample(const SampleArguments& a) {
     if (Status ok = check_arguments(a); !ok) return ok;
-    const RemoveOnSignal tidy({a.output, a.save_map, a.json});
     const ThreadLimit limit(a.options.threads);
     Progress progress(wants_progress(a));
     Stopwatch whole;
@@ -100,7 +94,7 @@ void add_sample(CLI::App& app, int& exit_code) {
         "Files appear whole or not at all; rows on stdout cannot be taken back. Exit codes: 0 done, 2 usage or input "
         "error.");
     const auto a = std::make_shared<SampleArguments>();
-    sub->add_option("MESH", a->mesh, "A TetGen mesh (.node/.ele; Triangle's for 2D), or a VTK file (.vtu .vtk)")
+    file_option(*sub, "MESH", a->mesh, "A TetGen mesh (.node/.ele; Triangle's for 2D), or a VTK file (.vtu .vtk)")
         ->required();
     file_option(*sub, "--points", a->points, "Points: .csv .npy .node .vtu .vtp .vtk; - is CSV from stdin");
     file_option(*sub, "--output", a->output, "Rows: .csv .npy .vtu; - is CSV on stdout")->required();

@@ -16,6 +16,7 @@
 #include "barycert/report/sample_json.hpp"
 #include "barycert/report/sample_terminal.hpp"
 #include "command.hpp"
+#include "files.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -81,14 +82,6 @@ void add_field_files(CLI::App& sub, SamplingArguments& a) {
 
 }  // namespace
 
-CLI::Option* file_option(CLI::App& sub, const std::string& name, std::string& path, const std::string& help) {
-    const auto set = [&path, name](const std::string& text) {
-        if (text.empty()) throw CLI::ValidationError(name, "expected the name of a file, found \"\"");
-        path = text;
-    };
-    return sub.add_option_function<std::string>(name, set, help)->type_name("FILE");
-}
-
 void add_sampling_options(CLI::App& sub, SamplingArguments& a) {
     add_field_files(sub, a);
     sub.add_option("--fields", a.fields,
@@ -121,7 +114,7 @@ void add_sampling_options(CLI::App& sub, SamplingArguments& a) {
 
 void Progress::stage(std::string_view text) {
     if (!on_) return;
-    tell(fmt::format("\r\033[K{}", text));
+    tell(fmt::format("\r\033[K{}", printable(text)));
     shown_ = true;
     last_ = std::chrono::steady_clock::now();
 }

@@ -41,9 +41,6 @@ struct SamplingArguments {
 
 void add_sampling_options(CLI::App& sub, SamplingArguments& arguments);
 
-/// Refuses the empty string where the name of a file is due.
-CLI::Option* file_option(CLI::App& sub, const std::string& name, std::string& path, const std::string& help);
-
 /// Seconds since it was made or last asked.
 class Stopwatch {
 public:

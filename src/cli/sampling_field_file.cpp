@@ -47,15 +47,6 @@ private:
     bool separated_ = false;
 };
 
-/// As it may stand in a message.
-std::string shown(std::string_view word) {
-    std::string text(word.substr(0, 40));
-    for (char& c : text) {
-        if (std::isprint(static_cast<unsigned char>(c)) == 0) c = '?';
-    }
-    return '"' + text + (word.size() > 40 ? "...\"" : "\"");
-}
-
 Result<Field> read_text(Field field, const std::string& path, std::string_view bytes) {
     if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
     std::size_t line_number = 0, components = 0;
@@ -74,7 +65,7 @@ Result<Field> read_text(Field field, const std::string& path, std::string_view b
                              .file = path,
                              .line = line_number,
                              .expected = "numbers",
-                             .found = shown(word),
+                             .found = quoted(word),
                              .remedy = "one row of numbers for each node or cell; put # before lines that are none"};
             field.data.push_back(*x);
         } while (!words.at_end() || words.separated());
@@ -162,7 +153,7 @@ Result<Field> read_npy(Field field, const std::string& path, std::string_view by
         return Error{.what = "the type of field \"" + field.name + '"',
                      .file = path,
                      .expected = "floats of 4 or 8 bytes, or integers",
-                     .found = header->structured ? "a structured array" : shown(header->descr),
+                     .found = header->structured ? "a structured array" : quoted(header->descr),
                      .remedy = "save a.astype('f8')"};
     const auto& shape = header->shape;
     constexpr std::uint64_t most_components = 1U << 20;

@@ -1,16 +1,10 @@
 #include "sampling_files.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
-#include <cctype>
-#include <cerrno>
-#include <cstring>
 #include <utility>
 
+#include "barycert/core/text.hpp"
 #include "barycert/mesh/vtk_missing.hpp"
 #include "command.hpp"
 
@@ -21,19 +15,6 @@
 
 namespace barycert::cli {
 namespace {
-
-Status check_input(const std::string& path) {
-    if (path == "-") {
-        if (fcntl(STDIN_FILENO, F_GETFD) < 0)
-            return Error{.what = "cannot read the standard input", .found = std::strerror(errno)};
-        return Done{};
-    }
-    if (access(path.c_str(), R_OK) == 0) return Done{};
-    return Error{.what = "cannot read the file",
-                 .file = path,
-                 .found = std::strerror(errno),
-                 .remedy = "check the name and the rights"};
-}
 
 #ifdef BARYCERT_WITH_VTK
 /// Rows to one .vtu file. They are kept in memory until the commit: the format has its arrays one after the other.
@@ -86,58 +67,22 @@ private:
 
 }  // namespace
 
-bool has_suffix(const std::string& path, std::string_view suffix) {
-    if (path.size() < suffix.size()) return false;
-    return std::equal(
-        suffix.begin(), suffix.end(), path.end() - static_cast<std::ptrdiff_t>(suffix.size()),
-        [](char a, char b) { return a == static_cast<char>(std::tolower(static_cast<unsigned char>(b))); });
-}
-
-std::vector<NamedFile> files_of_mesh(const std::string& what, const std::string& path) {
-    if (is_vtk_file(path)) return {{what, path}};
-    std::string stem = path;
-    constexpr std::array<std::string_view, 4> suffixes{".node", ".ele", ".face", ".neigh"};
-    for (const std::string_view suffix : suffixes) {
-        if (stem.ends_with(suffix)) {
-            stem.resize(stem.size() - suffix.size());
-            break;
-        }
-    }
-    std::vector<NamedFile> files;
-    for (const std::string_view suffix : suffixes) files.push_back({what, stem + std::string(suffix)});
-    return files;
-}
-
 std::vector<NamedFile> inputs_of(const SamplingArguments& a) {
     std::vector<NamedFile> files = files_of_mesh("the mesh", a.mesh);
     for (const FieldFile& f : a.field_files) files.push_back({"field " + f.name, f.path});
     return files;
 }
 
-Status check_files(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
-    for (const NamedFile& in : inputs) {
-        // The reader of the mesh has hints at what may be meant.
-        if (in.what.starts_with("the mesh")) continue;
-        if (Status ok = check_input(in.path); !ok) return ok;
-    }
-    for (std::size_t i = 0; i < outputs.size(); ++i) {
-        const NamedFile& out = outputs[i];
-        for (const NamedFile& in : inputs) {
-            if (out.path == "-" || !same_output(out.path, in.path)) continue;
-            return Error{
-                .what = out.what + " would overwrite " + in.what, .file = out.path, .remedy = "choose another name"};
-        }
-        for (std::size_t k = 0; k < i; ++k) {
-            if (same_output(out.path, outputs[k].path))
-                return Error{.what = outputs[k].what + " and " + out.what + " name the same output",
-                             .file = out.path,
-                             .remedy = "give each its own"};
-        }
-    }
-    for (const NamedFile& out : outputs) {
-        if (Status ok = check_output(out.path); !ok) return ok;
-    }
-    return Done{};
+Status check_files(const SamplingArguments& a, const std::vector<NamedFile>& more_inputs,
+                   std::vector<NamedFile> outputs) {
+    std::vector<NamedFile> inputs = inputs_of(a);
+    inputs.insert(inputs.end(), more_inputs.begin(), more_inputs.end());
+    outputs.push_back({"--json", a.json});
+    std::vector<NamedFile> to_read = inputs;
+    // The reader of meshes has hints at what may be meant.
+    std::erase_if(to_read, [](const NamedFile& f) { return f.what.starts_with("the mesh"); });
+    if (Status readable = check_inputs(to_read); !readable) return readable;
+    return check_outputs(inputs, std::move(outputs));
 }
 
 Result<std::unique_ptr<points::Source>> open_points(const std::string& path, int dimension) {
@@ -172,7 +117,11 @@ Result<std::unique_ptr<points::Sink>> open_rows(const std::string& path, int dim
                                                 const std::vector<FieldChoice>& fields,
                                                 const std::vector<std::string>& columns, const OutsidePolicy& outside) {
     const bool distances = outside.kind == Outside::nearest || outside.kind == Outside::extrapolate;
-    if (!has_suffix(path, ".vtu")) return points::open_sink(path, {dimension, columns, distances});
+    std::vector<std::string> heads = columns;
+    if (path == "-" && isatty(STDOUT_FILENO) == 1) {
+        for (std::string& head : heads) head = printable(head);
+    }
+    if (!has_suffix(path, ".vtu")) return points::open_sink(path, {dimension, heads, distances});
 #ifdef BARYCERT_WITH_VTK
     return std::unique_ptr<points::Sink>(std::make_unique<VtkSink>(path, dimension, fields, distances));
 #else

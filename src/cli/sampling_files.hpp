@@ -9,26 +9,18 @@
 #include "barycert/points/rows.hpp"
 #include "barycert/points/source.hpp"
 #include "barycert/sample/sample.hpp"
+#include "files.hpp"
 #include "sampling.hpp"
 
 namespace barycert::cli {
 
-/// A file that is written or read, and what the user calls it.
-struct NamedFile {
-    std::string what, path;
-};
-
-/// True if the path ends so, in any case.
-bool has_suffix(const std::string& path, std::string_view suffix);
-
-/// The files of a mesh by its path: a VTK file, or TetGen's.
-std::vector<NamedFile> files_of_mesh(const std::string& what, const std::string& path);
-
 /// What both subcommands read.
 std::vector<NamedFile> inputs_of(const SamplingArguments& arguments);
 
+/// What can be known of files before the work: of a job with those targets and, besides the common ones, those inputs.
 /// Errors: an output is an input or another output, or cannot be written; an input cannot be read.
-Status check_files(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
+Status check_files(const SamplingArguments& arguments, const std::vector<NamedFile>& more_inputs,
+                   std::vector<NamedFile> outputs);
 
 /// Points of CSV, NPY, .node, and, with VTK, .vtu, .vtp and .vtk files.
 Result<std::unique_ptr<points::Source>> open_points(const std::string& path, int dimension);

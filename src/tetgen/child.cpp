@@ -17,13 +17,20 @@
 #include <cstdio>
 #include <cstring>
 
+#include "barycert/core/begun_files.hpp"
+
 namespace barycert {
 namespace {
 
 /// noexcept: what `work` throws must end the child, not unwind into the parent's code.
-[[noreturn]] void be_child(const std::function<void(const Answer&)>& work, int answer, int print) noexcept {
+[[noreturn]] void be_child(const std::function<void(const Answer&)>& work, pid_t parent, int answer,
+                           int print) noexcept {
 #ifdef __linux__
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // no orphan goes on meshing
+    // No orphan goes on meshing. Not SIGKILL: what it has begun to write may have to be removed.
+    std::signal(SIGTERM, SIG_DFL);
+    remove_begun_files_on_signals();
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != parent) _exit(0);  // it ended before
 #endif
     const rlimit no_core{0, 0};  // a crash of TetGen's is an expected answer, not something to debug
     setrlimit(RLIMIT_CORE, &no_core);
@@ -84,10 +91,11 @@ ChildOutcome run_in_child(const std::function<void(const Answer&)>& work, double
         return outcome;
     }
     std::fflush(nullptr);  // or the child would print it again
+    const pid_t parent = getpid();
     const pid_t child = fork();
     if (child == 0) {
         close(ends[0]);
-        be_child(work, ends[1], fileno(print));
+        be_child(work, parent, ends[1], fileno(print));
     }
     if (child < 0) outcome.failure = std::strerror(errno);
     close(ends[1]);

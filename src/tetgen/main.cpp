@@ -14,6 +14,9 @@
 #include <new>
 #include <sstream>
 
+#include "barycert/core/begun_files.hpp"
+#include "barycert/core/named_file.hpp"
+#include "barycert/core/text.hpp"
 #include "barycert/mesh/tetgen_io.hpp"
 #include "barycert/plc/plc.hpp"
 #include "child.hpp"
@@ -30,16 +33,16 @@ int tell(const Error& error) {
 
 /// What can be known before TetGen starts.
 Status check_output(const Options& options, const Plc& plc) {
+    std::vector<NamedFile> inputs{{"the PLC", options.input}}, outputs;
+    if (plc.nodes_apart) inputs.push_back({"the PLC's nodes", plc_files(options.input).back()});
+    for (const std::string& path : tetgen_files(options.output + ".node")) outputs.push_back({"--output", path});
+    if (Status distinct = check_distinct(inputs, outputs); !distinct) return distinct;
     const std::filesystem::path stem(options.output);
     const std::filesystem::path folder = stem.has_parent_path() ? stem.parent_path() : ".";
     std::error_code code;
     if (!std::filesystem::is_directory(folder, code)) {
         return file_error(options.output, "cannot write the mesh", "a folder " + folder.string(),
                           std::filesystem::exists(folder, code) ? "a file" : "nothing");
-    }
-    const std::filesystem::path nodes = std::filesystem::path(options.input).replace_extension(".node");
-    if (plc.nodes_apart && std::filesystem::equivalent(options.output + ".node", nodes, code)) {
-        return file_error(nodes.string(), "the mesh would replace the PLC's nodes", {}, {}, "choose another --output");
     }
     return Done{};
 }
@@ -75,7 +78,7 @@ std::string last_lines(const std::string& printed) {
     if (lines.empty()) return {};
     std::string text = "TetGen's last words:\n";
     for (std::size_t i = lines.size() - std::min(most, lines.size()); i < lines.size(); ++i) {
-        text += "  " + lines[i] + "\n";
+        text += "  " + printable(lines[i]) + "\n";
     }
     return text;
 }
@@ -150,7 +153,7 @@ int run(const Options& options) {
     std::getline(answer, written);
     if (written != "written") {
         const std::string why = written.starts_with("error ") ? written.substr(6) : "the writer did not end";
-        fmt::print(stderr, "error: {}\n", why);
+        fmt::print(stderr, "error: {}\n", printable(why));
         return 2;
     }
     if (options.quiet) return 0;
@@ -160,9 +163,9 @@ int run(const Options& options) {
     std::size_t faces = 0;
     counts >> nodes >> cells >> faces;
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    fmt::print(stderr, "{}: {} nodes, {} cells, {} boundary faces in {:.2f} s\n", options.input, nodes, cells, faces,
-               seconds);
-    fmt::print(stderr, "written: {}.node .ele{} .neigh\n", options.output, faces > 0 ? " .face" : "");
+    fmt::print(stderr, "{}: {} nodes, {} cells, {} boundary faces in {:.2f} s\n", printable(options.input), nodes,
+               cells, faces, seconds);
+    fmt::print(stderr, "written: {}.node .ele{} .neigh\n", printable(options.output), faces > 0 ? " .face" : "");
     return 0;
 }
 
@@ -170,11 +173,13 @@ int run(const Options& options) {
 }  // namespace barycert
 
 int main(int argc, char** argv) {
+    barycert::remove_begun_files_on_signals();
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, like a full disk
     try {
         const barycert::Parsed parsed = barycert::parse_options(argc, argv);
         return parsed.exit_code ? *parsed.exit_code : barycert::run(parsed.options);
     } catch (const std::exception& problem) {
-        fmt::print(stderr, "error: {}\n", problem.what());
+        fmt::print(stderr, "error: {}\n", barycert::printable(problem.what()));
         return 2;
     }
 }

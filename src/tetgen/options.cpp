@@ -4,10 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
+#include <iostream>
 #include <limits>
 #include <stdexcept>
 
@@ -147,9 +150,13 @@ Parsed parse_options(int argc, char** argv) {
             options.switches = switches;
         }
     } catch (const CLI::Success& wish) {  // --help, --version
-        return {.options = {}, .exit_code = app.exit(wish)};
+        const int code = app.exit(wish);
+        std::cout.flush();
+        if (std::cout) return {.options = {}, .exit_code = code};
+        fmt::print(stderr, "error: cannot write to stdout: found {}\n", std::strerror(errno));
+        return {.options = {}, .exit_code = 2};
     } catch (const std::exception& problem) {
-        fmt::print(stderr, "error: {}\nrun barycert-tetgen --help for the usage\n", problem.what());
+        fmt::print(stderr, "error: {}\nrun barycert-tetgen --help for the usage\n", printable(problem.what()));
         return {.options = {}, .exit_code = 2};
     }
     if (options.output.empty()) options.output = default_output(options.input);

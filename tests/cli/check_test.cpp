@@ -282,14 +282,14 @@ TEST(check, one_place_for_two_files_is_refused) {
         {{"--json", "c.ele", "--fix-orientation", "./c"}, "--json and --fix-orientation name the same output"},
         {{"--json", "-", "--html", "-"}, "--json and --html name the same output"},
         {{"--json", "r", "--html", "./r"}, "--json and --html name the same output"},
-        {{"--json", "m.node"}, "--json names a file of the mesh itself"},
-        {{"--json", "m.neigh"}, "--json names a file of the mesh itself"},
-        {{"--fix-orientation", "m"}, "--fix-orientation names a file of the mesh itself"},
+        {{"--json", "m.node"}, "--json would overwrite the mesh"},
+        {{"--json", "m.neigh"}, "--json would overwrite the mesh"},
+        {{"--fix-orientation", "m"}, "--fix-orientation would overwrite the mesh"},
         {{"--json", "none/r"}, "cannot make a file beside the target"},
         {{"--fix-orientation", "none/c"}, "cannot make a file beside the target"},
 #ifdef BARYCERT_WITH_VTK
-        {{"--json", "r", "--vtu", "./r"}, "--json and --vtu name the same output"},
-        {{"--vtu", "m.ele"}, "--vtu names a file of the mesh itself"},
+        {{"--json", "r", "--vtu", "./r"}, "--vtu and --json name the same output"},
+        {{"--vtu", "m.ele"}, "--vtu would overwrite the mesh"},
         {{"--vtu", "none/r"}, "cannot make a file beside the target"},
 #endif
     };

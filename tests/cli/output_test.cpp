@@ -47,7 +47,7 @@ TEST(output, one_place_for_two_outputs_is_refused) {
     expect_told_before_the_work({"--json", file, "--witnesses", scratch.path("link")}, "the same output");
     EXPECT_EQ(read_file(file), "old");
     for (const std::string option : {"--json", "--witnesses"}) {
-        expect_told_before_the_work({option, "-", "--plot", "-"}, "--plot and " + option + " name the same output");
+        expect_told_before_the_work({option, "-", "--plot", "-"}, option + " and --plot name the same output");
         expect_told_before_the_work({option, file, "--plot", scratch.path("link")}, "name the same output");
     }
     EXPECT_EQ(read_file(file), "old");

@@ -78,6 +78,50 @@ TEST(usage, what_is_not_understood_is_refused) {
     for (const Refusal& refusal : refusals) expect_refused(refusal);
 }
 
+// Where a file is meant, an empty name, of a variable that is not set perhaps, is no leave to go without.
+TEST(usage, an_empty_name_of_a_file_is_refused) {
+    const std::string m = mesh("plate");
+    for (const Words& arguments : std::vector<Words>{{"audit", ""},
+                                                     {"audit", "--json", ""},
+                                                     {"audit", "--witnesses", ""},
+                                                     {"audit", "--plot", ""},
+                                                     {"audit", "--kernel-library", ""},
+                                                     {"check", ""},
+                                                     {"check", m, "--json", ""},
+                                                     {"check", m, "--html", ""},
+                                                     {"check", m, "--vtu", ""},
+                                                     {"check", m, "--conforms-to", ""},
+                                                     {"check", m, "--fix-orientation", ""},
+                                                     {"sample", "", "--points", "p.csv", "--output", "-"},
+                                                     {"sample", m, "--points", "", "--output", "-"},
+                                                     {"sample", m, "--points", "p.csv", "--output", ""},
+                                                     {"sample", m, "--points", "p.csv", "--output", "-", "--json", ""},
+                                                     {"sample", m, "--map", "", "--output", "-"},
+                                                     {"resample", m, "--onto", "", "--output", "-"},
+                                                     {"kernels", "--json", ""},
+                                                     {"kernels", "--kernel-library", ""},
+                                                     {"families", "--json", ""},
+                                                     {"replay", ""},
+                                                     {"replay", "--family", "huge", "--case", "1", "--mesh", ""}})
+        expect_refused({arguments, "expected the name of a file, found \"\""});
+}
+
+TEST(usage, help_that_cannot_be_printed_is_an_error) {
+    for (const Words& arguments :
+         std::vector<Words>{{"--help"}, {"--version"}, {"audit", "--help"}, {"sample", "--help"}}) {
+        for (const How& how : {How{.stdout_path = "/dev/full"}, How{.close_stdout = true}}) {
+            const Ended r = run(arguments, how);
+            EXPECT_EQ(r.code, 2) << ::testing::PrintToString(arguments);
+            EXPECT_TRUE(contains(r.err, "error: cannot write to stdout")) << r.err;
+        }
+    }
+#ifdef BARYCERT_TETGEN_PROGRAM
+    const Ended mesher = run({"--help"}, {.stdout_path = "/dev/full", .program = BARYCERT_TETGEN_PROGRAM});
+    EXPECT_EQ(mesher.code, 2);
+    EXPECT_TRUE(contains(mesher.err, "error: cannot write to stdout")) << mesher.err;
+#endif
+}
+
 TEST(usage, families_that_do_not_apply_are_no_audit) {
     expect_refused({{"audit", "--kernel", "segment.projection", "--family", "mesh.faces"}, "nothing to audit"});
     // A mesh of the user's in 3D supplies no plane triangle.

@@ -234,5 +234,35 @@ TEST(Glob, equals_its_recursive_definition) {
     }
 }
 
+TEST(text, what_is_printable_stays_as_it_is) {
+    for (const std::string_view text :
+         {"", "part.1.node", "a b\\n", "Länge", "点", "\xf0\x9f\x98\x80", "~ !", "\xc2\xa0"})
+        EXPECT_EQ(printable(text), text);
+}
+
+TEST(text, what_acts_on_a_terminal_is_escaped) {
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {"a\nb\tc\rd", "a\\nb\\tc\\rd"},
+        {std::string("\0", 1), "\\x00"},
+        {"\033[2J\a\x7f", "\\x1b[2J\\x07\\x7f"},
+        {"\xc2\x9b"
+         "31m",
+         "\\xc2\\x9b31m"},                        // CSI in one character
+        {"x\xe2\x80\xaey", "x\\xe2\\x80\\xaey"},  // right to left from here on
+        {"\xe2\x81\xa6\xef\xbb\xbf", "\\xe2\\x81\\xa6\\xef\\xbb\\xbf"},
+        {"\xff"
+         "a\xc3",
+         "\\xffa\\xc3"},             // no UTF-8; cut
+        {"\xc0\x9b", "\\xc0\\x9b"},  // overlong
+        {"\xe0\x82\x9b", "\\xe0\\x82\\x9b"},
+        {"\xed\xa0\x80", "\\xed\\xa0\\x80"},           // a surrogate
+        {"\xf4\x90\x80\x80", "\\xf4\\x90\\x80\\x80"},  // past the last
+        {"\xc3\x28", "\\xc3("}};
+    for (const auto& [text, shown] : cases) {
+        EXPECT_EQ(printable(text), shown);
+        EXPECT_EQ(printable(shown), shown);
+    }
+}
+
 }  // namespace
 }  // namespace barycert

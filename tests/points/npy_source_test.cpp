@@ -112,7 +112,7 @@ TEST(NpySource, shapes_that_are_refused) {
 TEST(NpySource, headers_that_are_refused) {
     const char* const what = "cannot read the header of the NPY file";
     expect_refused("", 3, {0, what, nullptr, "nothing", "numpy.save"});
-    expect_refused("1,2,3\n4,5,6\n", 3, {0, what, "a file that begins with \\x93NUMPY", "'1,2,3\\x0a'", nullptr});
+    expect_refused("1,2,3\n4,5,6\n", 3, {0, what, "a file that begins with \\x93NUMPY", "'1,2,3\\n'", nullptr});
     expect_refused(std::string("PK\x03\x04 and more"), 3, {0, what, "one array", nullptr, "the one array of points"});
     std::string bytes = npy_bytes(npy_dictionary("<f8", "(3, 3)"), as_bytes(points));
     bytes[6] = 4;

@@ -16,6 +16,7 @@ namespace barycert {
 namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 18;
+constexpr const char* put_in_place = "cannot put the finished file in its place";
 
 const char* remedy_for(int error_number) {
     switch (error_number) {
@@ -37,6 +38,17 @@ const char* remedy_for(int error_number) {
         default:
             return "check the path and the disk";
     }
+}
+
+/// A name beside the target that no other file of this process has.
+std::string name_beside(const std::string& target) {
+    static std::atomic<unsigned> count{0};
+    return target + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
+}
+
+/// Where an open file can be found even if it has no name.
+std::string path_of(int descriptor) {
+    return "/proc/self/fd/" + std::to_string(descriptor);
 }
 
 /// `path` with its links resolved if it exists, else as it is.
@@ -67,7 +79,7 @@ OutputFile::OutputFile(std::string target) : target_(std::move(target)), real_pa
         if (descriptor_ < 0) fail("cannot open the file for writing", errno);
         return;
     }
-    open_beside();
+    if (!open_nameless()) open_beside();
     if (exists && descriptor_ >= 0 && ::fchmod(descriptor_, status.st_mode & 07777U) != 0) {
         fail("cannot give the new file the permissions of the old one", errno);
     }
@@ -84,22 +96,35 @@ OutputFile OutputFile::standard_output() {
     return {"standard output", copy, errno};
 }
 
+bool OutputFile::open_nameless() {
+#ifdef O_TMPFILE
+    const std::size_t slash = real_path_.rfind('/');
+    const std::string folder = slash == std::string::npos ? "." : real_path_.substr(0, slash + 1);
+    descriptor_ = ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) return false;  // the reason, where it is not just O_TMPFILE, is told by open_beside()
+    // The name is given by way of /proc, which may not be there.
+    struct stat status {};
+    nameless_ = ::stat(path_of(descriptor_).c_str(), &status) == 0 && S_ISREG(status.st_mode);
+    if (!nameless_) ::close(std::exchange(descriptor_, -1));
+#endif
+    return nameless_;
+}
+
 void OutputFile::open_beside() {
-    static std::atomic<unsigned> count{0};
     // O_EXCL: a name left over by a killed run, or planted as a link, is passed over.
     do {
-        temporary_ = real_path_ + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
-        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        begun_ = std::make_unique<detail::BegunFile>(name_beside(real_path_));
+        descriptor_ = ::open(begun_->path().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (descriptor_ < 0 && errno == EEXIST);
     if (descriptor_ >= 0) return;
     const int error_number = errno;
-    temporary_.clear();
+    begun_.reset();
     fail("cannot make a file beside the target", error_number);
 }
 
 OutputFile::~OutputFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    if (begun_) ::unlink(begun_->path().c_str());
 }
 
 void OutputFile::write(std::string_view bytes) {
@@ -141,11 +166,10 @@ void OutputFile::flush() {
 }
 
 Status OutputFile::close() {
-    if (descriptor_ >= 0) {
-        flush();
-        // Network file systems report a full disk only here.
-        if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot write the file", errno);
-    }
+    if (descriptor_ >= 0) flush();
+    // Network file systems report a full disk only here. They know no nameless files, which must stay open.
+    if (descriptor_ >= 0 && !nameless_ && ::close(std::exchange(descriptor_, -1)) != 0)
+        fail("cannot write the file", errno);
     return status();
 }
 
@@ -154,14 +178,38 @@ Status OutputFile::status() const {
     return Done{};
 }
 
+/// True if the target itself is the name, so that nothing is left to rename.
+bool OutputFile::give_name() {
+    const std::string from = path_of(descriptor_);
+    const auto link = [&](const std::string& to) {
+        return ::linkat(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    };
+    if (link(real_path_)) return true;
+    // A link never replaces a file: an existing target takes a second name and a rename.
+    while (errno == EEXIST) {
+        begun_ = std::make_unique<detail::BegunFile>(name_beside(real_path_));
+        if (link(begun_->path())) return false;
+    }
+    const int error_number = errno;
+    begun_.reset();
+    fail(put_in_place, error_number);
+    return false;
+}
+
 Status OutputFile::commit() {
     if (Status closed = close(); !closed) return closed;
-    if (temporary_.empty()) return Done{};
-    if (std::rename(temporary_.c_str(), real_path_.c_str()) != 0) {
-        fail("cannot put the finished file in its place", errno);
+    if (nameless_) {
+        const bool in_place = give_name();
+        nameless_ = false;
+        if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot write the file", errno);
+        if (in_place || !error_.what.empty()) return status();
+    }
+    if (!begun_) return Done{};
+    if (std::rename(begun_->path().c_str(), real_path_.c_str()) != 0) {
+        fail(put_in_place, errno);
         return error_;
     }
-    temporary_.clear();
+    begun_.reset();
     return Done{};
 }
 

@@ -2,19 +2,26 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
+#include "barycert/core/begun_files.hpp"
 #include "barycert/core/result.hpp"
 
 namespace barycert {
 
-/// Writes beside the target (TARGET.tmp-<process>-<count>) and renames on commit(), so that a killed run leaves the
-/// target as it was. Without a commit() the temporary file is removed by the destructor. Errors (no space, no
-/// permission) are kept and told by close() and commit(); the first one counts.
+/// Writes to a file without a name in the target's folder, which commit() puts in the target's place: a process that is
+/// ended by whatever means, SIGKILL included, leaves the target as it was and nothing else. Without a commit() the
+/// destructor leaves nothing either. Errors (no space, no permission) are kept and told by close() and commit(); the
+/// first one counts.
+///
+/// Where the file system knows no nameless files (O_TMPFILE), the file is TARGET.tmp-<process>-<count> until the
+/// commit; an existing target is replaced by way of such a name in the last moment, too. A program that has called
+/// remove_begun_files_on_signals() leaves these names under no signal but SIGKILL.
 ///
 /// A link is followed and stays a link; an existing target keeps its permissions. A device or pipe (/dev/stdout)
-/// cannot be renamed onto, so there the bytes go straight to it.
+/// cannot be replaced, so there the bytes go straight to it.
 class OutputFile {
 public:
     explicit OutputFile(std::string target);
@@ -29,7 +36,7 @@ public:
     void write(std::string_view bytes);
 
     /// True if bytes can be replaced before the commit: not for a device, a pipe or the standard output.
-    bool can_replace() const { return !temporary_.empty(); }
+    bool can_replace() const { return nameless_ || begun_ != nullptr; }
 
     /// Replaces bytes that were written, from byte `offset` on; later writes go on at the end. For what is known only
     /// at the end, such as a count in a header. Precondition: can_replace(), and as many bytes stand there.
@@ -49,14 +56,17 @@ private:
     /// Straight to a descriptor that is its own; `error_number` tells why there is none.
     OutputFile(std::string name, int descriptor, int error_number);
     void fail(const char* what, int error_number);
+    bool open_nameless();
     void open_beside();
+    bool give_name();
     void flush();
 
-    std::string target_;     // as the caller named it: for messages
-    std::string real_path_;  // with links resolved
-    std::string temporary_;  // empty: nothing to rename or remove
+    std::string target_;                        // as the caller named it: for messages
+    std::string real_path_;                     // with links resolved
+    std::unique_ptr<detail::BegunFile> begun_;  // the name of the unfinished file, while it has one
     std::string buffer_;
     int descriptor_ = -1;
+    bool nameless_ = false;  // the unfinished file has no name, and lives while its descriptor is open
     Error error_;
 };
 

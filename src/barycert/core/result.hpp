@@ -18,16 +18,8 @@ struct Error {
     std::string found = {};
     std::string remedy = {};  ///< what to do about it
 
-    /// `file:line: what: expected ..., found ...; remedy`.
-    std::string message() const {
-        std::string text;
-        if (!file.empty()) text += file + (line != 0 ? ":" + std::to_string(line) : "") + ": ";
-        text += what;
-        if (!expected.empty()) text += ": expected " + expected;
-        if (!found.empty()) text += (expected.empty() ? ": found " : ", found ") + found;
-        if (!remedy.empty()) text += "; " + remedy;
-        return text;
-    }
+    /// `file:line: what: expected ..., found ...; remedy`, in one line: safe to show, see printable() in text.hpp.
+    std::string message() const;
 };
 
 /// Thrown by Result::value() when there is an error instead of a value.

@@ -1,4 +1,5 @@
 #include "barycert/mesh/row_errors.hpp"
+#include "barycert/core/text.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -190,23 +191,6 @@ std::vector<std::string_view> fields_of_line(const TextTable& table, const char*
     }
     if (after_comma) fields.push_back(line.substr(line.size()));
     return fields;
-}
-
-std::string quoted(std::string_view field) {
-    constexpr std::size_t longest = 40;
-    std::string text = "'";
-    for (const char c : field.substr(0, longest)) {
-        const auto code = static_cast<unsigned char>(c);
-        if (c == '\r') {
-            text += "\\r";
-        } else if (code < 32 || code > 126) {
-            constexpr const char* digits = "0123456789abcdef";
-            text += {'\\', 'x', digits[code >> 4], digits[code & 15]};
-        } else {
-            text += c;
-        }
-    }
-    return text + (field.size() > longest ? "...'" : "'");
 }
 
 Error header_error(const TextTable& table, std::string what, std::string expected, std::string found,

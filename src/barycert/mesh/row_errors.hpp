@@ -14,9 +14,6 @@ namespace barycert::detail {
 /// The fields of the line that holds `at`, without its comment; an empty field where a comma has no neighbour.
 std::vector<std::string_view> fields_of_line(const TextTable& table, const char* at);
 
-/// A field as it can be shown: in quotes, shortened, with anything unprintable as \xNN.
-std::string quoted(std::string_view field);
-
 /// The error of a header field or of the whole header.
 Error header_error(const TextTable& table, std::string what, std::string expected, std::string found,
                    std::string remedy);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "barycert/core/result.hpp"
 #include "barycert/mesh/mesh.hpp"
@@ -13,6 +14,12 @@ struct ReadOptions {
     bool neighbours = true;  ///< read STEM.neigh if it is there
     int threads = 0;         ///< 0: as many as the machine has
 };
+
+/// STEM of STEM.node, STEM.ele, STEM.face or STEM.neigh; any other path as it is.
+std::string tetgen_stem(const std::string& path);
+
+/// The paths of the files that a mesh may be in, by its stem or any one of them: STEM.node, .ele, .face, .neigh.
+std::vector<std::string> tetgen_files(const std::string& path);
 
 /// Reads STEM.node and STEM.ele. `path` is the stem or the path of any one of its files.
 Result<Mesh> read_tetgen(const std::string& path, const ReadOptions& options = {});

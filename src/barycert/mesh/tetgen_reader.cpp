@@ -17,6 +17,7 @@
 
 #include <sys/stat.h>
 
+#include <array>
 #include <optional>
 #include <string_view>
 
@@ -73,12 +74,27 @@ std::string header_text(std::initializer_list<std::int64_t> numbers) {
 
 }  // namespace detail
 
-Result<Mesh> read_tetgen(const std::string& path, const ReadOptions& options) {
-    std::string stem = path;
-    for (const std::string_view suffix : {".node", ".ele", ".face", ".neigh"}) {
-        if (path.ends_with(suffix)) stem.resize(path.size() - suffix.size());
+namespace {
+
+constexpr std::array<std::string_view, 4> suffixes{".node", ".ele", ".face", ".neigh"};
+
+}  // namespace
+
+std::string tetgen_stem(const std::string& path) {
+    for (const std::string_view suffix : suffixes) {
+        if (path.ends_with(suffix)) return path.substr(0, path.size() - suffix.size());
     }
-    return detail::TetgenReader(std::move(stem), options).read();
+    return path;
+}
+
+std::vector<std::string> tetgen_files(const std::string& path) {
+    std::vector<std::string> files;
+    for (const std::string_view suffix : suffixes) files.push_back(tetgen_stem(path) + std::string(suffix));
+    return files;
+}
+
+Result<Mesh> read_tetgen(const std::string& path, const ReadOptions& options) {
+    return detail::TetgenReader(tetgen_stem(path), options).read();
 }
 
 }  // namespace barycert

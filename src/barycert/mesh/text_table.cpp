@@ -5,6 +5,7 @@
 #include <system_error>
 #include <thread>
 
+#include "barycert/core/text.hpp"
 #include "barycert/mesh/row_errors.hpp"
 
 namespace barycert::detail {

@@ -46,6 +46,9 @@ inline Error file_error(std::string file, std::string what, std::string expected
     return {std::move(what), std::move(file), 0, std::move(expected), std::move(found), std::move(remedy)};
 }
 
+/// The paths of the files that the PLC may be in: `path`, and STEM.node beside STEM.poly or STEM.smesh.
+std::vector<std::string> plc_files(const std::string& path);
+
 /// Reads the PLC in the format that the path's extension names. An error names the file and, for text, the line.
 Result<Plc> read_plc(const std::string& path);
 

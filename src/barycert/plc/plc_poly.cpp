@@ -113,7 +113,7 @@ Plc read_poly(const std::string& path, std::string_view text, bool one_polygon_a
     if (header.nodes > 0) {
         read_nodes(in, header, plc);
     } else {
-        const std::string node_path = std::filesystem::path(path).replace_extension(".node").string();
+        const std::string node_path = node_path_of(path);
         const std::string node_text = read_whole_file(node_path);
         PlcText nodes(node_path, node_text);
         const NodeHeader node_header = read_node_header(nodes);

@@ -84,9 +84,6 @@ void PlcText::fail(std::string_view what, std::string_view expected, std::string
                    std::string_view remedy) const {
     constexpr std::size_t longest = 60;
     std::string shown(found.substr(0, longest));
-    for (char& c : shown) {
-        if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e) c = '?';
-    }
     if (found.size() > longest) shown += "...";
     throw Exception({.what = std::string(what),
                      .file = path_,
@@ -94,6 +91,16 @@ void PlcText::fail(std::string_view what, std::string_view expected, std::string
                      .expected = std::string(expected),
                      .found = std::move(shown),
                      .remedy = std::string(remedy)});
+}
+
+std::string node_path_of(const std::string& path) {
+    return std::filesystem::path(path).replace_extension(".node").string();
+}
+
+std::vector<std::string> plc_files(const std::string& path) {
+    const std::filesystem::path p(path);
+    if (p.extension() != ".poly" && p.extension() != ".smesh") return {path};
+    return {path, node_path_of(path)};
 }
 
 Result<Plc> read_plc(const std::string& path) {

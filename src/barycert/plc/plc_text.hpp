@@ -12,6 +12,9 @@
 
 namespace barycert {
 
+/// STEM.node, where the nodes of STEM.poly and STEM.smesh may be.
+std::string node_path_of(const std::string& path);
+
 /// The whole file; throws Exception if it cannot be read.
 std::string read_whole_file(const std::string& path);
 

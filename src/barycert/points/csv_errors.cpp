@@ -12,8 +12,6 @@
 namespace barycert::points {
 namespace {
 
-using barycert::detail::quoted;
-
 std::string separator_name(char separator) {
     switch (separator) {
         case ',':

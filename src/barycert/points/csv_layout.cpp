@@ -13,8 +13,6 @@
 namespace barycert::points {
 namespace {
 
-using barycert::detail::quoted;
-
 constexpr std::array<std::array<std::string_view, 3>, 3> coordinate_names{
     {{"x", "y", "z"}, {"points:0", "points:1", "points:2"}, {"points_0", "points_1", "points_2"}}};
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "barycert/core/text.hpp"
 #include "barycert/mesh/row_errors.hpp"
 
 namespace barycert::points {
@@ -75,7 +76,7 @@ Result<NpyFields> npy_fields(const RowFormat& format, const std::string& path) {
             return Error{.what = "a column name that an NPY file cannot hold",
                          .file = path,
                          .expected = expected,
-                         .found = barycert::detail::quoted(field.name),
+                         .found = quoted(field.name),
                          .remedy = "rename the field, leave it out, or write CSV"};
         }
         if (result.descr.size() > 1) result.descr += ", ";

@@ -323,8 +323,9 @@ std::string whole_mesh(const Report& r) {
 
 }  // namespace
 
-std::string terminal_check(const Report& r, const Mesh& mesh, const std::string& name, const TerminalStyle& style) {
+std::string terminal_check(const Report& r, const Mesh& mesh, const std::string& path, const TerminalStyle& style) {
     const Colours paint(style.colour);
+    const std::string name = printable(path);
     std::string out = r.certified() ? certified(r, name, paint) : not_certified(r, name, paint);
     if (!r.findings.empty() || r.cells != 0) {
         out += fmt::format("Cells and nodes are counted from 0, in the order of the file{}.\n",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "barycert/core/text.hpp"
 #include "barycert/report/terminal_text.hpp"
 
 namespace barycert::report {
@@ -166,7 +167,7 @@ std::string mesh_lines(const Report& report, const TerminalStyle& style, const C
     const auto line = [&](check::Verdict verdict, std::string_view text, std::string_view hint) {
         std::string names;
         for (std::size_t i = 0; i < report.meshes.size(); ++i) {
-            if (report.verdicts[i] == verdict) names += (names.empty() ? "" : ", ") + report.meshes[i];
+            if (report.verdicts[i] == verdict) names += (names.empty() ? "" : ", ") + printable(report.meshes[i]);
         }
         if (names.empty()) return;
         const std::string whole = fmt::format("meshes, {}: {}{}", text, names, hint);

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "barycert/core/text.hpp"
+
 namespace barycert::report {
 
 /// At most five characters: "-", "9999", "12.3k", "229k", "1.32M".
@@ -47,6 +49,13 @@ inline std::string percent(std::uint64_t part, std::uint64_t whole) {
     return fmt::format("{:.{}f}", p, p < 0.1 ? 3 : p < 10 ? 2 : 1);
 }
 
+/// Between $' and ': what printable() has escaped stays escaped.
+inline std::string escaped(std::string_view s) {
+    std::string out;
+    for (const char c : s) out += c == '\'' ? std::string("\\'") : std::string(1, c);
+    return out;
+}
+
 class Colours {
 public:
     explicit Colours(bool on) : on_(on) {}
@@ -62,8 +71,9 @@ private:
     bool on_;
 };
 
-/// Quoted for a POSIX shell where needed.
+/// Quoted for a POSIX shell where needed; $'...', the form that can be shown, where there are control characters.
 inline std::string shell_word(std::string_view s) {
+    if (const std::string shown = printable(s); shown != s) return "$'" + escaped(shown) + "'";
     if (!s.empty() &&
         s.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-^=:,@%") ==
             std::string_view::npos) {

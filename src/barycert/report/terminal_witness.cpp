@@ -54,9 +54,9 @@ std::string terminal_witness(const audit::Replay& replay, const TerminalStyle& s
     std::string title(name(c.simplex));
     if (!witness.kernel.empty())
         title += ", " + (witness.reason.empty() ? "" : witness.reason + " of ") + witness.kernel;
-    std::string out = paint.bold(title) + "\n";
+    std::string out = paint.bold(printable(title)) + "\n";
     if (!witness.family.empty()) {
-        out += fmt::format("    family {}, case {}, seed {}\n", witness.family, witness.index, witness.seed);
+        out += fmt::format("    family {}, case {}, seed {}\n", printable(witness.family), witness.index, witness.seed);
     }
     for (int i = 0; i < n; ++i)
         out += fmt::format("    v{}  ", i) + coordinates(c, [&](int axis) { return c.vertex(i, axis); });
@@ -96,8 +96,8 @@ std::string terminal_witness(const audit::Replay& replay, const TerminalStyle& s
 std::string terminal_kernels(const std::vector<Kernel>& kernels) {
     std::string out;
     for (const Kernel& k : kernels) {
-        out += fmt::format("{}\n    formula  {}\n    source   {}\n    fails    {}\n", k.name, k.formula, k.source,
-                           k.fails);
+        out += fmt::format("{}\n    formula  {}\n    source   {}\n    fails    {}\n", k.name, printable(k.formula),
+                           printable(k.source), k.fails);
         std::string promises = k.certifies ? "certifies every answer" : "no certificate";
         promises += k.declares_degenerate ? "; declares degenerate simplices" : "; never declares a simplex degenerate";
         if (k.rule == RegionRule::tolerant) promises += fmt::format("; inside if every weight >= -{}", k.tolerance);
