@@ -7,10 +7,13 @@
 #include <new>
 #include <string_view>
 
+#include "barycert/core/exact_environment.hpp"
 #include "command.hpp"
 
 int main(int argc, char** argv) {
     using namespace barycert;
+    // For all threads, before any of them starts: a library that was loaded first may have changed it.
+    const ExactEnvironment environment;
     const std::string_view first = argc > 1 ? argv[1] : "";
     if (first == "mesh") return cli::exec_mesh(argc, argv);
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, like a full disk

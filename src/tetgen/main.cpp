@@ -14,6 +14,7 @@
 #include <new>
 #include <sstream>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/mesh/tetgen_io.hpp"
 #include "barycert/plc/plc.hpp"
 #include "child.hpp"
@@ -170,6 +171,8 @@ int run(const Options& options) {
 }  // namespace barycert
 
 int main(int argc, char** argv) {
+    // The child that runs TetGen has it too.
+    const barycert::ExactEnvironment environment;
     try {
         const barycert::Parsed parsed = barycert::parse_options(argc, argv);
         return parsed.exit_code ? *parsed.exit_code : barycert::run(parsed.options);

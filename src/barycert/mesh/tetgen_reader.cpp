@@ -20,6 +20,7 @@
 #include <optional>
 #include <string_view>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 
 namespace barycert {
@@ -74,6 +75,7 @@ std::string header_text(std::initializer_list<std::int64_t> numbers) {
 }  // namespace detail
 
 Result<Mesh> read_tetgen(const std::string& path, const ReadOptions& options) {
+    const ExactEnvironment environment;
     std::string stem = path;
     for (const std::string_view suffix : {".node", ".ele", ".face", ".neigh"}) {
         if (path.ends_with(suffix)) stem.resize(path.size() - suffix.size());
