@@ -11,11 +11,14 @@
 
 #include "barycert/core/begun_files.hpp"
 #include "barycert/core/text.hpp"
+#include "barycert/core/exact_environment.hpp"
 #include "command.hpp"
 #include "files.hpp"
 
 int main(int argc, char** argv) {
     using namespace barycert;
+    // For all threads, before any of them starts: a library that was loaded first may have changed it.
+    const ExactEnvironment environment;
     const std::string_view first = argc > 1 ? argv[1] : "";
     if (first == "mesh") return cli::exec_mesh(argc, argv);
     remove_begun_files_on_signals();

@@ -17,6 +17,7 @@
 #include "barycert/core/begun_files.hpp"
 #include "barycert/core/named_file.hpp"
 #include "barycert/core/text.hpp"
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/mesh/tetgen_io.hpp"
 #include "barycert/plc/plc.hpp"
 #include "child.hpp"
@@ -175,6 +176,8 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
     barycert::remove_begun_files_on_signals();
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, like a full disk
+    // The child that runs TetGen has it too.
+    const barycert::ExactEnvironment environment;
     try {
         const barycert::Parsed parsed = barycert::parse_options(argc, argv);
         return parsed.exit_code ? *parsed.exit_code : barycert::run(parsed.options);

@@ -1,7 +1,8 @@
 #include "exact_peers.hpp"
 
-// The library's targets.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+// Before Highway's headers.
+#include "barycert/core/simd_targets.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "exact_peers.cpp"
 #include <hwy/foreach_target.h>

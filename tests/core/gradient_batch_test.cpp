@@ -245,24 +245,5 @@ TEST(GradientBatch, errors_are_told) {
     EXPECT_EQ(tiers.cases(), 1U);  // failures add nothing
 }
 
-TEST(GradientEnvironment, what_could_not_round_is_refused) {
-    const std::array<double, 6> v{0, 0, 1, 0, 0, 1};
-    const std::array<double, 3> f{0, 1, 2};
-    const std::array<std::int32_t, 3> corners{0, 1, 2};
-    for (const auto& environment : testing_environments::all_environments()) {
-        std::array<double, 2> out{};
-        std::string single, batch;
-        {
-            const testing_environments::Changed changed(environment);
-            const auto g = gradient(Simplex::triangle, v.data(), f.data());
-            const auto s = gradients(Simplex::triangle, v, corners, {f, 1}, out);
-            if (!g) single = g.error().found;
-            if (!s) batch = s.error().found;
-        }
-        EXPECT_EQ(single, environment.found) << environment.name;
-        EXPECT_EQ(batch, environment.found) << environment.name;
-    }
-}
-
 }  // namespace
 }  // namespace barycert

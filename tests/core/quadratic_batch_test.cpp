@@ -249,27 +249,5 @@ TEST(QuadraticBatch, errors_are_told) {
     EXPECT_EQ(tiers.cases(), 1U);
 }
 
-TEST(QuadraticEnvironment, what_could_not_round_is_refused) {
-    const std::array<double, 6> v{0, 0, 1, 0, 0, 1};
-    const std::array<double, 2> p{0.25, 0.25};
-    const std::array<double, 6> f{0, 1, 2, 3, 4, 5};
-    const std::array<std::int32_t, 3> corners{0, 1, 2}, mids{3, 4, 5};
-    const std::array<std::int32_t, 1> cells{0};
-    const MeshQueries q{Simplex::triangle, v, corners, cells, p};
-    for (const auto& environment : testing_environments::all_environments()) {
-        std::array<double, 1> out{};
-        std::string single, batch;
-        {
-            const testing_environments::Changed changed(environment);
-            const auto value = interpolate_quadratic(Simplex::triangle, v.data(), p.data(), f.data());
-            const auto status = interpolate_quadratic(q, mids, {f, 1}, out);
-            if (!value) single = value.error().found;
-            if (!status) batch = status.error().found;
-        }
-        EXPECT_EQ(single, environment.found) << environment.name;
-        EXPECT_EQ(batch, environment.found) << environment.name;
-    }
-}
-
 }  // namespace
 }  // namespace barycert

@@ -191,37 +191,5 @@ TEST(LawS1, SubnormalsBesideOrdinaryNumbersCountWhereTheyAreFlushed) {
     }
 }
 
-// Weights need rounding to nearest and say so; integers alone, as in the other direction, do not.
-TEST(LawS1, WeightsAndValuesRefuseOtherEnvironments) {
-    const Case c{.simplex = Simplex::triangle, .vertices = {0, 0, 3, 0, 0, 3}, .point = {1, 1}, .values = {1, 2, 4}};
-    const std::vector<Case> cases(3, c);
-    const testing_environments::Columns columns(c.simplex, cases);
-    for (const auto& environment : all_environments()) {
-        if (environment.is_default) continue;
-        std::vector<double> w(9), v(3);
-        const double* const values = c.values.data();
-        std::optional<Error> errors[4];
-        bool plain = false;
-        Result<Parameter> t = Parameter{};
-        {
-            const Changed changed(environment);
-            if (auto x = barycentric_weights(c.simplex, c.vertices.data(), c.point.data()); !x) errors[0] = x.error();
-            if (auto x = interpolate(c.simplex, c.vertices.data(), c.point.data(), values); !x) errors[1] = x.error();
-            if (auto x = barycentric_weights(columns.arrays(), w); !x) errors[2] = x.error();
-            if (auto x = interpolate(columns.arrays(), columns.values(), v); !x) errors[3] = x.error();
-            plain = interpolate(columns.arrays(), columns.values(), v, nullptr, Rounding::plain).has_value();
-            t = parameter_of_value(0, 3, 1);
-        }
-        for (const auto& error : errors) {
-            ASSERT_TRUE(error) << environment.name;
-            EXPECT_NE(error->message().find(environment.found), std::string::npos) << error->message();
-            EXPECT_NE(error->remedy.find(environment.remedy), std::string::npos) << error->message();
-        }
-        EXPECT_TRUE(plain);
-        EXPECT_EQ(t.value().t, 1.0 / 3);
-    }
-    EXPECT_TRUE(barycentric_weights(c.simplex, c.vertices.data(), c.point.data()));
-}
-
 }  // namespace
 }  // namespace barycert

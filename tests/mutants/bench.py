@@ -11,7 +11,7 @@ TARGETS = {"fma": "-march=haswell -maes -DHWY_COMPILE_ONLY_STATIC".split(), "spl
 TARGET_CHECK = {"fma": "HWY_NATIVE_FMA == 1 && HWY_TARGET == HWY_AVX2", "split": "HWY_NATIVE_FMA == 0"}
 PREPARE_LIBRARIES = "-lhwy -ltbb -lfmt -lmpfr -lgmpxx -lgmp -ldl -pthread".split()
 
-SOURCES = ["quotient.cpp", "exact_weights.cpp", "lanes.cpp", "predicates.cpp", "weights.cpp", "inverse.cpp"]
+SOURCES = ["exact_environment.cpp", "quotient.cpp", "exact_weights.cpp", "lanes.cpp", "predicates.cpp", "weights.cpp", "inverse.cpp"]
 # Which sources to compile anew. The integers' inline functions are called from these two alone.
 INTEGERS = ["exact_weights.cpp", "quotient.cpp"]
 USERS = {

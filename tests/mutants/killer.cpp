@@ -227,15 +227,29 @@ void check_edges(Simplex s, const std::vector<const Record*>& all) {
                "component counted " + where);
     }
     Arrays a(s, some);
-    std::vector<double> weights(n * 300), values(300);
+    std::vector<double> weights(n * 300), values(300), right_weights(n * 300), right_values(300);
+    expect(barycentric_weights(a.cases, right_weights).has_value() &&
+               interpolate(a.cases, a.values, right_values).has_value(),
+           "default environment " + where);
     for (int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
         std::fesetround(mode);
-        const bool refused =
-            !barycentric_weights(a.cases, weights) && !interpolate(a.cases, a.values, values) &&
-            !barycentric_weights(s, some[0]->c.vertices.data(), some[0]->c.point.data()) &&
-            !interpolate(s, some[0]->c.vertices.data(), some[0]->c.point.data(), some[0]->c.values.data());
+        std::vector<double> single_weights(n * 300), single_values(300);
+        bool fine =
+            barycentric_weights(a.cases, weights).has_value() && interpolate(a.cases, a.values, values).has_value();
+        for (std::size_t j = 0; j < 300; ++j) {
+            const Case& c = some[j]->c;
+            const auto w = barycentric_weights(s, c.vertices.data(), c.point.data());
+            const auto v = interpolate(s, c.vertices.data(), c.point.data(), c.values.data());
+            fine = fine && w.has_value() && v.has_value();
+            for (std::size_t i = 0; i < n; ++i) single_weights[n * j + i] = w->weights[i];
+            single_values[j] = v->value;
+        }
         std::fesetround(FE_TONEAREST);
-        expect(refused, "environment refused " + where);
+        for (std::size_t i = 0; i < n * 300; ++i)
+            fine = fine && same(weights[i], right_weights[i]) && same(single_weights[i], right_weights[i]);
+        for (std::size_t j = 0; j < 300; ++j)
+            fine = fine && same(values[j], right_values[j]) && same(single_values[j], right_values[j]);
+        expect(fine, "environment set " + where);
     }
     // plain: near the value for ordinary cells, and NaN or infinite for degenerate ones
     std::vector<const Record*> easy;

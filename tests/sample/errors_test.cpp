@@ -6,7 +6,6 @@
 
 #include "barycert/sample/sample.hpp"
 #include "check/meshes.hpp"
-#include "core/environments.hpp"
 
 namespace barycert::testing {
 namespace {
@@ -56,27 +55,6 @@ TEST(SampleErrors, PointsAndLocations) {
         sampler->evaluate(points, std::vector<Mesh::Index>{0, 1}, std::span(features).first(1), {}, samples, counts));
     EXPECT_EQ(counts.locations.points(), 0U);
     EXPECT_TRUE(sampler->evaluate(points, std::vector<Mesh::Index>{0, -1}, features, {}, samples, counts));
-}
-
-TEST(SampleErrors, EnvironmentsInWhichNothingCanBeRight) {
-    const Mesh mesh = box(3, {1, 1, 1});
-    const auto locator = Locator::build(mesh);
-    const Field field{"f", 1, {1, 2, 3, 4, 5, 6, 7, 8}};
-    const auto sampler = Sampler::build(*locator, {{&field, false}});
-    const std::vector<double> point{0.1, 0.2, 0.3};
-    for (const auto& e : testing_environments::all_environments()) {
-        Samples samples;
-        SampleCounts counts;
-        Status status = Done{};
-        {
-            const testing_environments::Changed changed(e);
-            status = sampler->sample(point, {.outside = {}, .threads = 1}, samples, counts);
-        }
-        ASSERT_EQ(status.has_value(), e.is_default) << e.name;
-        if (!e.is_default) {
-            EXPECT_NE(status.error().message().find(e.found), std::string::npos) << status.error().message();
-        }
-    }
 }
 
 }  // namespace

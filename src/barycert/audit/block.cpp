@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/exact/oracle.hpp"
 
 namespace barycert::audit {
@@ -72,6 +73,7 @@ void add_residuals(Statistics& s, const Case& c, const exact::Answer& answer, co
 
 void run_block(const Family& family, Simplex simplex, std::uint64_t seed, std::uint64_t first, std::uint64_t last,
                const MeshSource& meshes, const std::vector<Kernel>& kernels, std::vector<BlockResult>& results) {
+    const ExactEnvironment environment;
     using Clock = std::chrono::steady_clock;
     thread_local std::vector<Case> cases(block_size);
     thread_local std::vector<exact::Answer> answers(block_size);

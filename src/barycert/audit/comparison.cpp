@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/ulp.hpp"
 
 namespace barycert::audit {
@@ -51,6 +52,7 @@ void compare_weight(Comparison& r, std::size_t i, double w, double exact, int si
 
 Comparison compare(const Kernel& kernel, const Case& c, const exact::Answer& answer, int status,
                    std::span<const double> weights) {
+    const ExactEnvironment environment;
     Comparison r;
     r.weight_ulps.fill(-1);
     const auto n = static_cast<std::size_t>(vertex_count(c.simplex));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/text.hpp"
 
 namespace barycert::audit {
@@ -30,6 +31,7 @@ std::vector<Family> families_matching(std::string_view glob) {
 }
 
 Case make_case(const Family& family, Simplex s, std::uint64_t seed, std::uint64_t index, const MeshSource& meshes) {
+    const ExactEnvironment environment;
     const std::uint64_t stream = hash64(family.name) + static_cast<std::uint64_t>(s);
     Random random = Random::stream(seed, stream, index);
     Case c;

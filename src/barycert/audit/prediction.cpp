@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "barycert/core/condition.hpp"
+#include "barycert/core/exact_environment.hpp"
 
 namespace barycert::audit {
 namespace {
@@ -48,6 +49,7 @@ bool in_range(const Case& c) {
 }  // namespace
 
 double predicting_condition(const Case& c, Region region) {
+    const ExactEnvironment environment;
     const bool inside = region == Region::interior || region == Region::boundary;
     const bool fills_space = c.simplex == Simplex::triangle || c.simplex == Simplex::tetrahedron;
     if (!inside || !fills_space || !in_range(c)) return std::numeric_limits<double>::quiet_NaN();
@@ -55,8 +57,10 @@ double predicting_condition(const Case& c, Region region) {
 }
 
 void Prediction::add(double kappa, double error) {
+    const ExactEnvironment environment;
+    kappa = held(kappa);
     const auto bits = static_cast<std::size_t>(std::clamp(std::ilogb(kappa), 0, last_bits));
-    const double units = error / unit;
+    const double units = held(error) / unit;
     const std::size_t bin = error_bin(units);
     if (bits >= rows_.size()) rows_.resize(bits + 1);
     Row& row = rows_[bits];
@@ -67,6 +71,7 @@ void Prediction::add(double kappa, double error) {
 }
 
 void Prediction::merge(const Prediction& other) {
+    const ExactEnvironment environment;
     if (other.rows_.size() > rows_.size()) rows_.resize(other.rows_.size());
     for (std::size_t bits = 0; bits < other.rows_.size(); ++bits) {
         const Row& theirs = other.rows_[bits];
@@ -85,6 +90,7 @@ std::uint64_t Prediction::cases() const {
 }
 
 std::vector<Prediction::Bin> Prediction::bins() const {
+    const ExactEnvironment environment;
     std::vector<Bin> out;
     for (std::size_t bits = 0; bits < rows_.size(); ++bits) {
         const Row& row = rows_[bits];

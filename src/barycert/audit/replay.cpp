@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/text.hpp"
 
 namespace barycert::audit {
@@ -12,6 +13,7 @@ KernelAnswer answer_of(const Kernel& kernel, const Case& c, const exact::Answer&
     a.kernel = kernel.name;
     a.weights = unset_weights;
     a.status = kernel.weights(c.vertices.data(), c.point.data(), a.weights.data());
+    ExactEnvironment::renew();
     a.comparison = compare(kernel, c, exact, a.status, a.weights);
     a.worst_weight_ulp = *std::max_element(a.comparison.weight_ulps.begin(), a.comparison.weight_ulps.end());
     return a;
@@ -41,6 +43,7 @@ std::string not_reproduced(const Replay& r, const std::vector<Kernel>& kernels) 
 }  // namespace
 
 Replay replay(const Witness& witness, const std::vector<Kernel>& kernels) {
+    const ExactEnvironment environment;
     Replay r;
     r.witness = witness;
     const Case& c = witness.c;

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "barycert/audit/block.hpp"
+#include "barycert/core/exact_environment.hpp"
 
 namespace barycert::audit {
 namespace {
@@ -89,6 +90,7 @@ bool worse(const KernelResult& a, const KernelResult& b) {
 }  // namespace
 
 Result<Report> run(const Options& options, const MeshSource& meshes) {
+    const ExactEnvironment exact;
     Report report;
     report.environment = measure_environment();
     if (const Status ok = check_environment(report.environment); !ok) return ok.error();
@@ -134,6 +136,7 @@ Result<Report> run(const Options& options, const MeshSource& meshes) {
                     const std::uint64_t now = done += last - first;
                     if (options.progress && telling.try_lock()) {
                         options.progress({now, total, family.name});
+                        ExactEnvironment::renew();
                         telling.unlock();
                     }
                 }

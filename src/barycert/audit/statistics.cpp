@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "barycert/core/exact_environment.hpp"
+
 namespace barycert::audit {
 
 // Bin 0 holds 0; bin k > 0 holds (edge(k-1), edge(k)], where edge(k) = 2^((k-1)/8) with the mantissa in steps of 1/8:
@@ -33,18 +35,20 @@ std::uint64_t LogHistogram::total() const {
 }
 
 double LogHistogram::quantile(double fraction) const {
+    const ExactEnvironment environment;
     const std::uint64_t all = total();
     if (all == 0) return -1;
-    const auto wanted = static_cast<std::uint64_t>(std::ceil(fraction * static_cast<double>(all)));
+    const auto wanted = static_cast<std::uint64_t>(std::ceil(held(fraction) * static_cast<double>(all)));
     std::uint64_t seen = 0;
     for (std::size_t i = 0; i < bin_count; ++i) {
         seen += bins_[i];
-        if (seen >= wanted) return upper_edge(i);
+        if (seen >= wanted) return held(upper_edge(i));
     }
-    return upper_edge(bin_count - 1);
+    return held(upper_edge(bin_count - 1));
 }
 
 void Statistics::add(const Comparison& r, Region exact, std::uint64_t index) {
+    const ExactEnvironment environment;
     ++cases;
     ++confusion[static_cast<std::size_t>(exact)][static_cast<std::size_t>(r.claimed)];
     if (r.wrong()) {
@@ -68,6 +72,7 @@ void Statistics::add(const Comparison& r, Region exact, std::uint64_t index) {
 }
 
 void Statistics::merge(const Statistics& other) {
+    const ExactEnvironment environment;
     cases += other.cases;
     wrong_cases += other.wrong_cases;
     for (std::size_t f = 0; f < finding_count; ++f) counts[f] += other.counts[f];

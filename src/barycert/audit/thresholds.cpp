@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/text.hpp"
 
 namespace barycert::audit {
@@ -52,6 +53,7 @@ const Figure* figure_named(std::string_view name) {
 }  // namespace
 
 Result<Rule> parse_rule(std::string_view text) {
+    const ExactEnvironment environment;
     const std::size_t sign = text.find('>');
     Rule rule{std::string(text.substr(0, sign)), 0};
     if (figure_named(rule.name) == nullptr) {
@@ -73,6 +75,7 @@ Result<Rule> parse_rule(std::string_view text) {
 }
 
 std::vector<Violation> violations(const Report& report, const std::vector<Rule>& rules) {
+    const ExactEnvironment environment;
     std::vector<Violation> all;
     for (const KernelResult& k : report.kernels) {
         for (const Rule& rule : rules) {

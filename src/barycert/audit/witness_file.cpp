@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "barycert/audit/witness_json.hpp"
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/text.hpp"
 
 namespace barycert::audit {
@@ -118,6 +119,7 @@ Json witness_json(const Witness& w) {
 }
 
 std::string witness_file(const Report& report) {
+    const ExactEnvironment environment;
     Json out;
     out["schema"] = witness_schema;
     out["witnesses"] = Json::array();
@@ -128,6 +130,7 @@ std::string witness_file(const Report& report) {
 }
 
 Result<std::vector<Witness>> read_witnesses(const std::string& path) {
+    const ExactEnvironment environment;
     std::ifstream in(path, std::ios::binary);
     if (!in)
         return Error{.what = "cannot read the witnesses",

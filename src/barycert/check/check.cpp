@@ -19,6 +19,7 @@
 #include "barycert/check/nodes.hpp"
 #include "barycert/check/pairs.hpp"
 #include "barycert/check/witness.hpp"
+#include "barycert/core/exact_environment.hpp"
 
 namespace barycert::check {
 namespace {
@@ -87,7 +88,9 @@ public:
 
 private:
     void stage(const char* name) const {
-        if (options_.progress) options_.progress(name);
+        if (!options_.progress) return;
+        options_.progress(name);
+        ExactEnvironment::renew();
     }
 
     void check_all(Report& report) {
@@ -159,6 +162,7 @@ const Finding* Report::find(Problem problem) const {
 }
 
 Report run(const Mesh& mesh, const Options& options) {
+    const ExactEnvironment environment;
     const auto start = std::chrono::steady_clock::now();
     Report report;
     report.dimension = mesh.dimension;

@@ -10,6 +10,7 @@
 #include "barycert/check/exact_volumes.hpp"
 #include "barycert/check/findings.hpp"
 #include "barycert/check/plc_facet.hpp"
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/mesh/facets.hpp"
 
 namespace barycert::check {
@@ -234,6 +235,7 @@ private:
 }  // namespace
 
 Conformity check_conformity(const Mesh& mesh, std::span<const std::uint8_t> use, const Plc& plc, std::size_t examples) {
+    const ExactEnvironment environment;
     return ConformityChecker(mesh, use, plc).run(examples);
 }
 

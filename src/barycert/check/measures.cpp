@@ -4,9 +4,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include "barycert/core/exact_environment.hpp"
+
 namespace barycert::check {
 
 Distribution distribution(const std::vector<double>& values) {
+    const ExactEnvironment environment;
     Distribution d;
     std::vector<double> sorted;
     sorted.reserve(values.size());

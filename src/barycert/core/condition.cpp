@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/fixed_integer.hpp"
 #include "barycert/core/integer.hpp"
 #include "barycert/core/quotient.hpp"
@@ -126,8 +127,9 @@ template <int d>
 }  // namespace
 
 double condition_number(Simplex simplex, const double* vertices) {
-    if (simplex == Simplex::triangle) return condition<2>(vertices);
-    if (simplex == Simplex::tetrahedron) return condition<3>(vertices);
+    const ExactEnvironment environment;
+    if (simplex == Simplex::triangle) return held(condition<2>(vertices));
+    if (simplex == Simplex::tetrahedron) return held(condition<3>(vertices));
     return std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -1,11 +1,7 @@
 #include "barycert/core/environment.hpp"
 
-#include <cfenv>
 #include <cfloat>
 #include <thread>
-#ifdef __SSE2__
-#include <xmmintrin.h>
-#endif
 
 #include "barycert/core/lanes.hpp"
 #include "barycert/core/simd.hpp"
@@ -83,21 +79,12 @@ Environment measure_environment() {
     return e;
 }
 
-bool rounds_correctly() {
-#ifdef __SSE2__
-    constexpr unsigned rounding_mode = 0x6000, flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
-    return (_mm_getcsr() & (rounding_mode | flush_to_zero | denormals_are_zero)) == 0;
-#else
-    return measured_rounding() == "nearest" && !measured_flush_to_zero();
-#endif
-}
-
 Status check_environment(const Environment& e) {
     Error error{.what = "results could not be exact in this floating-point environment"};
     if (e.rounding != "nearest") {
         error.expected = "rounding to nearest";
         error.found = "rounding " + e.rounding;
-        error.remedy = "restore the mode with fesetround(FE_TONEAREST) before calling barycert";
+        error.remedy = "restore the mode with fesetround(FE_TONEAREST)";
     } else if (e.flush_to_zero) {
         error.expected = "gradual underflow";
         error.found = "subnormal numbers flushed to zero";

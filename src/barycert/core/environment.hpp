@@ -1,7 +1,9 @@
-/// The floating-point environment: what must hold for results to be what this library promises.
+/// The floating-point environment as it is measured, for reports.
 ///
 /// Exactness needs rounding to nearest, gradual underflow, doubles evaluated as doubles, and no contraction of
-/// a * b + c into one rounding. All four are measured at run time, in the code as it was compiled.
+/// a * b + c into one rounding. All four are measured at run time, in the code as it was compiled. The first two are
+/// what every call sets for itself (exact_environment.hpp); the others are the compiler's, and nothing mends them at
+/// run time.
 #pragma once
 
 #include <string>
@@ -25,10 +27,6 @@ struct Environment {
 
 /// Measures the environment of the calling thread.
 Environment measure_environment();
-
-/// Rounding to nearest and gradual underflow hold in the calling thread: a quick look, for every call that depends on
-/// it.
-bool rounds_correctly();
 
 /// An Error naming what breaks exactness and the remedy, if anything does.
 Status check_environment(const Environment& environment);

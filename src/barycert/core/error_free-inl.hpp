@@ -18,6 +18,8 @@
 #define BARYCERT_CORE_ERROR_FREE_INL_HPP
 #endif
 
+#include "barycert/core/simd_targets.hpp"
+// After the targets.
 #include <hwy/highway.h>
 
 #include "barycert/core/strict_math.hpp"

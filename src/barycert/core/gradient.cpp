@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "barycert/core/blocks.hpp"
-#include "barycert/core/environment_error.hpp"
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/gradient_exact.hpp"
 #include "barycert/core/gradient_lanes.hpp"
 
@@ -107,8 +107,8 @@ Status check_cells(Simplex s, std::size_t corners, int components, std::size_t p
 }  // namespace
 
 Result<Gradient> gradient(Simplex simplex, const double* vertices, const double* values) {
+    const ExactEnvironment environment;
     if (Status known = check_simplex(simplex); !known) return known.error();
-    if (!rounds_correctly()) return detail::environment_error();
     const int n = vertex_count(simplex), d = space_dimension(simplex);
     const double *at[12] = {}, *f[4] = {};
     Gradient g;
@@ -128,8 +128,8 @@ Result<Gradient> gradient(Simplex simplex, const double* vertices, const double*
 
 Status gradients(Simplex simplex, std::span<const double> nodes, std::span<const std::int32_t> corners,
                  const NodalValues<double>& values, std::span<double> out, Tiers* tiers) {
+    const ExactEnvironment environment;
     if (Status sizes = check_cells(simplex, corners.size(), values.components, out.size()); !sizes) return sizes;
-    if (!rounds_correctly()) return detail::environment_error();
     const auto n = static_cast<std::size_t>(vertex_count(simplex)),
                d = static_cast<std::size_t>(space_dimension(simplex));
     const std::size_t cells = corners.size() / n, a_cell = d * static_cast<std::size_t>(values.components);

@@ -4,10 +4,9 @@
 
 #include "barycert/core/simd.hpp"
 
-// Three targets on x86-64: what every processor has (emulated, as SSE2 lacks too much), AVX2 with fused multiply-add,
-// AVX-512. The ones between cost compile time and serve few. Vectors without a size (SVE, RVV) do not go into structs.
-#define HWY_DISABLED_TARGETS \
-    (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+// Before Highway's headers.
+#include "barycert/core/simd_targets.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/core/lanes.cpp"
 #include <hwy/foreach_target.h>

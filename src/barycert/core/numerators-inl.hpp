@@ -23,6 +23,8 @@
 #define BARYCERT_CORE_NUMERATORS_INL_HPP
 #endif
 
+#include "barycert/core/simd_targets.hpp"
+// After the targets.
 #include <hwy/highway.h>
 
 #include <type_traits>

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "barycert/core/blocks.hpp"
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/exact_weights.hpp"
 #include "barycert/core/lanes.hpp"
 #include "barycert/core/point_arguments.hpp"
@@ -25,6 +26,7 @@ WeightSigns exact_signs(Simplex s, const double* vertices, const double* point) 
 
 template <class Batch>
 Status batch_signs(const Batch& batch, std::span<WeightSigns> out, Tiers* tiers) {
+    const ExactEnvironment environment;  // for the tiers: signs are the same without
     const Simplex s = batch.simplex;
     if (Status sizes = check_sizes(batch, out.size(), 1); !sizes) return sizes;
     Tiers counts;
@@ -99,6 +101,7 @@ Result<Sign> det3d(const double* p, const double* q, const double* r, const doub
 }
 
 Result<WeightSigns> weight_signs(Simplex simplex, const double* vertices, const double* point, Tiers* tiers) {
+    const ExactEnvironment environment;  // for the tier
     WeightSigns out;
     std::uint32_t undecided[1];
     Tier tier = Tier::filter;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "barycert/core/blocks.hpp"
-#include "barycert/core/environment_error.hpp"
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/quadratic_exact.hpp"
 #include "barycert/core/quadratic_lanes.hpp"
 
@@ -107,7 +107,7 @@ private:
 Result<Value> interpolate_quadratic(Simplex simplex, const double* vertices, const double* point,
                                     const double* values) {
     if (Status known = check_simplex(simplex); !known) return known.error();
-    if (!rounds_correctly()) return detail::environment_error();
+    const ExactEnvironment environment;
     const int nodes = vertex_count(simplex) + mid_node_count(simplex);
     const double* at[10] = {};
     for (int i = 0; i < nodes; ++i) at[i] = values + i;
@@ -132,7 +132,7 @@ Status interpolate_quadratic(const MeshQueries& queries, std::span<const std::in
     const Simplex s = queries.simplex;
     const int components = values.components;
     if (Status sizes = check_quadratic(queries, mid_nodes.size(), components, out.size()); !sizes) return sizes;
-    if (rounding == Rounding::correct && !rounds_correctly()) return detail::environment_error();
+    const ExactEnvironment environment;
     const auto stride = static_cast<std::size_t>(components);
     QuadraticValues block_values(queries, mid_nodes, values);
     const std::size_t nodes = block_values.nodes();

@@ -42,7 +42,7 @@ public:
     constexpr double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
     /// fl(lo + (hi - lo) * unit()).
-    constexpr double uniform(double lo, double hi) { return lo + (hi - lo) * unit(); }
+    double uniform(double lo, double hi);
 
     /// An integer in [0, n), n >= 1. The bias is below n / 2^64.
     constexpr std::uint64_t below(std::uint64_t n) {
@@ -55,10 +55,7 @@ public:
     }
 
     /// uniform(lo, hi) * 2^k, k an integer in [low, high]. (Two draws in one expression would have no fixed order.)
-    double scaled(double lo, double hi, int low, int high) {
-        const double mantissa = uniform(lo, hi);
-        return std::ldexp(mantissa, integer(low, high));
-    }
+    double scaled(double lo, double hi, int low, int high);
 
     constexpr bool coin() { return (bits() >> 63) != 0; }
 

@@ -7,9 +7,12 @@
 
 #include <fast_float/fast_float.h>
 
+#include "barycert/core/exact_environment.hpp"
+
 namespace barycert {
 
 std::string shortest(double x) {
+    const ExactEnvironment environment;
     if (std::isnan(x)) return "nan";  // its sign bit says nothing
     std::array<char, 32> buffer{};
     const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x);
@@ -17,6 +20,7 @@ std::string shortest(double x) {
 }
 
 std::string hexadecimal(double x) {
+    const ExactEnvironment environment;
     if (!std::isfinite(x)) return shortest(x);
     std::array<char, 40> buffer{};
     const auto [end, error] =
@@ -25,6 +29,7 @@ std::string hexadecimal(double x) {
 }
 
 std::optional<double> parse_double(std::string_view text) {
+    const ExactEnvironment environment;
     const bool negative = !text.empty() && text.front() == '-';
     std::string_view body = text;
     if (!body.empty() && (body.front() == '-' || body.front() == '+')) body.remove_prefix(1);

@@ -22,22 +22,10 @@ constexpr int ulp_exponent(double x) {
 /// The subtraction is exact where the two lie within a factor of two (Sterbenz); elsewhere it is rounded once, so that
 /// the result is the exact error rounded to nearest. Scaling by a power of two loses nothing: two doubles that differ
 /// do so by at least half an ulp of either. A result over the largest double is reported as that double.
-inline double ulp_error(double computed, double reference) {
-    double difference = std::fabs(computed - reference);
-    int shift = -ulp_exponent(reference);
-    if (std::isinf(difference)) {  // both are huge then, and halving them is exact
-        difference = std::fabs(computed * 0.5 - reference * 0.5);
-        ++shift;
-    }
-    return std::min(std::ldexp(difference, shift), 0x1.fffffffffffffp+1023);
-}
+double ulp_error(double computed, double reference);
 
 /// The next double above / below x. Preconditions: x finite.
-inline double next_up(double x) {
-    return std::nextafter(x, HUGE_VAL);
-}
-inline double next_down(double x) {
-    return std::nextafter(x, -HUGE_VAL);
-}
+double next_up(double x);
+double next_down(double x);
 
 }  // namespace barycert

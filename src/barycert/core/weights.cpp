@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "barycert/core/blocks.hpp"
-#include "barycert/core/environment_error.hpp"
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/exact_weights.hpp"
 #include "barycert/core/lanes.hpp"
 
@@ -23,7 +23,7 @@ bool exact_weights(Simplex s, const double* vertices, const double* point, doubl
 
 template <class Batch>
 Status batch_weights(const Batch& batch, std::span<double> out, Tiers* tiers) {
-    if (!rounds_correctly()) return detail::environment_error();
+    const ExactEnvironment environment;
     const Simplex s = batch.simplex;
     const auto n = static_cast<std::size_t>(vertex_count(s));
     if (Status sizes = check_sizes(batch, out.size(), n); !sizes) return sizes;
@@ -118,7 +118,7 @@ Status batch_values(const Batch& batch, const Values& values, std::span<double> 
     const Simplex s = batch.simplex;
     const int n = vertex_count(s), components = values.components;
     const auto stride = static_cast<std::size_t>(components);
-    if (rounding == Rounding::correct && !rounds_correctly()) return detail::environment_error();
+    const ExactEnvironment environment;
     if (components < 1)
         return Error{.what = "number of components", .expected = "at least 1", .found = std::to_string(components)};
     if (Status sizes = check_sizes(batch, out.size(), stride); !sizes) return sizes;
@@ -149,7 +149,7 @@ Status batch_values(const Batch& batch, const Values& values, std::span<double> 
 }  // namespace
 
 Result<Weights> barycentric_weights(Simplex simplex, const double* vertices, const double* point) {
-    if (!rounds_correctly()) return detail::environment_error();
+    const ExactEnvironment environment;
     Weights w;
     std::uint32_t undecided[1];
     if (lanes::weights(simplex, as_block(simplex, vertices, point), w.weights.data(), undecided) == 0) return w;
@@ -160,7 +160,7 @@ Result<Weights> barycentric_weights(Simplex simplex, const double* vertices, con
 }
 
 Result<Value> interpolate(Simplex simplex, const double* vertices, const double* point, const double* values) {
-    if (!rounds_correctly()) return detail::environment_error();
+    const ExactEnvironment environment;
     const int n = vertex_count(simplex);
     const double* at[4] = {};
     for (int i = 0; i < n; ++i) at[i] = values + i;

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/exact/rounding.hpp"
 #include "barycert/exact/solve.hpp"
 
@@ -25,6 +26,7 @@ Numbers weight_gradient(Simplex s, const std::array<Vector<Wide>, 4>& v, std::si
 }  // namespace
 
 GradientAnswer gradient(const Case& c) {
+    const ExactEnvironment environment;
     const auto d = static_cast<std::size_t>(space_dimension(c.simplex));
     Case at_vertex = c;
     for (std::size_t k = 0; k < d; ++k) at_vertex.point[k] = c.vertex(0, static_cast<int>(k));

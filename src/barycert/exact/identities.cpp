@@ -6,6 +6,8 @@
 #include <array>
 #include <optional>
 
+#include "barycert/core/exact_environment.hpp"
+
 namespace barycert::exact {
 namespace {
 
@@ -76,6 +78,7 @@ Identity compare(const std::optional<Weighted>& found, const std::optional<Weigh
 }  // namespace
 
 Identity bilinear_is_barycentric(const Case& c) {
+    const ExactEnvironment environment;
     const Point p{Rational(c.point[0]), Rational(c.point[1]), Rational(0)};
     const auto expected = ratios(c);
     // The two sides meet in vertex i: three choices, of which at least one serves unless the point is level with a
@@ -90,6 +93,7 @@ Identity bilinear_is_barycentric(const Case& c) {
 }
 
 Identity trilinear_is_barycentric(const Case& c) {
+    const ExactEnvironment environment;
     const Point p{Rational(c.point[0]), Rational(c.point[1]), Rational(c.point[2])};
     const auto expected = ratios(c);
     // Edges from apex o to a, b, d; segments in the faces oab and oad; any order of vertices that has no parallels.

@@ -3,6 +3,7 @@
 #include <bit>
 #include <limits>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/exact/rounding.hpp"
 #include "barycert/exact/solve.hpp"
 
@@ -49,6 +50,7 @@ Answer answer(const Case& c, const Scales& scales) {
 }  // namespace
 
 Answer ask(const Case& c) {
+    const ExactEnvironment environment;
     const Scales scales(c);
     if (!scales.narrow) return answer<Wide>(c, scales);
     Answer a = answer<Narrow>(c, scales);
@@ -57,10 +59,12 @@ Answer ask(const Case& c) {
 }
 
 Answer ask_wide(const Case& c) {
+    const ExactEnvironment environment;
     return answer<Wide>(c, Scales(c));
 }
 
 double partition_residual(std::span<const double> weights) {
+    const ExactEnvironment environment;
     Scale scale;
     scale.include(1.0);
     for (const double w : weights) scale.include(w);
@@ -70,6 +74,7 @@ double partition_residual(std::span<const double> weights) {
 }
 
 double reproduction_residual(const Case& c, std::span<const double> weights) {
+    const ExactEnvironment environment;
     // sum w_i v_i - sum (n_i/d) v_i = sum (w_i d - n_i) v_i / d, because the exact
     // weights n_i/d give p, or its projection, whatever the weights w_i under test sum to.
     Scales scales(c);
@@ -95,6 +100,7 @@ double reproduction_residual(const Case& c, std::span<const double> weights) {
 }
 
 int affine_dimension(const Case& c) {
+    const ExactEnvironment environment;
     Scales scales(c);
     Scale common;
     for (const Scale& s : scales.axes) common.include(s);

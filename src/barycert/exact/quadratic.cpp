@@ -3,12 +3,14 @@
 #include <array>
 #include <limits>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/exact/rounding.hpp"
 #include "barycert/exact/solve.hpp"
 
 namespace barycert::exact {
 
 double quadratic_value(const Case& c, std::span<const double> mids) {
+    const ExactEnvironment environment;
     constexpr std::array<std::array<std::size_t, 2>, 6> edges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
     Scales scales(c);
     for (const double f : mids) scales.values.include(f);

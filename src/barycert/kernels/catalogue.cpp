@@ -1,6 +1,7 @@
 #include <cmath>
 #include <utility>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/text.hpp"
 #include "barycert/kernels/kernel.hpp"
 #include "barycert/kernels/registry.hpp"
@@ -95,6 +96,7 @@ std::vector<Kernel> kernels_matching(std::string_view glob) {
 }
 
 Region claimed_region(const Kernel& kernel, int status, std::span<const double> weights) {
+    const ExactEnvironment environment;
     if (status != 0) return Region::degenerate;
     bool below = false, zero = false;
     for (const double w : weights) {

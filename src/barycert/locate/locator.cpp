@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/predicates.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/locator_data.hpp"
@@ -56,6 +57,7 @@ Locator& Locator::operator=(Locator&&) noexcept = default;
 Locator::~Locator() = default;
 
 Result<Locator> Locator::build(const Mesh& mesh, const check::Certificate& certificate) {
+    const ExactEnvironment environment;
     if (const char* const wrong = detail::inconsistency(mesh, detail::FieldValues::any))
         return Error{.what = std::string("the mesh is inconsistent: ") + wrong};
     auto data = std::make_unique<detail::LocatorData>();
@@ -80,6 +82,7 @@ std::size_t Locator::bytes() const {
 
 Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> cells, std::span<Feature> features,
                        LocationCounts* counts, int threads) const {
+    const ExactEnvironment environment;
     if (Status status = check_points(*this, points); !status) return status;
     const std::size_t count = points.size() / data_->index.dimension();
     if (cells.size() != count || features.size() != count)
@@ -116,6 +119,7 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
 }
 
 Result<AllLocations> Locator::locate_all(std::span<const double> points, LocationCounts* counts, int threads) const {
+    const ExactEnvironment environment;
     if (Status status = check_points(*this, points); !status) return status.error();
     struct Found {
         std::size_t point;
@@ -167,6 +171,7 @@ Result<AllLocations> Locator::locate_all(std::span<const double> points, Locatio
 }
 
 Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
+    const ExactEnvironment environment;
     const detail::CellIndex& index = data_->index;
     const std::size_t d = index.dimension();
     if (Status status = detail::check_finite({point, d}, d); !status) return status.error();

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/predicates.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/locator.hpp"
@@ -178,6 +179,8 @@ private:
 }  // namespace
 
 Result<Nearest> Locator::nearest(const double* point, double limit) const {
+    const ExactEnvironment environment;
+    limit = held(limit);
     const std::size_t d = data_->index.dimension();
     if (Status status = detail::check_finite({point, d}, d); !status) return status.error();
     if (!(limit >= 0)) return Nearest{.distance = none};

@@ -8,6 +8,8 @@
 #define BARYCERT_LOCATE_RECORDS_INL_HPP
 #endif
 
+#include "barycert/core/simd_targets.hpp"
+// After the targets.
 #include <hwy/highway.h>
 
 #include <cstddef>

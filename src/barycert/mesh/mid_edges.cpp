@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "barycert/core/exact_environment.hpp"
+
 namespace barycert::detail {
 namespace {
 
@@ -75,6 +77,7 @@ std::span<const std::size_t> edge_sequence(MidEdgeOrder order, int dimension) {
 }
 
 std::optional<MidEdgeOrder> detect_mid_edge_order(const Mesh& mesh) {
+    const ExactEnvironment environment;
     const std::span<const Edge> edges = edges_of(mesh.dimension);
     const std::span<const MidEdgeOrder> orders =
         mesh.dimension == 2 ? std::span<const MidEdgeOrder>(orders_2d) : std::span<const MidEdgeOrder>(orders_3d);

@@ -21,6 +21,7 @@
 #include <optional>
 #include <string_view>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 
 namespace barycert {
@@ -94,6 +95,7 @@ std::vector<std::string> tetgen_files(const std::string& path) {
 }
 
 Result<Mesh> read_tetgen(const std::string& path, const ReadOptions& options) {
+    const ExactEnvironment environment;
     return detail::TetgenReader(tetgen_stem(path), options).read();
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/output_file.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
@@ -150,6 +151,7 @@ void write_neighbours(RowWriter& out, const Mesh& mesh) {
 }  // namespace
 
 Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOptions& options) {
+    const ExactEnvironment environment;
     if (const char* const fault = detail::inconsistency(mesh); fault != nullptr) {
         return Error{.what = std::string("cannot write the mesh: ") + fault,
                      .file = stem,

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/text.hpp"
 
 namespace barycert {
@@ -104,6 +105,7 @@ std::vector<std::string> plc_files(const std::string& path) {
 }
 
 Result<Plc> read_plc(const std::string& path) {
+    const ExactEnvironment environment;
     const std::string extension = std::filesystem::path(path).extension().string();
     if (std::find(plc_extensions.begin(), plc_extensions.end(), extension) == plc_extensions.end()) {
         return file_error(path, "unknown kind of PLC", "one of .poly .smesh .off .stl .ply",

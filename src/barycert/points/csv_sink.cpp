@@ -7,6 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/output_file.hpp"
 #include "barycert/points/formats.hpp"
 
@@ -100,6 +101,7 @@ char* CsvSink::format(const Rows& rows, std::size_t first, std::size_t last, cha
 }
 
 Status CsvSink::write(const Rows& rows) {
+    const ExactEnvironment environment;
     if (!error_.what.empty()) return error_;
     if (Status fits = check_rows(rows, format_, path_); !fits) return error_ = fits.error();
     const std::size_t count = rows.cells.size();
@@ -109,6 +111,7 @@ Status CsvSink::write(const Rows& rows) {
         while (pieces_.size() < pieces) pieces_.emplace_back(rows_a_piece_ * longest_row_);
         std::array<std::size_t, pieces_at_once> sizes{};
         tbb::parallel_for(std::size_t{0}, pieces, [&](std::size_t i) {
+            const ExactEnvironment of_task;  // the arena is the caller's
             const std::size_t first = row + i * rows_a_piece_;
             char* const begin = pieces_[i].data();
             sizes[i] =

@@ -1,6 +1,7 @@
 #include <array>
 #include <utility>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/mesh/scanner.hpp"
 #include "barycert/points/csv_fields.hpp"
 #include "barycert/points/csv_layout.hpp"
@@ -72,6 +73,7 @@ void CsvSource::append(const std::array<double, 3>& point, std::vector<double>& 
 }
 
 Result<std::size_t> CsvSource::read(std::size_t most, std::vector<double>& out) {
+    const ExactEnvironment environment;
     if (!error_.what.empty()) return error_;
     std::size_t taken = 0;
     if (first_ && most != 0) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/mesh/row_errors.hpp"
 #include "barycert/mesh/tetgen_reader.hpp"
 #include "barycert/mesh/text_table.hpp"
@@ -111,6 +112,7 @@ void NodeSource::let_go() {
 }
 
 Result<std::size_t> NodeSource::read(std::size_t most, std::vector<double>& out) {
+    const ExactEnvironment environment;
     if (!error_.what.empty()) return error_;
     std::size_t taken = 0;
     std::array<double, 3> point{};

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/output_file.hpp"
 #include "barycert/points/formats.hpp"
 #include "barycert/points/npy_fields.hpp"
@@ -108,6 +109,7 @@ void NpySink::put_row(const Rows& rows, std::size_t row, char* at) const {
 }
 
 Status NpySink::write(const Rows& rows) {
+    const ExactEnvironment environment;
     if (!error_.what.empty()) return error_;
     if (Status fits = check_rows(rows, format_, path_); !fits) return error_ = fits.error();
     const std::size_t count = rows.cells.size();

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <utility>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/text.hpp"
 #include "barycert/points/formats.hpp"
 #include "barycert/points/npy_header.hpp"
@@ -139,6 +140,7 @@ Status NpySource::read_numbers(std::uint64_t first, std::size_t count, double* o
 }
 
 Result<std::size_t> NpySource::read(std::size_t most, std::vector<double>& out) {
+    const ExactEnvironment environment;
     if (!error_.what.empty()) return error_;
     const std::size_t taken = std::min<std::uint64_t>(most, layout_.count - next_);
     const std::size_t before = out.size();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/points/formats.hpp"
 
 namespace barycert::points {
@@ -36,6 +37,7 @@ Status check_rows(const Rows& rows, const RowFormat& format, const std::string& 
 }
 
 Result<std::unique_ptr<Sink>> open_sink(const std::string& path, const RowFormat& format) {
+    const ExactEnvironment environment;
     if (format.dimension != 2 && format.dimension != 3) {
         return Error{.what = "rows of an impossible dimension",
                      .file = path,

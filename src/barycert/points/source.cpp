@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/points/formats.hpp"
 
 namespace barycert::points {
@@ -66,6 +67,7 @@ Result<Format> format_of(const std::string& path) {
 }
 
 Result<std::unique_ptr<Source>> open_source(const std::string& path, int dimension) {
+    const ExactEnvironment environment;
     if (dimension != 2 && dimension != 3) {
         return Error{.what = "points of an impossible dimension",
                      .file = path,

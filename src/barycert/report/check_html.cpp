@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "barycert/core/environment.hpp"
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/text.hpp"
 #include "barycert/report/check_conditions.hpp"
 #include "barycert/report/check_html_cells.hpp"
@@ -325,6 +326,7 @@ std::string exhibits(const Report& r, const Mesh& mesh) {
 }  // namespace
 
 std::string check_html(const Report& r, const Mesh& mesh, const std::string& mesh_name) {
+    const ExactEnvironment environment;
     const std::string name = html_escaped(mesh_name);
     std::string out = fmt::format(
         "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\"><head><meta charset=\"utf-8\"/>\n"

@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/text.hpp"
 #include "barycert/report/check_conditions.hpp"
 #include "barycert/report/environment_json.hpp"
@@ -148,6 +149,7 @@ Json conformity_json(const check::Conformity& c) {
 }  // namespace
 
 std::string check_json(const check::Report& r, const std::string& name, const Environment& environment) {
+    const ExactEnvironment exact;
     Json j;
     j["schema"] = check_schema;
     j["mesh"] = name;

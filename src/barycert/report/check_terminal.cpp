@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/text.hpp"
 #include "barycert/report/check_conditions.hpp"
 #include "barycert/report/terminal_text.hpp"
@@ -324,6 +325,7 @@ std::string whole_mesh(const Report& r) {
 }  // namespace
 
 std::string terminal_check(const Report& r, const Mesh& mesh, const std::string& path, const TerminalStyle& style) {
+    const ExactEnvironment environment;
     const Colours paint(style.colour);
     const std::string name = printable(path);
     std::string out = r.certified() ? certified(r, name, paint) : not_certified(r, name, paint);

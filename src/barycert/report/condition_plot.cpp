@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/report/svg.hpp"
 
 namespace barycert::report {
@@ -123,6 +124,7 @@ void draw_legend(Svg& svg, const std::vector<const KernelResult*>& kernels, doub
 }  // namespace
 
 std::string condition_plot(const audit::Report& report) {
+    const ExactEnvironment environment;
     Simplex simplex = Simplex::tetrahedron;
     std::vector<const KernelResult*> all = candidates(report, simplex);
     if (all.empty()) all = candidates(report, simplex = Simplex::triangle);

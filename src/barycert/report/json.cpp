@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "barycert/audit/witness_json.hpp"
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/report/environment_json.hpp"
 
 namespace barycert::report {
@@ -87,6 +88,7 @@ Json list(const auto& items, auto convert) {
 }  // namespace
 
 std::string json_report(const audit::Report& r) {
+    const ExactEnvironment environment;
     Json j;
     j["schema"] = audit_schema;
     j["environment"] = environment_json(r.environment);

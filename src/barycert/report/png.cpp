@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/strict_math.hpp"
 #include "barycert/core/text.hpp"
 #include "barycert/report/colour_bar.hpp"
@@ -96,6 +97,7 @@ SliceCounts count(const Slice& s) {
 }  // namespace
 
 Status write_png(const std::string& path, const Slice& s, SliceCounts* counts) {
+    const ExactEnvironment environment;
     if (Status good = check(path, s); !good) return good;
     const double wide = s.aspect > 1 ? std::round(static_cast<double>(s.width) * s.aspect) : 0;
     const double tall = s.aspect < 1 ? std::round(static_cast<double>(s.height) / s.aspect) : 0;

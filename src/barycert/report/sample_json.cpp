@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/report/environment_json.hpp"
 
 namespace barycert::report {
@@ -85,6 +86,7 @@ Json seconds_json(const SampleSeconds& s) {
 }  // namespace
 
 std::string sample_json(const SampleRun& run, const Environment& environment) {
+    const ExactEnvironment exact;
     Json j;
     j["schema"] = sample_schema;
     j["command"] = run.command;

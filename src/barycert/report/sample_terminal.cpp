@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/text.hpp"
 #include "barycert/report/terminal_text.hpp"
 
@@ -97,6 +98,7 @@ std::string policy_text(const OutsidePolicy& policy) {
 }
 
 std::string terminal_sample(const SampleRun& run, bool colour) {
+    const ExactEnvironment environment;
     const Colours paint(colour);
     std::string points = std::to_string(run.counts.locations.points());
     if (run.grid) {

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "barycert/core/text.hpp"
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/report/terminal_text.hpp"
 
 namespace barycert::report {
@@ -189,6 +190,7 @@ std::string environment_line(const Environment& e) {
 }
 
 std::string terminal_report(const Report& report, const TerminalStyle& style) {
+    const ExactEnvironment environment;
     const Colours paint(style.colour);
     std::string out = environment_line(report.environment) + "\n";
     out += fmt::format(

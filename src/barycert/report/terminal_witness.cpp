@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/text.hpp"
 #include "barycert/report/terminal.hpp"
 #include "barycert/report/terminal_text.hpp"
@@ -46,6 +47,7 @@ std::string identity_line(const audit::Replay& r) {
 }  // namespace
 
 std::string terminal_witness(const audit::Replay& replay, const TerminalStyle& style) {
+    const ExactEnvironment environment;
     const Colours paint(style.colour);
     const audit::Witness& witness = replay.witness;
     const Case& c = witness.c;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/text.hpp"
 
 namespace barycert {
@@ -48,8 +49,16 @@ Result<Grid> checked(const Grid& grid) {
 
 }  // namespace
 
+// Out of line, as all arithmetic that decides on results: in the caller's code the caller's flags would round it.
+double Grid::coordinate(std::size_t axis, std::int64_t i) const {
+    if (i == counts[axis] - 1 && i != 0) return last[axis];
+    const ExactEnvironment environment;
+    return held(held(origin[axis]) + static_cast<double>(i) * held(spacing[axis]));
+}
+
 Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts, const std::array<double, 3>& low,
                        const std::array<double, 3>& high) {
+    const ExactEnvironment environment;
     if (Status status = check_dimension(dimension); !status) return status.error();
     Grid grid;
     grid.dimension = dimension;
@@ -74,6 +83,7 @@ Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts,
 
 Result<Grid> grid_spaced(int dimension, const std::array<double, 3>& spacing, const std::array<double, 3>& low,
                          const std::array<double, 3>& high) {
+    const ExactEnvironment environment;
     if (Status status = check_dimension(dimension); !status) return status.error();
     Grid grid;
     grid.dimension = dimension;
@@ -98,6 +108,7 @@ Result<Grid> grid_spaced(int dimension, const std::array<double, 3>& spacing, co
 }
 
 Bounds3 bounds_of_cells(const Mesh& mesh) {
+    const ExactEnvironment environment;
     Bounds3 bounds;
     const auto d = static_cast<std::size_t>(mesh.dimension);
     for (std::size_t k = 0; k < d && !mesh.cells.empty(); ++k) {

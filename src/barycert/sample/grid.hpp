@@ -20,9 +20,7 @@ struct Grid {
 
     /// origin + i * spacing, each operation rounded; the last one is `last` to the bit, so that a grid over a box ends
     /// on it.
-    double coordinate(std::size_t axis, std::int64_t i) const {
-        return i == counts[axis] - 1 && i != 0 ? last[axis] : origin[axis] + static_cast<double>(i) * spacing[axis];
-    }
+    double coordinate(std::size_t axis, std::int64_t i) const;
     std::uint64_t layer_size() const {
         return static_cast<std::uint64_t>(counts[0]) * static_cast<std::uint64_t>(counts[1]);
     }

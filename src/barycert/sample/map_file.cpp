@@ -5,6 +5,7 @@
 #include <bit>
 #include <utility>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/output_file.hpp"
 #include "barycert/core/text.hpp"
 #include "barycert/sample/map_format.hpp"
@@ -12,6 +13,7 @@
 namespace barycert {
 
 std::uint64_t mesh_fingerprint(const Mesh& mesh) {
+    const ExactEnvironment environment;
     std::uint64_t h = detail::map_step(0, static_cast<std::uint64_t>(mesh.dimension));
     h = detail::map_step(h, mesh.points.size());
     for (const double x : mesh.points) {
@@ -171,6 +173,7 @@ Status MapWriterData::commit() {
 }  // namespace detail
 
 Result<MapWriter> MapWriter::open(const std::string& path, const Mesh& mesh, bool all) {
+    const ExactEnvironment environment;
     const detail::MapHeader head{mesh.dimension, all, 0, mesh.point_count(), mesh.cell_count(), mesh_fingerprint(mesh)};
     auto data = std::make_unique<detail::MapWriterData>(path, head);
     if (Status begun = data->begin(); !begun) return begun.error();
@@ -179,6 +182,7 @@ Result<MapWriter> MapWriter::open(const std::string& path, const Mesh& mesh, boo
 
 Status MapWriter::write(std::span<const double> points, std::span<const Mesh::Index> cells,
                         std::span<const Feature> features) {
+    const ExactEnvironment environment;
     return data_->write(points, cells, features);
 }
 

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <utility>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/text.hpp"
 #include "barycert/sample/map_file.hpp"
 #include "barycert/sample/map_format.hpp"
@@ -245,6 +246,7 @@ Result<std::size_t> MapReaderData::read(std::size_t most, LocationMap& out) {
 }  // namespace detail
 
 Result<MapReader> MapReader::open(const std::string& path, const Mesh& mesh) {
+    const ExactEnvironment environment;
     auto data = std::make_unique<detail::MapReaderData>(path);
     if (Status opened = data->open(mesh); !opened) return opened.error();
     return MapReader(std::move(data));
@@ -260,6 +262,7 @@ std::uint64_t MapReader::rows() const {
     return data_->head.rows;
 }
 Result<std::size_t> MapReader::read(std::size_t most, LocationMap& block) {
+    const ExactEnvironment environment;
     return data_->read(most, block);
 }
 

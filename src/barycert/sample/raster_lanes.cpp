@@ -16,9 +16,9 @@
 #include <algorithm>
 #include <cmath>
 
-// The targets are those of core/lanes.cpp.
-#define HWY_DISABLED_TARGETS \
-    (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+// Before Highway's headers.
+#include "barycert/core/simd_targets.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/sample/raster_lanes.cpp"
 #include <hwy/foreach_target.h>

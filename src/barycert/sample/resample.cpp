@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/sample/slab_sampler.hpp"
 
@@ -89,8 +90,7 @@ SlabCells cells_of_slabs(const detail::CellIndex& index, const std::vector<doubl
     return out;
 }
 
-Status check_grid(const detail::SamplerData& data, const Grid& grid, const SampleOptions& options) {
-    if (Status status = detail::check_rounding(data, options); !status) return status;
+Status check_grid(const detail::SamplerData& data, const Grid& grid) {
     const int dimension = data.located().mesh->dimension;
     if (grid.dimension != dimension)
         return Error{.what = "dimension of the grid",
@@ -118,8 +118,9 @@ Status check_grid(const detail::SamplerData& data, const Grid& grid, const Sampl
 
 Status resample(const Sampler& sampler, const Grid& grid, const SampleOptions& options, const GridSink& sink,
                 SampleCounts& counts) {
+    const ExactEnvironment environment;
     const detail::SamplerData& data = sampler.data();
-    if (Status status = check_grid(data, grid, options); !status) return status;
+    if (Status status = check_grid(data, grid); !status) return status;
     const detail::Raster raster = raster_of(grid, data.index());
     const std::vector<double>& layers = raster.at[layer_axis(grid)];
     const std::size_t layer = static_cast<std::size_t>(grid.point_count()) / layers.size();
@@ -151,6 +152,7 @@ Status resample(const Sampler& sampler, const Grid& grid, const SampleOptions& o
                     break;
                 }
                 status = sink(samplers[i].block());
+                ExactEnvironment::renew();
                 all.add(samplers[i].counts());
             }
         }

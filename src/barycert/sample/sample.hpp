@@ -95,9 +95,8 @@ public:
     /// NAME for a field of one component, else NAME.0, NAME.1, ...; fields of nodes first, then those of cells.
     const std::vector<std::string>& columns() const;
 
-    /// All points; `out` is resized. Errors: a coordinate is not finite; rounding is correct and the floating-point
-    /// environment is not fit for it; the policy is `error` and a point is outside. `first_point`: what messages count
-    /// points from.
+    /// All points; `out` is resized. Errors: a coordinate is not finite; the policy is `error` and a point is outside.
+    /// `first_point`: what messages count points from.
     Status sample(std::span<const double> points, const SampleOptions& options, Samples& out, SampleCounts& counts,
                   std::size_t first_point = 0) const;
 

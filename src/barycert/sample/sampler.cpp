@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "barycert/core/environment.hpp"
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/sample/chunk_sampler.hpp"
 #include "barycert/sample/sample.hpp"
@@ -80,14 +80,12 @@ void arrange_by_node(SamplerData& data) {
 }
 
 /// What is wrong with the call, before anything is done.
-Status check_call(const SamplerData& data, std::span<const double> points, const SampleOptions& options,
-                  std::size_t first_point) {
+Status check_call(const SamplerData& data, std::span<const double> points, std::size_t first_point) {
     const std::size_t d = data.index().dimension();
     if (points.size() % d != 0)
         return Error{.what = "size of the points",
                      .expected = std::to_string(d) + " coordinates a point",
                      .found = std::to_string(points.size()) + " numbers"};
-    if (Status status = detail::check_rounding(data, options); !status) return status;
     return detail::check_finite(points, d, first_point);
 }
 
@@ -181,13 +179,6 @@ private:
 
 }  // namespace
 
-Status detail::check_rounding(const SamplerData& data, const SampleOptions& options) {
-    // On cells of second order the nearest point itself is rounded.
-    const bool matters =
-        options.rounding == Rounding::correct || (data.quadratic && options.outside.kind == Outside::nearest);
-    return matters && !rounds_correctly() ? check_environment(measure_environment()) : Done{};
-}
-
 void SampleCounts::add(const SampleCounts& other) {
     locations.add(other.locations);
     values.add(other.values);
@@ -203,6 +194,7 @@ Sampler& Sampler::operator=(Sampler&&) noexcept = default;
 Sampler::~Sampler() = default;
 
 Result<Sampler> Sampler::build(const Locator& locator, std::vector<FieldChoice> fields) {
+    const ExactEnvironment environment;
     auto data = std::make_unique<SamplerData>();
     data->locator = &locator;
     data->quadratic = !locator.mesh().mid_nodes.empty();
@@ -223,7 +215,8 @@ const std::vector<std::string>& Sampler::columns() const {
 
 Status Sampler::sample(std::span<const double> points, const SampleOptions& options, Samples& out, SampleCounts& counts,
                        std::size_t first_point) const {
-    if (Status status = check_call(*data_, points, options, first_point); !status) return status;
+    const ExactEnvironment environment;
+    if (Status status = check_call(*data_, points, first_point); !status) return status;
     resize(*data_, options, points.size() / data_->index().dimension(), out);
     LocationCounts locations;
     Status status = Done{};
@@ -249,7 +242,8 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
 Status Sampler::evaluate(std::span<const double> points, std::span<const Mesh::Index> cells,
                          std::span<const Feature> features, const SampleOptions& options, Samples& out,
                          SampleCounts& counts, std::size_t first_point) const {
-    if (Status status = check_call(*data_, points, options, first_point); !status) return status;
+    const ExactEnvironment environment;
+    if (Status status = check_call(*data_, points, first_point); !status) return status;
     const std::size_t d = data_->index().dimension(), count = points.size() / d;
     if (cells.size() != count || features.size() != count)
         return Error{.what = "size of the locations",

@@ -37,7 +37,4 @@ struct SamplerData {
     }
 };
 
-/// An Error if what is asked for needs correct rounding and the calling thread's environment is not fit for it.
-Status check_rounding(const SamplerData& data, const SampleOptions& options);
-
 }  // namespace barycert::detail

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/text.hpp"
 #include "barycert/vti/vti.hpp"
 #include "barycert/vti/xml_name.hpp"
@@ -117,6 +118,7 @@ std::string head_of(const VtiGrid& grid, const std::vector<VtiArray>& arrays,
 
 Result<std::unique_ptr<VtiWriter>> VtiWriter::open(const std::string& path, const VtiGrid& grid,
                                                    const std::vector<VtiArray>& arrays) {
+    const ExactEnvironment environment;
     if (Status s = check_grid(path, grid); !s) return s.error();
     if (Status s = check_arrays(path, arrays); !s) return s.error();
     std::vector<Place> places;
@@ -160,6 +162,7 @@ Error VtiWriter::error(std::string what, std::string expected, std::string found
 }
 
 Status VtiWriter::write(std::size_t array, std::span<const std::byte> bytes) {
+    const ExactEnvironment environment;
     if (array >= places_.size()) {
         return error("the number of an array", "less than " + std::to_string(places_.size()), std::to_string(array));
     }

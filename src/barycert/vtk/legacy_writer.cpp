@@ -9,6 +9,7 @@
 #include <streambuf>
 #include <string>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/output_file.hpp"
 #include "barycert/vtk/mesh_to_grid.hpp"
 #include "barycert/vtk/messages.hpp"
@@ -121,6 +122,7 @@ Status write_legacy(const Mesh& mesh, const std::string& path) {
 }  // namespace
 
 Status write_vtk(const Mesh& mesh, const std::string& path) {
+    const ExactEnvironment environment;
     if (path.ends_with(".vtu")) return write_vtu(mesh, path);
     if (!path.ends_with(".vtk")) {
         return Error{.what = "the ending of the file does not tell its format",

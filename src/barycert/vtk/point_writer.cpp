@@ -12,6 +12,7 @@
 #include <new>
 #include <numeric>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/vtk/mesh_to_grid.hpp"
 #include "barycert/vtk/raw_grid.hpp"
 #include "barycert/vtk/vtu_output.hpp"
@@ -90,6 +91,7 @@ Status write(const std::string& path, const PointRows& rows) {
 }  // namespace
 
 Status write_vtk_points(const std::string& path, const PointRows& rows) {
+    const ExactEnvironment environment;
     if (const std::string fault = fault_of(rows); !fault.empty()) {
         return Error{.what = "cannot write the points: " + fault,
                      .file = path,

@@ -3,6 +3,7 @@
 #include <new>
 #include <utility>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/mesh/mapped_file.hpp"
 #include "barycert/vtk/grid_to_mesh.hpp"
 #include "barycert/vtk/raw_grid.hpp"
@@ -38,6 +39,7 @@ Error out_of_memory(const std::string& path) {
 }  // namespace
 
 Result<Mesh> read_vtk(const std::string& path, VtkLeftOut* left_out) {
+    const ExactEnvironment environment;
     try {
         Result<detail::RawGrid> grid = read_grid(path, detail::Part::all);
         if (!grid) return grid.error();
@@ -48,6 +50,7 @@ Result<Mesh> read_vtk(const std::string& path, VtkLeftOut* left_out) {
 }
 
 Result<std::vector<double>> read_vtk_points(const std::string& path, int dimension) {
+    const ExactEnvironment environment;
     if (dimension != 2 && dimension != 3) {
         return Error{.what = "the dimension of points",
                      .file = path,

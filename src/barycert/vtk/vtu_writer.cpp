@@ -2,6 +2,7 @@
 #include <new>
 #include <string>
 
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/vtk/mesh_to_grid.hpp"
 #include "barycert/vtk/vtu.hpp"
 #include "barycert/vtk/vtu_output.hpp"
@@ -22,6 +23,7 @@ std::size_t file_size(const Mesh& mesh, std::size_t index_size) {
 }  // namespace
 
 Status write_vtu(const Mesh& mesh, const std::string& path) {
+    const ExactEnvironment environment;
     if (const std::string fault = detail::fault_of_mesh(mesh, detail::Names::xml); !fault.empty()) {
         return Error{.what = "cannot write the mesh: " + fault,
                      .file = path,

@@ -1,0 +1,21 @@
+#include "barycert/core/random.hpp"
+
+#include <cmath>
+
+#include "barycert/core/exact_environment.hpp"
+
+namespace barycert {
+
+double Random::uniform(double lo, double hi) {
+    const ExactEnvironment environment;
+    lo = held(lo);
+    return held(lo + (held(hi) - lo) * unit());
+}
+
+double Random::scaled(double lo, double hi, int low, int high) {
+    const ExactEnvironment environment;
+    const double mantissa = uniform(lo, hi);
+    return held(std::ldexp(mantissa, integer(low, high)));
+}
+
+}  // namespace barycert

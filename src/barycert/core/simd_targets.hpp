@@ -1,0 +1,16 @@
+/// Internal: the SIMD targets that lanes are compiled for. Comes before any header of Highway's, in every source and
+/// header that includes one.
+///
+/// Three on x86-64: what every processor has (emulated, as SSE2 lacks too much), AVX2 with fused multiply-add, AVX-512.
+/// The ones between cost compile time and serve few. Those above AVX-512 (AVX3_DL) add nothing here, but must be named:
+/// where the compiler is told of a processor that has them (-march=native), Highway takes them for the least there is,
+/// and then refuses to compile for want of them among the targets to choose from. Vectors without a size (SVE, RVV) do
+/// not go into structs.
+#pragma once
+
+#if defined(HWY_STATIC_TARGET)
+#error "barycert/core/simd_targets.hpp must come before Highway's headers"
+#endif
+
+#define HWY_DISABLED_TARGETS \
+    (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)

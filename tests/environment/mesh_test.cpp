@@ -1,0 +1,459 @@
+// Public entries that take a mesh: check, locate, sample, resample, files, reports, audit. A mesh of ordinary size and
+// one of subnormal numbers, with fields of both; in every floating-point environment, on one thread and on two.
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+#include "barycert/audit/replay.hpp"
+#include "barycert/audit/runner.hpp"
+#include "barycert/audit/witness_file.hpp"
+#include "barycert/check/check.hpp"
+#include "barycert/core/exact_environment.hpp"
+#include "barycert/core/random.hpp"
+#include "barycert/core/text.hpp"
+#include "barycert/exact/oracle.hpp"
+#include "barycert/locate/locator.hpp"
+#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/plc/plc.hpp"
+#include "barycert/points/rows.hpp"
+#include "barycert/points/source.hpp"
+#include "barycert/report/check_html.hpp"
+#include "barycert/report/check_json.hpp"
+#include "barycert/report/check_terminal.hpp"
+#include "barycert/report/condition_plot.hpp"
+#include "barycert/report/json.hpp"
+#include "barycert/report/png.hpp"
+#include "barycert/report/terminal.hpp"
+#include "barycert/sample/map_file.hpp"
+#include "barycert/sample/resample.hpp"
+#include "barycert/vti/vti.hpp"
+#ifdef BARYCERT_WITH_VTK
+#include "barycert/vtk/read_vtk.hpp"
+#include "barycert/vtk/write_vtk.hpp"
+#endif
+#include "check/meshes.hpp"
+#include "core/same_everywhere.hpp"
+
+namespace barycert::testing {
+namespace {
+
+using testing_environments::Answers;
+using testing_environments::expect_same_everywhere;
+
+constexpr double unit = 0x1p-1074;
+
+struct Subject {
+    std::string name;
+    Mesh mesh;
+    double scale = 1;  ///< of a lattice cell
+};
+
+/// Fields of ordinary and of subnormal numbers at nodes and cells; a lattice whose nodes are moved a little, in units
+/// of the smallest double or of 1/16; and a copy of it with a cell turned over and a node moved too far.
+std::vector<Subject> subjects() {
+    std::vector<Subject> all;
+    for (const int d : {2, 3}) {
+        for (const double scale : {unit, 0x1p-1026, 1.0}) {
+            Random random(static_cast<std::uint64_t>(d));
+            Mesh mesh = box(d, {4, 3, 3});
+            for (double& x : mesh.points) {
+                const double moved = 16 * x + random.integer(-3, 3);
+                x = moved * scale;
+            }
+            Field one{"one", 1, {}}, two{"two", 2, {}}, cell{"cell", 1, {}};
+            for (std::size_t i = 0; i < mesh.point_count(); ++i) {
+                one.data.push_back(random.integer(-9, 9) * unit);
+                two.data.push_back(random.uniform(-1, 1));
+                two.data.push_back(random.integer(-9, 9) * 0x1p-1030);
+            }
+            for (std::size_t i = 0; i < mesh.cell_count(); ++i) cell.data.push_back(random.integer(-9, 9) * unit);
+            mesh.point_fields = {one, two};
+            mesh.cell_fields = {cell};
+            const std::string name = std::to_string(d) + "D, " + hexadecimal(scale);
+            all.push_back({name, mesh, scale});
+            mesh.points[0] = 40 * scale;
+            all.push_back({name + ", folded", mesh, scale});
+        }
+    }
+    return all;
+}
+
+/// Lattice points, in and around the mesh: many on faces, edges and nodes.
+std::vector<double> points_around(const Subject& s, std::size_t count) {
+    Random random(17);
+    std::vector<double> points;
+    for (std::size_t i = 0; i < count * static_cast<std::size_t>(s.mesh.dimension); ++i)
+        points.push_back(random.integer(-8, 72) * s.scale);
+    return points;
+}
+
+void add(Answers& out, const Tiers& t) {
+    for (const std::uint64_t n : {t.filter, t.double_double, t.exact, t.degenerate, t.not_finite}) out.add(n);
+}
+
+void add(Answers& out, const LocationCounts& n) {
+    for (const std::uint64_t x : {n.interior, n.face, n.edge, n.vertex, n.outside}) out.add(x);
+    add(out, n.tests);
+}
+
+void add(Answers& out, const SampleCounts& n) {
+    add(out, n.locations);
+    add(out, n.values);
+    for (const std::uint64_t x : {n.snapped, n.extrapolated, n.without_value}) out.add(x);
+    out.add(n.farthest);
+}
+
+void add(Answers& out, const check::Report& r) {
+    out.add(static_cast<int>(r.certificate.verdict()));
+    for (const check::Finding& f : r.findings) {
+        out.add(static_cast<int>(f.problem));
+        out.add(f.count);
+        for (const check::Place& p : f.places) {
+            for (const Mesh::Index c : p.cells) out.add(c);
+            for (const Mesh::Index n : p.nodes) out.add(n);
+            out.add(std::string_view(p.detail));
+        }
+    }
+    for (const std::uint64_t n : {r.positive, r.negative, r.degenerate, r.parts}) out.add(n);
+    out.add(r.volume.cells);
+    out.add(r.volume.boundary);
+    out.add(r.volume.equal);
+    for (const auto* m : {&r.measures.volume, &r.measures.condition, &r.measures.radius_edge, &r.measures.aspect,
+                          &r.measures.min_angle, &r.measures.max_angle}) {
+        out.add_all(*m);
+        const check::Distribution d = check::distribution(*m);
+        for (const double x : {d.least, d.median, d.most}) out.add(x);
+    }
+    for (const check::Contact& c : r.contacts) {
+        out.add(c.dimension);
+        out.add(c.witness.exact);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(r.dimension); ++k) {
+            out.add(c.witness.point[k]);
+            out.add(std::string_view(c.witness.fraction[k]));
+        }
+    }
+    if (r.delaunay) {
+        for (const std::uint64_t n : {r.delaunay->facets, r.delaunay->violations, r.delaunay->cospherical}) out.add(n);
+        out.add(r.delaunay->worst_depth);
+    }
+}
+
+TEST(EveryEnvironment, Check) {
+    for (const Subject& s : subjects()) {
+        for (const int threads : {1, 2}) {
+            expect_same_everywhere("check of " + s.name, [&](Answers& out) {
+                check::Options options;
+                options.threads = threads;
+                options.delaunay = true;
+                check::Report report = check::run(s.mesh, options);
+                add(out, report);
+                report.seconds = 0;
+                report.threads = 1;
+                out.add(std::string_view(report::check_json(report, "mesh", {})));
+                out.add(std::string_view(report::terminal_check(report, s.mesh, "mesh", {})));
+                out.add(std::string_view(report::check_html(report, s.mesh, "mesh")));
+            });
+        }
+    }
+    const std::vector<Subject> all = subjects();
+    EXPECT_TRUE(check::run(all[0].mesh).certified()) << all[0].name;
+    EXPECT_FALSE(check::run(all[1].mesh).certified()) << all[1].name;
+}
+
+TEST(EveryEnvironment, Locate) {
+    for (const Subject& s : subjects()) {
+        const check::Certificate certificate = check::run(s.mesh).certificate;
+        const std::vector<double> points = points_around(s, 20000);
+        const auto d = static_cast<std::size_t>(s.mesh.dimension);
+        for (const int threads : {1, 2}) {
+            expect_same_everywhere("locate in " + s.name, [&](Answers& out) {
+                const auto locator = Locator::build(s.mesh, certificate);
+                std::vector<Mesh::Index> cells(points.size() / d);
+                std::vector<Feature> features(cells.size());
+                LocationCounts counts, of_all;
+                out.add(locator->locate(points, cells, features, &counts, threads).has_value());
+                out.add_all(cells);
+                for (const Feature f : features) out.add(static_cast<int>(f));
+                add(out, counts);
+                const auto all = locator->locate_all(std::span(points).first(200 * d), &of_all, threads);
+                out.add_all(all->cells);
+                add(out, of_all);
+                for (std::size_t i = 0; i < 40; ++i) {
+                    const Location one = *locator->locate(&points[d * i]), hinted = *locator->locate(&points[d * i], 3);
+                    out.add(one.cell);
+                    out.add(hinted.cell);
+                    const Nearest near = *locator->nearest(&points[d * i], HUGE_VAL);
+                    out.add(near.cell);
+                    out.add(near.distance);
+                    for (const Mesh::Index node : near.nodes) out.add(node);
+                }
+            });
+        }
+    }
+}
+
+std::vector<FieldChoice> fields_of(const Mesh& mesh) {
+    return {{&mesh.point_fields[0], false}, {&mesh.point_fields[1], false}, {&mesh.cell_fields[0], true}};
+}
+
+void add(Answers& out, const Samples& s) {
+    out.add_all(s.cells);
+    for (const Feature f : s.features) out.add(static_cast<int>(f));
+    for (const double x : s.values) out.add(x);
+    for (const double x : s.distances) out.add(x);
+}
+
+TEST(EveryEnvironment, SampleAndResample) {
+    for (const Subject& s : subjects()) {
+        const std::vector<double> points = points_around(s, 8500);
+        const double low = -3 * s.scale, high = 61 * s.scale, step = 16 * s.scale;
+        for (const Rounding rounding : {Rounding::correct, Rounding::plain}) {
+            for (const Outside outside : {Outside::nan, Outside::nearest, Outside::extrapolate}) {
+                expect_same_everywhere("samples of " + s.name, [&](Answers& out) {
+                    SampleOptions options;
+                    options.rounding = rounding;
+                    options.outside.kind = outside;
+                    options.threads = 2;
+                    const auto locator = Locator::build(s.mesh);
+                    const auto sampler = Sampler::build(*locator, fields_of(s.mesh));
+                    Samples samples, again;
+                    SampleCounts counts;
+                    const std::size_t some = outside == Outside::nan ? points.size() : 60;
+                    out.add(sampler->sample(std::span(points).first(some), options, samples, counts).has_value());
+                    add(out, samples);
+                    out.add(sampler
+                                ->evaluate(std::span(points).first(some), samples.cells, samples.features, options,
+                                           again, counts)
+                                .has_value());
+                    add(out, again);
+                    const auto over = grid_over(s.mesh.dimension, {5, 4, 4}, {low, low, low}, {high, high, high});
+                    const auto spaced =
+                        grid_spaced(s.mesh.dimension, {step, step, step}, {low, low, low}, {high, high, high});
+                    for (const auto& grid : {over, spaced}) {
+                        out.add(grid.has_value());
+                        if (!grid) continue;
+                        for (std::int64_t i = 0; i < grid->counts[0]; ++i) out.add(grid->coordinate(0, i));
+                        const auto sink = [&](const GridBlock& block) -> Status {
+                            out.add_all(block.cells);
+                            for (const double x : block.values) out.add(x);
+                            for (const double x : block.distances) out.add(x);
+                            return Done{};
+                        };
+                        out.add(resample(*sampler, *grid, options, sink, counts).has_value());
+                    }
+                    const Bounds3 bounds = bounds_of_cells(s.mesh);
+                    for (const double x : bounds.low) out.add(x);
+                    for (const double x : bounds.high) out.add(x);
+                    add(out, counts);
+                });
+            }
+        }
+    }
+}
+
+/// A folder for one test, and the bytes of its files.
+class Folder {
+public:
+    Folder() : path_(std::filesystem::temp_directory_path() / ("barycert-environment-" + std::to_string(::getpid()))) {
+        std::filesystem::create_directories(path_);
+    }
+    ~Folder() { std::filesystem::remove_all(path_); }
+    std::string path(const std::string& name) const { return (path_ / name).string(); }
+    void put(const std::string& name, const std::string& text) const {
+        std::ofstream(path(name), std::ios::binary) << text;
+    }
+    std::string bytes(const std::string& name) const {
+        std::ifstream in(path(name), std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+
+private:
+    std::filesystem::path path_;
+};
+
+void add(Answers& out, const Mesh& mesh) {
+    out.add_all(mesh.points);
+    out.add_all(mesh.cells);
+    for (const auto* fields : {&mesh.point_fields, &mesh.cell_fields}) {
+        for (const Field& f : *fields) out.add_all(f.data);
+    }
+}
+
+TEST(EveryEnvironment, Files) {
+    const Folder folder;
+    for (const Subject& s : subjects()) {
+        const std::vector<double> points = points_around(s, 300);
+        const auto d = static_cast<std::size_t>(s.mesh.dimension);
+        std::string csv = d == 2 ? "x,y\n" : "x,y,z\n";
+        for (std::size_t i = 0; i < points.size(); ++i) csv += shortest(points[i]) + ((i + 1) % d == 0 ? '\n' : ',');
+        folder.put("points.csv", csv);
+        expect_same_everywhere("files of " + s.name, [&](Answers& out) {
+            out.add(write_tetgen(s.mesh, folder.path("mesh")).has_value());
+            out.add(std::string_view(folder.bytes("mesh.node")));
+            out.add(std::string_view(folder.bytes("mesh.ele")));
+            add(out, *read_tetgen(folder.path("mesh.node")));
+            for (const char* const name : {"points.csv", "mesh.node"}) {
+                std::vector<double> read;
+                const auto source = points::open_source(folder.path(name), s.mesh.dimension);
+                out.add((*source)->read(1000, read).has_value());
+                out.add_all(read);
+            }
+            const std::vector<Mesh::Index> cells(points.size() / d, 0);
+            const std::vector<Feature> features(cells.size(), Feature::interior);
+            const points::RowFormat format{
+                s.mesh.dimension, d == 2 ? std::vector<std::string>{"a", "b"} : std::vector<std::string>{"a", "b", "c"},
+                false};
+            for (const char* const name : {"rows.csv", "rows.npy"}) {
+                const auto sink = points::open_sink(folder.path(name), format);
+                out.add((*sink)->write({s.mesh.dimension, points, cells, features, points, {}}).has_value());
+                out.add((*sink)->commit().has_value());
+                out.add(std::string_view(folder.bytes(name)));
+            }
+            out.add(mesh_fingerprint(s.mesh));
+            VtiGrid grid;
+            grid.origin = {-unit, 0.1, 3 * unit};
+            grid.spacing = {unit, 0x1p-1024, 0.3};
+            const auto vti = VtiWriter::open(folder.path("grid.vti"), grid, {{"a", 1, VtiType::float64}});
+            out.add(vti.has_value());
+            if (vti) {
+                const double value[1] = {unit};
+                out.add((*vti)->write(0, std::as_bytes(std::span(value))).has_value());
+                out.add((*vti)->commit().has_value());
+                out.add(std::string_view(folder.bytes("grid.vti")));
+            }
+#ifdef BARYCERT_WITH_VTK
+            for (const char* const name : {"mesh.vtu", "mesh.vtk"}) {
+                out.add(write_vtk(s.mesh, folder.path(name)).has_value());
+                out.add(std::string_view(folder.bytes(name)));
+                add(out, *read_vtk(folder.path(name)));
+            }
+#endif
+        });
+    }
+}
+
+// float32 in, as subnormal doubles never are but subnormal floats are: the conversion itself is arithmetic.
+TEST(EveryEnvironment, Float32) {
+    const Folder folder;
+    std::string npy("\x93NUMPY\x01\x00", 8);
+    std::string head = "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }";
+    head.resize(117, ' ');
+    head += '\n';
+    npy += static_cast<char>(head.size());
+    npy += '\0';
+    npy += head;
+    const float numbers[6] = {0x1p-149F, -0x3p-140F, 1.5F, 0x1p-126F, 0.1F, -0.0F};
+    npy.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
+    folder.put("floats.npy", npy);
+    expect_same_everywhere("float32", [&](Answers& out) {
+        std::vector<double> read;
+        const auto source = points::open_source(folder.path("floats.npy"), 3);
+        out.add(source.has_value());
+        if (source) out.add((*source)->read(10, read).has_value());
+        out.add_all(read);
+    });
+}
+
+TEST(EveryEnvironment, Pictures) {
+    const Folder folder;
+    std::vector<double> values;
+    for (int i = -20; i < 28; ++i) values.push_back(i * unit);
+    expect_same_everywhere("picture", [&](Answers& out) {
+        report::Slice slice;
+        slice.width = 8;
+        slice.height = 6;
+        slice.values = values;
+        report::SliceCounts counts;
+        out.add(report::write_png(folder.path("slice.png"), slice, &counts).has_value());
+        out.add(std::string_view(folder.bytes("slice.png")));
+        out.add(counts.low);
+        out.add(counts.high);
+    });
+}
+
+TEST(EveryEnvironment, Audit) {
+    audit::MeshSource meshes;
+    const Subject tiny = subjects()[6], plain = subjects()[10];
+    meshes.add("tiny", tiny.mesh);
+    meshes.add("plain", plain.mesh);
+    const std::vector<Kernel> kernels = kernels_matching("*");
+    const Folder folder;
+    expect_same_everywhere("audit", [&](Answers& out) {
+        audit::Options options;
+        // Kernels in doubles answer by what the processor has; the library's environment is what they are asked in.
+        options.kernels = kernels;
+        options.families = audit::families_matching("*");
+        options.count = 40;
+        options.threads = 2;
+        auto report = audit::run(options, meshes);
+        out.add(report.has_value());
+        if (!report) return;
+        report->seconds = 0;
+        for (audit::KernelResult& k : report->kernels) k.ns = 0;
+        out.add(std::string_view(report::json_report(*report)));
+        out.add(std::string_view(report::terminal_report(*report, {})));
+        out.add(std::string_view(report::condition_plot(*report)));
+        folder.put("witnesses.json", audit::witness_file(*report));
+        const auto witnesses = audit::read_witnesses(folder.path("witnesses.json"));
+        out.add(witnesses.has_value());
+        for (std::size_t i = 0; i < witnesses->size(); i += 7) {
+            const audit::Replay again = audit::replay((*witnesses)[i], kernels);
+            out.add(std::string_view(again.not_reproduced));
+            out.add(std::string_view(report::terminal_witness(again, {})));
+            out.add(exact::partition_residual(again.exact.weights));
+        }
+        for (std::uint64_t i = 0; i < 20; ++i) {
+            const Case c =
+                audit::make_case(options.families[i % options.families.size()], Simplex::triangle, 3, i, meshes);
+            for (const double x : c.vertices) out.add(x);
+        }
+    });
+}
+
+// What a callback leaves behind ends with it.
+TEST(EveryEnvironment, CallbacksThatChangeIt) {
+    const Subject s = subjects()[6];
+    const auto locator = Locator::build(s.mesh);
+    const auto sampler = Sampler::build(*locator, fields_of(s.mesh));
+    const auto grid = grid_over(3, {9, 7, 9}, {0, 0, 0}, {61 * s.scale, 61 * s.scale, 61 * s.scale});
+    std::vector<double> right, got;
+    Answers checked, checked_right;
+    std::size_t calls = 0;
+    for (const bool rude : {false, true}) {
+        const auto meddle = [&] {
+            ++calls;
+            if (!rude) return;
+            std::fesetround(FE_DOWNWARD);
+#ifdef __SSE2__
+            _mm_setcsr(_mm_getcsr() | 0x8040);
+#endif
+        };
+        SampleCounts counts;
+        SampleOptions options;
+        options.threads = 1;
+        options.rounding = Rounding::plain;
+        const auto sink = [&](const GridBlock& block) -> Status {
+            (rude ? got : right).insert((rude ? got : right).end(), block.values.begin(), block.values.end());
+            meddle();
+            return Done{};
+        };
+        ASSERT_TRUE(resample(*sampler, *grid, options, sink, counts));
+        EXPECT_TRUE(rounds_correctly());
+        check::Options how;
+        how.threads = 1;
+        how.progress = [&](const char*) { meddle(); };
+        add(rude ? checked : checked_right, check::run(s.mesh, how));
+        EXPECT_TRUE(rounds_correctly());
+    }
+    EXPECT_GT(calls, 4U);
+    ASSERT_EQ(got.size(), right.size());
+    EXPECT_EQ(std::memcmp(got.data(), right.data(), got.size() * sizeof(double)), 0);
+    EXPECT_EQ(checked.words(), checked_right.words());
+}
+
+}  // namespace
+}  // namespace barycert::testing
