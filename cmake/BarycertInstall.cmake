@@ -11,7 +11,7 @@ set(internal_headers core/*-inl core/blocks core/environment_error core/exact_we
   check/box_tree check/boundary check/cells check/disjoint_sets check/exact_volumes check/facet_contact check/facets check/files
   check/findings check/local_delaunay check/nodes check/overlap check/pairs check/plc_facet check/shape check/signs check/witness audit/witness_json report/check_conditions report/environment_json report/terminal_text vti/xml_name report/png_rows report/colour_bar
   locate/batch locate/bins locate/buffer locate/cell_index locate/cell_signs locate/cell_tree locate/finder locate/locator_data
-  locate/node_cells locate/open_facets locate/quantizer locate/*-inl locate/radix_sort locate/sorted_points locate/walk_lanes
+  locate/near* locate/node_cells locate/open_facets locate/quantizer locate/*-inl locate/radix_sort locate/sorted_points locate/walk_lanes
   sample/chunk_sampler sample/*-inl sample/fill_lanes sample/map_format sample/outside sample/raster_lanes sample/sampler_data sample/slab_sampler sample/value_lanes
   points/csv_* points/formats points/line_reader points/npy_*
   vtk/blocks vtk/byte_stream vtk/grid_to_mesh vtk/legacy_text vtk/mesh_to_grid vtk/messages vtk/numbers vtk/raw_grid vtk/vtu_output vtk/xml_arrays vtk/xml_tree)

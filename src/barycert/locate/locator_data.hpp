@@ -9,6 +9,7 @@
 #include "barycert/locate/cell_index.hpp"
 #include "barycert/locate/cell_tree.hpp"
 #include "barycert/locate/locator.hpp"
+#include "barycert/locate/nearest_tree.hpp"
 #include "barycert/locate/node_cells.hpp"
 #include "barycert/locate/sorted_points.hpp"
 
@@ -72,6 +73,10 @@ struct LocatorData {
     const CellTree& tree() const {
         return tree_.get([&] { return CellTree(index); });
     }
+    /// Precondition: there is a cell.
+    const NearestTree& nearest_tree() const {
+        return nearest_tree_.get([&] { return NearestTree(index); });
+    }
     const NodeCells& node_cells() const {
         return node_cells_.get([&] { return NodeCells(index); });
     }
@@ -86,12 +91,14 @@ struct LocatorData {
     }
     std::size_t bytes() const {
         return index.bytes() + (tree_.made() ? tree_.made()->bytes() : 0) +
+               (nearest_tree_.made() ? nearest_tree_.made()->bytes() : 0) +
                (node_cells_.made() ? node_cells_.made()->bytes() : 0) +
                (places_.made() ? places_.made()->size() * sizeof(Place) : 0);
     }
 
 private:
     Lazy<CellTree> tree_;
+    Lazy<NearestTree> nearest_tree_;
     Lazy<NodeCells> node_cells_;
     Lazy<std::vector<Place>> places_;
 };

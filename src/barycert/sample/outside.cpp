@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "barycert/core/quadratic.hpp"
+#include "barycert/locate/near_feature.hpp"
 #include "barycert/sample/chunk_sampler.hpp"
 
 namespace barycert::detail {
@@ -39,6 +41,16 @@ struct Piece {
     }
 };
 
+NearFeature feature_of(const Mesh& mesh, const std::vector<Mesh::Index>& nodes) {
+    NearFeature f{.count = static_cast<int>(nodes.size())};
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        f.nodes[i] = nodes[i];
+        std::copy_n(&mesh.points[d * static_cast<std::size_t>(nodes[i])], d, f.at[i].begin());
+    }
+    return f;
+}
+
 Piece cell_piece(const SamplerData& data, std::size_t cell) {
     const Mesh& mesh = *data.located().mesh;
     const auto begin = mesh.cells.begin() + static_cast<std::ptrdiff_t>(mesh.corners() * cell);
@@ -63,6 +75,25 @@ double linear(const SamplerData& data, Rounding rounding, const Piece& piece, co
     return value;
 }
 
+/// All components in plain double, of a point projected: with weights that are not negative, and rounded once each,
+/// what is beyond the nodal values is rounding alone.
+void plain_projected(const SamplerData& data, const NearFeature& feature, const std::array<double, 3>& weights,
+                     double* out) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < data.point_components; ++c) {
+        double value = 0, low = infinity, high = -infinity;
+        bool finite = true;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(feature.count); ++i) {
+            const double f = nodal_value(data, feature.nodes[i], c);
+            finite &= std::isfinite(f);
+            value += weights[i] * f;
+            low = std::min(low, f);
+            high = std::max(high, f);
+        }
+        out[c] = finite ? std::clamp(value, low, high) : std::numeric_limits<double>::quiet_NaN();
+    }
+}
+
 /// All components at once, in the cell.
 void quadratic(const SamplerData& data, Rounding rounding, std::size_t cell, const double* point, double* out,
                Tiers& tiers) {
@@ -76,14 +107,45 @@ void quadratic(const SamplerData& data, Rounding rounding, std::size_t cell, con
             .has_value());
 }
 
-/// The orthogonal projection of the point to what the piece spans, rounded.
-std::array<double, 3> projection(const Piece& piece, const double* point) {
-    std::array<double, 3> at{};
-    const Result<Weights> w = barycentric_weights(piece.simplex, piece.vertices.data(), point);
-    for (std::size_t k = 0; w && k < 3; ++k) {
-        for (std::size_t i = 0; i < piece.corners.size(); ++i) at[k] += w->weights[i] * piece.vertices[3 * i + k];
+/// The same at the point of the closed cell that has the rounded weights of the projection, but for the largest one,
+/// which is 1 less the others, exactly: these are at most 1/2, and 2/3 together. A value depends on weights alone, so
+/// it is that of the point with these others as coordinates in the cell with the unit vectors as corners, the corner of
+/// the largest weight at the origin.
+void quadratic_projected(const SamplerData& data, Rounding rounding, std::size_t cell, const NearFeature& feature,
+                         const std::array<double, 3>& weights, double* out, Tiers& tiers) {
+    const Mesh& mesh = *data.located().mesh;
+    const std::size_t d = static_cast<std::size_t>(mesh.dimension), corners = d + 1;
+    const auto mids = static_cast<std::size_t>(mid_node_count(data.index().simplex));
+    std::vector<Mesh::Index> nodes(&mesh.cells[corners * cell], &mesh.cells[corners * cell] + corners);
+    nodes.insert(nodes.end(), &mesh.mid_nodes[mids * cell], &mesh.mid_nodes[mids * cell] + mids);
+    std::array<double, 4> of_corner{};
+    for (std::size_t i = 0; i < corners; ++i) {
+        for (std::size_t j = 0; j < static_cast<std::size_t>(feature.count); ++j) {
+            if (feature.nodes[j] == nodes[i]) of_corner[i] = weights[j];
+        }
     }
-    return at;
+    const auto origin =
+        static_cast<std::size_t>(std::max_element(of_corner.begin(), of_corner.end()) - of_corner.begin());
+    std::array<double, 3> at{};
+    std::vector<double> places(d * nodes.size()), values;
+    for (std::size_t i = 0, k = 0; i < corners; ++i) {
+        if (i == origin) continue;
+        places[d * i + k] = 1;
+        at[k++] = of_corner[i];
+    }
+    for (const Mesh::Index node : nodes) {
+        const auto first = data.values.begin() + static_cast<std::ptrdiff_t>(data.point_components) * node;
+        values.insert(values.end(), first, first + static_cast<std::ptrdiff_t>(data.point_components));
+    }
+    std::array<std::int32_t, 10> local{};
+    std::iota(local.begin(), local.end(), 0);
+    const std::int32_t only = 0;
+    const MeshQueries query{data.index().simplex, places, std::span(local).first(corners), std::span(&only, 1),
+                            std::span(at).first(d)};
+    const NodalValues<double> nodal{values, static_cast<int>(data.point_components)};
+    static_cast<void>(interpolate_quadratic(query, std::span(local).subspan(corners, mids), nodal,
+                                            std::span(out, data.point_components), &tiers, rounding)
+                          .has_value());
 }
 
 }  // namespace
@@ -119,9 +181,13 @@ std::optional<double> value_outside(const SamplerData& data, const SampleOptions
     } else if (data.point_components != 0) {
         const Piece piece = snap ? Piece(mesh, nodes.size() == 3 ? Simplex::triangle3d : Simplex::segment, nodes)
                                  : cell_piece(data, cell);
-        if (data.quadratic) {
-            if (snap) at = projection(piece, at.data());
+        const NearFeature feature = snap ? feature_of(mesh, nodes) : NearFeature{};
+        if (data.quadratic && snap) {
+            quadratic_projected(data, options.rounding, cell, feature, weights_of(at, feature), values, used);
+        } else if (data.quadratic) {
             quadratic(data, options.rounding, cell, at.data(), values, used);
+        } else if (snap && options.rounding == Rounding::plain) {
+            plain_projected(data, feature, weights_of(at, feature), values);
         } else {
             for (std::size_t c = 0; c < data.point_components; ++c)
                 values[c] = linear(data, options.rounding, piece, at.data(), c, used);

@@ -1,0 +1,47 @@
+/// Internal: the vertex, edge or face of a cell that is nearest to a point, and exact distances to such.
+///
+/// Everything here is exact for all finite doubles: signs come from weight_signs, comparisons and distances from
+/// integers. Neither depends on the floating-point environment.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "barycert/mesh/mesh.hpp"
+
+namespace barycert::detail {
+
+using Point3 = std::array<double, 3>;  ///< in 2D z = 0
+
+/// What the nearest point lies in the relative interior of: an open face of a cell. The nearest point is the orthogonal
+/// projection to what its corners span.
+struct NearFeature {
+    int count = 0;                                 ///< corners: 1 to 3
+    std::array<Mesh::Index, 3> nodes{-1, -1, -1};  ///< ascending; none if the point itself is in the cell
+    std::array<Point3, 3> at{};
+};
+
+/// The corners of a cell by ascending node.
+struct NearCell {
+    int count = 0;  ///< d + 1
+    std::array<Mesh::Index, 4> nodes{};
+    std::array<Point3, 4> at{};
+
+    /// The feature with the corners of `mask`, bit i for corner i.
+    NearFeature feature(unsigned mask) const;
+};
+
+/// Finds the feature of the closed cell on which its point nearest to p lies; of a point inside, the point itself.
+/// `guess` is a feature to try first, a mask. Returns false if the cell is degenerate.
+bool nearest_feature(const NearCell& cell, const Point3& p, unsigned guess, NearFeature& out);
+
+/// -1, 0, 1 as p is nearer to the projection on f than to that on g, as near, or farther.
+int compare_distances(const Point3& p, const NearFeature& f, const NearFeature& g);
+
+/// Of p to its projection, rounded to nearest; infinite where that is.
+double distance_to(const Point3& p, const NearFeature& f);
+
+/// The weights of the projection of p on f, each correctly rounded.
+std::array<double, 3> weights_of(const Point3& p, const NearFeature& f);
+
+}  // namespace barycert::detail
