@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "barycert/core/begun_files.hpp"
-#include "barycert/core/text.hpp"
 #include "barycert/core/exact_environment.hpp"
+#include "barycert/core/text.hpp"
 #include "command.hpp"
 #include "files.hpp"
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "barycert/core/input_file.hpp"
 #include "barycert/core/text.hpp"
 #include "barycert/mesh/mapped_file.hpp"
 #include "barycert/points/npy_header.hpp"
@@ -49,6 +50,7 @@ private:
 
 Result<Field> read_text(Field field, const std::string& path, std::string_view bytes) {
     if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+    const char* const file_end = bytes.data() + bytes.size();
     std::size_t line_number = 0, components = 0;
     while (!bytes.empty()) {
         const std::size_t end = std::min(bytes.find('\n'), bytes.size());
@@ -67,6 +69,7 @@ Result<Field> read_text(Field field, const std::string& path, std::string_view b
                              .expected = "numbers",
                              .found = quoted(word),
                              .remedy = "one row of numbers for each node or cell; put # before lines that are none"};
+            if (word.data() + word.size() == file_end) return unended_number(path, line_number);
             field.data.push_back(*x);
         } while (!words.at_end() || words.separated());
         const std::size_t found = field.data.size() - before;

@@ -15,9 +15,9 @@
 #include <sstream>
 
 #include "barycert/core/begun_files.hpp"
+#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/named_file.hpp"
 #include "barycert/core/text.hpp"
-#include "barycert/core/exact_environment.hpp"
 #include "barycert/mesh/tetgen_io.hpp"
 #include "barycert/plc/plc.hpp"
 #include "child.hpp"

@@ -116,6 +116,17 @@ TEST(Conditions, p5) {
     expect_only(bad, set_of(Problem::wrong_face));
 }
 
+// Triangles in the plane have no faces, whatever stands there.
+TEST(Conditions, p5_in_the_plane) {
+    Mesh mesh = box(2, {2, 2, 0});
+    EXPECT_TRUE(quick(mesh).certified());
+    mesh.faces = {mesh.cells[0], mesh.cells[1], mesh.cells[2]};
+    expect_only(mesh, set_of(Problem::wrong_face));
+    EXPECT_STREQ(quick(mesh).find(Problem::wrong_face)->places[0].detail, "a mesh of triangles has no faces");
+    mesh.faces.pop_back();
+    expect_only(mesh, set_of(Problem::wrong_face));
+}
+
 // The plane has the same conditions.
 TEST(Conditions, plane) {
     Mesh mesh;

@@ -55,10 +55,11 @@ protected:
 TEST_F(Fields, of_text_files) {
     const std::string expected = ",v.0,v.1 ,2.25,-1";
     for (const std::string text :
-         {"0 -1\n1 -1\n2 -1\n6 -1\n100 -1\n", "# velocity\n\n0,-1\n1,-1 # here\r\n 2;-1\n6\t-1\n100 , -1",
+         {"0 -1\n1 -1\n2 -1\n6 -1\n100 -1\n", "# velocity\n\n0,-1\n1,-1 # here\r\n 2;-1\n6\t-1\n100 , -1\n",
           "0x0p0 -1e0\n1. -1.0\n+2 -1\n6 -1\n1e2 -1\n"}) {
         EXPECT_EQ(row({"--field", "v=" + scratch.put("v.txt", text), "--fields", "v"}), expected) << text;
     }
+    EXPECT_EQ(row({"--field", "c=" + scratch.put("c.txt", "5\n6 # here"), "--fields", "c"}), ",c ,5") << "an end";
     EXPECT_EQ(row({"--field", "c=" + scratch.put("c.txt", "5\n6\n"), "--fields", "c"}), ",c ,5")
         << "two rows: of cells";
     EXPECT_EQ(row({"--cell-field", "c=" + scratch.path("c.txt"), "--fields", "c"}), ",c ,5");
@@ -107,6 +108,8 @@ TEST_F(Fields, that_cannot_be_are_refused) {
     bad_text("0\n1\n,2\n3\n4\n", ":3: a row of field \"t\": expected numbers, found ''");
     bad_text("0\n1\n2 2\n3\n4\n", ":3: a row of field \"t\": expected 1 numbers, as in the first row, found 2");
     bad_text("0\n1\n2\n", ": field \"t\": expected 5 rows, one for each node, or 2, one for each cell, found 3 rows");
+    bad_text("0\n1\n2\n3\n0.2", ":5: the last row has no line end, so the file may be cut short: expected a line end");
+    bad_text("0 0\n1 1\n2 2\n3 3\n4 0.2", ":5: the last row has no line end");
     bad_text("", ": field \"t\": expected 5 rows, one for each node, or 2, one for each cell, found 0 rows");
     refused({"--cell-field", "t=" + v}, "expected 2 rows, one for each cell, found 5 rows");
     refused({"--point-field", "t=" + scratch.put("c", "1\n2\n")}, "expected 5 rows, one for each node, found 2 rows");

@@ -1,5 +1,7 @@
 // Witness files that are not: refused with their name, and with what is wrong where.
 
+#include <sys/stat.h>
+
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -105,6 +107,32 @@ TEST(witness_input, no_file_or_a_folder) {
         EXPECT_EQ(r.out, "");
         EXPECT_EQ(r.err.rfind("error: " + path + ": cannot read the witnesses", 0), 0U) << r.err;
     }
+}
+
+TEST(witness_input, a_pipe_without_a_writer_is_told_and_not_waited_for) {
+    const Scratch scratch;
+    const std::string path = scratch.path("w.json");
+    ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+    const Ended r = run({"replay", path});
+    EXPECT_EQ(r.code, 2);
+    EXPECT_EQ(r.signal, 0);
+    EXPECT_EQ(r.out, "");
+    EXPECT_EQ(r.err.rfind("error: " + path +
+                              ": cannot read the witnesses: expected data, found nothing: a pipe that nobody writes to",
+                          0),
+              0U)
+        << r.err;
+}
+
+TEST(witness_input, a_pipe_with_a_writer_is_read_to_its_end) {
+    const Scratch scratch;
+    const std::string path = scratch.put("w.json", file_of(good));
+    const std::string expected = run({"replay", path}).out;
+    EXPECT_FALSE(expected.empty());
+    // As <(...) makes one: /dev/fd/N.
+    const Ended r = run_shell("{ sleep 0.2; cat " + path + "; } | barycert replay /dev/stdin");
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(r.out, expected);
 }
 
 }  // namespace

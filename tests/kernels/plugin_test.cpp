@@ -1,8 +1,15 @@
 // Kernels from shared libraries: what loads, and what each refusal says.
 #include <dlfcn.h>
+#include <elf.h>
 #include <gtest/gtest.h>
+#include <link.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "barycert/kernels/kernel.hpp"
@@ -60,6 +67,113 @@ TEST(Plugin, RefusalsSayWhatIsWrong) {
     expect_refusal(plugin("example_kernel_wrong_simplex"), "found 'pentagon'");
     expect_refusal(plugin("example_kernel_wrong_name"), "found 'two words'");
     expect_refusal(plugin("example_kernel_taken_name"), "found tetrahedron.signed-volume");
+}
+
+enum class Ending { loaded, refused, killed };
+
+/// Loads the file in a process of its own. A refusal names the file, and says `clause`.
+Ending load_apart(const std::string& path, const std::string& clause) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::alarm(60);
+        const Result<Kernel> kernel = load_kernel_library(path);
+        const bool told = !kernel && kernel.error().file == path &&
+                          kernel.error().message().find(clause) != std::string::npos && !kernel.error().remedy.empty();
+        ::_exit(kernel ? 0 : told ? 1 : 2);
+    }
+    int status = 0;
+    EXPECT_EQ(::waitpid(child, &status, 0), child);
+    if (!WIFEXITED(status)) return Ending::killed;
+    EXPECT_LT(WEXITSTATUS(status), 2) << "the refusal does not tell what it should";
+    return WEXITSTATUS(status) == 0 ? Ending::loaded : Ending::refused;
+}
+
+class DamagedPlugin : public ::testing::Test {
+protected:
+    void SetUp() override {
+        std::ifstream in(plugin("example_kernel"), std::ios::binary);
+        whole_ = {std::istreambuf_iterator<char>(in), {}};
+        ASSERT_GT(whole_.size(), sizeof(ElfW(Ehdr)));
+        folder_ = std::filesystem::temp_directory_path() / ("barycert-plugin-" + std::to_string(::getpid()));
+        std::filesystem::create_directories(folder_);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    std::string path(const char* name) const { return (folder_ / name).string(); }
+    std::string put(const std::string& bytes) const {
+        std::ofstream(path("kernel.so"), std::ios::binary) << bytes;
+        return path("kernel.so");
+    }
+    ElfW(Ehdr) header() const {
+        ElfW(Ehdr) header;
+        std::memcpy(&header, whole_.data(), sizeof header);
+        return header;
+    }
+
+    std::string whole_;
+    std::filesystem::path folder_;
+};
+
+// What dlopen maps beyond the end of a file ends the process when it is touched.
+TEST_F(DamagedPlugin, CutAnywhereIsRefused) {
+    EXPECT_EQ(load_apart(put(whole_), ""), Ending::loaded);
+    EXPECT_EQ(load_apart(put(""), "found an empty file"), Ending::refused);
+    for (std::size_t size = 1; size < whole_.size(); size += size < 600 ? 13 : 101) {
+        ASSERT_EQ(load_apart(put(whole_.substr(0, size)), "cut short"), Ending::refused) << size;
+    }
+    ASSERT_EQ(load_apart(put(whole_.substr(0, whole_.size() - 1)), "cut short"), Ending::refused);
+}
+
+// The same without a table of sections, as strippers leave it: what has to be mapped is enough to tell.
+TEST_F(DamagedPlugin, CutWithoutSectionsIsRefusedOrLoads) {
+    ElfW(Ehdr) bare = header();
+    bare.e_shoff = bare.e_shnum = bare.e_shstrndx = 0;
+    std::memcpy(whole_.data(), &bare, sizeof bare);
+    EXPECT_EQ(load_apart(put(whole_), ""), Ending::loaded);
+    std::size_t loaded = 0, refused = 0;
+    for (std::size_t size = 1; size < whole_.size(); size += size < 600 ? 13 : 101) {
+        const Ending ending = load_apart(put(whole_.substr(0, size)), "cut short");
+        ASSERT_NE(ending, Ending::killed) << size;
+        ASSERT_TRUE(ending == Ending::loaded || loaded == 0) << "a longer one is refused: " << size;
+        ++(ending == Ending::loaded ? loaded : refused);
+    }
+    EXPECT_GT(loaded, 0U);
+    EXPECT_GT(refused, 30U);
+}
+
+TEST_F(DamagedPlugin, HeadersThatLeadOutOfTheFileAreRefused) {
+    const auto with = [&](auto change) {
+        ElfW(Ehdr) changed = header();
+        change(changed);
+        std::string bytes = whole_;
+        std::memcpy(bytes.data(), &changed, sizeof changed);
+        return put(bytes);
+    };
+    using Header = ElfW(Ehdr);
+    const auto far = ~decltype(Header::e_phoff){0} - 15;
+    EXPECT_EQ(load_apart(with([&](Header& h) { h.e_phoff = far; }), "cut short"), Ending::refused);
+    EXPECT_EQ(load_apart(with([&](Header& h) { h.e_shoff = far; }), "cut short"), Ending::refused);
+    EXPECT_EQ(load_apart(with([&](Header& h) { h.e_phnum = 0xfffe; }), "cut short"), Ending::refused);
+    EXPECT_EQ(load_apart(with([&](Header& h) { h.e_phentsize = 7; }), "another size"), Ending::refused);
+    EXPECT_EQ(load_apart(with([&](Header& h) { h.e_ident[EI_CLASS] ^= 3; }), "another machine"), Ending::refused);
+    EXPECT_EQ(load_apart(with([&](Header& h) { h.e_ident[EI_DATA] ^= 3; }), "another machine"), Ending::refused);
+    EXPECT_EQ(load_apart(with([&](Header& h) { h.e_machine = EM_68K; }), "machine"), Ending::refused);
+    EXPECT_EQ(load_apart(with([&](Header& h) { h.e_type = ET_REL; }), "another kind"), Ending::refused);
+    // A part that would be mapped, and whose end wraps around.
+    std::string bytes = whole_;
+    ElfW(Phdr) part;
+    std::memcpy(&part, bytes.data() + header().e_phoff, sizeof part);
+    part.p_filesz = ~decltype(part.p_filesz){0};
+    std::memcpy(bytes.data() + header().e_phoff, &part, sizeof part);
+    EXPECT_EQ(load_apart(put(bytes), "cut short"), Ending::refused);
+}
+
+TEST_F(DamagedPlugin, WhatIsNoRegularFileIsRefused) {
+    EXPECT_EQ(load_apart(folder_.string(), "found a folder"), Ending::refused);
+    ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+    EXPECT_EQ(load_apart(path("pipe"), "found a pipe or device"), Ending::refused);
+    EXPECT_EQ(load_apart("/dev/zero", "found a pipe or device"), Ending::refused);
+    EXPECT_EQ(load_apart(put("INPUT(libm.so)\n"), "found another format"), Ending::refused);
 }
 
 TEST(Plugin, RefusedLibraryIsUnloaded) {

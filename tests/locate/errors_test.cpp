@@ -75,6 +75,75 @@ TEST(LocateErrors, InconsistentMeshes) {
     EXPECT_NE(refused([](Mesh& m) { m.point_fields.push_back({"f", 1, {1.0}}); }), "");
 }
 
+// What a check certifies is taken, and what is refused was not certified.
+TEST(LocateErrors, CertifiedMeshesAreTaken) {
+    const std::vector<std::pair<const char*, void (*)(Mesh&)>> spoils{
+        {"nothing", [](Mesh&) {}},
+        {"values that are not finite",
+         [](Mesh& m) {
+             m.point_fields.push_back({"f", 1, std::vector<double>(m.point_count(), nan)});
+         }},
+        {"a triangle as face",
+         [](Mesh& m) {
+             m.faces = {m.cells[0], m.cells[1], m.cells[2]};
+         }},
+        {"an edge as face",
+         [](Mesh& m) {
+             m.faces = {m.cells[0], m.cells[1]};
+         }},
+        {"a face of no node",
+         [](Mesh& m) {
+             m.faces = {m.cells[0], m.cells[1], -1};
+         }},
+        {"nodes at mid-edges of no face",
+         [](Mesh& m) {
+             m.face_mid_nodes = {0, 1, 2};
+         }},
+        {"markers of no face", [](Mesh& m) { m.face_markers = {1}; }},
+        {"too few nodes at mid-edges",
+         [](Mesh& m) {
+             m.mid_nodes = {0, 1};
+         }},
+        {"nodes at mid-edges in no order",
+         [](Mesh& m) { m.mid_nodes.assign(m.cell_count() * (m.dimension == 2 ? 3 : 6), 0); }},
+        {"a node at a mid-edge that is none",
+         [](Mesh& m) {
+             m.mid_edge_order = MidEdgeOrder::vtk;
+             m.mid_nodes.assign(m.cell_count() * (m.dimension == 2 ? 3 : 6), -1);
+         }},
+        {"too few markers", [](Mesh& m) { m.point_markers = {1}; }},
+        {"a short field",
+         [](Mesh& m) {
+             m.point_fields.push_back({"f", 1, {1.0}});
+         }},
+        {"a short field of cells",
+         [](Mesh& m) {
+             m.cell_fields.push_back({"f", 2, {1.0}});
+         }},
+        {"a field without components",
+         [](Mesh& m) {
+             m.cell_fields.push_back({"f", 0, {}});
+         }},
+        {"an index base of its own", [](Mesh& m) { m.index_base = 7; }},
+        {"neighbours that are too few", [](Mesh& m) { m.neighbours = {-1}; }},
+        {"a corner that is no node", [](Mesh& m) { m.cells[0] = -1; }},
+        {"a coordinate that is not finite", [](Mesh& m) { m.points[0] = nan; }},
+    };
+    int taken = 0;
+    for (const int d : {2, 3}) {
+        for (const auto& [what, spoil] : spoils) {
+            SCOPED_TRACE(std::string(what) + ", dimension " + std::to_string(d));
+            Mesh mesh = box(d, {2, 2, 2});
+            spoil(mesh);
+            const bool certified = quick(mesh).certified();
+            const auto locator = Locator::build(mesh, quick(mesh).certificate);
+            EXPECT_EQ(certified, locator.has_value()) << (locator ? "" : locator.error().message());
+            taken += certified ? 1 : 0;
+        }
+    }
+    EXPECT_EQ(taken, 9);  // nothing, values that are not finite, what belongs to no face; in space also the triangle
+}
+
 // Values of fields are nobody's business here.
 TEST(LocateErrors, FieldsMayHoldAnything) {
     Mesh mesh = box(3, {1, 1, 1});

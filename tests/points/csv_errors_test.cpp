@@ -110,9 +110,27 @@ TEST(CsvErrors, no_text) {
     const std::string long_line(std::size_t{1} << 20, ' ');
     expect_refused("1,2,3\n" + long_line + "\n", 3,
                    {2, "a line that is too long", "at most 1048576 bytes", "more", "text file"});
-    const Result<std::vector<double>> longest = read_bytes("p.csv", "1,2,3\n" + long_line.substr(1) + "\n4,5,6", 3);
+    const Result<std::vector<double>> longest = read_bytes("p.csv", "1,2,3\n" + long_line.substr(1) + "\n4,5,6\n", 3);
     ASSERT_TRUE(longest) << longest.error().message();
     EXPECT_EQ(longest->size(), 6U);
+}
+
+// "0.2" may be the beginning of "0.25".
+TEST(CsvErrors, numbers_that_the_end_of_the_file_may_have_cut) {
+    const Expected cut{2, "the last row has no line end, so the file may be cut short", "a line end",
+                       "the end of the file", "end the last line"};
+    for (const char* text :
+         {"1,2,3\n4,5,0.2", "1 2 3\n4 5 6", "x,y,z\n4,5,6.", "1;2;3\n4;5; 6", "z,y,x\n1,2,3", "name,x,y,z\na,1,2,3"}) {
+        SCOPED_TRACE(text);
+        expect_refused(text, 3, cut);
+    }
+    Expected first = cut;
+    first.line = 1;
+    expect_refused("1,2,3", 3, first);
+    expect_refused("1,2", 2, first);
+    // Other errors come first: there is more to mend than the end.
+    expect_refused("1,2,3\n4,5", 3, {2, "too few fields in a line", nullptr, "2", nullptr});
+    expect_refused("1,2,3\n4,5,1e", 3, {2, "bad coordinate z", nullptr, "'1e'", nullptr});
 }
 
 TEST(CsvErrors, an_error_stays) {

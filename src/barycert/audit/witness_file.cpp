@@ -1,11 +1,11 @@
 #include "barycert/audit/witness_file.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "barycert/audit/witness_json.hpp"
 #include "barycert/core/exact_environment.hpp"
+#include "barycert/core/input_file.hpp"
 #include "barycert/core/text.hpp"
 
 namespace barycert::audit {
@@ -131,12 +131,14 @@ std::string witness_file(const Report& report) {
 
 Result<std::vector<Witness>> read_witnesses(const std::string& path) {
     const ExactEnvironment environment;
-    std::ifstream in(path, std::ios::binary);
-    if (!in)
-        return Error{.what = "cannot read the witnesses",
-                     .file = path,
-                     .remedy = "make them with `barycert audit --witnesses FILE`"};
-    const Json all = Json::parse(in, nullptr, false);
+    const Result<std::string> text = read_file(path);
+    if (!text) {
+        Error error = text.error();
+        error.what = "cannot read the witnesses";
+        error.remedy += "; witnesses are made with `barycert audit --witnesses FILE`";
+        return error;
+    }
+    const Json all = Json::parse(*text, nullptr, false);
     if (all.is_discarded())
         return Error{.what = "not a witness file",
                      .file = path,

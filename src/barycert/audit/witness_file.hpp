@@ -14,7 +14,8 @@ inline constexpr int witness_schema = 1;
 /// {"schema": 1, "witnesses": [...]} of all kernels of a report, one witness a line of finding.
 std::string witness_file(const Report& report);
 
-/// Reads what witness_file() wrote, or the "witnesses" of an audit's JSON report.
+/// Reads what witness_file() wrote, or the "witnesses" of an audit's JSON report: from a regular file, or a pipe that
+/// is being written to. Errors: the file cannot be read, is not JSON or of another schema; a witness is malformed.
 Result<std::vector<Witness>> read_witnesses(const std::string& path);
 
 }  // namespace barycert::audit

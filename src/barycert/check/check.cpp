@@ -20,6 +20,7 @@
 #include "barycert/check/pairs.hpp"
 #include "barycert/check/witness.hpp"
 #include "barycert/core/exact_environment.hpp"
+#include "barycert/mesh/consistency.hpp"
 
 namespace barycert::check {
 namespace {
@@ -110,6 +111,10 @@ private:
         parts.run([&] { report.parts = count_parts(mesh_, cells.usable, facets.neighbours); });
         check_boundary_and_pairs(report, cells, facets, volumes);
         parts.wait();
+        // Last, as it says nothing of where cells lie: what is certified is accepted by all who ask for a whole mesh.
+        if (const char* fault = detail::inconsistency_of_extras(mesh_, detail::FieldValues::any); fault != nullptr) {
+            findings_.add(Problem::unfit_array, {.detail = fault});
+        }
         if (options_.delaunay) {
             stage("Delaunay");
             report.delaunay = check_delaunay(mesh_, facets.neighbours, measures.orientation);

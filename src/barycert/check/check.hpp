@@ -1,9 +1,9 @@
 /// Is a mesh really a partition? Proved in exact arithmetic, or the reasons why not.
 ///
 /// Enters: a Mesh of tetrahedra in 3-space or triangles in the plane, as read from a file or made in memory; its
-/// indices and coordinates may be anything. Only corners count: cells of second order are taken with straight sides.
-/// Leaves: a Report. What is said of it as exact (signs, volumes, counts, contacts, the certificate) is so for every
-/// finite double; shape measures are plain double. Nothing prints; only want of memory throws.
+/// indices and coordinates may be anything. Cells lie where their corners do: those of second order have straight
+/// sides. Leaves: a Report. What is said of it as exact (signs, volumes, counts, contacts, the certificate) is so for
+/// every finite double; shape measures are plain double. Nothing prints; only want of memory throws.
 ///
 /// Words. d is the dimension. A facet of a cell has all its corners but one, and two facets are the same if they have
 /// the same nodes, wherever these lie. A facet of exactly one cell is a boundary facet. Facets are neighbours over a
@@ -39,8 +39,9 @@
 /// common face.
 ///
 /// Conditions are necessary, too, up to the choice of cells in P4, so a simplicial complex is certified.
-/// Besides, P5: neighbours and faces that came with the mesh (.neigh, .face) are those of its cells. A certificate says
-/// that P1 to P5 hold.
+/// Besides, P5: neighbours and faces that came with the mesh (.neigh, .face) are those of its cells; a mesh of
+/// triangles has no faces; what belongs to nodes and cells (fields, markers, nodes at mid-edges) fits them. A
+/// certificate says that P1 to P5 hold, so Locator::build takes a certified mesh.
 ///
 /// Costs: time O(n log n) for n cells of bounded degree; a mesh without certificate is also searched for overlapping
 /// cells, which takes as long again, and longer where boxes of cells overlap each other much.

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "barycert/mesh/consistency.hpp"
+
 namespace barycert::check {
 namespace {
 
@@ -79,7 +81,11 @@ private:
 };
 
 void check_faces(const Mesh& mesh, const std::vector<std::uint8_t>& usable, Findings& findings) {
-    if (mesh.dimension != 3 || mesh.faces.empty()) return;
+    if (mesh.faces.empty()) return;
+    if (mesh.dimension == 2) {
+        findings.add(Problem::wrong_face, {.detail = barycert::detail::faces_of_triangles});
+        return;
+    }
     if (mesh.faces.size() % 3 != 0) findings.add(Problem::wrong_face, {.detail = "the last one is not whole"});
     FaceTable table(mesh, findings);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.cell_count(), 4096), [&](const auto& range) {

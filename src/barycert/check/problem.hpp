@@ -23,7 +23,8 @@ enum class Problem : std::uint8_t {
     nested_part,         ///< P4  a piece of the boundary at which a cell overlaps others
     overlapping_cells,   ///< the interiors of two cells meet: what follows from the above
     wrong_neighbour,     ///< P5  .neigh names a cell that does not share that facet, or misses one that does
-    wrong_face,          ///< P5  .face has a triangle that is no facet of any cell
+    wrong_face,          ///< P5  .face has a triangle that is no facet of any cell; a mesh of triangles has faces
+    unfit_array,         ///< P5  fields, markers or nodes at mid-edges of cells do not fit nodes and cells
     // These are told, and harmless to a partition.
     mixed_orientation,  ///< cells are ordered in both ways
     plain_sign_wrong,   ///< the sign of the cell's volume in plain double is not the exact one
@@ -42,7 +43,7 @@ struct ProblemText {
     bool breaks;                 ///< the certificate
 };
 
-inline constexpr std::array<ProblemText, 20> problem_texts{{
+inline constexpr std::array<ProblemText, 21> problem_texts{{
     {Problem::bad_structure, "bad_structure", "P1", "arrays do not make whole nodes or cells",
      "give d coordinates a node, d + 1 corners a cell", true},
     {Problem::index_out_of_range, "index_out_of_range", "P1", "cells with a corner that is no node",
@@ -72,6 +73,8 @@ inline constexpr std::array<ProblemText, 20> problem_texts{{
      "remove the .neigh file, or write it again", true},
     {Problem::wrong_face, "wrong_face", "P5", "triangles of .face that are no facet of a cell",
      "remove the .face file, or write it again", true},
+    {Problem::unfit_array, "unfit_array", "P5", "arrays besides coordinates and cells that do not fit these",
+     "give one value for each component of each node or cell, and indices of nodes", true},
     {Problem::mixed_orientation, "mixed_orientation", "", "cells of the rarer orientation",
      "--fix-orientation writes a copy with all positive", false},
     {Problem::plain_sign_wrong, "plain_sign_wrong", "", "cells whose volume has a wrong sign in plain double",

@@ -27,7 +27,7 @@
 /// alone is that of the determinant. Three distinct points on a line: incircle has one sign on one side of the line,
 /// the other sign on the other, zero on it. Likewise insphere and the plane of a, b, c, d; but it is zero everywhere if
 /// these lie on one circle or line. Both are zero everywhere if two vertices coincide.
-/// Integers as wide as 1e-300 beside 1e300 asks for take tens of microseconds.
+/// Integers as wide as 1e-300 beside 1e300 asks for take tens of microseconds, and a hundred KiB of stack (core.hpp).
 #pragma once
 
 #include "barycert/core/result.hpp"

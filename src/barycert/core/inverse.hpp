@@ -2,8 +2,8 @@
 ///
 /// Any attribute can stand for the coordinate: between a, where it is value_a, and b, where it is value_b, the value
 /// V is met at t = (V - value_a) / (value_b - value_a), the weight of b, and at the point a + t (b - a). Everything is
-/// exact and rounded once, to nearest, ties to even. All of it is done in integers, whatever the floating-point
-/// environment. Error: an argument is not finite.
+/// exact and rounded once, to nearest, ties to even; an exact zero is +0, and what underflows to zero keeps its sign.
+/// All of it is done in integers, whatever the floating-point environment. Error: an argument is not finite.
 #pragma once
 
 #include <span>

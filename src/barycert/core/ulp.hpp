@@ -1,7 +1,7 @@
 /// Units in the last place.
 ///
-/// ulp(x) is the distance between the two doubles next to |x| on the side away from zero within x's binade:
-/// 2^(e-52) for 2^e <= |x| < 2^(e+1), and 2^-1074 for zero and subnormals.
+/// ulp(x) is the distance of neighbouring doubles in x's binade: 2^(e-52) for 2^e <= |x| < 2^(e+1), and 2^-1074 for
+/// zero and subnormals.
 #pragma once
 
 #include <algorithm>

@@ -3,10 +3,11 @@
 /// Enters: coordinates and nodal values as doubles (values also as floats). Leaves: doubles.
 ///
 /// What holds (each law is a test of that name in tests/core):
-///   W1  A weight has the sign of the exact one. It is zero only if that is zero, or rounds to zero for being at most
-///       half of the smallest subnormal (then as a zero with its sign; weight_signs tells the two apart).
+///   W1  A weight has the sign of the exact one. It is zero only if that is zero, and then +0, or rounds to zero for
+///       being at most half of the smallest subnormal, and then a zero with its sign. weight_signs tells the two apart.
 ///   W2  Each weight is the exact one rounded to nearest, ties to even, subnormal results and infinity included.
-///   V1  Each value is the exact sum of weight times nodal value, rounded once in the same way, for every component.
+///   V1  Each value is the exact sum of weight times nodal value, rounded once in the same way, for every component. An
+///       exact zero is +0, even of nodal values that are all -0; what underflows to zero keeps its sign.
 ///   V2  At a point on a shared face, edge or vertex the value has the same bits from every cell that holds it, if the
 ///       cells are proper and their nodal values finite.
 ///   D1  Results depend on the input bits alone, not on threads, SIMD target, compiler or optimisation.

@@ -56,7 +56,9 @@ std::vector<Kernel> kernels_matching(std::string_view glob);
 /// The region that `kernel` claims for a point: degenerate if it declared so or a weight is not finite.
 Region claimed_region(const Kernel& kernel, int status, std::span<const double> weights);
 
-/// A kernel from a shared library with the functions of barycert/kernel.h. The library stays loaded.
+/// A kernel from a shared library with the functions of barycert/kernel.h. The library stays loaded. Errors: the file
+/// is no whole shared library for this machine, as far as its headers tell, or none with these functions. Its code runs
+/// in this process and is trusted.
 Result<Kernel> load_kernel_library(const std::string& path);
 
 }  // namespace barycert

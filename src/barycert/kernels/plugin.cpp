@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "barycert/kernel.h"
+#include "barycert/kernels/elf_file.hpp"
 #include "barycert/kernels/kernel.hpp"
 #include "barycert/kernels/registry.hpp"
 
@@ -66,6 +67,7 @@ Result<Kernel> described(const std::string& path, const barycert_kernel_info& in
 Result<Kernel> load_kernel_library(const std::string& path) {
     // Without a slash dlopen would search the system's library folders instead of the working directory.
     const std::string file = path.find('/') == std::string::npos ? "./" + path : path;
+    if (Status whole = kernels::check_shared_library(path); !whole) return whole.error();
     // A library linked with -ffast-math sets flush-to-zero when it is loaded: that stays its own affair.
     std::fenv_t before;
     std::fegetenv(&before);

@@ -58,7 +58,7 @@ Locator::~Locator() = default;
 
 Result<Locator> Locator::build(const Mesh& mesh, const check::Certificate& certificate) {
     const ExactEnvironment environment;
-    if (const char* const wrong = detail::inconsistency(mesh, detail::FieldValues::any))
+    if (const char* const wrong = detail::inconsistency_of_cells(mesh, detail::FieldValues::any))
         return Error{.what = std::string("the mesh is inconsistent: ") + wrong};
     auto data = std::make_unique<detail::LocatorData>();
     data->mesh = &mesh;

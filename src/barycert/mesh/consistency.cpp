@@ -40,47 +40,60 @@ const char* fault_of_fields(const std::vector<Field>& fields, std::size_t rows, 
 }
 
 const char* fault_of_cells(const Mesh& mesh) {
-    const std::size_t edges = edges_of(mesh.dimension).size();
-    const std::size_t nodes = mesh.point_count();
     if (mesh.cells.size() % mesh.corners() != 0) return "the corners do not make whole cells";
-    if (!all_within(mesh.cells, 0, nodes)) return "a corner of a cell is no node";
-    if (!fits(mesh.mid_nodes, mesh.cell_count() * edges)) return "the mid-edge nodes do not match the cells";
-    if (!all_within(mesh.mid_nodes, 0, nodes)) return "a mid-edge node of a cell is no node";
-    if (!mesh.mid_nodes.empty() && edge_sequence(mesh.mid_edge_order, mesh.dimension).empty()) {
-        return "the order of the mid-edge nodes is not set, or is of another dimension";
-    }
+    if (!all_within(mesh.cells, 0, mesh.point_count())) return "a corner of a cell is no node";
     if (!fits(mesh.neighbours, mesh.cells.size())) return "the neighbours do not match the cells";
     if (!all_within(mesh.neighbours, -1, mesh.cell_count())) return "a neighbour is no cell";
     return nullptr;
 }
 
 const char* fault_of_faces(const Mesh& mesh) {
-    if (mesh.dimension == 2 && !mesh.faces.empty()) return "a mesh of triangles has no faces";
+    if (mesh.dimension == 2 && !mesh.faces.empty()) return faces_of_triangles;
     if (mesh.faces.size() % 3 != 0) return "the corners do not make whole faces";
     if (!all_within(mesh.faces, 0, mesh.point_count())) return "a corner of a face is no node";
-    if (!fits(mesh.face_mid_nodes, mesh.faces.size())) return "the mid-edge nodes do not match the faces";
-    if (!all_within(mesh.face_mid_nodes, 0, mesh.point_count())) return "a mid-edge node of a face is no node";
-    if (!fits(mesh.face_markers, mesh.face_count())) return "the markers do not match the faces";
     return nullptr;
 }
 
 }  // namespace
 
-const char* inconsistency(const Mesh& mesh, FieldValues values) {
-    if (mesh.dimension != 2 && mesh.dimension != 3) return "its dimension is neither 2 nor 3";
+const char* inconsistency_of_extras(const Mesh& mesh, FieldValues values) {
+    const std::size_t nodes = mesh.point_count();
     if (mesh.index_base != 0 && mesh.index_base != 1) return "its index base is neither 0 nor 1";
+    if (!fits(mesh.point_markers, nodes)) return "the markers do not match the nodes";
+    if (const char* fault = fault_of_fields(mesh.point_fields, nodes, values); fault != nullptr) return fault;
+    if (const char* fault = fault_of_fields(mesh.cell_fields, mesh.cell_count(), values); fault != nullptr) {
+        return fault;
+    }
+    if (!fits(mesh.mid_nodes, mesh.cell_count() * edges_of(mesh.dimension).size())) {
+        return "the mid-edge nodes do not match the cells";
+    }
+    if (!all_within(mesh.mid_nodes, 0, nodes)) return "a mid-edge node of a cell is no node";
+    if (!mesh.mid_nodes.empty() && edge_sequence(mesh.mid_edge_order, mesh.dimension).empty()) {
+        return "the order of the mid-edge nodes is not set, or is of another dimension";
+    }
+    return nullptr;
+}
+
+const char* inconsistency_of_cells(const Mesh& mesh, FieldValues values) {
+    if (mesh.dimension != 2 && mesh.dimension != 3) return "its dimension is neither 2 nor 3";
     if (mesh.points.size() % static_cast<std::size_t>(mesh.dimension) != 0)
         return "the coordinates do not make whole nodes";
-    if (std::max({mesh.point_count(), mesh.cell_count(), mesh.face_count()}) > INT32_MAX) {
-        return "it has more than 2147483647 nodes, cells or faces";
+    if (std::max(mesh.point_count(), mesh.cell_count()) > INT32_MAX) {
+        return "it has more than 2147483647 nodes or cells";
     }
     if (!all_finite(mesh.points)) return "a coordinate is not finite";
-    if (!fits(mesh.point_markers, mesh.point_count())) return "the markers do not match the nodes";
-    for (const char* fault : {fault_of_fields(mesh.point_fields, mesh.point_count(), values),
-                              fault_of_fields(mesh.cell_fields, mesh.cell_count(), values), fault_of_cells(mesh)}) {
-        if (fault != nullptr) return fault;
-    }
-    return fault_of_faces(mesh);
+    if (const char* fault = fault_of_cells(mesh); fault != nullptr) return fault;
+    if (const char* fault = fault_of_faces(mesh); fault != nullptr) return fault;
+    return inconsistency_of_extras(mesh, values);
+}
+
+const char* inconsistency(const Mesh& mesh, FieldValues values) {
+    if (const char* fault = inconsistency_of_cells(mesh, values); fault != nullptr) return fault;
+    if (mesh.face_count() > INT32_MAX) return "it has more than 2147483647 faces";
+    if (!fits(mesh.face_mid_nodes, mesh.faces.size())) return "the mid-edge nodes do not match the faces";
+    if (!all_within(mesh.face_mid_nodes, 0, mesh.point_count())) return "a mid-edge node of a face is no node";
+    if (!fits(mesh.face_markers, mesh.face_count())) return "the markers do not match the faces";
+    return nullptr;
 }
 
 }  // namespace barycert::detail

@@ -42,7 +42,7 @@ struct Mesh {
     std::vector<Field> cell_fields;           ///< likewise of an .ele file
     std::vector<std::int64_t> point_markers;  ///< empty, or one a node
 
-    std::vector<Index> faces;                ///< 3 corners a face of the .face file; empty if there is none
+    std::vector<Index> faces;                ///< 3 corners a face of the .face file; empty in 2D or if there is none
     std::vector<Index> face_mid_nodes;       ///< as in the file: 3 a face, or empty
     std::vector<std::int64_t> face_markers;  ///< empty, or one a face
 

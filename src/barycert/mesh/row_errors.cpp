@@ -228,7 +228,7 @@ Error row_error(const TextTable& table, const char* at, std::size_t row) {
     }
     if (!fields.empty() && fields.size() != table.column_count()) return column_count_error(table, fields);
     return error_at(table, at, "the last row has no line end, so the file may be cut short", "a line end",
-                    "the end of the file", "if nothing is missing, end the last line");
+                    "the end of the file", "if nothing is missing, end the last line, as echo >> FILE does");
 }
 
 Error too_few_rows(const TextTable& table, std::size_t found) {

@@ -3,7 +3,8 @@
 /// barycert reads PLC files itself and hands TetGen arrays: TetGen's own loaders read `010` as 8 and `1.0D+03` as 1,
 /// shift columns at a `nan`, ignore node numbers and crash on truncated files.
 /// In: .poly .smesh (nodes in the file or in STEM.node), .off, .stl (text or binary), .ply (text). Counts are
-/// checked against the file's size, so memory stays within a small multiple of it. Indices in memory are 0-based.
+/// checked against the file's size, so memory stays within a small multiple of it. A number with which the file ends is
+/// refused, for more digits may have been cut. Indices in memory are 0-based.
 #pragma once
 
 #include <array>
@@ -49,7 +50,8 @@ inline Error file_error(std::string file, std::string what, std::string expected
 /// The paths of the files that the PLC may be in: `path`, and STEM.node beside STEM.poly or STEM.smesh.
 std::vector<std::string> plc_files(const std::string& path);
 
-/// Reads the PLC in the format that the path's extension names. An error names the file and, for text, the line.
+/// Reads the PLC in the format that the path's extension names, from regular files or pipes. An error names the file
+/// and, for text, the line.
 Result<Plc> read_plc(const std::string& path);
 
 }  // namespace barycert

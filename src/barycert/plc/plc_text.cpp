@@ -4,9 +4,10 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
+#include <utility>
 
 #include "barycert/core/exact_environment.hpp"
+#include "barycert/core/input_file.hpp"
 #include "barycert/core/text.hpp"
 
 namespace barycert {
@@ -18,13 +19,10 @@ std::string read_whole_file(const std::string& path) {
     if (std::filesystem::is_directory(status)) {
         throw Exception(file_error(path, "cannot read", "a file", "a directory"));
     }
-    std::ifstream in(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    if (!in.is_open() || in.bad()) throw Exception(file_error(path, "cannot be read"));
-    if (text.empty()) {
-        throw Exception(file_error(path, "cannot read", "a PLC", "an empty file"));
-    }
-    return text;
+    Result<std::string> text = read_file(path);
+    if (!text) throw Exception(text.error());
+    if (text->empty()) throw Exception(file_error(path, "cannot read", "a PLC", "an empty file"));
+    return std::move(*text);
 }
 
 bool PlcText::next_line() {
@@ -55,8 +53,14 @@ std::string_view PlcText::take(std::string_view expected) {
     return words_[at_++];
 }
 
-std::int32_t PlcText::take_integer(std::string_view expected) {
+std::string_view PlcText::take_whole(std::string_view expected) {
     const std::string_view text = take(expected);
+    if (text.data() + text.size() == end_) throw Exception(unended_number(path_, line_number_));
+    return text;
+}
+
+std::int32_t PlcText::take_integer(std::string_view expected) {
+    const std::string_view text = take_whole(expected);
     std::string_view digits = text;
     if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
     std::int32_t value = 0;
@@ -66,7 +70,7 @@ std::int32_t PlcText::take_integer(std::string_view expected) {
 }
 
 double PlcText::take_number(std::string_view expected) {
-    const std::string_view text = take(expected);
+    const std::string_view text = take_whole(expected);
     const std::optional<double> value = parse_double(text);
     if (!value || !std::isfinite(*value)) fail("cannot read", std::string(expected) + ", a finite number", text);
     return *value;

@@ -21,7 +21,8 @@ std::string read_whole_file(const std::string& path);
 class PlcText {
 public:
     /// Both arguments must outlive the object. Words are parted by blanks and commas; `#` starts a comment.
-    PlcText(const std::string& path, std::string_view text) : path_(path), rest_(text), size_(text.size()) {}
+    PlcText(const std::string& path, std::string_view text)
+        : path_(path), rest_(text), end_(text.data() + text.size()), size_(text.size()) {}
 
     /// Goes to the next line that has words. False at the end of the file.
     bool next_line();
@@ -45,8 +46,12 @@ public:
                            std::string_view remedy = {}) const;
 
 private:
+    /// A word that something follows: what the end of the file has cut may be the beginning of another number.
+    std::string_view take_whole(std::string_view expected);
+
     const std::string& path_;
     std::string_view rest_;
+    const char* end_;
     std::size_t size_;
     std::string_view line_;
     std::size_t line_number_ = 0;

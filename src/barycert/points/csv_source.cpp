@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "barycert/core/exact_environment.hpp"
+#include "barycert/core/input_file.hpp"
 #include "barycert/mesh/scanner.hpp"
 #include "barycert/points/csv_fields.hpp"
 #include "barycert/points/csv_layout.hpp"
@@ -23,13 +24,15 @@ public:
     Result<std::size_t> read(std::size_t most, std::vector<double>& out) override;
 
 private:
-    bool parse(std::string_view line, std::array<double, 3>& point) const;
+    bool parse(std::string_view line, std::array<double, 3>& point);
+    Error row_error(std::string_view line) const;
     LinePlace place() const { return {lines_.name(), lines_.number()}; }
     void append(const std::array<double, 3>& point, std::vector<double>& out) const;
 
     LineReader lines_;
     int dimension_;
     CsvLayout layout_;
+    bool cut_ = false;                            // the last row parsed ended with the file, and within a coordinate
     std::optional<std::array<double, 3>> first_;  // of a file without header, until it is read
     Error error_;
 };
@@ -41,7 +44,7 @@ Status CsvSource::begin() {
         if (!layout) return layout.error();
         layout_ = std::move(*layout);
         if (layout_.header) return Done{};
-        if (!parse(line, first_.emplace())) return csv_row_error(line, layout_, place());
+        if (!parse(line, first_.emplace())) return row_error(line);
         return Done{};
     }
     if (lines_.failed()) return lines_.error();
@@ -52,8 +55,12 @@ Status CsvSource::begin() {
                  .remedy = "write the file again; a header alone is a file without points"};
 }
 
-bool CsvSource::parse(std::string_view line, std::array<double, 3>& point) const {
+/// False if the line is no point, or may be the beginning of another one: 0.2 of 0.25.
+bool CsvSource::parse(std::string_view line, std::array<double, 3>& point) {
     FieldCutter cutter(line, layout_.separator);
+    const char* const cut = lines_.line_ended() ? nullptr : line.data() + line.size();
+    bool at_cut = false;
+    cut_ = false;
     const std::size_t fields = layout_.axis_of.size();
     std::size_t i = 0;
     for (std::string_view field; cutter.next(field); ++i) {
@@ -64,8 +71,15 @@ bool CsvSource::parse(std::string_view line, std::array<double, 3>& point) const
         double value = 0;
         if (barycert::detail::scan_real(field.data(), end, value) != end) return false;
         point[static_cast<std::size_t>(axis)] = value;
+        at_cut = end == cut;
     }
-    return i == fields && !cutter.malformed();
+    if (i != fields || cutter.malformed()) return false;
+    cut_ = at_cut;
+    return !cut_;
+}
+
+Error CsvSource::row_error(std::string_view line) const {
+    return cut_ ? unended_number(lines_.name(), lines_.number()) : csv_row_error(line, layout_, place());
 }
 
 void CsvSource::append(const std::array<double, 3>& point, std::vector<double>& out) const {
@@ -85,7 +99,7 @@ Result<std::size_t> CsvSource::read(std::size_t most, std::vector<double>& out) 
     for (std::string_view line; taken != most && lines_.next(line);) {
         if (!holds_fields(line, layout_.separator)) continue;
         if (!parse(line, point)) {
-            error_ = csv_row_error(line, layout_, place());
+            error_ = row_error(line);
             return error_;
         }
         append(point, out);

@@ -8,32 +8,18 @@
 #include <cstring>
 #include <utility>
 
+#include "barycert/core/input_file.hpp"
+
 namespace barycert::points {
-namespace {
-
-Error system_failure(const std::string& name, int error_number) {
-    const char* remedy = "check the path and the disk";
-    if (error_number == ENOENT || error_number == ENOTDIR) remedy = "check the path";
-    if (error_number == EACCES) remedy = "ask for permission to read it";
-    if (error_number == EISDIR) remedy = "name a file inside the folder";
-    return {.what = "cannot read the file",
-            .file = name,
-            .line = 0,
-            .expected = {},
-            .found = std::strerror(error_number),
-            .remedy = remedy};
-}
-
-}  // namespace
-
 Result<LineReader> LineReader::open(const std::string& path) {
     LineReader reader(path == "-" ? "standard input" : path);
     reader.owned_ = path != "-";
+    // A named pipe waits for its writer, as every reader of streams does: `gen > p.csv & barycert ... p.csv`.
     reader.descriptor_ = reader.owned_ ? ::open(path.c_str(), O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
-    if (reader.descriptor_ < 0) return system_failure(reader.name_, errno);
+    if (reader.descriptor_ < 0) return read_failure(reader.name_, errno);
     struct stat status {};
-    if (::fstat(reader.descriptor_, &status) != 0) return system_failure(reader.name_, errno);
-    if (S_ISDIR(status.st_mode)) return system_failure(reader.name_, EISDIR);
+    if (::fstat(reader.descriptor_, &status) != 0) return read_failure(reader.name_, errno);
+    if (S_ISDIR(status.st_mode)) return read_failure(reader.name_, EISDIR);
     reader.buffer_.resize(longest_line + 1);  // the last byte stays zero: a scanner may look at it
     if (!reader.skip_mark()) return reader.error_;
     return reader;
@@ -48,6 +34,7 @@ LineReader::LineReader(LineReader&& other) noexcept
       begin_(other.begin_),
       end_(other.end_),
       searched_(other.searched_),
+      line_ended_(other.line_ended_),
       number_(other.number_),
       error_(std::move(other.error_)) {}
 
@@ -93,7 +80,7 @@ bool LineReader::refill() {
         got = ::read(descriptor_, buffer_.data() + end_, longest_line - end_);
     } while (got < 0 && errno == EINTR);
     if (got < 0) {
-        error_ = system_failure(name_, errno);
+        error_ = read_failure(name_, errno);
         return false;
     }
     end_ += static_cast<std::size_t>(got);
@@ -114,6 +101,7 @@ bool LineReader::next(std::string_view& line) {
     if (feed == nullptr && begin_ == end_) return false;
     const std::size_t stop = feed == nullptr ? end_ : static_cast<std::size_t>(feed - buffer_.data());
     line = std::string_view(buffer_.data() + begin_, stop - begin_);
+    line_ended_ = feed != nullptr || line.ends_with('\r');
     if (line.ends_with('\r')) line.remove_suffix(1);
     begin_ = searched_ = feed == nullptr ? stop : stop + 1;
     ++number_;

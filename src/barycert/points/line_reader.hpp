@@ -30,6 +30,9 @@ public:
     bool failed() const { return !error_.what.empty(); }
     const Error& error() const { return error_; }
 
+    /// The last line given ended with LF or CR, and not with the file.
+    bool line_ended() const { return line_ended_; }
+
     /// The number of the last line given, from 1.
     std::size_t number() const { return number_; }
 
@@ -49,6 +52,7 @@ private:
     std::size_t begin_ = 0;     // of the next line
     std::size_t end_ = 0;       // of what has been read
     std::size_t searched_ = 0;  // no LF from begin_ to here
+    bool line_ended_ = true;
     std::size_t number_ = 0;
     Error error_;
 };

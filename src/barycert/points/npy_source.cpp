@@ -1,6 +1,4 @@
 // Points from an NPY file, read by blocks and not mapped: memory is bounded, and a file that shrinks meanwhile is told.
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include <utility>
 
 #include "barycert/core/exact_environment.hpp"
+#include "barycert/core/input_file.hpp"
 #include "barycert/core/text.hpp"
 #include "barycert/points/formats.hpp"
 #include "barycert/points/npy_header.hpp"
@@ -37,11 +36,6 @@ class NpySource final : public Source {
 public:
     NpySource(std::string path, int dimension)
         : path_(std::move(path)), dimension_(static_cast<std::size_t>(dimension)) {}
-    ~NpySource() override {
-        if (descriptor_ >= 0) ::close(descriptor_);
-    }
-    NpySource(const NpySource&) = delete;
-    NpySource& operator=(const NpySource&) = delete;
 
     Status begin();
 
@@ -58,13 +52,12 @@ private:
                 .found = std::move(found),
                 .remedy = std::move(remedy)};
     }
-    Status open();
     Status read_bytes(std::uint64_t offset, std::size_t size);
     Status read_numbers(std::uint64_t first, std::size_t count, double* out, std::size_t stride);
 
     std::string path_;
     std::size_t dimension_;
-    int descriptor_ = -1;
+    InputFile file_;
     std::uint64_t file_size_ = 0;
     std::uint64_t data_ = 0;  // where the numbers begin
     NpyLayout layout_;
@@ -73,28 +66,13 @@ private:
     Error error_;
 };
 
-Status NpySource::open() {
-    descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // must not wait for the writer of a pipe
-    struct stat status {};
-    if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
-        return failure("cannot read the file", {}, std::strerror(errno),
-                       errno == EACCES ? "ask for permission to read it" : "check the path");
-    }
-    if (!S_ISREG(status.st_mode)) {
-        return failure("cannot read the file", "a regular file",
-                       S_ISDIR(status.st_mode) ? "a folder" : "a pipe or device",
-                       "save the array to a file first; CSV can be read from a pipe");
-    }
-    file_size_ = static_cast<std::uint64_t>(status.st_size);
-    return Done{};
-}
-
 Status NpySource::read_bytes(std::uint64_t offset, std::size_t size) {
     bytes_.resize(size);
     for (std::size_t done = 0; done < size;) {
-        const ssize_t got = ::pread(descriptor_, bytes_.data() + done, size - done, static_cast<off_t>(offset + done));
+        const ssize_t got =
+            ::pread(file_.descriptor(), bytes_.data() + done, size - done, static_cast<off_t>(offset + done));
         if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return failure("cannot read the file", {}, std::strerror(errno), "check the disk");
+        if (got < 0) return read_failure(path_, errno);
         if (got == 0) {
             return failure("the file ends too early", "byte " + std::to_string(offset + size - 1),
                            "the end of the file", "do not change the file while it is read");
@@ -105,7 +83,11 @@ Status NpySource::read_bytes(std::uint64_t offset, std::size_t size) {
 }
 
 Status NpySource::begin() {
-    if (Status opened = open(); !opened) return opened;
+    Result<InputFile> opened =
+        InputFile::open(path_, "save the array to a regular file first; CSV can be read from a pipe");
+    if (!opened) return opened.error();
+    file_ = std::move(*opened);
+    file_size_ = file_.size();
     if (Status head = read_bytes(0, std::min<std::uint64_t>(npy_head, file_size_)); !head) return head;
     const Result<NpyText> text = find_npy_text({bytes_.data(), bytes_.size()}, path_);
     if (!text) return text.error();

@@ -8,7 +8,8 @@
 ///        Points:1, Points:2; or Points_0, Points_1, Points_2, in any case and any place. Other columns are passed
 ///        over. Without a header the first columns are the coordinates. Every line has as many fields as the first.
 ///        Fields may stand in double quotes. Blank lines, and lines that begin with #, are passed over. Lines end in
-///        LF or CR LF; the last may lack its end. At most 1 MiB a line.
+///        LF or CR LF; the last may lack its end, but not where the file would end within a coordinate: 0.2 may be the
+///        beginning of 0.25. At most 1 MiB a line. A named pipe is waited for.
 /// NPY    Versions 1 to 3; one array of shape (n, dimension), float64 or float32 of either byte order, in C or Fortran
 ///        order.
 /// .node  TetGen's and Triangle's grammar, see mesh/tetgen_reader.cpp; attributes and markers are passed over.

@@ -75,7 +75,7 @@ std::string verdict(const Report& r) {
     const std::string_view what =
         r.find(Problem::bad_structure) != nullptr
             ? "The arrays of the mesh do not make cells: nothing else was looked at."
-        : files_only ? "The cells partition a domain, but neighbours or faces that came with the mesh are not theirs."
+        : files_only ? "The cells partition a domain, but other arrays of the mesh do not belong to them."
                      : "The cells are no partition of a domain.";
     return fmt::format("<section class=\"verdict broken\"><b>NOT certified</b><p>{} Found:</p><ul>{}</ul></section>\n",
                        what, reasons.empty() ? open : reasons);

@@ -28,7 +28,7 @@ struct Clause {
     Problem problem;
     std::string_view one, more;
 };
-constexpr std::array<Clause, 14> clauses{{
+constexpr std::array<Clause, 15> clauses{{
     {Problem::bad_structure, "fault in its arrays", "faults in its arrays"},
     {Problem::index_out_of_range, "cell has a corner that is no node", "cells have a corner that is no node"},
     {Problem::not_finite, "node is not finite", "nodes are not finite"},
@@ -43,6 +43,7 @@ constexpr std::array<Clause, 14> clauses{{
     {Problem::overlapping_cells, "pair of cells overlaps", "pairs of cells overlap"},
     {Problem::wrong_neighbour, "entry of .neigh is wrong", "entries of .neigh are wrong"},
     {Problem::wrong_face, "triangle of .face is no facet", "triangles of .face are no facets"},
+    {Problem::unfit_array, "array does not fit nodes and cells", "arrays do not fit nodes and cells"},
 }};
 
 std::string clause(const Finding& f) {

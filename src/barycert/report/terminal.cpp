@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 
-#include "barycert/core/text.hpp"
 #include "barycert/core/exact_environment.hpp"
+#include "barycert/core/text.hpp"
 #include "barycert/report/terminal_text.hpp"
 
 namespace barycert::report {

@@ -1,14 +1,12 @@
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <bit>
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
 #include "barycert/core/exact_environment.hpp"
+#include "barycert/core/input_file.hpp"
 #include "barycert/core/text.hpp"
 #include "barycert/sample/map_file.hpp"
 #include "barycert/sample/map_format.hpp"
@@ -19,11 +17,6 @@ namespace detail {
 // Read, not mapped: a file that is cut off meanwhile is then an error and not the end of the process.
 struct MapReaderData {
     explicit MapReaderData(std::string path) : name(std::move(path)) {}
-    ~MapReaderData() {
-        if (descriptor >= 0) ::close(descriptor);
-    }
-    MapReaderData(const MapReaderData&) = delete;
-    MapReaderData& operator=(const MapReaderData&) = delete;
 
     Status open(const Mesh& mesh);
     Result<std::size_t> read(std::size_t most, LocationMap& out);
@@ -39,14 +32,13 @@ private:
                 .found = std::move(found),
                 .remedy = "make the map anew, or copy it again from where it is whole"};
     }
-    Status open_file();
     Status read_header();
     Status check_mesh(const Mesh& mesh) const;
     Status fill(std::uint64_t offset, std::size_t count);
     Status next_block();
     Status decode(std::size_t count);
 
-    int descriptor = -1;
+    InputFile file;
     std::uint64_t size = 0;      // of the file
     std::uint64_t offset = 0;    // of the next block
     std::uint64_t row = 0;       // the first of the next block
@@ -59,14 +51,6 @@ private:
 
 namespace {
 
-Error system_failure(const std::string& path, int error_number) {
-    const char* remedy = "check the path and the disk";
-    if (error_number == ENOENT || error_number == ENOTDIR) remedy = "check the path";
-    if (error_number == EACCES) remedy = "ask for permission to read it";
-    if (error_number == EISDIR) remedy = "name a file inside the folder";
-    return {.what = "cannot read the file", .file = path, .found = std::strerror(error_number), .remedy = remedy};
-}
-
 std::string size_of_mesh(int dimension, std::uint64_t nodes, std::uint64_t cells) {
     return "one of " + std::to_string(nodes) + " nodes and " + std::to_string(cells) +
            (dimension == 2 ? " triangles" : " tetrahedra");
@@ -75,35 +59,22 @@ std::string size_of_mesh(int dimension, std::uint64_t nodes, std::uint64_t cells
 }  // namespace
 
 Status MapReaderData::open(const Mesh& mesh) {
-    if (Status opened = open_file(); !opened) return opened;
+    Result<InputFile> opened = InputFile::open(name, "save the map to a regular file first");
+    if (!opened) return opened.error();
+    file = std::move(*opened);
+    size = file.size();
     if (Status good = read_header(); !good) return good;
     return check_mesh(mesh);
-}
-
-Status MapReaderData::open_file() {
-    // O_NONBLOCK: a named pipe without a writer must not hang here.
-    descriptor = ::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0) return system_failure(name, errno);
-    struct stat status {};
-    if (::fstat(descriptor, &status) != 0) return system_failure(name, errno);
-    if (S_ISDIR(status.st_mode)) return system_failure(name, EISDIR);
-    if (!S_ISREG(status.st_mode)) {
-        return Error{.what = "cannot read the file",
-                     .file = name,
-                     .found = "a pipe or device",
-                     .remedy = "save the map to a regular file first"};
-    }
-    size = static_cast<std::uint64_t>(status.st_size);
-    return Done{};
 }
 
 /// `count` bytes from `from` on, into `bytes`.
 Status MapReaderData::fill(std::uint64_t from, std::size_t count) {
     bytes.resize(count);
     for (std::size_t have = 0; have < count;) {
-        const ssize_t got = ::pread(descriptor, bytes.data() + have, count - have, static_cast<off_t>(from + have));
+        const ssize_t got =
+            ::pread(file.descriptor(), bytes.data() + have, count - have, static_cast<off_t>(from + have));
         if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return system_failure(name, errno);
+        if (got < 0) return read_failure(name, errno);
         if (got == 0) {
             return damage("the map is cut off", std::to_string(size) + " bytes", std::to_string(from + have));
         }

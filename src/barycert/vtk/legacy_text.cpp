@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "barycert/core/input_file.hpp"
+
 namespace barycert::detail {
 namespace {
 
@@ -163,6 +165,10 @@ Status LegacyText::numbers(const std::string& what, NumberType type, std::uint64
     NumberFault found;
     if (!binary_) {
         found = read_text(rest_, type, static_cast<std::size_t>(count), values);
+        constexpr std::string_view white = " \t\n\v\f\r";
+        if (!found && count != 0 && rest_.empty() && white.find(bytes_.back()) == std::string_view::npos) {
+            return unended_number(*path_, line());
+        }
     } else {
         rest_of_line();
         const std::optional<std::uint64_t> size = byte_count(type, count);

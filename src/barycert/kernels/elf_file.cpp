@@ -1,0 +1,127 @@
+#include "barycert/kernels/elf_file.hpp"
+
+#include <elf.h>
+#include <link.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "barycert/core/input_file.hpp"
+
+namespace barycert::kernels {
+namespace {
+
+// ElfW names the structures of this process's class, which a library it loads must share.
+using FileHeader = ElfW(Ehdr);
+using ProgramHeader = ElfW(Phdr);
+using SectionHeader = ElfW(Shdr);
+
+constexpr unsigned char own_class = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
+constexpr unsigned char own_order = std::endian::native == std::endian::little ? ELFDATA2LSB : ELFDATA2MSB;
+#if defined(__x86_64__)
+constexpr std::uint16_t own_machine = EM_X86_64;
+#elif defined(__aarch64__)
+constexpr std::uint16_t own_machine = EM_AARCH64;
+#else
+constexpr std::uint16_t own_machine = EM_NONE;  // left to dlopen, which tells it less clearly
+#endif
+
+class ElfFile {
+public:
+    ElfFile(const std::string& path, InputFile file) : path_(path), file_(std::move(file)) {}
+
+    Status check() {
+        if (Status good = read_header(); !good) return good;
+        if (Status good = check_parts<ProgramHeader>(header_.e_phoff, header_.e_phnum, header_.e_phentsize); !good) {
+            return good;
+        }
+        return check_parts<SectionHeader>(header_.e_shoff, header_.e_shnum, header_.e_shentsize);
+    }
+
+private:
+    Status read_header() {
+        char bytes[sizeof header_] = {};
+        const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(file_.size(), sizeof bytes));
+        if (size == 0) return foreign("an empty file");
+        if (Status good = read(0, bytes, size); !good) return good;
+        if (std::memcmp(bytes, ELFMAG, std::min<std::size_t>(size, SELFMAG)) != 0) return foreign("another format");
+        if (size < sizeof bytes) return cut();
+        std::memcpy(&header_, bytes, sizeof header_);
+        if (header_.e_ident[EI_CLASS] != own_class || header_.e_ident[EI_DATA] != own_order ||
+            (own_machine != EM_NONE && header_.e_machine != own_machine)) {
+            return foreign("ELF for another machine");
+        }
+        if (header_.e_type != ET_DYN) return foreign("ELF of another kind, as object files are");
+        return Done{};
+    }
+
+    /// The table of `count` headers at `offset`, and the part of the file that each of them names.
+    template <class Header>
+    Status check_parts(std::uint64_t offset, std::size_t count, std::size_t entry) {
+        if (count == 0) return within(offset, 0) ? Status(Done{}) : cut();
+        if (entry != sizeof(Header)) return foreign("ELF with headers of another size");
+        if (!within(offset, count * sizeof(Header))) return cut();
+        std::vector<Header> headers(count);
+        if (Status good = read(offset, headers.data(), count * sizeof(Header)); !good) return good;
+        return std::all_of(headers.begin(), headers.end(), [&](const Header& h) { return holds(h); }) ? Status(Done{})
+                                                                                                      : cut();
+    }
+    bool holds(const ProgramHeader& h) const { return h.p_type == PT_NULL || within(h.p_offset, h.p_filesz); }
+    bool holds(const SectionHeader& h) const {
+        return h.sh_type == SHT_NULL || h.sh_type == SHT_NOBITS || within(h.sh_offset, h.sh_size);
+    }
+    bool within(std::uint64_t offset, std::uint64_t size) const {
+        return offset <= file_.size() && size <= file_.size() - offset;
+    }
+
+    Status read(std::uint64_t offset, void* to, std::size_t size) const {
+        for (std::size_t done = 0; done < size;) {
+            const ssize_t got = ::pread(file_.descriptor(), static_cast<char*>(to) + done, size - done,
+                                        static_cast<off_t>(offset + done));
+            if (got < 0 && errno == EINTR) continue;
+            if (got < 0) return read_failure(path_, errno);
+            if (got == 0) return cut();
+            done += static_cast<std::size_t>(got);
+        }
+        return Done{};
+    }
+
+    Error foreign(const char* found) const {
+        return {.what = "cannot load the kernel library",
+                .file = path_,
+                .expected = "a shared library (ELF) for this machine",
+                .found = found,
+                .remedy = "build it on this machine with -shared -fPIC"};
+    }
+    Error cut() const {
+        return {.what = "cannot load the kernel library",
+                .file = path_,
+                .expected = "all that its headers announce",
+                .found = "the end of the file, after " + std::to_string(file_.size()) + " bytes",
+                .remedy = "it is cut short: build or copy it again"};
+    }
+
+    const std::string& path_;
+    InputFile file_;
+    FileHeader header_{};
+};
+
+}  // namespace
+
+Status check_shared_library(const std::string& path) {
+    Result<InputFile> file = InputFile::open(path, "copy the library to a regular file first");
+    if (!file) {
+        Error error = file.error();
+        error.what = "cannot load the kernel library";
+        return error;
+    }
+    return ElfFile(path, std::move(*file)).check();
+}
+
+}  // namespace barycert::kernels
