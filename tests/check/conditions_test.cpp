@@ -122,7 +122,9 @@ TEST(Conditions, p5_in_the_plane) {
     EXPECT_TRUE(quick(mesh).certified());
     mesh.faces = {mesh.cells[0], mesh.cells[1], mesh.cells[2]};
     expect_only(mesh, set_of(Problem::wrong_face));
-    EXPECT_STREQ(quick(mesh).find(Problem::wrong_face)->places[0].detail, "a mesh of triangles has no faces");
+    const check::Report report = quick(mesh);
+    ASSERT_NE(report.find(Problem::wrong_face), nullptr);
+    EXPECT_STREQ(report.find(Problem::wrong_face)->places[0].detail, "a mesh of triangles has no faces");
     mesh.faces.pop_back();
     expect_only(mesh, set_of(Problem::wrong_face));
 }

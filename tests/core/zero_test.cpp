@@ -108,7 +108,8 @@ TEST(Zeros, OfGradientsAndQuadraticFieldsSingleAndInBatches) {
             QuadraticCase q{lattice_case(s, k), {}};
             if (!second_path::weights(q.linear)) continue;
             Random r(k);
-            const bool tiny = r.coin();
+            // As the values at the corners, or their sum would not round to zero.
+            const bool tiny = std::fabs(q.linear.values[0]) < 0.5;
             for (std::size_t e = 0; e < m; ++e) q.mids.push_back(small_number(r) * (tiny ? 0x1p-1074 : 1));
             cases.push_back(q);
         }
@@ -150,7 +151,7 @@ TEST(Zeros, OfGradientsAndQuadraticFieldsSingleAndInBatches) {
             EXPECT_GT(seen_slopes.positive, 500);
             EXPECT_GT(seen_slopes.negative, 20);
             EXPECT_GT(seen_values.positive, 200);
-            EXPECT_GT(seen_values.negative, 20);
+            EXPECT_GT(seen_values.negative, 5);
         }
         use_simd_target("");
     }

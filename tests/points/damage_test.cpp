@@ -14,7 +14,7 @@ struct Sample {
 std::vector<Sample> samples() {
     const std::string numbers = bits_of({1, 2.5, -3, 4, 5e-324, 6, 7, 8, 9});
     return {{"a.csv", "# c\nx,y,z,n\n1,2.5,-3,\"a\"\"b\"\n4,5e-3,6,c\n\n7,8,9,\n"},
-            {"b.csv", "1 2.5 -3\n4 5e-3 6\n7 8 9\n"},
+            {"b.csv", "1 2.5 -3.5\n4 5e-3 6\n7 8 9.25\n"},
             {"c.csv",
              "\xEF\xBB\xBF"
              "x;y;z\r\n1;2.5;-3\r\n4;5;\"6\"\r\n"},

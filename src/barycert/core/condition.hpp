@@ -4,7 +4,8 @@
 ///     kappa = (volume of the cell's box along the axes) / (volume of the cell)        (areas in 2D)
 ///           = d! X Y Z / |det E|,    X, Y, Z the extents of the cell, E the matrix of its edges from a corner
 ///
-/// 6 for a right-angled tetrahedron along the axes, however long its sides, and at least 3; 2 at least for a triangle.
+/// It is 6 for a right-angled tetrahedron along the axes, however long its sides, and never below 3 for a tetrahedron
+/// or 2 for a triangle.
 /// Multiplying an axis by a power of two changes neither kappa nor what such a kernel loses. It is large where a cell
 /// is thin askew to the axes: there the products of a determinant are as large as the box and cancel to the cell.
 ///
