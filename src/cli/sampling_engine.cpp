@@ -63,6 +63,7 @@ void SamplingEngine::check_mesh(Progress& progress) {
     options.threads = threads_;
     options.examples = 0;
     options.contacts = 0;
+    options.verdict_only = true;
     options.progress = [&](const char* stage) { progress.stage(fmt::format("checking the mesh: {}", stage)); };
     const check::Report report = check::run(mesh_, options);
     certificate_ = report.certificate;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "check/judge.hpp"
@@ -62,7 +63,8 @@ void expect_witness(const Mesh& mesh, const check::Contact& c, Seen& seen) {
         ASSERT_EQ(c.witness.point[k], second_path::nearest(x[k]));
     }
     for (const Mesh::Index cell : c.cells) {
-        ASSERT_GE(least_weight(mesh, cell, x), c.overlap ? Q(0x1p-1000) : Q(0));
+        const Q whole = least_weight(mesh, cell, x);
+        ASSERT_TRUE(c.overlap ? whole > 0 : whole >= 0);
         if (c.witness.exact) {
             const Q least = least_weight(mesh, cell, rounded);
             ASSERT_TRUE(c.overlap ? least > 0 : least >= 0);
@@ -98,6 +100,47 @@ TEST(Contacts, of_random_meshes) {
         EXPECT_GT(seen.touches, 15U);
         EXPECT_GT(seen.exact, 100U);
         for (int k = 0; k <= d; ++k) EXPECT_GT(seen.dimensions[static_cast<std::size_t>(k)], 2U) << k;
+    }
+}
+
+/// Coordinates over the whole range of doubles: any bits of a finite number below 2^1000.
+Mesh extreme_soup(int d, std::size_t nodes, std::size_t cells, Random& random) {
+    Mesh mesh;
+    mesh.dimension = d;
+    while (mesh.points.size() < nodes * static_cast<std::size_t>(d)) {
+        const double x = std::bit_cast<double>(random.bits());
+        if (std::abs(x) < 0x1p1000) mesh.points.push_back(x);
+    }
+    for (std::size_t c = 0; c < cells; ++c) {
+        const auto first = static_cast<std::ptrdiff_t>(mesh.cells.size());
+        while (mesh.cells.size() < mesh.corners() * (c + 1)) {
+            const auto node = static_cast<Mesh::Index>(random.below(nodes));
+            if (std::find(mesh.cells.begin() + first, mesh.cells.end(), node) == mesh.cells.end())
+                mesh.cells.push_back(node);
+        }
+    }
+    return mesh;
+}
+
+// Each fraction in lowest terms took a tenth of a second and more, a thousand of them minutes.
+TEST(Contacts, of_extreme_coordinates) {
+    for (const int d : {2, 3}) {
+        Random random = Random::stream(33, static_cast<std::uint64_t>(d), 0);
+        const Mesh mesh = extreme_soup(d, 60, 300, random);
+        const check::Report r = quick(mesh, 300);
+        ASSERT_EQ(r.contacts.size(), 300U);
+        EXPECT_LT(r.seconds, 20) << "2 s on one core of 2.5 GHz";
+        Seen seen;
+        for (std::size_t i = 0; i < r.contacts.size() && !HasFatalFailure(); i += 10)
+            expect_witness(mesh, r.contacts[i], seen);
+        EXPECT_GT(seen.exact, 2U) << d;
+        EXPECT_LT(seen.exact, 30U) << d;
+        for (const check::Contact& c : r.contacts) {
+            for (const std::string& text : c.witness.fraction) {
+                // Of doubles: 2^1074 and more bits, 2 * 650 digits. Others: degree 13 in 2100 bits, 2 * 8300 digits.
+                EXPECT_LT(text.size(), c.witness.exact ? 2500U : 17000U);
+            }
+        }
     }
 }
 

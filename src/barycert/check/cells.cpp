@@ -101,7 +101,7 @@ public:
     void operator()(std::size_t cell, Part& part) const {
         if (!usable(cell, part)) {
             for (auto* measure : {&m_.volume, &m_.condition, &m_.radius_edge, &m_.aspect, &m_.min_angle, &m_.max_angle})
-                (*measure)[cell] = std::numeric_limits<double>::quiet_NaN();
+                if (!measure->empty()) (*measure)[cell] = std::numeric_limits<double>::quiet_NaN();
             return;
         }
         usable_[cell] = 1;
@@ -143,6 +143,7 @@ private:
             part.total = sign > 0 ? part.total + volume : part.total - volume;
         }
         if (plain_sign(d, p) != sign) note(Problem::plain_sign_wrong, cell, place, part);
+        if (m_.volume.empty()) return;  // shapes are not asked for
 
         m_.volume[cell] = volumes_.rounded(volume);
         const Shape s = shape_of(d, p, m_.volume[cell], volume, volumes_);
@@ -181,7 +182,7 @@ void find_mixed(const Cells& cells, Measures& measures, Findings& findings) {
 
 }  // namespace
 
-Cells check_cells(const Mesh& mesh, const std::vector<std::uint8_t>& finite, const ExactVolumes& volumes,
+Cells check_cells(const Mesh& mesh, const std::vector<std::uint8_t>& finite, const ExactVolumes& volumes, bool shapes,
                   Measures& measures, Findings& findings) {
     const std::size_t count = mesh.cell_count();
     Cells cells;
@@ -190,7 +191,7 @@ Cells check_cells(const Mesh& mesh, const std::vector<std::uint8_t>& finite, con
     measures.problems.assign(count, 0);
     for (auto* measure : {&measures.volume, &measures.condition, &measures.radius_edge, &measures.aspect,
                           &measures.min_angle, &measures.max_angle})
-        barycert::detail::resize_large(*measure, count);
+        barycert::detail::resize_large(*measure, shapes ? count : 0);
     const CellChecker check(mesh, finite, volumes, measures, cells.usable);
     in_blocks(
         count, 8192,

@@ -19,8 +19,9 @@ struct Cells {
     std::uint64_t positive = 0, negative = 0, degenerate = 0;  ///< of the usable ones
 };
 
-/// Fills `measures`. Finds index_out_of_range, repeated_node, degenerate_cell, plain_sign_wrong, mixed_orientation.
-Cells check_cells(const Mesh& mesh, const std::vector<std::uint8_t>& finite, const ExactVolumes& volumes,
+/// Fills `measures`, without `shapes` their orientations and problems alone. Finds index_out_of_range, repeated_node,
+/// degenerate_cell, plain_sign_wrong, mixed_orientation.
+Cells check_cells(const Mesh& mesh, const std::vector<std::uint8_t>& finite, const ExactVolumes& volumes, bool shapes,
                   Measures& measures, Findings& findings);
 
 /// Where the corners of a cell stand. Precondition: it is usable.

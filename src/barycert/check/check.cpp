@@ -100,21 +100,25 @@ private:
         const std::vector<std::uint8_t> finite = check_nodes(mesh_, findings_);
         stage("cells");
         const ExactVolumes volumes(mesh_.dimension, mesh_.points);
-        const Cells cells = check_cells(mesh_, finite, volumes, measures, findings_);
+        const Cells cells = check_cells(mesh_, finite, volumes, !options_.verdict_only, measures, findings_);
         report.positive = cells.positive;
         report.negative = cells.negative;
         report.degenerate = cells.degenerate;
+        if (enough()) return;
         stage("facets");
         const Facets facets = check_facets(mesh_, cells.usable, measures, findings_);
+        if (enough()) return;
         // What one thread does alone is done beside the rest.
         tbb::task_group parts;
-        parts.run([&] { report.parts = count_parts(mesh_, cells.usable, facets.neighbours); });
+        if (!options_.verdict_only)
+            parts.run([&] { report.parts = count_parts(mesh_, cells.usable, facets.neighbours); });
         check_boundary_and_pairs(report, cells, facets, volumes);
         parts.wait();
         // Last, as it says nothing of where cells lie: what is certified is accepted by all who ask for a whole mesh.
         if (const char* fault = detail::inconsistency_of_extras(mesh_, detail::FieldValues::any); fault != nullptr) {
             findings_.add(Problem::unfit_array, {.detail = fault});
         }
+        if (enough()) return;
         if (options_.delaunay) {
             stage("Delaunay");
             report.delaunay = check_delaunay(mesh_, facets.neighbours, measures.orientation);
@@ -133,16 +137,27 @@ private:
         report.boundary = pieces.summary;
         report.volume = {volumes.rounded(cells.total), volumes.rounded(pieces.enclosed),
                          (cells.total - pieces.enclosed).sign() == 0};
+        if (enough()) return;
         stage("contacts of the boundary");
-        std::vector<CellPair> touching = find_boundary_contacts(mesh_, facets.boundary, measures, findings_);
-        find_nested_parts(mesh_, facets.boundary, pieces.facets, measures, findings_);
+        const std::size_t limit = options_.verdict_only ? 1 : pair_limit;
+        std::vector<CellPair> touching = find_boundary_contacts(mesh_, facets.boundary, limit, measures, findings_);
+        if (enough()) return;
+        find_nested_parts(mesh_, facets.boundary, pieces.facets, limit, measures, findings_);
         check_files(mesh_, cells.usable, facets, findings_);
+        if (enough()) return;
         std::vector<CellPair> overlapping;
         if (may_overlap()) {
             stage("overlapping cells");
             overlapping = find_overlapping_cells(mesh_, measures, findings_);
         }
         report.contacts = contacts(mesh_, measures, std::move(overlapping), std::move(touching), options_.contacts);
+    }
+
+    /// The verdict is known, and nothing else is asked for.
+    bool enough() const {
+        return options_.verdict_only &&
+               std::any_of(problem_texts.begin(), problem_texts.end(),
+                           [&](const ProblemText& t) { return t.breaks && findings_.count(t.problem) > 0; });
     }
 
     /// One of P2 to P4 fails, or a cell is left out of them; otherwise the theorem says that there is none.

@@ -44,7 +44,9 @@
 /// certificate says that P1 to P5 hold, so Locator::build takes a certified mesh.
 ///
 /// Costs: time O(n log n) for n cells of bounded degree; a mesh without certificate is also searched for overlapping
-/// cells, which takes as long again, and longer where boxes of cells overlap each other much.
+/// cells, which takes as long again, and longer where boxes of cells overlap each other much; Options::verdict_only
+/// spares that. A witness takes some ten microseconds, and up to some milliseconds where the coordinates of its two
+/// cells span the whole range of doubles; there are at most Options::contacts.
 #pragma once
 
 #include <array>
@@ -65,11 +67,15 @@
 namespace barycert::check {
 
 struct Options {
-    int threads = 0;                                  ///< 0: as many as the machine has
-    bool delaunay = false;                            ///< test every interior facet, exactly
-    const Plc* plc = nullptr;                         ///< test conformity to its facets; tetrahedra only
-    std::size_t examples = 10;                        ///< places kept of each problem
-    std::size_t contacts = 20;                        ///< overlapping or touching pairs for which a witness is computed
+    int threads = 0;            ///< 0: as many as the machine has
+    bool delaunay = false;      ///< test every interior facet, exactly
+    const Plc* plc = nullptr;   ///< test conformity to its facets; tetrahedra only
+    std::size_t examples = 10;  ///< places kept of each problem
+    std::size_t contacts = 20;  ///< overlapping or touching pairs for which a witness is computed
+    /// Stop at the first problem that breaks the certificate: the report then has the verdict and that problem, maybe
+    /// more; of measures the orientations alone, no contacts, and nothing else that came later. The verdict is the
+    /// same.
+    bool verdict_only = false;
     std::function<void(const char* stage)> progress;  ///< called as each stage begins, from the calling thread
 };
 

@@ -11,7 +11,8 @@
 namespace barycert::check {
 
 /// An exact point. `point` is it, rounded; where `exact` holds, the doubles themselves are a witness, and anybody can
-/// check them with weight_signs. Else only `fraction` is: "numerator/denominator", each coordinate.
+/// check them with weight_signs. Else only `fraction` is: "numerator/denominator", each coordinate, in lowest terms but
+/// for numbers of more than 4096 bits. Where such would be needed and `exact` holds, `fraction` is of the doubles.
 struct Witness {
     std::array<double, 3> point{};
     bool exact = false;

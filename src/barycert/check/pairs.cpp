@@ -28,29 +28,29 @@ Box box_of_cell(const Mesh& mesh, std::size_t cell) {
     return box_of(mesh.dimension, corner_points(mesh, cell).data(), mesh.dimension + 1);
 }
 
-/// Pairs (i, j), i < j, of the boxes for which `conflict` holds, up to pair_limit; ascending.
+/// Pairs (i, j), i < j, of the boxes for which `conflict` holds, up to `limit`; ascending.
 template <class Conflict>
-std::vector<Pair> conflicts(std::vector<Box> boxes, Conflict conflict, bool& complete) {
+std::vector<Pair> conflicts(std::vector<Box> boxes, Conflict conflict, std::size_t limit, bool& complete) {
     const std::vector<Box> query = boxes;
     const BoxTree tree(std::move(boxes));
     std::vector<Pair> all;
     in_waves(
         query.size(), 512, [] { return std::vector<Pair>(); },
         [&](std::size_t first, std::size_t last, std::vector<Pair>& part) {
-            for (std::size_t i = first; i < last && part.size() <= pair_limit; ++i) {
+            for (std::size_t i = first; i < last && part.size() <= limit; ++i) {
                 const std::size_t begin = part.size();
                 tree.for_each(query[i], [&](std::uint32_t j) {
                     if (j > i && conflict(i, j)) part.push_back({static_cast<std::uint32_t>(i), j});
-                    return part.size() <= pair_limit;
+                    return part.size() <= limit;
                 });
                 std::sort(part.begin() + static_cast<std::ptrdiff_t>(begin), part.end(),
                           [](const Pair& a, const Pair& b) { return a.second < b.second; });
             }
         },
         [&](const std::vector<Pair>& part) { all.insert(all.end(), part.begin(), part.end()); },
-        [&] { return all.size() <= pair_limit; });
-    complete = all.size() <= pair_limit;
-    all.resize(std::min(all.size(), pair_limit));
+        [&] { return all.size() <= limit; });
+    complete = all.size() <= limit;
+    all.resize(std::min(all.size(), limit));
     return all;
 }
 
@@ -75,7 +75,7 @@ void mark(Measures& measures, Mesh::Index cell, Problem problem) {
 }  // namespace
 
 std::vector<CellPair> find_boundary_contacts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
-                                             Measures& measures, Findings& findings) {
+                                             std::size_t limit, Measures& measures, Findings& findings) {
     std::vector<PlacedFacet> proper_facets;
     std::vector<Mesh::Index> cells;
     std::vector<Box> boxes;
@@ -91,7 +91,7 @@ std::vector<CellPair> find_boundary_contacts(const Mesh& mesh, const std::vector
         return facets_conflict(mesh.dimension, proper_facets[i], proper_facets[j]);
     };
     std::vector<CellPair> pairs;
-    for (const Pair& p : conflicts(std::move(boxes), conflict, complete)) {
+    for (const Pair& p : conflicts(std::move(boxes), conflict, limit, complete)) {
         pairs.push_back({cells[p.first], cells[p.second]});
         for (const Mesh::Index cell : pairs.back()) mark(measures, cell, Problem::boundary_contact);
         findings.add(Problem::boundary_contact, {.cells = pairs.back(), .nodes = proper_facets[p.first].nodes});
@@ -101,7 +101,8 @@ std::vector<CellPair> find_boundary_contacts(const Mesh& mesh, const std::vector
 }
 
 void find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
-                       const std::vector<std::uint32_t>& pieces, Measures& measures, Findings& findings) {
+                       const std::vector<std::uint32_t>& pieces, std::size_t limit, Measures& measures,
+                       Findings& findings) {
     std::vector<std::size_t> inner;  // a cell at each piece
     std::vector<Box> boxes;
     for (const std::uint32_t piece : pieces) {
@@ -144,9 +145,9 @@ void find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facet
         [](const Nothing&) {},
         [&] {
             const auto found = lowest.size() - static_cast<std::size_t>(std::count(lowest.begin(), lowest.end(), none));
-            return complete = found <= pair_limit;
+            return complete = found <= limit;
         });
-    for (std::size_t i = 0, found = 0; i < inner.size() && found < pair_limit; ++i) {
+    for (std::size_t i = 0, found = 0; i < inner.size() && found < limit; ++i) {
         if (lowest[i] == none) continue;
         ++found;
         const Place place{.cells = {static_cast<Mesh::Index>(inner[i]), static_cast<Mesh::Index>(lowest[i])}};
@@ -170,7 +171,7 @@ std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, Measures& measure
                               corner_points(mesh, static_cast<std::size_t>(cells[j])));
     };
     std::vector<CellPair> pairs;
-    for (const Pair& p : conflicts(std::move(boxes), conflict, complete)) {
+    for (const Pair& p : conflicts(std::move(boxes), conflict, pair_limit, complete)) {
         pairs.push_back({cells[p.first], cells[p.second]});
         for (const Mesh::Index cell : pairs.back()) mark(measures, cell, Problem::overlapping_cells);
         findings.add(Problem::overlapping_cells, {.cells = pairs.back()});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -16,14 +17,15 @@ inline constexpr std::size_t pair_limit = 1000;
 
 using CellPair = std::array<Mesh::Index, 2>;
 
-/// P3: finds boundary_contact; the cells of the facets of each.
+/// P3: finds boundary_contact, up to `limit` of them; the cells of the facets of each.
 std::vector<CellPair> find_boundary_contacts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
-                                             Measures& measures, Findings& findings);
+                                             std::size_t limit, Measures& measures, Findings& findings);
 
-/// P4: finds nested_part, each with the lowest cell that overlaps. `pieces`: one of the `facets` of each piece of the
-/// boundary.
+/// P4: finds nested_part, up to `limit` of them, each with the lowest cell that overlaps. `pieces`: one of the `facets`
+/// of each piece of the boundary.
 void find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
-                       const std::vector<std::uint32_t>& pieces, Measures& measures, Findings& findings);
+                       const std::vector<std::uint32_t>& pieces, std::size_t limit, Measures& measures,
+                       Findings& findings);
 
 /// Finds overlapping_cells among all that are not degenerate.
 std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, Measures& measures, Findings& findings);

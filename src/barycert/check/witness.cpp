@@ -4,16 +4,23 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "barycert/core/predicates.hpp"
+#include "barycert/core/quotient.hpp"
+#include "barycert/core/scaled_double.hpp"
 #include "barycert/core/simplex.hpp"
 
 namespace barycert::check {
 namespace {
 
-using Rational = boost::multiprecision::cpp_rational;
-using Vector = std::array<Rational, 3>;
+// Homogeneous coordinates, whole numbers: no quotient is ever put in lowest terms on the way, which for coordinates
+// over the whole range of doubles took all the time. Each axis has its own unit; what follows is affine.
+
+using Number = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
+using Vector = std::array<Number, 3>;
 
 Vector operator-(const Vector& x, const Vector& y) {
     return {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
@@ -21,76 +28,184 @@ Vector operator-(const Vector& x, const Vector& y) {
 Vector cross(const Vector& x, const Vector& y) {
     return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
 }
-Rational dot(const Vector& x, const Vector& y) {
+Number dot(const Vector& x, const Vector& y) {
     return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 }
-bool is_zero(const Vector& x) {
-    return x[0] == 0 && x[1] == 0 && x[2] == 0;
-}
 
-/// The points x with normal . x >= offset.
-struct HalfSpace {
-    Vector normal;
-    Rational offset;
-    Rational over(const Vector& x) const { return dot(normal, x) - offset; }
+/// Coordinates as multiples of a power of two, one an axis.
+class Lattice {
+public:
+    Lattice(int d, const Corners& a, const Corners& b) : d_(static_cast<std::size_t>(d)) {
+        for (std::size_t i = 0; i <= d_; ++i) {
+            for (std::size_t k = 0; k < d_; ++k) {
+                units_[k].add(scaled(a[i][k]));
+                units_[k].add(scaled(b[i][k]));
+            }
+        }
+    }
+    Vector at(const double* p) const {
+        Vector v{};
+        for (std::size_t k = 0; k < d_; ++k) {
+            const ScaledDouble x = scaled(p[k]);
+            if (x.mantissa == 0) continue;
+            v[k] = x.mantissa;
+            v[k] <<= static_cast<unsigned>(x.exponent - units_[k].exponent);
+            if (x.negative) v[k] = -v[k];
+        }
+        return v;
+    }
+    /// The unit of an axis as a power of two; any if all is zero.
+    int exponent(std::size_t k) const {
+        return units_[k].exponent == ScaledDouble::none ? 0 : units_[k].exponent - 1074;
+    }
+
+private:
+    std::size_t d_;
+    std::array<Unit, 3> units_;
+};
+
+/// x / weight. The weight is positive.
+struct Point {
+    Vector x;
+    Number weight;
 };
 
 struct Cell {
     std::vector<Vector> corners;
-    std::vector<HalfSpace> sides;  ///< whose intersection it is
 
-    Cell(int d, const Corners& at) {
-        const auto n = static_cast<std::size_t>(d) + 1;
-        for (std::size_t i = 0; i < n; ++i) {
-            Vector p{};
-            for (std::size_t k = 0; k + 1 < n; ++k) p[k] = Rational(at[i][k]);
-            corners.push_back(p);
-        }
+    Cell(int d, const Corners& at, const Lattice& lattice) {
+        for (std::size_t i = 0; i <= static_cast<std::size_t>(d); ++i) corners.push_back(lattice.at(at[i]));
+    }
+
+    /// [i][j]: corner j of `other` over the side opposite to corner i: not negative for all i if it is in this cell.
+    std::vector<std::vector<Number>> over_sides(const Cell& other) const {
+        const std::size_t n = corners.size();
+        std::vector<std::vector<Number>> over(n);
         for (std::size_t i = 0; i < n; ++i) {
             const Vector &a = corners[(i + 1) % n], &b = corners[(i + 2) % n];
             const Vector up{0, 0, 1};
-            HalfSpace side{cross(b - a, d == 2 ? up : corners[(i + 3) % n] - a), 0};
-            side.offset = dot(side.normal, a);
-            if (side.over(corners[i]) < 0) {
-                for (Rational& x : side.normal) x = -x;
-                side.offset = -side.offset;
+            Vector normal = cross(b - a, n == 3 ? up : corners[(i + 3) % n] - a);
+            if (dot(normal, corners[i] - a) < 0) {
+                for (Number& x : normal) x = -x;
             }
-            sides.push_back(std::move(side));
+            for (const Vector& p : other.corners) over[i].push_back(dot(normal, p - a));
         }
-    }
-
-    bool holds(const Vector& x) const {
-        return std::all_of(sides.begin(), sides.end(), [&](const HalfSpace& s) { return s.over(x) >= 0; });
+        return over;
     }
 };
 
-/// Corners of a in b, and where edges of a pass through sides of b into or out of b.
-void add_extreme_points(const Cell& a, const Cell& b, std::vector<Vector>& points) {
-    for (std::size_t i = 0; i < a.corners.size(); ++i) {
-        if (b.holds(a.corners[i])) points.push_back(a.corners[i]);
+/// Corners of a in b, and where edges of a pass through sides of b into or out of b. On an edge from p to q that passes
+/// through a side at (q u - p v) / (u - v), u and v the heights of p and q over it, any height is the same mean of
+/// those at p and q.
+void add_extreme_points(const Cell& a, const Cell& b, std::vector<Point>& points) {
+    const auto over = b.over_sides(a);
+    const std::size_t n = a.corners.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        if (std::all_of(over.begin(), over.end(), [&](const auto& side) { return side[i] >= 0; }))
+            points.push_back({a.corners[i], 1});
         for (std::size_t j = 0; j < i; ++j) {
-            for (const HalfSpace& side : b.sides) {
-                const Rational u = side.over(a.corners[i]), v = side.over(a.corners[j]);
+            for (std::size_t s = 0; s < n; ++s) {
+                const Number &u = over[s][i], &v = over[s][j];
                 if (u == v || (u > 0) == (v > 0)) continue;
-                Vector x;
-                for (std::size_t k = 0; k < 3; ++k) x[k] = (a.corners[j][k] * u - a.corners[i][k] * v) / (u - v);
-                if (b.holds(x)) points.push_back(std::move(x));
+                const bool positive = u > v;
+                const auto mean = [&](const Number& at_i, const Number& at_j) {
+                    return positive ? at_j * u - at_i * v : at_i * v - at_j * u;
+                };
+                bool inside = true;
+                for (std::size_t t = 0; t < n && inside; ++t) inside = t == s || mean(over[t][i], over[t][j]) >= 0;
+                if (!inside) continue;
+                Point x{{}, positive ? u - v : v - u};
+                for (std::size_t k = 0; k < 3; ++k) x.x[k] = mean(a.corners[i][k], a.corners[j][k]);
+                points.push_back(std::move(x));
             }
         }
     }
 }
 
-int dimension_of(const std::vector<Vector>& points) {
-    if (points.empty()) return -1;
-    Vector edge{}, normal{};
-    int dimension = 0;
-    for (const Vector& p : points) {
-        const Vector e = p - points.front();
-        if (dimension == 0 && !is_zero(e)) edge = e, dimension = 1;
-        if (dimension == 1 && !is_zero(cross(edge, e))) normal = cross(edge, e), dimension = 2;
-        if (dimension == 2 && dot(normal, e) != 0) return 3;
+/// As many of the points as span what all of them do: those whose homogeneous coordinates do not depend on those of the
+/// ones before, by elimination.
+std::vector<Point> spanning(int d, const std::vector<Point>& points) {
+    struct Row {
+        std::array<Number, 4> at;
+        std::size_t pivot;
+    };
+    std::vector<Row> rows;
+    std::vector<Point> chosen;
+    for (const Point& p : points) {
+        std::array<Number, 4> v{p.x[0], p.x[1], p.x[2], p.weight};
+        for (const Row& row : rows) {
+            const Number factor = v[row.pivot];
+            if (factor == 0) continue;
+            for (std::size_t k = 0; k < 4; ++k) v[k] = v[k] * row.at[row.pivot] - row.at[k] * factor;
+        }
+        const auto pivot = static_cast<std::size_t>(
+            std::find_if(v.begin(), v.end(), [](const Number& x) { return x != 0; }) - v.begin());
+        if (pivot == 4) continue;
+        rows.push_back({v, pivot});
+        chosen.push_back(p);
+        if (chosen.size() == static_cast<std::size_t>(d) + 1) break;
     }
-    return dimension;
+    return chosen;
+}
+
+/// Longer fractions are not put in lowest terms, but for powers of two, and are not written where doubles do as well:
+/// either takes time quadratic in their length. Those of coordinates within 2^60 of each other have a few hundred bits.
+constexpr std::size_t most_bits = 4096;
+
+/// numerator / denominator * 2^exponent as it is written, and rounded.
+class Fraction {
+public:
+    /// Precondition: the denominator is positive.
+    Fraction(Number numerator, Number denominator, int exponent)
+        : numerator_(std::move(numerator)), denominator_(std::move(denominator)) {
+        if (numerator_ == 0) {
+            denominator_ = 1;
+            return;
+        }
+        (exponent > 0 ? numerator_ : denominator_) <<= static_cast<unsigned>(std::abs(exponent));
+        const auto twos = static_cast<unsigned>(std::min(lsb(abs(numerator_)), lsb(denominator_)));
+        numerator_ >>= twos;
+        denominator_ >>= twos;
+        if (size() > most_bits) return;
+        const Number common = gcd(numerator_, denominator_);
+        numerator_ /= common;
+        denominator_ /= common;
+    }
+
+    /// Bits of the longer of both.
+    std::size_t size() const { return std::max(numerator_ == 0 ? 0 : msb(abs(numerator_)) + 1, msb(denominator_) + 1); }
+
+    std::string text() const {
+        return denominator_ == 1 ? numerator_.str() : numerator_.str() + "/" + denominator_.str();
+    }
+
+    double rounded() const {
+        if (numerator_ == 0) return 0;
+        // A quotient of 63 or 64 bits, and one that tells whether anything was cut off.
+        const Number magnitude = abs(numerator_);
+        const int shift = 63 + static_cast<int>(msb(denominator_)) - static_cast<int>(msb(magnitude));
+        Number quotient, rest;
+        if (shift >= 0) {
+            divide_qr(Number(magnitude << static_cast<unsigned>(shift)), denominator_, quotient, rest);
+        } else {
+            divide_qr(magnitude, Number(denominator_ << static_cast<unsigned>(-shift)), quotient, rest);
+        }
+        const std::array<std::uint64_t, 2> limbs{
+            static_cast<std::uint64_t>(quotient << 1 & ~std::uint64_t{0}) | (rest != 0 ? 1U : 0U),
+            static_cast<std::uint64_t>(quotient >> 63)};
+        return round_integer(Integer(numerator_ < 0, limbs), -shift - 1);
+    }
+
+private:
+    Number numerator_, denominator_;
+};
+
+/// The double itself.
+Fraction dyadic(double x) {
+    const ScaledDouble s = scaled(x);
+    Number mantissa = s.mantissa;
+    if (s.negative) mantissa = -mantissa;
+    return {mantissa, 1, s.mantissa == 0 ? 0 : s.exponent - 1074};
 }
 
 /// The doubles of the witness themselves lie in both cells; in both interiors if `inside`.
@@ -107,26 +222,42 @@ bool lies_in(int d, const Corners& cell, const double* point, bool inside) {
 }  // namespace
 
 Common common_part(int d, const Corners& a, const Corners& b) {
-    const Cell p(d, a), q(d, b);
-    std::vector<Vector> points;
-    add_extreme_points(p, q, points);
-    add_extreme_points(q, p, points);
+    const Lattice lattice(d, a, b);
+    const Cell p(d, a, lattice), q(d, b, lattice);
+    std::vector<Point> all;
+    add_extreme_points(p, q, all);
+    add_extreme_points(q, p, all);
+    const std::vector<Point> points = spanning(d, all);
     Common common;
-    common.dimension = dimension_of(points);
+    common.dimension = static_cast<int>(points.size()) - 1;
     if (points.empty()) return common;
-    // What the two have in common is the convex hull of these points: their mean is in its relative interior.
+    // What the two have in common is the convex hull of all points: the mean of some that span it is in its relative
+    // interior. Over the product of their weights, each counts with the product of the others'.
+    std::vector<Number> factors(points.size(), 1);
+    Number denominator = static_cast<unsigned>(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        denominator *= points[i].weight;
+        for (std::size_t j = 0; j < points.size(); ++j) {
+            if (i != j) factors[i] *= points[j].weight;
+        }
+    }
     Witness& w = common.witness;
-    bool finite = true;
+    bool finite = true, short_enough = true;
+    std::vector<Fraction> means;
     for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) {
-        Rational mean = 0;
-        for (const Vector& x : points) mean += x[k];
-        mean /= static_cast<unsigned>(points.size());
-        w.point[k] = mean.convert_to<double>();
-        w.fraction[k] = mean.str();
+        Number sum = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) sum += points[i].x[k] * factors[i];
+        const Fraction& mean = means.emplace_back(sum, denominator, lattice.exponent(k));
+        w.point[k] = mean.rounded();
         finite = finite && std::isfinite(w.point[k]);
+        short_enough = short_enough && mean.size() <= most_bits;
     }
     const bool inside = common.dimension == d;
     w.exact = finite && lies_in(d, a, w.point.data(), inside) && lies_in(d, b, w.point.data(), inside);
+    for (std::size_t k = 0; k < means.size(); ++k) {
+        // Where the doubles do as well, nobody wants a number of thousands of digits.
+        w.fraction[k] = !short_enough && w.exact ? dyadic(w.point[k]).text() : means[k].text();
+    }
     return common;
 }
 

@@ -7,8 +7,8 @@
 namespace barycert::check {
 
 /// What two closed cells have in common: its dimension (-1: nothing), and a point in its relative interior, computed in
-/// rational numbers. If the interiors meet, that point lies in both. Precondition: coordinates finite. Slow: some
-/// hundred microseconds.
+/// integers. If the interiors meet, that point lies in both. Precondition: coordinates finite. Slow: tens of
+/// microseconds, or up to some milliseconds (coordinates over the whole range of doubles, numbers of 30,000 bits).
 struct Common {
     int dimension = -1;
     Witness witness;

@@ -1,0 +1,68 @@
+// verdict_only: the same verdict, and no search once it is known.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "barycert/mesh/tetgen_io.hpp"
+#include "check/meshes.hpp"
+#include "check/random_complexes.hpp"
+
+namespace barycert::testing {
+namespace {
+
+struct Asked {
+    check::Report report;
+    std::vector<std::string> stages;
+};
+
+Asked verdict_of(const Mesh& mesh) {
+    Asked asked;
+    asked.report = check::run(
+        mesh, {.threads = 1, .examples = 0, .contacts = 0, .verdict_only = true, .progress = [&](const char* stage) {
+                   asked.stages.emplace_back(stage);
+               }});
+    return asked;
+}
+
+TEST(VerdictOnly, is_the_verdict) {
+    std::size_t certified = 0, broken = 0;
+    for (const int d : {2, 3}) {
+        for (std::uint64_t i = 0; i < 600; ++i) {
+            Random random = Random::stream(34, static_cast<std::uint64_t>(d), i);
+            Mesh mesh = i % 3 == 0 ? random_soup(d, random) : damaged_box(d, random);
+            if (i % 3 == 2) mesh = box(d, {1 + static_cast<int>(random.below(3)), 2, 1});
+            const check::Report whole = quick(mesh), verdict = verdict_of(mesh).report;
+            ASSERT_EQ(verdict.certificate.verdict(), whole.certificate.verdict());
+            ASSERT_EQ(verdict.measures.orientation, whole.measures.orientation);
+            EXPECT_TRUE(verdict.measures.condition.empty() && verdict.contacts.empty());
+            for (const check::Finding& f : verdict.findings) EXPECT_NE(whole.find(f.problem), nullptr);
+            ++(whole.certified() ? certified : broken);
+        }
+    }
+    EXPECT_GT(certified, 300U);
+    EXPECT_GT(broken, 300U);
+}
+
+// A mesh with nodes snapped to a coarse lattice has degenerate cells: they are proof enough.
+TEST(VerdictOnly, stops_at_the_first_proof) {
+    Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/torus")).value();
+    double most = 0;
+    for (const double x : mesh.points) most = std::max(most, std::abs(x));
+    for (double& x : mesh.points) x = std::round(x * 8 / most);
+    const Asked degenerate = verdict_of(mesh);
+    EXPECT_NE(degenerate.report.find(Problem::degenerate_cell), nullptr);
+    EXPECT_EQ(degenerate.stages.back(), "cells");
+
+    // Cells upon each other: facets do not tell, contacts of the boundary do.
+    const Asked twice = verdict_of(joined(box(3, {4, 4, 4}), mapped(box(3, {4, 4, 4}), {1, 1, 1}, {0.5, 0.25, 0.125})));
+    EXPECT_NE(twice.report.find(Problem::boundary_contact), nullptr);
+    EXPECT_LE(twice.report.find(Problem::boundary_contact)->count, 1U);
+    EXPECT_EQ(twice.stages.back(), "contacts of the boundary");
+    EXPECT_EQ(std::count(twice.stages.begin(), twice.stages.end(), "overlapping cells"), 0);
+}
+
+}  // namespace
+}  // namespace barycert::testing
