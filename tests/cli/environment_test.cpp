@@ -90,9 +90,14 @@ TEST(environment, of_sample) {
                            "nearest", "--output", scratch.path("r.npy"), "--json", "-"},
                           0, scratch.path("r.npy"));
     }
-    const Ended plain = run({"sample", tiny, "--points", points, "--rounding", "plain", "--output", "-", "--quiet"},
-                            started_in("n8040"));
-    EXPECT_TRUE(contains(plain.out, "\n4e-323,0,0,0,vertex,1.5e-323,7e-320\n")) << plain.out;
+    // Cells of ordinary size: plain arithmetic keeps subnormal values where the process was started to flush them.
+    scratch.put("values.node", "4 3 1 0\n0 0 0 0 5e-324\n1 1 0 0 1.5e-323\n2 0 1 0 -2.5e-323\n3 0 0 1 4.4e-323\n");
+    scratch.put("values.ele", "1 4 1\n0 0 1 2 3 7e-320\n");
+    const std::string corner = scratch.put("c.csv", "x,y,z\n1,0,0\n");
+    const Ended plain =
+        run({"sample", scratch.path("values"), "--points", corner, "--rounding", "plain", "--output", "-", "--quiet"},
+            started_in("n8040"));
+    EXPECT_TRUE(contains(plain.out, "\n1,0,0,0,vertex,1.5e-323,7e-320\n")) << plain.out;
 }
 
 TEST(environment, of_resample) {

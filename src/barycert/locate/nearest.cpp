@@ -7,6 +7,7 @@
 
 #include "barycert/core/exact_environment.hpp"
 #include "barycert/core/predicates.hpp"
+#include "barycert/core/strict_math.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/locator.hpp"
 #include "barycert/locate/locator_data.hpp"

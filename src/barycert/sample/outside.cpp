@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "barycert/core/quadratic.hpp"
+#include "barycert/core/strict_math.hpp"
 #include "barycert/sample/chunk_sampler.hpp"
 
 namespace barycert::detail {
