@@ -12,9 +12,20 @@ endif()
 
 add_library(barycert_flags INTERFACE)
 target_compile_features(barycert_flags INTERFACE cxx_std_20)
-# A fused multiply-add that the source does not ask for changes results: contraction is off everywhere but in the
-# kernel variants that exist to show what it does.
-target_compile_options(barycert_flags INTERFACE -ffp-contract=off)
+# Everything is rounded as written, whatever CMAKE_CXX_FLAGS allow the compiler: a target's options come after these and
+# take back what changes results. Only the kernel variants that show what such flags do have them again, as options of
+# their sources. (Clang takes -fno-unsafe-math-optimizations for a wish for exceptions that trap, and gets slow; its
+# -fno-fast-math takes back that flag, too.)
+set(barycert_strict_math -fno-fast-math -fno-associative-math -fno-reciprocal-math -fsigned-zeros -fno-finite-math-only
+  -ffp-contract=off)
+set(barycert_strict_math_GNU ${barycert_strict_math} -fno-unsafe-math-optimizations -fno-single-precision-constant)
+set(barycert_strict_math_Clang ${barycert_strict_math} -fno-approx-func -fhonor-nans -fhonor-infinities
+  -fdenormal-fp-math=ieee)
+if(DEFINED barycert_strict_math_${CMAKE_CXX_COMPILER_ID})
+  target_compile_options(barycert_flags INTERFACE ${barycert_strict_math_${CMAKE_CXX_COMPILER_ID}})
+else()
+  target_compile_options(barycert_flags INTERFACE ${barycert_strict_math})
+endif()
 target_compile_options(barycert_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 warns of overlaps and overflows that are not there in `"text" + std::string` (its bug 105651).

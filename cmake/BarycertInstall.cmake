@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 set(BARYCERT_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/barycert)
 install(TARGETS barycert EXPORT barycertTargets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 # Headers that stand on the standard library alone are public; what includes others' headers stays inside.
-set(internal_headers core/*-inl core/blocks core/environment_error core/exact_weights core/fixed_integer core/gradient_exact core/gradient_lanes core/input_file core/integer core/lanes core/point_arguments core/quadratic_edges core/quadratic_exact core/quadratic_lanes core/quotient core/scaled_double
+set(internal_headers core/*-inl core/blocks core/exact_weights core/fixed_integer core/gradient_exact core/gradient_lanes core/input_file core/integer core/lanes core/point_arguments core/quadratic_edges core/quadratic_exact core/quadratic_lanes core/quotient core/scaled_double core/simd_targets core/strict_math
   exact/integers exact/rounding exact/solve kernels/elf_file kernels/registry kernels/scanline kernels/variants
   kernels/vectors kernels/*_formulas mesh/facets mesh/integer_row mesh/row_errors mesh/scanner mesh/tetgen_reader mesh/text_table plc/plc_text
   check/box_tree check/boundary check/cells check/disjoint_sets check/exact_volumes check/facet_contact check/facets check/files

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "barycert/core/exact_environment.hpp"
+#include "barycert/core/strict_math.hpp"
 #include "barycert/exact/oracle.hpp"
 
 namespace barycert::audit {

@@ -8,6 +8,7 @@
 
 #include "barycert/core/condition.hpp"
 #include "barycert/core/exact_environment.hpp"
+#include "barycert/core/strict_math.hpp"
 
 namespace barycert::audit {
 namespace {

@@ -8,6 +8,7 @@
 #include "barycert/core/condition.hpp"
 #include "barycert/core/predicates.hpp"
 #include "barycert/core/simplex.hpp"
+#include "barycert/core/strict_math.hpp"
 #include "barycert/mesh/large_vector.hpp"
 
 namespace barycert::check {

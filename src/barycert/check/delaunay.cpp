@@ -10,6 +10,7 @@
 #include "barycert/check/local_delaunay.hpp"
 #include "barycert/check/signs.hpp"
 #include "barycert/core/insphere.hpp"
+#include "barycert/core/strict_math.hpp"
 
 namespace barycert::check {
 namespace {

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "barycert/core/strict_math.hpp"
+
 namespace barycert::check {
 namespace {
 

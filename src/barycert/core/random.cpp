@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "barycert/core/exact_environment.hpp"
+#include "barycert/core/strict_math.hpp"
 
 namespace barycert {
 

@@ -12,5 +12,8 @@
 #error "barycert/core/simd_targets.hpp must come before Highway's headers"
 #endif
 
+// Before the compiler's intrinsics, which Clang compiles to arithmetic.
+#include "barycert/core/strict_math.hpp"
+
 #define HWY_DISABLED_TARGETS \
     (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)

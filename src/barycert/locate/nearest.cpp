@@ -10,6 +10,7 @@
 
 #include "barycert/core/exact_environment.hpp"
 #include "barycert/core/predicates.hpp"
+#include "barycert/core/strict_math.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/near_bounds.hpp"
 #include "barycert/locate/near_feature.hpp"

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "barycert/core/exact_environment.hpp"
+#include "barycert/core/strict_math.hpp"
 #include "barycert/core/text.hpp"
 
 namespace barycert {

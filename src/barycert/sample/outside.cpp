@@ -10,6 +10,7 @@
 
 #include "barycert/core/quadratic.hpp"
 #include "barycert/locate/near_feature.hpp"
+#include "barycert/core/strict_math.hpp"
 #include "barycert/sample/chunk_sampler.hpp"
 
 namespace barycert::detail {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "barycert/core/exact_environment.hpp"
+#include "barycert/core/strict_math.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/sample/slab_sampler.hpp"
 
