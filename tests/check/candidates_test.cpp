@@ -48,7 +48,7 @@ Mesh star(int d, int corners, bool lattice, double scale, Random& random) {
 
 template <class Meet>
 std::size_t expect_complete(int d, const std::vector<Item>& items, Meet meet) {
-    const Candidates candidates(d, items);
+    const Candidates candidates(d, items, 32);
     std::size_t meeting = 0;
     for (std::size_t i = 0; i < items.size(); ++i) {
         std::set<std::size_t> named;

@@ -99,7 +99,7 @@ const double* Item::place_of(Mesh::Index node) const {
     return nullptr;
 }
 
-Candidates::Candidates(int d, std::span<const Item> items) : d_(d) {
+Candidates::Candidates(int d, std::span<const Item> items, std::size_t crowd) : d_(d), crowd_(crowd) {
     std::vector<std::uint32_t> all(items.size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::uint32_t>(i);
     split(-1, all, items);
@@ -117,7 +117,7 @@ void Candidates::split(Mesh::Index node, const std::vector<std::uint32_t>& membe
     users.erase(node);
     std::map<Mesh::Index, std::vector<std::uint32_t>> groups;  // ascending, that all depends on the items alone
     for (const std::uint32_t m : members) {
-        std::pair<std::size_t, Mesh::Index> most{crowd, -1};
+        std::pair<std::size_t, Mesh::Index> most{crowd_, -1};
         for (std::size_t i = 0; i < static_cast<std::size_t>(items[m].count); ++i) {
             const auto found = users.find(items[m].nodes[i]);
             if (found != users.end() && found->second > most.first) most = {found->second, found->first};
@@ -152,9 +152,9 @@ void Candidates::add(std::array<Mesh::Index, 2> nodes, std::vector<std::uint32_t
     }
 }
 
-Candidates::Query Candidates::query_of(const Group& group, const Item& item) const {
-    const double* const first = group.nodes[0] < 0 ? nullptr : item.place_of(group.nodes[0]);
-    if (first == nullptr) return {0, box_of(d_, item.at.data(), item.count)};
+Candidates::Query Candidates::query_of(const Group& group, const Item& item, const Box& place) const {
+    const double* const first = item.place_of(group.nodes[0]);
+    if (first == nullptr) return {0, place};
     const double* const second = group.nodes[1] < 0 ? nullptr : item.place_of(group.nodes[1]);
     if (second == nullptr) return {1, directions_from(d_, item, first)};
     return {2, directions_around(d_, item, first, second)};

@@ -35,9 +35,8 @@ struct Item {
 
 class Candidates {
 public:
-    static constexpr std::size_t crowd = 64;
-
-    Candidates(int d, std::span<const Item> items);
+    /// `crowd`: below it, asking all pairs costs less than groups do; nodes of good meshes have some tens of cells.
+    Candidates(int d, std::span<const Item> items, std::size_t crowd = 256);
 
     /// found(j), in no special order, for each item j that has a point in common with `item` beside the face of their
     /// common nodes, and for others, until it returns false. Returns false if it did. Items of the same nodes may be
@@ -45,11 +44,13 @@ public:
     template <class F>
     bool for_each(const Item& item, F&& found) const {
         if (groups_.empty()) return true;
-        return bounds_->for_each(box_of(d_, item.at.data(), item.count), [&](std::uint32_t g) {
+        const Box place = box_of(d_, item.at.data(), item.count);
+        return bounds_->for_each(place, [&](std::uint32_t g) {
             const Group& group = groups_[g];
-            const Query query = query_of(group, item);
-            return group.trees[query.tree]->for_each(query.box,
-                                                     [&](std::uint32_t i) { return found(group.members[i]); });
+            const auto named = [&](std::uint32_t i) { return found(group.members[i]); };
+            if (group.nodes[0] < 0) return group.trees[0]->for_each(place, named);
+            const Query query = query_of(group, item, place);
+            return group.trees[query.tree]->for_each(query.box, named);
         });
     }
 
@@ -67,11 +68,12 @@ private:
         Box box;
     };
 
-    Query query_of(const Group& group, const Item& item) const;
+    Query query_of(const Group& group, const Item& item, const Box& place) const;
     void add(std::array<Mesh::Index, 2> nodes, std::vector<std::uint32_t> members, std::span<const Item> items);
     void split(Mesh::Index node, const std::vector<std::uint32_t>& members, std::span<const Item> items);
 
     int d_;
+    std::size_t crowd_;
     std::vector<Group> groups_;
     std::optional<BoxTree> bounds_;
 };
