@@ -8,7 +8,7 @@ install(TARGETS barycert EXPORT barycertTargets INCLUDES DESTINATION ${CMAKE_INS
 set(internal_headers core/*-inl core/blocks core/exact_weights core/fixed_integer core/gradient_exact core/gradient_lanes core/input_file core/integer core/lanes core/point_arguments core/quadratic_edges core/quadratic_exact core/quadratic_lanes core/quotient core/scaled_double core/simd_targets core/strict_math
   exact/integers exact/rounding exact/solve kernels/elf_file kernels/registry kernels/scanline kernels/variants
   kernels/vectors kernels/*_formulas mesh/facets mesh/integer_row mesh/row_errors mesh/scanner mesh/tetgen_reader mesh/text_table plc/plc_text
-  check/box_tree check/boundary check/cells check/disjoint_sets check/exact_volumes check/facet_contact check/facets check/files
+  check/box_tree check/boundary check/candidates check/cells check/disjoint_sets check/exact_volumes check/facet_contact check/facets check/files
   check/findings check/local_delaunay check/nodes check/overlap check/pairs check/plc_facet check/shape check/signs check/witness audit/witness_json report/check_conditions report/environment_json report/terminal_text vti/xml_name report/png_rows report/colour_bar
   locate/batch locate/bins locate/buffer locate/cell_index locate/cell_signs locate/cell_tree locate/finder locate/locator_data
   locate/near* locate/node_cells locate/open_facets locate/quantizer locate/*-inl locate/radix_sort locate/sorted_points locate/walk_lanes

@@ -127,8 +127,9 @@ Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths, boo
         Result<Mesh> mesh = load_mesh(path, {.faces = false, .neighbours = false, .threads = 0});
         if (!mesh) return mesh.error();
         if (mesh->cell_count() == 0) return Error{.what = "the mesh has no cells", .file = path};
-        const check::Certificate certificate =
-            certify ? check::run(*mesh, {.verdict_only = true}).certificate : check::Certificate();
+        check::Options verdict;
+        verdict.verdict_only = true;
+        const check::Certificate certificate = certify ? check::run(*mesh, verdict).certificate : check::Certificate();
         source.add(paths.empty() ? fs::path(path).stem().string() : path, std::move(*mesh), certificate);
     }
     return source;

@@ -100,6 +100,11 @@ TEST(SampleNearest, N3_ValuesOfTheCellFromAnywhere) {
     }
 }
 
+TEST(SampleNearest, N3_OnOwnMeshes) {
+    for (const char* stem : {"cube-hole", "bracket", "needle-slit", "plate", "torus"})
+        expect_in_range(read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value(), 1, stem);
+}
+
 TEST(SampleNearest, N3_OnSecondOrderCells) {
     Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/cube-hole-o2")).value();
     expect_in_range(mesh, 1, "cube-hole-o2");

@@ -43,10 +43,13 @@
 /// triangles has no faces; what belongs to nodes and cells (fields, markers, nodes at mid-edges) fits them. A
 /// certificate says that P1 to P5 hold, so Locator::build takes a certified mesh.
 ///
-/// Costs: time O(n log n) for n cells of bounded degree; a mesh without certificate is also searched for overlapping
-/// cells, which takes as long again, and longer where boxes of cells overlap each other much; Options::verdict_only
-/// spares that. A witness takes some ten microseconds, and up to some milliseconds where the coordinates of its two
-/// cells span the whole range of doubles; there are at most Options::contacts.
+/// Costs: time O(n log n) and the pairs of facets that may meet: few in most meshes, also around nodes that very many
+/// cells share, but up to n^2 where thin cells lie side by side askew to the axes (candidates.hpp, about 0.1
+/// microseconds a pair). No search is given up before it has found what breaks the certificate. A mesh without
+/// certificate is also searched for overlapping cells, which takes as long again, and longer where boxes of cells
+/// overlap each other much; Options::verdict_only spares that. A witness takes some ten microseconds, and up to some
+/// milliseconds where the coordinates of its two cells span the whole range of doubles; there are at most
+/// Options::contacts.
 #pragma once
 
 #include <array>

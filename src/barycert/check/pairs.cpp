@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "barycert/check/box_tree.hpp"
+#include "barycert/check/candidates.hpp"
 #include "barycert/check/cells.hpp"
 #include "barycert/check/facet_contact.hpp"
 #include "barycert/check/overlap.hpp"
@@ -24,22 +25,31 @@ PlacedFacet placed(const Mesh& mesh, const BoundaryFacet& facet) {
     return f;
 }
 
-Box box_of_cell(const Mesh& mesh, std::size_t cell) {
-    return box_of(mesh.dimension, corner_points(mesh, cell).data(), mesh.dimension + 1);
+Item item_of(const PlacedFacet& f, int d) {
+    Item item{.count = d};
+    std::copy(f.nodes.begin(), f.nodes.end(), item.nodes.begin());
+    std::copy(f.at.begin(), f.at.end(), item.at.begin());
+    return item;
 }
 
-/// Pairs (i, j), i < j, of the boxes for which `conflict` holds, up to `limit`; ascending.
+Item item_of(const Mesh& mesh, std::size_t cell) {
+    Item item{.count = mesh.dimension + 1, .at = corner_points(mesh, cell)};
+    std::copy_n(&mesh.cells[cell * mesh.corners()], mesh.corners(), item.nodes.begin());
+    return item;
+}
+
+/// Pairs (i, j), i < j, of the items for which `conflict` holds, up to `limit`; ascending.
 template <class Conflict>
-std::vector<Pair> conflicts(std::vector<Box> boxes, Conflict conflict, std::size_t limit, bool& complete) {
-    const std::vector<Box> query = boxes;
-    const BoxTree tree(std::move(boxes));
+std::vector<Pair> conflicts(int d, const std::vector<Item>& items, Conflict conflict, std::size_t limit,
+                            bool& complete) {
+    const Candidates candidates(d, items);
     std::vector<Pair> all;
     in_waves(
-        query.size(), 512, [] { return std::vector<Pair>(); },
+        items.size(), 512, [] { return std::vector<Pair>(); },
         [&](std::size_t first, std::size_t last, std::vector<Pair>& part) {
             for (std::size_t i = first; i < last && part.size() <= limit; ++i) {
                 const std::size_t begin = part.size();
-                tree.for_each(query[i], [&](std::uint32_t j) {
+                candidates.for_each(items[i], [&](std::uint32_t j) {
                     if (j > i && conflict(i, j)) part.push_back({static_cast<std::uint32_t>(i), j});
                     return part.size() <= limit;
                 });
@@ -78,20 +88,20 @@ std::vector<CellPair> find_boundary_contacts(const Mesh& mesh, const std::vector
                                              std::size_t limit, Measures& measures, Findings& findings) {
     std::vector<PlacedFacet> proper_facets;
     std::vector<Mesh::Index> cells;
-    std::vector<Box> boxes;
+    std::vector<Item> items;
     for (const BoundaryFacet& facet : facets) {
         const PlacedFacet f = placed(mesh, facet);
         if (!proper(mesh.dimension, f)) continue;  // its cell is degenerate, and told
         proper_facets.push_back(f);
         cells.push_back(facet.cell);
-        boxes.push_back(box_of(mesh.dimension, f.at.data(), mesh.dimension));
+        items.push_back(item_of(f, mesh.dimension));
     }
     bool complete = true;
     const auto conflict = [&](std::size_t i, std::size_t j) {
         return facets_conflict(mesh.dimension, proper_facets[i], proper_facets[j]);
     };
     std::vector<CellPair> pairs;
-    for (const Pair& p : conflicts(std::move(boxes), conflict, limit, complete)) {
+    for (const Pair& p : conflicts(mesh.dimension, items, conflict, limit, complete)) {
         pairs.push_back({cells[p.first], cells[p.second]});
         for (const Mesh::Index cell : pairs.back()) mark(measures, cell, Problem::boundary_contact);
         findings.add(Problem::boundary_contact, {.cells = pairs.back(), .nodes = proper_facets[p.first].nodes});
@@ -104,17 +114,17 @@ void find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facet
                        const std::vector<std::uint32_t>& pieces, std::size_t limit, Measures& measures,
                        Findings& findings) {
     std::vector<std::size_t> inner;  // a cell at each piece
-    std::vector<Box> boxes;
+    std::vector<Item> items;
     for (const std::uint32_t piece : pieces) {
         const auto cell = static_cast<std::size_t>(facets[piece].cell);
         if (measures.orientation[cell] == 0) continue;  // degenerate, and told
         inner.push_back(cell);
-        boxes.push_back(box_of_cell(mesh, cell));
+        items.push_back(item_of(mesh, cell));
     }
-    const BoxTree tree(std::move(boxes));
-    if (tree.bounds() == nullptr) return;
+    const Candidates candidates(mesh.dimension, items);
+    if (candidates.bounds() == nullptr) return;
     // Most cells are far from the few that are asked for: one byte a node tells.
-    const std::vector<std::uint8_t> codes = outcodes(mesh, *tree.bounds());
+    const std::vector<std::uint8_t> codes = outcodes(mesh, *candidates.bounds());
     // For each piece the lowest cell that overlaps: no cell above it needs to be asked, and threads agree on it.
     constexpr std::uint32_t none = ~std::uint32_t{0};
     std::vector<std::uint32_t> lowest(inner.size(), none);
@@ -136,7 +146,7 @@ void find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facet
             for (std::size_t cell = first; cell < last; ++cell) {
                 if (measures.orientation[cell] == 0 || common_outcode(mesh, codes, cell) != 0) continue;
                 const auto corners = corner_points(mesh, cell);
-                tree.for_each(box_of(mesh.dimension, corners.data(), mesh.dimension + 1), [&](std::uint32_t i) {
+                candidates.for_each(item_of(mesh, cell), [&](std::uint32_t i) {
                     ask(cell, i, corners);
                     return true;
                 });
@@ -159,11 +169,11 @@ void find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facet
 
 std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, Measures& measures, Findings& findings) {
     std::vector<Mesh::Index> cells;
-    std::vector<Box> boxes;
+    std::vector<Item> items;
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
         if (measures.orientation[cell] == 0) continue;
         cells.push_back(static_cast<Mesh::Index>(cell));
-        boxes.push_back(box_of_cell(mesh, cell));
+        items.push_back(item_of(mesh, cell));
     }
     bool complete = true;
     const auto conflict = [&](std::size_t i, std::size_t j) {
@@ -171,7 +181,7 @@ std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, Measures& measure
                               corner_points(mesh, static_cast<std::size_t>(cells[j])));
     };
     std::vector<CellPair> pairs;
-    for (const Pair& p : conflicts(std::move(boxes), conflict, pair_limit, complete)) {
+    for (const Pair& p : conflicts(mesh.dimension, items, conflict, pair_limit, complete)) {
         pairs.push_back({cells[p.first], cells[p.second]});
         for (const Mesh::Index cell : pairs.back()) mark(measures, cell, Problem::overlapping_cells);
         findings.add(Problem::overlapping_cells, {.cells = pairs.back()});

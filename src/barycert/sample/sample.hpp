@@ -10,9 +10,8 @@
 ///       their nodal values are finite: a component is NaN if any nodal value of its cell is not.
 ///   D1  Rows depend on point, mesh and fields alone: not on threads, SIMD target, blocks, order, or the method that
 ///       found the owner; so a map that was saved gives the same bytes.
-///   N3  Under the policy nearest, a value of a point field is that of the chosen cell at its point nearest to the
-///   given
-///       one, however far that is: so each component lies between the nodal values of the cell. On cells of second
+///   N3  Under the policy nearest, a value of a point field is that of the chosen cell at its point nearest to the one
+///       given, however far that is: so each component lies between the nodal values of the cell. On cells of second
 ///       order it is that of the quadratic at a point of the closed cell whose weights differ from those of the nearest
 ///       one by roundings alone; it may lie beyond the nodal values as far as the quadratic does in the cell.
 ///   E1  Nothing is silent: a point outside has NaN unless asked otherwise, and SampleCounts tells how many were where.
