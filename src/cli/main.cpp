@@ -7,6 +7,7 @@
 #include <new>
 #include <string_view>
 
+#include "barycert/core/environment.hpp"
 #include "barycert/core/exact_environment.hpp"
 #include "command.hpp"
 
@@ -16,6 +17,8 @@ int main(int argc, char** argv) {
     const ExactEnvironment environment;
     const std::string_view first = argc > 1 ? argv[1] : "";
     if (first == "mesh") return cli::exec_mesh(argc, argv);
+    // What was compiled in cannot be set.
+    if (const Status exact = check_environment(measure_environment()); !exact) return cli::fail(exact.error());
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, like a full disk
 
     CLI::App app("barycert: barycentric interpolation at the speed of floating point, audited against exact arithmetic",

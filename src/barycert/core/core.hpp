@@ -16,8 +16,10 @@
 ///   G1  A gradient's component is the exact one rounded to nearest, ties to even.        gradient.hpp
 ///   D1  Results depend on the input bits alone: not on threads, SIMD target, compiler,
 ///       optimisation, or the order of cases.
-///   A degenerate simplex is told, never weighed. NaN or infinity is an Error, never a sign. An environment in which
-///   weights could not be rounded correctly is an Error; signs do not depend on it.
+///   D2  Nor do they depend on the floating-point environment of the caller: rounding mode, flush-to-zero,
+///       denormals-are-zero. Every call sets what it needs and puts back what was there       exact_environment.hpp
+///   A degenerate simplex is told, never weighed. NaN or infinity is an Error, never a sign. An exact zero is +0; what
+///   underflows to zero keeps its sign.
 ///
 /// What is not promised:
 ///   - anything about numbers before they were rounded to these doubles;
@@ -26,23 +28,24 @@
 ///     several where coordinates differ by more than 2^72 in magnitude (insphere: tens where they differ by 2^1000);
 ///   - which tier decides (Tiers): it is the same on every machine, but may change with the version;
 ///   - checks of indices: those are preconditions;
-///   - anything while floating-point exceptions are trapped; flags are not preserved.
+///   - signs (predicates.hpp, insphere.hpp) while floating-point exceptions are trapped; flags are not preserved.
 ///
 /// How it is done: filter-inl.hpp (signs), refinement-inl.hpp (weights and values) and exact_weights.hpp (what those
 /// leave open) prove their bounds where they use them; NOTES.md has measurements, and what was tried.
 #pragma once
 
-#include "barycert/core/batch.hpp"         // IWYU pragma: export
-#include "barycert/core/condition.hpp"     // IWYU pragma: export
-#include "barycert/core/environment.hpp"   // IWYU pragma: export
-#include "barycert/core/gradient.hpp"      // IWYU pragma: export
-#include "barycert/core/insphere.hpp"      // IWYU pragma: export
-#include "barycert/core/inverse.hpp"       // IWYU pragma: export
-#include "barycert/core/predicates.hpp"    // IWYU pragma: export
-#include "barycert/core/quadratic.hpp"     // IWYU pragma: export
-#include "barycert/core/result.hpp"        // IWYU pragma: export
-#include "barycert/core/simd.hpp"          // IWYU pragma: export
-#include "barycert/core/simplex.hpp"       // IWYU pragma: export
-#include "barycert/core/tiers.hpp"         // IWYU pragma: export
-#include "barycert/core/weight_signs.hpp"  // IWYU pragma: export
-#include "barycert/core/weights.hpp"       // IWYU pragma: export
+#include "barycert/core/batch.hpp"              // IWYU pragma: export
+#include "barycert/core/condition.hpp"          // IWYU pragma: export
+#include "barycert/core/environment.hpp"        // IWYU pragma: export
+#include "barycert/core/exact_environment.hpp"  // IWYU pragma: export
+#include "barycert/core/gradient.hpp"           // IWYU pragma: export
+#include "barycert/core/insphere.hpp"           // IWYU pragma: export
+#include "barycert/core/inverse.hpp"            // IWYU pragma: export
+#include "barycert/core/predicates.hpp"         // IWYU pragma: export
+#include "barycert/core/quadratic.hpp"          // IWYU pragma: export
+#include "barycert/core/result.hpp"             // IWYU pragma: export
+#include "barycert/core/simd.hpp"               // IWYU pragma: export
+#include "barycert/core/simplex.hpp"            // IWYU pragma: export
+#include "barycert/core/tiers.hpp"              // IWYU pragma: export
+#include "barycert/core/weight_signs.hpp"       // IWYU pragma: export
+#include "barycert/core/weights.hpp"            // IWYU pragma: export
