@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "barycert/core/begun_files.hpp"
+#include "barycert/core/environment.hpp"
 #include "barycert/core/exact_environment.hpp"
 #include "barycert/core/text.hpp"
 #include "command.hpp"
@@ -22,6 +23,8 @@ int main(int argc, char** argv) {
     const std::string_view first = argc > 1 ? argv[1] : "";
     if (first == "mesh") return cli::exec_mesh(argc, argv);
     remove_begun_files_on_signals();
+    // What was compiled in cannot be set.
+    if (const Status exact = check_environment(measure_environment()); !exact) return cli::fail(exact.error());
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, like a full disk
 
     CLI::App app("barycert: barycentric interpolation at the speed of floating point, audited against exact arithmetic",

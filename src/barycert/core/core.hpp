@@ -18,8 +18,9 @@
 ///       optimisation, or the order of cases.
 ///   Z   A weight, value, gradient, parameter or coordinate that is exactly zero is +0, whatever zeros it was made of.
 ///       One that is not zero but rounds to it is the zero with its sign.                                 all headers
-///   A degenerate simplex is told, never weighed. NaN or infinity is an Error, never a sign. An environment in which
-///   weights could not be rounded correctly is an Error; signs do not depend on it.
+///   D2  Nor do they depend on the floating-point environment of the caller: rounding mode, flush-to-zero,
+///       denormals-are-zero. Every call sets what it needs and puts back what was there       exact_environment.hpp
+///   A degenerate simplex is told, never weighed. NaN or infinity is an Error, never a sign.
 ///
 /// What is not promised:
 ///   - anything about numbers before they were rounded to these doubles;
@@ -30,7 +31,7 @@
 ///     and a hundred for insphere, triangles in 3-space and quadratic fields;
 ///   - which tier decides (Tiers): it is the same on every machine, but may change with the version;
 ///   - checks of indices: those are preconditions;
-///   - anything while floating-point exceptions are trapped; flags are not preserved;
+///   - signs (predicates.hpp, insphere.hpp) while floating-point exceptions are trapped; flags are not preserved;
 ///   - a stack of less than 128 KiB below the call: integers take no heap. Measured, optimised, on x86-64 (a test): up
 ///     to 107 KiB where numbers spread over all exponents, without optimisation up to 142 KiB.
 ///
@@ -38,17 +39,18 @@
 /// leave open) prove their bounds where they use them; NOTES.md has measurements, and what was tried.
 #pragma once
 
-#include "barycert/core/batch.hpp"         // IWYU pragma: export
-#include "barycert/core/condition.hpp"     // IWYU pragma: export
-#include "barycert/core/environment.hpp"   // IWYU pragma: export
-#include "barycert/core/gradient.hpp"      // IWYU pragma: export
-#include "barycert/core/insphere.hpp"      // IWYU pragma: export
-#include "barycert/core/inverse.hpp"       // IWYU pragma: export
-#include "barycert/core/predicates.hpp"    // IWYU pragma: export
-#include "barycert/core/quadratic.hpp"     // IWYU pragma: export
-#include "barycert/core/result.hpp"        // IWYU pragma: export
-#include "barycert/core/simd.hpp"          // IWYU pragma: export
-#include "barycert/core/simplex.hpp"       // IWYU pragma: export
-#include "barycert/core/tiers.hpp"         // IWYU pragma: export
-#include "barycert/core/weight_signs.hpp"  // IWYU pragma: export
-#include "barycert/core/weights.hpp"       // IWYU pragma: export
+#include "barycert/core/batch.hpp"              // IWYU pragma: export
+#include "barycert/core/condition.hpp"          // IWYU pragma: export
+#include "barycert/core/environment.hpp"        // IWYU pragma: export
+#include "barycert/core/exact_environment.hpp"  // IWYU pragma: export
+#include "barycert/core/gradient.hpp"           // IWYU pragma: export
+#include "barycert/core/insphere.hpp"           // IWYU pragma: export
+#include "barycert/core/inverse.hpp"            // IWYU pragma: export
+#include "barycert/core/predicates.hpp"         // IWYU pragma: export
+#include "barycert/core/quadratic.hpp"          // IWYU pragma: export
+#include "barycert/core/result.hpp"             // IWYU pragma: export
+#include "barycert/core/simd.hpp"               // IWYU pragma: export
+#include "barycert/core/simplex.hpp"            // IWYU pragma: export
+#include "barycert/core/tiers.hpp"              // IWYU pragma: export
+#include "barycert/core/weight_signs.hpp"       // IWYU pragma: export
+#include "barycert/core/weights.hpp"            // IWYU pragma: export

@@ -10,8 +10,7 @@
 ///       order of a cell's vertices.
 ///   A degenerate cell is told: its gradient is NaN, and the cell is counted. A nodal value that is NaN or infinite
 ///   makes the gradient of its component NaN, and the cell is counted. NaN or infinity among the coordinates of a cell
-///   is an Error, and so are the other simplices and a floating-point environment in which rounding is not to nearest
-///   or subnormals are flushed.
+///   is an Error, and so are the other simplices.
 ///
 /// How: plain double and one step of refinement with a proven bound, accepted where both ends of the bound round alike
 /// (gradient-inl.hpp); integers elsewhere.

@@ -9,7 +9,7 @@
 ///       vertices permutes the signs of the weights. Multiplying an axis by a power of two (without leaving the
 ///       doubles) changes no sign in a triangle or tetrahedron; multiplying all axes changes none in any simplex.
 ///   D1  Answers depend on the input bits alone, not on threads, SIMD target, compiler or optimisation. So do the
-///       counts of Tiers.
+///       counts of Tiers, for which alone weight_signs sets the environment (exact_environment.hpp).
 ///   E   NaN or infinity among the coordinates gives an Error, never a sign.
 ///
 /// What does not hold: nothing is said about numbers that were rounded before they came here; a point computed to lie

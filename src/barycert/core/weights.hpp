@@ -10,11 +10,11 @@
 ///       exact zero is +0, even of nodal values that are all -0; what underflows to zero keeps its sign.
 ///   V2  At a point on a shared face, edge or vertex the value has the same bits from every cell that holds it, if the
 ///       cells are proper and their nodal values finite.
-///   D1  Results depend on the input bits alone, not on threads, SIMD target, compiler or optimisation.
+///   D1  Results depend on the input bits alone, not on threads, SIMD target, compiler or optimisation, nor (D2) on the
+///       caller's floating-point environment. An exact zero is +0.
 ///   A degenerate simplex is told, not weighed: its weights and values are NaN, and the case is counted.
 ///   A nodal value that is NaN or infinite makes its component NaN, and the case is counted.
-///   NaN or infinity among the coordinates gives an Error, and so does a floating-point environment in which rounding
-///   is not to nearest or subnormals are flushed.
+///   NaN or infinity among the coordinates gives an Error.
 ///
 /// What does not hold: rounded weights need not sum to 1, and the point they give back (point_from_weights) need not be
 /// the one they came from; their rounded combination with nodal values is not the value. On simplices that are
@@ -38,7 +38,7 @@ namespace barycert {
 
 enum class Rounding : std::uint8_t {
     correct,  ///< as above
-    plain,    ///< in double, with no promise: nothing but sizes is checked, nothing is counted
+    plain,    ///< in double, with no promise but D2: nothing but sizes is checked, nothing is counted
 };
 
 struct Weights {

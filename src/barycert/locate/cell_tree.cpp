@@ -16,17 +16,11 @@ struct QuantizedBox {
     }
 };
 
-/// One more on each side: a point may be asked for in another rounding mode than that in which the tree was made, and
-/// then come out one off.
 QuantizedBox box_of(const CellIndex& index, const std::vector<std::array<std::int32_t, 3>>& nodes, std::size_t cell) {
     QuantizedBox box;
     for (std::size_t i = 0; i < index.corners(); ++i) {
         const auto& at = nodes[static_cast<std::size_t>(index.cells[cell].node[i])];
         box.add({at, at});
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-        box.low[k] -= 1;
-        box.high[k] = std::min(box.high[k], Quantizer::most - 1) + 1;
     }
     return box;
 }
