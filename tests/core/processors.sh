@@ -32,7 +32,7 @@ done
 
 for processor in "$@"; do
     objects=
-    for file in "$core"/environment.cpp "$core"/exact_environment.cpp "$core"/random.cpp "$core"/exact_weights.cpp \
+    for file in "$core"/result.cpp "$core"/environment.cpp "$core"/exact_environment.cpp "$core"/random.cpp "$core"/exact_weights.cpp \
         "$core"/inverse.cpp "$core"/lanes.cpp "$core"/predicates.cpp "$core"/quotient.cpp "$core"/text.cpp \
         "$core"/weights.cpp "$source"/tests/core/same_bytes.cpp; do
         object=$build/$processor-$(basename "$file" .cpp).o

@@ -79,14 +79,17 @@ TEST(shell_word, one_word_to_a_shell_whatever_it_holds) {
     EXPECT_EQ(shell_word("data/meshes/a-1.node"), "data/meshes/a-1.node");
     EXPECT_EQ(shell_word(""), "''");
     EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
-    for (const std::string& text : {std::string("plain"),     std::string(""),      std::string("two words"),
-                                    std::string("it's"),      std::string("'"),     std::string("''"),
-                                    std::string("$HOME"),     std::string("`id`"),  std::string("a\"b"),
-                                    std::string("a\\b"),      std::string("*"),     std::string("~"),
-                                    std::string("~root"),     std::string("#x"),    std::string("a;b|c&d>e<f"),
-                                    std::string("(x)"),       std::string("{a,b}"), std::string("!x"),
-                                    std::string("new\nline"), std::string("tab\t"), std::string("na\xc3\xafve"),
-                                    std::string("a=b"),       std::string("?[x]")})
+    EXPECT_EQ(shell_word("\033[1m it's 5%\n"), "\"$(printf '\\033[1m it\\047s 5%%')\"'\n'");
+    for (const std::string& text :
+         {std::string("plain"),     std::string(""),      std::string("two words"),
+          std::string("it's"),      std::string("'"),     std::string("''"),
+          std::string("$HOME"),     std::string("`id`"),  std::string("a\"b"),
+          std::string("a\\b"),      std::string("*"),     std::string("~"),
+          std::string("~root"),     std::string("#x"),    std::string("a;b|c&d>e<f"),
+          std::string("(x)"),       std::string("{a,b}"), std::string("!x"),
+          std::string("new\nline"), std::string("tab\t"), std::string("na\xc3\xafve"),
+          std::string("a=b"),       std::string("?[x]"),  std::string("\033[1m it's 5 % \\ \xff\""),
+          std::string("ends\n\n")})
         EXPECT_EQ(through_shell(shell_word(text)), "[" + text + "]");
 }
 
