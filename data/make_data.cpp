@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "barycert/core/output_file.hpp"
-#include "barycert/core/text.hpp"
-#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/base/output_file.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/io.hpp"
 #include "shapes.hpp"
 
 namespace barycert::data {

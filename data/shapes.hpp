@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::data {
 

@@ -8,13 +8,9 @@
 #include <memory>
 #include <utility>
 
-#include "barycert/audit/runner.hpp"
-#include "barycert/audit/thresholds.hpp"
-#include "barycert/audit/witness_file.hpp"
-#include "barycert/core/text.hpp"
-#include "barycert/report/condition_plot.hpp"
-#include "barycert/report/json.hpp"
-#include "barycert/report/terminal.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/base/text.hpp"
 #include "command.hpp"
 #include "files.hpp"
 

@@ -3,8 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "barycert/report/json.hpp"
-#include "barycert/report/terminal.hpp"
+#include "barycert/audit_report.hpp"
 #include "command.hpp"
 #include "files.hpp"
 

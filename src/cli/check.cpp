@@ -9,17 +9,15 @@
 #include <memory>
 #include <utility>
 
-#include "barycert/check/check.hpp"
+#include "barycert/check.hpp"
 #include "barycert/check/orientation.hpp"
-#include "barycert/core/environment.hpp"
-#include "barycert/report/check_html.hpp"
-#include "barycert/report/check_json.hpp"
-#include "barycert/report/check_terminal.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/report.hpp"
 #include "command.hpp"
 #include "files.hpp"
 
 #ifdef BARYCERT_WITH_VTK
-#include "barycert/vtk/vtu.hpp"
+#include "barycert/vtk.hpp"
 #endif
 
 namespace barycert::cli {

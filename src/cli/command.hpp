@@ -5,11 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "barycert/audit/families.hpp"
-#include "barycert/audit/mesh_source.hpp"
-#include "barycert/core/result.hpp"
-#include "barycert/kernels/kernel.hpp"
-#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/io.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/result.hpp"
 
 namespace CLI {
 class App;
@@ -47,7 +46,7 @@ Result<Mesh> load_mesh(const std::string& path, const ReadOptions& options);
 Result<std::vector<std::string>> own_meshes();
 
 /// The meshes named by the user, or barycert's own if none is.
-/// `certify`: check each (see check/check.hpp), so that its certificate is known.
+/// `certify`: check each (see check.hpp), so that its certificate is known.
 Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths, bool certify);
 
 /// Catalogue entries that match any of the globs ("*" if there are none), then the kernels of the libraries.

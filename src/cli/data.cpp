@@ -12,14 +12,14 @@
 #include <cstring>
 #include <filesystem>
 
-#include "barycert/check/check.hpp"
-#include "barycert/core/text.hpp"
-#include "barycert/mesh/vtk_missing.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/check.hpp"
+#include "barycert/io/vtk/vtk_missing.hpp"
 #include "command.hpp"
 #include "files.hpp"
 
 #ifdef BARYCERT_WITH_VTK
-#include "barycert/vtk/read_vtk.hpp"
+#include "barycert/vtk.hpp"
 #endif
 
 namespace barycert::cli {

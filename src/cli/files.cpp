@@ -12,9 +12,9 @@
 #include <cstring>
 #include <utility>
 
-#include "barycert/core/output_file.hpp"
-#include "barycert/mesh/tetgen_io.hpp"
-#include "barycert/plc/plc.hpp"
+#include "barycert/base/output_file.hpp"
+#include "barycert/io.hpp"
+#include "barycert/plc.hpp"
 
 namespace barycert::cli {
 namespace {

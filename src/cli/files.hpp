@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "barycert/core/named_file.hpp"
-#include "barycert/core/result.hpp"
+#include "barycert/base/named_file.hpp"
+#include "barycert/result.hpp"
 
 namespace CLI {
 class App;

@@ -9,10 +9,9 @@
 #include <new>
 #include <string_view>
 
-#include "barycert/core/begun_files.hpp"
-#include "barycert/core/environment.hpp"
-#include "barycert/core/exact_environment.hpp"
-#include "barycert/core/text.hpp"
+#include "barycert/base/begun_files.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
 #include "command.hpp"
 #include "files.hpp"
 

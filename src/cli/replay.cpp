@@ -8,11 +8,10 @@
 #include <memory>
 #include <optional>
 
-#include "barycert/audit/replay.hpp"
-#include "barycert/audit/witness_file.hpp"
-#include "barycert/core/environment.hpp"
-#include "barycert/core/text.hpp"
-#include "barycert/report/terminal.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
 #include "command.hpp"
 #include "files.hpp"
 

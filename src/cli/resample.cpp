@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "barycert/core/text.hpp"
+#include "barycert/base/text.hpp"
 #include "command.hpp"
 #include "sampling_files.hpp"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "barycert/core/result.hpp"
-#include "barycert/report/sample_run.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
 #include "sampling.hpp"
 #include "sampling_engine.hpp"
 

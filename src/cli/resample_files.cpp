@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/core/output_file.hpp"
-#include "barycert/points/rows.hpp"
-#include "barycert/vti/vti.hpp"
+#include "barycert/base/output_file.hpp"
+#include "barycert/io.hpp"
+#include "barycert/io/vti/vti.hpp"
 #include "sampling_files.hpp"
 
 namespace barycert::cli {

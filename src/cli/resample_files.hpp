@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 
-#include "barycert/core/result.hpp"
-#include "barycert/report/png.hpp"
-#include "barycert/sample/resample.hpp"
+#include "barycert/grid.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
 #include "resample.hpp"
 #include "sampling_engine.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "barycert/sample/resample.hpp"
+#include "barycert/grid.hpp"
 #include "resample.hpp"
 #include "resample_files.hpp"
 #include "sampling_run.hpp"

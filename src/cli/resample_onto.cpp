@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "barycert/mesh/tetgen_io.hpp"
-#include "barycert/mesh/vtk_missing.hpp"
+#include "barycert/io.hpp"
+#include "barycert/io/vtk/vtk_missing.hpp"
 #include "command.hpp"
 #include "files.hpp"
 #include "resample.hpp"
@@ -15,7 +15,7 @@
 #include "sampling_run.hpp"
 
 #ifdef BARYCERT_WITH_VTK
-#include "barycert/vtk/write_vtk.hpp"
+#include "barycert/vtk.hpp"
 #endif
 
 namespace barycert::cli {

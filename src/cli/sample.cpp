@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "barycert/sample/map_file.hpp"
+#include "barycert/map.hpp"
 #include "command.hpp"
 #include "sampling.hpp"
 #include "sampling_engine.hpp"

@@ -12,9 +12,8 @@
 #include <optional>
 #include <thread>
 
-#include "barycert/core/text.hpp"
-#include "barycert/report/sample_json.hpp"
-#include "barycert/report/sample_terminal.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/report.hpp"
 #include "command.hpp"
 #include "files.hpp"
 

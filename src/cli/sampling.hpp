@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "barycert/core/result.hpp"
-#include "barycert/report/sample_run.hpp"
-#include "barycert/sample/sample.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
 
 namespace CLI {
 class App;

@@ -7,8 +7,8 @@
 #include <array>
 #include <functional>
 
-#include "barycert/check/check.hpp"
-#include "barycert/core/predicates.hpp"
+#include "barycert/check.hpp"
+#include "barycert/predicates.hpp"
 #include "command.hpp"
 #include "sampling_fields.hpp"
 

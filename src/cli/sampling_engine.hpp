@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "barycert/check/certificate.hpp"
-#include "barycert/core/result.hpp"
-#include "barycert/locate/locator.hpp"
-#include "barycert/mesh/mesh.hpp"
-#include "barycert/report/sample_run.hpp"
-#include "barycert/sample/sample.hpp"
+#include "barycert/check.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
 #include "sampling.hpp"
 
 namespace barycert::cli {

@@ -6,10 +6,10 @@
 #include <cstring>
 #include <string_view>
 
-#include "barycert/core/input_file.hpp"
-#include "barycert/core/text.hpp"
-#include "barycert/mesh/mapped_file.hpp"
-#include "barycert/points/npy_header.hpp"
+#include "barycert/base/input_file.hpp"
+#include "barycert/base/mapped_file.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/io/npy/npy_header.hpp"
 
 namespace barycert::cli {
 namespace {

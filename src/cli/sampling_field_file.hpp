@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "barycert/core/result.hpp"
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert::cli {
 

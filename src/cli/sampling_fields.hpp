@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "barycert/core/result.hpp"
-#include "barycert/mesh/mesh.hpp"
-#include "barycert/sample/sample.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
 #include "sampling.hpp"
 
 namespace barycert::cli {

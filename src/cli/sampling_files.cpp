@@ -4,13 +4,12 @@
 
 #include <utility>
 
-#include "barycert/core/text.hpp"
-#include "barycert/mesh/vtk_missing.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/io/vtk/vtk_missing.hpp"
 #include "command.hpp"
 
 #ifdef BARYCERT_WITH_VTK
-#include "barycert/vtk/read_vtk.hpp"
-#include "barycert/vtk/write_vtk.hpp"
+#include "barycert/vtk.hpp"
 #endif
 
 namespace barycert::cli {

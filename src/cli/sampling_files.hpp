@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "barycert/core/result.hpp"
-#include "barycert/points/rows.hpp"
-#include "barycert/points/source.hpp"
-#include "barycert/sample/sample.hpp"
+#include "barycert/io.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
 #include "files.hpp"
 #include "sampling.hpp"
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "barycert/core/text.hpp"
+#include "barycert/base/text.hpp"
 #include "sampling_files.hpp"
 
 namespace barycert::cli {

@@ -9,12 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "barycert/core/result.hpp"
-#include "barycert/points/rows.hpp"
-#include "barycert/points/source.hpp"
-#include "barycert/report/sample_run.hpp"
-#include "barycert/sample/map_file.hpp"
-#include "barycert/sample/sample.hpp"
+#include "barycert/io.hpp"
+#include "barycert/map.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
 #include "sampling.hpp"
 #include "sampling_engine.hpp"
 

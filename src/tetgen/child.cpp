@@ -17,7 +17,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "barycert/core/begun_files.hpp"
+#include "barycert/base/begun_files.hpp"
 
 namespace barycert {
 namespace {

@@ -14,12 +14,12 @@
 #include <new>
 #include <sstream>
 
-#include "barycert/core/begun_files.hpp"
-#include "barycert/core/exact_environment.hpp"
-#include "barycert/core/named_file.hpp"
-#include "barycert/core/text.hpp"
-#include "barycert/mesh/tetgen_io.hpp"
-#include "barycert/plc/plc.hpp"
+#include "barycert/base/begun_files.hpp"
+#include "barycert/base/named_file.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/io.hpp"
+#include "barycert/plc.hpp"
 #include "child.hpp"
 #include "mesher.hpp"
 #include "options.hpp"

@@ -14,7 +14,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "barycert/core/text.hpp"
+#include "barycert/base/text.hpp"
 
 namespace barycert {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "barycert/audit/runner.hpp"
-#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/io.hpp"
 
 namespace barycert::audit {
 

@@ -1,6 +1,7 @@
 // barycert's own kernels in the audit: no finding in any family, not the last bit off.
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "audit_helpers.hpp"
 

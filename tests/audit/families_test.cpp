@@ -1,6 +1,7 @@
 // Each built family does what its line says: checked with the oracle on a few hundred of its cases.
 
-#include "barycert/audit/families.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/base/random.hpp"
 
 #include <gtest/gtest.h>
 

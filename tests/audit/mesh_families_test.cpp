@@ -9,6 +9,7 @@
 #include <set>
 
 #include "audit_helpers.hpp"
+#include "barycert/base/random.hpp"
 
 namespace barycert::audit {
 namespace {

@@ -1,9 +1,10 @@
 // The runner: independent of threads, bounded, honest about what it was given.
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "audit_helpers.hpp"
-#include "barycert/report/json.hpp"
+#include "barycert/audit_report.hpp"
 
 namespace barycert::audit {
 namespace {

@@ -1,4 +1,4 @@
-#include "barycert/audit/statistics.hpp"
+#include "barycert/audit.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

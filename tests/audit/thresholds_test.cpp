@@ -1,4 +1,4 @@
-#include "barycert/audit/thresholds.hpp"
+#include "barycert/audit.hpp"
 
 #include <gtest/gtest.h>
 

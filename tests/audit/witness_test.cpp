@@ -1,6 +1,6 @@
 // Witnesses: they show what they say, and survive a file bit for bit.
 
-#include "barycert/audit/witness_file.hpp"
+#include "barycert/audit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "audit_helpers.hpp"
-#include "barycert/report/json.hpp"
+#include "barycert/audit_report.hpp"
 
 namespace barycert::audit {
 namespace {

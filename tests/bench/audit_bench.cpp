@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "barycert/audit/runner.hpp"
-#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/io.hpp"
 #include "peak_memory.hpp"
 
 namespace {

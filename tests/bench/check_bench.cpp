@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "barycert/check/check.hpp"
-#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/check.hpp"
+#include "barycert/io.hpp"
 #include "large_mesh.hpp"
 #include "peak_memory.hpp"
 #ifdef BARYCERT_WITH_VTK

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/mesh.hpp"
 
 class VtkPeers {
 public:

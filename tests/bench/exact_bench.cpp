@@ -19,12 +19,12 @@
 #include <string>
 #include <vector>
 
-#include "barycert/audit/families.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/base/random.hpp"
 #include "barycert/core/blocks.hpp"
-#include "barycert/core/predicates.hpp"
-#include "barycert/core/random.hpp"
-#include "barycert/core/weights.hpp"
-#include "barycert/exact/oracle.hpp"
+#include "barycert/oracle.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/weights.hpp"
 #include "exact_peers.hpp"
 #include "exact_table.hpp"
 #include "numerators.hpp"

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "barycert/core/lanes.hpp"
-#include "barycert/core/weight_signs.hpp"
+#include "barycert/predicates.hpp"
 
 namespace barycert::peers {
 

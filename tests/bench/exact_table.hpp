@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/core/simd.hpp"
-#include "barycert/core/tiers.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/tiers.hpp"
 
 namespace barycert::bench {
 

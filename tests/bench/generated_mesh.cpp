@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/core/random.hpp"
-#include "barycert/mesh/large_vector.hpp"
+#include "barycert/base/large_vector.hpp"
+#include "barycert/base/random.hpp"
 
 namespace barycert::bench {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::bench {
 

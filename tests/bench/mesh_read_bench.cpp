@@ -15,7 +15,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/io.hpp"
 #include "large_mesh.hpp"
 
 namespace {

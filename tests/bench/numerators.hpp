@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "barycert/core/simplex.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::bench {
 

@@ -14,8 +14,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "barycert/core/random.hpp"
-#include "barycert/exact/oracle.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/oracle.hpp"
 #include "numerators.hpp"
 
 namespace {

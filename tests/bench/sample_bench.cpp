@@ -16,8 +16,8 @@
 #include <string>
 #include <string_view>
 
-#include "barycert/core/simd.hpp"
-#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/io.hpp"
 #include "generated_mesh.hpp"
 #include "peak_memory.hpp"
 #include "sample_rounds.hpp"

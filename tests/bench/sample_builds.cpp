@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "barycert/check/check.hpp"
+#include "barycert/check.hpp"
 #include "sample_rounds.hpp"
 
 namespace barycert::bench {

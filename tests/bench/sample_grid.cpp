@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "barycert/sample/resample.hpp"
+#include "barycert/grid.hpp"
 #include "sample_rounds.hpp"
 #include "sample_verify.hpp"
 

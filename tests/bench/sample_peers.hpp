@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "barycert/mesh/mesh.hpp"
-#include "barycert/sample/grid.hpp"
+#include "barycert/grid.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::bench {
 

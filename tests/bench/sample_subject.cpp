@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "barycert/core/random.hpp"
+#include "barycert/base/random.hpp"
 #include "sample_table.hpp"
 
 namespace barycert::bench {

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/check/check.hpp"
-#include "barycert/locate/locator.hpp"
-#include "barycert/sample/grid.hpp"
-#include "barycert/sample/sample.hpp"
+#include "barycert/check.hpp"
+#include "barycert/grid.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/sampler.hpp"
 
 namespace barycert::bench {
 

@@ -8,11 +8,11 @@
 #include <numeric>
 #include <string>
 
-#include "barycert/core/condition.hpp"
-#include "barycert/core/predicates.hpp"
-#include "barycert/core/weights.hpp"
-#include "barycert/exact/oracle.hpp"
-#include "barycert/sample/resample.hpp"
+#include "barycert/condition.hpp"
+#include "barycert/grid.hpp"
+#include "barycert/oracle.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert::bench {
 namespace {

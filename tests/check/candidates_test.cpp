@@ -8,7 +8,7 @@
 #include "barycert/check/candidates.hpp"
 #include "barycert/check/facet_contact.hpp"
 #include "barycert/check/overlap.hpp"
-#include "barycert/core/predicates.hpp"
+#include "barycert/predicates.hpp"
 #include "check/meshes.hpp"
 
 namespace barycert::testing {

@@ -1,7 +1,7 @@
 // Conformity to a PLC: on meshes whose PLC is known, and on planted differences.
 #include <gtest/gtest.h>
 
-#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/io.hpp"
 #include "check/meshes.hpp"
 
 namespace barycert::testing {

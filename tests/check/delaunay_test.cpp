@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "barycert/io.hpp"
 #include "barycert/mesh/adjacency.hpp"
-#include "barycert/mesh/tetgen_io.hpp"
 #include "check/meshes.hpp"
 
 namespace barycert::testing {

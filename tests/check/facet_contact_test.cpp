@@ -8,8 +8,8 @@
 #include <array>
 #include <cmath>
 
+#include "barycert/base/random.hpp"
 #include "barycert/check/facet_contact.hpp"
-#include "barycert/core/random.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
+#include "barycert/io.hpp"
 #include "barycert/mesh/adjacency.hpp"
-#include "barycert/mesh/tetgen_io.hpp"
 #include "check/meshes.hpp"
 
 namespace barycert::testing {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "barycert/check/check.hpp"
-#include "barycert/core/random.hpp"
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/check.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::testing {
 

@@ -10,11 +10,11 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/check/check.hpp"
+#include "barycert/check.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
-#include "mesh/mesh_files.hpp"
-#include "mesh/random_mesh.hpp"
+#include "io/tetgen/mesh_files.hpp"
+#include "io/tetgen/random_mesh.hpp"
 
 namespace barycert::testing {
 namespace {

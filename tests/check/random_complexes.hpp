@@ -1,8 +1,8 @@
 /// Small random meshes, good and bad ones, on a small lattice so that degeneracies abound.
 #pragma once
 
-#include "barycert/core/random.hpp"
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::testing {
 

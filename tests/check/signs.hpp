@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/mesh.hpp"
 #include "exact/second_path.hpp"
 
 namespace barycert::testing {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/io.hpp"
 #include "check/meshes.hpp"
 #include "check/random_complexes.hpp"
 

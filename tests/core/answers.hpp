@@ -9,10 +9,10 @@
 #include <thread>
 #include <vector>
 
-#include "barycert/core/inverse.hpp"
-#include "barycert/core/predicates.hpp"
-#include "barycert/core/random.hpp"
-#include "barycert/core/weights.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/inverse.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/weights.hpp"
 #include "core/environments.hpp"
 
 namespace barycert::testing_answers {

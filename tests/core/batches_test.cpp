@@ -2,8 +2,8 @@
 // floats; and numbers that are none are named.
 #include <gtest/gtest.h>
 
-#include "barycert/core/predicates.hpp"
-#include "barycert/core/weights.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/weights.hpp"
 #include "core/environments.hpp"
 #include "core/rational.hpp"
 #include "exact/cases.hpp"

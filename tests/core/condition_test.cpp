@@ -1,4 +1,4 @@
-#include "barycert/core/condition.hpp"
+#include "barycert/condition.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 // for other compilers.
 #include <gtest/gtest.h>
 
-#include "barycert/core/simd.hpp"
-#include "barycert/core/weights.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/weights.hpp"
 #include "core/answers.hpp"
 
 namespace barycert {

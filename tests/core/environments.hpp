@@ -10,8 +10,8 @@
 #include <xmmintrin.h>
 #endif
 
-#include "barycert/core/batch.hpp"
-#include "barycert/core/simplex.hpp"
+#include "barycert/batch.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::testing_environments {
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/core/core.hpp"
-#include "barycert/core/random.hpp"
+#include "barycert/barycert.hpp"
+#include "barycert/base/random.hpp"
 
 namespace barycert::testing_extremes {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "barycert/core/random.hpp"
-#include "barycert/core/simplex.hpp"
-#include "barycert/core/text.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/simplex.hpp"
 #include "exact/cases.hpp"
 #include "exact/second_path.hpp"
 

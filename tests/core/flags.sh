@@ -7,6 +7,7 @@ set -u
 source=$1
 build=$2
 core=$source/src/barycert/core
+base=$source/src/barycert/base
 mkdir -p "$build"
 launcher=
 command -v ccache >/dev/null && launcher=ccache
@@ -21,7 +22,7 @@ gnu_alone=-fsingle-precision-constant
 clang_alone='-fapprox-func -fno-honor-nans -fno-honor-infinities -ffp-model=fast'
 
 cat >"$build/with_header.cpp" <<'EOF'
-#include "barycert/core/strict_math.hpp"
+#include "barycert/base/strict_math.hpp"
 double f(double a, double b, double c) { return (a + b) + c / b; }
 EOF
 grep -v include "$build/with_header.cpp" >"$build/without_header.cpp"
@@ -69,8 +70,8 @@ answers() {
     own=$3
     shift 3
     objects=
-    for file in "$core"/result.cpp "$core"/environment.cpp "$core"/exact_environment.cpp "$core"/random.cpp "$core"/exact_weights.cpp \
-        "$core"/inverse.cpp "$core"/lanes.cpp "$core"/predicates.cpp "$core"/quotient.cpp "$core"/text.cpp \
+    for file in "$base"/result.cpp "$core"/environment.cpp "$base"/exact_environment.cpp "$base"/random.cpp "$core"/exact_weights.cpp \
+        "$core"/inverse.cpp "$core"/lanes.cpp "$core"/predicates.cpp "$core"/quotient.cpp "$base"/text.cpp \
         "$core"/weights.cpp "$source"/tests/core/same_bytes.cpp; do
         object=$build/$name-$(basename "$file" .cpp).o
         rm -f "$object"

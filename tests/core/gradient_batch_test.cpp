@@ -1,5 +1,5 @@
 // Gradients in batches: those of single calls on every target, tiers, counts, errors.
-#include "barycert/core/simd.hpp"
+#include "barycert/environment.hpp"
 #include "core/environments.hpp"
 #include "core/gradient_cases.hpp"
 

@@ -3,7 +3,7 @@
 // this does not.
 #include <gtest/gtest.h>
 
-#include "barycert/core/simd.hpp"
+#include "barycert/environment.hpp"
 #include "core/rational.hpp"
 
 // Before Highway's headers.

@@ -1,11 +1,10 @@
-// Laws S1, S2 and E of insphere.hpp, against determinants of exact rationals.
-#include "barycert/core/insphere.hpp"
+// Laws S1, S2 and E of predicates.hpp, against determinants of exact rationals.
+#include "barycert/predicates.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <vector>
 
-#include "barycert/core/predicates.hpp"
 #include "core/environments.hpp"
 #include "core/rational.hpp"
 #include "core/sphere_cases.hpp"
@@ -233,7 +232,7 @@ TEST(Sides, by_hand) {
     for (const double* const p : {corner, a, b, c, d}) EXPECT_EQ(insphere(a, b, c, d, p).value(), Sign::zero);
 }
 
-// What insphere.hpp says of these: the product with the orientation is zero, the sign alone tells sides of a line or
+// What predicates.hpp says of these: the product with the orientation is zero, the sign alone tells sides of a line or
 // plane, if anything.
 TEST(Sides, of_flat_simplices) {
     const double a[2] = {0, 0}, b[2] = {1, 1}, c[2] = {3, 3}, above[2] = {0, 1}, below[2] = {1, 0}, on[2] = {7, 7};

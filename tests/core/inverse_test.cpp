@@ -1,5 +1,5 @@
 // The other way round: places of values, points of weights, each against exact rationals.
-#include "barycert/core/inverse.hpp"
+#include "barycert/inverse.hpp"
 
 #include "core/environments.hpp"
 #include "core/rational.hpp"

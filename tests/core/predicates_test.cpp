@@ -1,5 +1,5 @@
 // Laws S1 and S2 on cases made by hand and at random. See signs_test.cpp for signs against exact rationals.
-#include "barycert/core/predicates.hpp"
+#include "barycert/predicates.hpp"
 
 #include <algorithm>
 #include <numeric>

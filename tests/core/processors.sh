@@ -11,6 +11,7 @@ shift 2
 command -v g++ >/dev/null || { echo "g++ is not here: left out"; exit 77; }
 [ $# -gt 0 ] || set -- x86-64-v2 x86-64-v3 x86-64-v4 native
 core=$source/src/barycert/core
+base=$source/src/barycert/base
 mkdir -p "$build"
 flags='-std=c++20 -ffp-contract=off -pthread -Wno-psabi'
 launcher=
@@ -20,7 +21,7 @@ status=0
 # All that includes Highway, by way of others too. By syntax alone: what failed were its headers.
 sapphire() {
     for file in $(cd "$source/src" && grep -lE '(lifted|numerators|padded_lanes|refinement|filter|gradient|quadratic|records)-inl.hpp|hwy/' \
-        barycert/*/*.cpp); do
+        barycert/*/*.cpp barycert/*/*/*.cpp); do
         echo "$source/src/$file"
     done
 }
@@ -32,8 +33,8 @@ done
 
 for processor in "$@"; do
     objects=
-    for file in "$core"/result.cpp "$core"/environment.cpp "$core"/exact_environment.cpp "$core"/random.cpp "$core"/exact_weights.cpp \
-        "$core"/inverse.cpp "$core"/lanes.cpp "$core"/predicates.cpp "$core"/quotient.cpp "$core"/text.cpp \
+    for file in "$base"/result.cpp "$core"/environment.cpp "$base"/exact_environment.cpp "$base"/random.cpp "$core"/exact_weights.cpp \
+        "$core"/inverse.cpp "$core"/lanes.cpp "$core"/predicates.cpp "$core"/quotient.cpp "$base"/text.cpp \
         "$core"/weights.cpp "$source"/tests/core/same_bytes.cpp; do
         object=$build/$processor-$(basename "$file" .cpp).o
         rm -f "$object"

@@ -1,5 +1,5 @@
 // Quadratic fields in batches: the values of single calls on every target, tiers, counts, errors.
-#include "barycert/core/simd.hpp"
+#include "barycert/environment.hpp"
 #include "core/environments.hpp"
 #include "core/quadratic_cases.hpp"
 

@@ -2,7 +2,7 @@
 // nowhere farther from the exact value than `error`.
 #include <gtest/gtest.h>
 
-#include "barycert/core/simd.hpp"
+#include "barycert/environment.hpp"
 #include "core/rational.hpp"
 
 // Before Highway's headers.

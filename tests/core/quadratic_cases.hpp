@@ -1,8 +1,8 @@
 /// Questions to quadratic interpolation and the oracle's verdict, for its tests.
 #pragma once
 
-#include "barycert/core/quadratic.hpp"
-#include "barycert/exact/quadratic.hpp"
+#include "barycert/oracle.hpp"
+#include "barycert/quadratic.hpp"
 #include "core/field_cases.hpp"
 #include "core/rational.hpp"
 

@@ -12,10 +12,10 @@
 
 #include <gtest/gtest.h>
 
+#include "barycert/base/random.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/core/fixed_integer.hpp"
 #include "barycert/core/integer.hpp"
-#include "barycert/core/random.hpp"
-#include "barycert/core/text.hpp"
 
 namespace barycert::testing_rational {
 

@@ -1,7 +1,7 @@
 // Prints the number of answers.hpp for every SIMD target at hand; see same_bytes.sh.
 #include <cstdio>
 
-#include "barycert/core/simd.hpp"
+#include "barycert/environment.hpp"
 #include "core/answers.hpp"
 
 int main() {

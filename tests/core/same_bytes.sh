@@ -9,6 +9,7 @@ build=$2
 shift 2
 [ $# -gt 0 ] || set -- -O0 -O3
 core=$source/src/barycert/core
+base=$source/src/barycert/base
 mkdir -p "$build"
 flags='-std=c++20 -ffp-contract=off -pthread -Wno-psabi'
 launcher=
@@ -23,8 +24,8 @@ for compiler in g++ clang++; do
     fi
     for level in "$@"; do
         objects=
-        for file in "$core"/result.cpp "$core"/environment.cpp "$core"/exact_environment.cpp "$core"/random.cpp "$core"/exact_weights.cpp "$core"/inverse.cpp "$core"/lanes.cpp \
-            "$core"/predicates.cpp "$core"/quotient.cpp "$core"/text.cpp "$core"/weights.cpp \
+        for file in "$base"/result.cpp "$core"/environment.cpp "$base"/exact_environment.cpp "$base"/random.cpp "$core"/exact_weights.cpp "$core"/inverse.cpp "$core"/lanes.cpp \
+            "$core"/predicates.cpp "$core"/quotient.cpp "$base"/text.cpp "$core"/weights.cpp \
             "$source"/tests/core/same_bytes.cpp; do
             object=$build/$compiler$level-$(basename "$file" .cpp).o
             rm -f "$object"

@@ -1,10 +1,10 @@
 // Law S1: signs against exact rationals, in every floating-point environment and on every SIMD target; law E: no sign
 // of what is no number.
 
-#include "barycert/core/inverse.hpp"
-#include "barycert/core/predicates.hpp"
-#include "barycert/core/simd.hpp"
-#include "barycert/core/weights.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/inverse.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/weights.hpp"
 #include "core/environments.hpp"
 #include "core/rational.hpp"
 #include "exact/cases.hpp"

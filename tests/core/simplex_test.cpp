@@ -1,4 +1,4 @@
-#include "barycert/core/simplex.hpp"
+#include "barycert/simplex.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/core/insphere.hpp"
+#include "barycert/predicates.hpp"
 #include "exact/cases.hpp"
 
 namespace barycert::testing_spheres {

@@ -1,8 +1,8 @@
 // Which tier answers: each test names the one that must.
-#include "barycert/core/tiers.hpp"
+#include "barycert/tiers.hpp"
 
-#include "barycert/core/predicates.hpp"
-#include "barycert/core/weights.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/weights.hpp"
 #include "core/environments.hpp"
 #include "core/rational.hpp"
 #include "exact/cases.hpp"

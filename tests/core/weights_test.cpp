@@ -1,5 +1,5 @@
 // Laws W1, W2, V1, V2: weights and values against exact rationals, rounded by the definition.
-#include "barycert/core/weights.hpp"
+#include "barycert/weights.hpp"
 
 #include "core/environments.hpp"
 #include "core/rational.hpp"

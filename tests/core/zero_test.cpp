@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "barycert/core/core.hpp"
+#include "barycert/barycert.hpp"
 #include "core/environments.hpp"
 #include "core/field_cases.hpp"
 #include "core/rational.hpp"

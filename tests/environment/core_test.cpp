@@ -1,11 +1,11 @@
 // Public entries of core: the same answers, counts and signs of zeros in every floating-point environment.
-#include "barycert/core/core.hpp"
+#include "barycert/barycert.hpp"
 
 #include <array>
 
-#include "barycert/core/random.hpp"
-#include "barycert/core/text.hpp"
-#include "barycert/core/ulp.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/base/ulp.hpp"
 #include "core/same_everywhere.hpp"
 
 namespace barycert {

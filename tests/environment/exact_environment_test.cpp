@@ -1,6 +1,6 @@
 // ExactEnvironment itself: sets what must hold, puts back what was there, also by exceptions, in threads and within
 // oneTBB.
-#include "barycert/core/exact_environment.hpp"
+#include "barycert/environment.hpp"
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -10,7 +10,6 @@
 #include <chrono>
 #include <thread>
 
-#include "barycert/core/environment.hpp"
 #include "core/same_everywhere.hpp"
 
 namespace barycert {

@@ -8,9 +8,9 @@
 #include <string>
 #include <string_view>
 
-#include "barycert/core/random.hpp"
-#include "barycert/core/simplex.hpp"
-#include "barycert/core/text.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::testing_cases {
 

@@ -3,9 +3,10 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Gmpq.h>
 #include <gtest/gtest.h>
+#include <cmath>
 
-#include "barycert/audit/families.hpp"
-#include "barycert/exact/oracle.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/oracle.hpp"
 
 namespace barycert::exact {
 namespace {

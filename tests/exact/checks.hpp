@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/exact/oracle.hpp"
+#include "barycert/oracle.hpp"
 #include "exact/cases.hpp"
 #include "exact/second_path.hpp"
 

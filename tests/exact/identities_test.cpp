@@ -1,5 +1,5 @@
 // Interpolation along auxiliary lines is barycentric interpolation: never refuted, and undefined only where said.
-#include "barycert/exact/identities.hpp"
+#include "barycert/oracle.hpp"
 
 #include <algorithm>
 

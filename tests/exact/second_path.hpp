@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/core/simplex.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::second_path {
 

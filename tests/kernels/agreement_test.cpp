@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <string>
 
-#include "barycert/core/random.hpp"
-#include "barycert/kernels/kernel.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/kernels.hpp"
 #include "kernels/exact_weights.hpp"
 
 namespace barycert {

@@ -9,8 +9,8 @@
 #include <set>
 #include <string>
 
-#include "barycert/core/random.hpp"
-#include "barycert/kernels/kernel.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/kernels.hpp"
 #include "kernels/breaking_cases.hpp"
 #include "kernels/exact_weights.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "barycert/kernels/kernel.hpp"
+#include "barycert/kernels.hpp"
 
 namespace barycert {
 namespace {

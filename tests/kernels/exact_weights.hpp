@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/core/simplex.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::testing {
 

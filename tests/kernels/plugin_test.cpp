@@ -12,7 +12,7 @@
 #include <fstream>
 #include <string>
 
-#include "barycert/kernels/kernel.hpp"
+#include "barycert/kernels.hpp"
 
 namespace barycert {
 namespace {

@@ -10,7 +10,8 @@
 #include <immintrin.h>
 #endif
 
-#include "barycert/core/inverse.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/inverse.hpp"
 #include "judge.hpp"
 
 namespace barycert::laws {

@@ -25,11 +25,11 @@
 #include <string>
 #include <vector>
 
-#include "barycert/audit/families.hpp"
-#include "barycert/core/predicates.hpp"
-#include "barycert/core/weights.hpp"
-#include "barycert/exact/oracle.hpp"
-#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/io.hpp"
+#include "barycert/oracle.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert::laws {
 

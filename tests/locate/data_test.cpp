@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/io.hpp"
 #include "check/meshes.hpp"
 #include "locate/points.hpp"
 #include "locate/ways.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "barycert/locate/locator.hpp"
+#include "barycert/locator.hpp"
 #include "check/meshes.hpp"
 #include "locate/points.hpp"
 #include "locate/ways.hpp"

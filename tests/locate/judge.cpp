@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "barycert/exact/oracle.hpp"
+#include "barycert/oracle.hpp"
 
 namespace barycert::testing {
 

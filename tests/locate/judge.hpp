@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "barycert/core/simplex.hpp"
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::testing {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "barycert/exact/oracle.hpp"
+#include "barycert/oracle.hpp"
 #include "locate/judge.hpp"
 
 namespace barycert::testing {

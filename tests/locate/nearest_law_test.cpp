@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "barycert/core/text.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/locate/nearest.hpp"
 #include "check/meshes.hpp"
 #include "check/random_complexes.hpp"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "barycert/core/text.hpp"
-#include "barycert/locate/locator.hpp"
-#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/io.hpp"
+#include "barycert/locator.hpp"
 #include "check/meshes.hpp"
 #include "locate/judge.hpp"
 #include "locate/nearest_judge.hpp"

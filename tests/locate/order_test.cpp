@@ -6,10 +6,10 @@
 #include <limits>
 #include <numeric>
 
-#include "barycert/check/check.hpp"
-#include "barycert/core/simd.hpp"
-#include "barycert/locate/locator.hpp"
-#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/check.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/io.hpp"
+#include "barycert/locator.hpp"
 #include "check/meshes.hpp"
 #include "locate/points.hpp"
 

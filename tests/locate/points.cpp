@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "barycert/core/text.hpp"
+#include "barycert/base/text.hpp"
 
 namespace barycert::testing {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "barycert/core/random.hpp"
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::testing {
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "barycert/check/check.hpp"
-#include "barycert/core/simd.hpp"
-#include "barycert/locate/locator.hpp"
+#include "barycert/check.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/locator.hpp"
 #include "locate/points.hpp"
 
 namespace barycert::testing {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "barycert/core/random.hpp"
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/mesh.hpp"
 #include "locate/judge.hpp"
 
 namespace barycert::testing {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/core/random.hpp"
+#include "barycert/base/random.hpp"
 
 namespace barycert {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "mesh/mesh_files.hpp"
-#include "mesh/random_mesh.hpp"
+#include "io/tetgen/mesh_files.hpp"
+#include "io/tetgen/random_mesh.hpp"
 
 namespace barycert::testing {
 namespace {

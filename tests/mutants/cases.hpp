@@ -6,9 +6,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "barycert/core/random.hpp"
-#include "barycert/core/simplex.hpp"
-#include "barycert/exact/oracle.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/oracle.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::mutants {
 

@@ -12,9 +12,9 @@
 #include <immintrin.h>
 #endif
 
-#include "barycert/core/inverse.hpp"
-#include "barycert/core/predicates.hpp"
-#include "barycert/core/weights.hpp"
+#include "barycert/inverse.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/weights.hpp"
 #include "cases.hpp"
 
 using namespace barycert;

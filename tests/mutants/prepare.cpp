@@ -12,8 +12,9 @@
 #include <cstdio>
 #include <fstream>
 
-#include "barycert/audit/families.hpp"
-#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/io.hpp"
 #include "cases.hpp"
 
 using namespace barycert;

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "barycert/report/check_html.hpp"
-#include "barycert/report/check_html_cells.hpp"
-#include "barycert/report/check_html_histogram.hpp"
-#include "barycert/report/check_html_picture.hpp"
-#include "barycert/report/check_html_view.hpp"
+#include "barycert/report.hpp"
+#include "barycert/report/check/check_html_cells.hpp"
+#include "barycert/report/check/check_html_histogram.hpp"
+#include "barycert/report/check/check_html_picture.hpp"
+#include "barycert/report/check/check_html_view.hpp"
 #include "check_meshes.hpp"
 
 namespace barycert::report_test {

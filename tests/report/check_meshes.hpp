@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/check/check.hpp"
-#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/check.hpp"
+#include "barycert/io.hpp"
 
 namespace barycert::report_test {
 

@@ -6,9 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/core/text.hpp"
-#include "barycert/report/check_json.hpp"
-#include "barycert/report/check_terminal.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/report.hpp"
 #include "check_meshes.hpp"
 #include "schema_tables.hpp"
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "barycert/report/condition_plot.hpp"
-#include "barycert/report/svg.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/report/common/svg.hpp"
 #include "small_audit.hpp"
 
 namespace barycert::report_test {

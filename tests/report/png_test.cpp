@@ -13,11 +13,11 @@
 #include <numbers>
 #include <vector>
 
-#include "barycert/core/random.hpp"
-#include "barycert/report/colour_bar.hpp"
-#include "barycert/report/colour_map.hpp"
-#include "barycert/report/png.hpp"
-#include "mesh/mesh_files.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/report.hpp"
+#include "barycert/report/common/colour_bar.hpp"
+#include "barycert/report/common/colour_map.hpp"
+#include "io/tetgen/mesh_files.hpp"
 
 namespace barycert::report {
 namespace {

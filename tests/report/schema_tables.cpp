@@ -4,7 +4,7 @@
 #include <fstream>
 #include <regex>
 
-#include "barycert/core/text.hpp"
+#include "barycert/base/text.hpp"
 
 namespace barycert::report_test {
 namespace {

@@ -4,10 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/audit/witness_file.hpp"
-#include "barycert/report/check_json.hpp"
-#include "barycert/report/json.hpp"
-#include "barycert/report/sample_json.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/report.hpp"
 #include "check_meshes.hpp"
 #include "schema_tables.hpp"
 #include "small_audit.hpp"

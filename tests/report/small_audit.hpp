@@ -1,8 +1,8 @@
 /// An audit of a few cases, with something of everything: findings of all kinds, kernels that have no figure.
 #pragma once
 
-#include "barycert/audit/runner.hpp"
-#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/io.hpp"
 
 namespace barycert::report_test {
 

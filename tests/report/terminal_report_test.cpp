@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/report/terminal.hpp"
+#include "barycert/audit_report.hpp"
 #include "small_audit.hpp"
 
 namespace barycert::report_test {

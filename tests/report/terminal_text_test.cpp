@@ -1,6 +1,6 @@
 // Small pieces of terminal text.
 
-#include "barycert/report/terminal_text.hpp"
+#include "barycert/report/common/terminal_text.hpp"
 
 #include <cstdio>
 #include <limits>

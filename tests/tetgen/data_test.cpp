@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/io.hpp"
 
 namespace barycert::test {
 namespace {

@@ -6,9 +6,9 @@
 #include <chrono>
 #include <cmath>
 
-#include "barycert/core/exact_environment.hpp"
-#include "barycert/core/strict_math.hpp"
-#include "barycert/exact/oracle.hpp"
+#include "barycert/base/strict_math.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/oracle.hpp"
 
 namespace barycert::audit {
 namespace {

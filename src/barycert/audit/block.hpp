@@ -4,11 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "barycert/audit/families.hpp"
-#include "barycert/audit/mesh_source.hpp"
-#include "barycert/audit/prediction.hpp"
-#include "barycert/audit/statistics.hpp"
-#include "barycert/kernels/kernel.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/kernels.hpp"
 
 namespace barycert::audit {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "barycert/core/random.hpp"
-#include "barycert/core/simplex.hpp"
-#include "barycert/core/ulp.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/base/ulp.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::audit {
 

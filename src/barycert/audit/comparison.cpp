@@ -1,11 +1,11 @@
-#include "barycert/audit/comparison.hpp"
+#include "barycert/audit.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "barycert/core/exact_environment.hpp"
-#include "barycert/core/ulp.hpp"
+#include "barycert/base/ulp.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert::audit {
 namespace {

@@ -1,9 +1,10 @@
-#include "barycert/audit/families.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/base/random.hpp"
 
 #include <algorithm>
 
-#include "barycert/core/exact_environment.hpp"
-#include "barycert/core/text.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert::audit {
 

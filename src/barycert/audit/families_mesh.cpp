@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "barycert/audit.hpp"
 #include "barycert/audit/combine.hpp"
-#include "barycert/audit/families.hpp"
+#include "barycert/base/random.hpp"
 
 namespace barycert::audit {
 namespace {

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "barycert/audit/recipes.hpp"
+#include "barycert/base/random.hpp"
 
 namespace barycert::audit {
 namespace {

@@ -1,4 +1,5 @@
-#include "barycert/audit/mesh_source.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/base/random.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "barycert/audit/prediction.hpp"
+#include "barycert/audit.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -6,9 +6,9 @@
 #include <limits>
 #include <numeric>
 
-#include "barycert/core/condition.hpp"
-#include "barycert/core/exact_environment.hpp"
-#include "barycert/core/strict_math.hpp"
+#include "barycert/base/strict_math.hpp"
+#include "barycert/condition.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert::audit {
 namespace {

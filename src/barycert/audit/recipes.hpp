@@ -3,8 +3,9 @@
 
 #include <utility>
 
+#include "barycert/audit.hpp"
 #include "barycert/audit/combine.hpp"
-#include "barycert/audit/families.hpp"
+#include "barycert/base/random.hpp"
 
 namespace barycert::audit {
 

@@ -1,9 +1,9 @@
-#include "barycert/audit/replay.hpp"
+#include "barycert/audit.hpp"
 
 #include <algorithm>
 
-#include "barycert/core/exact_environment.hpp"
-#include "barycert/core/text.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert::audit {
 namespace {

@@ -1,4 +1,4 @@
-#include "barycert/audit/runner.hpp"
+#include "barycert/audit.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "barycert/audit/block.hpp"
-#include "barycert/core/exact_environment.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert::audit {
 namespace {

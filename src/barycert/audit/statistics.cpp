@@ -1,10 +1,10 @@
-#include "barycert/audit/statistics.hpp"
+#include "barycert/audit.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "barycert/core/exact_environment.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert::audit {
 

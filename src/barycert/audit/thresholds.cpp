@@ -1,12 +1,12 @@
-#include "barycert/audit/thresholds.hpp"
+#include "barycert/audit.hpp"
 
 #include <algorithm>
 #include <functional>
 #include <limits>
 #include <utility>
 
-#include "barycert/core/exact_environment.hpp"
-#include "barycert/core/text.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert::audit {
 namespace {

@@ -1,12 +1,12 @@
-#include "barycert/audit/witness_file.hpp"
+#include "barycert/audit.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "barycert/audit/witness_json.hpp"
-#include "barycert/core/exact_environment.hpp"
-#include "barycert/core/input_file.hpp"
-#include "barycert/core/text.hpp"
+#include "barycert/base/input_file.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert::audit {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <tuple>
 
-#include "barycert/check/disjoint_sets.hpp"
+#include "barycert/base/disjoint_sets.hpp"
 
 namespace barycert::check {
 namespace {

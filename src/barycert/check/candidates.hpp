@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "barycert/check/box_tree.hpp"
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::check {
 

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "barycert/base/large_vector.hpp"
+#include "barycert/base/strict_math.hpp"
 #include "barycert/check/shape.hpp"
-#include "barycert/core/condition.hpp"
-#include "barycert/core/predicates.hpp"
-#include "barycert/core/simplex.hpp"
-#include "barycert/core/strict_math.hpp"
-#include "barycert/mesh/large_vector.hpp"
+#include "barycert/condition.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::check {
 namespace {

@@ -9,7 +9,7 @@
 #include "barycert/check/exact_volumes.hpp"
 #include "barycert/check/findings.hpp"
 #include "barycert/core/integer.hpp"
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::check {
 

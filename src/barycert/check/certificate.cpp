@@ -1,4 +1,4 @@
-#include "barycert/check/certificate.hpp"
+#include "barycert/check.hpp"
 
 #include <bit>
 #include <cstddef>

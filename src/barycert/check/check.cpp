@@ -1,4 +1,5 @@
-#include "barycert/check/check.hpp"
+#include "barycert/check.hpp"
+#include "barycert/check/conformity.hpp"
 
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
@@ -8,9 +9,9 @@
 #include <chrono>
 #include <utility>
 
+#include "barycert/base/disjoint_sets.hpp"
 #include "barycert/check/boundary.hpp"
 #include "barycert/check/cells.hpp"
-#include "barycert/check/disjoint_sets.hpp"
 #include "barycert/check/exact_volumes.hpp"
 #include "barycert/check/facets.hpp"
 #include "barycert/check/files.hpp"
@@ -19,7 +20,7 @@
 #include "barycert/check/nodes.hpp"
 #include "barycert/check/pairs.hpp"
 #include "barycert/check/witness.hpp"
-#include "barycert/core/exact_environment.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/mesh/consistency.hpp"
 
 namespace barycert::check {

@@ -10,7 +10,7 @@
 #include "barycert/check/exact_volumes.hpp"
 #include "barycert/check/findings.hpp"
 #include "barycert/check/plc_facet.hpp"
-#include "barycert/core/exact_environment.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/mesh/facets.hpp"
 
 namespace barycert::check {

@@ -18,24 +18,11 @@
 #include <span>
 #include <vector>
 
-#include "barycert/mesh/mesh.hpp"
-#include "barycert/plc/plc.hpp"
+#include "barycert/check.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/plc.hpp"
 
 namespace barycert::check {
-
-struct ViolatedFacet {
-    std::int64_t facet = -1;  ///< position in the PLC
-    double covered = 0;       ///< share of its area
-};
-
-struct Conformity {
-    std::uint64_t facets = 0;  ///< of the PLC, with an area
-    std::uint64_t exact = 0, rounded = 0, violated = 0;
-    std::uint64_t missing_vertices = 0;   ///< of PLC facets, where the mesh has no node
-    double largest_distance = 0;          ///< of a node from the plane of a facet respected by rounding
-    double relative_distance = 0;         ///< the same over the PLC's extent
-    std::vector<ViolatedFacet> examples;  ///< the first ones violated
-};
 
 /// Of the cells for which use[cell] is not 0: their corners are nodes with finite coordinates. Areas mean little where
 /// the mesh is not certified. Precondition: tetrahedra. On all threads of the calling arena.

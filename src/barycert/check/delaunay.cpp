@@ -1,16 +1,16 @@
-#include "barycert/check/delaunay.hpp"
+#include "barycert/check.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
+#include "barycert/base/strict_math.hpp"
 #include "barycert/check/cells.hpp"
 #include "barycert/check/findings.hpp"
 #include "barycert/check/local_delaunay.hpp"
 #include "barycert/check/signs.hpp"
-#include "barycert/core/insphere.hpp"
-#include "barycert/core/strict_math.hpp"
+#include "barycert/predicates.hpp"
 
 namespace barycert::check {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "barycert/check/signs.hpp"
-#include "barycert/core/predicates.hpp"
+#include "barycert/predicates.hpp"
 
 namespace barycert::check {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::check {
 

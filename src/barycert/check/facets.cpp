@@ -5,8 +5,8 @@
 #include <span>
 #include <utility>
 
+#include "barycert/base/large_vector.hpp"
 #include "barycert/mesh/facets.hpp"
-#include "barycert/mesh/large_vector.hpp"
 
 namespace barycert::check {
 namespace {

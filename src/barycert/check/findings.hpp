@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "barycert/check/check.hpp"
+#include "barycert/check.hpp"
 
 namespace barycert::check {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "barycert/check/delaunay.hpp"
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/check.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::check {
 

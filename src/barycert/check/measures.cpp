@@ -1,10 +1,10 @@
-#include "barycert/check/measures.hpp"
+#include "barycert/check.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
-#include "barycert/core/exact_environment.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert::check {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "barycert/check/findings.hpp"
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::check {
 

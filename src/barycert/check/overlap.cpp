@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "barycert/check/signs.hpp"
-#include "barycert/core/predicates.hpp"
+#include "barycert/predicates.hpp"
 
 namespace barycert::check {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "barycert/check/facets.hpp"
 #include "barycert/check/findings.hpp"
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::check {
 

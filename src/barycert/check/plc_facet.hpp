@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "barycert/check/box_tree.hpp"
-#include "barycert/plc/plc.hpp"
+#include "barycert/plc.hpp"
 
 namespace barycert::check {
 

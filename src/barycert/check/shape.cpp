@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "barycert/core/strict_math.hpp"
+#include "barycert/base/strict_math.hpp"
 
 namespace barycert::check {
 namespace {

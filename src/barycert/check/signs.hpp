@@ -1,7 +1,7 @@
 /// Internal: signs as numbers, to be multiplied.
 #pragma once
 
-#include "barycert/core/predicates.hpp"
+#include "barycert/predicates.hpp"
 
 namespace barycert::check {
 

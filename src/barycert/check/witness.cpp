@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/core/predicates.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
-#include "barycert/core/simplex.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::check {
 namespace {

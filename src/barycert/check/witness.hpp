@@ -1,7 +1,7 @@
 /// Internal: an exact point that two cells have in common.
 #pragma once
 
-#include "barycert/check/contact.hpp"
+#include "barycert/check.hpp"
 #include "barycert/check/overlap.hpp"
 
 namespace barycert::check {

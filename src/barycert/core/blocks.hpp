@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "barycert/core/batch.hpp"
+#include "barycert/base/strict_math.hpp"
+#include "barycert/batch.hpp"
 #include "barycert/core/lanes.hpp"
-#include "barycert/core/result.hpp"
-#include "barycert/core/strict_math.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert {
 

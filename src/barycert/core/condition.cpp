@@ -1,15 +1,15 @@
-#include "barycert/core/condition.hpp"
+#include "barycert/condition.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "barycert/core/exact_environment.hpp"
+#include "barycert/base/strict_math.hpp"
 #include "barycert/core/fixed_integer.hpp"
 #include "barycert/core/integer.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
-#include "barycert/core/strict_math.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert {
 namespace {

@@ -1,11 +1,10 @@
-#include "barycert/core/environment.hpp"
+#include "barycert/environment.hpp"
 
 #include <cfloat>
 #include <thread>
 
+#include "barycert/base/strict_math.hpp"
 #include "barycert/core/lanes.hpp"
-#include "barycert/core/simd.hpp"
-#include "barycert/core/strict_math.hpp"
 
 namespace barycert {
 namespace {

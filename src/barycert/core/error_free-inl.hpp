@@ -22,7 +22,7 @@
 // After the targets.
 #include <hwy/highway.h>
 
-#include "barycert/core/strict_math.hpp"
+#include "barycert/base/strict_math.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert {

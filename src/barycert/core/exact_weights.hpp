@@ -12,7 +12,7 @@
 
 #include "barycert/core/integer.hpp"
 #include "barycert/core/quotient.hpp"
-#include "barycert/core/simplex.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert {
 
@@ -61,7 +61,7 @@ int exact_orient3d(const double* a, const double* b, const double* c, const doub
 /// Sign of det(q - p, s - r, u - t). Precondition: finite.
 int exact_det3d(const double* p, const double* q, const double* r, const double* s, const double* t, const double* u);
 
-/// The signs of insphere.hpp. Precondition: finite.
+/// The signs of predicates.hpp. Precondition: finite.
 int exact_incircle(const double* a, const double* b, const double* c, const double* d);
 int exact_insphere(const double* a, const double* b, const double* c, const double* d, const double* e);
 

@@ -1,4 +1,4 @@
-#include "barycert/core/gradient.hpp"
+#include "barycert/gradient.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "barycert/core/blocks.hpp"
-#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/gradient_exact.hpp"
 #include "barycert/core/gradient_lanes.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert {
 namespace {

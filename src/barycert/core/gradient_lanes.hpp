@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "barycert/core/simplex.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::lanes {
 

@@ -1,13 +1,13 @@
-#include "barycert/core/insphere.hpp"
+#include "barycert/predicates.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "barycert/base/strict_math.hpp"
 #include "barycert/core/exact_weights.hpp"
 #include "barycert/core/lifted-inl.hpp"
 #include "barycert/core/point_arguments.hpp"
-#include "barycert/core/strict_math.hpp"
 
 namespace barycert {
 namespace {

@@ -1,4 +1,4 @@
-#include "barycert/core/inverse.hpp"
+#include "barycert/inverse.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "barycert/core/simd.hpp"
+#include "barycert/environment.hpp"
 
 // Before Highway's headers.
 #include "barycert/core/simd_targets.hpp"

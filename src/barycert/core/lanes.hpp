@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "barycert/core/simplex.hpp"
-#include "barycert/core/weight_signs.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::lanes {
 

@@ -30,7 +30,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "barycert/core/simplex.hpp"
+#include "barycert/simplex.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert {

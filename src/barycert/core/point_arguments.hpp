@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <string>
 
-#include "barycert/core/result.hpp"
-#include "barycert/core/weight_signs.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert {
 

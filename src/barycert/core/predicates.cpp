@@ -1,14 +1,14 @@
-#include "barycert/core/predicates.hpp"
+#include "barycert/predicates.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "barycert/core/blocks.hpp"
-#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/exact_weights.hpp"
 #include "barycert/core/lanes.hpp"
 #include "barycert/core/point_arguments.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert {
 namespace {

@@ -1,4 +1,4 @@
-#include "barycert/core/quadratic.hpp"
+#include "barycert/quadratic.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "barycert/core/blocks.hpp"
-#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/quadratic_exact.hpp"
 #include "barycert/core/quadratic_lanes.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert {
 namespace {

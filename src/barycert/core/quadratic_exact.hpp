@@ -1,7 +1,7 @@
 /// Internal: the last tier of quadratic interpolation, in integers.
 #pragma once
 
-#include "barycert/core/simplex.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert {
 

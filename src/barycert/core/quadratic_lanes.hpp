@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "barycert/core/lanes.hpp"
-#include "barycert/core/simplex.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::lanes {
 

@@ -13,7 +13,7 @@
 #endif
 
 // Before the compiler's intrinsics, which Clang compiles to arithmetic.
-#include "barycert/core/strict_math.hpp"
+#include "barycert/base/strict_math.hpp"
 
 #define HWY_DISABLED_TARGETS \
     (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)

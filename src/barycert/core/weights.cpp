@@ -1,13 +1,13 @@
-#include "barycert/core/weights.hpp"
+#include "barycert/weights.hpp"
 
 #include <limits>
 #include <type_traits>
 #include <vector>
 
 #include "barycert/core/blocks.hpp"
-#include "barycert/core/exact_environment.hpp"
 #include "barycert/core/exact_weights.hpp"
 #include "barycert/core/lanes.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert {
 namespace {

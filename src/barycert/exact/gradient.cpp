@@ -1,8 +1,8 @@
-#include "barycert/exact/gradient.hpp"
+#include "barycert/oracle.hpp"
 
 #include <limits>
 
-#include "barycert/core/exact_environment.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/exact/rounding.hpp"
 #include "barycert/exact/solve.hpp"
 

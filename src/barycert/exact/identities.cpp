@@ -1,4 +1,4 @@
-#include "barycert/exact/identities.hpp"
+#include "barycert/oracle.hpp"
 
 #include <CGAL/Gmpq.h>
 
@@ -6,7 +6,7 @@
 #include <array>
 #include <optional>
 
-#include "barycert/core/exact_environment.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert::exact {
 namespace {

@@ -1,9 +1,9 @@
-#include "barycert/exact/oracle.hpp"
+#include "barycert/oracle.hpp"
 
 #include <bit>
 #include <limits>
 
-#include "barycert/core/exact_environment.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/exact/rounding.hpp"
 #include "barycert/exact/solve.hpp"
 

@@ -1,9 +1,9 @@
-#include "barycert/exact/quadratic.hpp"
+#include "barycert/oracle.hpp"
 
 #include <array>
 #include <limits>
 
-#include "barycert/core/exact_environment.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/exact/rounding.hpp"
 #include "barycert/exact/solve.hpp"
 

@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <array>
 
-#include "barycert/core/simplex.hpp"
 #include "barycert/exact/integers.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::exact {
 

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <utility>
 
-#include "barycert/core/exact_environment.hpp"
-#include "barycert/core/text.hpp"
-#include "barycert/kernels/kernel.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/kernels.hpp"
 #include "barycert/kernels/registry.hpp"
 
 namespace barycert {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/core/input_file.hpp"
+#include "barycert/base/input_file.hpp"
 
 namespace barycert::kernels {
 namespace {

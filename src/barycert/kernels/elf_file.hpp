@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "barycert/core/result.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert::kernels {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "barycert/core/weights.hpp"
 #include "barycert/kernels/registry.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert::kernels {
 namespace {
@@ -27,7 +27,7 @@ template <Simplex s>
 void add(std::vector<Kernel>& list) {
     list.push_back(make_kernel(s, "exact", exact_weights<s>, Declares::yes,
                                {"W_i = n_i / d, V = sum n_i f_i / d exactly, each rounded once, ties to even",
-                                "barycert/core/weights.hpp: double + correction with a proven bound, then integers",
+                                "barycert/weights.hpp: double + correction with a proven bound, then integers",
                                 "on no finite input; costs more than a plain formula"}));
     list.back().certifies = true;
     list.back().interpolate = exact_value<s>;

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "barycert/kernel.h"
+#include "barycert/kernels.hpp"
 #include "barycert/kernels/elf_file.hpp"
-#include "barycert/kernels/kernel.hpp"
 #include "barycert/kernels/registry.hpp"
 
 namespace barycert {

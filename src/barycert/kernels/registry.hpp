@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "barycert/kernels/kernel.hpp"
+#include "barycert/kernels.hpp"
 #include "barycert/kernels/variants.hpp"
 
 namespace barycert::kernels {
@@ -18,7 +18,7 @@ void add_tetrahedron(std::vector<Kernel>& list);
 /// The default value function: sum of weight times value, left to right.
 ValueFunction weighted_sum(Simplex s);
 
-/// `<simplex>.exact`: the correctly rounded weights and values of core/weights.hpp.
+/// `<simplex>.exact`: the correctly rounded weights and values of weights.hpp.
 void add_exact(std::vector<Kernel>& list, Simplex s);
 
 struct Text {

@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "barycert/core/simplex.hpp"
 #include "barycert/locate/bins.hpp"
 #include "barycert/locate/buffer.hpp"
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::detail {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "barycert/core/predicates.hpp"
-#include "barycert/core/strict_math.hpp"
+#include "barycert/base/strict_math.hpp"
+#include "barycert/predicates.hpp"
 
 namespace barycert::detail {
 namespace {

@@ -1,13 +1,13 @@
 /// Internal: the exact signs of one point in one cell, cheaply where points lie on faces along the axes.
 #pragma once
 
-#include "barycert/core/tiers.hpp"
-#include "barycert/core/weight_signs.hpp"
 #include "barycert/locate/cell_index.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/tiers.hpp"
 
 namespace barycert::detail {
 
-/// weight_signs of core/predicates.hpp, with one more shortcut: where the vertices of a facet and the point agree in a
+/// weight_signs of predicates.hpp, with one more shortcut: where the vertices of a facet and the point agree in a
 /// coordinate to the bit, that weight is zero, and nothing needs to be multiplied. On the sides of a box, and in meshes
 /// along the axes, integers would else have to find most zeros. `point` has 3 coordinates (2D: the last is not looked
 /// at), all finite.

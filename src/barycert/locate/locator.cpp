@@ -1,12 +1,12 @@
-#include "barycert/locate/locator.hpp"
+#include "barycert/locator.hpp"
 
 #include <utility>
 
-#include "barycert/core/exact_environment.hpp"
-#include "barycert/core/predicates.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/locator_data.hpp"
 #include "barycert/mesh/consistency.hpp"
+#include "barycert/predicates.hpp"
 
 namespace barycert {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "barycert/locate/cell_index.hpp"
 #include "barycert/locate/cell_tree.hpp"
-#include "barycert/locate/locator.hpp"
 #include "barycert/locate/nearest_tree.hpp"
 #include "barycert/locate/node_cells.hpp"
 #include "barycert/locate/sorted_points.hpp"
+#include "barycert/locator.hpp"
 
 namespace barycert::detail {
 

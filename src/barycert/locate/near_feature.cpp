@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "barycert/core/exact_weights.hpp"
-#include "barycert/core/predicates.hpp"
-#include "barycert/core/weights.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert::detail {
 namespace {

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::detail {
 

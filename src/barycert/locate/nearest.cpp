@@ -8,13 +8,13 @@
 #include <limits>
 #include <vector>
 
-#include "barycert/core/exact_environment.hpp"
-#include "barycert/core/predicates.hpp"
-#include "barycert/core/strict_math.hpp"
+#include "barycert/base/strict_math.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/near_bounds.hpp"
 #include "barycert/locate/near_feature.hpp"
 #include "barycert/locate/nearest_tree.hpp"
+#include "barycert/predicates.hpp"
 
 namespace barycert {
 namespace detail {

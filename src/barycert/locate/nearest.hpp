@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "barycert/locate/locator.hpp"
 #include "barycert/locate/locator_data.hpp"
+#include "barycert/locator.hpp"
 
 namespace barycert::detail {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "barycert/core/weight_signs.hpp"
 #include "barycert/locate/cell_index.hpp"
+#include "barycert/predicates.hpp"
 
 namespace barycert::detail {
 

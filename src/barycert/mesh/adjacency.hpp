@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert {
 

@@ -1,7 +1,7 @@
 /// Whether a mesh in memory is whole.
 #pragma once
 
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::detail {
 

@@ -8,7 +8,7 @@
 #include <atomic>
 #include <tuple>
 
-#include "barycert/mesh/large_vector.hpp"
+#include "barycert/base/large_vector.hpp"
 
 namespace barycert::detail {
 namespace {

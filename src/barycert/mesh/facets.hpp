@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::detail {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "barycert/core/exact_environment.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert::detail {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "barycert/mesh/mesh.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::detail {
 

@@ -2,9 +2,9 @@
 
 #include <cstdio>
 
-#include "barycert/audit/runner.hpp"
-#include "barycert/exact/oracle.hpp"
-#include "barycert/report/json.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/oracle.hpp"
 
 int main() {
     using namespace barycert;

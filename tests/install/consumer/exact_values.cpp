@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <vector>
 
-#include <barycert/core/core.hpp>
+#include <barycert/barycert.hpp>
 
 int main() {
     using namespace barycert;

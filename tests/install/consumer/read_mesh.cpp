@@ -2,8 +2,8 @@
 
 #include <cstdio>
 
-#include "barycert/kernels/kernel.hpp"
-#include "barycert/mesh/tetgen_io.hpp"
+#include "barycert/io.hpp"
+#include "barycert/kernels.hpp"
 
 int main(int argc, char** argv) {
     const auto mesh =

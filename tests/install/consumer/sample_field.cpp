@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <vector>
 
-#include "barycert/check/check.hpp"
-#include "barycert/locate/locator.hpp"
-#include "barycert/sample/resample.hpp"
-#include "barycert/sample/sample.hpp"
+#include "barycert/check.hpp"
+#include "barycert/grid.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/sampler.hpp"
 
 int main() {
     using namespace barycert;

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <string>
 
-#include <barycert/vtk/vtu.hpp>
+#include <barycert/vtk.hpp>
 
 #ifndef BARYCERT_WITH_VTK
 #error "who links barycert::vtk is told so"

@@ -1,0 +1,47 @@
+/// What an audit found, as text, JSON and pictures; the catalogue and the families likewise.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "barycert/audit.hpp"
+#include "barycert/report.hpp"
+
+// Reports as text for a terminal or a log.
+
+namespace barycert::report {
+
+/// The table of kernels, worst first; below it the families; below them each kernel's worst witness with the command
+/// that replays it.
+std::string terminal_report(const audit::Report& report, const TerminalStyle& style);
+
+/// One witness: the case, the exact answer, and every kernel's next to it.
+std::string terminal_witness(const audit::Replay& replay, const TerminalStyle& style);
+
+/// The catalogue and the families, one paragraph each.
+std::string terminal_kernels(const std::vector<Kernel>& kernels);
+std::string terminal_families(const std::vector<audit::Family>& families);
+
+// Reports as JSON. Every member is documented in SCHEMA.md beside this file.
+
+/// One number for reports and witness files: `barycert replay` reads both.
+inline constexpr int audit_schema = audit::witness_schema;
+
+/// The whole audit, witnesses included.
+std::string json_report(const audit::Report& report);
+
+/// The catalogue and the families, as `barycert kernels --json` and `barycert families --json` print them.
+std::string kernels_json(const std::vector<Kernel>& kernels);
+std::string families_json(const std::vector<audit::Family>& families);
+
+// The errors of kernels against the condition numbers of cells, as a picture.
+
+/// An SVG of its own. Across: log2 of the condition number; upwards: the error in units of 2^-53, worst and median of a
+/// bin, as bits. The line drawn as prediction is error = 2^-53 * kappa.
+///
+/// Which kernels: those on tetrahedra if any has cases to show, else those on triangles; of these those with an error
+/// beyond half of 2^-53; if more than six, without variants (names with a second dot); if still more than six, six of
+/// them, evenly from the least to the largest worst factor.
+std::string condition_plot(const audit::Report& report);
+
+}  // namespace barycert::report

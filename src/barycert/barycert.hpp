@@ -1,0 +1,56 @@
+/// The exact core of barycert: the sign of every barycentric weight, weights and values to the last bit, at the speed
+/// of floating point where floating point is enough.
+///
+/// Enters: vertices of segments, triangles (in the plane or in 3-space) and tetrahedra, points, nodal values, as
+/// doubles in any unit. Leaves: signs, weights, values, gradients, points. Errors come as Result or Status. Nothing
+/// prints or exits. Two things throw: want of memory, and Result::value() where there is an Error instead of a value.
+///
+/// Laws, each a test by its name (tests/core, tests/laws):
+///   S1  A sign is exact for every finite double, subnormals and 1e308 included.          predicates.hpp
+///   S2  Even permutations keep a sign, odd ones flip it; powers of two keep it.          predicates.hpp
+///   W1  A weight has the exact sign; it is zero only if the exact one is, or rounds to it.   weights.hpp
+///   W2  A weight is the exact one rounded to nearest, ties to even.                          weights.hpp
+///   V1  A value is the exact sum of weight (quadratic field: of shape function) times nodal
+///       value, rounded once.                                                weights.hpp, quadratic.hpp
+///   V2  A point that two cells share has the same value, to the bit, from both.      the same headers
+///   G1  A gradient's component is the exact one rounded to nearest, ties to even.        gradient.hpp
+///   D1  Results depend on the input bits alone: not on threads, SIMD target, compiler,
+///       optimisation, or the order of cases.
+///   Z   A weight, value, gradient, parameter or coordinate that is exactly zero is +0, whatever zeros it was made of.
+///       One that is not zero but rounds to it is the zero with its sign.                                 all headers
+///   D2  Nor do they depend on the floating-point environment of the caller: rounding mode, flush-to-zero,
+///       denormals-are-zero. Every call sets what it needs and puts back what was there       exact_environment.hpp
+///   A degenerate simplex is told, never weighed. NaN or infinity is an Error, never a sign.
+///
+/// What is not promised:
+///   - anything about numbers before they were rounded to these doubles;
+///   - that rounded weights sum to 1, or give back their point: rounding each one is incompatible with both;
+///   - a time. Measured (bench_extremes, NOTES.md): nanoseconds where the filter decides, up to about a microsecond
+///     where integers must and numbers differ by at most 2^72 in magnitude. From there on it grows with the spread, up
+///     to some ten microseconds for orientations and condition numbers, some tens for weights, values and gradients,
+///     and a hundred for insphere, triangles in 3-space and quadratic fields;
+///   - which tier decides (Tiers): it is the same on every machine, but may change with the version;
+///   - checks of indices: those are preconditions;
+///   - signs (predicates.hpp) while floating-point exceptions are trapped; flags are not preserved;
+///   - a stack of less than 128 KiB below the call: integers take no heap. Measured, optimised, on x86-64 (a test): up
+///     to 107 KiB where numbers spread over all exponents, without optimisation up to 142 KiB.
+///
+/// How it is done: filter-inl.hpp (signs), refinement-inl.hpp (weights and values) and exact_weights.hpp (what those
+/// leave open) prove their bounds where they use them; NOTES.md has measurements, and what was tried.
+#pragma once
+
+#include "barycert/batch.hpp"        // IWYU pragma: export
+#include "barycert/condition.hpp"    // IWYU pragma: export
+#include "barycert/environment.hpp"  // IWYU pragma: export
+#include "barycert/environment.hpp"  // IWYU pragma: export
+#include "barycert/environment.hpp"  // IWYU pragma: export
+#include "barycert/gradient.hpp"     // IWYU pragma: export
+#include "barycert/inverse.hpp"      // IWYU pragma: export
+#include "barycert/predicates.hpp"   // IWYU pragma: export
+#include "barycert/predicates.hpp"   // IWYU pragma: export
+#include "barycert/predicates.hpp"   // IWYU pragma: export
+#include "barycert/quadratic.hpp"    // IWYU pragma: export
+#include "barycert/result.hpp"       // IWYU pragma: export
+#include "barycert/simplex.hpp"      // IWYU pragma: export
+#include "barycert/tiers.hpp"        // IWYU pragma: export
+#include "barycert/weights.hpp"      // IWYU pragma: export

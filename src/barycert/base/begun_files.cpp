@@ -1,0 +1,73 @@
+#include "barycert/base/begun_files.hpp"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <utility>
+
+namespace barycert {
+namespace detail {
+
+/// A list that only grows: a signal handler may walk it at any moment, in any thread, without a lock. A record is some
+/// tens of bytes for each file that needed a name.
+struct BegunFile::Record {
+    const std::string path;
+    std::atomic<bool> live{true};
+    Record* next = nullptr;
+};
+
+namespace {
+
+std::atomic<BegunFile::Record*> records{nullptr};
+static_assert(std::atomic<BegunFile::Record*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
+              "the signal handler reads them");
+
+}  // namespace
+
+BegunFile::BegunFile(std::string path) : record_(new Record{.path = std::move(path)}) {
+    record_->next = records.load();
+    while (!records.compare_exchange_weak(record_->next, record_)) {
+    }
+}
+
+const std::string& BegunFile::path() const {
+    return record_->path;
+}
+
+void BegunFile::forget() {
+    record_->live = false;
+}
+
+}  // namespace detail
+
+namespace {
+
+/// Only calls that POSIX allows in a handler: unlink, sigaction, raise.
+extern "C" void remove_and_end(int signal) {
+    const int error_number = errno;
+    for (const detail::BegunFile::Record* r = detail::records.load(); r != nullptr; r = r->next) {
+        if (r->live) ::unlink(r->path.c_str());
+    }
+    struct sigaction usual {};
+    usual.sa_handler = SIG_DFL;
+    ::sigaction(signal, &usual, nullptr);
+    ::raise(signal);  // blocked in its own handler: it ends the process when this returns
+    errno = error_number;
+}
+
+}  // namespace
+
+void remove_begun_files_on_signals() {
+    for (const int signal : std::array{SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGXCPU}) {
+        struct sigaction now {};
+        if (::sigaction(signal, nullptr, &now) != 0 || now.sa_handler == SIG_IGN) continue;
+        struct sigaction removing {};
+        removing.sa_handler = remove_and_end;
+        removing.sa_flags = SA_RESTART;
+        ::sigaction(signal, &removing, nullptr);
+    }
+}
+
+}  // namespace barycert

@@ -1,0 +1,34 @@
+/// A file's bytes in memory, without a copy.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "barycert/result.hpp"
+
+namespace barycert::detail {
+
+/// A regular file, mapped for reading. At least one page of zero bytes follows the last byte, so that a scanner may
+/// look ahead, and stops at a NUL instead of comparing with the end at every step.
+///
+/// The file must not shrink while it is mapped: the system ends a process that touches bytes that are gone.
+class MappedFile {
+public:
+    MappedFile() = default;
+    MappedFile(MappedFile&& other) noexcept;
+    MappedFile& operator=(MappedFile&& other) noexcept;
+    ~MappedFile();
+
+    /// Errors: missing, unreadable, a folder, not a regular file.
+    static Result<MappedFile> open(const std::string& path);
+
+    std::string_view bytes() const { return {begin_, size_}; }
+
+private:
+    const char* begin_ = "";
+    std::size_t size_ = 0;
+    std::size_t mapped_ = 0;  // the size of the whole mapping; 0: none
+};
+
+}  // namespace barycert::detail

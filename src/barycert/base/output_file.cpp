@@ -1,0 +1,224 @@
+#include "barycert/base/output_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+namespace barycert {
+namespace {
+
+constexpr std::size_t buffer_size = std::size_t{1} << 18;
+constexpr const char* put_in_place = "cannot put the finished file in its place";
+
+const char* remedy_for(int error_number) {
+    switch (error_number) {
+        case ENOENT:
+        case ENOTDIR:
+            return "make the folder first, or name another one";
+        case EISDIR:
+            return "name a file, not a folder";
+        case EACCES:
+        case EPERM:
+        case EROFS:
+            return "choose a folder and a file that you may write";
+        case ENOSPC:
+        case EDQUOT:
+        case EFBIG:
+            return "free some space, or write to another disk";
+        case EPIPE:
+            return "whatever read the output has stopped reading";
+        default:
+            return "check the path and the disk";
+    }
+}
+
+/// A name beside the target that no other file of this process has.
+std::string name_beside(const std::string& target) {
+    static std::atomic<unsigned> count{0};
+    return target + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
+}
+
+/// Where an open file can be found even if it has no name.
+std::string path_of(int descriptor) {
+    return "/proc/self/fd/" + std::to_string(descriptor);
+}
+
+/// `path` with its links resolved if it exists, else as it is.
+std::string resolved(const std::string& path) {
+    char* const real = ::realpath(path.c_str(), nullptr);
+    if (real == nullptr) return path;
+    std::string result = real;
+    std::free(real);
+    return result;
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::string target) : target_(std::move(target)), real_path_(resolved(target_)) {
+    struct stat status {};
+    const bool exists = ::stat(real_path_.c_str(), &status) == 0;
+    if (exists && S_ISDIR(status.st_mode)) {
+        fail("cannot write the file", EISDIR);
+        return;
+    }
+    // A rename would replace even a file that is write-protected.
+    if (exists && ::access(real_path_.c_str(), W_OK) != 0) {
+        fail("cannot write the file", errno);
+        return;
+    }
+    if (exists && !S_ISREG(status.st_mode)) {
+        descriptor_ = ::open(real_path_.c_str(), O_WRONLY | O_CLOEXEC);
+        if (descriptor_ < 0) fail("cannot open the file for writing", errno);
+        return;
+    }
+    if (!open_nameless()) open_beside();
+    if (exists && descriptor_ >= 0 && ::fchmod(descriptor_, status.st_mode & 07777U) != 0) {
+        fail("cannot give the new file the permissions of the old one", errno);
+    }
+}
+
+OutputFile::OutputFile(std::string name, int descriptor, int error_number)
+    : target_(std::move(name)), descriptor_(descriptor) {
+    if (descriptor_ < 0) fail("cannot open the file for writing", error_number);
+}
+
+OutputFile OutputFile::standard_output() {
+    // A copy, so that it can be closed and tell of errors. Not 0 to 2: a process may run with those closed.
+    const int copy = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    return {"standard output", copy, errno};
+}
+
+bool OutputFile::open_nameless() {
+#ifdef O_TMPFILE
+    const std::size_t slash = real_path_.rfind('/');
+    const std::string folder = slash == std::string::npos ? "." : real_path_.substr(0, slash + 1);
+    descriptor_ = ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) return false;  // the reason, where it is not just O_TMPFILE, is told by open_beside()
+    // The name is given by way of /proc, which may not be there.
+    struct stat status {};
+    nameless_ = ::stat(path_of(descriptor_).c_str(), &status) == 0 && S_ISREG(status.st_mode);
+    if (!nameless_) ::close(std::exchange(descriptor_, -1));
+#endif
+    return nameless_;
+}
+
+void OutputFile::open_beside() {
+    // O_EXCL: a name left over by a killed run, or planted as a link, is passed over.
+    do {
+        begun_ = std::make_unique<detail::BegunFile>(name_beside(real_path_));
+        descriptor_ = ::open(begun_->path().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (descriptor_ < 0 && errno == EEXIST);
+    if (descriptor_ >= 0) return;
+    const int error_number = errno;
+    begun_.reset();
+    fail("cannot make a file beside the target", error_number);
+}
+
+OutputFile::~OutputFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (begun_) ::unlink(begun_->path().c_str());
+}
+
+void OutputFile::write(std::string_view bytes) {
+    if (descriptor_ < 0) return;
+    if (buffer_.capacity() == 0) buffer_.reserve(buffer_size);
+    while (!bytes.empty()) {
+        const std::size_t step = std::min(bytes.size(), buffer_size - buffer_.size());
+        buffer_.append(bytes.substr(0, step));
+        bytes.remove_prefix(step);
+        if (buffer_.size() == buffer_size) flush();
+    }
+}
+
+void OutputFile::replace(std::uint64_t offset, std::string_view bytes) {
+    if (descriptor_ < 0) return;
+    flush();
+    while (!bytes.empty() && error_.what.empty()) {
+        const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (written >= 0) {
+            bytes.remove_prefix(static_cast<std::size_t>(written));
+            offset += static_cast<std::uint64_t>(written);
+        } else if (errno != EINTR) {
+            fail("cannot write the file", errno);
+        }
+    }
+}
+
+void OutputFile::flush() {
+    std::string_view rest = buffer_;
+    while (!rest.empty() && error_.what.empty()) {
+        const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
+        if (written >= 0) {
+            rest.remove_prefix(static_cast<std::size_t>(written));
+        } else if (errno != EINTR) {
+            fail("cannot write the file", errno);
+        }
+    }
+    buffer_.clear();
+}
+
+Status OutputFile::close() {
+    if (descriptor_ >= 0) flush();
+    // Network file systems report a full disk only here. They know no nameless files, which must stay open.
+    if (descriptor_ >= 0 && !nameless_ && ::close(std::exchange(descriptor_, -1)) != 0)
+        fail("cannot write the file", errno);
+    return status();
+}
+
+Status OutputFile::status() const {
+    if (!error_.what.empty()) return error_;
+    return Done{};
+}
+
+/// True if the target itself is the name, so that nothing is left to rename.
+bool OutputFile::give_name() {
+    const std::string from = path_of(descriptor_);
+    const auto link = [&](const std::string& to) {
+        return ::linkat(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    };
+    if (link(real_path_)) return true;
+    // A link never replaces a file: an existing target takes a second name and a rename.
+    while (errno == EEXIST) {
+        begun_ = std::make_unique<detail::BegunFile>(name_beside(real_path_));
+        if (link(begun_->path())) return false;
+    }
+    const int error_number = errno;
+    begun_.reset();
+    fail(put_in_place, error_number);
+    return false;
+}
+
+Status OutputFile::commit() {
+    if (Status closed = close(); !closed) return closed;
+    if (nameless_) {
+        const bool in_place = give_name();
+        nameless_ = false;
+        if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot write the file", errno);
+        if (in_place || !error_.what.empty()) return status();
+    }
+    if (!begun_) return Done{};
+    if (std::rename(begun_->path().c_str(), real_path_.c_str()) != 0) {
+        fail(put_in_place, errno);
+        return error_;
+    }
+    begun_.reset();
+    return Done{};
+}
+
+void OutputFile::fail(const char* what, int error_number) {
+    if (!error_.what.empty()) return;
+    error_.file = target_;
+    error_.what = what;
+    error_.found = std::strerror(error_number);
+    error_.remedy = remedy_for(error_number);
+}
+
+}  // namespace barycert

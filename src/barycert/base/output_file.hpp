@@ -1,0 +1,73 @@
+/// Files that appear whole or not at all.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "barycert/base/begun_files.hpp"
+#include "barycert/result.hpp"
+
+namespace barycert {
+
+/// Writes to a file without a name in the target's folder, which commit() puts in the target's place: a process that is
+/// ended by whatever means, SIGKILL included, leaves the target as it was and nothing else. Without a commit() the
+/// destructor leaves nothing either. Errors (no space, no permission) are kept and told by close() and commit(); the
+/// first one counts.
+///
+/// Where the file system knows no nameless files (O_TMPFILE), the file is TARGET.tmp-<process>-<count> until the
+/// commit; an existing target is replaced by way of such a name in the last moment, too. A program that has called
+/// remove_begun_files_on_signals() leaves these names under no signal but SIGKILL.
+///
+/// A link is followed and stays a link; an existing target keeps its permissions. A device or pipe (/dev/stdout)
+/// cannot be replaced, so there the bytes go straight to it.
+class OutputFile {
+public:
+    explicit OutputFile(std::string target);
+
+    /// The standard output, whatever it is: the bytes go straight to it, and it stays open.
+    static OutputFile standard_output();
+
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    void write(std::string_view bytes);
+
+    /// True if bytes can be replaced before the commit: not for a device, a pipe or the standard output.
+    bool can_replace() const { return nameless_ || begun_ != nullptr; }
+
+    /// Replaces bytes that were written, from byte `offset` on; later writes go on at the end. For what is known only
+    /// at the end, such as a count in a header. Precondition: can_replace(), and as many bytes stand there.
+    void replace(std::uint64_t offset, std::string_view bytes);
+
+    /// The first error so far. Bytes are gathered, so that an error may show only at a later call.
+    Status status() const;
+
+    /// Hands everything to the system but leaves the target as it was. For sets of files that are to change together:
+    /// close() all, and commit() only when none has failed.
+    Status close();
+
+    /// close() if that is still to do, then the rename.
+    Status commit();
+
+private:
+    /// Straight to a descriptor that is its own; `error_number` tells why there is none.
+    OutputFile(std::string name, int descriptor, int error_number);
+    void fail(const char* what, int error_number);
+    bool open_nameless();
+    void open_beside();
+    bool give_name();
+    void flush();
+
+    std::string target_;                        // as the caller named it: for messages
+    std::string real_path_;                     // with links resolved
+    std::unique_ptr<detail::BegunFile> begun_;  // the name of the unfinished file, while it has one
+    std::string buffer_;
+    int descriptor_ = -1;
+    bool nameless_ = false;  // the unfinished file has no name, and lives while its descriptor is open
+    Error error_;
+};
+
+}  // namespace barycert

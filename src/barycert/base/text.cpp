@@ -1,0 +1,132 @@
+#include "barycert/base/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include <fast_float/fast_float.h>
+
+#include "barycert/environment.hpp"
+
+namespace barycert {
+
+std::string shortest(double x) {
+    const ExactEnvironment environment;
+    if (std::isnan(x)) return "nan";  // its sign bit says nothing
+    std::array<char, 32> buffer{};
+    const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x);
+    return {buffer.data(), end};
+}
+
+std::string hexadecimal(double x) {
+    const ExactEnvironment environment;
+    if (!std::isfinite(x)) return shortest(x);
+    std::array<char, 40> buffer{};
+    const auto [end, error] =
+        std::to_chars(buffer.data(), buffer.data() + buffer.size(), std::fabs(x), std::chars_format::hex);
+    return (std::signbit(x) ? "-0x" : "0x") + std::string(buffer.data(), end);
+}
+
+std::optional<double> parse_double(std::string_view text) {
+    const ExactEnvironment environment;
+    const bool negative = !text.empty() && text.front() == '-';
+    std::string_view body = text;
+    if (!body.empty() && (body.front() == '-' || body.front() == '+')) body.remove_prefix(1);
+    if (body.empty() || body.front() == '-' || body.front() == '+') return std::nullopt;
+    double x = 0;
+    const char* const last = body.data() + body.size();
+    if (body.starts_with("0x") || body.starts_with("0X")) {
+        // from_chars would take a second sign, "inf" and "nan" here.
+        if (body.find_first_of(".0123456789abcdefABCDEF", 2) != 2) return std::nullopt;
+        const auto [end, error] = std::from_chars(body.data() + 2, last, x, std::chars_format::hex);
+        if (error != std::errc{} || end != last) return std::nullopt;
+    } else {
+        const auto [end, error] = fast_float::from_chars(body.data(), last, x);
+        if (error == std::errc::invalid_argument || end != last) return std::nullopt;
+        // Overflow and underflow set x alike in every version of fast_float, but only newer ones call them errors.
+        if (std::isinf(x) && body.find_first_of("iI") != 0) return std::nullopt;
+    }
+    return negative ? -x : x;
+}
+
+namespace {
+
+struct Character {
+    char32_t code = 0;
+    std::size_t size = 0;  ///< bytes; 0: they are not UTF-8
+};
+
+/// The first character of a text that is not empty. Overlong forms, surrogates and codes past the last are not UTF-8.
+Character first_character(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    if (byte(0) < 0x80) return {byte(0), 1};
+    const std::size_t size = byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
+    if (byte(0) < 0xC2 || byte(0) > 0xF4 || text.size() < size) return {};
+    char32_t code = byte(0) & (0x7FU >> size);
+    for (std::size_t i = 1; i < size; ++i) {
+        if ((byte(i) & 0xC0U) != 0x80) return {};
+        code = code << 6U | (byte(i) & 0x3FU);
+    }
+    constexpr std::array<char32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
+    if (code < least[size] || code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF)) return {};
+    return {code, size};
+}
+
+bool is_printable(char32_t code) {
+    if (code < 0x20 || (code >= 0x7F && code <= 0x9F)) return false;
+    if (code >= 0x200B && code <= 0x200F) return false;  // without width, and marks of direction
+    if (code >= 0x2028 && code <= 0x202E) return false;  // separators, embeddings, overrides
+    return !(code >= 0x2060 && code <= 0x2069) && code != 0x61C && code != 0xFEFF;  // isolates, marks without width
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+    std::string out;
+    out.reserve(text.size());
+    while (!text.empty()) {
+        const Character c = first_character(text);
+        const std::string_view bytes = text.substr(0, std::max<std::size_t>(c.size, 1));
+        text.remove_prefix(bytes.size());
+        if (c.size != 0 && is_printable(c.code)) {
+            out += bytes;
+        } else if (bytes == "\n" || bytes == "\t" || bytes == "\r") {
+            out += bytes == "\n" ? "\\n" : bytes == "\t" ? "\\t" : "\\r";
+        } else {
+            for (const char byte : bytes) {
+                constexpr std::string_view digits = "0123456789abcdef";
+                const auto value = static_cast<unsigned char>(byte);
+                out += {'\\', 'x', digits[value >> 4U], digits[value & 15U]};
+            }
+        }
+    }
+    return out;
+}
+
+std::string quoted(std::string_view word) {
+    constexpr std::size_t longest = 40;
+    return "'" + printable(word.substr(0, longest)) + (word.size() > longest ? "...'" : "'");
+}
+
+bool glob_match(std::string_view pattern, std::string_view text) {
+    // Greedy with one point of return: on a mismatch the last star swallows one character more.
+    std::size_t p = 0, t = 0, star = std::string_view::npos, mark = 0;
+    while (t < text.size()) {
+        if (p < pattern.size() && pattern[p] == '*') {
+            star = p++;
+            mark = t;
+        } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t])) {
+            ++p;
+            ++t;
+        } else if (star != std::string_view::npos) {
+            p = star + 1;
+            t = ++mark;
+        } else {
+            return false;
+        }
+    }
+    return pattern.find_first_not_of('*', p) == std::string_view::npos;
+}
+
+}  // namespace barycert

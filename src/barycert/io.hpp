@@ -1,0 +1,133 @@
+/// Files in and out: meshes of TetGen and Triangle, streams of points, rows of results.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
+
+// TetGen's .node, .ele, .face and .neigh files, and Triangle's 2D .node and .ele: read and written.
+
+namespace barycert {
+
+struct ReadOptions {
+    bool faces = true;       ///< read STEM.face if it is there
+    bool neighbours = true;  ///< read STEM.neigh if it is there
+    int threads = 0;         ///< 0: as many as the machine has
+};
+
+/// STEM of STEM.node, STEM.ele, STEM.face or STEM.neigh; any other path as it is.
+std::string tetgen_stem(const std::string& path);
+
+/// The paths of the files that a mesh may be in, by its stem or any one of them: STEM.node, .ele, .face, .neigh.
+std::vector<std::string> tetgen_files(const std::string& path);
+
+/// Reads STEM.node and STEM.ele. `path` is the stem or the path of any one of its files.
+Result<Mesh> read_tetgen(const std::string& path, const ReadOptions& options = {});
+
+struct WriteOptions {
+    std::string comment;  ///< the last line of each file, after "# "; empty: none
+};
+
+/// Writes STEM.node and STEM.ele, and STEM.face and STEM.neigh where the mesh has faces and neighbours. Every double
+/// reads back to the same bits. No file is left half-written.
+Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOptions& options = {});
+
+}  // namespace barycert
+
+// Streams of points: CSV, NPY and .node files, block by block, so that memory does not grow with their number.
+//
+// Coordinates are finite doubles in the file's own unit; decimal numbers are rounded to nearest, ties to even.
+// What cannot be read without a guess is an Error, with file, line (of text), what was expected and found, a remedy.
+//
+// CSV    One point a line, in UTF-8. The first line settles the separator: the first of semicolon, comma and tab that
+//        it holds outside quotes, or else blanks. It is a header if it names the coordinates: x, y, z; Points:0,
+//        Points:1, Points:2; or Points_0, Points_1, Points_2, in any case and any place. Other columns are passed
+//        over. Without a header the first columns are the coordinates. Every line has as many fields as the first.
+//        Fields may stand in double quotes. Blank lines, and lines that begin with #, are passed over. Lines end in
+//        LF or CR LF; the last may lack its end, but not where the file would end within a coordinate: 0.2 may be the
+//        beginning of 0.25. At most 1 MiB a line. A named pipe is waited for.
+// NPY    Versions 1 to 3; one array of shape (n, dimension), float64 or float32 of either byte order, in C or Fortran
+//        order.
+// .node  TetGen's and Triangle's grammar, see io/tetgen/tetgen_reader.cpp; attributes and markers are passed over.
+
+namespace barycert::points {
+
+/// Points, block by block.
+class Source {
+public:
+    virtual ~Source();
+
+    /// Coordinates a point: 2 or 3, as asked for when opened.
+    virtual int dimension() const = 0;
+
+    /// The number of points, where it is known before the end.
+    virtual std::optional<std::uint64_t> count() const = 0;
+
+    /// Appends the coordinates of up to `most` points to `out`, point after point, and tells how many: fewer than
+    /// `most` only at the end, 0 after it. On an Error the points before the fault may have been appended; the source
+    /// gives nothing but that Error from then on.
+    virtual Result<std::size_t> read(std::size_t most, std::vector<double>& out) = 0;
+};
+
+enum class Format : std::uint8_t { csv, npy, node, vtu };
+
+/// By the suffix, in any case: .csv .npy .node .vtu; "-" is CSV. Error: another suffix; it lists the known ones.
+Result<Format> format_of(const std::string& path);
+
+/// The points of a CSV, NPY or .node file; "-" is CSV from the standard input. `dimension`: 2 or 3. A file of another
+/// dimension is an Error; but of a CSV only the columns that are asked for are read.
+/// Error also: a VTU file, which takes the library barycert::vtk.
+Result<std::unique_ptr<Source>> open_source(const std::string& path, int dimension);
+
+/// Points from memory, as they are. An incomplete last point is left out.
+std::unique_ptr<Source> memory_source(std::vector<double> points, int dimension);
+
+// Sampled values, row by row, into CSV and NPY files that appear whole or not at all.
+//
+// CSV  A header line x,y[,z],cell,feature,NAME...[,distance], then a line a row. Numbers are in the shortest decimal
+//      form that reads back to the same bits; nan, inf, -inf. Names that hold a comma, a quote or a line end are
+//      quoted, and quotes in them doubled.
+// NPY  One structured array: x, y[, z] float64, cell int64, feature bytes of 8, each column float64, [distance
+//      float64]; all little-endian. Names must differ from one another; UTF-8.
+
+/// A block of rows, one a point (or a point and a cell that holds it).
+struct Rows {
+    int dimension = 3;
+    std::span<const double> points = {};       ///< dimension a row
+    std::span<const std::int32_t> cells = {};  ///< one a row; 0-based, -1 outside
+    std::span<const Feature> features = {};    ///< one a row: interior, face, edge, vertex, outside
+    std::span<const double> values = {};       ///< as many a row as the format has columns, row after row
+    std::span<const double> distances = {};    ///< one a row where the format has distances, else empty
+};
+
+struct RowFormat {
+    int dimension = 3;
+    std::vector<std::string> columns = {};  ///< names of the values of a row
+    bool distances = false;                 ///< a last column `distance`
+};
+
+/// A file of rows. Without a commit() nothing appears, except on the standard output.
+class Sink {
+public:
+    virtual ~Sink();
+
+    /// Appends the rows. Error: disk full and the like, or spans whose sizes do not fit together; then nothing appears.
+    virtual Status write(const Rows& rows) = 0;
+
+    /// Makes the file appear, if nothing failed. Nothing may be written after it.
+    virtual Status commit() = 0;
+};
+
+/// A CSV or NPY file, by the suffix of the path; "-" is CSV on the standard output.
+/// Error: another suffix; a path that cannot be written; for NPY, names that NumPy would refuse.
+Result<std::unique_ptr<Sink>> open_sink(const std::string& path, const RowFormat& format);
+
+}  // namespace barycert::points

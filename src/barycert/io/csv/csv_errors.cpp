@@ -1,0 +1,98 @@
+// Why a row of a CSV file is refused, in words.
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "barycert/base/text.hpp"
+#include "barycert/io/csv/csv_fields.hpp"
+#include "barycert/io/csv/csv_layout.hpp"
+#include "barycert/io/tetgen/row_errors.hpp"
+#include "barycert/io/tetgen/scanner.hpp"
+
+namespace barycert::points {
+namespace {
+
+std::string separator_name(char separator) {
+    switch (separator) {
+        case ',':
+            return "commas";
+        case ';':
+            return "semicolons";
+        case '\t':
+            return "tabs";
+        default:
+            return "blanks";
+    }
+}
+
+struct Complaint {
+    std::string expected;
+    std::string remedy;
+};
+
+/// Digits, and nothing but digits and `also`.
+bool only_digits_and(std::string_view text, std::string_view also) {
+    return std::any_of(text.begin(), text.end(), barycert::detail::is_digit) &&
+           std::all_of(text.begin(), text.end(),
+                       [&](char c) { return barycert::detail::is_digit(c) || also.find(c) != std::string_view::npos; });
+}
+
+Complaint about_coordinate(std::string_view field, char separator) {
+    if (field.empty()) return {"a number", "fill it in, or remove the line"};
+    if (only_digits_and(field, ".eE+-") && std::count(field.begin(), field.end(), '.') < 2) {
+        // A number in form: either it overflows, or its signs and exponent are askew.
+        return {"a number that a double can hold", "check the number: the largest double is near 1.8e308"};
+    }
+    if (only_digits_and(field, ".,eE+-") && field.find(',') != std::string_view::npos) {
+        return {"a number", "write it with a decimal point, not a comma"};
+    }
+    if (only_digits_and(field, ".dD+-")) return {"a number", "write the exponent with e"};
+    std::string word(field.substr(field.find_first_not_of("+-") == 1 ? 1 : 0, 3));
+    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (word == "nan" || word == "inf") return {"a finite number", "remove the point, or give it coordinates"};
+    if (field.find('\r') != std::string_view::npos) {
+        return {"a number", "end the lines with LF or CR LF, not with CR alone"};
+    }
+    if (std::any_of(field.begin(), field.end(),
+                    [](char c) { return static_cast<unsigned char>(c) < 32 && c != '\t'; })) {
+        return {"a number", "save the points as text: this looks like binary data"};
+    }
+    return {"a number", "separate the fields by " + separator_name(separator) +
+                            " throughout, as in the first line; put # before lines that are no points"};
+}
+
+}  // namespace
+
+Error csv_row_error(std::string_view line, const CsvLayout& layout, const LinePlace& place) {
+    Error error{.file = place.file, .line = place.line};
+    FieldCutter cutter(line, layout.separator);
+    std::size_t count = 0;
+    for (std::string_view field; cutter.next(field); ++count) {
+        if (count >= layout.axis_of.size()) continue;
+        const int axis = layout.axis_of[count];
+        double value = 0;
+        const char* const end = field.data() + field.size();
+        if (axis < 0 || barycert::detail::scan_real(field.data(), end, value) == end) continue;
+        Complaint complaint = about_coordinate(field, layout.separator);
+        error.what = std::string("bad coordinate ") + "xyz"[axis];
+        error.expected = std::move(complaint.expected);
+        error.found = field.empty() ? "nothing" : quoted(field);
+        error.remedy = std::move(complaint.remedy);
+        return error;
+    }
+    if (cutter.malformed()) {
+        error.what = "a quoted field without an end";
+        error.expected = "a closing quote, and then a separator or the end of the line";
+        error.found = quoted(line);
+        error.remedy = "close the quote on the same line; double the quotes inside";
+        return error;
+    }
+    error.what = std::string("too ") + (count < layout.axis_of.size() ? "few" : "many") + " fields in a line";
+    error.expected = std::to_string(layout.axis_of.size()) + ", separated by " + separator_name(layout.separator) +
+                     ", as in the first line";
+    error.found = std::to_string(count);
+    error.remedy = "give every line the same columns; put fields that hold a separator in double quotes";
+    return error;
+}
+
+}  // namespace barycert::points

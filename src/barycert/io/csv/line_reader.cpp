@@ -1,0 +1,111 @@
+#include "barycert/io/csv/line_reader.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "barycert/base/input_file.hpp"
+
+namespace barycert::points {
+Result<LineReader> LineReader::open(const std::string& path) {
+    LineReader reader(path == "-" ? "standard input" : path);
+    reader.owned_ = path != "-";
+    // A named pipe waits for its writer, as every reader of streams does: `gen > p.csv & barycert ... p.csv`.
+    reader.descriptor_ = reader.owned_ ? ::open(path.c_str(), O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
+    if (reader.descriptor_ < 0) return read_failure(reader.name_, errno);
+    struct stat status {};
+    if (::fstat(reader.descriptor_, &status) != 0) return read_failure(reader.name_, errno);
+    if (S_ISDIR(status.st_mode)) return read_failure(reader.name_, EISDIR);
+    reader.buffer_.resize(longest_line + 1);  // the last byte stays zero: a scanner may look at it
+    if (!reader.skip_mark()) return reader.error_;
+    return reader;
+}
+
+LineReader::LineReader(LineReader&& other) noexcept
+    : name_(std::move(other.name_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      owned_(std::exchange(other.owned_, false)),
+      ended_(other.ended_),
+      buffer_(std::move(other.buffer_)),
+      begin_(other.begin_),
+      end_(other.end_),
+      searched_(other.searched_),
+      line_ended_(other.line_ended_),
+      number_(other.number_),
+      error_(std::move(other.error_)) {}
+
+LineReader::~LineReader() {
+    if (owned_ && descriptor_ >= 0) ::close(descriptor_);
+}
+
+bool LineReader::skip_mark() {
+    while (end_ < 3 && !ended_) {
+        if (!refill()) return false;
+    }
+    const std::string_view head(buffer_.data(), end_);
+    if (head.starts_with("\xEF\xBB\xBF")) begin_ = searched_ = 3;
+    if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF")) {
+        error_ = {.what = "the text is not in UTF-8",
+                  .file = name_,
+                  .line = 1,
+                  .expected = "UTF-8 or ASCII",
+                  .found = "a byte-order mark of UTF-16",
+                  .remedy = "save the file as UTF-8"};
+    }
+    return !failed();
+}
+
+bool LineReader::refill() {
+    if (begin_ != 0) {
+        std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+        end_ -= begin_;
+        searched_ -= begin_;
+        begin_ = 0;
+    }
+    if (end_ == longest_line) {
+        error_ = {.what = "a line that is too long",
+                  .file = name_,
+                  .line = number_ + 1,
+                  .expected = "at most " + std::to_string(longest_line) + " bytes",
+                  .found = "more",
+                  .remedy = "check that this is a text file, with a line end after each point"};
+        return false;
+    }
+    ssize_t got = 0;
+    do {
+        got = ::read(descriptor_, buffer_.data() + end_, longest_line - end_);
+    } while (got < 0 && errno == EINTR);
+    if (got < 0) {
+        error_ = read_failure(name_, errno);
+        return false;
+    }
+    end_ += static_cast<std::size_t>(got);
+    buffer_[end_] = '\0';
+    ended_ = got == 0;
+    return true;
+}
+
+bool LineReader::next(std::string_view& line) {
+    if (failed()) return false;
+    const char* feed = nullptr;
+    while (true) {
+        feed = static_cast<const char*>(std::memchr(buffer_.data() + searched_, '\n', end_ - searched_));
+        if (feed != nullptr || ended_) break;
+        searched_ = end_;
+        if (!refill()) return false;
+    }
+    if (feed == nullptr && begin_ == end_) return false;
+    const std::size_t stop = feed == nullptr ? end_ : static_cast<std::size_t>(feed - buffer_.data());
+    line = std::string_view(buffer_.data() + begin_, stop - begin_);
+    line_ended_ = feed != nullptr || line.ends_with('\r');
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    begin_ = searched_ = feed == nullptr ? stop : stop + 1;
+    ++number_;
+    return true;
+}
+
+}  // namespace barycert::points

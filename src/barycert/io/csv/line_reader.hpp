@@ -1,0 +1,60 @@
+/// Lines of a text file, pipe or the standard input, in bounded memory.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "barycert/result.hpp"
+
+namespace barycert::points {
+
+/// Reads in chunks. A byte-order mark of UTF-8 is passed over, one of UTF-16 refused.
+class LineReader {
+public:
+    /// The longest line, and so what the reader holds in memory.
+    static constexpr std::size_t longest_line = std::size_t{1} << 20;
+
+    /// "-" is the standard input. Errors: missing, unreadable, a folder.
+    static Result<LineReader> open(const std::string& path);
+
+    LineReader(LineReader&& other) noexcept;
+    LineReader& operator=(LineReader&& other) = delete;
+    ~LineReader();
+
+    /// The next line without its LF or CR LF; valid until the next call, and one byte after it may be read.
+    /// False at the end of the file, or after an error: see failed().
+    bool next(std::string_view& line);
+
+    bool failed() const { return !error_.what.empty(); }
+    const Error& error() const { return error_; }
+
+    /// The last line given ended with LF or CR, and not with the file.
+    bool line_ended() const { return line_ended_; }
+
+    /// The number of the last line given, from 1.
+    std::size_t number() const { return number_; }
+
+    /// What messages call the file.
+    const std::string& name() const { return name_; }
+
+private:
+    explicit LineReader(std::string name) : name_(std::move(name)) {}
+    bool refill();
+    bool skip_mark();
+
+    std::string name_;
+    int descriptor_ = -1;
+    bool owned_ = false;  // the standard input stays open
+    bool ended_ = false;  // nothing more comes from the system
+    std::vector<char> buffer_;
+    std::size_t begin_ = 0;     // of the next line
+    std::size_t end_ = 0;       // of what has been read
+    std::size_t searched_ = 0;  // no LF from begin_ to here
+    bool line_ended_ = true;
+    std::size_t number_ = 0;
+    Error error_;
+};
+
+}  // namespace barycert::points

@@ -1,0 +1,23 @@
+/// Internal: the fields of the structured array that an NPY file of rows holds.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "barycert/io.hpp"
+#include "barycert/result.hpp"
+
+namespace barycert::points {
+
+/// The longest feature of a row: interior.
+inline constexpr std::size_t npy_feature_size = 8;
+
+struct NpyFields {
+    std::string descr;         ///< the list of names and types, as Python writes it
+    std::size_t row_size = 0;  ///< bytes
+};
+
+/// Error: an empty name, one that is not UTF-8, two that are alike.
+Result<NpyFields> npy_fields(const RowFormat& format, const std::string& path);
+
+}  // namespace barycert::points

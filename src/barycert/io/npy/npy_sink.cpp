@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <utility>
+
+#include "barycert/base/output_file.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/io/formats.hpp"
+#include "barycert/io/npy/npy_fields.hpp"
+#include "barycert/io/npy/npy_header.hpp"
+
+namespace barycert::points {
+namespace {
+
+/// NumPy aligns the numbers of a file so.
+constexpr std::size_t alignment = 64;
+
+std::size_t buffered_rows(std::size_t row_size) {
+    return std::max<std::size_t>(1, (std::size_t{1} << 18) / row_size);
+}
+
+char* put(char* at, std::uint64_t bits) {
+    if constexpr (std::endian::native != std::endian::little) bits = __builtin_bswap64(bits);
+    std::memcpy(at, &bits, sizeof bits);
+    return at + sizeof bits;
+}
+
+class NpySink final : public Sink {
+public:
+    NpySink(const std::string& path, RowFormat format) : path_(path), format_(std::move(format)), file_(path) {}
+
+    Status begin();
+    Status write(const Rows& rows) override;
+    Status commit() override;
+
+private:
+    std::string header(std::uint64_t count) const;
+    void put_row(const Rows& rows, std::size_t row, char* at) const;
+
+    std::string path_;
+    RowFormat format_;
+    OutputFile file_;
+    std::string types_;          // the descr of the header
+    std::size_t text_size_ = 0;  // of the header, with room for any count
+    std::size_t head_size_ = 0;
+    char version_ = 1;
+    std::size_t row_size_ = 0;
+    std::uint64_t count_ = 0;
+    std::vector<char> buffer_;
+    Error error_;  // rows that do not fit
+};
+
+Status NpySink::begin() {
+    if (!file_.status()) return file_.status();
+    if (!file_.can_replace()) {
+        return Error{.what = "cannot write NPY to a pipe or device",
+                     .file = path_,
+                     .expected = "a regular file: the number of rows is written into its header at the end",
+                     .found = {},
+                     .remedy = "name a regular file, or write CSV"};
+    }
+    Result<NpyFields> fields = npy_fields(format_, path_);
+    if (!fields) return fields.error();
+    types_ = std::move(fields->descr);
+    row_size_ = fields->row_size;
+    buffer_.resize(buffered_rows(row_size_) * row_size_);
+
+    // Version 1 has 2 bytes for the length and is in Latin-1, version 2 has 4, version 3 is in UTF-8.
+    const bool ascii =
+        std::none_of(types_.begin(), types_.end(), [](char c) { return static_cast<unsigned char>(c) > 127; });
+    const std::size_t longest = header(UINT64_MAX).size() + alignment;
+    if (longest > UINT16_MAX) version_ = 2;
+    if (!ascii) version_ = 3;
+    head_size_ = version_ == 1 ? 10 : 12;
+    const std::size_t whole = (head_size_ + header(UINT64_MAX).size() + 1 + alignment - 1) / alignment * alignment;
+    text_size_ = whole - head_size_;
+    if (text_size_ > longest_npy_text) {
+        return Error{.what = "too many columns for an NPY file",
+                     .file = path_,
+                     .expected = "a header of at most " + std::to_string(longest_npy_text) + " bytes",
+                     .found = std::to_string(text_size_),
+                     .remedy = "choose fewer fields, or write CSV"};
+    }
+    std::string head(npy_magic);
+    head += {version_, '\0'};
+    for (std::size_t i = 8; i < head_size_; ++i) head += static_cast<char>(text_size_ >> 8 * (i - 8) & 0xFFU);
+    file_.write(head);
+    std::string text = header(0);
+    text.resize(text_size_ - 1, ' ');
+    file_.write(text + '\n');
+    return file_.status();
+}
+
+std::string NpySink::header(std::uint64_t count) const {
+    return "{'descr': " + types_ + ", 'fortran_order': False, 'shape': (" + std::to_string(count) + ",), }";
+}
+
+void NpySink::put_row(const Rows& rows, std::size_t row, char* at) const {
+    const auto dimension = static_cast<std::size_t>(format_.dimension);
+    const std::size_t columns = format_.columns.size();
+    for (const double x : rows.points.subspan(row * dimension, dimension))
+        at = put(at, std::bit_cast<std::uint64_t>(x));
+    at = put(at, static_cast<std::uint64_t>(static_cast<std::int64_t>(rows.cells[row])));
+    const std::string_view feature = name(rows.features[row]);
+    for (std::size_t i = 0; i < npy_feature_size; ++i) *at++ = i < feature.size() ? feature[i] : '\0';
+    for (const double x : rows.values.subspan(row * columns, columns)) at = put(at, std::bit_cast<std::uint64_t>(x));
+    if (format_.distances) put(at, std::bit_cast<std::uint64_t>(rows.distances[row]));
+}
+
+Status NpySink::write(const Rows& rows) {
+    const ExactEnvironment environment;
+    if (!error_.what.empty()) return error_;
+    if (Status fits = check_rows(rows, format_, path_); !fits) return error_ = fits.error();
+    const std::size_t count = rows.cells.size();
+    const std::size_t most = buffer_.size() / row_size_;
+    for (std::size_t row = 0; row < count;) {
+        const std::size_t size = std::min(most, count - row);
+        for (std::size_t i = 0; i < size; ++i) put_row(rows, row + i, buffer_.data() + i * row_size_);
+        file_.write({buffer_.data(), size * row_size_});
+        row += size;
+    }
+    count_ += count;
+    return file_.status();
+}
+
+Status NpySink::commit() {
+    if (!error_.what.empty()) return error_;
+    std::string text = header(count_);
+    text.resize(text_size_ - 1, ' ');
+    file_.replace(head_size_, text);
+    return file_.commit();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Sink>> open_npy_sink(const std::string& path, const RowFormat& format) {
+    auto sink = std::make_unique<NpySink>(path, format);
+    if (Status begun = sink->begin(); !begun) return begun.error();
+    return std::unique_ptr<Sink>(std::move(sink));
+}
+
+}  // namespace barycert::points

@@ -1,0 +1,133 @@
+/// TetGen's .poly and .smesh, with their nodes inside or in STEM.node.
+#include <filesystem>
+
+#include "barycert/io/plc/plc_text.hpp"
+
+namespace barycert {
+namespace {
+
+struct NodeHeader {
+    std::size_t nodes = 0;
+    int attributes = 0;
+    bool markers = false;
+};
+
+NodeHeader read_node_header(PlcText& in) {
+    in.need_line("the number of nodes");
+    NodeHeader header;
+    header.nodes = in.take_count("the number of nodes");
+    if (in.words_left() > 0) {
+        const int dimension = in.take_integer("the dimension");
+        if (dimension != 3) in.fail("cannot mesh", "dimension 3", std::to_string(dimension));
+    }
+    if (in.words_left() > 0) header.attributes = static_cast<int>(in.take_count("the number of attributes"));
+    if (in.words_left() > 0) {
+        const int markers = in.take_integer("the number of markers");
+        if (markers != 0 && markers != 1) in.fail("cannot read", "0 or 1 markers", std::to_string(markers));
+        header.markers = markers == 1;
+    }
+    return header;
+}
+
+void read_nodes(PlcText& in, const NodeHeader& header, Plc& plc) {
+    plc.attribute_count = header.attributes;
+    for (std::size_t i = 0; i < header.nodes; ++i) {
+        in.need_line("node " + std::to_string(i + 1) + " of " + std::to_string(header.nodes));
+        const std::int32_t id = in.take_integer("a node's number");
+        if (i == 0) {
+            if (id != 0 && id != 1) in.fail("cannot read", "numbering from 0 or 1", std::to_string(id));
+            plc.index_base = id;
+        }
+        if (id < 0 || static_cast<std::size_t>(id) != i + static_cast<std::size_t>(plc.index_base)) {
+            in.fail("nodes are not numbered in order", std::to_string(i + static_cast<std::size_t>(plc.index_base)),
+                    std::to_string(id));
+        }
+        for (int axis = 0; axis < 3; ++axis) plc.points.push_back(in.take_number("a coordinate"));
+        for (int a = 0; a < header.attributes; ++a) plc.attributes.push_back(in.take_number("an attribute"));
+        // A marker may be left out and is 0 then, as in TetGen.
+        if (header.markers) plc.point_markers.push_back(in.words_left() > 0 ? in.take_integer("a marker") : 0);
+        if (in.words_left() > 0) {
+            in.fail("more words than the header announces", "the end of the line", in.take(""),
+                    "state attributes and markers in the header");
+        }
+    }
+}
+
+/// A ring of nodes; it may run over several lines.
+std::vector<std::int32_t> read_polygon(PlcText& in, const Plc& plc) {
+    const std::size_t n = in.take_count("the number of a polygon's corners");
+    if (n == 0) in.fail("cannot read", "a polygon with corners", "none");
+    std::vector<std::int32_t> ring;
+    ring.reserve(n);
+    while (ring.size() < n) {
+        if (in.words_left() == 0) in.need_line("a polygon's corner");
+        const std::int32_t id = in.take_integer("a polygon's corner");
+        const std::int64_t index = std::int64_t{id} - plc.index_base;
+        if (index < 0 || index >= static_cast<std::int64_t>(plc.point_count())) {
+            const std::size_t last = plc.point_count() - 1 + static_cast<std::size_t>(plc.index_base);
+            in.fail("no such node", std::to_string(plc.index_base) + " to " + std::to_string(last), std::to_string(id));
+        }
+        ring.push_back(static_cast<std::int32_t>(index));
+    }
+    return ring;
+}
+
+/// Rows `number x y z ...`: 3 numbers each for holes, 4 or 5 for regions.
+void read_seeds(PlcText& in, std::size_t count, std::string_view what, std::vector<double>& out) {
+    for (std::size_t i = 0; i < count; ++i) {
+        in.need_line(what);
+        in.take_integer("its number");
+        for (int axis = 0; axis < 3; ++axis) out.push_back(in.take_number(what));
+        if (what != "a region") continue;
+        out.push_back(in.take_number("a region's attribute"));
+        out.push_back(in.words_left() > 0 ? in.take_number("a region's largest volume") : out.back());
+    }
+}
+
+PlcFacet read_facet(PlcText& in, const Plc& plc, bool one_polygon) {
+    PlcFacet facet;
+    in.need_line("a facet");
+    if (one_polygon) {
+        facet.polygons.push_back(read_polygon(in, plc));
+        if (plc.has_facet_markers && in.words_left() > 0) facet.marker = in.take_integer("a facet's marker");
+        return facet;
+    }
+    const std::size_t polygons = in.take_count("the number of a facet's polygons");
+    if (polygons == 0) in.fail("cannot read", "a facet with polygons", "none");
+    const std::size_t holes = in.words_left() > 0 ? in.take_count("the number of a facet's holes") : 0;
+    if (plc.has_facet_markers && in.words_left() > 0) facet.marker = in.take_integer("a facet's marker");
+    for (std::size_t i = 0; i < polygons; ++i) {
+        in.need_line("a polygon");
+        facet.polygons.push_back(read_polygon(in, plc));
+    }
+    read_seeds(in, holes, "a hole of a facet", facet.holes);
+    return facet;
+}
+
+}  // namespace
+
+Plc read_poly(const std::string& path, std::string_view text, bool one_polygon_a_facet) {
+    Plc plc;
+    PlcText in(path, text);
+    const NodeHeader header = read_node_header(in);
+    if (header.nodes > 0) {
+        read_nodes(in, header, plc);
+    } else {
+        const std::string node_path = node_path_of(path);
+        const std::string node_text = read_whole_file(node_path);
+        PlcText nodes(node_path, node_text);
+        const NodeHeader node_header = read_node_header(nodes);
+        read_nodes(nodes, node_header, plc);
+        plc.nodes_apart = true;
+    }
+    in.need_line("the number of facets");
+    const std::size_t facets = in.take_count("the number of facets");
+    plc.has_facet_markers = in.words_left() > 0 && in.take_integer("the number of markers") != 0;
+    for (std::size_t i = 0; i < facets; ++i) plc.facets.push_back(read_facet(in, plc, one_polygon_a_facet));
+    if (in.next_line()) read_seeds(in, in.take_count("the number of holes"), "a hole", plc.holes);
+    if (in.next_line()) read_seeds(in, in.take_count("the number of regions"), "a region", plc.regions);
+    if (in.next_line()) in.fail("more lines than the header announces", "the end of the file", in.line());
+    return plc;
+}
+
+}  // namespace barycert

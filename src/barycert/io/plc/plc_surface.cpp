@@ -1,0 +1,211 @@
+/// Surface files as PLCs: .off, .stl (text and binary) and .ply (text).
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "barycert/io/plc/plc_text.hpp"
+
+namespace barycert {
+namespace {
+
+std::vector<std::int32_t> read_ring(PlcText& in, std::size_t nodes) {
+    const std::size_t n = in.take_count("the number of a polygon's corners");
+    if (n < 3) in.fail("cannot read", "a polygon of three or more corners", std::to_string(n));
+    std::vector<std::int32_t> ring;
+    for (std::size_t k = 0; k < n; ++k) {
+        const std::int32_t id = in.take_integer("a polygon's corner");
+        // One more than the last is let through here: files that number from 1 exist.
+        if (id < 0 || static_cast<std::size_t>(id) > nodes) {
+            in.fail("no such node", "0 to " + std::to_string(nodes - 1), std::to_string(id));
+        }
+        ring.push_back(id);
+    }
+    return ring;
+}
+
+/// These formats number from 0. A file that never uses 0 and does use `nodes` numbers from 1.
+void settle_index_base(PlcText& in, Plc& plc) {
+    std::int32_t smallest = 1;
+    std::int32_t largest = 0;
+    for (const PlcFacet& facet : plc.facets) {
+        for (const std::int32_t id : facet.polygons[0]) {
+            smallest = std::min(smallest, id);
+            largest = std::max(largest, id);
+        }
+    }
+    if (static_cast<std::size_t>(largest) < plc.point_count()) return;
+    if (smallest == 0) {
+        in.fail("no such node", "0 to " + std::to_string(plc.point_count() - 1), std::to_string(largest));
+    }
+    plc.index_base = 1;
+    for (PlcFacet& facet : plc.facets) {
+        for (std::int32_t& id : facet.polygons[0]) --id;
+    }
+}
+
+/// Corners of a triangle soup: corners with equal coordinates are one node.
+class SoupBuilder {
+public:
+    void add(const std::array<double, 3>& corner) {
+        // -0 and 0 are one place.
+        const std::array<double, 3> key{corner[0] + 0.0, corner[1] + 0.0, corner[2] + 0.0};
+        const auto [entry, fresh] = node_at_.try_emplace(key, static_cast<std::int32_t>(node_at_.size()));
+        if (fresh) plc.points.insert(plc.points.end(), key.begin(), key.end());
+        ring_.push_back(entry->second);
+        if (ring_.size() < 3) return;
+        plc.facets.push_back({.polygons = {ring_}, .holes = {}});
+        ring_.clear();
+    }
+    bool whole() const { return ring_.empty(); }
+
+    Plc plc;
+
+private:
+    std::map<std::array<double, 3>, std::int32_t> node_at_;
+    std::vector<std::int32_t> ring_;
+};
+
+std::uint32_t little_endian(std::string_view bytes) {
+    std::uint32_t word = 0;
+    for (std::size_t i = 4; i-- > 0;) word = (word << 8) | static_cast<unsigned char>(bytes[i]);
+    return word;
+}
+
+Plc read_binary_stl(const std::string& path, std::string_view bytes) {
+    constexpr std::size_t header = 84;  // 80 bytes of text and a count
+    constexpr std::size_t record = 50;  // normal and three corners as floats, two bytes of padding
+    const std::size_t count = bytes.size() < header ? 0 : little_endian(bytes.substr(80));
+    if (bytes.size() < header || (bytes.size() - header) / record != count || (bytes.size() - header) % record != 0) {
+        throw Exception(file_error(path, "neither a text nor a whole binary .stl",
+                                   "`solid`, or " + std::to_string(header + record * count) + " bytes",
+                                   std::to_string(bytes.size()) + " bytes"));
+    }
+    SoupBuilder soup;
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            std::array<double, 3> point{};
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const std::size_t at = header + record * i + 12 * (corner + 1) + 4 * axis;
+                point[axis] = static_cast<double>(std::bit_cast<float>(little_endian(bytes.substr(at))));
+                if (!std::isfinite(point[axis])) {
+                    throw Exception(
+                        file_error(path, "a coordinate of triangle " + std::to_string(i) + " is not finite"));
+                }
+            }
+            soup.add(point);
+        }
+    }
+    return std::move(soup.plc);
+}
+
+/// The number of nodes or polygons and where x, y, z stand, from the head of a .ply file.
+struct PlyHeader {
+    std::size_t nodes = 0;
+    std::size_t polygons = 0;
+    std::array<std::optional<std::size_t>, 3> axis;
+    std::size_t properties = 0;
+};
+
+PlyHeader read_ply_header(PlcText& in) {
+    PlyHeader header;
+    std::string element;
+    bool text_format = false;
+    in.need_line("ply");
+    if (in.take("ply") != "ply") in.fail("cannot read", "ply", in.line());
+    for (in.need_line("end_header"); in.word(0) != "end_header"; in.need_line("end_header")) {
+        const std::string_view key = in.take("a keyword");
+        if (key == "format") {
+            const std::string_view format = in.take("ascii");
+            if (format != "ascii") in.fail("cannot read a binary .ply", "ascii", format, "convert it to text");
+            text_format = true;
+        } else if (key == "element") {
+            element = in.take("an element's name");
+            const std::size_t count = in.take_count("a count");
+            if (element == "vertex" && header.polygons == 0) {
+                header.nodes = count;
+            } else if (element == "face" && header.nodes > 0) {
+                header.polygons = count;
+            } else if (header.polygons == 0) {
+                in.fail("cannot read this order of elements", "vertex, face", in.line());
+            }
+        } else if (key == "property") {
+            const std::string_view name = in.word(in.word_count() - 1);
+            const bool list = in.take("a type") == "list";
+            if (element == "vertex") {
+                if (list) in.fail("cannot read a list at a vertex", "numbers", in.line());
+                if (name == "x" || name == "y" || name == "z") {
+                    header.axis[static_cast<std::size_t>(name[0] - 'x')] = header.properties;
+                }
+                ++header.properties;
+            }
+        }
+    }
+    if (!text_format) in.fail("cannot read", "format ascii 1.0");
+    if (!header.axis[0] || !header.axis[1] || !header.axis[2]) in.fail("cannot read", "properties x, y and z");
+    return header;
+}
+
+}  // namespace
+
+Plc read_off(const std::string& path, std::string_view text) {
+    Plc plc;
+    PlcText in(path, text);
+    in.need_line("OFF");
+    const std::string_view keyword = in.take("OFF");
+    if (keyword != "OFF") in.fail("cannot read", "OFF", keyword);
+    if (in.words_left() == 0) in.need_line("the counts of nodes and polygons");
+    const std::size_t nodes = in.take_count("the number of nodes");
+    const std::size_t polygons = in.take_count("the number of polygons");
+    for (std::size_t i = 0; i < nodes; ++i) {
+        in.need_line("node " + std::to_string(i) + " of " + std::to_string(nodes));
+        for (int axis = 0; axis < 3; ++axis) plc.points.push_back(in.take_number("a coordinate"));
+        if (in.words_left() > 0) in.fail("cannot read", "three coordinates", in.line());
+    }
+    for (std::size_t i = 0; i < polygons; ++i) {
+        in.need_line("polygon " + std::to_string(i) + " of " + std::to_string(polygons));
+        plc.facets.push_back({.polygons = {read_ring(in, nodes)}, .holes = {}});
+    }
+    if (in.next_line()) in.fail("more lines than the header announces", "the end of the file", in.line());
+    settle_index_base(in, plc);
+    return plc;
+}
+
+Plc read_stl(const std::string& path, std::string_view text) {
+    // Some binary files begin with `solid` too; a text file has no zero byte.
+    if (text.substr(0, 5) != "solid" || text.find('\0') != std::string_view::npos) return read_binary_stl(path, text);
+    PlcText in(path, text);
+    SoupBuilder soup;
+    bool ended = false;
+    while (in.next_line()) {
+        ended = in.word(0) == "endsolid";
+        if (in.word(0) != "vertex") continue;
+        in.take("vertex");
+        std::array<double, 3> corner{};
+        for (double& x : corner) x = in.take_number("a coordinate");
+        soup.add(corner);
+    }
+    if (!ended || !soup.whole()) in.fail("the file is truncated", "endsolid", "the end of the file");
+    return std::move(soup.plc);
+}
+
+Plc read_ply(const std::string& path, std::string_view text) {
+    Plc plc;
+    PlcText in(path, text);
+    const PlyHeader header = read_ply_header(in);
+    std::vector<double> row(header.properties);
+    for (std::size_t i = 0; i < header.nodes; ++i) {
+        in.need_line("node " + std::to_string(i) + " of " + std::to_string(header.nodes));
+        for (double& value : row) value = in.take_number("a property of a node");
+        for (const std::optional<std::size_t>& at : header.axis) plc.points.push_back(row[*at]);
+    }
+    for (std::size_t i = 0; i < header.polygons; ++i) {
+        in.need_line("polygon " + std::to_string(i) + " of " + std::to_string(header.polygons));
+        plc.facets.push_back({.polygons = {read_ring(in, header.nodes)}, .holes = {}});
+    }
+    settle_index_base(in, plc);
+    return plc;
+}
+
+}  // namespace barycert

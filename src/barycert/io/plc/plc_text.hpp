@@ -1,0 +1,67 @@
+/// A PLC file's lines as words, with errors that know where they are.
+///
+/// For use within read_plc: errors are thrown as Exception and turned into a Result there.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "barycert/plc.hpp"
+
+namespace barycert {
+
+/// STEM.node, where the nodes of STEM.poly and STEM.smesh may be.
+std::string node_path_of(const std::string& path);
+
+/// The whole file; throws Exception if it cannot be read.
+std::string read_whole_file(const std::string& path);
+
+class PlcText {
+public:
+    /// Both arguments must outlive the object. Words are parted by blanks and commas; `#` starts a comment.
+    PlcText(const std::string& path, std::string_view text)
+        : path_(path), rest_(text), end_(text.data() + text.size()), size_(text.size()) {}
+
+    /// Goes to the next line that has words. False at the end of the file.
+    bool next_line();
+    /// As next_line(), but the end of the file is an error: `expected` says what is missing.
+    void need_line(std::string_view expected);
+
+    std::size_t word_count() const { return words_.size(); }
+    std::size_t words_left() const { return words_.size() - at_; }
+    std::string_view word(std::size_t i) const { return words_[i]; }
+    std::string_view line() const { return line_; }
+
+    /// The next word of the line as a string, a decimal integer, or a finite number; `expected` names it in errors.
+    std::string_view take(std::string_view expected);
+    std::int32_t take_integer(std::string_view expected);
+    double take_number(std::string_view expected);
+
+    /// A count of things that take at least two bytes each: one that the file cannot hold is an error.
+    std::size_t take_count(std::string_view expected);
+
+    [[noreturn]] void fail(std::string_view what, std::string_view expected = {}, std::string_view found = {},
+                           std::string_view remedy = {}) const;
+
+private:
+    /// A word that something follows: what the end of the file has cut may be the beginning of another number.
+    std::string_view take_whole(std::string_view expected);
+
+    const std::string& path_;
+    std::string_view rest_;
+    const char* end_;
+    std::size_t size_;
+    std::string_view line_;
+    std::size_t line_number_ = 0;
+    std::vector<std::string_view> words_;
+    std::size_t at_ = 0;
+};
+
+Plc read_poly(const std::string& path, std::string_view text, bool one_polygon_a_facet);
+Plc read_off(const std::string& path, std::string_view text);
+Plc read_stl(const std::string& path, std::string_view text);
+Plc read_ply(const std::string& path, std::string_view text);
+
+}  // namespace barycert

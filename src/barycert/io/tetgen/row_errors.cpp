@@ -1,0 +1,253 @@
+#include "barycert/io/tetgen/row_errors.hpp"
+#include "barycert/base/text.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace barycert::detail {
+namespace {
+
+constexpr const char* separators_remedy = "separate the columns by spaces, tabs or commas";
+
+Error error_at(const TextTable& table, const char* at, std::string what, std::string expected, std::string found,
+               std::string remedy) {
+    const auto line = static_cast<std::size_t>(std::count(table.begin(), at, '\n')) + 1;
+    return {.what = std::move(what),
+            .file = table.file,
+            .line = line,
+            .expected = std::move(expected),
+            .found = std::move(found),
+            .remedy = std::move(remedy)};
+}
+
+std::string plural(std::size_t count, const std::string& name) {
+    return std::to_string(count) + " " + name + (count == 1 ? "" : "s");
+}
+
+/// "5 columns: id, 3 coordinates, 1 marker".
+std::string described_columns(const TextTable& table) {
+    std::string text;
+    for (const Columns& columns : table.columns) {
+        if (columns.count == 0) continue;
+        text += text.empty() ? ": " : ", ";
+        text += columns.kind == ColumnKind::id ? columns.name : plural(columns.count, columns.name);
+    }
+    return plural(table.column_count(), "column") + text;
+}
+
+/// A remedy that fits most fields that are no number at all; empty if none does.
+std::string remedy_for_text(std::string_view field) {
+    if (field.find(';') != std::string_view::npos) return separators_remedy;
+    if (field.find('\r') != std::string_view::npos) return "end the lines with LF or CR LF, not with CR alone";
+    if (std::any_of(field.begin(), field.end(), [](char c) { return static_cast<unsigned char>(c) < 32; })) {
+        return "save the mesh as text: this looks like binary data";
+    }
+    return {};
+}
+
+/// Digits, and nothing but digits and what else is allowed.
+bool looks_like_number(std::string_view text, std::string_view also) {
+    constexpr std::string_view digits = "0123456789";
+    return text.find_first_of(digits) != std::string_view::npos && std::all_of(text.begin(), text.end(), [&](char c) {
+               return is_digit(c) || also.find(c) != std::string_view::npos;
+           });
+}
+
+std::string_view without_sign(std::string_view field) {
+    if (!field.empty() && (field.front() == '+' || field.front() == '-')) field.remove_prefix(1);
+    return field;
+}
+
+struct Complaint {
+    std::string expected;
+    std::string remedy;
+};
+
+Complaint about_integer(std::string_view field) {
+    const std::string_view body = without_sign(field);
+    if (looks_like_number(body, "")) {
+        if (body.front() == '0') {
+            return {"an integer without leading zeros", "write it without them: TetGen would read it as octal"};
+        }
+        return {"an integer of at most 64 bits", "check the number"};
+    }
+    if (looks_like_number(body, ".eE+-")) return {"an integer", "write it without point and exponent"};
+    return {"an integer", remedy_for_text(field)};
+}
+
+Complaint about_real(std::string_view field) {
+    const std::string_view body = without_sign(field);
+    if (looks_like_number(body, ".eEdD+-") && body.find_first_of("dD") != std::string_view::npos) {
+        return {"a number", "write the exponent with e: TetGen would silently stop reading at the d"};
+    }
+    if (looks_like_number(body, ".eE+-")) {
+        return {"a number that a double can hold", "check the number: the largest double is near 1.8e308"};
+    }
+    std::string word(body.substr(0, 3));
+    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (word == "nan" || word == "inf") return {"a finite number", "give every node and cell finite numbers"};
+    return {"a number", remedy_for_text(field)};
+}
+
+Error id_error(const TextTable& table, std::string_view field, std::size_t row) {
+    const std::string expected = std::to_string(table.base + static_cast<std::int64_t>(row));
+    const std::string remedy =
+        "number the rows without gaps: TetGen ignores the numbers and would silently take the rows as they come";
+    if (row != 0)
+        return error_at(table, field.data(), "a row out of sequence", "row " + expected, quoted(field), remedy);
+    if (table.base_is_given && (field == "0" || field == "1")) {
+        return error_at(table, field.data(), "the files of this mesh count from different bases",
+                        "row " + expected + " first, as in the .node file", quoted(field),
+                        "number all files from 0 or all from 1");
+    }
+    return error_at(table, field.data(), "a bad first row number", table.base_is_given ? expected : "0 or 1",
+                    quoted(field), remedy);
+}
+
+Error index_error(const TextTable& table, const Columns& columns, std::string_view field) {
+    const std::string last = std::to_string(columns.limit - 1 + table.base);
+    std::string expected = columns.limit == 0
+                               ? "none, for there are no " + columns.refers_to
+                               : std::to_string(table.base) + " to " + last + " (" + columns.refers_to + ")";
+    if (columns.kind == ColumnKind::neighbour) expected += ", or -1 for none";
+    return error_at(table, field.data(), columns.name + " out of range", expected, quoted(field),
+                    "check that the files belong together and count from the same base");
+}
+
+/// True if the field is a number of its kind, in range.
+bool good_field(const TextTable& table, const Columns& columns, std::string_view field, std::size_t row, Error& error) {
+    const char* const end = field.data() + field.size();
+    if (field.empty()) {
+        error = error_at(table, field.data(), "bad " + columns.name, "a number before and after each comma", "nothing",
+                         "fill in the missing number or remove the comma");
+        return false;
+    }
+    if (columns.kind == ColumnKind::real) {
+        double value = 0;
+        if (scan_real(field.data(), end, value) == end) return true;
+        Complaint complaint = about_real(field);
+        error = error_at(table, end, "bad " + columns.name, complaint.expected, quoted(field), complaint.remedy);
+        return false;
+    }
+    std::int64_t value = 0;
+    if (scan_integer(field.data(), value) != end) {
+        Complaint complaint = about_integer(field);
+        error = error_at(table, end, "bad " + columns.name, complaint.expected, quoted(field), complaint.remedy);
+        return false;
+    }
+    switch (columns.kind) {
+        case ColumnKind::id:
+            if (value == table.base + static_cast<std::int64_t>(row)) return true;
+            error = id_error(table, field, row);
+            return false;
+        case ColumnKind::index:
+        case ColumnKind::neighbour:
+            if (columns.kind == ColumnKind::neighbour && value == -1) return true;
+            if (value >= table.base && value - table.base < columns.limit) return true;
+            error = index_error(table, columns, field);
+            return false;
+        default:
+            return true;
+    }
+}
+
+Error column_count_error(const TextTable& table, const std::vector<std::string_view>& fields) {
+    const std::size_t expected = table.column_count();
+    const char* const at = fields.front().data();
+    if (fields.size() < expected) {
+        return error_at(table, at, "too few columns in a row", described_columns(table), std::to_string(fields.size()),
+                        "complete the row, or mend the header: it tells how many columns there are");
+    }
+    const std::string found = std::to_string(fields.size()) + ", the first too many being " +
+                              (fields[expected].empty() ? "an empty one after a comma" : quoted(fields[expected]));
+    return error_at(table, at, "too many columns in a row", described_columns(table), found, table.surplus_remedy);
+}
+
+}  // namespace
+
+std::vector<std::string_view> fields_of_line(const TextTable& table, const char* at) {
+    const std::string_view bytes = table.data.bytes();
+    const auto place = static_cast<std::size_t>(at - bytes.data());
+    const std::size_t feed = place == 0 ? std::string_view::npos : bytes.rfind('\n', place - 1);
+    std::size_t begin = feed == std::string_view::npos ? 0 : feed + 1;
+    if (begin == 0 && bytes.starts_with("\xEF\xBB\xBF")) begin = 3;
+    std::string_view line = bytes.substr(begin, bytes.find('\n', place) - begin);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    line = line.substr(0, line.find('#'));
+
+    std::vector<std::string_view> fields;
+    bool after_comma = false;
+    std::size_t i = 0;
+    const auto skip_blanks = [&] {
+        while (i < line.size() && is_blank(line[i])) ++i;
+    };
+    for (skip_blanks(); i < line.size(); skip_blanks()) {
+        const std::size_t stop = std::min(line.find_first_of(" \t,", i), line.size());
+        fields.push_back(line.substr(i, stop - i));
+        i = stop;
+        skip_blanks();
+        after_comma = i < line.size() && line[i] == ',';
+        if (after_comma) ++i;
+    }
+    if (after_comma) fields.push_back(line.substr(line.size()));
+    return fields;
+}
+
+Error header_error(const TextTable& table, std::string what, std::string expected, std::string found,
+                   std::string remedy) {
+    const char* const at = table.header_at == nullptr ? table.begin() : table.header_at;
+    return error_at(table, at, std::move(what), std::move(expected), std::move(found), std::move(remedy));
+}
+
+Error count_error(const TextTable& table, std::string_view field, const char* name) {
+    if (field == "BIN") {
+        return header_error(table, "a binary file", "text", "'BIN' in the header", "save the mesh as text");
+    }
+    std::int64_t value = 0;
+    const bool integer = scan_integer(field.data(), value) == field.data() + field.size();
+    const Complaint complaint = integer ? Complaint{} : about_integer(field);
+    std::string remedy = complaint.remedy;
+    if (remedy.empty()) {
+        remedy = integer ? "check the header" : "begin the file with its header; put # before any other text";
+    }
+    const std::string expected = complaint.expected.find("zeros") != std::string::npos
+                                     ? complaint.expected
+                                     : "an integer from 0 to " + std::to_string(max_count);
+    return header_error(table, std::string("bad number of ") + name + " in the header", expected,
+                        field.empty() ? "nothing" : quoted(field), remedy);
+}
+
+Error row_error(const TextTable& table, const char* at, std::size_t row) {
+    const std::vector<std::string_view> fields = fields_of_line(table, at);
+    Error error;
+    std::size_t i = 0;
+    for (const Columns& columns : table.columns) {
+        for (std::size_t k = 0; k < columns.count && i < fields.size(); ++k, ++i) {
+            if (!good_field(table, columns, fields[i], row, error)) return error;
+        }
+    }
+    if (!fields.empty() && fields.size() != table.column_count()) return column_count_error(table, fields);
+    return error_at(table, at, "the last row has no line end, so the file may be cut short", "a line end",
+                    "the end of the file", "if nothing is missing, end the last line, as echo >> FILE does");
+}
+
+Error too_few_rows(const TextTable& table, std::size_t found) {
+    return error_at(table, table.end(), "the file ends too early", plural(table.rows, "row") + " as the header tells",
+                    std::to_string(found), "the file may be cut short: write it again, or mend the header");
+}
+
+Error surplus_text(const TextTable& table, const char* at) {
+    const std::vector<std::string_view> fields = fields_of_line(table, at);
+    const std::string_view field = fields.empty() ? std::string_view() : fields.front();
+    std::int64_t value = 0;
+    const bool another_row = scan_integer(at, value) == field.data() + field.size() &&
+                             value == table.base + static_cast<std::int64_t>(table.rows);
+    if (another_row) {
+        return error_at(table, at, "more rows than the header tells", plural(table.rows, "row"),
+                        "a row " + quoted(field), "mend the header or remove the row");
+    }
+    return error_at(table, at, "text after the last row", "the end of the file or a comment", quoted(field),
+                    "remove the text, put # before it, or mend the number of rows in the header");
+}
+
+}  // namespace barycert::detail

@@ -1,0 +1,162 @@
+#include "barycert/io/tetgen/text_table.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <system_error>
+#include <thread>
+
+#include "barycert/base/text.hpp"
+#include "barycert/io/tetgen/row_errors.hpp"
+
+namespace barycert::detail {
+namespace {
+
+/// Whole lines of a table and the rows that should stand in them.
+struct Block {
+    const TextTable* table;
+    const char* start;
+    const char* stop;
+    std::size_t first_row;
+    std::size_t last_row;
+};
+
+/// Large enough that the start of a block costs nothing, small enough to share the work evenly.
+constexpr std::ptrdiff_t block_size = std::ptrdiff_t{1} << 19;
+
+/// Cuts the body at line ends; looks at the first id of each block. False if the ids cannot belong to a good file.
+bool append_blocks(const TextTable& table, std::vector<Block>& blocks) {
+    const std::size_t begin = blocks.size();
+    std::size_t row = 0;
+    for (const char* at = table.body; at != table.end();) {
+        Scanner next{at + std::min(block_size, table.end() - at), table.end()};
+        if (next.at != table.end()) next.skip_line();
+        Scanner first{at, table.end()};
+        if (first.next_row(next.at)) {
+            std::int64_t id = 0;
+            if (!first.integer(id) || id < table.base || id - table.base > max_count) return false;
+            row = static_cast<std::size_t>(id - table.base);
+        } else if (blocks.size() != begin) {
+            row = table.rows;  // nothing but comments: they can only follow the last row, or the check below fails
+        }
+        if (blocks.size() == begin ? row != 0 : row < blocks.back().first_row) return false;
+        if (row > table.rows) return false;
+        if (blocks.size() != begin) blocks.back().last_row = row;
+        blocks.push_back({&table, at, next.at, row, table.rows});
+        at = next.at;
+    }
+    return blocks.size() != begin || table.rows == 0;
+}
+
+/// Parses the blocks on several threads; true if every one is as it should be.
+bool parse_blocks(const std::vector<Block>& blocks, int threads) {
+    std::atomic<std::size_t> next{0};
+    std::atomic<bool> good{true};
+    const auto work = [&] {
+        for (std::size_t i = next++; i < blocks.size() && good; i = next++) {
+            const Block& block = blocks[i];
+            Scanner scanner{block.start, block.table->end()};
+            std::size_t row = block.first_row;
+            if (!block.table->parse(scanner, block.stop, row, block.last_row)) good = false;
+        }
+    };
+    const auto wanted = std::min(static_cast<std::size_t>(threads), blocks.size());
+    std::vector<std::thread> helpers;
+    helpers.reserve(wanted);
+    try {
+        while (helpers.size() + 1 < wanted) helpers.emplace_back(work);
+    } catch (const std::system_error&) {
+        // The system gives no more threads: those at hand do it all.
+    }
+    work();
+    for (std::thread& helper : helpers) helper.join();
+    return good;
+}
+
+/// The whole table at once: the slow twin that knows the first error.
+Status parse_in_order(const TextTable& table) {
+    Scanner scanner{table.body, table.end()};
+    std::size_t row = 0;
+    if (table.parse(scanner, table.end(), row, table.rows)) return Done{};
+    if (row == table.rows) return surplus_text(table, scanner.at);
+    // A row parser stops inside the row; only the search for the next row reaches the end with no row begun.
+    if (scanner.at == table.end() && fields_of_line(table, scanner.at).empty()) return too_few_rows(table, row);
+    return row_error(table, scanner.at, row);
+}
+
+}  // namespace
+
+std::size_t TextTable::column_count() const {
+    std::size_t count = 0;
+    for (const Columns& group : columns) count += group.count;
+    return count;
+}
+
+std::vector<std::string_view> TextTable::first_row() const {
+    Scanner scanner{body, end()};
+    if (!scanner.next_row(end())) return {};
+    return fields_of_line(*this, scanner.at);
+}
+
+Result<TextTable> open_table(const std::string& path, std::span<const char* const> header_names) {
+    Result<MappedFile> mapped = MappedFile::open(path);
+    if (!mapped) return mapped.error();
+    TextTable table;
+    table.file = path;
+    table.data = std::move(*mapped);
+    Scanner scanner{table.begin(), table.end()};
+    if (table.data.bytes().starts_with("\xEF\xBB\xBF")) scanner.at += 3;
+    const std::string expected = std::string("a header that begins with the number of ") + header_names[0];
+    if (!scanner.next_row(table.end())) {
+        return header_error(table, "the file is empty", expected, "nothing", "write the file again");
+    }
+    table.header_at = scanner.at;
+    scanner.skip_line();
+    table.body = scanner.at;
+
+    const std::vector<std::string_view> fields = fields_of_line(table, table.header_at);
+    for (const std::string_view field : fields) {
+        const std::size_t i = table.header.size();
+        std::int64_t value = 0;
+        const bool integer = scan_integer(field.data(), value) == field.data() + field.size();
+        if (i == header_names.size() && field != "BIN") {
+            return header_error(table, "too many numbers in the header",
+                                "at most " + std::to_string(header_names.size()), quoted(field),
+                                "remove it or put # before it");
+        }
+        if (!integer || value < 0 || value > max_count) {
+            return count_error(table, field, i < header_names.size() ? header_names[i] : "columns");
+        }
+        table.header.push_back(value);
+    }
+    table.rows = static_cast<std::size_t>(table.header[0]);
+    return table;
+}
+
+Status check_room(const TextTable& table) {
+    // Each field takes a character and something that ends it.
+    const auto room = static_cast<std::size_t>(table.end() - table.body);
+    if (table.rows * 2 * table.column_count() <= room) return Done{};
+    // Then rows are missing, or one is too short, or the last has no line end.
+    const char* at = table.end();
+    std::size_t rows = 0;
+    for (Scanner scanner{table.body, table.end()}; rows < table.rows && scanner.next_row(table.end()); ++rows) {
+        at = scanner.at;
+        if (fields_of_line(table, at).size() < table.column_count()) return row_error(table, at, rows);
+        scanner.skip_line();
+    }
+    return rows < table.rows ? too_few_rows(table, rows) : row_error(table, at, rows - 1);
+}
+
+Status parse_tables(std::span<TextTable* const> tables, int threads) {
+    if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    std::vector<Block> blocks;
+    bool good = true;
+    for (const TextTable* table : tables) good = good && append_blocks(*table, blocks);
+    if (good && parse_blocks(blocks, threads)) return Done{};
+    for (const TextTable* table : tables) {
+        if (Status status = parse_in_order(*table); !status) return status;
+    }
+    return Done{};
+}
+
+}  // namespace barycert::detail

@@ -1,0 +1,78 @@
+/// VTK's VTI files (XML, image data): arrays at the points of a regular grid, written block by block. VTK is not
+/// needed.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "barycert/base/output_file.hpp"
+#include "barycert/result.hpp"
+
+namespace barycert {
+
+/// The points origin + (i, j, k) * spacing, i running fastest. A grid in the plane has counts[2] = 1.
+struct VtiGrid {
+    std::array<std::int64_t, 3> counts{1, 1, 1};  ///< points along each axis, 1 to 2^31 - 1
+    std::array<double, 3> origin{0, 0, 0};
+    std::array<double, 3> spacing{1, 1, 1};  ///< > 0; along an axis of one point 0 stands for 1
+};
+
+/// Types of numbers, named as in the file. VTK's `vtkValidPointMask` is an int8.
+enum class VtiType : std::uint8_t { int8, uint8, int32, int64, float32, float64 };
+
+/// An array with `components` numbers a point, those of a point side by side.
+struct VtiArray {
+    std::string name;
+    int components = 1;
+    VtiType type = VtiType::float64;
+};
+
+/// A file whose arrays are handed over in blocks of any size, each array from its first point to its last; arrays may
+/// take turns. Nothing but 256 KiB is held in memory, so that a file may be larger than memory. Numbers are appended
+/// raw, uncompressed, with sizes of 64 bits: they read back to the same bits, and the same arrays give the same bytes
+/// whatever the blocks.
+///
+/// The file appears whole on commit(), or not at all. Arrays that take turns go to their places in the file, block by
+/// block: blocks below some 64 KiB cost a system call each. On a pipe or device only one array after the other can be
+/// written.
+class VtiWriter {
+public:
+    /// Error: counts, origin or spacing that are none; more than 2^63 bytes; a name that is empty, twice there, or that
+    /// XML cannot hold (not UTF-8, or control characters but for tab and line breaks); fewer than one component; the
+    /// file cannot be made.
+    static Result<std::unique_ptr<VtiWriter>> open(const std::string& path, const VtiGrid& grid,
+                                                   const std::vector<VtiArray>& arrays);
+
+    /// The next bytes of arrays[array], in the order of this machine.
+    /// Error: there is no such array; more bytes than it has; on a pipe, not its turn; the file cannot be written.
+    Status write(std::size_t array, std::span<const std::byte> bytes);
+
+    /// Error: an array has not got all its bytes; the file cannot be written.
+    Status commit();
+
+private:
+    struct Place {
+        std::uint64_t begin = 0;  // of its header in the file
+        std::uint64_t size = 0;   // bytes of its numbers
+        std::uint64_t done = 0;   // of them, handed over
+    };
+    VtiWriter(const std::string& path, std::vector<VtiArray> arrays)
+        : path_(path), arrays_(std::move(arrays)), file_(path) {}
+    bool put(std::uint64_t at, std::string_view bytes);
+    Error error(std::string what, std::string expected, std::string found) const;
+
+    std::string path_;
+    std::vector<VtiArray> arrays_;
+    std::vector<Place> places_;
+    std::uint64_t tail_ = 0;  // where the end of the XML goes
+    std::uint64_t end_ = 0;   // of what was written in order
+    OutputFile file_;
+};
+
+}  // namespace barycert

@@ -1,0 +1,55 @@
+/// Internal: the numbers of DataArray elements.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "barycert/io/vtk/raw_grid.hpp"
+#include "barycert/io/vtk/xml_tree.hpp"
+
+namespace barycert::detail {
+
+enum class Compressor : std::uint8_t { none, zlib, lz4, lzma };
+
+/// What the attributes of the root say of all arrays.
+struct XmlLayout {
+    bool swap_bytes = false;
+    std::size_t header_bytes = 4;  ///< of the integers before the data: 4 or 8
+    Compressor compressor = Compressor::none;
+};
+
+/// Error: a byte order, type of header or compressor that VTK does not know.
+Result<XmlLayout> layout_of(const XmlTree& tree, std::string_view bytes, const std::string& path);
+
+class XmlArrays {
+public:
+    /// All of them are kept as references.
+    XmlArrays(std::string_view bytes, const XmlTree& tree, const XmlLayout& layout, const std::string& path)
+        : bytes_(bytes), tree_(tree), layout_(layout), path_(path) {}
+
+    /// The type of the numbers; nothing if they are none (strings).
+    static std::optional<NumberType> type_of(const XmlElement& array);
+
+    /// Appends the numbers of the array, exactly `count`, to `values` (see numbers.hpp for its types). `what` names it
+    /// in errors. Where `fault` is given, numbers that are not exact are told there instead of as an error.
+    template <class To>
+    Status read(const XmlElement& array, const std::string& what, std::uint64_t count, std::vector<To>& values,
+                NumberFault* fault = nullptr) const;
+
+    Error error(const XmlElement& element, std::string what, std::string expected, std::string found,
+                std::string remedy = {}) const;
+
+private:
+    Result<std::unique_ptr<ByteStream>> encoded(const XmlElement& array, const std::string& what) const;
+    Result<std::unique_ptr<ByteStream>> content(const XmlElement& array, const std::string& what,
+                                                std::uint64_t size) const;
+
+    std::string_view bytes_;
+    const XmlTree& tree_;
+    const XmlLayout& layout_;
+    const std::string& path_;
+};
+
+}  // namespace barycert::detail

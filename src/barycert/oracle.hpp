@@ -1,0 +1,93 @@
+/// The oracle: exact answers to a case, each rounded correctly to double once, at the very end.
+///
+/// Enters: a Case with finite coordinates and values. Leaves: exact signs, region and feature; exact weights and value
+/// rounded to nearest, ties to even; exact residuals of somebody else's weights. The oracle stands on exact integers
+/// alone and shares nothing with the kernels or with core's predicates, so that it can judge them.
+///
+/// The mathematics. With v_i the vertices, p the point, all relative to p: the weight of vertex i is n_i / d where
+///   tetrahedron: n_i = the 3x3 determinant of the other three with alternating sign,   d = sum n_i
+///   triangle:    n_i = the cross product of the next two,                              d = sum n_i
+///   triangle3d:  n_i = N . (cross product of the next two), N = (v1 - v0) x (v2 - v0), d = N . N
+///   segment:     n_0 = v_1 . e, n_1 = -v_0 . e, e = v_1 - v_0,                         d = e . e
+/// The last two are the weights of the orthogonal projection of p: dotting with N or e removes what is normal to
+/// the simplex. In each case sum n_i = d, so that d = 0 exactly when the simplex is degenerate.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "barycert/simplex.hpp"
+
+namespace barycert::exact {
+
+struct Answer {
+    Region region = Region::outside;
+    Feature feature = Feature::outside;
+    std::uint8_t support = 0;            ///< bit i is set if the exact weight i is not zero
+    std::array<std::int8_t, 4> signs{};  ///< signs of the exact weights; zero if degenerate
+    std::array<double, 4> weights{};     ///< correctly rounded; NaN if degenerate
+    double value = 0;                    ///< sum of weight times nodal value, correctly rounded; NaN if degenerate
+    bool narrow = false;                 ///< machine words were wide enough (for counting; never changes an answer)
+};
+
+/// Precondition: all numbers of the case are finite.
+Answer ask(const Case& c);
+
+/// The same by wide integers alone. For tests: both must always agree.
+Answer ask_wide(const Case& c);
+
+/// Exact (sum of weights) - 1, rounded once. Precondition: weights finite.
+double partition_residual(std::span<const double> weights);
+
+/// Exact Euclidean length of (sum of weight times vertex) - p, rounded once, where p is the case's point, or its
+/// projection for a triangle3d or segment. Preconditions: weights finite, simplex not degenerate.
+double reproduction_residual(const Case& c, std::span<const double> weights);
+
+/// Kind of a simplex by the dimension of its affine hull: 3 for a proper tetrahedron, ... 0 if all vertices coincide.
+int affine_dimension(const Case& c);
+
+// Exact proofs, case by case, that interpolation along auxiliary lines is barycentric interpolation.
+//
+// Bilinear: the horizontal line through the point meets two sides of the triangle; interpolate along the sides, then
+// along the line. Trilinear: a plane through the point meets three edges of the tetrahedron, a line in it the segments
+// in two faces; interpolate along the edges, the segments, the line. Both are carried out in CGAL's rationals and
+// compared with ratios of signed areas or volumes. In floating point the three differ; the audit shows how.
+
+enum class Identity : std::uint8_t {
+    holds,      ///< equal as rational numbers, every weight
+    fails,      ///< unequal: would refute the theorem
+    undefined,  ///< degenerate, or every choice of auxiliary lines meets a vertex or runs along a side
+};
+
+/// Precondition: c.simplex == Simplex::triangle, finite coordinates.
+Identity bilinear_is_barycentric(const Case& c);
+
+/// Precondition: c.simplex == Simplex::tetrahedron, finite coordinates.
+Identity trilinear_is_barycentric(const Case& c);
+
+// The gradient of a linear field, by the oracle: exact integers, rounded once, nothing shared with core.
+//
+// The mathematics. The gradient of weight i is the normal of the opposite face over the signed volume: with (i, a, b,
+// c) an even permutation of the vertices, grad lambda_i = -((b - a) x (c - a)) / det(v1 - v0, v2 - v0, v3 - v0); in
+// the plane, with (i, a, b) one, grad lambda_i = (a - b) turned by a right angle over the signed area. The gradient is
+// the sum of values times these.
+
+struct GradientAnswer {
+    bool degenerate = false;
+    std::array<double, 3> gradient{};  ///< correctly rounded; NaN if degenerate
+};
+
+/// Of the field with c.values at the vertices; the point has no part in it. Preconditions: triangle or tetrahedron,
+/// everything finite.
+GradientAnswer gradient(const Case& c);
+
+// Quadratic interpolation on a straight-sided cell with nodes amid its edges, by the oracle: exact integers, rounded
+// once, nothing shared with core.
+
+/// sum l_i (2 l_i - 1) f_i + sum 4 l_i l_j f_ij with the exact weights l of the point, f = c.values at the corners and
+/// `mids` on the edges 01 12 02 (triangle) or 01 12 02 03 13 23 (tetrahedron), correctly rounded; NaN if degenerate.
+/// Preconditions: triangle or tetrahedron, everything finite, a value for each edge.
+double quadratic_value(const Case& c, std::span<const double> mids);
+
+}  // namespace barycert::exact

@@ -1,0 +1,140 @@
+#include "barycert/audit_report.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "barycert/audit/witness_json.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/report/common/environment_json.hpp"
+
+namespace barycert::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using audit::Statistics;
+
+/// null where there is no figure. JSON knows no infinity, and null would hide it: the largest double stands for it.
+Json figure(double x) {
+    return x >= 0 ? Json(std::min(x, std::numeric_limits<double>::max())) : Json(nullptr);
+}
+
+void add_statistics(Json& j, const Statistics& s) {
+    j["cases"] = s.cases;
+    j["wrong_cases"] = s.wrong_cases;
+    for (std::size_t f = 0; f < audit::finding_count; ++f) j[std::string(audit::finding_texts[f].name)] = s.counts[f];
+    j["worst_weight_ulp"] = figure(s.weight_ulp.value);
+    j["p999_weight_ulp"] = figure(s.p999_weight_ulp());
+    j["worst_value_ulp"] = figure(s.value_ulp.value);
+    j["p999_value_ulp"] = figure(s.p999_value_ulp());
+    j["worst_partition_residual"] = figure(s.partition_residual.value);
+    j["worst_reproduction_residual"] = figure(s.reproduction_residual.value);
+    Json& confusion = j["confusion"];
+    for (const Region exact : all_regions) {
+        for (const Region claimed : all_regions) {
+            confusion[std::string(name(exact))][std::string(name(claimed))] =
+                s.confusion[static_cast<std::size_t>(exact)][static_cast<std::size_t>(claimed)];
+        }
+    }
+}
+
+Json prediction_json(const audit::Prediction& p) {
+    Json j;
+    j["cases"] = p.cases();
+    j["worst_factor"] = figure(p.worst_factor());
+    j["bins"] = Json::array();
+    for (const audit::Prediction::Bin& bin : p.bins()) {
+        Json b;
+        b["bits"] = bin.bits;
+        b["cases"] = bin.cases;
+        b["median_error"] = figure(bin.median);
+        b["worst_error"] = figure(bin.worst);
+        j["bins"].push_back(std::move(b));
+    }
+    return j;
+}
+
+Json kernel_json(const Kernel& k) {
+    Json j;
+    j["name"] = k.name;
+    j["simplex"] = name(k.simplex);
+    j["formula"] = k.formula;
+    j["source"] = k.source;
+    j["fails"] = k.fails;
+    j["declares_degenerate"] = k.declares_degenerate;
+    j["certifies"] = k.certifies;
+    j["region_rule"] = k.rule == RegionRule::sign ? "sign" : "tolerant";
+    if (k.rule == RegionRule::tolerant) j["tolerance"] = k.tolerance;
+    return j;
+}
+
+Json family_json(const audit::Family& f) {
+    Json j;
+    j["name"] = f.name;
+    j["after"] = f.after;
+    j["parameters"] = f.parameters;
+    j["needs_mesh"] = f.needs_mesh;
+    j["simplices"] = Json::array();
+    for (const Simplex s : f.simplices) j["simplices"].push_back(name(s));
+    return j;
+}
+
+Json list(const auto& items, auto convert) {
+    Json j = Json::array();
+    for (const auto& item : items) j.push_back(convert(item));
+    return j;
+}
+
+}  // namespace
+
+std::string json_report(const audit::Report& r) {
+    const ExactEnvironment environment;
+    Json j;
+    j["schema"] = audit_schema;
+    j["environment"] = environment_json(r.environment);
+    j["seed"] = r.seed;
+    j["count"] = r.count;
+    j["threads"] = r.threads;
+    j["meshes"] = r.meshes;
+    j["verdicts"] = list(r.verdicts, [](check::Verdict v) { return Json(check::name(v)); });
+    j["cases"] = r.cases;
+    for (const Region region : all_regions)
+        j["regions"][std::string(name(region))] = r.regions[static_cast<std::size_t>(region)];
+    j["seconds"] = r.seconds;
+    j["families"] = list(r.families, family_json);
+    j["kernels"] = Json::array();
+    Json witnesses = Json::array();
+    for (const audit::KernelResult& k : r.kernels) {
+        Json entry = kernel_json(k.kernel);
+        add_statistics(entry, k.total);
+        entry["ns"] = figure(k.ns);
+        entry["prediction"] = prediction_json(k.prediction);
+        entry["families"] = Json::array();
+        for (const audit::FamilyResult& f : k.families) {
+            Json part;
+            part["name"] = r.families[f.family].name;
+            add_statistics(part, f.statistics);
+            entry["families"].push_back(std::move(part));
+        }
+        j["kernels"].push_back(std::move(entry));
+        for (const audit::Witness& w : k.witnesses) witnesses.push_back(audit::witness_json(w));
+    }
+    j["witnesses"] = std::move(witnesses);
+    return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string kernels_json(const std::vector<Kernel>& kernels) {
+    Json j;
+    j["schema"] = audit_schema;
+    j["kernels"] = list(kernels, kernel_json);
+    return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string families_json(const std::vector<audit::Family>& families) {
+    Json j;
+    j["schema"] = audit_schema;
+    j["families"] = list(families, family_json);
+    return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace barycert::report

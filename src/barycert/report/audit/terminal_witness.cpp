@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "barycert/audit_report.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/report/common/terminal_text.hpp"
+
+namespace barycert::report {
+namespace {
+
+std::string findings(const audit::Comparison& r) {
+    std::string out;
+    for (std::size_t f = 0; f < audit::finding_count; ++f) {
+        if (r.counts[f] != 0) out += (out.empty() ? "" : ", ") + std::string(audit::finding_texts[f].name);
+    }
+    return out.empty() ? "-" : out;
+}
+
+std::string coordinates(const Case& c, auto at) {
+    std::string decimal, hex;
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
+        decimal += (axis == 0 ? "" : ", ") + shortest(at(axis));
+        hex += (axis == 0 ? "" : ", ") + hexadecimal(at(axis));
+    }
+    return fmt::format("({})\n        ({})\n", decimal, hex);
+}
+
+/// Interpolating along auxiliary lines is barycentric interpolation, in exact arithmetic.
+std::string identity_line(const audit::Replay& r) {
+    const char* const what = r.witness.c.simplex == Simplex::triangle
+                                 ? "bilinear interpolation and ratios of signed areas"
+                                 : "trilinear interpolation and ratios of signed volumes";
+    switch (r.identity) {
+        case exact::Identity::holds:
+            return fmt::format("    in exact arithmetic {} give the same weights here\n", what);
+        case exact::Identity::fails:
+            return fmt::format("    in exact arithmetic {} DIFFER here: a fault of barycert\n", what);
+        case exact::Identity::undefined:
+            break;
+    }
+    return "";
+}
+
+}  // namespace
+
+std::string terminal_witness(const audit::Replay& replay, const TerminalStyle& style) {
+    const ExactEnvironment environment;
+    const Colours paint(style.colour);
+    const audit::Witness& witness = replay.witness;
+    const Case& c = witness.c;
+    const int n = vertex_count(c.simplex);
+    const exact::Answer& answer = replay.exact;
+    std::string title(name(c.simplex));
+    if (!witness.kernel.empty())
+        title += ", " + (witness.reason.empty() ? "" : witness.reason + " of ") + witness.kernel;
+    std::string out = paint.bold(printable(title)) + "\n";
+    if (!witness.family.empty()) {
+        out += fmt::format("    family {}, case {}, seed {}\n", printable(witness.family), witness.index, witness.seed);
+    }
+    for (int i = 0; i < n; ++i)
+        out += fmt::format("    v{}  ", i) + coordinates(c, [&](int axis) { return c.vertex(i, axis); });
+    out += "    p   " + coordinates(c, [&](int axis) { return c.point[static_cast<std::size_t>(axis)]; });
+    out += "    exact: " + std::string(name(answer.region));
+    if (answer.region == Region::boundary) out += fmt::format(" ({})", name(answer.feature));
+    if (answer.region == Region::degenerate)
+        out += fmt::format(" (its vertices span {} dimensions)", replay.affine_dimension);
+    out += "\n";
+
+    std::size_t width = 5;
+    for (const audit::KernelAnswer& a : replay.answers) width = std::max(width, a.kernel.size());
+    const auto row = [&](std::string_view mark, std::string_view kernel, std::string_view region,
+                         const std::array<std::string, 4>& cells, std::string_view ulps, std::string_view value,
+                         std::string_view text) {
+        std::string line = fmt::format("{:1} {:<{}}  {:<10}", mark, kernel, width, region);
+        for (int i = 0; i < n; ++i) line += fmt::format(" {:>24}", cells[static_cast<std::size_t>(i)]);
+        return line + fmt::format(" {:>9} {:>10}  {}", ulps, value, text) + "\n";
+    };
+    std::array<std::string, 4> cells{};
+    for (int i = 0; i < n; ++i) cells[static_cast<std::size_t>(i)] = fmt::format("weight {}", i);
+    out += paint.bold(row("", "", "region", cells, "ulps", "value ulps", "findings"));
+    for (int i = 0; i < n; ++i)
+        cells[static_cast<std::size_t>(i)] = shortest(answer.weights[static_cast<std::size_t>(i)]);
+    out += paint.good(
+        row("=", "exact, correctly rounded", name(answer.region), cells, "", "", "value " + shortest(answer.value)));
+    for (const audit::KernelAnswer& a : replay.answers) {
+        for (std::size_t i = 0; i < 4; ++i) cells[i] = a.status != 0 ? "declared" : shortest(a.weights[i]);
+        const audit::Comparison& r = a.comparison;
+        const std::string line = row(a.kernel == witness.kernel ? ">" : "", a.kernel, name(r.claimed), cells,
+                                     brief(a.worst_weight_ulp), brief(r.value_ulp), findings(r));
+        out += r.wrong() ? paint.bad(line) : line;
+    }
+    return out + identity_line(replay);
+}
+
+std::string terminal_kernels(const std::vector<Kernel>& kernels) {
+    std::string out;
+    for (const Kernel& k : kernels) {
+        out += fmt::format("{}\n    formula  {}\n    source   {}\n    fails    {}\n", k.name, printable(k.formula),
+                           printable(k.source), k.fails);
+        std::string promises = k.certifies ? "certifies every answer" : "no certificate";
+        promises += k.declares_degenerate ? "; declares degenerate simplices" : "; never declares a simplex degenerate";
+        if (k.rule == RegionRule::tolerant) promises += fmt::format("; inside if every weight >= -{}", k.tolerance);
+        out += "    promise  " + promises + "\n";
+    }
+    return out;
+}
+
+std::string terminal_families(const std::vector<audit::Family>& families) {
+    std::string out;
+    for (const audit::Family& f : families) {
+        std::string simplices;
+        for (const Simplex s : f.simplices) simplices += (simplices.empty() ? "" : ", ") + std::string(name(s));
+        out += fmt::format("{}\n    after    {}\n    recipe   {}\n    for      {}{}\n", f.name, f.after, f.parameters,
+                           simplices, f.needs_mesh ? " of a mesh" : "");
+    }
+    return out;
+}
+
+}  // namespace barycert::report

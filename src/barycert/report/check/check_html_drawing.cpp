@@ -1,0 +1,226 @@
+// Pictures of cells for the HTML report.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "barycert/report/check/check_html_cells.hpp"
+#include "barycert/report/check/check_html_picture.hpp"
+#include "barycert/report/check/check_html_view.hpp"
+
+namespace barycert::report {
+namespace {
+
+constexpr double width = 240, height = 184, margin = 34, top = 20;
+
+struct Shown {
+    std::string title;
+    View view;
+    double stretch = 1;  ///< of what is drawn upwards
+};
+
+/// What is drawn on a card: normalised corners of one or two cells, and a witness.
+struct Scene {
+    std::size_t corners = 4;
+    std::vector<Vector> points;
+    std::vector<Mesh::Index> nodes;
+    bool has_witness = false;
+    Vector witness{};
+
+    std::vector<Vector> cell(std::size_t i) const {
+        const auto first = points.begin() + static_cast<std::ptrdiff_t>(i * corners);
+        return {first, first + static_cast<std::ptrdiff_t>(corners)};
+    }
+    std::size_t cells() const { return points.size() / corners; }
+};
+
+Scene scene_of(const Mesh& mesh, const Exhibit& e) {
+    Scene scene;
+    scene.corners = mesh.corners();
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    std::vector<const double*> at;
+    for (const Mesh::Index cell : e.cells) {
+        if (cell < 0) continue;
+        for (std::size_t i = 0; i < scene.corners; ++i) {
+            const Mesh::Index node = mesh.cells[static_cast<std::size_t>(cell) * scene.corners + i];
+            scene.nodes.push_back(node);
+            at.push_back(&mesh.points[static_cast<std::size_t>(node) * d]);
+        }
+    }
+    const Normalised normalised(mesh.dimension, at);
+    scene.points = normalised.points();
+    if (e.contact != nullptr) {
+        const std::array<double, 3>& w = e.contact->witness.point;
+        scene.has_witness = std::all_of(w.begin(), w.end(), [](double x) { return std::isfinite(x); });
+        if (scene.has_witness) scene.witness = normalised.place(w.data());
+    }
+    return scene;
+}
+
+struct Extent {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    void add(double x) { low = std::min(low, x), high = std::max(high, x); }
+    double size() const { return high - low; }
+    double middle() const { return (low + high) / 2; }
+};
+
+std::array<Extent, 2> frame(const Scene& scene, const View& view) {
+    std::array<Extent, 2> e;
+    for (const Vector& p : scene.points) {
+        const Vector q = view(p);
+        e[0].add(q[0]);
+        e[1].add(q[1]);
+    }
+    return e;
+}
+
+std::vector<Shown> views_of(const Mesh& mesh, const Scene& scene) {
+    std::vector<Shown> views;
+    if (mesh.dimension == 2) {
+        views.push_back({"as it lies", {}});
+        const View along = from_above(scene.points);  // the longest way to the right
+        const auto e = frame(scene, along);
+        if (e[1].size() < 0.1 * e[0].size() && e[1].size() > 0) {
+            const double factor = 0.5 * e[0].size() / e[1].size();
+            views.push_back({fmt::format("turned, stretched {:.2g}-fold upwards", factor), along, factor});
+        }
+        return views;
+    }
+    if (scene.cells() == 1) {
+        const std::vector<Vector> t = scene.cell(0);
+        const auto edge = sharpest_edge(t);
+        const bool apart = scene.nodes[edge[0]] != scene.nodes[edge[1]];
+        if (apart) {
+            views.push_back(
+                {fmt::format("along edge {}–{}", scene.nodes[edge[0]], scene.nodes[edge[1]]), along_edge(t, edge)});
+        }
+    }
+    if (views.empty()) views.push_back({"from the side", from_the_side(scene.points)});
+    views.push_back({"from above", from_above(scene.points)});
+    return views;
+}
+
+/// Pixels for the numbers of a view.
+struct Placing {
+    const Scene& scene;
+    const Shown& shown;
+    std::array<Extent, 2> e;
+    double scale;
+
+    Pixel operator()(const Vector& p) const {
+        const Vector q = shown.view(p);
+        return {width / 2 + scale * (q[0] - e[0].middle()),
+                top + (height - top) / 2 - scale * shown.stretch * (q[1] - e[1].middle())};
+    }
+};
+
+/// Faces towards the eye are filled; edges of none of them are dashed.
+void draw_tetrahedron(Picture& svg, const Placing& at, const std::vector<Vector>& t, std::string_view colour) {
+    const auto facing = [&](std::size_t corner) {  // the face opposite to it
+        const Vector &a = t[(corner + 1) % 4], &b = t[(corner + 2) % 4], &c = t[(corner + 3) % 4];
+        Vector n = cross(minus(b, a), minus(c, a));
+        if (dot(n, minus(t[corner], a)) > 0) n = {-n[0], -n[1], -n[2]};
+        return dot(n, at.shown.view.z) > -1e-12;
+    };
+    const double volume = dot(cross(minus(t[1], t[0]), minus(t[2], t[0])), minus(t[3], t[0]));
+    const bool flat = std::fabs(volume) < 1e-15;  // of a cell of size 1: no edge is behind another
+    std::array<bool, 4> front{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        front[i] = flat || facing(i);
+        if (front[i])
+            svg.polygon({at(t[(i + 1) % 4]), at(t[(i + 2) % 4]), at(t[(i + 3) % 4])}, fmt::format("face {}", colour));
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t j = i + 1; j < 4; ++j) {
+            bool seen = false;
+            for (std::size_t k = 0; k < 4; ++k) seen |= k != i && k != j && front[k];
+            svg.line(at(t[i]), at(t[j]), fmt::format("edge {}{}", colour, seen ? "" : " far"));
+        }
+    }
+}
+
+std::string draw(const Scene& scene, const Shown& shown, double scale, const std::string& title) {
+    Picture svg(width, height, title);
+    const Placing at{scene, shown, frame(scene, shown.view), scale};
+    svg.text({width / 2, 13}, shown.title, "view m");
+    std::vector<Label> labels;
+    for (std::size_t c = 0; c < scene.cells(); ++c) {
+        const std::string_view colour = c == 0 ? "a" : "b";
+        const std::vector<Vector> t = scene.cell(c);
+        if (t.size() == 3) {
+            svg.polygon({at(t[0]), at(t[1]), at(t[2])}, fmt::format("face {}", colour));
+            for (std::size_t i = 0; i < 3; ++i) svg.line(at(t[i]), at(t[(i + 1) % 3]), fmt::format("edge {}", colour));
+        } else {
+            draw_tetrahedron(svg, at, t, colour);
+        }
+    }
+    for (std::size_t i = 0; i < scene.points.size(); ++i) {
+        const Pixel p = at(scene.points[i]);
+        svg.dot(p, 2.2, "node");
+        labels.push_back({p, std::to_string(scene.nodes[i]), "id"});
+    }
+    if (scene.has_witness) {
+        svg.dot(at(scene.witness), 4, "witness", "witness");
+        labels.push_back({at(scene.witness), "witness", "id bad"});
+    }
+    place_labels(svg, std::move(labels), top);
+    return std::move(svg).finish();
+}
+
+/// The same for all views of a scene, so that they can be compared; one that is stretched has its own.
+double scale_of(const std::vector<Shown>& views, const Scene& scene) {
+    double scale = std::numeric_limits<double>::infinity();
+    for (const Shown& v : views) {
+        const auto e = frame(scene, v.view);
+        if (e[0].size() > 0) scale = std::min(scale, (width - 2 * margin) / e[0].size());
+        if (e[1].size() > 0) scale = std::min(scale, (height - top - 2 * margin) / (v.stretch * e[1].size()));
+    }
+    return std::isfinite(scale) ? scale : 1;
+}
+
+std::string figure(double x) {
+    return std::isinf(x) ? "∞" : std::isnan(x) ? "unknown" : fmt::format("{:.4g}", x + 0.0);
+}
+
+std::string facts(const check::Report& r, const Mesh& mesh, Mesh::Index cell, std::string_view swatch) {
+    const check::Measures& m = r.measures;
+    const auto c = static_cast<std::size_t>(cell);
+    std::vector<Mesh::Index> nodes(mesh.cells.begin() + static_cast<std::ptrdiff_t>(c * mesh.corners()),
+                                   mesh.cells.begin() + static_cast<std::ptrdiff_t>((c + 1) * mesh.corners()));
+    std::string out = fmt::format("<p>{}<b>cell {}</b>, nodes {}<br/>", swatch, cell, fmt::join(nodes, " "));
+    if (std::isnan(m.volume[c])) return out + "not measured: it has a node twice</p>\n";
+    out += fmt::format("angles {}° to {}°, {} {}<br/>", figure(m.min_angle[c]), figure(m.max_angle[c]),
+                       r.dimension == 2 ? "area" : "volume",
+                       std::isinf(m.volume[c])                     ? "beyond the largest double"
+                       : m.volume[c] == 0 && m.orientation[c] != 0 ? "too small for a double"
+                                                                   : figure(m.volume[c]));
+    const double kappa = m.condition[c];
+    out += fmt::format("condition {}{}, aspect {}, radius / edge {}</p>\n", figure(kappa),
+                       std::isfinite(kappa) ? fmt::format(" ({:.1f} bits)", std::max(0.0, std::log2(kappa))) : "",
+                       figure(m.aspect[c]), figure(m.radius_edge[c]));
+    return out;
+}
+
+}  // namespace
+
+std::string exhibit_card(const check::Report& r, const Mesh& mesh, const Exhibit& e, std::size_t number) {
+    const Scene scene = scene_of(mesh, e);
+    const std::vector<Shown> views = views_of(mesh, scene);
+    const double scale = scale_of(views, scene);
+    std::string out =
+        fmt::format("<figure class=\"half card\"><h3><span class=\"badge{}\">{}</span> {}</h3>\n<div class=\"views\">",
+                    e.problem ? " problem" : "", number, e.what);
+    const bool pair = e.cells[1] >= 0;
+    const std::string title =
+        pair ? fmt::format("cells {} and {}", e.cells[0], e.cells[1]) : fmt::format("cell {}", e.cells[0]);
+    for (const Shown& v : views) out += draw(scene, v, scale, title + ", " + v.title);
+    out += "</div>\n";
+    if (e.cells[0] >= 0) out += facts(r, mesh, e.cells[0], pair ? "<i class=\"swatch a\"></i>" : "");
+    if (pair) out += facts(r, mesh, e.cells[1], "<i class=\"swatch b\"></i>");
+    return out + "</figure>\n";
+}
+
+}  // namespace barycert::report

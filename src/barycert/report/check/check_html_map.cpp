@@ -1,0 +1,332 @@
+// Where in the mesh the exhibits are.
+
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "barycert/base/text.hpp"
+#include "barycert/mesh/adjacency.hpp"
+#include "barycert/report/check/check_html_cells.hpp"
+#include "barycert/report/check/check_html_picture.hpp"
+#include "barycert/report/check/check_html_view.hpp"
+
+namespace barycert::report {
+namespace {
+
+constexpr double width = 640, tallest = 440, margin = 40;
+constexpr std::size_t most_marks = 3000;
+
+/// The cells that have a boundary: others could not be asked for their facets.
+Mesh proper_cells(const Mesh& mesh) {
+    Mesh proper;
+    proper.dimension = mesh.dimension;
+    proper.points = mesh.points;
+    const std::size_t corners = mesh.corners();
+    for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
+        const auto first = mesh.cells.begin() + static_cast<std::ptrdiff_t>(cell * corners);
+        std::vector<Mesh::Index> nodes(first, first + static_cast<std::ptrdiff_t>(corners));
+        std::sort(nodes.begin(), nodes.end());
+        if (!drawable(mesh, cell) || std::adjacent_find(nodes.begin(), nodes.end()) != nodes.end()) continue;
+        proper.cells.insert(proper.cells.end(), first, first + static_cast<std::ptrdiff_t>(corners));
+    }
+    return proper;
+}
+
+/// A facet of the boundary. In 2D the last node is the first again, and there is no normal.
+struct HullFacet {
+    std::array<Mesh::Index, 3> nodes{};
+    Vector normal{};  ///< outward, of length 1
+};
+
+struct HullEdge {
+    std::array<Mesh::Index, 2> nodes{};
+    std::size_t facet = 0;
+    friend bool operator<(const HullEdge& a, const HullEdge& b) { return a.nodes < b.nodes; }
+};
+
+struct Outline {
+    std::vector<std::array<Mesh::Index, 2>> edges;    ///< of the boundary, if they are few enough; else
+    std::vector<std::array<Mesh::Index, 2>> creases;  ///< where it bends by more than 40 degrees, if these are; and
+    std::vector<HullFacet> facets;                    ///< some of its facets
+    std::size_t boundary = 0;                         ///< facets in all
+};
+
+const double* node_at(const Mesh& mesh, Mesh::Index node) {
+    return &mesh.points[static_cast<std::size_t>(node) * static_cast<std::size_t>(mesh.dimension)];
+}
+
+/// The box of all cells that have a place, as its two corners; null if there is none.
+struct Box {
+    std::array<double, 3> low{}, high{};
+    bool empty = true;
+};
+Box box_of(const Mesh& mesh) {
+    Box box;
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
+        if (!drawable(mesh, cell)) continue;
+        for (std::size_t i = 0; i <= d; ++i) {
+            const double* p = node_at(mesh, mesh.cells[cell * (d + 1) + i]);
+            for (std::size_t k = 0; k < d; ++k) {
+                box.low[k] = box.empty ? p[k] : std::min(box.low[k], p[k]);
+                box.high[k] = box.empty ? p[k] : std::max(box.high[k], p[k]);
+            }
+            box.empty = false;
+        }
+    }
+    return box;
+}
+
+/// As Normalised does it, but of the whole mesh: no overflow in normals.
+std::vector<HullFacet> hull_of(const Mesh& mesh, const Normalised& normalised) {
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    std::vector<HullFacet> hull;
+    for (const std::int64_t at : hull_facets(mesh, compute_neighbours(mesh))) {
+        const auto cell = static_cast<std::size_t>(at) / (d + 1), corner = static_cast<std::size_t>(at) % (d + 1);
+        HullFacet f;
+        std::size_t n = 0;
+        for (std::size_t i = 0; i <= d; ++i) {
+            if (i != corner) f.nodes[n++] = mesh.cells[cell * (d + 1) + i];
+        }
+        if (d == 2) {
+            f.nodes[2] = f.nodes[0];
+        } else {
+            const auto place = [&](Mesh::Index i) { return normalised.place(node_at(mesh, i)); };
+            const Vector a = place(f.nodes[0]);
+            f.normal = unit(cross(minus(place(f.nodes[1]), a), minus(place(f.nodes[2]), a)));
+            if (dot(f.normal, minus(place(mesh.cells[cell * (d + 1) + corner]), a)) > 0)
+                f.normal = {-f.normal[0], -f.normal[1], -f.normal[2]};
+        }
+        hull.push_back(f);
+    }
+    return hull;
+}
+
+Outline outline_of(const Mesh& mesh, const Normalised& normalised, const View& view) {
+    const std::vector<HullFacet> hull = hull_of(mesh, normalised);
+    Outline out;
+    out.boundary = hull.size();
+    std::vector<HullEdge> edges;
+    for (std::size_t f = 0; f < hull.size(); ++f) {
+        const auto& n = hull[f].nodes;
+        for (std::size_t i = 0; i < (mesh.dimension == 2 ? 1U : 3U); ++i)
+            edges.push_back({{std::min(n[i], n[(i + 1) % 3]), std::max(n[i], n[(i + 1) % 3])}, f});
+    }
+    std::sort(edges.begin(), edges.end());
+    constexpr double bend = 0.77;  // cosine of 40 degrees
+    std::size_t all = 0;
+    for (std::size_t i = 0; i < edges.size(); ++all) {
+        const std::size_t first = i;
+        bool crease = false;
+        for (; i < edges.size() && edges[i].nodes == edges[first].nodes; ++i)
+            crease |= dot(hull[edges[i].facet].normal, hull[edges[first].facet].normal) < bend;
+        if (all < most_marks) out.edges.push_back(edges[first].nodes);
+        if (crease && out.creases.size() <= most_marks) out.creases.push_back(edges[first].nodes);
+    }
+    if (all > most_marks) out.edges.clear();
+    if (out.creases.size() > most_marks / 2 || !out.edges.empty()) out.creases.clear();
+    if (!out.edges.empty()) return out;
+    std::vector<std::size_t> seen;  // from in front
+    for (std::size_t f = 0; f < hull.size(); ++f) {
+        if (mesh.dimension == 2 || dot(hull[f].normal, view.z) > 0) seen.push_back(f);
+    }
+    const std::size_t room = std::max<std::size_t>(most_marks - out.creases.size(), 1);
+    const std::size_t step = (seen.size() + room - 1) / room;
+    for (std::size_t i = 0; i < seen.size(); i += step) out.facets.push_back(hull[seen[i]]);
+    return out;
+}
+
+class Map {
+public:
+    Map(const Mesh& mesh, const Box& box)
+        : mesh_(mesh),
+          normalised_(mesh.dimension, {box.low.data(), box.high.data()}),
+          view_(mesh.dimension == 2 ? View{} : oblique()) {
+        double x = 0, y = 0;  // half of what the box takes
+        for (const Vector& p : corners()) {
+            x = std::max(x, std::fabs(view_(p)[0]));
+            y = std::max(y, std::fabs(view_(p)[1]));
+        }
+        if (x > 0) scale_ = (width / 2 - margin) / x;
+        if (y > 0) scale_ = std::min(scale_, (tallest / 2 - margin) / y);
+        height_ = 2 * (scale_ * y + margin);
+    }
+
+    double height() const { return height_; }
+    const Normalised& normalised() const { return normalised_; }
+    const View& view() const { return view_; }
+
+    /// All corners of the box; bit k of the index is the side along axis k.
+    std::vector<Vector> corners() const {
+        std::vector<Vector> list;
+        for (unsigned i = 0; i < 8; ++i) {
+            Vector v{};
+            for (std::size_t k = 0; k < 3; ++k) v[k] = normalised_.points()[(i >> k) & 1U][k];
+            list.push_back(v);
+        }
+        return list;
+    }
+
+    Pixel at(const Vector& v) const {
+        const Vector q = view_(v);
+        return {width / 2 + scale_ * q[0], height_ / 2 - scale_ * q[1]};
+    }
+    Pixel node(Mesh::Index i) const { return at(normalised_.place(node_at(mesh_, i))); }
+
+    template <class Nodes>
+    Pixel middle(const Nodes& nodes) const {
+        Pixel p;
+        for (const Mesh::Index i : nodes) {
+            p.x += node(i).x / static_cast<double>(std::size(nodes));
+            p.y += node(i).y / static_cast<double>(std::size(nodes));
+        }
+        return p;
+    }
+    Pixel cell(Mesh::Index c) const {
+        const auto first = mesh_.cells.begin() + static_cast<std::ptrdiff_t>(c) * (mesh_.dimension + 1);
+        return middle(std::vector<Mesh::Index>(first, first + mesh_.dimension + 1));
+    }
+
+private:
+    const Mesh& mesh_;
+    Normalised normalised_;
+    View view_;
+    double scale_ = 1, height_ = 0;
+};
+
+void draw_box(Picture& svg, const Map& map, int d) {
+    const std::vector<Vector> corners = map.corners();
+    std::vector<std::pair<Pixel, Pixel>> edges;
+    for (unsigned i = 0; i < (d == 2 ? 4U : 8U); ++i) {
+        for (unsigned k = 0; k < static_cast<unsigned>(d); ++k) {
+            if ((i >> k & 1U) == 0) edges.emplace_back(map.at(corners[i]), map.at(corners[i | 1U << k]));
+        }
+    }
+    svg.lines(edges, "box");
+    // Names of the axes at edges that lie in front and below.
+    const auto name = [&](unsigned from, unsigned to, const char* text, double dx, double dy) {
+        const Pixel a = map.at(corners[from]), b = map.at(corners[to]);
+        svg.text({(a.x + b.x) / 2 + dx, (a.y + b.y) / 2 + dy}, text, "tick m");
+    };
+    name(0, 1, "x", d == 2 ? 0 : -8, 16);
+    if (d == 2) {
+        name(0, 2, "y", -12, 4);
+    } else {
+        name(1, 3, "y", 8, 16);
+        name(0, 4, "z", -10, 4);
+    }
+}
+
+void draw_outline(Picture& svg, const Map& map, const Outline& outline, int d) {
+    // Three shades, by how much a facet is turned to a light from above and in front.
+    std::array<std::vector<Pixel>, 3> dots;
+    const Vector light = unit({0.3, -0.5, 0.9});
+    for (const HullFacet& f : outline.facets) {
+        const double bright = dot(f.normal, light);
+        dots[d == 2 || bright < 0.2 ? 0
+             : bright < 0.7         ? 1
+                                    : 2]
+            .push_back(d == 2 ? map.node(f.nodes[0]) : map.middle(f.nodes));
+    }
+    for (std::size_t i = 0; i < dots.size(); ++i) svg.dots(dots[i], fmt::format("dots l{}", i));
+    for (const auto& [edges, style] : {std::pair(&outline.edges, "hull"), std::pair(&outline.creases, "crease")}) {
+        std::vector<std::pair<Pixel, Pixel>> segments;
+        for (const auto& [a, b] : *edges) segments.emplace_back(map.node(a), map.node(b));
+        svg.lines(segments, style);
+    }
+}
+
+/// Cells with problems, some of them if they are many.
+std::vector<Pixel> problem_marks(const check::Report& r, const Mesh& mesh, const Map& map) {
+    check::ProblemSet breaking = 0;
+    for (const check::ProblemText& t : check::problem_texts) {
+        if (t.breaks) breaking |= check::bit(t.problem);
+    }
+    std::vector<Mesh::Index> cells;
+    for (std::size_t cell = 0; cell < r.measures.problems.size(); ++cell) {
+        if ((r.measures.problems[cell] & breaking) != 0 && drawable(mesh, cell))
+            cells.push_back(static_cast<Mesh::Index>(cell));
+    }
+    std::vector<Pixel> marks;
+    const std::size_t step = cells.size() / 500 + 1;
+    for (std::size_t i = 0; i < cells.size(); i += step) marks.push_back(map.cell(cells[i]));
+    return marks;
+}
+
+/// The exhibits by their numbers, and the middle of the first cell of each.
+std::string legend(const Mesh& mesh, const std::vector<Exhibit>& exhibits) {
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    std::string out = "<table><tr><th></th><th>cells</th><th>middle of the first one</th></tr>\n";
+    for (std::size_t i = 0; i < exhibits.size(); ++i) {
+        const Exhibit& e = exhibits[i];
+        std::vector<std::string> middle;
+        for (std::size_t k = 0; k < d; ++k) {
+            double x = 0;
+            for (std::size_t c = 0; c <= d; ++c) {
+                const Mesh::Index node = mesh.cells[static_cast<std::size_t>(e.cells[0]) * (d + 1) + c];
+                x += node_at(mesh, node)[k] / static_cast<double>(d + 1);
+            }
+            middle.push_back(fmt::format("{:.4g}", x + 0.0));
+        }
+        out += fmt::format("<tr><td><span class=\"badge{}\">{}</span></td><td>{}{}</td><td>({})</td></tr>\n",
+                           e.problem ? " problem" : "", i + 1, e.cells[0],
+                           e.cells[1] < 0 ? "" : fmt::format(", {}", e.cells[1]), fmt::join(middle, ", "));
+    }
+    return out + "</table>\n";
+}
+
+std::string extent(const Box& box, int d) {
+    std::vector<std::string> axes;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k)
+        axes.push_back(fmt::format("{} from {} to {}", "xyz"[k], shortest(box.low[k]), shortest(box.high[k])));
+    return fmt::format("{}", fmt::join(axes, ", "));
+}
+
+}  // namespace
+
+std::string exhibit_map(const check::Report& r, const Mesh& mesh, const std::vector<Exhibit>& exhibits) {
+    const Box box = box_of(mesh);
+    if (box.empty) return "";
+    const bool proper = std::none_of(r.findings.begin(), r.findings.end(), [](const check::Finding& f) {
+        return f.problem == check::Problem::index_out_of_range || f.problem == check::Problem::not_finite ||
+               f.problem == check::Problem::repeated_node;
+    });
+    const Map map(mesh, box);
+    Outline outline;
+    tbb::task_arena arena(r.threads > 0 ? r.threads : tbb::task_arena::automatic);
+    arena.execute([&] { outline = outline_of(proper ? mesh : proper_cells(mesh), map.normalised(), map.view()); });
+
+    Picture svg(width, map.height(), "the boundary of the mesh, and where the cells below are");
+    draw_box(svg, map, mesh.dimension);
+    draw_outline(svg, map, outline, mesh.dimension);
+    const std::vector<Pixel> problems = problem_marks(r, mesh, map);
+    svg.dots(problems, "problems");
+    std::vector<Label> labels;
+    for (std::size_t i = exhibits.size(); i-- > 0;) {  // the first on top
+        const Exhibit& e = exhibits[i];
+        const Pixel at = map.cell(e.cells[0]);
+        svg.dot(at, 4, e.problem ? "spot problem" : "spot",
+                fmt::format("cell {}{}", e.cells[0], e.cells[1] < 0 ? "" : fmt::format(" and {}", e.cells[1])));
+        labels.push_back({at, std::to_string(i + 1), e.problem ? "number bad" : "number"});
+    }
+    std::reverse(labels.begin(), labels.end());
+    place_labels(svg, std::move(labels));
+
+    std::string drawn =
+        outline.edges.empty()
+            ? fmt::format("Grey: {} of its {} boundary facets{}.", grouped(outline.facets.size()),
+                          grouped(outline.boundary), outline.creases.empty() ? "" : " and the edges where it bends")
+            : fmt::format("Grey: the edges of its {} boundary facets.", grouped(outline.boundary));
+    if (!problems.empty()) drawn += " Red: cells with problems, some of them where they are many.";
+    return fmt::format("<figure><div class=\"map\">{}<div>{}</div></div>\n", std::move(svg).finish(),
+                       legend(mesh, exhibits)) +
+           fmt::format("<p class=\"small\">The box of the cells: {}. {}</p></figure>\n", extent(box, mesh.dimension),
+                       drawn);
+}
+
+}  // namespace barycert::report

@@ -1,0 +1,184 @@
+#include "barycert/report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/report/check/check_conditions.hpp"
+#include "barycert/report/common/environment_json.hpp"
+
+namespace barycert::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON knows no infinity, and null would hide it: the largest double stands for it.
+Json figure(double x) {
+    constexpr double largest = std::numeric_limits<double>::max();
+    return std::isnan(x) ? Json(nullptr) : Json(std::clamp(x, -largest, largest));
+}
+
+Json conditions_json(const check::Report& r, const Mesh& mesh) {
+    Json list = Json::array();
+    for (const ConditionRow& row : condition_rows(r, mesh)) {
+        if (row.name.empty()) continue;  // what follows from the others
+        // Arrays that do not make cells are no cells to look at: nothing is known of the rest.
+        const bool looked_at = row.count != 0 || row.instead != "not checked";
+        Json j;
+        j["name"] = row.name;
+        j["holds"] = looked_at ? Json(row.count == 0) : Json(nullptr);
+        j["violations"] = looked_at ? Json(row.count) : Json(nullptr);
+        j["at_least"] = row.at_least;
+        list.push_back(std::move(j));
+    }
+    return list;
+}
+
+/// The entries that are in use.
+Json indices(const auto& all) {
+    Json j = Json::array();
+    for (const Mesh::Index i : all) {
+        if (i >= 0) j.push_back(i);
+    }
+    return j;
+}
+
+Json finding_json(const check::Finding& f) {
+    const check::ProblemText& t = text_of(f.problem);
+    Json j;
+    j["name"] = t.name;
+    if (!t.condition.empty()) j["condition"] = t.condition;
+    j["breaks"] = t.breaks;
+    j["count"] = f.count;
+    j["at_least"] = f.at_least;
+    j["text"] = t.text;
+    j["remedy"] = t.remedy;
+    j["places"] = Json::array();
+    for (const check::Place& p : f.places) {
+        Json place;
+        place["cells"] = indices(p.cells);
+        place["nodes"] = indices(p.nodes);
+        if (*p.detail != '\0') place["detail"] = p.detail;
+        j["places"].push_back(std::move(place));
+    }
+    return j;
+}
+
+Json boundary_json(const check::Boundary& b) {
+    Json j;
+    j["facets"] = b.facets;
+    j["pieces"] = b.pieces;
+    j["closed"] = b.closed;
+    j["manifold"] = b.manifold;
+    j["cavities"] = b.cavities ? Json(*b.cavities) : Json(nullptr);
+    j["tunnels"] = b.tunnels ? Json(*b.tunnels) : Json(nullptr);
+    return j;
+}
+
+Json distribution_json(const std::vector<double>& values) {
+    const check::Distribution d = check::distribution(values);
+    if (d.least_cell < 0) return nullptr;
+    Json j;
+    j["least"] = figure(d.least);
+    j["median"] = figure(d.median);
+    j["most"] = figure(d.most);
+    j["least_cell"] = d.least_cell;
+    j["most_cell"] = d.most_cell;
+    return j;
+}
+
+Json measures_json(const check::Measures& m) {
+    std::vector<double> size(m.volume);
+    for (double& x : size) x = std::fabs(x);
+    Json j;
+    j["volume"] = distribution_json(size);
+    j["condition"] = distribution_json(m.condition);
+    j["radius_edge"] = distribution_json(m.radius_edge);
+    j["aspect"] = distribution_json(m.aspect);
+    j["min_angle"] = distribution_json(m.min_angle);
+    j["max_angle"] = distribution_json(m.max_angle);
+    return j;
+}
+
+Json contact_json(const check::Contact& c, int d) {
+    Json j;
+    j["cells"] = indices(c.cells);
+    j["overlap"] = c.overlap;
+    j["dimension"] = std::max(c.dimension, 0);
+    Json& w = j["witness"];
+    w["exact"] = c.witness.exact;
+    for (const char* form : {"decimal", "hex", "fraction"}) w[form] = Json::array();
+    for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) {
+        w["decimal"].push_back(shortest(c.witness.point[k]));
+        w["hex"].push_back(hexadecimal(c.witness.point[k]));
+        w["fraction"].push_back(c.witness.fraction[k]);
+    }
+    return j;
+}
+
+Json delaunay_json(const check::Delaunay& d) {
+    Json j;
+    j["facets"] = d.facets;
+    j["violations"] = d.violations;
+    j["cospherical"] = d.cospherical;
+    j["worst_depth"] = figure(d.worst_depth);
+    j["worst_cell"] = d.worst_cell < 0 ? Json(nullptr) : Json(d.worst_cell);
+    j["worst_node"] = d.worst_node < 0 ? Json(nullptr) : Json(d.worst_node);
+    return j;
+}
+
+Json conformity_json(const check::Conformity& c) {
+    Json j;
+    j["facets"] = c.facets;
+    j["exact"] = c.exact;
+    j["rounded"] = c.rounded;
+    j["violated"] = c.violated;
+    j["missing_vertices"] = c.missing_vertices;
+    j["largest_distance"] = figure(c.largest_distance);
+    j["relative_distance"] = figure(c.relative_distance);
+    j["examples"] = Json::array();
+    for (const check::ViolatedFacet& f : c.examples)
+        j["examples"].push_back(Json{{"facet", f.facet}, {"covered", figure(f.covered)}});
+    return j;
+}
+
+}  // namespace
+
+std::string check_json(const check::Report& r, const std::string& name, const Environment& environment) {
+    const ExactEnvironment exact;
+    Json j;
+    j["schema"] = check_schema;
+    j["mesh"] = name;
+    j["verdict"] = check::name(r.certificate.verdict());
+    j["dimension"] = r.dimension;
+    j["nodes"] = r.nodes;
+    j["cells"] = r.cells;
+    j["conditions"] = conditions_json(r, Mesh());  // whether files came changes no count
+    j["findings"] = Json::array();
+    for (const check::Finding& f : r.findings) j["findings"].push_back(finding_json(f));
+    j["contacts"] = Json::array();
+    for (const check::Contact& c : r.contacts) j["contacts"].push_back(contact_json(c, r.dimension));
+    j["orientation"]["positive"] = r.positive;
+    j["orientation"]["negative"] = r.negative;
+    j["orientation"]["degenerate"] = r.degenerate;
+    j["parts"] = r.parts;
+    j["boundary"] = boundary_json(r.boundary);
+    j["volume"]["cells"] = figure(r.volume.cells);
+    j["volume"]["boundary"] = figure(r.volume.boundary);
+    j["volume"]["equal"] = r.volume.equal;
+    j["measures"] = measures_json(r.measures);
+    if (r.delaunay) j["delaunay"] = delaunay_json(*r.delaunay);
+    if (r.conformity) j["conformity"] = conformity_json(*r.conformity);
+    j["problem_bits"] = Json::array();
+    for (const check::ProblemText& t : check::problem_texts) j["problem_bits"].push_back(t.name);
+    j["seconds"] = r.seconds;
+    j["threads"] = r.threads;
+    j["environment"] = environment_json(environment);
+    return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace barycert::report

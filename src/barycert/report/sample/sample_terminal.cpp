@@ -1,0 +1,130 @@
+#include "barycert/report.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/report/common/terminal_text.hpp"
+
+namespace barycert::report {
+namespace {
+
+std::string plural(std::uint64_t n, std::string_view one, std::string_view more) {
+    return fmt::format("{} {}", n, n == 1 ? one : more);
+}
+
+std::string line(std::string_view name, const std::string& text) {
+    return fmt::format("{:<10} {}\n", name, text);
+}
+
+std::string inside(const LocationCounts& n) {
+    std::string text = std::to_string(n.inside());
+    if (n.inside() != 0)
+        text += fmt::format(": {} in the interior of a cell, {} on a face, {} on an edge, {} at a vertex", n.interior,
+                            n.face, n.edge, n.vertex);
+    return text;
+}
+
+/// What became of points outside.
+std::string outside(const SampleRun& run, const Colours& paint) {
+    const SampleCounts& n = run.counts;
+    const std::uint64_t count = n.locations.outside;
+    if (count == 0) return "0";
+    std::vector<std::string> fates;
+    const auto far = [&] { return fmt::format("{:.4g} away at most", n.farthest); };
+    if (n.snapped != 0)
+        fates.push_back(fmt::format("{} snapped to the nearest point of the mesh, {}", n.snapped, far()));
+    if (n.extrapolated != 0)
+        fates.push_back(fmt::format("{} extrapolated from the nearest cell, {}", n.extrapolated, far()));
+    if (n.without_value != 0) {
+        const bool limited = run.outside.kind == Outside::nearest;
+        const std::string what = run.outside.kind == Outside::fill ? "got " + shortest(run.outside.fill) : "got NaN";
+        fates.push_back(fmt::format("{} {}{}", n.without_value, what,
+                                    limited ? ", farther than " + shortest(run.outside.limit) : ""));
+    }
+    return paint.bold(fmt::format("{}: {}", count, fmt::join(fates, "; ")));
+}
+
+std::string values(const SampleRun& run) {
+    if (run.columns.empty()) return "none: the mesh has no fields, and none came by --field";
+    if (run.rounding == Rounding::plain) return "plain double, as asked for; cells and features are exact";
+    const Tiers& t = run.counts.values;
+    std::string text = "exact, rounded once";
+    if (t.cases() != 0)
+        text += fmt::format("; decided by the filter {}, by double-double {}, by integers {}", t.filter,
+                            t.double_double, t.exact);
+    return text;
+}
+
+std::string picture(const SliceCounts& n) {
+    if (std::isnan(n.low)) return "nothing is drawn: no point of it has a finite value";
+    std::string text = fmt::format("colours from {} to {}", shortest(n.low), shortest(n.high));
+    if (n.below != 0) text += fmt::format("; {} below, drawn as the first", plural(n.below, "point", "points"));
+    if (n.above != 0) text += fmt::format("; {} above, drawn as the last", plural(n.above, "point", "points"));
+    const std::uint64_t clear = n.outside + n.not_finite;
+    return text +
+           (clear == 0 ? "" : fmt::format("; {} without a value, transparent", plural(clear, "point", "points")));
+}
+
+std::string times(const SampleRun& run) {
+    const SampleSeconds& s = run.seconds;
+    std::string text = fmt::format("{:.3g} s on {}: mesh {:.3g}", s.total,
+                                   plural(static_cast<std::uint64_t>(run.threads), "thread", "threads"), s.mesh);
+    if (s.certify != 0) text += fmt::format(", check {:.3g}", s.certify);
+    text += fmt::format(", locator {:.3g}", s.build);
+    if (run.from != PointsFrom::grid) text += fmt::format(", points {:.3g}", s.read);
+    text += fmt::format(", sampling {:.3g}, writing {:.3g}", s.sample, s.write);
+    if (const std::uint64_t n = run.counts.locations.points(); n != 0)
+        text += fmt::format("; sampling took {} ns a point", brief_time(1e9 * s.sample / static_cast<double>(n)));
+    return text;
+}
+
+}  // namespace
+
+std::string policy_text(const OutsidePolicy& policy) {
+    switch (policy.kind) {
+        case Outside::nan:
+            return "nan";
+        case Outside::error:
+            return "error";
+        case Outside::fill:
+            return "fill=" + shortest(policy.fill);
+        case Outside::nearest:
+            return std::isinf(policy.limit) ? std::string("nearest") : "nearest=" + shortest(policy.limit);
+        default:
+            return "extrapolate";
+    }
+}
+
+std::string terminal_sample(const SampleRun& run, bool colour) {
+    const ExactEnvironment environment;
+    const Colours paint(colour);
+    std::string points = std::to_string(run.counts.locations.points());
+    if (run.grid) {
+        const Grid& g = *run.grid;
+        points += fmt::format(": a grid of {} x {}", g.counts[0], g.counts[1]);
+        if (g.dimension == 3) points += fmt::format(" x {}", g.counts[2]);
+    }
+    if (run.all)
+        points += fmt::format(", in {}: one for each cell that holds a point", plural(run.rows, "row", "rows"));
+    std::string out = line("points", points);
+    out += line("inside", inside(run.counts.locations));
+    out += line("outside", outside(run, paint));
+    out += line("values", values(run));
+    if (run.nan_values != 0)
+        out += line("NaN", paint.bold(fmt::format("{} of points inside: values of nodes or cells there are not finite",
+                                                  plural(run.nan_values, "value", "values"))));
+    if (run.picture) out += line("picture", picture(*run.picture));
+    std::string cells = plural(run.cells, "cell", "cells") + ", " + plural(run.nodes, "node", "nodes");
+    if (run.degenerate_cells != 0)
+        cells += paint.bold(fmt::format("; {} degenerate and own{} nothing",
+                                        plural(run.degenerate_cells, "cell is", "cells are"),
+                                        run.degenerate_cells == 1 ? "s" : ""));
+    out += line("mesh", cells);
+    out += line("method", fmt::format("{}: {}", name(run.method), run.reason));
+    out += line("time", times(run));
+    return out;
+}
+
+}  // namespace barycert::report

@@ -1,0 +1,158 @@
+// Internal: where each row of a grid enters and leaves a cell.
+//
+// u = 2^-53, rounding to nearest. As in gradient-inl.hpp: o the last vertex, e_j = fl(v_j - o), X_k their extents,
+// a_k = G / X_k, K = G / |d|, n_j the normals, inv = fl(1/d); the cell is not degenerate and K <= 2^36.
+//
+// Inside or not. Weight j < last of a point p in the cell's box, w = fl(p - o), is l_j = sum_k S_jk w_k with
+// S_jk = fl(n_jk inv); the last is 1 + sum_k S_k w_k with S = -sum_j S_j. As |w_k| <= X_k there, refinement-inl.hpp
+// bounds the error of l_j by u B(w)/|d| (98.1 K + 21) 1.002, and B(w)/|d| <= 3 K: 296 K^2 + 64 K, with the rounding of
+// the difference w (2.0001 u B(w)/|d|) below u (300 K^2 + 75 K). Of the last weight: three times that, and three
+// roundings of sums of numbers that are below 3 * 3 K: u (900 K^2 + 300 K + 2). E = u (1000 K^2 + 400 K + 8) bounds all
+// of them, however the sums are arranged. Along a row only w_x changes, as a real number: l_j = a_j + S_jx w_x, so a
+// point with a_j + S_jx w_x < -E for some j is certainly outside, and one with > E for all j certainly inside. Solved
+// for the place along the row, t = (o_x + w_x - origin) / spacing, these are intervals, whose ends are off by less than
+// raster.slack, for where |S_jx| X_x > E no end that matters is more than a few extents from the cell: so much is added
+// outside and taken off inside. Where |S_jx| X_x <= E, the weight is a_j up to E along
+// the row, and nothing is solved: certainly outside below -2 E, certainly inside above 2 E.
+//
+// Included once per SIMD target.
+#if defined(BARYCERT_SAMPLE_FILL_ROWS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef BARYCERT_SAMPLE_FILL_ROWS_INL_HPP
+#undef BARYCERT_SAMPLE_FILL_ROWS_INL_HPP
+#else
+#define BARYCERT_SAMPLE_FILL_ROWS_INL_HPP
+#endif
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "barycert/core/gradient-inl.hpp"
+#include "barycert/sample/grid/raster_lanes.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace barycert {
+namespace HWY_NAMESPACE {
+
+using detail::Raster;
+
+constexpr std::size_t most_lanes = 8;
+
+/// Of each plane, by cell of a block: the weight along a row at (w_y, w_z) is a = constant + sy w_y + sz w_z at w_x =
+/// 0. It bounds the row from below at t = lower - a * lower_factor -+ lower_width, from above likewise; where it does
+/// not, the bound is far away and its factor 0.
+struct PlaneBlock {
+    HWY_ALIGN double constant[most_lanes], sy[most_lanes], sz[most_lanes];
+    HWY_ALIGN double lower[most_lanes], lower_factor[most_lanes], lower_width[most_lanes];
+    HWY_ALIGN double upper[most_lanes], upper_factor[most_lanes], upper_width[most_lanes];
+};
+
+template <int d>
+struct CellBlock {
+    HWY_ALIGN double origin[d][most_lanes], low[d][most_lanes], high[d][most_lanes];
+    HWY_ALIGN double first[d][most_lanes], last[d][most_lanes];  ///< guesses of places
+    HWY_ALIGN double valid[most_lanes];                          ///< 1 or 0
+    PlaneBlock plane[d + 1];
+};
+
+/// Farther than any place along a row.
+constexpr double far = 0x1p40;
+
+template <int d, class D, class V = hn::Vec<D>>
+HWY_INLINE void set_plane(D tag, const Raster& raster, V constant, const V (&s)[d], V origin, V extent, V error,
+                          PlaneBlock& out) {
+    const V scale = hn::Set(tag, raster.scale[0]), zero = hn::Zero(tag);
+    const V base = (origin - hn::Set(tag, raster.origin[0])) * scale;
+    // t = far * -a / E, widened by 3 far: beyond all places below -3 E, before all of them above 3 E.
+    const auto parallel = hn::Le(hn::Abs(s[0]) * extent, error);
+    const auto rising = hn::Or(parallel, hn::Gt(s[0], zero));
+    const V factor = hn::IfThenElse(parallel, hn::Set(tag, far) / error, scale / s[0]);
+    const V width =
+        hn::IfThenElse(parallel, hn::Set(tag, 3 * far), error * hn::Abs(factor) + hn::Set(tag, raster.slack));
+    const V place = hn::IfThenElse(parallel, zero, base);
+    const V none = hn::Set(tag, 4 * far);
+    hn::Store(constant, tag, out.constant);
+    hn::Store(s[1], tag, out.sy);
+    if constexpr (d == 3) hn::Store(s[2], tag, out.sz);
+    hn::Store(hn::IfThenElse(rising, place, hn::Neg(none)), tag, out.lower);
+    hn::Store(hn::IfThenElse(rising, factor, zero), tag, out.lower_factor);
+    hn::Store(hn::IfThenElse(rising, width, zero), tag, out.lower_width);
+    hn::Store(hn::IfThenElse(rising, none, place), tag, out.upper);
+    hn::Store(hn::IfThenElse(rising, zero, factor), tag, out.upper_factor);
+    hn::Store(hn::IfThenElse(rising, zero, width), tag, out.upper_width);
+}
+
+struct PlaceRange {
+    std::int32_t first, last;
+};
+
+/// The places of an axis within [low, high], from guesses that are off by one at most.
+HWY_INLINE PlaceRange places_between(const std::vector<double>& at, double first, double last, double low,
+                                     double high) {
+    const auto size = static_cast<std::int32_t>(at.size());
+    const auto x = [&](std::int32_t i) { return at[static_cast<std::size_t>(i)]; };
+    auto i = static_cast<std::int32_t>(first), j = static_cast<std::int32_t>(last);
+    i -= i > 0 && x(i - 1) >= low ? 1 : 0;
+    i += i < size && x(i) < low ? 1 : 0;
+    j -= j > 0 && x(j - 1) > high ? 1 : 0;
+    j += j < size && x(j) <= high ? 1 : 0;
+    return {i, j};
+}
+
+/// Rows of a cell, for several vectors: what was stored one by one is loaded as a vector only after a while, or the
+/// processor would have to wait.
+struct Rows {
+    static constexpr std::size_t most = 8 * most_lanes;
+    HWY_ALIGN double y[most], z[most];
+    std::int32_t row[most], layer[most];
+    std::size_t count;
+};
+
+/// What MaxLanes of them have in common with the cell.
+struct RowBlock {
+    HWY_ALIGN std::int32_t first[most_lanes], inner_first[most_lanes], inner_last[most_lanes], last[most_lanes];
+    std::uint32_t with_points = 0;  ///< bits: rows with certain points
+    std::uint32_t unsure = 0;       ///< bits: rows with others
+};
+
+template <int d, class D>
+HWY_INLINE void find_intervals(D tag, const CellBlock<d>& cell, std::size_t l, PlaceRange columns, const Rows& rows,
+                               std::size_t at, RowBlock& out) {
+    using V = hn::Vec<D>;
+    const V wy = hn::Load(tag, rows.y + at) - hn::Set(tag, cell.origin[1][l]);
+    V wz = hn::Zero(tag);
+    if constexpr (d == 3) wz = hn::Load(tag, rows.z + at) - hn::Set(tag, cell.origin[2][l]);
+    V low = hn::Set(tag, -8 * far), high = hn::Set(tag, 8 * far), inner_low = low, inner_high = high;
+    for (int j = 0; j <= d; ++j) {
+        const PlaneBlock& p = cell.plane[j];
+        V a = hn::Set(tag, p.constant[l]) + hn::Set(tag, p.sy[l]) * wy;
+        if constexpr (d == 3) a = a + hn::Set(tag, p.sz[l]) * wz;
+        const V lower = hn::Set(tag, p.lower[l]) - a * hn::Set(tag, p.lower_factor[l]);
+        const V upper = hn::Set(tag, p.upper[l]) - a * hn::Set(tag, p.upper_factor[l]);
+        const V lower_width = hn::Set(tag, p.lower_width[l]), upper_width = hn::Set(tag, p.upper_width[l]);
+        low = hn::Max(low, lower - lower_width);
+        inner_low = hn::Max(inner_low, lower + lower_width);
+        high = hn::Min(high, upper + upper_width);
+        inner_high = hn::Min(inner_high, upper - upper_width);
+    }
+    const V least = hn::Set(tag, columns.first), most = hn::Set(tag, columns.last), one = hn::Set(tag, 1);
+    const auto clamp = [&](V x) HWY_ATTR { return hn::Min(hn::Max(x, least), most); };
+    const hn::Rebind<std::int32_t, D> whole;
+    const V first = clamp(hn::Ceil(low)), last = hn::Max(first, clamp(hn::Floor(high) + one));
+    const V inner_first = hn::Min(clamp(hn::Ceil(inner_low)), last);
+    const V inner_last = hn::Max(inner_first, hn::Min(clamp(hn::Floor(inner_high) + one), last));
+    hn::Store(hn::DemoteTo(whole, first), whole, out.first);
+    hn::Store(hn::DemoteTo(whole, last), whole, out.last);
+    hn::Store(hn::DemoteTo(whole, inner_first), whole, out.inner_first);
+    hn::Store(hn::DemoteTo(whole, inner_last), whole, out.inner_last);
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(tag, hn::Lt(inner_first, inner_last), bits);
+    out.with_points = bits[0];
+    hn::StoreMaskBits(tag, hn::Or(hn::Ne(first, inner_first), hn::Ne(last, inner_last)), bits);
+    out.unsure = bits[0];
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace barycert
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,58 @@
+/// Internal: some layers of a grid.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "barycert/grid.hpp"
+#include "barycert/sample/grid/raster_lanes.hpp"
+#include "barycert/sample/points/chunk_sampler.hpp"
+
+namespace barycert::detail {
+
+/// Layers [first, last) of the third axis (2D: of the second), and the rows of their points. Keeps its memory from slab
+/// to slab.
+class SlabSampler {
+public:
+    SlabSampler(const SamplerData& data, const Grid& grid, const Raster& raster, const SampleOptions& options)
+        : data_(data), grid_(grid), raster_(raster), options_(options) {}
+
+    /// `cells`: all that can hold a point of these layers.
+    void run(std::int32_t first, std::int32_t last, std::span<const Place> cells);
+
+    GridBlock block() const;
+    const SampleCounts& counts() const { return counts_; }
+    /// The first point outside, if the policy refuses such.
+    std::optional<std::uint64_t> refused() const;
+
+private:
+    void raster(std::span<const Place> cells);
+    void fill(std::span<const Place> cells);
+    void take(const Span& span);
+    void test(const Span& span, std::int32_t column, std::size_t point);
+    void own(std::size_t point, Mesh::Index cell, Feature feature);
+    void evaluate_rest();
+    void push(std::size_t point);
+    void flush();
+    std::size_t line_of(std::int32_t row, std::int32_t layer) const;
+
+    const SamplerData& data_;
+    const Grid& grid_;
+    const Raster& raster_;
+    const SampleOptions& options_;
+    std::int32_t first_ = 0, last_ = 0;
+    std::size_t points_ = 0;
+    Samples rows_;
+    SampleCounts counts_;
+    std::optional<ChunkSampler> sampler_;
+    std::vector<Span> spans_;
+    std::vector<Place> hard_;
+    std::array<PointRecord, chunk_size> records_{};
+    std::array<Place, chunk_size> cells_{};
+    std::array<Feature, chunk_size> features_{};
+    std::size_t pending_ = 0;
+};
+
+}  // namespace barycert::detail

@@ -1,0 +1,75 @@
+/// Internal: the parts of a map file that its writer and its reader share. See map_file.hpp.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "barycert/base/random.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
+
+namespace barycert::detail {
+
+inline constexpr std::string_view map_magic = "\x89\x42\x43\x4D\r\n\x1A\n";
+inline constexpr std::uint32_t map_version = 1;
+inline constexpr std::size_t map_header_size = 56;
+inline constexpr std::size_t map_checksum_size = 8;
+inline constexpr std::size_t map_block_rows = 8192;
+
+template <class T>
+void put_little(char* at, T value) {
+    for (std::size_t i = 0; i < sizeof(T); ++i) at[i] = static_cast<char>(static_cast<unsigned char>(value >> 8 * i));
+}
+
+template <class T>
+T get_little(const char* at) {
+    T value = 0;
+    for (std::size_t i = 0; i < sizeof(T); ++i) {
+        value = static_cast<T>(value | static_cast<T>(static_cast<unsigned char>(at[i])) << 8 * i);
+    }
+    return value;
+}
+
+constexpr std::uint64_t map_step(std::uint64_t h, std::uint64_t word) {
+    return mix64((h ^ word) + 0x9e3779b97f4a7c15ULL);
+}
+
+/// Precondition: the size is a multiple of 8.
+inline std::uint64_t map_checksum(std::string_view bytes, std::uint64_t h) {
+    for (std::size_t i = 0; i < bytes.size(); i += 8) h = map_step(h, get_little<std::uint64_t>(bytes.data() + i));
+    return h;
+}
+
+struct MapHeader {
+    int dimension = 3;
+    bool all = false;
+    std::uint64_t rows = 0, nodes = 0, cells = 0, fingerprint = 0;
+};
+
+/// Bytes of a block of so many rows, without its checksum: a multiple of 8.
+constexpr std::size_t map_block_size(int dimension, std::size_t rows) {
+    return (rows * (8 * static_cast<std::size_t>(dimension) + 5) + 7) / 8 * 8;
+}
+
+/// What a row that no map can hold should have had, or nullptr if it can: one text for writer and reader.
+inline const char* map_row_fault(const double* point, int dimension, Mesh::Index cell, unsigned feature,
+                                 std::uint64_t cell_count) {
+    for (int axis = 0; axis < dimension; ++axis) {
+        if (!std::isfinite(point[axis])) return "finite coordinates";
+    }
+    if (cell < -1 || (cell >= 0 && static_cast<std::uint64_t>(cell) >= cell_count)) {
+        return "a cell of the mesh, or -1 for none";
+    }
+    if (feature > static_cast<unsigned>(Feature::outside)) return "a feature: interior, face, edge, vertex or outside";
+    if ((cell == -1) != (feature == static_cast<unsigned>(Feature::outside))) {
+        return "the feature outside with cell -1, and nowhere else";
+    }
+    if (dimension == 2 && feature == static_cast<unsigned>(Feature::face)) {
+        return "in two dimensions any feature but a face";
+    }
+    return nullptr;
+}
+
+}  // namespace barycert::detail

@@ -1,0 +1,125 @@
+#include "barycert/sample/points/chunk_sampler.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "barycert/core/exact_weights.hpp"
+#include "barycert/quadratic.hpp"
+#include "barycert/sample/points/outside.hpp"
+
+namespace barycert::detail {
+
+void ChunkSampler::operator()(const PointRecord* points, std::size_t count, const Place* owner,
+                              const Feature* feature) {
+    const CellIndex& index = data_.index();
+    std::size_t inside = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        inside_[inside] = {static_cast<std::uint32_t>(i), owner[i]};
+        inside += owner[i] >= 0 ? 1 : 0;
+        const std::uint32_t number = points[i].number;
+        rows_.cells[number] = owner[i] < 0 ? -1 : index.original[static_cast<std::size_t>(owner[i])];
+        rows_.features[number] = feature[i];
+        if (owner[i] < 0) outside(points[i]);
+    }
+    if (data_.point_components != 0)
+        data_.quadratic ? interpolate_second_order(points, inside) : interpolate_linear(points, inside);
+    for (std::size_t i = 0; !data_.cell_fields.empty() && i < inside; ++i)
+        copy_cell_values(data_, index.original[static_cast<std::size_t>(inside_[i].cell)],
+                         row(points[inside_[i].point]));
+}
+
+void ChunkSampler::interpolate_linear(const PointRecord* points, std::size_t count) {
+    const CellIndex& index = data_.index();
+    const std::size_t left =
+        interpolate_lanes(index.simplex, index.cells.data(), data_.node_values(), points, inside_.data(), count,
+                          options_.rounding, rows_.values, data_.columns.size(), undecided_.data());
+    if (options_.rounding == Rounding::plain) return;
+    counts_.values.add(Tier::double_double, count - left);
+    for (std::size_t i = 0; i < left; ++i) {
+        const Walk& item = inside_[undecided_[i]];
+        interpolate_exactly(points[item.point], item.cell);
+    }
+}
+
+void ChunkSampler::interpolate_exactly(const PointRecord& point, Place cell) {
+    const CellIndex& index = data_.index();
+    const std::size_t corners = index.corners();
+    const auto& node = index.cells[static_cast<std::size_t>(cell)].node;
+    const std::array<double, 12> vertices = vertices_of(index, cell);
+    const ExactWeights weights(index.simplex, vertices.data(), point.at.data());
+    counts_.values.add(Tier::exact);
+    if (weights.degenerate()) {  // an owner never is, but a caller of evaluate() may name any cell
+        ++counts_.values.degenerate;
+        std::fill_n(row(point), data_.point_components, std::numeric_limits<double>::quiet_NaN());
+        return;
+    }
+    bool finite = true;
+    for (std::size_t c = 0; c < data_.point_components; ++c) {
+        std::array<double, 4> f{};
+        for (std::size_t i = 0; i < corners; ++i) f[i] = data_.value_at(static_cast<std::size_t>(node[i]), c);
+        const bool usable = std::all_of(f.begin(), f.end(), [](double x) { return std::isfinite(x); });
+        finite &= usable;
+        row(point)[c] = usable ? weights.interpolate({f.data(), corners}) : std::numeric_limits<double>::quiet_NaN();
+    }
+    counts_.values.not_finite += finite ? 0 : 1;
+}
+
+void ChunkSampler::interpolate_second_order(const PointRecord* points, std::size_t count) {
+    const CellIndex& index = data_.index();
+    const Mesh& mesh = *data_.located().mesh;
+    const std::size_t d = index.dimension();
+    cells_.resize(count);
+    points_.resize(d * count);
+    values_.resize(data_.point_components * count);
+    for (std::size_t i = 0; i < count; ++i) {
+        cells_[i] = index.original[static_cast<std::size_t>(inside_[i].cell)];
+        for (std::size_t k = 0; k < d; ++k) points_[d * i + k] = points[inside_[i].point].at[k];
+    }
+    const MeshQueries queries{index.simplex, mesh.points, mesh.cells, cells_, points_};
+    const NodalValues<double> values{data_.values, static_cast<int>(data_.point_components)};
+    // Sizes fit, coordinates are finite and the environment has been looked at: there is no Error.
+    static_cast<void>(
+        interpolate_quadratic(queries, mesh.mid_nodes, values, values_, &counts_.values, options_.rounding)
+            .has_value());
+    for (std::size_t i = 0; i < count; ++i) {
+        std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(data_.point_components * i), data_.point_components,
+                    row(points[inside_[i].point]));
+    }
+}
+
+void copy_cell_values(const SamplerData& data, Mesh::Index cell, double* row) {
+    double* to = row + data.point_components;
+    for (const Field* field : data.cell_fields) {
+        const auto components = static_cast<std::size_t>(field->components);
+        to = std::copy_n(field->data.begin() + static_cast<std::ptrdiff_t>(components * static_cast<std::size_t>(cell)),
+                         components, to);
+    }
+}
+
+void ChunkSampler::outside(const PointRecord& point) {
+    double* const values = row(point);
+    double* const end = values + data_.columns.size();
+    if (rows_.distances != nullptr) rows_.distances[point.number] = std::numeric_limits<double>::quiet_NaN();
+    switch (options_.outside.kind) {
+        case Outside::error:
+            refused_ = std::min(refused_.value_or(point.number), point.number);
+            [[fallthrough]];
+        case Outside::nan:
+            std::fill(values, end, std::numeric_limits<double>::quiet_NaN());
+            break;
+        case Outside::fill:
+            std::fill(values, end, options_.outside.fill);
+            break;
+        default:
+            if (const auto distance = value_outside(data_, options_, point.at.data(), values, counts_.values)) {
+                ++(options_.outside.kind == Outside::nearest ? counts_.snapped : counts_.extrapolated);
+                rows_.distances[point.number] = *distance;
+                counts_.farthest = std::max(counts_.farthest, *distance);
+                return;
+            }
+            std::fill(values, end, std::numeric_limits<double>::quiet_NaN());
+    }
+    ++counts_.without_value;
+}
+
+}  // namespace barycert::detail

@@ -1,0 +1,56 @@
+/// Internal: rows for a chunk of points whose owners are known.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "barycert/locate/finder.hpp"
+#include "barycert/sample/points/sampler_data.hpp"
+
+namespace barycert::detail {
+
+/// Where the rows of a block go; row r of the block is for the point of number r.
+struct BlockRows {
+    Mesh::Index* cells;
+    Feature* features;
+    double* values;
+    double* distances;  ///< nullptr unless the policy gives some
+};
+
+/// The values of the cell fields of a cell into their columns of a row.
+void copy_cell_values(const SamplerData& data, Mesh::Index cell, double* row);
+
+/// Not shared between threads.
+class ChunkSampler {
+public:
+    ChunkSampler(const SamplerData& data, const SampleOptions& options, const BlockRows& rows)
+        : data_(data), options_(options), rows_(rows) {}
+
+    /// Precondition: finite points; owners are places of cells, or -1 outside.
+    void operator()(const PointRecord* points, std::size_t count, const Place* owner, const Feature* feature);
+
+    const SampleCounts& counts() const { return counts_; }
+    /// The lowest number of a point outside, if the policy is `error` and there is one.
+    std::optional<std::uint32_t> refused() const { return refused_; }
+
+private:
+    void interpolate_linear(const PointRecord* points, std::size_t count);
+    void interpolate_exactly(const PointRecord& point, Place cell);
+    void interpolate_second_order(const PointRecord* points, std::size_t count);
+    void outside(const PointRecord& point);
+    double* row(const PointRecord& point) { return rows_.values + data_.columns.size() * point.number; }
+
+    const SamplerData& data_;
+    const SampleOptions& options_;
+    BlockRows rows_;
+    SampleCounts counts_;
+    std::optional<std::uint32_t> refused_;
+    std::array<Walk, chunk_size> inside_;
+    std::array<std::uint32_t, chunk_size> undecided_;
+    std::vector<Mesh::Index> cells_;
+    std::vector<double> points_, values_;
+};
+
+}  // namespace barycert::detail

@@ -1,0 +1,205 @@
+#include "barycert/sample/points/outside.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "barycert/base/strict_math.hpp"
+#include "barycert/locate/near_feature.hpp"
+#include "barycert/quadratic.hpp"
+#include "barycert/sample/points/chunk_sampler.hpp"
+
+namespace barycert::detail {
+namespace {
+
+/// Component c of the point fields at a node of the mesh.
+double nodal_value(const SamplerData& data, Mesh::Index node, std::size_t c) {
+    for (const Field* field : data.point_fields) {
+        const auto components = static_cast<std::size_t>(field->components);
+        if (c < components) return field->data[components * static_cast<std::size_t>(node) + c];
+        c -= components;
+    }
+    return 0;  // not reached
+}
+
+/// Some nodes of the mesh, in the space of their simplex: a segment lies in 3-space, also that of a triangle in the
+/// plane.
+struct Piece {
+    Simplex simplex;
+    std::vector<Mesh::Index> corners;
+    std::array<double, 12> vertices{};
+
+    Piece(const Mesh& mesh, Simplex s, std::vector<Mesh::Index> nodes) : simplex(s), corners(std::move(nodes)) {
+        const auto d = static_cast<std::size_t>(mesh.dimension), space = static_cast<std::size_t>(space_dimension(s));
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            for (std::size_t k = 0; k < d; ++k)
+                vertices[space * i + k] = mesh.points[d * static_cast<std::size_t>(corners[i]) + k];
+        }
+    }
+};
+
+NearFeature feature_of(const Mesh& mesh, const std::vector<Mesh::Index>& nodes) {
+    NearFeature f{.count = static_cast<int>(nodes.size())};
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        f.nodes[i] = nodes[i];
+        std::copy_n(&mesh.points[d * static_cast<std::size_t>(nodes[i])], d, f.at[i].begin());
+    }
+    return f;
+}
+
+Piece cell_piece(const SamplerData& data, std::size_t cell) {
+    const Mesh& mesh = *data.located().mesh;
+    const auto begin = mesh.cells.begin() + static_cast<std::ptrdiff_t>(mesh.corners() * cell);
+    return {mesh, data.index().simplex, {begin, begin + static_cast<std::ptrdiff_t>(mesh.corners())}};
+}
+
+double linear(const SamplerData& data, Rounding rounding, const Piece& piece, const double* point, std::size_t c,
+              Tiers& tiers) {
+    const auto space = static_cast<std::size_t>(space_dimension(piece.simplex));
+    CaseArrays one{.simplex = piece.simplex, .count = 1};
+    ValueArrays<double> values;
+    std::array<double, 4> f{};
+    for (std::size_t i = 0; i < piece.corners.size(); ++i) {
+        for (std::size_t k = 0; k < space; ++k) one.vertices[space * i + k] = &piece.vertices[space * i + k];
+        f[i] = nodal_value(data, piece.corners[i], c);
+        values.at[i] = &f[i];
+    }
+    for (std::size_t k = 0; k < space; ++k) one.point[k] = point + k;
+    double value = 0;
+    // One finite case, in an environment that has been looked at: there is no Error.
+    static_cast<void>(interpolate(one, values, std::span(&value, 1), &tiers, rounding).has_value());
+    return value;
+}
+
+/// All components in plain double, of a point projected: with weights that are not negative, and rounded once each,
+/// what is beyond the nodal values is rounding alone.
+void plain_projected(const SamplerData& data, const NearFeature& feature, const std::array<double, 3>& weights,
+                     double* out) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < data.point_components; ++c) {
+        double value = 0, low = infinity, high = -infinity;
+        bool finite = true;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(feature.count); ++i) {
+            const double f = nodal_value(data, feature.nodes[i], c);
+            finite &= std::isfinite(f);
+            value += weights[i] * f;
+            low = std::min(low, f);
+            high = std::max(high, f);
+        }
+        out[c] = finite ? std::clamp(value, low, high) : std::numeric_limits<double>::quiet_NaN();
+    }
+}
+
+/// All components at once, in the cell.
+void quadratic(const SamplerData& data, Rounding rounding, std::size_t cell, const double* point, double* out,
+               Tiers& tiers) {
+    const Mesh& mesh = *data.located().mesh;
+    const auto index = static_cast<std::int32_t>(cell);
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    const MeshQueries query{data.index().simplex, mesh.points, mesh.cells, std::span(&index, 1), std::span(point, d)};
+    const NodalValues<double> values{data.values, static_cast<int>(data.point_components)};
+    static_cast<void>(
+        interpolate_quadratic(query, mesh.mid_nodes, values, std::span(out, data.point_components), &tiers, rounding)
+            .has_value());
+}
+
+/// The same at the point of the closed cell that has the rounded weights of the projection, but for the largest one,
+/// which is 1 less the others, exactly: these are at most 1/2, and 2/3 together. A value depends on weights alone, so
+/// it is that of the point with these others as coordinates in the cell with the unit vectors as corners, the corner of
+/// the largest weight at the origin.
+void quadratic_projected(const SamplerData& data, Rounding rounding, std::size_t cell, const NearFeature& feature,
+                         const std::array<double, 3>& weights, double* out, Tiers& tiers) {
+    const Mesh& mesh = *data.located().mesh;
+    const std::size_t d = static_cast<std::size_t>(mesh.dimension), corners = d + 1;
+    const auto mids = static_cast<std::size_t>(mid_node_count(data.index().simplex));
+    std::vector<Mesh::Index> nodes(&mesh.cells[corners * cell], &mesh.cells[corners * cell] + corners);
+    nodes.insert(nodes.end(), &mesh.mid_nodes[mids * cell], &mesh.mid_nodes[mids * cell] + mids);
+    std::array<double, 4> of_corner{};
+    for (std::size_t i = 0; i < corners; ++i) {
+        for (std::size_t j = 0; j < static_cast<std::size_t>(feature.count); ++j) {
+            if (feature.nodes[j] == nodes[i]) of_corner[i] = weights[j];
+        }
+    }
+    const auto origin =
+        static_cast<std::size_t>(std::max_element(of_corner.begin(), of_corner.end()) - of_corner.begin());
+    std::array<double, 3> at{};
+    std::vector<double> places(d * nodes.size()), values;
+    for (std::size_t i = 0, k = 0; i < corners; ++i) {
+        if (i == origin) continue;
+        places[d * i + k] = 1;
+        at[k++] = of_corner[i];
+    }
+    for (const Mesh::Index node : nodes) {
+        const auto first = data.values.begin() + static_cast<std::ptrdiff_t>(data.point_components) * node;
+        values.insert(values.end(), first, first + static_cast<std::ptrdiff_t>(data.point_components));
+    }
+    std::array<std::int32_t, 10> local{};
+    std::iota(local.begin(), local.end(), 0);
+    const std::int32_t only = 0;
+    const MeshQueries query{data.index().simplex, places, std::span(local).first(corners), std::span(&only, 1),
+                            std::span(at).first(d)};
+    const NodalValues<double> nodal{values, static_cast<int>(data.point_components)};
+    static_cast<void>(interpolate_quadratic(query, std::span(local).subspan(corners, mids), nodal,
+                                            std::span(out, data.point_components), &tiers, rounding)
+                          .has_value());
+}
+
+}  // namespace
+
+std::optional<double> value_outside(const SamplerData& data, const SampleOptions& options, const double* point,
+                                    double* values, Tiers& tiers) {
+    const Mesh& mesh = *data.located().mesh;
+    const bool snap = options.outside.kind == Outside::nearest;
+    // The points are finite.
+    const double limit = snap ? options.outside.limit : std::numeric_limits<double>::infinity();
+    const Nearest nearest = *data.locator->nearest(point, limit);
+    if (nearest.cell < 0) return std::nullopt;
+    const auto cell = static_cast<std::size_t>(nearest.cell);
+
+    std::array<double, 3> at{};
+    std::copy_n(point, mesh.dimension, at.begin());
+    std::vector<Mesh::Index> nodes;
+    for (const Mesh::Index node : nearest.nodes) {
+        if (node >= 0) nodes.push_back(node);
+    }
+    Tiers used;
+    if (snap && nodes.size() == 1 && data.point_components != 0) {
+        bool finite = true;
+        for (std::size_t c = 0; c < data.point_components; ++c) {
+            const double value = nodal_value(data, nodes[0], c);
+            finite &= std::isfinite(value);
+            values[c] = std::isfinite(value) ? value + 0.0 : std::numeric_limits<double>::quiet_NaN();
+        }
+        if (options.rounding == Rounding::correct) {
+            tiers.add(Tier::filter);
+            tiers.not_finite += finite ? 0 : 1;
+        }
+    } else if (data.point_components != 0) {
+        const Piece piece = snap ? Piece(mesh, nodes.size() == 3 ? Simplex::triangle3d : Simplex::segment, nodes)
+                                 : cell_piece(data, cell);
+        const NearFeature feature = snap ? feature_of(mesh, nodes) : NearFeature{};
+        if (data.quadratic && snap) {
+            quadratic_projected(data, options.rounding, cell, feature, weights_of(at, feature), values, used);
+        } else if (data.quadratic) {
+            quadratic(data, options.rounding, cell, at.data(), values, used);
+        } else if (snap && options.rounding == Rounding::plain) {
+            plain_projected(data, feature, weights_of(at, feature), values);
+        } else {
+            for (std::size_t c = 0; c < data.point_components; ++c)
+                values[c] = linear(data, options.rounding, piece, at.data(), c, used);
+        }
+        if (options.rounding == Rounding::correct) {
+            tiers.add(used.exact != 0 ? Tier::exact : Tier::double_double);
+            tiers.not_finite += used.not_finite != 0 ? 1 : 0;
+        }
+    }
+    copy_cell_values(data, nearest.cell, values);
+    return nearest.distance;
+}
+
+}  // namespace barycert::detail

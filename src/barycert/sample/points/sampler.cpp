@@ -1,0 +1,288 @@
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "barycert/environment.hpp"
+#include "barycert/locate/batch.hpp"
+#include "barycert/sample/points/chunk_sampler.hpp"
+#include "barycert/sample/points/sampler_data.hpp"
+#include "barycert/sampler.hpp"
+
+namespace barycert {
+namespace {
+
+using detail::Place;
+using detail::SamplerData;
+
+Status check_field(const Mesh& mesh, const FieldChoice& choice) {
+    if (choice.field == nullptr) return Error{.what = "a field is missing"};
+    const Field& field = *choice.field;
+    const std::size_t entities = choice.of_cells ? mesh.cell_count() : mesh.point_count();
+    if (field.components < 1)
+        return Error{.what = "number of components of field \"" + field.name + "\"",
+                     .expected = "at least 1",
+                     .found = std::to_string(field.components)};
+    const std::size_t expected = static_cast<std::size_t>(field.components) * entities;
+    if (field.data.size() == expected) return Done{};
+    return Error{.what = "size of field \"" + field.name + "\"",
+                 .expected = std::to_string(expected) + " numbers, " + std::to_string(field.components) + " for each " +
+                             (choice.of_cells ? "cell" : "node"),
+                 .found = std::to_string(field.data.size())};
+}
+
+void add_columns(const Field& field, std::vector<std::string>& columns) {
+    for (int c = 0; c < field.components; ++c)
+        columns.push_back(field.components == 1 ? field.name : field.name + "." + std::to_string(c));
+}
+
+/// visit(component among all, node of the mesh, value) for every number of the point fields.
+template <class Visit>
+void for_values(const SamplerData& data, Visit visit) {
+    std::size_t first = 0;
+    for (const Field* field : data.point_fields) {
+        const auto components = static_cast<std::size_t>(field->components);
+        visit(first, components, field->data);
+        first += components;
+    }
+}
+
+void arrange_by_place(SamplerData& data) {
+    const detail::CellIndex& index = data.index();
+    const std::size_t nodes = index.original_node.size();
+    data.nodes = detail::Buffer<detail::NodeRecord>(nodes);
+    std::copy_n(index.nodes.begin(), nodes, data.nodes.begin());
+    const std::size_t groups = (data.point_components + 2) / 4;
+    data.more = detail::Buffer<detail::ValueRecord>(groups * nodes);
+    std::fill(data.more.begin(), data.more.end(), detail::ValueRecord{});
+    for_values(data, [&](std::size_t first, std::size_t components, const std::vector<double>& values) {
+        for (std::size_t place = 0; place < nodes; ++place) {
+            const double* const from =
+                values.data() + components * static_cast<std::size_t>(index.original_node[place]);
+            for (std::size_t i = 0; i < components; ++i) {
+                const std::size_t c = first + i;
+                (c == 0 ? data.nodes[place].value : data.more[(c - 1) / 4 * nodes + place].value[(c - 1) % 4]) =
+                    from[i];
+            }
+        }
+    });
+}
+
+void arrange_by_node(SamplerData& data) {
+    const std::size_t all = data.point_components, nodes = data.located().mesh->point_count();
+    data.values.resize(all * nodes);
+    for_values(data, [&](std::size_t first, std::size_t components, const std::vector<double>& values) {
+        for (std::size_t node = 0; node < nodes; ++node) {
+            for (std::size_t c = 0; c < components; ++c)
+                data.values[all * node + first + c] = values[components * node + c];
+        }
+    });
+}
+
+/// What is wrong with the call, before anything is done.
+Status check_call(const SamplerData& data, std::span<const double> points, std::size_t first_point) {
+    const std::size_t d = data.index().dimension();
+    if (points.size() % d != 0)
+        return Error{.what = "size of the points",
+                     .expected = std::to_string(d) + " coordinates a point",
+                     .found = std::to_string(points.size()) + " numbers"};
+    return detail::check_finite(points, d, first_point);
+}
+
+bool gives_distances(const OutsidePolicy& policy) {
+    return policy.kind == Outside::nearest || policy.kind == Outside::extrapolate;
+}
+
+void resize(const SamplerData& data, const SampleOptions& options, std::size_t rows, Samples& out) {
+    out.cells.resize(rows);
+    out.features.resize(rows);
+    out.values.resize(rows * data.columns.size());
+    out.distances.clear();
+    if (gives_distances(options.outside)) out.distances.assign(rows, 0);
+}
+
+detail::BlockRows rows_from(const SamplerData& data, std::size_t first, Samples& out) {
+    return {out.cells.data() + first, out.features.data() + first, out.values.data() + first * data.columns.size(),
+            out.distances.empty() ? nullptr : out.distances.data() + first};
+}
+
+/// The rows of a block in the order in which they are found.
+class SortedRows {
+public:
+    SortedRows(const SamplerData& data, const SampleOptions& options, std::size_t size)
+        : data_(data), rows_(data.rows.take()) {
+        resize(data, options, size, *rows_);
+        sampler_.emplace(data, options, rows_from(data, 0, *rows_));
+    }
+    SortedRows(SortedRows&&) = default;
+    ~SortedRows() {
+        if (rows_) data_.rows.put(std::move(rows_));
+    }
+
+    void operator()(const detail::PointRecord* points, std::size_t count, const Place* owner, const Feature* feature) {
+        (*sampler_)(points, count, owner, feature);
+    }
+    const detail::ChunkSampler& sampler() const { return *sampler_; }
+
+    void write(const detail::SortedPoints& sorted, std::size_t first, Samples& out) const {
+        const std::size_t columns = data_.columns.size();
+        const Samples& rows = *rows_;
+        sorted.for_each_in_callers_order(
+            [&](std::size_t place) {
+                __builtin_prefetch(&rows.cells[place]);
+                __builtin_prefetch(rows.values.data() + columns * place);
+            },
+            [&](std::size_t i, std::size_t place) {
+                out.cells[first + i] = rows.cells[place];
+                out.features[first + i] = rows.features[place];
+                for (std::size_t c = 0; c < columns; ++c)
+                    out.values[columns * (first + i) + c] = rows.values[columns * place + c];
+                if (!out.distances.empty()) out.distances[first + i] = rows.distances[place];
+            });
+    }
+
+private:
+    const SamplerData& data_;
+    std::unique_ptr<Samples> rows_;
+    std::optional<detail::ChunkSampler> sampler_;
+};
+
+/// What becomes of the blocks of a call: their counts, and the first point that the policy refuses.
+class Outcome {
+public:
+    explicit Outcome(std::size_t blocks) : counts_(blocks), refused_(blocks) {}
+
+    /// `first`: where the rows of the block begin in `out`.
+    void set(std::size_t block, std::size_t first, const detail::ChunkSampler& sampler, const Samples& out) {
+        counts_[block] = sampler.counts();
+        if (!sampler.refused()) return;
+        const auto begin = out.cells.begin() + static_cast<std::ptrdiff_t>(first);
+        refused_[block] = static_cast<std::size_t>(std::find(begin, out.cells.end(), -1) - out.cells.begin());
+    }
+
+    Status status(std::size_t first_point) const {
+        for (const auto& refused : refused_) {
+            if (refused)
+                return Error{.what = "point " + std::to_string(first_point + *refused) + " is outside the mesh",
+                             .remedy = "choose what points outside get: nan, fill, nearest or extrapolate"};
+        }
+        return Done{};
+    }
+    void add_to(SampleCounts& counts) const {
+        for (const SampleCounts& part : counts_) counts.add(part);
+    }
+
+private:
+    std::vector<SampleCounts> counts_;
+    std::vector<std::optional<std::size_t>> refused_;
+};
+
+}  // namespace
+
+void SampleCounts::add(const SampleCounts& other) {
+    locations.add(other.locations);
+    values.add(other.values);
+    snapped += other.snapped;
+    extrapolated += other.extrapolated;
+    without_value += other.without_value;
+    farthest = std::max(farthest, other.farthest);
+}
+
+Sampler::Sampler(std::unique_ptr<SamplerData> data) : data_(std::move(data)) {}
+Sampler::Sampler(Sampler&&) noexcept = default;
+Sampler& Sampler::operator=(Sampler&&) noexcept = default;
+Sampler::~Sampler() = default;
+
+Result<Sampler> Sampler::build(const Locator& locator, std::vector<FieldChoice> fields) {
+    const ExactEnvironment environment;
+    auto data = std::make_unique<SamplerData>();
+    data->locator = &locator;
+    data->quadratic = !locator.mesh().mid_nodes.empty();
+    for (const FieldChoice& choice : fields) {
+        if (Status status = check_field(locator.mesh(), choice); !status) return status.error();
+        (choice.of_cells ? data->cell_fields : data->point_fields).push_back(choice.field);
+    }
+    for (const Field* field : data->point_fields) add_columns(*field, data->columns);
+    data->point_components = data->columns.size();
+    for (const Field* field : data->cell_fields) add_columns(*field, data->columns);
+    if (data->point_components != 0) data->quadratic ? arrange_by_node(*data) : arrange_by_place(*data);
+    return Sampler(std::move(data));
+}
+
+const std::vector<std::string>& Sampler::columns() const {
+    return data_->columns;
+}
+
+Status Sampler::sample(std::span<const double> points, const SampleOptions& options, Samples& out, SampleCounts& counts,
+                       std::size_t first_point) const {
+    const ExactEnvironment environment;
+    if (Status status = check_call(*data_, points, first_point); !status) return status;
+    resize(*data_, options, points.size() / data_->index().dimension(), out);
+    LocationCounts locations;
+    Status status = Done{};
+    SampleCounts all;
+    detail::in_arena(options.threads, [&] {
+        const std::size_t count = out.cells.size(), block = detail::block_of(count);
+        Outcome outcome((count + block - 1) / block);
+        const auto make = [&](std::size_t, std::size_t size) { return SortedRows(*data_, options, size); };
+        const auto keep = [&](std::size_t first, const detail::SortedPoints& sorted, SortedRows& rows) {
+            rows.write(sorted, first, out);
+            outcome.set(first / block, first, rows.sampler(), out);
+        };
+        detail::for_chunks(data_->located(), points, locations, make, keep);
+        status = outcome.status(first_point);
+        outcome.add_to(all);
+    });
+    if (!status) return status;
+    all.locations = locations;
+    counts.add(all);
+    return Done{};
+}
+
+Status Sampler::evaluate(std::span<const double> points, std::span<const Mesh::Index> cells,
+                         std::span<const Feature> features, const SampleOptions& options, Samples& out,
+                         SampleCounts& counts, std::size_t first_point) const {
+    const ExactEnvironment environment;
+    if (Status status = check_call(*data_, points, first_point); !status) return status;
+    const std::size_t d = data_->index().dimension(), count = points.size() / d;
+    if (cells.size() != count || features.size() != count)
+        return Error{.what = "size of the locations",
+                     .expected = "one cell and one feature for each of " + std::to_string(count) + " points",
+                     .found = std::to_string(cells.size()) + " and " + std::to_string(features.size())};
+    for (const Mesh::Index cell : cells) {
+        if (cell < -1 || (cell >= 0 && static_cast<std::size_t>(cell) >= data_->index().cell_count()))
+            return Error{.what = "index of a cell",
+                         .expected = "-1 or below " + std::to_string(data_->index().cell_count()),
+                         .found = std::to_string(cell)};
+    }
+    resize(*data_, options, count, out);
+    const std::vector<Place>& places = data_->located().places();
+    constexpr std::size_t block = std::size_t{1} << 13;
+    Outcome outcome((count + block - 1) / block);
+    detail::in_arena(options.threads, [&] {
+        tbb::parallel_for(std::size_t{0}, (count + block - 1) / block, [&](std::size_t b) {
+            const std::size_t first = b * block, last = std::min(count, first + block);
+            detail::ChunkSampler sampler(*data_, options, rows_from(*data_, first, out));
+            std::array<detail::PointRecord, detail::chunk_size> records{};
+            std::array<Place, detail::chunk_size> owner;
+            for (std::size_t at = first; at < last; at += detail::chunk_size) {
+                const std::size_t n = std::min(detail::chunk_size, last - at);
+                for (std::size_t i = 0; i < n; ++i) {
+                    for (std::size_t k = 0; k < d; ++k) records[i].at[k] = points[d * (at + i) + k];
+                    records[i].number = static_cast<std::uint32_t>(at + i - first);
+                    owner[i] = cells[at + i] < 0 ? -1 : places[static_cast<std::size_t>(cells[at + i])];
+                }
+                sampler(records.data(), n, owner.data(), features.data() + at);
+            }
+            outcome.set(b, first, sampler, out);
+        });
+    });
+    if (Status status = outcome.status(first_point); !status) return status;
+    SampleCounts all;
+    outcome.add_to(all);
+    for (const Feature feature : features) all.locations.add(feature);
+    counts.add(all);
+    return Done{};
+}
+
+}  // namespace barycert

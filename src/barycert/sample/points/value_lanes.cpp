@@ -1,0 +1,166 @@
+#include "barycert/sample/points/value_lanes.hpp"
+
+// Before Highway's headers.
+#include "barycert/core/simd_targets.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "barycert/sample/points/value_lanes.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, as Highway wants it.
+#include <hwy/highway.h>
+
+#include "barycert/core/refinement-inl.hpp"
+#include "barycert/locate/records-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace barycert {
+namespace HWY_NAMESPACE {
+
+using detail::CellRecord;
+using detail::NodeRecord;
+using detail::NodeValues;
+using detail::PointRecord;
+using detail::Walk;
+
+/// Values of refined weights, or plain ones: value(f) for the nodal values f of a component, clearing `certain` where
+/// it is not.
+template <Simplex s, class D, class V = hn::Vec<D>>
+struct RefinedValues {
+    Refined<s, D> r;
+    HWY_INLINE RefinedValues(D tag, const Absolute<s, V>& c) : r(refine<s>(tag, c)) {}
+    HWY_INLINE hn::Mask<D> certain() const { return r.valid; }
+    HWY_INLINE V at(D tag, const V (&f)[vertex_count(s)], hn::Mask<D>& certain) const {
+        return value<s>(tag, r, f, certain);
+    }
+};
+
+/// The formula of lanes::plain_values, operation for operation: a map applied later gives the same bits.
+template <Simplex s, class D, class V = hn::Vec<D>>
+struct PlainValues {
+    Fractions<s, V> f;
+    V inverse;
+    HWY_INLINE PlainValues(D tag, const Absolute<s, V>& c) {
+        Relative<s, V> relative;
+        for (int i = 0; i < vertex_count(s); ++i) {
+            for (int k = 0; k < space_dimension(s); ++k) relative.r[i][k] = c.v[i][k] - c.p[k];
+        }
+        solve(relative, hn::Zero(tag), f);
+        inverse = hn::Set(tag, 1) / f.denominator;
+    }
+    HWY_INLINE hn::Mask<D> certain() const { return hn::Eq(hn::Zero(D()), hn::Zero(D())); }  // all, whatever they are
+    HWY_INLINE V at(D tag, const V (&values)[vertex_count(s)], hn::Mask<D>&) const {
+        V sum = hn::Zero(tag);
+        for (int i = 0; i < vertex_count(s); ++i) sum = sum + f.numerator[i] * values[i];
+        return sum * inverse;
+    }
+};
+
+template <class D>
+HWY_INLINE void scatter(D tag, hn::Vec<D> v, double* const* to, std::size_t offset) {
+    constexpr std::size_t width = hn::MaxLanes(D());
+    HWY_ALIGN double lanes[width];
+    hn::Store(v, tag, lanes);
+    for (std::size_t l = 0; l < width; ++l) to[l][offset] = lanes[l];
+}
+
+/// Items [0, width). Returns the mask of those decided.
+template <Simplex s, template <Simplex, class, class> class Values, class D>
+HWY_INLINE hn::Mask<D> evaluate(D tag, const CellRecord* cells, const NodeValues& nodes, const PointRecord* points,
+                                const Walk* items, double* out, std::size_t stride) {
+    using V = hn::Vec<D>;
+    constexpr std::size_t width = hn::MaxLanes(D());
+    constexpr int n = vertex_count(s), d = space_dimension(s);
+    double* to[width];
+    for (std::size_t l = 0; l < width; ++l) to[l] = out + stride * points[items[l].point].number;
+    const auto node = [&](std::size_t l, int i) HWY_ATTR {
+        return static_cast<std::size_t>(cells[items[l].cell].node[static_cast<std::size_t>(i)]);
+    };
+    Absolute<s, V> c;
+    V p[4], f[n];
+    load_records(
+        tag, [&](std::size_t l) HWY_ATTR { return points[items[l].point].at.data(); }, p);
+    for (int k = 0; k < d; ++k) c.p[k] = p[k];
+    for (int i = 0; i < n; ++i) {
+        V v[4];
+        load_records(
+            tag, [&](std::size_t l) HWY_ATTR { return nodes.first[node(l, i)].at.data(); }, v);
+        for (int k = 0; k < d; ++k) c.v[i][k] = v[k];
+        f[i] = v[3];
+    }
+    const Values<s, D, V> values(tag, c);
+    hn::Mask<D> certain = values.certain();
+    scatter(tag, values.at(tag, f, certain), to, 0);
+    for (std::size_t first = 1; first < nodes.components; first += 4) {
+        const detail::ValueRecord* const more = nodes.more + (first - 1) / 4 * nodes.node_count;
+        V g[4][n];
+        for (int i = 0; i < n; ++i) {
+            V v[4];
+            load_records(
+                tag, [&](std::size_t l) HWY_ATTR { return more[node(l, i)].value.data(); }, v);
+            for (int k = 0; k < 4; ++k) g[k][i] = v[k];
+        }
+        for (std::size_t k = 0; k < 4 && first + k < nodes.components; ++k)
+            scatter(tag, values.at(tag, g[k], certain), to, first + k);
+    }
+    return certain;
+}
+
+template <Simplex s, template <Simplex, class, class> class Values>
+std::size_t evaluate_all(const CellRecord* cells, const NodeValues& nodes, const PointRecord* points, const Walk* items,
+                         std::size_t count, double* out, std::size_t stride, std::uint32_t* undecided) {
+    std::size_t found = 0, at = 0;
+    const auto run = [&](auto tag) HWY_ATTR {
+        using D = decltype(tag);
+        constexpr std::size_t width = hn::MaxLanes(D());
+        for (; at + width <= count; at += width) {
+            const hn::Mask<D> decided = evaluate<s, Values>(tag, cells, nodes, points, items + at, out, stride);
+            if (HWY_LIKELY(hn::AllTrue(tag, decided))) continue;
+            std::uint8_t bits[8] = {};
+            hn::StoreMaskBits(tag, decided, bits);
+            for (std::size_t l = 0; l < width; ++l) {
+                undecided[found] = static_cast<std::uint32_t>(at + l);
+                found += (bits[0] >> l & 1) == 0 ? 1 : 0;
+            }
+        }
+    };
+    run(hn::ScalableTag<double>());
+    run(hn::CappedTag<double, 1>());
+    return found;
+}
+
+template <Simplex s>
+std::size_t evaluate_rounded(const CellRecord* cells, const NodeValues& nodes, const PointRecord* points,
+                             const Walk* items, std::size_t count, Rounding rounding, double* out, std::size_t stride,
+                             std::uint32_t* undecided) {
+    return rounding == Rounding::plain
+               ? evaluate_all<s, PlainValues>(cells, nodes, points, items, count, out, stride, undecided)
+               : evaluate_all<s, RefinedValues>(cells, nodes, points, items, count, out, stride, undecided);
+}
+
+std::size_t interpolate_lanes(Simplex s, const CellRecord* cells, const NodeValues& nodes, const PointRecord* points,
+                              const Walk* items, std::size_t count, Rounding rounding, double* out, std::size_t stride,
+                              std::uint32_t* undecided) {
+    return s == Simplex::triangle ? evaluate_rounded<Simplex::triangle>(cells, nodes, points, items, count, rounding,
+                                                                        out, stride, undecided)
+                                  : evaluate_rounded<Simplex::tetrahedron>(cells, nodes, points, items, count, rounding,
+                                                                           out, stride, undecided);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace barycert
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace barycert {
+
+HWY_EXPORT(interpolate_lanes);
+
+std::size_t detail::interpolate_lanes(Simplex s, const CellRecord* cells, const NodeValues& nodes,
+                                      const PointRecord* points, const Walk* items, std::size_t count,
+                                      Rounding rounding, double* out, std::size_t stride, std::uint32_t* undecided) {
+    return HWY_DYNAMIC_DISPATCH(interpolate_lanes)(s, cells, nodes, points, items, count, rounding, out, stride,
+                                                   undecided);
+}
+
+}  // namespace barycert
+#endif

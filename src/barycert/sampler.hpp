@@ -1,0 +1,123 @@
+/// Fields at points: the value of every field of a mesh at any point, correctly rounded.
+///
+/// Enters: a Locator on a mesh, fields of its nodes or cells, points in the unit of the mesh. Leaves: for each point
+/// the owner, the feature and a value for each component of each field.
+///
+/// What holds (each law is a test of that name in tests/sample):
+///   V1  A value of a point field is the exact interpolation in the owner, linear, or quadratic on cells of second
+///       order, rounded once to nearest, ties to even. A value of a cell field is that of the owner.
+///   V2  Where cells meet in a proper mesh, point fields have the same bits from every cell that holds the point, if
+///       their nodal values are finite: a component is NaN if any nodal value of its cell is not.
+///   D1  Rows depend on point, mesh and fields alone: not on threads, SIMD target, blocks, order, or the method that
+///       found the owner; so a map that was saved gives the same bytes.
+///   N3  Under the policy nearest, a value of a point field is that of the chosen cell at its point nearest to the one
+///       given, however far that is: so each component lies between the nodal values of the cell. On cells of second
+///       order it is that of the quadratic at a point of the closed cell whose weights differ from those of the nearest
+///       one by roundings alone; it may lie beyond the nodal values as far as the quadratic does in the cell.
+///   E1  Nothing is silent: a point outside has NaN unless asked otherwise, and SampleCounts tells how many were where.
+/// With Rounding::plain owners and features are exact as well; values are plain double.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+#include "barycert/weights.hpp"
+
+namespace barycert {
+
+namespace detail {
+struct SamplerData;
+}
+
+/// What a point outside every cell gets.
+enum class Outside : std::uint8_t {
+    nan,
+    error,        ///< the whole call fails, naming the first such point
+    fill,         ///< a number
+    nearest,      ///< point fields at the nearest point of the mesh, cell fields of its cell
+    extrapolate,  ///< the function of the nearest cell, evaluated where the point is
+};
+
+struct OutsidePolicy {
+    Outside kind = Outside::nan;
+    double fill = std::numeric_limits<double>::quiet_NaN();
+    double limit = std::numeric_limits<double>::infinity();  ///< nearest: farther points get NaN
+};
+
+struct SampleOptions {
+    Rounding rounding = Rounding::correct;
+    OutsidePolicy outside = {};
+    int threads = 0;  ///< 0: as many as the machine has
+};
+
+/// Functions add to what is there, unless they fail.
+struct SampleCounts {
+    LocationCounts locations;
+    Tiers values;               ///< of points with point fields, by the highest tier that one of their values needed
+    std::uint64_t snapped = 0;  ///< points outside that got the value of the nearest point
+    std::uint64_t extrapolated = 0;
+    std::uint64_t without_value = 0;  ///< points outside that got NaN, or the number to fill in
+    double farthest = 0;              ///< largest distance of those snapped or extrapolated
+
+    void add(const SampleCounts& other);
+};
+
+/// Rows, one a point, or one a point and cell that holds it.
+struct Samples {
+    std::vector<Mesh::Index> cells;  ///< -1 outside
+    std::vector<Feature> features;
+    std::vector<double> values;  ///< columns a row, row after row
+    /// To the mesh: 0 inside; NaN where a point outside got no value. Empty unless the policy is nearest or
+    /// extrapolate.
+    std::vector<double> distances;
+};
+
+/// One field to be sampled.
+struct FieldChoice {
+    const Field* field = nullptr;
+    bool of_cells = false;
+};
+
+/// Thread-safe: any number of threads may ask at once.
+class Sampler {
+public:
+    /// Locator and fields must stay and outlive the sampler, which copies what it needs of point fields in the order in
+    /// which it will be read. Error: a field does not fit the mesh.
+    static Result<Sampler> build(const Locator& locator, std::vector<FieldChoice> fields);
+
+    Sampler(Sampler&&) noexcept;
+    Sampler& operator=(Sampler&&) noexcept;
+    ~Sampler();
+
+    /// NAME for a field of one component, else NAME.0, NAME.1, ...; fields of nodes first, then those of cells.
+    const std::vector<std::string>& columns() const;
+
+    /// All points; `out` is resized. Errors: a coordinate is not finite; the policy is `error` and a point is outside.
+    /// `first_point`: what messages count points from.
+    Status sample(std::span<const double> points, const SampleOptions& options, Samples& out, SampleCounts& counts,
+                  std::size_t first_point = 0) const;
+
+    /// The same for points whose owners are known: row i is for point i in cells[i], or outside if that is -1, with
+    /// the feature given. So `Locator::locate` once serves many fields, and every cell of `locate_all` can have its
+    /// row. In a degenerate cell point fields are NaN, and counted. Error besides: an index of a cell that is out of
+    /// range.
+    Status evaluate(std::span<const double> points, std::span<const Mesh::Index> cells,
+                    std::span<const Feature> features, const SampleOptions& options, Samples& out, SampleCounts& counts,
+                    std::size_t first_point = 0) const;
+
+    /// For the library's own use.
+    const detail::SamplerData& data() const { return *data_; }
+
+private:
+    explicit Sampler(std::unique_ptr<detail::SamplerData> data);
+    std::unique_ptr<detail::SamplerData> data_;
+};
+
+}  // namespace barycert

@@ -1,0 +1,131 @@
+// Files that are read: regular ones, pipes with and without writers, and what is neither.
+#include "barycert/base/input_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace barycert {
+namespace {
+
+namespace fs = std::filesystem;
+
+class InputFileTest : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = fs::temp_directory_path() / ("barycert-input-" + std::to_string(::getpid()));
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    std::string path(const char* name) const { return (folder_ / name).string(); }
+    std::string put(const char* name, const std::string& text) const {
+        std::ofstream(path(name), std::ios::binary) << text;
+        return path(name);
+    }
+    std::string pipe(const char* name) const {
+        EXPECT_EQ(::mkfifo(path(name).c_str(), 0600), 0);
+        return path(name);
+    }
+
+    fs::path folder_;
+};
+
+TEST_F(InputFileTest, whole_files) {
+    for (const std::size_t size : {0U, 1U, 65535U, 65536U, 65537U, 3000000U}) {
+        std::string text;
+        for (std::size_t i = 0; i < size; ++i) text += static_cast<char>(i * 31 % 251);
+        const Result<std::string> read = read_file(put("f", text));
+        ASSERT_TRUE(read) << read.error().message();
+        EXPECT_TRUE(*read == text) << size;
+        EXPECT_EQ(InputFile::open(path("f")).value().size(), size);
+    }
+    // It tells the size 0.
+    const Result<std::string> status = read_file("/proc/self/status");
+    ASSERT_TRUE(status) << status.error().message();
+    EXPECT_NE(status->find("VmPeak"), std::string::npos);
+}
+
+TEST_F(InputFileTest, what_is_no_file) {
+    for (const auto& [name, found] :
+         {std::pair{path("none"), "No such file or directory"}, std::pair{folder_.string(), "a folder"},
+          std::pair{put("f", "") + "/g", "Not a directory"}}) {
+        for (const Error& error : {read_file(name).error(), InputFile::open(name).error()}) {
+            EXPECT_EQ(error.what, "cannot read the file");
+            EXPECT_EQ(error.file, name);
+            EXPECT_EQ(error.found, found);
+            EXPECT_FALSE(error.remedy.empty());
+        }
+    }
+    EXPECT_EQ(read_file("/dev/zero").error().found, "a device");
+    EXPECT_EQ(InputFile::open("/dev/zero").error().found, "a pipe or device");
+    EXPECT_EQ(InputFile::open(pipe("p"), "do this").error().remedy, "do this");
+}
+
+TEST_F(InputFileTest, a_pipe_without_a_writer_has_ended) {
+    const Result<std::string> read = read_file(pipe("p"));
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().found, "nothing: a pipe that nobody writes to");
+}
+
+TEST_F(InputFileTest, a_pipe_is_read_to_its_end) {
+    const std::string name = pipe("p"), text(300000, 'x');
+    const int descriptor = ::open(name.c_str(), O_RDWR);  // opens at once, and has the pipe open for writing
+    ASSERT_GE(descriptor, 0);
+    std::thread writer([&] {
+        for (std::size_t at = 0; at < text.size();) {
+            ::usleep(10000);  // the reader is there first
+            const ssize_t got = ::write(descriptor, text.data() + at, std::min<std::size_t>(50000, text.size() - at));
+            if (got > 0) at += static_cast<std::size_t>(got);
+        }
+        ::close(descriptor);
+    });
+    const Result<std::string> read = read_file(name);
+    writer.join();
+    ASSERT_TRUE(read) << read.error().message();
+    EXPECT_TRUE(*read == text) << read->size();
+}
+
+TEST_F(InputFileTest, an_endless_pipe_is_given_up) {
+    ASSERT_NE(::signal(SIGPIPE, SIG_IGN), SIG_ERR);
+    const std::string name = pipe("p");
+    const int reader = ::open(name.c_str(), O_RDONLY | O_NONBLOCK), writer = ::open(name.c_str(), O_WRONLY);
+    const std::string text(1000, 'x');
+    ASSERT_EQ(::write(writer, text.data(), text.size()), 1000);
+    ::close(writer);
+    EXPECT_EQ(read_file(name, 999).error().expected, "at most 999 bytes from a pipe");
+    ::close(reader);
+    // As many are not too many; a regular file may be of any size.
+    const int again = ::open(name.c_str(), O_RDONLY | O_NONBLOCK), more = ::open(name.c_str(), O_WRONLY);
+    ASSERT_EQ(::write(more, text.data(), text.size()), 1000);
+    ::close(more);
+    EXPECT_EQ(read_file(name, 1000).value().size(), 1000U);
+    ::close(again);
+    EXPECT_EQ(read_file(put("f", text), 999).value().size(), 1000U);
+}
+
+// Neither moving nor failing loses a descriptor.
+TEST_F(InputFileTest, descriptors_are_closed) {
+    put("f", "abc");
+    const auto open_now = [] { return std::distance(fs::directory_iterator("/proc/self/fd"), {}); };
+    const auto before = open_now();
+    for (int i = 0; i < 10; ++i) {
+        InputFile file = InputFile::open(path("f")).value();
+        InputFile other = std::move(file);
+        file = std::move(other);
+        EXPECT_TRUE(read_file(path("f")));
+        EXPECT_FALSE(read_file(folder_.string()));
+        EXPECT_FALSE(InputFile::open(folder_.string()));
+    }
+    EXPECT_EQ(open_now(), before);
+}
+
+}  // namespace
+}  // namespace barycert

@@ -1,0 +1,92 @@
+// Against NumPy itself, where there is one.
+#include <cstdlib>
+
+#include "io/row_data.hpp"
+
+namespace barycert::points::testing {
+namespace {
+
+bool numpy_is_there() {
+    return std::system("python3 -c 'import numpy' >/dev/null 2>&1") == 0;
+}
+
+bool python(const TemporaryFolder& folder, const std::string& script) {
+    put(folder / "script.py", script);
+    return std::system(("cd '" + folder / "." + "' && python3 script.py").c_str()) == 0;
+}
+
+TEST(NumPy, reads_what_is_written) {
+    if (!numpy_is_there()) GTEST_SKIP() << "python3 has no numpy";
+    const TemporaryFolder folder;
+    const RowData data =
+        random_rows(5000, {.dimension = 3, .columns = {"p", "it's \\ \n", "\xC3\xA4"}, .distances = true}, 21);
+    ASSERT_TRUE(write_rows(folder / "r.npy", data, 700));
+    put(folder / "points", bits_of(data.points));
+    put(folder / "values", bits_of(data.values));
+    put(folder / "distances", bits_of(data.distances));
+    put(folder / "cells", {reinterpret_cast<const char*>(data.cells.data()), 4 * data.cells.size()});
+    std::string features;
+    for (const Feature f : data.features) features += std::string(name(f)) + "\n";
+    put(folder / "features", features);
+    EXPECT_TRUE(python(folder, R"(
+import numpy as np
+a = np.load('r.npy')
+assert a.shape == (5000,), a.shape
+assert a.dtype.names == ('x', 'y', 'z', 'cell', 'feature', 'p', "it's \\ \n", '\u00e4', 'distance'), a.dtype
+assert a.dtype['cell'] == 'i8' and a.dtype['feature'] == 'S8'
+def bits(names): return np.stack([a[n] for n in names], axis=1).tobytes()
+assert bits('xyz') == open('points', 'rb').read()
+assert bits(a.dtype.names[5:8]) == open('values', 'rb').read()
+assert bits(['distance']) == open('distances', 'rb').read()
+assert (a['cell'] == np.fromfile('cells', dtype='<i4')).all()
+assert b''.join(f + b'\n' for f in a['feature']) == open('features', 'rb').read()
+)"));
+}
+
+TEST(NumPy, writes_what_is_read) {
+    if (!numpy_is_there()) GTEST_SKIP() << "python3 has no numpy";
+    const TemporaryFolder folder;
+    const std::vector<double> points = random_rows(3000, {.dimension = 3}, 22).points;
+    put(folder / "points", bits_of(points));
+    ASSERT_TRUE(python(folder, R"(
+import numpy as np
+a = np.fromfile('points').reshape(-1, 3)
+np.save('c.npy', a)
+np.save('fortran.npy', np.asfortranarray(a))
+np.save('big.npy', a.astype('>f8'))
+np.save('bigfortran.npy', np.asfortranarray(a.astype('>f8')))
+for v in [(2, 0), (3, 0)]:
+    with open('v%d.npy' % v[0], 'wb') as f: np.lib.format.write_array(f, a, v)
+np.save('empty.npy', a[:0])
+np.seterr(over='ignore')
+np.save('single.npy', a.astype('f4')[np.isfinite(a.astype('f4')).all(axis=1)])
+np.load('single.npy').astype('f8').tofile('singles')
+np.save('plane.npy', a[:, :2])
+a[:, :2].tofile('plane')
+np.save('int.npy', np.zeros((2, 3), dtype=int))
+np.save('row.npy', a[0])
+np.savez('zip.npz', a)
+import os; os.rename('zip.npz', 'zip.npy')
+np.savetxt('t.csv', a, delimiter=',', header='x,y,z', comments='')
+np.savetxt('blanks.csv', a)
+)"));
+    for (const char* file : {"c.npy", "fortran.npy", "big.npy", "bigfortran.npy", "v2.npy", "v3.npy"}) {
+        SCOPED_TRACE(file);
+        const Result<std::vector<double>> read = read_file(folder / file, 3, 1000);
+        ASSERT_TRUE(read) << read.error().message();
+        EXPECT_EQ(bits_of(*read), bits_of(points));
+    }
+    EXPECT_TRUE(read_file(folder / "empty.npy", 3).value().empty());
+    EXPECT_EQ(bits_of(read_file(folder / "single.npy", 3).value()), get(folder / "singles"));
+    EXPECT_EQ(bits_of(read_file(folder / "plane.npy", 2).value()), get(folder / "plane"));
+    EXPECT_FALSE(read_file(folder / "int.npy", 3));
+    EXPECT_FALSE(read_file(folder / "row.npy", 3));
+    expect_error(read_file(folder / "zip.npy", 3), "zip.npy",
+                 {0, "cannot read the header of the NPY file", "one array", nullptr, nullptr});
+    // 19 digits: enough for every double.
+    EXPECT_EQ(bits_of(read_file(folder / "t.csv", 3, 1000).value()), bits_of(points));
+    EXPECT_EQ(bits_of(read_file(folder / "blanks.csv", 3, 1000).value()), bits_of(points));
+}
+
+}  // namespace
+}  // namespace barycert::points::testing

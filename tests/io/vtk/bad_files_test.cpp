@@ -1,0 +1,329 @@
+/// Files that are damaged or that hold no mesh of ours: an error with the file's name, never a crash, nothing printed.
+#include <vtkPolyData.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <functional>
+
+#include "barycert/base/random.hpp"
+#include "barycert/vtk.hpp"
+#include "io/vtk/mixed_grid.hpp"
+#include "io/vtk/vtk_files.hpp"
+
+namespace barycert::testing {
+namespace {
+
+const std::string xml =
+    "<VTKFile type='UnstructuredGrid' byte_order='LittleEndian'>\n<UnstructuredGrid>\n"
+    "<Piece NumberOfPoints='4' NumberOfCells='1'>\n<PointData>\n"
+    "<DataArray type='Float32' Name='f' format='ascii'>1 2 3 4</DataArray>\n</PointData>\n<Points>\n"
+    "<DataArray type='Float64' NumberOfComponents='3'>0 0 0 1 0 0 0 1 0 0 0 0.5</DataArray>\n</Points>\n<Cells>\n"
+    "<DataArray type='Int64' Name='connectivity'>0 1 2 3</DataArray>\n"
+    "<DataArray type='Int64' Name='offsets'>4</DataArray>\n<DataArray type='UInt8' Name='types'>10</DataArray>\n"
+    "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+
+const std::string legacy =
+    "# vtk DataFile Version 4.2\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 0 1 0 0 0 0.5\n"
+    "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\nPOINT_DATA 4\nFIELD FieldData 1\nf 1 4 float\n1 2 3 4\n";
+
+struct Change {
+    const char* from;
+    const char* to;
+    const char* what;  ///< what the error says
+    const char* expected;
+    const char* found;
+    std::size_t line;
+};
+
+std::string changed(std::string text, const Change& change) {
+    const std::size_t at = text.find(change.from);
+    EXPECT_NE(at, std::string::npos) << change.from;
+    return text.replace(at, std::string(change.from).size(), change.to);
+}
+
+void expect_refusal(const std::string& text, const Change& change) {
+    SCOPED_TRACE(change.to);
+    const TemporaryFolder folder;
+    put(folder / "m", changed(text, change));
+    const Result<Mesh> read = read_quietly(folder / "m");
+    ASSERT_FALSE(read);
+    SCOPED_TRACE(read.error().message());
+    EXPECT_EQ(read.error().file, folder / "m");
+    EXPECT_EQ(read.error().what, change.what);
+    EXPECT_EQ(read.error().expected, change.expected);
+    EXPECT_EQ(read.error().found, change.found);
+    EXPECT_EQ(read.error().line, change.line);
+}
+
+TEST(BadVtkFiles, the_files_that_are_changed_are_good) {
+    const TemporaryFolder folder;
+    for (const std::string& text : {xml, legacy}) {
+        put(folder / "m", text);
+        const Result<Mesh> read = read_quietly(folder / "m");
+        ASSERT_TRUE(read) << read.error().message();
+        EXPECT_EQ(read->points[11], 0.5);
+        EXPECT_EQ(read->point_fields[0].data, (std::vector<double>{1, 2, 3, 4}));
+    }
+    put(folder / "m", changed(changed(xml, {"'4' N", "' +4 ' N", "", "", "", 0}),
+                              {"NumberOfCells='1'", "NumberOfCells='1\t'", "", "", "", 0}));
+    EXPECT_TRUE(read_quietly(folder / "m"));
+    // A bracket in a value and elements beside the numbers are none of them.
+    put(folder / "m",
+        changed(xml, {"Name='f' format='ascii'>1 2 3 4",
+                      "Name='a>b' format='ascii'>1 2 3 4<InformationKey name='x'>5</InformationKey>", "", "", "", 0}));
+    EXPECT_TRUE(read_quietly(folder / "m"));
+    put(folder / "m",
+        changed(xml, {">1 2 3 4", ">\n<InformationKey name='x'>5</InformationKey>\n1 2 3 4", "", "", "", 0}));
+    EXPECT_TRUE(read_quietly(folder / "m"));
+}
+
+TEST(BadVtkFiles, xml) {
+    const char* const array_type = "Int8 to UInt64, Float32, Float64 or Bit";
+    for (const Change& change : std::vector<Change>{
+             {"'4' N", "'5' N", "the coordinates", "15 numbers", "12", 8},
+             {"'4' N", "'3' N", "the coordinates", "9 numbers", "more", 8},
+             {"'4' N", "'-1' N", "the attribute NumberOfPoints", "a count, at most 2147483647 in all pieces", "'-1'",
+              3},
+             {"'4' N", "'99999999999999999999' N", "the attribute NumberOfPoints",
+              "a count, at most 2147483647 in all pieces", "'99999999999999999999'", 3},
+             {"'4' N", "'2147483647' N", "the coordinates", "6442450941 numbers", "12", 8},
+             {"NumberOfCells='1'", "", "the attribute NumberOfCells", "a count, at most 2147483647 in all pieces",
+              "none", 3},
+             {"NumberOfCells='1'", "NumberOfCells='2'", "the types of cells", "2 numbers", "1", 13},
+             {"NumberOfComponents='3'", "NumberOfComponents='2'", "the components of the points", "3", "'2'", 8},
+             {"0.5<", "nan<", "z of point 3 (from 0)", "a finite number", "nan", 0},
+             {"0.5<", "-inf<", "z of point 3 (from 0)", "a finite number", "-inf", 0},
+             {"0.5<", "0,5<", "number 11 (from 0) of the coordinates", "a number of the type of the array", "'0,5'", 8},
+             {"0 1 2 3<", "0 1 2 4<", "a node of a cell", "a point below 4", "4", 11},
+             {"0 1 2 3<", "0 1 2 -1<", "a node of a cell", "a point below 4", "-1", 11},
+             {"0 1 2 3<", "0 1 2 4294967296<", "number 3 (from 0) of the connectivity",
+              "a number that fits what it stands for", "4294967296", 11},
+             {"0 1 2 3<", "0 1 2<", "the connectivity", "4 numbers", "3", 11},
+             {">4<", ">5<", "the connectivity", "5 numbers", "4", 11},
+             {">4<", ">-4<", "the offsets of cells", "none below the one before it", "-4 after 0", 12},
+             {">4<", ">3<", "the connectivity", "3 numbers", "more", 11},
+             {">10<", ">12<", "cells of other types than a simplicial mesh has",
+              "tetrahedra or triangles, linear or quadratic", "1 vtkHexahedron (type 12)", 0},
+             {">10<", ">42<", "cells of other types than a simplicial mesh has",
+              "tetrahedra or triangles, linear or quadratic", "1 vtkPolyhedron (type 42)", 0},
+             {">10<", ">24<", "the nodes of cell 0 (from 0)", "10 in a vtkQuadraticTetra (type 24)", "4", 0},
+             {">10<", ">5<", "the nodes of cell 0 (from 0)", "3 in a vtkTriangle (type 5)", "4", 0},
+             {">10<", ">4<", "there is no mesh in the file", "tetrahedra or triangles", "1 cells of other kinds", 0},
+             {">10<", ">256<", "number 0 (from 0) of the types of cells", "a number of the type of the array", "'256'",
+              13},
+             {"Name='types'", "Name='kinds'", "the cells of a piece", "arrays connectivity, offsets and types",
+              "not all three", 3},
+             {"Int64' Name='c", "Int65' Name='c", "the type of the connectivity", array_type, "'Int65'", 11},
+             {"1 2 3 4<", "1 2 3<", "array 'f'", "4 numbers", "3", 5},
+             {"format='ascii'", "format='text'", "the format of array 'f'", "ascii, binary or appended", "'text'", 5},
+             {"format='ascii'", "format='appended'", "the offset of array 'f' into the appended data",
+              "less than 0, the bytes from there to the end of the file", "''", 5},
+             {"format='ascii'", "format='ascii' NumberOfComponents='0'", "the components of array 'f'",
+              "a count of 1 or more", "'0'", 5},
+             {"</PointData>", "<DataArray type='Int8' Name='f'>1 2 3 4</DataArray></PointData>",
+              "two arrays in one PointData", "different names", "'f' twice", 6},
+             {"LittleEndian", "MiddleEndian", "the attribute byte_order of the file", "LittleEndian, BigEndian",
+              "'MiddleEndian'", 1},
+             {"byte_order", "header_type='UInt16' byte_order", "the attribute header_type of the file",
+              "UInt32, UInt64", "'UInt16'", 1},
+             {"byte_order", "compressor='zip' byte_order", "the attribute compressor of the file",
+              "vtkZLibDataCompressor, vtkLZ4DataCompressor, vtkLZMADataCompressor", "'zip'", 1},
+             {"type='UnstructuredGrid'", "type='PUnstructuredGrid'", "the kind of the file",
+              "a VTKFile of type UnstructuredGrid", "no element of its type 'PUnstructuredGrid'", 1},
+         }) {
+        expect_refusal(xml, change);
+    }
+}
+
+TEST(BadVtkFiles, legacy) {
+    const char* const data_types = "double, float, int and the like";
+    for (const Change& change : std::vector<Change>{
+             {"POINTS 4", "POINTS 5", "number 12 (from 0) of the coordinates", "a number of the type of the array",
+              "'CELLS'", 5},
+             {"POINTS 4", "POINTS 2147483648", "the number of points", "a count up to 2147483647", "'2147483648'", 5},
+             {"POINTS 4", "POINTS -4", "the number of points", "a count up to 2147483647", "'-4'", 5},
+             {"POINTS 4 double", "POINTS 4 real", "the type of the points", data_types, "'real'", 5},
+             {"POINTS 4 double", "POINTS 3 double", "a keyword of the format", "POINTS, CELLS, POINT_DATA and the like",
+              "'0'", 6},
+             {"0 0 0.5", "0 0 nan", "z of point 3 (from 0)", "a finite number", "nan", 0},
+             {"4 0 1 2 3", "5 0 1 2 3", "the nodes of cell 0 (from 0)",
+              "as many as fit in the 5 numbers of the section", "5", 8},
+             {"4 0 1 2 3", "100000000 0 1 2 3", "the nodes of cell 0 (from 0)",
+              "as many as fit in the 5 numbers of the section", "100000000", 8},
+             {"4 0 1 2 3", "-4 0 1 2 3", "the nodes of cell 0 (from 0)",
+              "as many as fit in the 5 numbers of the section", "-4", 8},
+             {"4 0 1 2 3", "3 0 1 2 3", "the size of the cells", "4 numbers, as the cells have", "5", 8},
+             {"4 0 1 2 3", "4 0 1 2 7", "a node of cell 0 (from 0)", "a point below 4", "7", 0},
+             {"CELLS 1", "CELLS 2", "the nodes of cell 1 (from 0)", "as many as fit in the 5 numbers of the section",
+              "none", 8},
+             {"CELL_TYPES 1\n10\n", "", "the cell types", "1, one a cell", "0", 13},
+             {"\n10\n", "\n11\n", "cells of other types than a simplicial mesh has",
+              "tetrahedra or triangles, linear or quadratic", "1 vtkVoxel (type 11)", 0},
+             {"POINT_DATA 4", "POINT_DATA 3", "the rows of POINT_DATA", "4, one a point", "3", 11},
+             {"f 1 4 float", "f 1 5 float", "the rows of array 'f'", "4", "5", 13},
+             {"f 1 4 float", "f 0 4 float", "the components of array 'f'", "1 or more", "0", 13},
+             {"f 1 4 float", "f 2147483647 4 float", "array 'f'", "8589934588 numbers", "4", 13},
+             {"f 1 4 float", "f 1 4 quad", "the type of array 'f'", data_types, "'quad'", 13},
+             {"FieldData 1", "FieldData 2", "the components of array ''", "a count up to 2147483647",
+              "the end of the file", 15},
+             {"1 2 3 4\n", "1 2 3", "array 'f'", "4 numbers", "3", 13},
+             {"1 2 3 4\n", "1 2 3 4", "the last row has no line end, so the file may be cut short", "a line end",
+              "the end of the file", 14},
+             {"Version 4.2", "Version x", "the first line", "'# vtk DataFile Version 4.2' or the like", "'x'", 2},
+             {"Version 4.2", "Version 5.1", "a keyword of the format", "OFFSETS", "'4'", 8},
+             {"ASCII", "TEXT", "the third line", "ASCII or BINARY", "'TEXT'", 3},
+             {"ASCII", "BINARY", "a keyword of the format", "POINTS, CELLS, POINT_DATA and the like", "'4'", 0},
+             {"UNSTRUCTURED_GRID", "RECTILINEAR_GRID", "the kind of the data set", "UNSTRUCTURED_GRID or POLYDATA",
+              "'RECTILINEAR_GRID'", 4},
+         }) {
+        expect_refusal(legacy, change);
+    }
+}
+
+TEST(BadVtkFiles, offsets_of_version_5) {
+    const std::string text =
+        "# vtk DataFile Version 5.1\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 0 1 0 0 0 "
+        "0.5\n"
+        "CELLS 2 4\nOFFSETS vtktypeint64\n0 4\nCONNECTIVITY vtktypeint64\n0 1 2 3\nCELL_TYPES 1\n10\n";
+    const TemporaryFolder folder;
+    put(folder / "m", text);
+    ASSERT_TRUE(read_quietly(folder / "m"));
+    const char* const expected = "0 first, none below the one before it, 4 last";
+    for (const char* offsets : {"0 5", "0 3", "1 4", "4 0", "0 -4", "4 4"}) {
+        expect_refusal(text, {"\n0 4\n", (std::string("\n") + offsets + "\n").c_str(), "the offsets of cells", expected,
+                              "others", 11});
+    }
+    expect_refusal(text, {"CELLS 2 4", "CELLS 1 4", "a keyword of the format", "CONNECTIVITY", "'4'", 9});
+}
+
+TEST(BadVtkFiles, triangles_off_the_plane) {
+    const TemporaryFolder folder;
+    std::string text = changed(xml, {"0 1 2 3<", "0 1 2<", "", "", "", 0});
+    text = changed(changed(text, {">4<", ">3<", "", "", "", 0}), {">10<", ">5<", "", "", "", 0});
+    put(folder / "m", text);
+    const Result<Mesh> read = read_quietly(folder / "m");
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().what, "z of point 3 (from 0)");
+    EXPECT_EQ(read.error().found, "0.5");
+    EXPECT_NE(read.error().remedy.find("surfaces in space are not meshes here"), std::string::npos);
+    put(folder / "m", changed(text, {"0.5<", "-0.0<", "", "", "", 0}));
+    EXPECT_TRUE(read_quietly(folder / "m"));
+}
+
+TEST(BadVtkFiles, no_files) {
+    const TemporaryFolder folder;
+    for (const auto& [text, what] : {std::pair{"", "the file is empty"},
+                                     {"4 3 0 0\n", "not a file of VTK"},
+                                     {" \n ", "not a file of VTK"},
+                                     {"<", "not a well-formed XML file"},
+                                     {"<VTKFile", "not a well-formed XML file"},
+                                     {"<html><body></html>", "not a well-formed XML file"},
+                                     {"<html/>", "the kind of the file"},
+                                     {"# vtk", "the first line"}}) {
+        put(folder / "m", text);
+        const Result<Mesh> read = read_quietly(folder / "m");
+        ASSERT_FALSE(read) << text;
+        EXPECT_EQ(read.error().what, what);
+        EXPECT_EQ(read.error().file, folder / "m");
+        EXPECT_FALSE(read_vtk_points(folder / "m", 3));
+    }
+    EXPECT_EQ(read_quietly(folder / "none.vtu").error().file, folder / "none.vtu");
+    EXPECT_FALSE(read_quietly(folder / ""));
+    std::string deep;
+    for (int i = 0; i < 200000; ++i) deep += "<a>";
+    put(folder / "m", deep);
+    EXPECT_FALSE(read_quietly(folder / "m"));
+    for (int i = 0; i < 200000; ++i) deep += "</a>";
+    put(folder / "m", deep);
+    EXPECT_FALSE(read_quietly(folder / "m"));
+}
+
+/// A compressed array whose header is hostile. VTK's own reader divides by the size of a block.
+TEST(BadVtkFiles, headers_of_compressed_data) {
+    const TemporaryFolder folder;
+    const auto read = [&](const std::vector<std::uint32_t>& words) {
+        std::string raw(reinterpret_cast<const char*>(words.data()), words.size() * 4);
+        put(folder / "m",
+            "<VTKFile type='UnstructuredGrid' compressor='vtkZLibDataCompressor'><UnstructuredGrid>"
+            "<Piece NumberOfPoints='4' NumberOfCells='0'><Points><DataArray type='Float64' "
+            "NumberOfComponents='3' format='appended' offset='0'/></Points></Piece></UnstructuredGrid>"
+            "<AppendedData encoding='raw'>_" +
+                raw + "</AppendedData></VTKFile>");
+        Printed printed;
+        const Result<std::vector<double>> points = read_vtk_points(folder / "m", 3);
+        EXPECT_EQ(printed.text(), "");
+        ASSERT_FALSE(points);
+        EXPECT_EQ(points.error().file, folder / "m");
+    };
+    for (const std::vector<std::uint32_t>& words :
+         std::vector<std::vector<std::uint32_t>>{{1, 0, 96, 4, 0},
+                                                 {1, 96, 0, 4, 0},
+                                                 {1, 96, 0, 0xffffffff},
+                                                 {0, 0, 0},
+                                                 {0xffffffff, 96, 0},
+                                                 {2, 0xffffffff, 96, 4, 4, 0, 0},
+                                                 {1, 96, 97, 4, 0},
+                                                 {1, 96, 96, 0},
+                                                 {96, 1, 0},
+                                                 {},
+                                                 {1},
+                                                 {2, 95, 1, 1, 1, 0},
+                                                 {1, 0xffffffff, 96, 8, 0, 0}}) {
+        read(words);
+    }
+}
+
+/// Files of every kind, cut off or with bytes changed: a mesh or an error.
+TEST(BadVtkFiles, no_damage_crashes) {
+    const TemporaryFolder folder;
+    std::vector<std::string> files{xml, legacy};
+    for (const int mode : {vtkXMLWriter::Ascii, vtkXMLWriter::Binary, vtkXMLWriter::Appended}) {
+        for (const int compressor : {vtkXMLWriter::NONE, vtkXMLWriter::ZLIB, vtkXMLWriter::LZ4, vtkXMLWriter::LZMA}) {
+            vtkNew<vtkXMLUnstructuredGridWriter> writer;
+            writer->SetDataMode(mode);
+            writer->SetEncodeAppendedData(compressor == vtkXMLWriter::LZ4 ? 1 : 0);
+            writer->SetCompressorType(compressor);
+            writer->SetBlockSize(64);
+            writer->SetFileName((folder / "m").c_str());
+            writer->SetInputData(mixed_grid());
+            ASSERT_EQ(writer->Write(), 1);
+            files.push_back(get(folder / "m"));
+        }
+    }
+    for (const char* name : {"a.vtk", "b.vtk"}) {
+        ASSERT_TRUE(write_vtk(mesh_of_data("plate"), folder / name));
+        files.push_back(get(folder / name));
+    }
+    Random random(4);
+    std::size_t refused = 0, tried = 0;
+    Printed printed;
+    for (const std::string& file : files) {
+        for (int i = 0; i < 400; ++i) {
+            std::string text = file;
+            if (i % 4 == 0) {
+                text.resize(random.below(text.size()));
+            } else if (i % 4 == 1) {  // a digit: counts, offsets, types
+                std::size_t at = random.below(text.size());
+                while (at < text.size() && (text[at] < '0' || text[at] > '9')) ++at;
+                if (at < text.size()) text[at] = static_cast<char>('0' + random.below(10));
+            } else {
+                for (std::uint64_t k = 1 + random.below(4); k != 0; --k) {
+                    text[random.below(text.size())] = static_cast<char>(random.below(256));
+                }
+            }
+            put(folder / "m", text);
+            ++tried;
+            if (const Result<Mesh> read = read_vtk(folder / "m"); !read) {
+                ++refused;
+                EXPECT_EQ(read.error().file, folder / "m");
+                EXPECT_FALSE(read.error().what.empty());
+            }
+            (void)read_vtk_points(folder / "m", 2 + i % 2).has_value();
+        }
+    }
+    EXPECT_EQ(printed.text(), "");
+    EXPECT_GT(refused, tried / 4);
+    EXPECT_LT(refused, tried);
+}
+
+}  // namespace
+}  // namespace barycert::testing

@@ -1,0 +1,178 @@
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <limits>
+
+#include "barycert/vtk.hpp"
+#include "io/vtk/vtk_files.hpp"
+
+namespace barycert::testing {
+namespace {
+
+TEST(VtkPoints, of_every_kind_of_file) {
+    const TemporaryFolder folder;
+    const Mesh solid = mesh_of_data("cube-hole"), plate = mesh_of_data("plate");
+    for (const char* name : {"m.vtu", "m.vtk"}) {
+        ASSERT_TRUE(write_vtk(solid, folder / name));
+        EXPECT_EQ(bits_of(read_vtk_points(folder / name, 3).value()), bits_of(solid.points));
+        EXPECT_FALSE(read_vtk_points(folder / name, 2));
+        ASSERT_TRUE(write_vtk(plate, folder / name));
+        EXPECT_EQ(bits_of(read_vtk_points(folder / name, 2).value()), bits_of(plate.points));
+        EXPECT_EQ(read_vtk_points(folder / name, 3).value().size(), plate.points.size() / 2 * 3);
+        EXPECT_FALSE(read_vtk_points(folder / name, 4));
+    }
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    points->InsertNextPoint(0.1, 0.2, 0);
+    points->InsertNextPoint(0.3, 0.4, 0);
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points);
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetFileName((folder / "m.vtp").c_str());
+    writer->SetInputData(data);
+    ASSERT_EQ(writer->Write(), 1);
+    EXPECT_EQ(read_vtk_points(folder / "m.vtp", 2).value(), (std::vector<double>{0.1, 0.2, 0.3, 0.4}));
+    const Result<Mesh> mesh = read_quietly(folder / "m.vtp");
+    ASSERT_FALSE(mesh);
+    EXPECT_EQ(mesh.error().found, "'PolyData'");
+    put(folder / "m.vtk",
+        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_GRID\nDIMENSIONS 2 1 1\nPOINTS 2 float\n1 2 0 3 4 "
+        "0\n");
+    EXPECT_EQ(read_vtk_points(folder / "m.vtk", 2).value(), (std::vector<double>{1, 2, 3, 4}));
+    put(folder / "m.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n");
+    EXPECT_FALSE(read_vtk_points(folder / "m.vtk", 2));
+}
+
+TEST(VtkPoints, rows_are_read_by_vtk) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<double> points{0, 1, 2, 3, 4, 0.1}, distances{0, 0, 0.5};
+    const std::vector<Mesh::Index> cells{7, 0, -1};
+    const std::vector<Feature> features{Feature::interior, Feature::vertex, Feature::outside};
+    const std::vector<std::uint8_t> inside{1, 1, 0};
+    for (const int dimension : {3, 2}) {
+        const std::size_t count = points.size() / static_cast<std::size_t>(dimension);
+        PointRows rows;
+        rows.dimension = dimension;
+        rows.points = points;
+        rows.fields = {{"u <v>", 2, {1, 2, 3, 4, nan, nan}}};
+        rows.fields[0].data.resize(2 * count);
+        rows.cells = std::span(cells).first(count);
+        rows.features = std::span(features).first(count);
+        rows.inside = std::span(inside).first(count);
+        rows.distances = std::span(distances).first(count);
+        const TemporaryFolder folder;
+        Printed printed;
+        const Status status = write_vtk_points(folder / "p.vtu", rows);
+        EXPECT_EQ(printed.text(), "");
+        ASSERT_TRUE(status) << status.error().message();
+        vtkNew<vtkXMLUnstructuredGridReader> reader;
+        reader->SetFileName((folder / "p.vtu").c_str());
+        reader->Update();
+        vtkUnstructuredGrid* const grid = reader->GetOutput();
+        ASSERT_EQ(static_cast<std::size_t>(grid->GetNumberOfPoints()), count);
+        ASSERT_EQ(static_cast<std::size_t>(grid->GetNumberOfCells()), count);
+        vtkPointData* const data = grid->GetPointData();
+        ASSERT_EQ(data->GetNumberOfArrays(), 5);
+        for (const auto& [name, type] : {std::pair{"cell", "Int64"},
+                                         {"feature", "UInt8"},
+                                         {"vtkValidPointMask", "Int8"},
+                                         {"distance", "Float64"},
+                                         {"u <v>", "Float64"}}) {
+            ASSERT_NE(data->GetArray(name), nullptr) << name;
+            EXPECT_NE(get(folder / "p.vtu")
+                          .find("type=\"" + std::string(type) + "\" Name=\"" +
+                                (name[0] == 'u' ? "u &#60;v&#62;" : name) + "\""),
+                      std::string::npos)
+                << name;
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto row = static_cast<vtkIdType>(i);
+            EXPECT_EQ(grid->GetCellType(row), VTK_VERTEX);
+            for (int axis = 0; axis < 3; ++axis) {
+                const double expected =
+                    axis < dimension ? points[i * static_cast<std::size_t>(dimension) + static_cast<std::size_t>(axis)]
+                                     : 0;
+                EXPECT_EQ(grid->GetPoint(row)[axis], expected);
+            }
+            EXPECT_EQ(data->GetArray("cell")->GetTuple1(row), cells[i]);
+            EXPECT_EQ(data->GetArray("feature")->GetTuple1(row), static_cast<double>(features[i]));
+            EXPECT_EQ(data->GetArray("vtkValidPointMask")->GetTuple1(row), inside[i]);
+            EXPECT_EQ(data->GetArray("distance")->GetTuple1(row), distances[i]);
+        }
+        EXPECT_EQ(bits_of({data->GetArray("u <v>")->GetTuple(0), data->GetArray("u <v>")->GetTuple(0) + 2}),
+                  bits_of({1, 2}));
+        // The rest of the arrays is not there where there is nothing for it.
+        ASSERT_TRUE(write_vtk_points(folder / "q.vtu", {.dimension = dimension,
+                                                        .points = points,
+                                                        .cells = {},
+                                                        .features = {},
+                                                        .inside = {},
+                                                        .fields = {},
+                                                        .distances = {}}));
+        EXPECT_EQ(bits_of(read_vtk_points(folder / "q.vtu", dimension).value()), bits_of(points));
+        EXPECT_EQ(get(folder / "q.vtu").find("vtkValidPointMask"), std::string::npos);
+    }
+    const TemporaryFolder folder;
+    ASSERT_TRUE(write_vtk_points(folder / "none.vtu", {}));
+    EXPECT_TRUE(read_vtk_points(folder / "none.vtu", 3).value().empty());
+}
+
+TEST(VtkPoints, codes_of_features) {
+    EXPECT_EQ(static_cast<int>(Feature::interior), 0);
+    EXPECT_EQ(static_cast<int>(Feature::face), 1);
+    EXPECT_EQ(static_cast<int>(Feature::edge), 2);
+    EXPECT_EQ(static_cast<int>(Feature::vertex), 3);
+    EXPECT_EQ(static_cast<int>(Feature::outside), 4);
+    EXPECT_EQ(static_cast<int>(Feature::degenerate), 5);
+}
+
+TEST(VtkPoints, rows_that_do_not_fit) {
+    const std::vector<double> points{0, 0, 0, 1, 1, 1}, bad{0, 0, std::numeric_limits<double>::infinity()};
+    const std::vector<Mesh::Index> cells{1};
+    const auto refused = [&](const PointRows& rows, const std::string& what) {
+        const TemporaryFolder folder;
+        const Status status = write_vtk_points(folder / "p.vtu", rows);
+        ASSERT_FALSE(status) << what;
+        EXPECT_EQ(status.error().what, "cannot write the points: " + what);
+        EXPECT_EQ(status.error().file, folder / "p.vtu");
+        EXPECT_EQ(folder.file_count(), 0U);
+    };
+    PointRows rows;
+    rows.points = points;
+    const auto with = [&](auto change) {
+        PointRows other = rows;
+        change(other);
+        return other;
+    };
+    refused(with([](PointRows& r) { r.dimension = 1; }), "the dimension is neither 2 nor 3");
+    refused(with([](PointRows& r) { r.points = r.points.first(5); }), "the coordinates do not make whole points");
+    refused(with([&](PointRows& r) { r.points = bad; }), "a coordinate is not finite");
+    refused(with([&](PointRows& r) { r.cells = cells; }), "an array has not one row a point");
+    refused(with([&](PointRows& r) { r.distances = r.points.first(1); }), "an array has not one row a point");
+    refused(with([](PointRows& r) { r.fields = {{"f", 1, {1}}}; }), "an array has not one row a point");
+    refused(with([](PointRows& r) { r.fields = {{"f", 0, {}}}; }), "a field has no components");
+    refused(with([](PointRows& r) { r.fields = {{"", 1, {1, 2}}}; }), "a field has no name");
+    refused(with([](PointRows& r) { r.fields = {{"f", 1, {1, 2}}, {"f", 1, {1, 2}}}; }), "two fields are named 'f'");
+    refused(with([](PointRows& r) {
+                r.fields = {{"distance", 1, {1, 2}}};
+                r.distances = r.points.first(2);
+            }),
+            "two fields are named 'distance'");
+}
+
+TEST(VtkPoints, endings) {
+    const TemporaryFolder folder;
+    const Status status = write_vtk(mesh_of_data("plate"), folder / "m.ele");
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().expected, ".vtu or .vtk");
+    EXPECT_EQ(folder.file_count(), 0U);
+    for (const char* name : {"none/m.vtk", "none/m.vtu"}) {
+        const Status missing = write_vtk(mesh_of_data("plate"), folder / name);
+        ASSERT_FALSE(missing);
+        EXPECT_EQ(missing.error().found, "No such file or directory");
+    }
+}
+
+}  // namespace
+}  // namespace barycert::testing

@@ -1,0 +1,267 @@
+// E1: nothing is silent. Points outside, by every policy.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "barycert/base/text.hpp"
+#include "barycert/io.hpp"
+#include "barycert/oracle.hpp"
+#include "check/meshes.hpp"
+#include "locate/points.hpp"
+#include "sample/points/rows.hpp"
+
+namespace barycert::testing {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Mesh own(const std::string& stem) {
+    Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
+    Random random(1);
+    mesh.cell_fields = random_fields(mesh.cell_count(), {2}, false, random);
+    return mesh;
+}
+
+/// Some inside, some outside, none at the ends of the doubles.
+std::vector<double> points_around(const Mesh& mesh, Random& random) {
+    std::vector<double> points = awkward_points(mesh, 60, random);
+    for (double& x : points) x = std::abs(x) < 1e20 ? x : 7.3;
+    return points;
+}
+
+/// The value of the linear field at the orthogonal projection to what the nodes span.
+double true_projected(const Mesh& mesh, const Field& field, std::size_t c, const Nearest& nearest,
+                      const double* point) {
+    std::vector<Mesh::Index> nodes(nearest.nodes.begin(), nearest.nodes.end());
+    std::erase(nodes, -1);
+    const auto d = static_cast<std::size_t>(mesh.dimension), n = static_cast<std::size_t>(field.components);
+    const auto at = [&](Mesh::Index node) { return field.data[n * static_cast<std::size_t>(node) + c]; };
+    if (nodes.size() == 1) return std::isfinite(at(nodes[0])) ? at(nodes[0]) : std::nan("");
+    Case question{.simplex = nodes.size() == 3 ? Simplex::triangle3d : Simplex::segment};
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        for (std::size_t k = 0; k < d; ++k)
+            question.vertices[3 * i + k] = mesh.points[d * static_cast<std::size_t>(nodes[i]) + k];
+        question.values[i] = at(nodes[i]);
+        if (!std::isfinite(question.values[i])) return std::nan("");
+    }
+    for (std::size_t k = 0; k < d; ++k) question.point[k] = point[k];
+    return exact::ask(question).value;
+}
+
+void expect_outside(const Mesh& mesh, const std::vector<double>& points, const OutsidePolicy& policy,
+                    const std::string& what) {
+    const auto locator = Locator::build(mesh);
+    const auto sampler = Sampler::build(*locator, all_fields(mesh));
+    ASSERT_TRUE(sampler);
+    Samples samples;
+    SampleCounts counts;
+    ASSERT_TRUE(sampler->sample(points, {.outside = policy}, samples, counts)) << what;
+    expect_true_owners(mesh, points, samples, what);
+    expect_true_values(mesh, points, samples, what);
+    const std::size_t columns = sampler->columns().size(), rows = samples.cells.size();
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    ASSERT_EQ(samples.distances.size(), rows) << what;
+    double farthest = 0;
+    std::size_t with = 0, without = 0;
+    std::size_t told = 0;
+    for (std::size_t i = 0; i < rows; ++i) {
+        const double* const point = &points[d * i];
+        const std::string where = what + " at " + text_of(point, mesh.dimension);
+        if (samples.cells[i] >= 0) {
+            EXPECT_EQ(samples.distances[i], 0) << where;
+            continue;
+        }
+        const Nearest nearest = *locator->nearest(point, policy.limit);
+        const double* found = &samples.values[columns * i];
+        if (nearest.cell < 0) {
+            ++without;
+            for (std::size_t c = 0; c < columns; ++c) EXPECT_TRUE(std::isnan(found[c])) << where;
+            EXPECT_TRUE(std::isnan(samples.distances[i])) << where;
+            continue;
+        }
+        ++with;
+        EXPECT_EQ(samples.distances[i], nearest.distance) << where;
+        farthest = std::max(farthest, nearest.distance);
+        for (const FieldChoice& f : all_fields(mesh)) {
+            const auto n = static_cast<std::size_t>(f.field->components);
+            for (std::size_t c = 0; c < n; ++c, ++found) {
+                const double right = f.of_cells ? f.field->data[n * static_cast<std::size_t>(nearest.cell) + c]
+                                     : policy.kind == Outside::nearest
+                                         ? true_projected(mesh, *f.field, c, nearest, point)
+                                         : true_value(mesh, *f.field, c, nearest.cell, point);
+                if (same(*found, right) || told++ >= 3) continue;
+                ADD_FAILURE() << where << ": " << f.field->name << "." << c << " is " << hexadecimal(right)
+                              << ", found " << hexadecimal(*found);
+            }
+        }
+    }
+    const std::size_t inside = counts.locations.inside();
+    EXPECT_EQ(counts.locations.outside, with + without) << what;
+    EXPECT_EQ(policy.kind == Outside::nearest ? counts.snapped : counts.extrapolated, with) << what;
+    EXPECT_EQ(policy.kind == Outside::nearest ? counts.extrapolated : counts.snapped, 0U) << what;
+    EXPECT_EQ(counts.without_value, without) << what;
+    EXPECT_EQ(counts.farthest, farthest) << what;
+    EXPECT_EQ(counts.values.cases(), inside + with) << what << ": every point with a value counts for one tier";
+    EXPECT_GT(with, 0U) << what;
+}
+
+TEST(SampleOutside, E1_Nearest) {
+    for (const char* stem : {"cube-hole", "bracket", "plate"}) {
+        Random random(hash64(stem));
+        const Mesh mesh = own(stem);
+        expect_outside(mesh, points_around(mesh, random), {.kind = Outside::nearest}, stem);
+    }
+}
+
+TEST(SampleOutside, E1_NearestWithinALimit) {
+    for (const char* stem : {"cube-hole", "plate"}) {
+        Random random(hash64(stem));
+        const Mesh mesh = own(stem);
+        expect_outside(mesh, points_around(mesh, random), {.kind = Outside::nearest, .limit = 0.1}, stem);
+    }
+}
+
+TEST(SampleOutside, E1_Extrapolate) {
+    for (const char* stem : {"cube-hole", "cube-hole-o2", "bracket", "plate"}) {
+        Random random(hash64(stem));
+        const Mesh mesh = own(stem);
+        expect_outside(mesh, points_around(mesh, random), {.kind = Outside::extrapolate}, stem);
+    }
+}
+
+// The limit is one of `nearest`.
+TEST(SampleOutside, E1_ExtrapolationKnowsNoLimit) {
+    const Mesh mesh = own("plate");
+    const auto locator = Locator::build(mesh);
+    const auto sampler = Sampler::build(*locator, all_fields(mesh));
+    const std::vector<double> point{1000, 1000};
+    Samples samples;
+    SampleCounts counts;
+    ASSERT_TRUE(sampler->sample(point, {.outside = {.kind = Outside::extrapolate, .limit = 0.1}}, samples, counts));
+    EXPECT_EQ(counts.extrapolated, 1U);
+    EXPECT_FALSE(std::isnan(samples.values[0]));
+}
+
+// A nodal value that is not finite makes its component NaN and is counted, at the nearest node, too.
+TEST(SampleOutside, E1_NearestValuesThatAreNotFinite) {
+    Mesh mesh = box(3, {1, 1, 1});
+    mesh.point_fields = {{"f", 2, std::vector<double>(16, 1.0)}};
+    mesh.point_fields[0].data[0] = infinity;
+    const auto locator = Locator::build(mesh);
+    const auto sampler = Sampler::build(*locator, all_fields(mesh));
+    const std::vector<double> points{-1, -1, -1, -1, -1, 0.25, -1, 0.25, 0.125, 0.5, 0.25, 0.125};
+    Samples samples;
+    SampleCounts counts;
+    ASSERT_TRUE(sampler->sample(points, {.outside = {.kind = Outside::nearest}}, samples, counts));
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_TRUE(std::isnan(samples.values[2 * i])) << "point " << i << ": " << samples.values[2 * i];
+        EXPECT_EQ(samples.values[2 * i + 1], 1) << "point " << i;
+    }
+    EXPECT_EQ(counts.values.not_finite, 4U);
+}
+
+// The nearest vertex gives the value that a point on it has.
+TEST(SampleOutside, E1_NearestVertexIsAsThePointOnIt) {
+    Random random(3);
+    Mesh mesh = box(2, {1, 1, 1});
+    mesh.point_fields = {{"f", 5, {}}};
+    mesh.point_fields[0].data.assign(20, -0.0);
+    for (std::size_t i = 1; i < 5; ++i) mesh.point_fields[0].data[i] = random.uniform(-1, 1);
+    const auto locator = Locator::build(mesh);
+    const auto sampler = Sampler::build(*locator, all_fields(mesh));
+    Samples samples;
+    SampleCounts counts;
+    ASSERT_TRUE(
+        sampler->sample(std::vector<double>{0, 0, -1, -2}, {.outside = {.kind = Outside::nearest}}, samples, counts));
+    for (std::size_t c = 0; c < 5; ++c)
+        EXPECT_TRUE(same(samples.values[c], samples.values[5 + c]))
+            << c << ": " << samples.values[c] << " and " << samples.values[5 + c];
+}
+
+// Second order: the projection is rounded, so the value is near that of the quadratic there.
+TEST(SampleOutside, E1_NearestOnSecondOrderCells) {
+    Random random(2);
+    const Mesh mesh = own("cube-hole-o2");
+    const auto locator = Locator::build(mesh);
+    const auto sampler = Sampler::build(*locator, {{&mesh.point_fields[0], false}});
+    const std::vector<double> points = points_around(mesh, random);
+    Samples samples;
+    SampleCounts counts;
+    ASSERT_TRUE(sampler->sample(points, {.outside = {.kind = Outside::nearest}}, samples, counts));
+    std::size_t checked = 0;
+    for (std::size_t i = 0; i < samples.cells.size(); ++i) {
+        const double* const p = &points[3 * i];
+        if (samples.cells[i] >= 0) continue;
+        // attribute0 is linear, so the linear interpolation of its corners is it, up to its own rounding.
+        const double right = true_projected(mesh, mesh.point_fields[0], 0, *locator->nearest(p, infinity), p);
+        ASSERT_NEAR(samples.values[i], right, 0x1p-45) << text_of(p, 3);
+        ++checked;
+    }
+    EXPECT_GT(checked, 20U);
+    EXPECT_EQ(counts.snapped, checked);
+}
+
+TEST(SampleOutside, E1_NanAndFill) {
+    Random random(4);
+    const Mesh mesh = own("bracket");
+    const std::vector<double> points = points_around(mesh, random);
+    const auto locator = Locator::build(mesh);
+    const auto sampler = Sampler::build(*locator, all_fields(mesh));
+    const std::size_t columns = sampler->columns().size();
+    for (const OutsidePolicy& policy :
+         {OutsidePolicy{}, OutsidePolicy{.kind = Outside::fill, .fill = -7}, OutsidePolicy{.kind = Outside::fill}}) {
+        Samples samples;
+        SampleCounts counts;
+        ASSERT_TRUE(sampler->sample(points, {.outside = policy}, samples, counts));
+        expect_true_values(mesh, points, samples, "bracket");
+        for (std::size_t i = 0; i < samples.cells.size(); ++i) {
+            for (std::size_t c = 0; c < columns && samples.cells[i] < 0; ++c) {
+                ASSERT_TRUE(
+                    same(samples.values[columns * i + c], policy.kind == Outside::fill ? policy.fill : std::nan("")));
+            }
+        }
+        EXPECT_EQ(counts.without_value, counts.locations.outside);
+        EXPECT_EQ(counts.snapped + counts.extrapolated, 0U);
+        EXPECT_EQ(counts.farthest, 0);
+        EXPECT_TRUE(samples.distances.empty());
+    }
+}
+
+// The first one in the caller's order, counted from where the caller says, whatever the order they were found in.
+TEST(SampleOutside, E1_ErrorNamesTheFirst) {
+    Random random(5);
+    const Mesh mesh = own("cube-hole");
+    const auto locator = Locator::build(mesh, quick(mesh).certificate);
+    const auto sampler = Sampler::build(*locator, all_fields(mesh));
+    const SampleOptions options{.outside = {.kind = Outside::error}, .threads = 2};
+    Samples samples;
+    SampleCounts counts;
+    std::vector<double> points;
+    for (int i = 0; i < 30000; ++i) {
+        const double* const node = &mesh.points[3 * random.below(mesh.point_count())];
+        points.insert(points.end(), node, node + 3);
+    }
+    ASSERT_TRUE(sampler->sample(points, options, samples, counts));
+    EXPECT_EQ(counts.without_value, 0U);
+    const std::uint64_t before = counts.locations.points();
+    for (const std::size_t bad : {29000U, 20011U, 777U, 776U, 0U}) {
+        points[3 * bad] = -0.25;
+        const Status status = sampler->sample(points, options, samples, counts, 1000000);
+        ASSERT_FALSE(status);
+        EXPECT_NE(status.error().message().find("point " + std::to_string(1000000 + bad) + " "), std::string::npos)
+            << status.error().message();
+        std::vector<Mesh::Index> cells(30000);
+        std::vector<Feature> features(30000);
+        ASSERT_TRUE(locator->locate(points, cells, features));
+        const Status later = sampler->evaluate(points, cells, features, options, samples, counts, 500);
+        ASSERT_FALSE(later);
+        EXPECT_NE(later.error().message().find("point " + std::to_string(500 + bad) + " "), std::string::npos)
+            << later.error().message();
+    }
+    EXPECT_EQ(counts.locations.points(), before) << "calls that fail add nothing";
+}
+
+}  // namespace
+}  // namespace barycert::testing

@@ -1,0 +1,121 @@
+#include "sample/points/rows.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "barycert/base/text.hpp"
+#include "barycert/oracle.hpp"
+#include "locate/judge.hpp"
+#include "locate/points.hpp"
+
+namespace barycert::testing {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+bool same(double x, double y) {
+    return (std::isnan(x) && std::isnan(y)) || std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+}
+
+bool same(const Samples& a, const Samples& b) {
+    const auto all = [](const std::vector<double>& x, const std::vector<double>& y) {
+        bool equal = x.size() == y.size();
+        for (std::size_t i = 0; equal && i < x.size(); ++i) equal = same(x[i], y[i]);
+        return equal;
+    };
+    return a.cells == b.cells && a.features == b.features && all(a.values, b.values) && all(a.distances, b.distances);
+}
+
+double true_value(const Mesh& mesh, const Field& field, std::size_t c, Mesh::Index cell, const double* point) {
+    Case question = case_of(mesh, cell, point);
+    const auto components = static_cast<std::size_t>(field.components), k = static_cast<std::size_t>(cell);
+    const auto at = [&](Mesh::Index node) { return field.data[components * static_cast<std::size_t>(node) + c]; };
+    bool finite = true;
+    for (std::size_t i = 0; i < mesh.corners(); ++i) {
+        question.values[i] = at(mesh.cells[mesh.corners() * k + i]);
+        finite &= std::isfinite(question.values[i]);
+    }
+    const std::size_t edges = mesh.dimension == 2 ? 3 : 6;
+    std::vector<double> mids;
+    for (std::size_t e = 0; !mesh.mid_nodes.empty() && e < edges; ++e) {
+        mids.push_back(at(mesh.mid_nodes[edges * k + e]));
+        finite &= std::isfinite(mids.back());
+    }
+    if (!finite) return nan;
+    return mids.empty() ? exact::ask(question).value : exact::quadratic_value(question, mids);
+}
+
+std::vector<Field> random_fields(std::size_t entities, const std::vector<int>& components, bool awkward,
+                                 Random& random) {
+    std::vector<Field> fields;
+    static constexpr std::array<double, 9> some{
+        0.0, -0.0, 5e-324, -1e-310, 1.7976931348623157e308, -1.7976931348623157e308, 1.0, -1.0, 1e-300};
+    for (const int n : components) {
+        Field field{"f" + std::to_string(fields.size()), n, {}};
+        for (std::size_t i = 0; i < entities * static_cast<std::size_t>(n); ++i) {
+            const bool special = awkward && random.coin();
+            field.data.push_back(special ? some[random.below(some.size())] : random.uniform(-3, 5));
+        }
+        fields.push_back(field);
+    }
+    return fields;
+}
+
+std::vector<FieldChoice> all_fields(const Mesh& mesh) {
+    std::vector<FieldChoice> all;
+    for (const Field& f : mesh.point_fields) all.push_back({&f, false});
+    for (const Field& f : mesh.cell_fields) all.push_back({&f, true});
+    return all;
+}
+
+std::size_t expect_true_values(const Mesh& mesh, const std::vector<double>& points, const Samples& samples,
+                               const std::string& what) {
+    std::size_t columns = 0, inside = 0, told = 0;
+    for (const FieldChoice& f : all_fields(mesh)) columns += static_cast<std::size_t>(f.field->components);
+    const std::size_t rows = points.size() / static_cast<std::size_t>(mesh.dimension);
+    if (samples.values.size() != columns * rows || samples.cells.size() != rows) {
+        ADD_FAILURE() << what << ": " << samples.values.size() << " values in " << samples.cells.size() << " rows";
+        return 0;
+    }
+    for (std::size_t i = 0; i < rows; ++i) {
+        const Mesh::Index cell = samples.cells[i];
+        if (cell < 0) continue;
+        ++inside;
+        const double* found = samples.values.data() + columns * i;
+        const double* const point = points.data() + i * static_cast<std::size_t>(mesh.dimension);
+        for (const FieldChoice& f : all_fields(mesh)) {
+            const auto n = static_cast<std::size_t>(f.field->components);
+            for (std::size_t c = 0; c < n; ++c, ++found) {
+                const double right = f.of_cells ? f.field->data[n * static_cast<std::size_t>(cell) + c]
+                                                : true_value(mesh, *f.field, c, cell, point);
+                if (same(*found, right) || told++ >= 3) continue;
+                ADD_FAILURE() << what << ": " << f.field->name << "." << c << " at " << text_of(point, mesh.dimension)
+                              << " in cell " << cell << " is " << hexadecimal(right) << ", found "
+                              << hexadecimal(*found);
+            }
+        }
+    }
+    return inside;
+}
+
+void expect_true_owners(const Mesh& mesh, const std::vector<double>& points, const Samples& samples,
+                        const std::string& what) {
+    const PointJudge judge(mesh);
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    ASSERT_EQ(samples.features.size(), points.size() / d) << what;
+    for (std::size_t i = 0; i < samples.cells.size(); ++i) {
+        const std::vector<Held> all = judge.holders(&points[d * i]);
+        const Held owner = all.empty() ? Held{} : all.front();
+        ASSERT_EQ(samples.cells[i], owner.cell) << what << text_of(&points[d * i], mesh.dimension);
+        ASSERT_EQ(samples.features[i], owner.feature) << what << text_of(&points[d * i], mesh.dimension);
+    }
+}
+
+}  // namespace barycert::testing
