@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "audit_inputs.hpp"
 #include "barycert/audit.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/base/text.hpp"

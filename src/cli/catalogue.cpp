@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"
 #include "command.hpp"
 #include "files.hpp"

@@ -1,18 +1,14 @@
-/// What the subcommands share: registration, exit codes, meshes, output.
+/// What the subcommands share: registration, exit codes, the mesh, stderr.
 #pragma once
 
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "barycert/audit.hpp"
 #include "barycert/io.hpp"
-#include "barycert/kernels.hpp"
 #include "barycert/result.hpp"
 
 namespace CLI {
 class App;
-class Validator;
 }  // namespace CLI
 
 namespace barycert::cli {
@@ -41,21 +37,6 @@ int fail(const Error& error);
 
 /// One mesh, TetGen's or VTK's; the error of one that is not there has a hint at what was meant.
 Result<Mesh> load_mesh(const std::string& path, const ReadOptions& options);
-
-/// The meshes of barycert's own data folder.
-Result<std::vector<std::string>> own_meshes();
-
-/// The meshes named by the user, or barycert's own if none is.
-/// `certify`: check each (see check.hpp), so that its certificate is known.
-Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths, bool certify);
-
-/// Catalogue entries that match any of the globs ("*" if there are none), then the kernels of the libraries.
-Result<std::vector<Kernel>> select_kernels(const std::vector<std::string>& globs,
-                                           const std::vector<std::string>& libraries);
-Result<std::vector<audit::Family>> select_families(const std::vector<std::string>& globs);
-
-/// Refuses "-1" and 2^64 where a seed or the number of a case is due: the parser would take both for 2^64 - 1.
-CLI::Validator whole_number();
 
 /// True if text for people on that stream may be coloured: a terminal, and NO_COLOR is not set.
 bool colour_on_stdout();

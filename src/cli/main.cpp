@@ -38,12 +38,16 @@ int main(int argc, char** argv) {
                "; `barycert --help` and `barycert SUBCOMMAND --help` list what there is\n";
     });
     int exit_code = cli::exit_clean;
+#ifdef BARYCERT_WITH_AUDIT
     cli::add_audit(app, exit_code);
+#endif
     cli::add_check(app, exit_code);
     cli::add_sample(app, exit_code);
     cli::add_resample(app, exit_code);
+#ifdef BARYCERT_WITH_AUDIT
     cli::add_replay(app, exit_code);
     cli::add_catalogue(app, exit_code);
+#endif
     app.add_subcommand("mesh", "Mesh a PLC (.poly .smesh .off .stl .ply) with TetGen: runs barycert-tetgen");
     const auto named_first = [&](const CLI::App* sub) { return sub->get_name() == first; };
     if (!first.empty() && first.front() != '-' && app.get_subcommands(named_first).empty()) {

@@ -1,26 +1,19 @@
-// Selection and loading: meshes, kernels, families; and what is said on stderr.
+// What an audit is made of: meshes, kernels and families, by the words of the user.
+
+#include "audit_inputs.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/check.hpp"
-#include "barycert/io/vtk/vtk_missing.hpp"
 #include "command.hpp"
-#include "files.hpp"
-
-#ifdef BARYCERT_WITH_VTK
-#include "barycert/vtk.hpp"
-#endif
 
 namespace barycert::cli {
 namespace {
@@ -58,33 +51,7 @@ Result<std::vector<Item>> select(const std::vector<std::string>& globs, All all,
     return chosen;
 }
 
-/// A mesh that is not there is often a PLC, a folder or a mistyped stem.
-Error with_hint(Error error, const fs::path& path) {
-    std::error_code ignored;
-    const std::string extension = path.extension().string();
-    constexpr std::array plc{".poly", ".smesh", ".off", ".stl", ".ply"};
-    if (std::find(plc.begin(), plc.end(), extension) != plc.end()) {
-        error.remedy = "this is a PLC, not a mesh: mesh it first with `barycert mesh " + path.string() + "`";
-    } else if (!fs::exists(path, ignored) && !fs::exists(path.string() + ".node", ignored)) {
-        error.remedy = "MESH is the stem of TetGen's files, or one of them: part.1 for part.1.node and part.1.ele";
-    } else if (fs::is_directory(path, ignored) && !fs::exists(path.string() + ".node", ignored)) {
-        error.remedy = "this is a folder: name the stem of TetGen's files in it";
-    }
-    return error;
-}
-
 }  // namespace
-
-void tell(std::string_view text) {
-    std::fwrite(text.data(), 1, text.size(), stderr);
-    std::fflush(stderr);
-}
-
-int fail(const Error& error) {
-    std::fflush(stdout);
-    tell(fmt::format("error: {}\n", error.message()));
-    return exit_error;
-}
 
 Result<std::vector<std::string>> own_meshes() {
     const fs::path folder = data_folder();
@@ -100,19 +67,6 @@ Result<std::vector<std::string>> own_meshes() {
     }
     std::sort(paths.begin(), paths.end());
     return paths;
-}
-
-Result<Mesh> load_mesh(const std::string& path, const ReadOptions& options) {
-    if (is_vtk_file(path)) {
-#ifdef BARYCERT_WITH_VTK
-        return read_vtk(path);
-#else
-        return vtk_missing(path);
-#endif
-    }
-    Result<Mesh> mesh = read_tetgen(path, options);
-    if (!mesh) return with_hint(mesh.error(), path);
-    return mesh;
 }
 
 Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths, bool certify) {
@@ -173,20 +127,6 @@ CLI::Validator whole_number() {
                            : fmt::format("expected a whole number from 0 to 2^64 - 1, found \"{}\"", text);
             },
             ""};
-}
-
-std::string command_name() {
-    const char* wrapper = std::getenv("BARYCERT_COMMAND");
-    return wrapper == nullptr || *wrapper == '\0' ? "barycert" : printable(wrapper);
-}
-
-bool colour_on_stdout() {
-    const char* no_colour = std::getenv("NO_COLOR");
-    return isatty(STDOUT_FILENO) == 1 && (no_colour == nullptr || *no_colour == '\0');
-}
-
-bool stderr_is_terminal() {
-    return isatty(STDERR_FILENO) == 1;
 }
 
 }  // namespace barycert::cli

@@ -1,0 +1,32 @@
+/// What an audit is made of: meshes, kernels and families, by the words of the user.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "barycert/audit.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/result.hpp"
+
+namespace CLI {
+class Validator;
+}  // namespace CLI
+
+namespace barycert::cli {
+
+/// The meshes of barycert's own data folder.
+Result<std::vector<std::string>> own_meshes();
+
+/// The meshes named by the user, or barycert's own if none is.
+/// `certify`: check each (see check.hpp), so that its certificate is known.
+Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths, bool certify);
+
+/// Catalogue entries that match any of the globs ("*" if there are none), then the kernels of the libraries.
+Result<std::vector<Kernel>> select_kernels(const std::vector<std::string>& globs,
+                                           const std::vector<std::string>& libraries);
+Result<std::vector<audit::Family>> select_families(const std::vector<std::string>& globs);
+
+/// Refuses "-1" and 2^64 where a seed or the number of a case is due: the parser would take both for 2^64 - 1.
+CLI::Validator whole_number();
+
+}  // namespace barycert::cli
