@@ -16,10 +16,10 @@
 ///   G1  A gradient's component is the exact one rounded to nearest, ties to even.        gradient.hpp
 ///   D1  Results depend on the input bits alone: not on threads, SIMD target, compiler,
 ///       optimisation, or the order of cases.
+///   D2  Nor do they depend on the floating-point environment of the caller: rounding mode, flush-to-zero,
+///       denormals-are-zero. Every call sets what it needs and puts back what was there       environment.hpp
 ///   Z   A weight, value, gradient, parameter or coordinate that is exactly zero is +0, whatever zeros it was made of.
 ///       One that is not zero but rounds to it is the zero with its sign.                                 all headers
-///   D2  Nor do they depend on the floating-point environment of the caller: rounding mode, flush-to-zero,
-///       denormals-are-zero. Every call sets what it needs and puts back what was there       exact_environment.hpp
 ///   A degenerate simplex is told, never weighed. NaN or infinity is an Error, never a sign.
 ///
 /// What is not promised:
@@ -42,12 +42,8 @@
 #include "barycert/batch.hpp"        // IWYU pragma: export
 #include "barycert/condition.hpp"    // IWYU pragma: export
 #include "barycert/environment.hpp"  // IWYU pragma: export
-#include "barycert/environment.hpp"  // IWYU pragma: export
-#include "barycert/environment.hpp"  // IWYU pragma: export
 #include "barycert/gradient.hpp"     // IWYU pragma: export
 #include "barycert/inverse.hpp"      // IWYU pragma: export
-#include "barycert/predicates.hpp"   // IWYU pragma: export
-#include "barycert/predicates.hpp"   // IWYU pragma: export
 #include "barycert/predicates.hpp"   // IWYU pragma: export
 #include "barycert/quadratic.hpp"    // IWYU pragma: export
 #include "barycert/result.hpp"       // IWYU pragma: export

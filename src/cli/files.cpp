@@ -41,6 +41,7 @@ Status check_writable(const std::string& path) {
 
 std::vector<NamedFile> named(const std::string& what, std::vector<std::string> paths) {
     std::vector<NamedFile> files;
+    files.reserve(paths.size());
     for (std::string& path : paths) files.push_back({what, std::move(path)});
     return files;
 }

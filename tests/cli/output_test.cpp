@@ -133,6 +133,18 @@ TEST(output, a_file_that_may_not_grow_leaves_the_old_one) {
     EXPECT_EQ(scratch.names(), Words{"r.json"});
 }
 
+#ifdef BARYCERT_TETGEN_PROGRAM
+TEST(output, a_mesh_that_may_not_grow_is_no_crash_of_the_mesher) {
+    const Scratch scratch;
+    const Ended r = run({std::string(BARYCERT_DATA_DIR) + "/plc/cube-hole.poly", "--output", scratch.path("m")},
+                        {.largest_file = 600, .program = BARYCERT_TETGEN_PROGRAM});
+    EXPECT_EQ(r.code, 2) << "signal " << r.signal;
+    EXPECT_TRUE(contains(r.err, "cannot write the file: found File too large")) << r.err;
+    EXPECT_FALSE(contains(r.err, "crashed")) << r.err;
+    EXPECT_EQ(scratch.names(), Words{});
+}
+#endif
+
 TEST(output, closed_streams_are_no_crash) {
     const Words small{"audit", "--count", "5", "--kernel", "segment.*"};
     expect_told_before_the_work({}, "cannot write to stdout", {.close_stdout = true});
