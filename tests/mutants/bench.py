@@ -11,7 +11,7 @@ TARGETS = {"fma": "-march=haswell -maes -DHWY_COMPILE_ONLY_STATIC".split(), "spl
 TARGET_CHECK = {"fma": "HWY_NATIVE_FMA == 1 && HWY_TARGET == HWY_AVX2", "split": "HWY_NATIVE_FMA == 0"}
 PREPARE_LIBRARIES = "-lhwy -ltbb -lfmt -lmpfr -lgmpxx -lgmp -ldl -pthread".split()
 
-SOURCES = ["exact_environment.cpp", "quotient.cpp", "exact_weights.cpp", "lanes.cpp", "predicates.cpp", "weights.cpp", "inverse.cpp"]
+SOURCES = ["quotient.cpp", "exact_weights.cpp", "lanes.cpp", "predicates.cpp", "weights.cpp", "inverse.cpp"]
 # Which sources to compile anew. The integers' inline functions are called from these two alone.
 INTEGERS = ["exact_weights.cpp", "quotient.cpp"]
 USERS = {
@@ -45,7 +45,8 @@ class Bench:
     def ahead(self, target):
         place = self.scratch / f"ahead.{target}"
         place.mkdir()
-        text = "#pragma once\n" + "".join(f"#include <{h}>\n" for h in HEADERS)
+        # The list of targets goes before any header of Highway's.
+        text = '#pragma once\n#include "barycert/core/simd_targets.hpp"\n' + "".join(f"#include <{h}>\n" for h in HEADERS)
         (place / "ahead.hpp").write_text(text)
         if target in TARGETS:
             (place / "target.cpp").write_text(f"#include <hwy/highway.h>\nstatic_assert({TARGET_CHECK[target]});\n")
@@ -54,13 +55,13 @@ class Bench:
                 return known
         else:
             (place / "ahead.hpp").write_text(text + "#include <hwy/highway.h>\n")
-        return run("g++", *FLAGS, *TARGETS.get(target, []), "-x", "c++-header", place / "ahead.hpp", "-o",
+        return run("g++", *FLAGS, *TARGETS.get(target, []), "-I", self.root / "src", "-x", "c++-header", place / "ahead.hpp", "-o",
                    place / "ahead.hpp.gch")
 
     def compile(self, include, source, target, out):
         target = target if source == "lanes.cpp" else "plain"
         return run("g++", *FLAGS, *TARGETS.get(target, []), "-include", self.scratch / f"ahead.{target}/ahead.hpp",
-                   "-I", include, "-c", include / "barycert/core" / source, "-o", out)
+                   "-I", include, "-I", self.root / "src", "-c", include / "barycert/core" / source, "-o", out)
 
     def link(self, objects, out):
         return run("g++", self.scratch / "killer.o", *objects, self.build / "src/libbarycert.a", "-lhwy", "-pthread",
