@@ -59,7 +59,7 @@ struct Location {
 /// How points were found to lie. Batch functions add to what is there, unless they fail.
 struct LocationCounts {
     std::uint64_t interior = 0, face = 0, edge = 0, vertex = 0, outside = 0;
-    Tiers tests;  ///< of points against cells, where something was decided
+    TierCounts tests;  ///< of points against cells, where something was decided
 
     std::uint64_t points() const { return interior + face + edge + vertex + outside; }
     std::uint64_t inside() const { return points() - outside; }

@@ -60,7 +60,7 @@ struct SampleOptions {
 /// Functions add to what is there, unless they fail.
 struct SampleCounts {
     LocationCounts locations;
-    Tiers values;               ///< of points with point fields, by the highest tier that one of their values needed
+    TierCounts values;          ///< of points with point fields, by the highest tier that one of their values needed
     std::uint64_t snapped = 0;  ///< points outside that got the value of the nearest point
     std::uint64_t extrapolated = 0;
     std::uint64_t without_value = 0;  ///< points outside that got NaN, or the number to fill in

@@ -215,7 +215,7 @@ bool lies_in(int d, const Corners& cell, const double* point, bool inside) {
     for (int i = 0; i <= d; ++i) {
         for (int k = 0; k < d; ++k) vertices[i * d + k] = cell[static_cast<std::size_t>(i)][k];
     }
-    const auto signs = weight_signs(s, vertices, point);
+    const auto signs = checked_weight_signs(s, vertices, point);
     return signs && (inside ? signs->feature(s) == Feature::interior : signs->contains());
 }
 

@@ -127,7 +127,7 @@ Result<Gradient> gradient(Simplex simplex, const double* vertices, const double*
 }
 
 Status gradients(Simplex simplex, std::span<const double> nodes, std::span<const std::int32_t> corners,
-                 const NodalValues<double>& values, std::span<double> out, Tiers* tiers) {
+                 const NodalValues<double>& values, std::span<double> out, TierCounts* tiers) {
     const ExactEnvironment environment;
     if (Status sizes = check_cells(simplex, corners.size(), values.components, out.size()); !sizes) return sizes;
     const auto n = static_cast<std::size_t>(vertex_count(simplex)),
@@ -135,7 +135,7 @@ Status gradients(Simplex simplex, std::span<const double> nodes, std::span<const
     const std::size_t cells = corners.size() / n, a_cell = d * static_cast<std::size_t>(values.components);
     CellBlocks blocks(simplex, nodes, corners, values);
     std::array<std::uint32_t, block_size> undecided;
-    Tiers counts;
+    TierCounts counts;
     for (std::size_t first = 0; first < cells; first += block_size) {
         const std::size_t count = std::min(block_size, cells - first);
         blocks.gather(first, count);

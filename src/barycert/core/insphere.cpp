@@ -60,16 +60,28 @@ int filtered(const double* const (&points)[vertex_count(s) + 1], double factor) 
 
 }  // namespace
 
-Result<Sign> incircle(const double* a, const double* b, const double* c, const double* d) {
+Sign incircle(const double* a, const double* b, const double* c, const double* d) noexcept {
     const int sign = filtered<Simplex::triangle>({a, b, c, d}, 67.5);
-    if (sign != 0) return as_sign(sign);
+    if (sign != 0) return static_cast<Sign>(sign);
     return exact_sign(std::array{a, b, c, d}, 2, [=] { return exact_incircle(a, b, c, d); });
 }
 
-Result<Sign> insphere(const double* a, const double* b, const double* c, const double* d, const double* e) {
+Sign insphere(const double* a, const double* b, const double* c, const double* d, const double* e) noexcept {
     const int sign = filtered<Simplex::tetrahedron>({a, b, c, d, e}, 392);
-    if (sign != 0) return as_sign(sign);
+    if (sign != 0) return static_cast<Sign>(sign);
     return exact_sign(std::array{a, b, c, d, e}, 3, [=] { return exact_insphere(a, b, c, d, e); });
+}
+
+Result<Sign> checked_incircle(const double* a, const double* b, const double* c, const double* d) {
+    const int sign = filtered<Simplex::triangle>({a, b, c, d}, 67.5);
+    if (sign != 0) return static_cast<Sign>(sign);
+    return checked_exact_sign(std::array{a, b, c, d}, 2, [=] { return exact_incircle(a, b, c, d); });
+}
+
+Result<Sign> checked_insphere(const double* a, const double* b, const double* c, const double* d, const double* e) {
+    const int sign = filtered<Simplex::tetrahedron>({a, b, c, d, e}, 392);
+    if (sign != 0) return static_cast<Sign>(sign);
+    return checked_exact_sign(std::array{a, b, c, d, e}, 3, [=] { return exact_insphere(a, b, c, d, e); });
 }
 
 }  // namespace barycert

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "barycert/core/blocks.hpp"
@@ -25,11 +26,11 @@ WeightSigns exact_signs(Simplex s, const double* vertices, const double* point) 
 }
 
 template <class Batch>
-Status batch_signs(const Batch& batch, std::span<WeightSigns> out, Tiers* tiers) {
+Status batch_signs(const Batch& batch, std::span<WeightSigns> out, TierCounts* tiers) {
     const ExactEnvironment environment;  // for the tiers: signs are the same without
     const Simplex s = batch.simplex;
     if (Status sizes = check_sizes(batch, out.size(), 1); !sizes) return sizes;
-    Tiers counts;
+    TierCounts counts;
     Status status = for_blocks(
         batch,
         [&](std::size_t first, const lanes::Cases& block, std::uint32_t* undecided) {
@@ -77,51 +78,94 @@ bool in_range(double extent) {
     return 0;
 }
 
-}  // namespace
-
-Result<Sign> orient2d(const double* a, const double* b, const double* c) {
+/// Sign of det(b - a, c - a) likewise.
+[[gnu::always_inline]] inline int filtered_orient2d(const double* a, const double* b, const double* c) {
     const double ux = b[0] - a[0], uy = b[1] - a[1], vx = c[0] - a[0], vy = c[1] - a[1];
     const double x = std::max(std::fabs(ux), std::fabs(vx)), y = std::max(std::fabs(uy), std::fabs(vy));
     const double det = ux * vy - uy * vx;
-    if (in_range(x) && in_range(y) && std::fabs(det) > 8.5 * epsilon * (x * y)) return as_sign(det < 0 ? -1 : 1);
-    return exact_sign(std::array{a, b, c}, 2, [=] { return exact_orient2d(a, b, c); });
+    if (in_range(x) && in_range(y) && std::fabs(det) > 8.5 * epsilon * (x * y)) return det < 0 ? -1 : 1;
+    return 0;
 }
 
-Result<Sign> orient3d(const double* a, const double* b, const double* c, const double* d) {
-    const int sign = filtered_det3d({a, b, a, c, a, d});
-    if (sign != 0) return as_sign(sign);
-    return exact_sign(std::array{a, b, c, d}, 3, [=] { return exact_orient3d(a, b, c, d); });
-}
-
-Result<Sign> det3d(const double* p, const double* q, const double* r, const double* s, const double* t,
-                   const double* u) {
-    const int sign = filtered_det3d({p, q, r, s, t, u});
-    if (sign != 0) return as_sign(sign);
-    return exact_sign(std::array{p, q, r, s, t, u}, 3, [=] { return exact_det3d(p, q, r, s, t, u); });
-}
-
-Result<WeightSigns> weight_signs(Simplex simplex, const double* vertices, const double* point, Tiers* tiers) {
-    const ExactEnvironment environment;  // for the tier
-    WeightSigns out;
+/// The signs, if the filter proves them; where it does not, the coordinates may not be finite.
+bool filtered_signs(Simplex simplex, const double* vertices, const double* point, WeightSigns& out, TierCounts* tiers) {
     std::uint32_t undecided[1];
-    Tier tier = Tier::filter;
-    if (lanes::signs(simplex, as_block(simplex, vertices, point), &out, undecided) != 0) {
-        if (!all_finite(simplex, vertices, point)) return not_finite_error(simplex, vertices, point);
-        out = exact_signs(simplex, vertices, point);
-        tier = Tier::exact;
-    }
+    if (lanes::signs(simplex, as_block(simplex, vertices, point), &out, undecided) != 0) return false;
+    if (tiers != nullptr) tiers->add(Tier::filter);
+    return true;
+}
+
+WeightSigns counted_exact_signs(Simplex simplex, const double* vertices, const double* point, TierCounts* tiers) {
+    const WeightSigns out = exact_signs(simplex, vertices, point);
     if (tiers != nullptr) {
-        tiers->add(tier);
+        tiers->add(Tier::exact);
         tiers->degenerate += out.degenerate() ? 1 : 0;
     }
     return out;
 }
 
-Status weight_signs(const CaseArrays& cases, std::span<WeightSigns> out, Tiers* tiers) {
+}  // namespace
+
+Sign orient2d(const double* a, const double* b, const double* c) noexcept {
+    const int sign = filtered_orient2d(a, b, c);
+    if (sign != 0) return static_cast<Sign>(sign);
+    return exact_sign(std::array{a, b, c}, 2, [=] { return exact_orient2d(a, b, c); });
+}
+
+Sign orient3d(const double* a, const double* b, const double* c, const double* d) noexcept {
+    const int sign = filtered_det3d({a, b, a, c, a, d});
+    if (sign != 0) return static_cast<Sign>(sign);
+    return exact_sign(std::array{a, b, c, d}, 3, [=] { return exact_orient3d(a, b, c, d); });
+}
+
+Sign det3d(const double* p, const double* q, const double* r, const double* s, const double* t,
+           const double* u) noexcept {
+    const int sign = filtered_det3d({p, q, r, s, t, u});
+    if (sign != 0) return static_cast<Sign>(sign);
+    return exact_sign(std::array{p, q, r, s, t, u}, 3, [=] { return exact_det3d(p, q, r, s, t, u); });
+}
+
+Result<Sign> checked_orient2d(const double* a, const double* b, const double* c) {
+    const int sign = filtered_orient2d(a, b, c);
+    if (sign != 0) return static_cast<Sign>(sign);
+    return checked_exact_sign(std::array{a, b, c}, 2, [=] { return exact_orient2d(a, b, c); });
+}
+
+Result<Sign> checked_orient3d(const double* a, const double* b, const double* c, const double* d) {
+    const int sign = filtered_det3d({a, b, a, c, a, d});
+    if (sign != 0) return static_cast<Sign>(sign);
+    return checked_exact_sign(std::array{a, b, c, d}, 3, [=] { return exact_orient3d(a, b, c, d); });
+}
+
+Result<Sign> checked_det3d(const double* p, const double* q, const double* r, const double* s, const double* t,
+                           const double* u) {
+    const int sign = filtered_det3d({p, q, r, s, t, u});
+    if (sign != 0) return static_cast<Sign>(sign);
+    return checked_exact_sign(std::array{p, q, r, s, t, u}, 3, [=] { return exact_det3d(p, q, r, s, t, u); });
+}
+
+WeightSigns weight_signs(Simplex simplex, const double* vertices, const double* point, TierCounts* tiers) noexcept {
+    const ExactEnvironment environment;  // for the tier
+    WeightSigns out;
+    if (filtered_signs(simplex, vertices, point, out, tiers)) return out;
+    assert(all_finite(simplex, vertices, point));
+    return counted_exact_signs(simplex, vertices, point, tiers);
+}
+
+Result<WeightSigns> checked_weight_signs(Simplex simplex, const double* vertices, const double* point,
+                                         TierCounts* tiers) {
+    const ExactEnvironment environment;  // for the tier
+    WeightSigns out;
+    if (filtered_signs(simplex, vertices, point, out, tiers)) return out;
+    if (!all_finite(simplex, vertices, point)) return not_finite_error(simplex, vertices, point);
+    return counted_exact_signs(simplex, vertices, point, tiers);
+}
+
+Status weight_signs(const CaseArrays& cases, std::span<WeightSigns> out, TierCounts* tiers) {
     return batch_signs(cases, out, tiers);
 }
 
-Status weight_signs(const MeshQueries& queries, std::span<WeightSigns> out, Tiers* tiers) {
+Status weight_signs(const MeshQueries& queries, std::span<WeightSigns> out, TierCounts* tiers) {
     return batch_signs(queries, out, tiers);
 }
 

@@ -38,7 +38,7 @@ Status check_quadratic(const MeshQueries& q, std::size_t mid_nodes, int componen
 
 /// Values of the last tier: those of the nodes of component c are values[nodes * c ...]. Coordinates are finite.
 void exact_values(Simplex s, const SingleCase& c, double* values, int nodes, int components, double* out,
-                  Tiers& counts) {
+                  TierCounts& counts) {
     counts.add(Tier::exact);
     const auto usable = [&](int component) { return all_finite(values + nodes * component, nodes); };
     std::vector<int> unusable;
@@ -119,7 +119,7 @@ Result<Value> interpolate_quadratic(Simplex simplex, const double* vertices, con
     if (!all_finite(simplex, vertices, point)) return not_finite_error(simplex, vertices, point);
     double f[10];
     for (int i = 0; i < nodes; ++i) f[i] = values[i];
-    Tiers counts;
+    TierCounts counts;
     exact_values(simplex, single_case(simplex, block, 0), f, nodes, 1, &v.value, counts);
     v.tier = Tier::exact;
     v.degenerate = counts.degenerate != 0;
@@ -127,7 +127,7 @@ Result<Value> interpolate_quadratic(Simplex simplex, const double* vertices, con
 }
 
 Status interpolate_quadratic(const MeshQueries& queries, std::span<const std::int32_t> mid_nodes,
-                             const NodalValues<double>& values, std::span<double> out, Tiers* tiers,
+                             const NodalValues<double>& values, std::span<double> out, TierCounts* tiers,
                              Rounding rounding) {
     const Simplex s = queries.simplex;
     const int components = values.components;
@@ -137,7 +137,7 @@ Status interpolate_quadratic(const MeshQueries& queries, std::span<const std::in
     QuadraticValues block_values(queries, mid_nodes, values);
     const std::size_t nodes = block_values.nodes();
     std::vector<double> single(nodes * stride);
-    Tiers counts;
+    TierCounts counts;
     Status status = for_blocks(
         queries,
         [&](std::size_t first, const lanes::Cases& block, std::uint32_t* undecided) -> std::size_t {

@@ -22,12 +22,12 @@ bool exact_weights(Simplex s, const double* vertices, const double* point, doubl
 }
 
 template <class Batch>
-Status batch_weights(const Batch& batch, std::span<double> out, Tiers* tiers) {
+Status batch_weights(const Batch& batch, std::span<double> out, TierCounts* tiers) {
     const ExactEnvironment environment;
     const Simplex s = batch.simplex;
     const auto n = static_cast<std::size_t>(vertex_count(s));
     if (Status sizes = check_sizes(batch, out.size(), n); !sizes) return sizes;
-    Tiers counts;
+    TierCounts counts;
     Status status = for_blocks(
         batch,
         [&](std::size_t first, const lanes::Cases& block, std::uint32_t* undecided) {
@@ -99,7 +99,7 @@ private:
 
 /// Values of the last tier, one a component: that of vertex i, component c is values[n * c + i][j].
 void exact_values(const ExactWeights& w, int n, const double* const* values, std::size_t j, int components, double* out,
-                  Tiers& counts) {
+                  TierCounts& counts) {
     counts.add(Tier::exact);
     counts.degenerate += w.degenerate() ? 1 : 0;
     bool finite = true;
@@ -114,7 +114,8 @@ void exact_values(const ExactWeights& w, int n, const double* const* values, std
 }
 
 template <class Batch, class Values, class T>
-Status batch_values(const Batch& batch, const Values& values, std::span<double> out, Tiers* tiers, Rounding rounding) {
+Status batch_values(const Batch& batch, const Values& values, std::span<double> out, TierCounts* tiers,
+                    Rounding rounding) {
     const Simplex s = batch.simplex;
     const int n = vertex_count(s), components = values.components;
     const auto stride = static_cast<std::size_t>(components);
@@ -124,7 +125,7 @@ Status batch_values(const Batch& batch, const Values& values, std::span<double> 
     if (Status sizes = check_sizes(batch, out.size(), stride); !sizes) return sizes;
     BlockValues<T> block_values(n, components);
     const double* const* at = nullptr;
-    Tiers counts;
+    TierCounts counts;
     Status status = for_blocks(
         batch,
         [&](std::size_t first, const lanes::Cases& block, std::uint32_t* undecided) -> std::size_t {
@@ -169,36 +170,36 @@ Result<Value> interpolate(Simplex simplex, const double* vertices, const double*
     if (lanes::values(simplex, as_block(simplex, vertices, point), at, 1, &v.value, undecided) == 0) return v;
     if (!all_finite(simplex, vertices, point)) return not_finite_error(simplex, vertices, point);
     const ExactWeights w(simplex, vertices, point);
-    Tiers counts;
+    TierCounts counts;
     exact_values(w, n, at, 0, 1, &v.value, counts);
     v.tier = Tier::exact;
     v.degenerate = w.degenerate();
     return v;
 }
 
-Status barycentric_weights(const CaseArrays& cases, std::span<double> out, Tiers* tiers) {
+Status barycentric_weights(const CaseArrays& cases, std::span<double> out, TierCounts* tiers) {
     return batch_weights(cases, out, tiers);
 }
 
-Status barycentric_weights(const MeshQueries& queries, std::span<double> out, Tiers* tiers) {
+Status barycentric_weights(const MeshQueries& queries, std::span<double> out, TierCounts* tiers) {
     return batch_weights(queries, out, tiers);
 }
 
 template <class T>
-Status interpolate(const CaseArrays& cases, const ValueArrays<T>& values, std::span<double> out, Tiers* tiers,
+Status interpolate(const CaseArrays& cases, const ValueArrays<T>& values, std::span<double> out, TierCounts* tiers,
                    Rounding rounding) {
     return batch_values<CaseArrays, ValueArrays<T>, T>(cases, values, out, tiers, rounding);
 }
 
 template <class T>
-Status interpolate(const MeshQueries& queries, const NodalValues<T>& values, std::span<double> out, Tiers* tiers,
+Status interpolate(const MeshQueries& queries, const NodalValues<T>& values, std::span<double> out, TierCounts* tiers,
                    Rounding rounding) {
     return batch_values<MeshQueries, NodalValues<T>, T>(queries, values, out, tiers, rounding);
 }
 
-template Status interpolate(const CaseArrays&, const ValueArrays<double>&, std::span<double>, Tiers*, Rounding);
-template Status interpolate(const CaseArrays&, const ValueArrays<float>&, std::span<double>, Tiers*, Rounding);
-template Status interpolate(const MeshQueries&, const NodalValues<double>&, std::span<double>, Tiers*, Rounding);
-template Status interpolate(const MeshQueries&, const NodalValues<float>&, std::span<double>, Tiers*, Rounding);
+template Status interpolate(const CaseArrays&, const ValueArrays<double>&, std::span<double>, TierCounts*, Rounding);
+template Status interpolate(const CaseArrays&, const ValueArrays<float>&, std::span<double>, TierCounts*, Rounding);
+template Status interpolate(const MeshQueries&, const NodalValues<double>&, std::span<double>, TierCounts*, Rounding);
+template Status interpolate(const MeshQueries&, const NodalValues<float>&, std::span<double>, TierCounts*, Rounding);
 
 }  // namespace barycert

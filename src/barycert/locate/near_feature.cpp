@@ -26,7 +26,7 @@ public:
         std::array<double, 12> vertices{};
         const auto n = static_cast<std::size_t>(cell.count), d = n - 1;
         for (std::size_t i = 0; i < n; ++i) std::copy_n(cell.at[i].begin(), d, &vertices[d * i]);
-        sides_ = *weight_signs(d == 2 ? Simplex::triangle : Simplex::tetrahedron, vertices.data(), p.data());
+        sides_ = weight_signs(d == 2 ? Simplex::triangle : Simplex::tetrahedron, vertices.data(), p.data());
     }
 
     bool degenerate() const { return sides_.degenerate(); }
@@ -51,7 +51,7 @@ private:
         if (!known) {
             std::array<double, 9> vertices{};
             for (std::size_t k = 0; k < 3; ++k) std::copy(f.at[k].begin(), f.at[k].end(), &vertices[3 * k]);
-            known = *weight_signs(f.count == 2 ? Simplex::segment : Simplex::triangle3d, vertices.data(), p_.data());
+            known = weight_signs(f.count == 2 ? Simplex::segment : Simplex::triangle3d, vertices.data(), p_.data());
         }
         const int place = std::popcount(mask & ((1U << i) - 1));
         return known->sign(place) == Sign::positive;

@@ -50,7 +50,7 @@ Json outside_json(const SampleRun& run) {
 }
 
 Json values_json(const SampleRun& run) {
-    const Tiers& t = run.counts.values;
+    const TierCounts& t = run.counts.values;
     Json j;
     j["rounding"] = run.rounding == Rounding::correct ? "correct" : "plain";
     j["filter"] = t.filter;

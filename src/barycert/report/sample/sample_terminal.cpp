@@ -49,7 +49,7 @@ std::string outside(const SampleRun& run, const Colours& paint) {
 std::string values(const SampleRun& run) {
     if (run.columns.empty()) return "none: the mesh has no fields, and none came by --field";
     if (run.rounding == Rounding::plain) return "plain double, as asked for; cells and features are exact";
-    const Tiers& t = run.counts.values;
+    const TierCounts& t = run.counts.values;
     std::string text = "exact, rounded once";
     if (t.cases() != 0)
         text += fmt::format("; decided by the filter {}, by double-double {}, by integers {}", t.filter,
