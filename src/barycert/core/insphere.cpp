@@ -38,7 +38,7 @@ bool in_range(double extent) {
 }
 
 template <Simplex s>
-int filtered(const double* const (&points)[vertex_count(s) + 1], double factor) {
+[[gnu::always_inline]] inline int filtered(const double* const (&points)[vertex_count(s) + 1], double factor) {
     constexpr int n = vertex_count(s), d = space_dimension(s);
     formulas::Relative<s, double> c;
     formulas::Lifted<s, double> lifted;
