@@ -66,22 +66,14 @@ Status barycentric_weights(const MeshQueries& queries, std::span<double> out, Ti
 
 /// Values of many cases: out[components * j + c] is component c of case j. A case counts for the highest tier that one
 /// of its components needed. Errors besides: out.size() is not `components` times the number of cases, components < 1.
-/// On error `out` is not to be used. Preconditions: indices in range, a value for each component of each node. T is
-/// double or float.
-template <class T>
-Status interpolate(const CaseArrays& cases, const ValueArrays<T>& values, std::span<double> out,
+/// On error `out` is not to be used. Preconditions: indices in range, a value for each component of each node.
+Status interpolate(const CaseArrays& cases, const ValueArrays<double>& values, std::span<double> out,
                    TierCounts* tiers = nullptr, Rounding rounding = Rounding::correct);
-template <class T>
-Status interpolate(const MeshQueries& queries, const NodalValues<T>& values, std::span<double> out,
+Status interpolate(const CaseArrays& cases, const ValueArrays<float>& values, std::span<double> out,
                    TierCounts* tiers = nullptr, Rounding rounding = Rounding::correct);
-
-extern template Status interpolate(const CaseArrays&, const ValueArrays<double>&, std::span<double>, TierCounts*,
-                                   Rounding);
-extern template Status interpolate(const CaseArrays&, const ValueArrays<float>&, std::span<double>, TierCounts*,
-                                   Rounding);
-extern template Status interpolate(const MeshQueries&, const NodalValues<double>&, std::span<double>, TierCounts*,
-                                   Rounding);
-extern template Status interpolate(const MeshQueries&, const NodalValues<float>&, std::span<double>, TierCounts*,
-                                   Rounding);
+Status interpolate(const MeshQueries& queries, const NodalValues<double>& values, std::span<double> out,
+                   TierCounts* tiers = nullptr, Rounding rounding = Rounding::correct);
+Status interpolate(const MeshQueries& queries, const NodalValues<float>& values, std::span<double> out,
+                   TierCounts* tiers = nullptr, Rounding rounding = Rounding::correct);
 
 }  // namespace barycert

@@ -302,7 +302,7 @@ TEST(Batches, SizesThatDoNotFitAreAnError) {
                                    barycentric_weights(arrays, w),
                                    barycentric_weights(queries, w),
                                    interpolate(arrays, columns.values(), v),
-                                   interpolate<double>(queries, NodalValues<double>{nodes}, v)};
+                                   interpolate(queries, NodalValues<double>{nodes}, v)};
         for (const Status& status : statuses) {
             ASSERT_FALSE(status);
             EXPECT_EQ(status.error().what, "size of the output");
@@ -313,7 +313,7 @@ TEST(Batches, SizesThatDoNotFitAreAnError) {
     EXPECT_EQ(weight_signs(odd, signs).error().message(),
               "size of the points: expected 2 coordinates for each of 2 queries, found 3");
     std::vector<double> v(2);
-    const Status none = interpolate<double>(queries, NodalValues<double>{nodes, 0}, v);
+    const Status none = interpolate(queries, NodalValues<double>{nodes, 0}, v);
     ASSERT_FALSE(none);
     EXPECT_EQ(none.error().message(), "number of components: expected at least 1, found 0");
 }

@@ -4,7 +4,7 @@
 #include <bit>
 #include <optional>
 
-#include "barycert/core/exact_weights.hpp"
+#include "barycert/core/exact_tier.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
 
@@ -102,7 +102,7 @@ std::array<double, 3> weights_of(const Point3& p, const NearFeature& f) {
     if (quick) {
         std::copy_n(quick->weights.begin(), 3, weights.begin());
     } else {
-        const ExactWeights exact(simplex, vertices.data(), p.data());
+        const core::ExactWeights exact(simplex, vertices.data(), p.data());
         for (int i = 0; i < f.count; ++i) weights[static_cast<std::size_t>(i)] = exact.weight(i);
     }
     return weights;

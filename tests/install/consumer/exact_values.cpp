@@ -20,7 +20,7 @@ int main() {
     const std::vector<float> temperature = {10, 20, 30, 40, 50};
     std::vector<double> values(2);
     TierCounts tiers;
-    const Status status = interpolate<float>(MeshQueries{Simplex::tetrahedron, nodes, corners, cells, points},
+    const Status status = interpolate(MeshQueries{Simplex::tetrahedron, nodes, corners, cells, points},
                                              NodalValues<float>{temperature}, values, &tiers);
     if (!status) return std::fprintf(stderr, "%s\n", status.error().message().c_str()), 2;
     std::printf("%s, %g and %g, %s, %d cases\n", on_face ? "on a face" : "elsewhere", values[0], values[1],
