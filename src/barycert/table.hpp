@@ -19,7 +19,7 @@ namespace barycert {
 /// Where points lie. Functions that take counts add to them, unless they fail.
 struct LocationCounts {
     std::uint64_t interior = 0, face = 0, edge = 0, vertex = 0, outside = 0;
-    Tiers tests;  ///< of points against cells, where something was decided
+    TierCounts tests;  ///< of points against cells, where something was decided
 
     std::uint64_t points() const { return interior + face + edge + vertex + outside; }
     std::uint64_t inside() const { return points() - outside; }
@@ -30,7 +30,7 @@ struct LocationCounts {
 /// How values were found.
 struct SampleCounts {
     LocationCounts locations;
-    Tiers values;               ///< of points with point fields, by the highest tier that one of their values needed
+    TierCounts values;               ///< of points with point fields, by the highest tier that one of their values needed
     std::uint64_t snapped = 0;  ///< points outside that got the value of the nearest point
     std::uint64_t extrapolated = 0;
     std::uint64_t without_value = 0;  ///< points outside that got NaN, or the number to fill in

@@ -81,7 +81,7 @@ std::vector<double> points_around(const Subject& s, std::size_t count) {
     return points;
 }
 
-void add(Answers& out, const Tiers& t) {
+void add(Answers& out, const TierCounts& t) {
     for (const std::uint64_t n : {t.filter, t.double_double, t.exact, t.degenerate, t.not_finite}) out.add(n);
 }
 

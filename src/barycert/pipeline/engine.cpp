@@ -25,8 +25,8 @@ bool is_degenerate(const Mesh& mesh, std::size_t cell) {
     std::array<const double*, 4> at{};
     for (std::size_t i = 0; i <= d; ++i)
         at[i] = mesh.points.data() + d * static_cast<std::size_t>(mesh.cells[(d + 1) * cell + i]);
-    const Result<Sign> sign = d == 2 ? orient2d(at[0], at[1], at[2]) : orient3d(at[0], at[1], at[2], at[3]);
-    return sign && *sign == Sign::zero;
+    const Sign sign = d == 2 ? orient2d(at[0], at[1], at[2]) : orient3d(at[0], at[1], at[2], at[3]);
+    return sign == Sign::zero;
 }
 
 std::uint64_t count_degenerate(const Mesh& mesh) {

@@ -50,7 +50,7 @@ Json outside_json(const SampleSummary& summary) {
 }
 
 Json values_json(const SampleSummary& summary) {
-    const Tiers& t = summary.counts.values;
+    const TierCounts& t = summary.counts.values;
     Json j;
     j["rounding"] = summary.rounding == Rounding::correct ? "correct" : "plain";
     j["filter"] = t.filter;

@@ -49,7 +49,7 @@ std::string outside(const SampleSummary& summary, const Colours& paint) {
 std::string values(const SampleSummary& summary) {
     if (summary.columns.empty()) return "none: the mesh has no fields, and --field was not given";
     if (summary.rounding == Rounding::plain) return "plain double, as asked for; cells and features are exact";
-    const Tiers& t = summary.counts.values;
+    const TierCounts& t = summary.counts.values;
     std::string text = "exact, rounded once";
     if (t.cases() != 0)
         text += fmt::format("; decided by the filter {}, by double-double {}, by integers {}", t.filter,
