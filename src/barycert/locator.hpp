@@ -88,10 +88,10 @@ struct AllLocations {
 /// Thread-safe: any number of threads may ask at once.
 class Locator {
 public:
-    /// The mesh must stay as it is and outlive the locator. `certificate` is that of check::run on this very mesh;
+    /// The mesh must stay as it is and outlive the locator. `certificate` is that of check_mesh on this very mesh;
     /// without one, or with one of another mesh, every candidate is asked. Time O(cells), one thread.
     /// Error: the mesh is inconsistent: indices out of range, coordinates that are not finite, sizes that do not fit.
-    static Result<Locator> build(const Mesh& mesh, const check::Certificate& certificate = {});
+    static Result<Locator> build(const Mesh& mesh, const Certificate& certificate = {});
 
     Locator(Locator&&) noexcept;
     Locator& operator=(Locator&&) noexcept;

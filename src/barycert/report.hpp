@@ -19,7 +19,7 @@
 
 // Pictures of slices: one scalar on a regular grid in a plane, by colour, as a PNG file.
 
-namespace barycert::report {
+namespace barycert {
 
 /// How text looks on the user's terminal, and what commands in it begin with.
 struct TerminalStyle {
@@ -115,7 +115,7 @@ struct SampleRun {
     std::uint64_t nan_values = 0;  ///< of points inside: from values of nodes or cells that are not finite
     FoundBy method = FoundBy::walk;
     std::string reason;  ///< why that method: a clause
-    check::Verdict verdict = check::Verdict::not_checked;
+    Verdict verdict = Verdict::not_checked;
     SampleSeconds seconds;
     int threads = 1;
 };
@@ -128,15 +128,15 @@ std::string policy_text(const OutsidePolicy& policy);
 /// The verdict in one line; below it what was checked, what was found and what to do about it, pairs of cells that meet
 /// where they must not, measures, notes. At most 100 columns, names of files aside. `mesh` is what the report is of,
 /// `name` what the user calls it.
-std::string terminal_check(const check::Report& report, const Mesh& mesh, const std::string& name,
-                           const TerminalStyle& style);
+std::string check_text(const CheckReport& report, const Mesh& mesh, const std::string& name,
+                       const TerminalStyle& style);
 
 // The report on a mesh as JSON. Every member is documented in SCHEMA.md beside this file.
 
 inline constexpr int check_schema = 1;
 
 /// `name`: what the user calls the mesh.
-std::string check_json(const check::Report& report, const std::string& name, const Environment& environment);
+std::string check_json(const CheckReport& report, const std::string& name, const Environment& environment);
 
 // The report on a mesh as one HTML page, for people: to read, to print, to pass on.
 
@@ -146,12 +146,12 @@ std::string check_json(const check::Report& report, const std::string& name, con
 /// at most, whatever the size of the mesh. `mesh` is what the report is of, `mesh_name` what the user calls it.
 ///
 /// Cost: some passes over the mesh, and its boundary once more. Of broken meshes nothing is drawn that has no place.
-std::string check_html(const check::Report& report, const Mesh& mesh, const std::string& mesh_name);
+std::string check_html(const CheckReport& report, const Mesh& mesh, const std::string& mesh_name);
 
 // What a run of sampling did, for people.
 
 /// A few lines of at most 120 columns, names of files aside.
-std::string terminal_sample(const SampleRun& run, bool colour);
+std::string sample_text(const SampleRun& run, bool colour);
 
 // What a run of sampling did, as JSON. Every member is documented in SCHEMA.md beside this file.
 
@@ -159,4 +159,4 @@ inline constexpr int sample_schema = 1;
 
 std::string sample_json(const SampleRun& run, const Environment& environment);
 
-}  // namespace barycert::report
+}  // namespace barycert

@@ -106,7 +106,7 @@ Status run_resample(const ResampleArguments& a) {
     Stopwatch whole;
     auto engine = SamplingEngine::open(a, progress);
     if (!engine) return engine.error();
-    report::SampleRun run = run_of("resample", a);
+    SampleRun run = run_of("resample", a);
     Status done =
         a.onto.empty() ? resample_grid(a, **engine, run, progress) : resample_onto(a, **engine, run, progress);
     if (!done) return done;

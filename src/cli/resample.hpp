@@ -25,15 +25,13 @@ struct ResampleArguments : SamplingArguments {
 Status check_grid_output(const ResampleArguments& arguments);
 
 /// The fields at the points of a grid. Tells all of the run but what the engine tells.
-Status resample_grid(const ResampleArguments& arguments, SamplingEngine& engine, report::SampleRun& run,
-                     Progress& progress);
+Status resample_grid(const ResampleArguments& arguments, SamplingEngine& engine, SampleRun& run, Progress& progress);
 
 /// The files that --onto writes; what is wrong with the output, as far as its name tells.
 std::vector<std::string> files_of_onto(const ResampleArguments& arguments);
 Status check_onto_output(const ResampleArguments& arguments);
 
 /// The fields at the nodes of another mesh, likewise.
-Status resample_onto(const ResampleArguments& arguments, SamplingEngine& engine, report::SampleRun& run,
-                     Progress& progress);
+Status resample_onto(const ResampleArguments& arguments, SamplingEngine& engine, SampleRun& run, Progress& progress);
 
 }  // namespace barycert::cli

@@ -138,7 +138,7 @@ private:
 /// A picture of one column. It is kept in memory: its colours depend on all of it.
 class PngOutput final : public GridOutput {
 public:
-    PngOutput(std::string path, const report::Slice& slice) : path_(std::move(path)), slice_(slice) {}
+    PngOutput(std::string path, const Slice& slice) : path_(std::move(path)), slice_(slice) {}
 
     Status write(const GridBlock& block) override {
         values_.insert(values_.end(), block.values.begin(), block.values.end());
@@ -150,16 +150,16 @@ public:
     Status commit() override {
         slice_.values = values_;
         slice_.valid = valid_;
-        return report::write_png(path_, slice_, &counts_);
+        return write_png(path_, slice_, &counts_);
     }
-    std::optional<report::SliceCounts> picture() const override { return counts_; }
+    std::optional<SliceCounts> picture() const override { return counts_; }
 
 private:
     std::string path_;
-    report::Slice slice_;
+    Slice slice_;
     std::vector<double> values_;
     std::vector<std::uint8_t> valid_;
-    report::SliceCounts counts_;
+    SliceCounts counts_;
 };
 
 /// The two axes of a grid in a plane.
@@ -195,7 +195,7 @@ Result<std::unique_ptr<GridOutput>> open_picture(const ResampleArguments& a, con
                      .found = columns.empty() ? "no field" : fmt::format("{}", fmt::join(columns, ", ")),
                      .remedy = columns.empty() ? "add one by --field NAME=FILE" : "name one in --fields"};
     const auto [w, h] = *axes;
-    report::Slice slice;
+    Slice slice;
     slice.width = static_cast<std::size_t>(grid.counts[w]);
     slice.height = static_cast<std::size_t>(grid.counts[h]);
     if (grid.spacing[w] > 0 && grid.spacing[h] > 0) slice.aspect = grid.spacing[w] / grid.spacing[h];

@@ -20,7 +20,7 @@ public:
     virtual Status commit() = 0;
 
     /// After the commit of a picture, what became of the values.
-    virtual std::optional<report::SliceCounts> picture() const { return std::nullopt; }
+    virtual std::optional<SliceCounts> picture() const { return std::nullopt; }
 };
 
 /// By the suffix of --output. Errors: a format that cannot hold these fields or that grid; a path that cannot be

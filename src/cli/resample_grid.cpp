@@ -59,13 +59,12 @@ std::vector<double> point_of(const Grid& grid, std::uint64_t i) {
 
 }  // namespace
 
-Status resample_grid(const ResampleArguments& a, SamplingEngine& engine, report::SampleRun& run, Progress& progress) {
+Status resample_grid(const ResampleArguments& a, SamplingEngine& engine, SampleRun& run, Progress& progress) {
     const Result<Grid> grid = grid_of(a, engine.mesh());
     if (!grid) return grid.error();
-    run.from = report::PointsFrom::grid;
+    run.from = PointsFrom::grid;
     run.grid = *grid;
-    Status ready =
-        engine.prepare_without_search(report::FoundBy::grid, "each cell finds the points that it holds", progress);
+    Status ready = engine.prepare_without_search(FoundBy::grid, "each cell finds the points that it holds", progress);
     if (!ready) return ready;
     Stopwatch watch, within;
     auto output = open_grid_output(a, engine, *grid);

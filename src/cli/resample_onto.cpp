@@ -113,7 +113,7 @@ Status check_onto_output(const ResampleArguments& a) {
                  .remedy = "choose another name"};
 }
 
-Status resample_onto(const ResampleArguments& a, SamplingEngine& engine, report::SampleRun& run, Progress& progress) {
+Status resample_onto(const ResampleArguments& a, SamplingEngine& engine, SampleRun& run, Progress& progress) {
     progress.stage("reading " + a.onto);
     Stopwatch watch;
     const bool rows = is_rows(a.output);
@@ -126,7 +126,7 @@ Status resample_onto(const ResampleArguments& a, SamplingEngine& engine, report:
                      .expected = fmt::format("{}, as {} has", d, a.mesh),
                      .found = std::to_string(other->dimension),
                      .remedy = "resample between meshes of triangles, or between meshes of tetrahedra"};
-    run.from = report::PointsFrom::mesh;
+    run.from = PointsFrom::mesh;
     run.points = a.onto;
     const auto source = points::memory_source(other->points, d);
     run.seconds.read = watch.lap();

@@ -37,7 +37,7 @@ Status check_arguments(const SampleArguments& a) {
                        {{"--output", a.output}, {"--save-map", a.save_map}});
 }
 
-Status with_points(const SampleArguments& a, SamplingEngine& engine, report::SampleRun& run, Progress& progress) {
+Status with_points(const SampleArguments& a, SamplingEngine& engine, SampleRun& run, Progress& progress) {
     auto source = open_points(a.points, engine.mesh().dimension);
     if (!source) return source.error();
     run.points = a.points;
@@ -45,7 +45,7 @@ Status with_points(const SampleArguments& a, SamplingEngine& engine, report::Sam
     return sample_stream(a, engine, **source, rows_to_output(a), a.save_map, run, progress);
 }
 
-Status with_map(const SampleArguments& a, SamplingEngine& engine, report::SampleRun& run, Progress& progress) {
+Status with_map(const SampleArguments& a, SamplingEngine& engine, SampleRun& run, Progress& progress) {
     auto map = MapReader::open(a.map, engine.mesh());
     if (!map) return map.error();
     if (a.all && *a.all != map->all())
@@ -54,10 +54,10 @@ Status with_map(const SampleArguments& a, SamplingEngine& engine, report::Sample
                      .expected = map->all() ? "all" : "lowest",
                      .found = *a.all ? "all" : "lowest",
                      .remedy = "leave the option out, or save another map"};
-    run.from = report::PointsFrom::map;
+    run.from = PointsFrom::map;
     run.points = a.map;
     run.all = map->all();
-    Status ready = engine.prepare_without_search(report::FoundBy::map, "cells are those of the map", progress);
+    Status ready = engine.prepare_without_search(FoundBy::map, "cells are those of the map", progress);
     if (!ready) return ready;
     return sample_map(a, engine, *map, rows_to_output(a), run, progress);
 }
@@ -69,7 +69,7 @@ Status run_sample(const SampleArguments& a) {
     Stopwatch whole;
     auto engine = SamplingEngine::open(a, progress);
     if (!engine) return engine.error();
-    report::SampleRun run = run_of("sample", a);
+    SampleRun run = run_of("sample", a);
     Status done = a.map.empty() ? with_points(a, **engine, run, progress) : with_map(a, **engine, run, progress);
     if (!done) return done;
     if (a.quiet && a.json.empty()) return done;

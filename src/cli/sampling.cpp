@@ -134,21 +134,21 @@ bool wants_progress(const SamplingArguments& a) {
     return !a.quiet && stderr_is_terminal() && !rows_on_terminal;
 }
 
-Status write_reports(const SamplingArguments& a, const report::SampleRun& run) {
+Status write_reports(const SamplingArguments& a, const SampleRun& run) {
     Status json = Done{};
-    if (!a.json.empty()) json = write_output(a.json, report::sample_json(run, measure_environment()));
+    if (!a.json.empty()) json = write_output(a.json, sample_json(run, measure_environment()));
     if (!a.quiet) {
         if (a.output == "-" || a.json == "-") {
-            tell(report::terminal_sample(run, false));
-        } else if (Status told = write_output("-", report::terminal_sample(run, colour_on_stdout())); !told) {
+            tell(sample_text(run, false));
+        } else if (Status told = write_output("-", sample_text(run, colour_on_stdout())); !told) {
             return json ? told : json;
         }
     }
     return json;
 }
 
-report::SampleRun run_of(const std::string& command, const SamplingArguments& a) {
-    report::SampleRun run;
+SampleRun run_of(const std::string& command, const SamplingArguments& a) {
+    SampleRun run;
     run.command = command;
     run.mesh = a.mesh;
     run.output = a.output;

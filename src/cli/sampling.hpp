@@ -78,10 +78,10 @@ bool wants_progress(const SamplingArguments& arguments);
 
 /// Writes the JSON where it is asked for and the summary where there is room for it: on stdout, or, where that has rows
 /// or the JSON, on stderr.
-Status write_reports(const SamplingArguments& arguments, const report::SampleRun& run);
+Status write_reports(const SamplingArguments& arguments, const SampleRun& run);
 
 /// The run as far as the arguments tell.
-report::SampleRun run_of(const std::string& command, const SamplingArguments& arguments);
+SampleRun run_of(const std::string& command, const SamplingArguments& arguments);
 
 /// Limits all threads of the process to the number asked for, while it lives.
 class ThreadLimit {

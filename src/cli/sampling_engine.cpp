@@ -59,18 +59,18 @@ Result<std::unique_ptr<SamplingEngine>> SamplingEngine::open(const SamplingArgum
 
 void SamplingEngine::check_mesh(Progress& progress) {
     Stopwatch watch;
-    check::Options options;
+    CheckOptions options;
     options.threads = threads_;
     options.examples = 0;
     options.contacts = 0;
     options.verdict_only = true;
     options.progress = [&](const char* stage) { progress.stage(fmt::format("checking the mesh: {}", stage)); };
-    const check::Report report = check::run(mesh_, options);
+    const CheckReport report = barycert::check_mesh(mesh_, options);
     certificate_ = report.certificate;
     seconds_certify_ += watch.lap();
 }
 
-Status SamplingEngine::build(const check::Certificate& certificate, Progress& progress) {
+Status SamplingEngine::build(const Certificate& certificate, Progress& progress) {
     Stopwatch watch;
     progress.stage("building the locator");
     sampler_.reset();
@@ -86,7 +86,7 @@ Status SamplingEngine::build(const check::Certificate& certificate, Progress& pr
 }
 
 Status SamplingEngine::prepare_for(std::uint64_t points, bool at_least, Progress& progress) {
-    const bool checked = certificate_.verdict() != check::Verdict::not_checked;
+    const bool checked = certificate_.verdict() != Verdict::not_checked;
     const std::size_t cells = mesh_.cell_count();
     const bool pays = static_cast<double>(points) >= points_a_cell * static_cast<double>(cells);
     if (locator_ && (checked || certify_ != Certify::automatic || !pays)) return Done{};
@@ -102,25 +102,25 @@ Status SamplingEngine::prepare_for(std::uint64_t points, bool at_least, Progress
     check_mesh(progress);
     if (Status built = build(certificate_, progress); !built) return built;
     const bool walks = locator_->method() == Method::walk;
-    method_ = walks ? report::FoundBy::walk : report::FoundBy::candidates;
+    method_ = walks ? FoundBy::walk : FoundBy::candidates;
     reason_ =
         walks ? "the mesh is certified; it was checked, " + why
               : fmt::format("the mesh is not certified: `{} check` tells why; it was checked, {}", command_name(), why);
     return Done{};
 }
 
-Status SamplingEngine::prepare_without_search(report::FoundBy method, const std::string& reason, Progress& progress) {
+Status SamplingEngine::prepare_without_search(FoundBy method, const std::string& reason, Progress& progress) {
     method_ = method;
     reason_ = reason;
     if (certify_ == Certify::always) check_mesh(progress);
     return build(certificate_, progress);
 }
 
-void SamplingEngine::tell(report::SampleRun& run) const {
+void SamplingEngine::tell(SampleRun& run) const {
     run.dimension = mesh_.dimension;
     run.nodes = mesh_.point_count();
     run.cells = mesh_.cell_count();
-    const bool certified = certificate_.verdict() == check::Verdict::certified;
+    const bool certified = certificate_.verdict() == Verdict::certified;
     run.degenerate_cells = certified ? 0 : count_degenerate(mesh_);
     if (sampler_) run.columns = sampler_->columns();
     run.method = method_;

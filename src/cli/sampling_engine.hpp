@@ -31,18 +31,18 @@ public:
     Status prepare_for(std::uint64_t points, bool at_least, Progress& progress);
 
     /// Prepares where no owner is asked of a point alone: they are known, or the cells find their points.
-    Status prepare_without_search(report::FoundBy method, const std::string& reason, Progress& progress);
+    Status prepare_without_search(FoundBy method, const std::string& reason, Progress& progress);
 
     /// Precondition: prepared.
     const Locator& locator() const { return *locator_; }
     const Sampler& sampler() const { return *sampler_; }
 
     /// Tells of the mesh, the method and the times until now.
-    void tell(report::SampleRun& run) const;
+    void tell(SampleRun& run) const;
 
 private:
     SamplingEngine() = default;
-    Status build(const check::Certificate& certificate, Progress& progress);
+    Status build(const Certificate& certificate, Progress& progress);
     void check_mesh(Progress& progress);
 
     Mesh mesh_;
@@ -51,8 +51,8 @@ private:
     int threads_ = 0;
     std::optional<Locator> locator_;
     std::optional<Sampler> sampler_;
-    check::Certificate certificate_;
-    report::FoundBy method_ = report::FoundBy::candidates;
+    Certificate certificate_;
+    FoundBy method_ = FoundBy::candidates;
     std::string reason_;
     double seconds_mesh_ = 0, seconds_certify_ = 0, seconds_build_ = 0;
 };

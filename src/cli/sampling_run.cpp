@@ -134,7 +134,7 @@ SinkFactory rows_to_output(const SamplingArguments& a) {
 }
 
 Status sample_block(const SamplingArguments& a, const SamplingEngine& engine, const std::string& file,
-                    std::uint64_t first, SampledBlock& block, report::SampleRun& run) {
+                    std::uint64_t first, SampledBlock& block, SampleRun& run) {
     const auto d = static_cast<std::size_t>(engine.mesh().dimension);
     const bool refuse = a.options.outside.kind == Outside::error;
     const SampleOptions options = without_refusal(a.options);
@@ -164,8 +164,7 @@ Status sample_block(const SamplingArguments& a, const SamplingEngine& engine, co
 }
 
 Status sample_stream(const SamplingArguments& a, SamplingEngine& engine, points::Source& source,
-                     const SinkFactory& factory, const std::string& save_map, report::SampleRun& run,
-                     Progress& progress) {
+                     const SinkFactory& factory, const std::string& save_map, SampleRun& run, Progress& progress) {
     Rows rows(factory, save_map);
     SampledBlock block;
     block.points.reserve(std::min<std::uint64_t>(block_of_points, source.count().value_or(block_of_points)) *
@@ -198,7 +197,7 @@ Status sample_stream(const SamplingArguments& a, SamplingEngine& engine, points:
 }
 
 Status sample_map(const SamplingArguments& a, SamplingEngine& engine, MapReader& map, const SinkFactory& factory,
-                  report::SampleRun& run, Progress& progress) {
+                  SampleRun& run, Progress& progress) {
     const auto d = static_cast<std::size_t>(engine.mesh().dimension);
     const SampleOptions options = without_refusal(a.options);
     Rows rows(factory, "");

@@ -32,7 +32,7 @@ struct SampledBlock {
 /// points came before. Adds to the counts of the run. Error besides those of the sampler: the policy is `error`, and a
 /// point is outside; it names the point and `file`.
 Status sample_block(const SamplingArguments& arguments, const SamplingEngine& engine, const std::string& file,
-                    std::uint64_t first, SampledBlock& block, report::SampleRun& run);
+                    std::uint64_t first, SampledBlock& block, SampleRun& run);
 
 /// That "point 7" or the like, at `where`, is outside, and none may be.
 Error outside_error(const std::string& what, std::span<const double> where, const std::string& file);
@@ -50,11 +50,10 @@ SinkFactory rows_to_output(const SamplingArguments& arguments);
 /// All points of the source into rows and, if `save_map` is not empty, into a map. Tells all of the run but what the
 /// engine tells.
 Status sample_stream(const SamplingArguments& arguments, SamplingEngine& engine, points::Source& source,
-                     const SinkFactory& factory, const std::string& save_map, report::SampleRun& run,
-                     Progress& progress);
+                     const SinkFactory& factory, const std::string& save_map, SampleRun& run, Progress& progress);
 
 /// The rows of a map likewise; the engine is prepared for it.
 Status sample_map(const SamplingArguments& arguments, SamplingEngine& engine, MapReader& map,
-                  const SinkFactory& factory, report::SampleRun& run, Progress& progress);
+                  const SinkFactory& factory, SampleRun& run, Progress& progress);
 
 }  // namespace barycert::cli

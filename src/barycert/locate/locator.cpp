@@ -56,7 +56,7 @@ Locator::Locator(Locator&&) noexcept = default;
 Locator& Locator::operator=(Locator&&) noexcept = default;
 Locator::~Locator() = default;
 
-Result<Locator> Locator::build(const Mesh& mesh, const check::Certificate& certificate) {
+Result<Locator> Locator::build(const Mesh& mesh, const Certificate& certificate) {
     const ExactEnvironment environment;
     if (const char* const wrong = detail::inconsistency_of_cells(mesh, detail::FieldValues::any))
         return Error{.what = std::string("the mesh is inconsistent: ") + wrong};

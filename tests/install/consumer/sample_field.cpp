@@ -17,7 +17,7 @@ int main() {
     mesh.cells = {0, 1, 2, 0, 2, 3};
     const Field field{"height", 1, {0, 1, 3, 2}};
 
-    const auto locator = Locator::build(mesh, check::run(mesh).certificate);
+    const auto locator = Locator::build(mesh, check_mesh(mesh).certificate);
     const auto sampler = Sampler::build(*locator, {{&field}});
     const std::vector<double> points = {0.5, 0.25, 0.5, 0.5, 2, 2};
     Samples samples;

@@ -11,7 +11,10 @@
 #include "barycert/report/common/colour_map.hpp"
 #include "barycert/report/common/png_rows.hpp"
 
-namespace barycert::report {
+namespace barycert {
+
+using namespace report;
+
 namespace {
 
 Error refusal(const std::string& path, const char* what, std::string expected, std::string found, const char* remedy) {
@@ -141,4 +144,4 @@ Status write_png(const std::string& path, const Slice& s, SliceCounts* counts) {
     return Done{};
 }
 
-}  // namespace barycert::report
+}  // namespace barycert

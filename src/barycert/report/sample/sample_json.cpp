@@ -8,7 +8,10 @@
 #include "barycert/environment.hpp"
 #include "barycert/report/common/environment_json.hpp"
 
-namespace barycert::report {
+namespace barycert {
+
+using namespace report;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -95,7 +98,7 @@ std::string sample_json(const SampleRun& run, const Environment& environment) {
     j["nodes"] = run.nodes;
     j["cells"] = run.cells;
     j["degenerate_cells"] = run.degenerate_cells;
-    j["verdict"] = check::name(run.verdict);
+    j["verdict"] = name(run.verdict);
     j["from"] = name(run.from);
     if (run.grid) {
         j["grid"] = grid_json(*run.grid);
@@ -120,4 +123,4 @@ std::string sample_json(const SampleRun& run, const Environment& environment) {
     return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace barycert::report
+}  // namespace barycert

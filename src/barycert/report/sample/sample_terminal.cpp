@@ -7,7 +7,10 @@
 #include "barycert/environment.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
-namespace barycert::report {
+namespace barycert {
+
+using namespace report;
+
 namespace {
 
 std::string plural(std::uint64_t n, std::string_view one, std::string_view more) {
@@ -97,7 +100,7 @@ std::string policy_text(const OutsidePolicy& policy) {
     }
 }
 
-std::string terminal_sample(const SampleRun& run, bool colour) {
+std::string sample_text(const SampleRun& run, bool colour) {
     const ExactEnvironment environment;
     const Colours paint(colour);
     std::string points = std::to_string(run.counts.locations.points());
@@ -127,4 +130,4 @@ std::string terminal_sample(const SampleRun& run, bool colour) {
     return out;
 }
 
-}  // namespace barycert::report
+}  // namespace barycert
