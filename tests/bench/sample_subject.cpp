@@ -38,9 +38,9 @@ SampleOptions options(int threads, Rounding rounding) {
 
 Subject::Subject(const std::string& name_, Mesh mesh_, std::size_t point_count, std::int64_t grid_side)
     : name(name_ + " " + in_thousands(mesh_.cell_count())), mesh(std::move(mesh_)) {
-    check::Options how;
+    CheckOptions how;
     how.threads = 2;
-    const check::Report report = check::run(mesh, how);
+    const CheckReport report = check_mesh(mesh, how);
     require(report.certified(), "the mesh " + name + " is not certified");
     certificate = report.certificate;
 
@@ -62,7 +62,7 @@ Subject::Subject(const std::string& name_, Mesh mesh_, std::size_t point_count, 
 
 Ours::Ours(const Subject& subject)
     : walk(demand_value(Locator::build(subject.mesh, subject.certificate))),
-      candidates(demand_value(Locator::build(subject.mesh))),
+      candidates(demand_value(Locator::build(subject.mesh, {.prove = false}))),
       one(demand_value(Sampler::build(walk, {{&subject.linear}}))),
       three(demand_value(Sampler::build(walk, {{&subject.three}}))),
       uncertified(demand_value(Sampler::build(candidates, {{&subject.linear}}))) {

@@ -39,7 +39,7 @@ Case easy(Simplex s) {
     return c;
 }
 
-TEST(Tiers, EasyCasesNeedTheCheapestAlone) {
+TEST(TierCounts, EasyCasesNeedTheCheapestAlone) {
     for (const Simplex s : all_simplices) {
         EXPECT_EQ(sign_tier(easy(s)), Tier::filter) << name(s);
         EXPECT_EQ(weight_tier(easy(s)), Tier::double_double) << name(s);
@@ -48,7 +48,7 @@ TEST(Tiers, EasyCasesNeedTheCheapestAlone) {
 }
 
 // No floating-point bound can tell that a number is zero.
-TEST(Tiers, ExactZerosNeedIntegers) {
+TEST(TierCounts, ExactZerosNeedIntegers) {
     for (const Simplex s : all_simplices) {
         Case c = easy(s);
         for (int k = 0; k < space_dimension(s); ++k) c.point[static_cast<std::size_t>(k)] = c.vertex(0, k);
@@ -67,7 +67,7 @@ TEST(Tiers, ExactZerosNeedIntegers) {
 
 // One ulp beside a zero, 2^-53 against a bound of some 2^-52 times the extents: not provable in double. The weight it
 // gives is a quotient of few bits; that the middle tier may give up on it is of no promise.
-TEST(Tiers, SignsNextToZeroNeedIntegers) {
+TEST(TierCounts, SignsNextToZeroNeedIntegers) {
     for (const Simplex s : all_simplices) {
         Case c = easy(s);
         for (int k = 0; k < space_dimension(s); ++k) c.point[static_cast<std::size_t>(k)] = c.vertex(0, k);
@@ -77,7 +77,7 @@ TEST(Tiers, SignsNextToZeroNeedIntegers) {
 }
 
 // At a tie both neighbours are equally near: an interval about it never rounds to one double.
-TEST(Tiers, TiesNeedIntegers) {
+TEST(TierCounts, TiesNeedIntegers) {
     for (const Simplex s : all_simplices) {
         Case c = easy(s);
         for (int k = 0; k < space_dimension(s); ++k) {
@@ -90,7 +90,7 @@ TEST(Tiers, TiesNeedIntegers) {
     }
 }
 
-TEST(Tiers, ExtentsOutOfRangeNeedIntegers) {
+TEST(TierCounts, ExtentsOutOfRangeNeedIntegers) {
     for (const Simplex s : all_simplices) {
         for (const int shift : {-1000, -700, 700, 1000}) {
             Case c = easy(s);
@@ -109,7 +109,7 @@ TEST(Tiers, ExtentsOutOfRangeNeedIntegers) {
 }
 
 // Flatter than 2^-36 of its extents: beyond what the middle tier has a proof for.
-TEST(Tiers, SliversNeedIntegers) {
+TEST(TierCounts, SliversNeedIntegers) {
     Case t{.simplex = Simplex::triangle,
            .vertices = {.1, .1, 1.3, 1.3, .7, .7 + 0x1p-45},
            .point = {.7, .71},
@@ -148,7 +148,7 @@ Counts count(Simplex s, const std::vector<Case>& cases) {
 // 4 (100 k + 50) u b + 4 * 172 u^2 (1 + L) B(V)/|d|, at most some 2^14 u^2 here (k <= 4, b and the rest below 10); it
 // straddles a tie between doubles with a chance of 2 * 2^14 u^2 / u, 2^-38 a case: none of 20000 should fail. Asked is
 // what users rely on, 99.9 %, all the same.
-TEST(Tiers, NearlyAllValuesOfGoodCellsComeFromDoubleDouble) {
+TEST(TierCounts, NearlyAllValuesOfGoodCellsComeFromDoubleDouble) {
     for (const Simplex s : all_simplices) {
         constexpr std::uint64_t total = 20000;
         std::vector<Case> cases;
@@ -173,7 +173,7 @@ TEST(Tiers, NearlyAllValuesOfGoodCellsComeFromDoubleDouble) {
     }
 }
 
-TEST(Tiers, DegenerateAndNotFiniteAreCountedWithinTheCases) {
+TEST(TierCounts, DegenerateAndNotFiniteAreCountedWithinTheCases) {
     for (const Simplex s : all_simplices) {
         std::vector<Case> cases(40, easy(s));
         for (const std::size_t j : {3U, 17U, 39U}) cases[j].vertices.fill(0.3);
@@ -185,7 +185,7 @@ TEST(Tiers, DegenerateAndNotFiniteAreCountedWithinTheCases) {
     }
 }
 
-TEST(Tiers, SumsAndNames) {
+TEST(TierCounts, SumsAndNames) {
     TierCounts a{1, 2, 3, 4, 5};
     a.add(Tier::filter);
     a.add(Tier::double_double, 10);

@@ -97,12 +97,12 @@ void add(Answers& out, const SampleCounts& n) {
     out.add(n.farthest);
 }
 
-void add(Answers& out, const check::Report& r) {
+void add(Answers& out, const CheckReport& r) {
     out.add(static_cast<int>(r.certificate.verdict()));
-    for (const check::Finding& f : r.findings) {
+    for (const Defect& f : r.findings) {
         out.add(static_cast<int>(f.problem));
         out.add(f.count);
-        for (const check::Place& p : f.places) {
+        for (const DefectPlace& p : f.places) {
             for (const Mesh::Index c : p.cells) out.add(c);
             for (const Mesh::Index n : p.nodes) out.add(n);
             out.add(std::string_view(p.detail));
@@ -115,10 +115,10 @@ void add(Answers& out, const check::Report& r) {
     for (const auto* m : {&r.measures.volume, &r.measures.condition, &r.measures.radius_edge, &r.measures.aspect,
                           &r.measures.min_angle, &r.measures.max_angle}) {
         out.add_all(*m);
-        const check::Distribution d = check::distribution(*m);
+        const Distribution d = distribution(*m);
         for (const double x : {d.least, d.median, d.most}) out.add(x);
     }
-    for (const check::Contact& c : r.contacts) {
+    for (const CellContact& c : r.contacts) {
         out.add(c.dimension);
         out.add(c.witness.exact);
         for (std::size_t k = 0; k < static_cast<std::size_t>(r.dimension); ++k) {
@@ -136,27 +136,27 @@ TEST(EveryEnvironment, Check) {
     for (const Subject& s : subjects()) {
         for (const int threads : {1, 2}) {
             expect_same_everywhere("check of " + s.name, [&](Answers& out) {
-                check::Options options;
+                CheckOptions options;
                 options.threads = threads;
                 options.delaunay = true;
-                check::Report report = check::run(s.mesh, options);
+                CheckReport report = check_mesh(s.mesh, options);
                 add(out, report);
                 report.seconds = 0;
                 report.threads = 1;
-                out.add(std::string_view(report::check_json(report, "mesh", {})));
-                out.add(std::string_view(report::terminal_check(report, s.mesh, "mesh", {})));
-                out.add(std::string_view(report::check_html(report, s.mesh, "mesh")));
+                out.add(std::string_view(check_json(report, "mesh", {})));
+                out.add(std::string_view(check_text(report, s.mesh, "mesh", {})));
+                out.add(std::string_view(check_html(report, s.mesh, "mesh")));
             });
         }
     }
     const std::vector<Subject> all = subjects();
-    EXPECT_TRUE(check::run(all[0].mesh).certified()) << all[0].name;
-    EXPECT_FALSE(check::run(all[1].mesh).certified()) << all[1].name;
+    EXPECT_TRUE(check_mesh(all[0].mesh).certified()) << all[0].name;
+    EXPECT_FALSE(check_mesh(all[1].mesh).certified()) << all[1].name;
 }
 
 TEST(EveryEnvironment, Locate) {
     for (const Subject& s : subjects()) {
-        const check::Certificate certificate = check::run(s.mesh).certificate;
+        const Certificate certificate = check_mesh(s.mesh).certificate;
         const std::vector<double> points = points_around(s, 20000);
         const auto d = static_cast<std::size_t>(s.mesh.dimension);
         for (const int threads : {1, 2}) {
@@ -164,14 +164,14 @@ TEST(EveryEnvironment, Locate) {
                 const auto locator = Locator::build(s.mesh, certificate);
                 std::vector<Mesh::Index> cells(points.size() / d);
                 std::vector<Feature> features(cells.size());
-                LocationCounts counts, of_all;
+                LocationCounts counts;
                 out.add(locator->locate(points, cells, features, &counts, threads).has_value());
                 out.add_all(cells);
                 for (const Feature f : features) out.add(static_cast<int>(f));
                 add(out, counts);
-                const auto all = locator->locate_all(std::span(points).first(200 * d), &of_all, threads);
+                const auto all = locator->locate_all(std::span(points).first(200 * d), threads);
                 out.add_all(all->cells);
-                add(out, of_all);
+                add(out, all->counts.locations);
                 for (std::size_t i = 0; i < 40; ++i) {
                     const Location one = *locator->locate(&points[d * i]), hinted = *locator->locate(&points[d * i], 3);
                     out.add(one.cell);
@@ -190,7 +190,7 @@ std::vector<FieldChoice> fields_of(const Mesh& mesh) {
     return {{&mesh.point_fields[0], false}, {&mesh.point_fields[1], false}, {&mesh.cell_fields[0], true}};
 }
 
-void add(Answers& out, const Samples& s) {
+void add(Answers& out, const Table& s) {
     out.add_all(s.cells);
     for (const Feature f : s.features) out.add(static_cast<int>(f));
     for (const double x : s.values) out.add(x);
@@ -208,18 +208,19 @@ TEST(EveryEnvironment, SampleAndResample) {
                     options.rounding = rounding;
                     options.outside.kind = outside;
                     options.threads = 2;
-                    const auto locator = Locator::build(s.mesh);
+                    const auto locator = Locator::build(s.mesh, {.prove = false});
                     const auto sampler = Sampler::build(*locator, fields_of(s.mesh));
-                    Samples samples, again;
+                    Table samples;
                     SampleCounts counts;
                     const std::size_t some = outside == Outside::nan ? points.size() : 60;
-                    out.add(sampler->sample(std::span(points).first(some), options, samples, counts).has_value());
+                    out.add(sampler->sample(std::span(points).first(some), options, samples).has_value());
                     add(out, samples);
-                    out.add(sampler
-                                ->evaluate(std::span(points).first(some), samples.cells, samples.features, options,
-                                           again, counts)
-                                .has_value());
+                    Table again = samples;
+                    again.values.assign(again.values.size(), 0);
+                    out.add(sampler->evaluate(std::span(points).first(some), options, again).has_value());
                     add(out, again);
+                    counts.add(samples.counts);
+                    counts.add(again.counts);
                     const auto over = grid_over(s.mesh.dimension, {5, 4, 4}, {low, low, low}, {high, high, high});
                     const auto spaced =
                         grid_spaced(s.mesh.dimension, {step, step, step}, {low, low, low}, {high, high, high});
@@ -227,13 +228,15 @@ TEST(EveryEnvironment, SampleAndResample) {
                         out.add(grid.has_value());
                         if (!grid) continue;
                         for (std::int64_t i = 0; i < grid->counts[0]; ++i) out.add(grid->coordinate(0, i));
-                        const auto sink = [&](const GridBlock& block) -> Status {
+                        const auto sink = [&](const TableView& block) -> Status {
                             out.add_all(block.cells);
                             for (const double x : block.values) out.add(x);
                             for (const double x : block.distances) out.add(x);
                             return Done{};
                         };
-                        out.add(resample(*sampler, *grid, options, sink, counts).has_value());
+                        const auto of_grid = resample(*sampler, *grid, options, sink);
+                        out.add(of_grid.has_value());
+                        if (of_grid) counts.add(*of_grid);
                     }
                     const Bounds3 bounds = bounds_of_cells(s.mesh);
                     for (const double x : bounds.low) out.add(x);
@@ -288,18 +291,18 @@ TEST(EveryEnvironment, Files) {
             add(out, *read_tetgen(folder.path("mesh.node")));
             for (const char* const name : {"points.csv", "mesh.node"}) {
                 std::vector<double> read;
-                const auto source = points::open_source(folder.path(name), s.mesh.dimension);
+                const auto source = open_points(folder.path(name), s.mesh.dimension);
                 out.add((*source)->read(1000, read).has_value());
                 out.add_all(read);
             }
             const std::vector<Mesh::Index> cells(points.size() / d, 0);
             const std::vector<Feature> features(cells.size(), Feature::interior);
-            const points::RowFormat format{
-                s.mesh.dimension, d == 2 ? std::vector<std::string>{"a", "b"} : std::vector<std::string>{"a", "b", "c"},
-                false};
+            const TableFormat format{
+                s.mesh.dimension,
+                d == 2 ? std::vector<TableField>{{"a"}, {"b"}} : std::vector<TableField>{{"a"}, {"b"}, {"c"}}, false};
             for (const char* const name : {"rows.csv", "rows.npy"}) {
-                const auto sink = points::open_sink(folder.path(name), format);
-                out.add((*sink)->write({s.mesh.dimension, points, cells, features, points, {}}).has_value());
+                const auto sink = open_table(folder.path(name), format);
+                out.add((*sink)->write({s.mesh.dimension, 0, points, cells, features, points, {}}).has_value());
                 out.add((*sink)->commit().has_value());
                 out.add(std::string_view(folder.bytes(name)));
             }
@@ -341,7 +344,7 @@ TEST(EveryEnvironment, Float32) {
     folder.put("floats.npy", npy);
     expect_same_everywhere("float32", [&](Answers& out) {
         std::vector<double> read;
-        const auto source = points::open_source(folder.path("floats.npy"), 3);
+        const auto source = open_points(folder.path("floats.npy"), 3);
         out.add(source.has_value());
         if (source) out.add((*source)->read(10, read).has_value());
         out.add_all(read);
@@ -353,12 +356,12 @@ TEST(EveryEnvironment, Pictures) {
     std::vector<double> values;
     for (int i = -20; i < 28; ++i) values.push_back(i * unit);
     expect_same_everywhere("picture", [&](Answers& out) {
-        report::Slice slice;
+        Slice slice;
         slice.width = 8;
         slice.height = 6;
         slice.values = values;
-        report::SliceCounts counts;
-        out.add(report::write_png(folder.path("slice.png"), slice, &counts).has_value());
+        SliceCounts counts;
+        out.add(write_png(folder.path("slice.png"), slice, &counts).has_value());
         out.add(std::string_view(folder.bytes("slice.png")));
         out.add(counts.low);
         out.add(counts.high);
@@ -366,39 +369,38 @@ TEST(EveryEnvironment, Pictures) {
 }
 
 TEST(EveryEnvironment, Audit) {
-    audit::MeshSource meshes;
+    MeshSource meshes;
     const Subject tiny = subjects()[6], plain = subjects()[10];
     meshes.add("tiny", tiny.mesh);
     meshes.add("plain", plain.mesh);
     const std::vector<Kernel> kernels = kernels_matching("*");
     const Folder folder;
     expect_same_everywhere("audit", [&](Answers& out) {
-        audit::Options options;
+        AuditOptions options;
         // Kernels in doubles answer by what the processor has; the library's environment is what they are asked in.
         options.kernels = kernels;
-        options.families = audit::families_matching("*");
+        options.families = families_matching("*");
         options.count = 40;
         options.threads = 2;
-        auto report = audit::run(options, meshes);
+        auto report = run_audit(options, meshes);
         out.add(report.has_value());
         if (!report) return;
         report->seconds = 0;
-        for (audit::KernelResult& k : report->kernels) k.ns = 0;
-        out.add(std::string_view(report::json_report(*report)));
-        out.add(std::string_view(report::terminal_report(*report, {})));
-        out.add(std::string_view(report::condition_plot(*report)));
-        folder.put("witnesses.json", audit::witness_file(*report));
-        const auto witnesses = audit::read_witnesses(folder.path("witnesses.json"));
+        for (KernelResult& k : report->kernels) k.ns = 0;
+        out.add(std::string_view(audit_json(*report)));
+        out.add(std::string_view(audit_text(*report, {})));
+        out.add(std::string_view(condition_plot(*report)));
+        folder.put("witnesses.json", witnesses_json(*report));
+        const auto witnesses = read_witnesses(folder.path("witnesses.json"));
         out.add(witnesses.has_value());
         for (std::size_t i = 0; i < witnesses->size(); i += 7) {
-            const audit::Replay again = audit::replay((*witnesses)[i], kernels);
+            const Replay again = replay_witness((*witnesses)[i], kernels);
             out.add(std::string_view(again.not_reproduced));
-            out.add(std::string_view(report::terminal_witness(again, {})));
-            out.add(exact::partition_residual(again.exact.weights));
+            out.add(std::string_view(witness_text(again, {})));
+            out.add(partition_residual(again.exact.weights));
         }
         for (std::uint64_t i = 0; i < 20; ++i) {
-            const Case c =
-                audit::make_case(options.families[i % options.families.size()], Simplex::triangle, 3, i, meshes);
+            const Case c = make_case(options.families[i % options.families.size()], Simplex::triangle, 3, i, meshes);
             for (const double x : c.vertices) out.add(x);
         }
     });
@@ -407,7 +409,7 @@ TEST(EveryEnvironment, Audit) {
 // What a callback leaves behind ends with it.
 TEST(EveryEnvironment, CallbacksThatChangeIt) {
     const Subject s = subjects()[6];
-    const auto locator = Locator::build(s.mesh);
+    const auto locator = Locator::build(s.mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, fields_of(s.mesh));
     const auto grid = grid_over(3, {9, 7, 9}, {0, 0, 0}, {61 * s.scale, 61 * s.scale, 61 * s.scale});
     std::vector<double> right, got;
@@ -422,21 +424,20 @@ TEST(EveryEnvironment, CallbacksThatChangeIt) {
             _mm_setcsr(_mm_getcsr() | 0x8040);
 #endif
         };
-        SampleCounts counts;
         SampleOptions options;
         options.threads = 1;
         options.rounding = Rounding::plain;
-        const auto sink = [&](const GridBlock& block) -> Status {
+        const auto sink = [&](const TableView& block) -> Status {
             (rude ? got : right).insert((rude ? got : right).end(), block.values.begin(), block.values.end());
             meddle();
             return Done{};
         };
-        ASSERT_TRUE(resample(*sampler, *grid, options, sink, counts));
+        ASSERT_TRUE(resample(*sampler, *grid, options, sink));
         EXPECT_TRUE(rounds_correctly());
-        check::Options how;
+        CheckOptions how;
         how.threads = 1;
         how.progress = [&](const char*) { meddle(); };
-        add(rude ? checked : checked_right, check::run(s.mesh, how));
+        add(rude ? checked : checked_right, check_mesh(s.mesh, how));
         EXPECT_TRUE(rounds_correctly());
     }
     EXPECT_GT(calls, 4U);
