@@ -111,23 +111,6 @@ void add_sampling_options(CLI::App& sub, SamplingArguments& a) {
     sub.add_flag("--quiet", a.quiet, "No summary and no progress");
 }
 
-void Progress::stage(std::string_view text) {
-    if (!on_) return;
-    tell(fmt::format("\r\033[K{}", printable(text)));
-    shown_ = true;
-    last_ = std::chrono::steady_clock::now();
-}
-
-void Progress::count(std::string_view what, std::uint64_t done) {
-    if (on_ && std::chrono::steady_clock::now() - last_ > std::chrono::milliseconds(100))
-        stage(fmt::format("{}: {}", what, done));
-}
-
-void Progress::clear() {
-    if (shown_) tell("\r\033[K");
-    shown_ = false;
-}
-
 bool wants_progress(const SamplingArguments& a) {
     // Rows on the same terminal would run into it.
     const bool rows_on_terminal = a.output == "-" && isatty(STDOUT_FILENO) == 1;

@@ -55,24 +55,6 @@ private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// What is being done, on one line of stderr that is written over and over: on a terminal only.
-class Progress {
-public:
-    explicit Progress(bool on) : on_(on) {}
-    ~Progress() { clear(); }
-    Progress(const Progress&) = delete;
-    Progress& operator=(const Progress&) = delete;
-
-    void stage(std::string_view text);
-    /// The same, but not oftener than ten times a second.
-    void count(std::string_view what, std::uint64_t done);
-    void clear();
-
-private:
-    bool on_, shown_ = false;
-    std::chrono::steady_clock::time_point last_{};
-};
-
 /// True if there is to be progress for that run.
 bool wants_progress(const SamplingArguments& arguments);
 
