@@ -37,8 +37,8 @@ not_run() {
 }
 
 rm -rf "$folder"
-mkdir -p "$folder/copy/tests" "$folder/blocks"
-for part in data doc src tests/kernels; do cp -R "$sources/$part" "$folder/copy/$part"; done
+mkdir -p "$folder/copy" "$folder/blocks"
+for part in data doc src; do cp -R "$sources/$part" "$folder/copy/$part"; done
 cat >"$folder/copy/run" <<EOF
 #!/bin/sh
 # Stands in for ./run, without its packages and its build.
