@@ -13,8 +13,9 @@
 # - A ```text block right after a ```sh block is what its commands print, stdout and stderr together. A line `...` stands
 #   for any number of lines, and ` ...` at the end of a line for the rest of it. Seconds, counts of threads and the last
 #   column of the table of kernels (nanoseconds) may be any.
-# - Each paragraph of a ```cpp block stands in one of doc/examples/*.cpp, in the same order. A block with a main() is
-#   run, and a ```text block right after it is what it prints.
+# - Each paragraph of a ```c or ```cpp block stands in one program of doc/examples, in the same order. A block with a
+#   main() is run, and a ```text block right after it is what it prints.
+# - Relative links lead to files that exist.
 # - Commands that install packages, build or take long are in `not_run` below, and nowhere else.
 set -eu
 document=$1 sources=$2 programs=$3 examples=$4 folder=$5
@@ -137,7 +138,7 @@ run_commands() {
 
 # The example that has every paragraph of a block, in order.
 example_with() {
-    for example in "$sources"/doc/examples/*.cpp; do
+    for example in "$sources"/doc/examples/*.c "$sources"/doc/examples/*.cpp; do
         if awk '
             { gsub(/^[ \t]+|[ \t]+$/, "") }
             FNR == NR { text = text $0 "\n"; next }
@@ -151,7 +152,7 @@ example_with() {
             { paragraph = paragraph $0 "\n" }
             END { if (!missing) look(); exit missing }
         ' "$example" "$1"; then
-            basename "$example" .cpp
+            basename "${example%.*}"
             return 0
         fi
     done
@@ -162,7 +163,7 @@ for block in "$folder"/blocks/*; do
     number=$(basename "$block" | cut -c1-3)
     case $block in
         *.sh) run_commands "$block" ;;
-        *.cpp)
+        *.c | *.cpp)
             printed=no
             if ! example=$(example_with "$block"); then
                 fails "no program in doc/examples has this block:"
@@ -175,12 +176,16 @@ for block in "$folder"/blocks/*; do
             ;;
         *.text)
             if [ -e "$folder/blocks/$number.follows" ] && [ "$printed" = yes ]; then
+                cp "$output" "$folder/blocks/$number.printed"
                 compare "$block" "$output" || fails "not what the block above it prints (block $number)"
             fi
             printed=no
             ;;
-        *.follows) ;;
+        *.follows | *.printed) ;;
         *) printed=no ;;
     esac
+done
+for link in $(grep -oE '(\]\(|src=")[^)"#: ]+' "$sources/$document" | sed -E 's/^(\]\(|src=")//'); do
+    [ -e "$(dirname "$sources/$document")/$link" ] || fails "no such file: $link"
 done
 [ "$failures" = 0 ] || { echo "$failures failures"; exit 1; }
