@@ -29,7 +29,7 @@
 ///     where integers must and numbers differ by at most 2^72 in magnitude. From there on it grows with the spread, up
 ///     to some ten microseconds for orientations and condition numbers, some tens for weights, values and gradients,
 ///     and a hundred for insphere, triangles in 3-space and quadratic fields;
-///   - which tier decides (Tiers): it is the same on every machine, but may change with the version;
+///   - which tier decides (TierCounts): it is the same on every machine, but may change with the version;
 ///   - checks of indices: those are preconditions;
 ///   - signs (predicates.hpp) while floating-point exceptions are trapped; flags are not preserved;
 ///   - a stack of less than 128 KiB below the call: integers take no heap. Measured, optimised, on x86-64 (a test): up

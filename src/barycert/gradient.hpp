@@ -44,6 +44,6 @@ Result<Gradient> gradient(Simplex simplex, const double* vertices, const double*
 /// components < 1. On error `out` is not to be used. `out` must not overlap any input. Preconditions: corners in range,
 /// a value for each component of each node.
 Status gradients(Simplex simplex, std::span<const double> nodes, std::span<const std::int32_t> corners,
-                 const NodalValues<double>& values, std::span<double> out, Tiers* tiers = nullptr);
+                 const NodalValues<double>& values, std::span<double> out, TierCounts* tiers = nullptr);
 
 }  // namespace barycert

@@ -11,17 +11,24 @@
 
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
-#include "barycert/simplex.hpp"
-
-// TetGen's .node, .ele, .face and .neigh files, and Triangle's 2D .node and .ele: read and written.
+#include "barycert/table.hpp"
 
 namespace barycert {
+
+// Meshes.
 
 struct ReadOptions {
     bool faces = true;       ///< read STEM.face if it is there
     bool neighbours = true;  ///< read STEM.neigh if it is there
     int threads = 0;         ///< 0: as many as the machine has
 };
+
+/// Reads a mesh: TetGen's or Triangle's files by their stem or any one of them, and a .vtu, .vtk or .vtp file once
+/// use_vtk_files() was called (vtk.hpp). Returns an Error, with a hint at what may be meant, if it cannot be read.
+Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options = {});
+
+/// The paths of all files that read_mesh(path) may read.
+std::vector<std::string> mesh_files(const std::string& path);
 
 /// STEM of STEM.node, STEM.ele, STEM.face or STEM.neigh; any other path as it is.
 std::string tetgen_stem(const std::string& path);
@@ -40,8 +47,6 @@ struct WriteOptions {
 /// reads back to the same bits. No file is left half-written.
 Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOptions& options = {});
 
-}  // namespace barycert
-
 // Streams of points: CSV, NPY and .node files, block by block, so that memory does not grow with their number.
 //
 // Coordinates are finite doubles in the file's own unit; decimal numbers are rounded to nearest, ties to even.
@@ -58,12 +63,10 @@ Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOption
 //        order.
 // .node  TetGen's and Triangle's grammar, see io/tetgen/tetgen_reader.cpp; attributes and markers are passed over.
 
-namespace barycert::points {
-
 /// Points, block by block.
-class Source {
+class PointSource {
 public:
-    virtual ~Source();
+    virtual ~PointSource();
 
     /// Coordinates a point: 2 or 3, as asked for when opened.
     virtual int dimension() const = 0;
@@ -71,24 +74,19 @@ public:
     /// The number of points, where it is known before the end.
     virtual std::optional<std::uint64_t> count() const = 0;
 
-    /// Appends the coordinates of up to `most` points to `out`, point after point, and tells how many: fewer than
-    /// `most` only at the end, 0 after it. On an Error the points before the fault may have been appended; the source
+    /// Appends the coordinates of up to `max_points` points to `out`, point after point, and returns how many: fewer than
+    /// `max_points` only at the end, 0 after it. On an Error the points before the fault may have been appended; the source
     /// gives nothing but that Error from then on.
-    virtual Result<std::size_t> read(std::size_t most, std::vector<double>& out) = 0;
+    virtual Result<std::size_t> read(std::size_t max_points, std::vector<double>& out) = 0;
 };
 
-enum class Format : std::uint8_t { csv, npy, node, vtu };
-
-/// By the suffix, in any case: .csv .npy .node .vtu; "-" is CSV. Error: another suffix; it lists the known ones.
-Result<Format> format_of(const std::string& path);
-
-/// The points of a CSV, NPY or .node file; "-" is CSV from the standard input. `dimension`: 2 or 3. A file of another
-/// dimension is an Error; but of a CSV only the columns that are asked for are read.
-/// Error also: a VTU file, which takes the library barycert::vtk.
-Result<std::unique_ptr<Source>> open_source(const std::string& path, int dimension);
+/// Opens the points of a CSV, NPY or .node file, or, once use_vtk_files() was called, of a .vtu, .vtp or .vtk file; "-"
+/// is CSV from the standard input. `dimension`: 2 or 3; of a CSV only the columns that are asked for are read. Returns an
+/// Error if the suffix is another one, the file cannot be read, or has another dimension.
+Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int dimension);
 
 /// Points from memory, as they are. An incomplete last point is left out.
-std::unique_ptr<Source> memory_source(std::vector<double> points, int dimension);
+std::unique_ptr<PointSource> memory_points(std::vector<double> points, int dimension);
 
 // Sampled values, row by row, into CSV and NPY files that appear whole or not at all.
 //
@@ -98,36 +96,31 @@ std::unique_ptr<Source> memory_source(std::vector<double> points, int dimension)
 // NPY  One structured array: x, y[, z] float64, cell int64, feature bytes of 8, each column float64, [distance
 //      float64]; all little-endian. Names must differ from one another; UTF-8.
 
-/// A block of rows, one a point (or a point and a cell that holds it).
-struct Rows {
+/// What a file of rows has: points, cell, feature, the columns of the fields, and perhaps distances.
+struct TableFormat {
     int dimension = 3;
-    std::span<const double> points = {};       ///< dimension a row
-    std::span<const std::int32_t> cells = {};  ///< one a row; 0-based, -1 outside
-    std::span<const Feature> features = {};    ///< one a row: interior, face, edge, vertex, outside
-    std::span<const double> values = {};       ///< as many a row as the format has columns, row after row
-    std::span<const double> distances = {};    ///< one a row where the format has distances, else empty
+    std::vector<TableField> fields = {};
+    bool distances = false;  ///< a last column `distance`
+
+    std::vector<std::string> columns() const { return column_names(fields); }
 };
 
-struct RowFormat {
-    int dimension = 3;
-    std::vector<std::string> columns = {};  ///< names of the values of a row
-    bool distances = false;                 ///< a last column `distance`
-};
-
-/// A file of rows. Without a commit() nothing appears, except on the standard output.
-class Sink {
+/// Takes rows, block by block: a file, a picture, a mesh. Without a commit() nothing appears, except on the standard
+/// output.
+class TableSink {
 public:
-    virtual ~Sink();
+    virtual ~TableSink();
 
     /// Appends the rows. Error: disk full and the like, or spans whose sizes do not fit together; then nothing appears.
-    virtual Status write(const Rows& rows) = 0;
+    virtual Status write(const TableView& rows) = 0;
 
     /// Makes the file appear, if nothing failed. Nothing may be written after it.
     virtual Status commit() = 0;
 };
 
-/// A CSV or NPY file, by the suffix of the path; "-" is CSV on the standard output.
-/// Error: another suffix; a path that cannot be written; for NPY, names that NumPy would refuse.
-Result<std::unique_ptr<Sink>> open_sink(const std::string& path, const RowFormat& format);
+/// Opens a CSV or NPY file, or, once use_vtk_files() was called, a .vtu file, by the suffix of the path; "-" is CSV on the
+/// standard output. Returns an Error if the suffix is another one, the path cannot be written, or NPY names would be
+/// refused by NumPy.
+Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const TableFormat& format);
 
-}  // namespace barycert::points
+}  // namespace barycert

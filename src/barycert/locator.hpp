@@ -24,6 +24,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -32,7 +33,7 @@
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"
-#include "barycert/tiers.hpp"
+#include "barycert/table.hpp"
 
 namespace barycert {
 
@@ -56,17 +57,6 @@ struct Location {
     friend bool operator==(const Location&, const Location&) = default;
 };
 
-/// How points were found to lie. Batch functions add to what is there, unless they fail.
-struct LocationCounts {
-    std::uint64_t interior = 0, face = 0, edge = 0, vertex = 0, outside = 0;
-    Tiers tests;  ///< of points against cells, where something was decided
-
-    std::uint64_t points() const { return interior + face + edge + vertex + outside; }
-    std::uint64_t inside() const { return points() - outside; }
-    void add(Feature f, std::uint64_t count = 1);
-    void add(const LocationCounts& other);
-};
-
 /// The point of the mesh that is nearest to a given one.
 struct Nearest {
     Mesh::Index cell = -1;  ///< of lowest index among those that have a point as near; -1: none within the limit
@@ -77,21 +67,25 @@ struct Nearest {
     std::array<Mesh::Index, 3> nodes{-1, -1, -1};
 };
 
-/// Every cell that holds each point: those of point i are cells[begin[i]] to cells[begin[i + 1] - 1], ascending, with
-/// the features of the point in each.
-struct AllLocations {
-    std::vector<std::size_t> begin{0};
-    std::vector<Mesh::Index> cells;
-    std::vector<Feature> features;
+/// How an index is built.
+struct BuildOptions {
+    bool prove = true;  ///< check whether the cells partition a domain: takes longer, finds points several times faster
+    int threads = 0;    ///< 0: as many as the machine has
+    std::function<void(const char* stage)> progress = {};  ///< called as each stage begins
 };
 
 /// Thread-safe: any number of threads may ask at once.
 class Locator {
 public:
-    /// The mesh must stay as it is and outlive the locator. `certificate` is that of check::run on this very mesh;
-    /// without one, or with one of another mesh, every candidate is asked. Time O(cells), one thread.
-    /// Error: the mesh is inconsistent: indices out of range, coordinates that are not finite, sizes that do not fit.
-    static Result<Locator> build(const Mesh& mesh, const check::Certificate& certificate = {});
+    /// Proves the mesh while it indexes it (`options.prove`), so that points can be found by walks. The mesh must stay as
+    /// it is and outlive the locator. Returns an Error if the mesh is inconsistent: indices out of range, coordinates
+    /// that are not finite, sizes that do not fit.
+    static Result<Locator> build(const Mesh& mesh, const BuildOptions& options = {});
+    static Result<Locator> build(Mesh&&, const BuildOptions& = {}) = delete;
+
+    /// The same with a certificate of check::run on this very mesh. Without a certificate, or with one of another mesh,
+    /// every candidate is asked. Time O(cells), one thread.
+    static Result<Locator> build(const Mesh& mesh, const check::Certificate& certificate);
 
     Locator(Locator&&) noexcept;
     Locator& operator=(Locator&&) noexcept;
@@ -114,9 +108,12 @@ public:
     Status locate(std::span<const double> points, std::span<Mesh::Index> cells, std::span<Feature> features,
                   LocationCounts* counts = nullptr, int threads = 0) const;
 
-    /// The same with every cell that holds each point; appends nothing to `counts` but one a point, by its owner.
-    Result<AllLocations> locate_all(std::span<const double> points, LocationCounts* counts = nullptr,
-                                    int threads = 0) const;
+    /// The same as a table: cells, features and counts.
+    Result<Table> locate(std::span<const double> points, int threads = 0) const;
+
+    /// Every cell that holds each point: a row for each, ascending, or one row with cell -1 for a point outside. Sets
+    /// points, cells, features, point_begin, and counts.locations: one a point, by its owner. Errors as above.
+    Result<Table> locate_all(std::span<const double> points, int threads = 0) const;
 
     /// The nearest point of all cells that are not degenerate. Only what is at most as far as `limit` counts, distances
     /// taken as they are told, rounded; none if it is negative or NaN. Takes some microseconds to some hundred,

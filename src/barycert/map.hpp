@@ -35,6 +35,7 @@
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
 
 namespace barycert {
 
@@ -43,19 +44,12 @@ struct MapWriterData;
 struct MapReaderData;
 }  // namespace detail
 
-/// Of coordinates and cells: what a map depends on. Fields, markers, faces, neighbours and nodes at mid-edges may
+/// A hash of coordinates and cells: what a map depends on. Fields, markers, faces, neighbours and nodes at mid-edges may
 /// change; 0.0 and -0.0 are the same coordinate. Reads the whole mesh once.
 /// It is the checksum, from 0, of these words: the dimension; the number of coordinates, then the bits of each as
 /// float64, -0.0 as 0.0; the number of corners of cells, then two of them a word, the first in its low half, 0 after
 /// the last.
 std::uint64_t mesh_fingerprint(const Mesh& mesh);
-
-/// Rows of a map, for Sampler::evaluate.
-struct LocationMap {
-    std::vector<double> points;      ///< dimension coordinates a row
-    std::vector<Mesh::Index> cells;  ///< -1 outside
-    std::vector<Feature> features;   ///< outside where the cell is -1, and nowhere else
-};
 
 /// Writes rows block by block: memory does not grow with their number. The file appears whole at commit(), or not at
 /// all.
@@ -69,10 +63,10 @@ public:
     MapWriter& operator=(MapWriter&&) noexcept;
     ~MapWriter();
 
-    /// Appends rows. Errors: sizes that do not fit together; a row that no map can hold (a coordinate that is not
+    /// Appends the points, cells and features of the rows. Errors: sizes that do not fit together; a row that no map can hold (a coordinate that is not
     /// finite, a cell that the mesh has not, a feature that does not go with it); disk full and the like. After an
     /// error, and after commit(), nothing can be written, and each call tells so.
-    Status write(std::span<const double> points, std::span<const Mesh::Index> cells, std::span<const Feature> features);
+    Status write(const TableView& rows);
 
     /// Makes the file appear, unless something failed.
     Status commit();
@@ -97,10 +91,10 @@ public:
     bool all() const;            ///< as MapWriter::open was told
     std::uint64_t rows() const;  ///< in the whole file
 
-    /// Replaces what is in `block` by the next rows, at most `most` (at least 1), and tells how many: fewer only at the
-    /// end, 0 after it. Errors: the file cannot be read or was cut off meanwhile; bytes were changed; a row that no map
-    /// can hold. `block` is empty then, and every later call gives the same error.
-    Result<std::size_t> read(std::size_t most, LocationMap& block);
+    /// Replaces points, cells and features of `rows` by the next rows, at most `max_rows` (at least 1), and returns how
+    /// many: fewer only at the end, 0 after it. Errors: the file cannot be read or was cut off meanwhile; bytes were
+    /// changed; a row that no map can hold. `rows` is empty then, and every later call returns the same error.
+    Result<std::size_t> read(std::size_t max_rows, Table& rows);
 
 private:
     explicit MapReader(std::unique_ptr<detail::MapReaderData> data);

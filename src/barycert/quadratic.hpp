@@ -51,7 +51,7 @@ Result<Value> interpolate_quadratic(Simplex simplex, const double* vertices, con
 /// corners and mid-edge nodes are not of the same number of cells. On error `out` is not to be used. `out` must not
 /// overlap any input. Preconditions: indices in range, a value for each component of each node.
 Status interpolate_quadratic(const MeshQueries& queries, std::span<const std::int32_t> mid_nodes,
-                             const NodalValues<double>& values, std::span<double> out, Tiers* tiers = nullptr,
+                             const NodalValues<double>& values, std::span<double> out, TierCounts* tiers = nullptr,
                              Rounding rounding = Rounding::correct);
 
 }  // namespace barycert

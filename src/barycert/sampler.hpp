@@ -28,6 +28,7 @@
 #include "barycert/locator.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
+#include "barycert/table.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert {
@@ -57,28 +58,6 @@ struct SampleOptions {
     int threads = 0;  ///< 0: as many as the machine has
 };
 
-/// Functions add to what is there, unless they fail.
-struct SampleCounts {
-    LocationCounts locations;
-    Tiers values;               ///< of points with point fields, by the highest tier that one of their values needed
-    std::uint64_t snapped = 0;  ///< points outside that got the value of the nearest point
-    std::uint64_t extrapolated = 0;
-    std::uint64_t without_value = 0;  ///< points outside that got NaN, or the number to fill in
-    double farthest = 0;              ///< largest distance of those snapped or extrapolated
-
-    void add(const SampleCounts& other);
-};
-
-/// Rows, one a point, or one a point and cell that holds it.
-struct Samples {
-    std::vector<Mesh::Index> cells;  ///< -1 outside
-    std::vector<Feature> features;
-    std::vector<double> values;  ///< columns a row, row after row
-    /// To the mesh: 0 inside; NaN where a point outside got no value. Empty unless the policy is nearest or
-    /// extrapolate.
-    std::vector<double> distances;
-};
-
 /// One field to be sampled.
 struct FieldChoice {
     const Field* field = nullptr;
@@ -88,28 +67,41 @@ struct FieldChoice {
 /// Thread-safe: any number of threads may ask at once.
 class Sampler {
 public:
-    /// Locator and fields must stay and outlive the sampler, which copies what it needs of point fields in the order in
-    /// which it will be read. Error: a field does not fit the mesh.
+    /// A sampler of the fields of these names (Mesh::point_fields, then Mesh::cell_fields; empty: all). It owns its
+    /// locator, which proves the mesh while it indexes it. The mesh must stay as it is and outlive the sampler. Returns
+    /// an Error if the mesh is inconsistent, has no such field, or a field does not fit it.
+    static Result<Sampler> build(const Mesh& mesh, const std::vector<std::string>& fields = {},
+                                 const BuildOptions& options = {});
+    static Result<Sampler> build(Mesh&&, const std::vector<std::string>& = {}, const BuildOptions& = {}) = delete;
+
+    /// The same on a locator that there is. Locator and fields must stay and outlive the sampler, which copies what it
+    /// needs of point fields in the order in which it will be read. Returns an Error if a field does not fit the mesh.
     static Result<Sampler> build(const Locator& locator, std::vector<FieldChoice> fields);
 
     Sampler(Sampler&&) noexcept;
     Sampler& operator=(Sampler&&) noexcept;
     ~Sampler();
 
-    /// NAME for a field of one component, else NAME.0, NAME.1, ...; fields of nodes first, then those of cells.
-    const std::vector<std::string>& columns() const;
+    const Locator& locator() const;
 
-    /// All points; `out` is resized. Errors: a coordinate is not finite; the policy is `error` and a point is outside.
-    /// `first_point`: what messages count points from.
-    Status sample(std::span<const double> points, const SampleOptions& options, Samples& out, SampleCounts& counts,
+    /// Of a row: those of the point fields first, then those of the cell fields.
+    const std::vector<TableField>& fields() const;
+    const std::vector<std::string>& columns() const;  ///< column_names(fields())
+
+    /// Row i is for point i: cells, features, values, distances, columns and counts. Returns an Error if a coordinate is
+    /// not finite, or if the policy is `error` and a point is outside.
+    Result<Table> sample(std::span<const double> points, const SampleOptions& options = {}) const;
+
+    /// The same into a table that keeps its memory from call to call; its points are left alone, and may be `points`.
+    /// `first_point`: what messages count points from. After an Error the rows are not to be used.
+    Status sample(std::span<const double> points, const SampleOptions& options, Table& rows,
                   std::size_t first_point = 0) const;
 
-    /// The same for points whose owners are known: row i is for point i in cells[i], or outside if that is -1, with
-    /// the feature given. So `Locator::locate` once serves many fields, and every cell of `locate_all` can have its
-    /// row. In a degenerate cell point fields are NaN, and counted. Error besides: an index of a cell that is out of
-    /// range.
-    Status evaluate(std::span<const double> points, std::span<const Mesh::Index> cells,
-                    std::span<const Feature> features, const SampleOptions& options, Samples& out, SampleCounts& counts,
+    /// The same for rows whose owners are known: point i lies in rows.cells[i], or outside if that is -1, with the
+    /// feature rows.features[i]. So Locator::locate once serves many fields, and every cell of Locator::locate_all can
+    /// have its row. In a degenerate cell point fields are NaN, and counted. Returns an Error besides if a cell is out
+    /// of range.
+    Status evaluate(std::span<const double> points, const SampleOptions& options, Table& rows,
                     std::size_t first_point = 0) const;
 
     /// For the library's own use.

@@ -18,7 +18,7 @@ constexpr std::string_view name(Tier t) {
 }
 
 /// Counts of cases, one tier each, and what became of them. Batch functions add to what is there, unless they fail.
-struct Tiers {
+struct TierCounts {
     std::uint64_t filter = 0;
     std::uint64_t double_double = 0;
     std::uint64_t exact = 0;
@@ -29,14 +29,14 @@ struct Tiers {
     void add(Tier t, std::uint64_t count = 1) {
         (t == Tier::filter ? filter : t == Tier::double_double ? double_double : exact) += count;
     }
-    void add(const Tiers& other) {
+    void add(const TierCounts& other) {
         filter += other.filter;
         double_double += other.double_double;
         exact += other.exact;
         degenerate += other.degenerate;
         not_finite += other.not_finite;
     }
-    friend bool operator==(const Tiers&, const Tiers&) = default;
+    friend bool operator==(const TierCounts&, const TierCounts&) = default;
 };
 
 }  // namespace barycert

@@ -12,9 +12,10 @@
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"
 
-// Meshes and points from VTK's files: .vtu and .vtp (XML) and .vtk (legacy). Only where barycert::vtk is built.
-
 namespace barycert {
+
+/// From then on read_mesh, open_points, open_table and write_mesh take VTK's files too. Call it before threads start.
+void use_vtk_files();
 
 /// What a file held besides the mesh.
 struct VtkLeftOut {
@@ -68,27 +69,6 @@ Result<std::vector<double>> read_vtk_points(const std::string& path, int dimensi
 /// than 200 bytes there (all but letters and digits may take three), which VTK's own readers would not read, or the
 /// name METADATA or NULL_ARRAY, which mean something else there.
 Status write_vtk(const Mesh& mesh, const std::string& path);
-
-/// Points and what was found at them: row i of each span and field belongs to point i. A span may be empty; then its
-/// array is left out.
-struct PointRows {
-    int dimension = 3;
-    std::span<const double> points;        ///< `dimension` coordinates a row
-    std::span<const Mesh::Index> cells;    ///< the cell that holds the point, -1 where none does
-    std::span<const Feature> features;     ///< where in that cell
-    std::span<const std::uint8_t> inside;  ///< 1 where a cell holds the point, 0 elsewhere
-    std::vector<Field> fields;             ///< one value a row
-    std::span<const double> distances;     ///< to the mesh, in units of the coordinates
-};
-
-/// Writes the rows to a .vtu file: each point a cell of type VTK_VERTEX (z = 0 in dimension 2), the rest as point
-/// arrays: `cell` (Int64), `feature` (UInt8: 0 interior, 1 face, 2 edge, 3 vertex, 4 outside, 5 degenerate),
-/// `vtkValidPointMask` (Int8: 1 inside, 0 outside, as VTK's own probes name it), `distance` (Float64) and the fields
-/// (Float64, any value).
-///
-/// Made in memory first, as by write_vtu. Error: spans or fields of other lengths; a name that is one of these, appears
-/// twice, is empty, or that XML cannot hold; a coordinate that is not finite; the file cannot be written.
-Status write_vtk_points(const std::string& path, const PointRows& rows);
 
 // VTK's VTU files (XML, unstructured grid), through VTK's own writer. Only where barycert::vtk is built, which
 // tells whoever links it by the macro BARYCERT_WITH_VTK.

@@ -61,23 +61,19 @@ Result<Value> interpolate(Simplex simplex, const double* vertices, const double*
 
 /// Weights of many cases: out[n * j + i] is weight i of case j, n = vertex_count. Error besides: out.size() is not n
 /// times the number of cases. On error `out` is not to be used. Precondition: indices in range.
-Status barycentric_weights(const CaseArrays& cases, std::span<double> out, Tiers* tiers = nullptr);
-Status barycentric_weights(const MeshQueries& queries, std::span<double> out, Tiers* tiers = nullptr);
+Status barycentric_weights(const CaseArrays& cases, std::span<double> out, TierCounts* tiers = nullptr);
+Status barycentric_weights(const MeshQueries& queries, std::span<double> out, TierCounts* tiers = nullptr);
 
 /// Values of many cases: out[components * j + c] is component c of case j. A case counts for the highest tier that one
 /// of its components needed. Errors besides: out.size() is not `components` times the number of cases, components < 1.
-/// On error `out` is not to be used. Preconditions: indices in range, a value for each component of each node. T is
-/// double or float.
-template <class T>
-Status interpolate(const CaseArrays& cases, const ValueArrays<T>& values, std::span<double> out, Tiers* tiers = nullptr,
-                   Rounding rounding = Rounding::correct);
-template <class T>
-Status interpolate(const MeshQueries& queries, const NodalValues<T>& values, std::span<double> out,
-                   Tiers* tiers = nullptr, Rounding rounding = Rounding::correct);
-
-extern template Status interpolate(const CaseArrays&, const ValueArrays<double>&, std::span<double>, Tiers*, Rounding);
-extern template Status interpolate(const CaseArrays&, const ValueArrays<float>&, std::span<double>, Tiers*, Rounding);
-extern template Status interpolate(const MeshQueries&, const NodalValues<double>&, std::span<double>, Tiers*, Rounding);
-extern template Status interpolate(const MeshQueries&, const NodalValues<float>&, std::span<double>, Tiers*, Rounding);
+/// On error `out` is not to be used. Preconditions: indices in range, a value for each component of each node.
+Status interpolate(const CaseArrays& cases, const ValueArrays<double>& values, std::span<double> out,
+                   TierCounts* tiers = nullptr, Rounding rounding = Rounding::correct);
+Status interpolate(const CaseArrays& cases, const ValueArrays<float>& values, std::span<double> out,
+                   TierCounts* tiers = nullptr, Rounding rounding = Rounding::correct);
+Status interpolate(const MeshQueries& queries, const NodalValues<double>& values, std::span<double> out,
+                   TierCounts* tiers = nullptr, Rounding rounding = Rounding::correct);
+Status interpolate(const MeshQueries& queries, const NodalValues<float>& values, std::span<double> out,
+                   TierCounts* tiers = nullptr, Rounding rounding = Rounding::correct);
 
 }  // namespace barycert

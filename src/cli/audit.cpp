@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "audit_inputs.hpp"
+#include "barycert/io.hpp"
 #include "barycert/audit.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/base/text.hpp"
@@ -54,7 +55,7 @@ Status check_files(const AuditArguments& a, bool table) {
     if (a.meshes.empty()) meshes = own_meshes();
     if (meshes) {
         for (const std::string& mesh : *meshes) {
-            for (NamedFile& file : files_of_mesh("the mesh", mesh)) inputs.push_back(std::move(file));
+            for (NamedFile& file : named_files("the mesh", mesh_files(mesh))) inputs.push_back(std::move(file));
         }
     }
     for (const std::string& library : a.libraries) inputs.push_back({"--kernel-library", library});

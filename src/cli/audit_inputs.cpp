@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "barycert/io.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/check.hpp"
 #include "command.hpp"
@@ -78,7 +79,7 @@ Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths, boo
     }
     audit::MeshSource source;
     for (const std::string& path : from) {
-        Result<Mesh> mesh = load_mesh(path, {.faces = false, .neighbours = false, .threads = 0});
+        Result<Mesh> mesh = read_mesh(path, {.faces = false, .neighbours = false, .threads = 0});
         if (!mesh) return mesh.error();
         if (mesh->cell_count() == 0) return Error{.what = "the mesh has no cells", .file = path};
         check::Options verdict;

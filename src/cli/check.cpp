@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "barycert/io.hpp"
 #include "barycert/check.hpp"
 #include "barycert/check/orientation.hpp"
 #include "barycert/environment.hpp"
@@ -69,9 +70,9 @@ Status check_files(const CheckArguments& a, bool table) {
                          "install VTK's development package (Debian: libvtk9-dev), then configure and build "
                          "barycert again"};
 #endif
-    std::vector<NamedFile> inputs = files_of_mesh("the mesh", a.mesh);
+    std::vector<NamedFile> inputs = named_files("the mesh", mesh_files(a.mesh));
     if (!a.plc.empty()) {
-        for (NamedFile& file : files_of_plc("the PLC of --conforms-to", a.plc)) inputs.push_back(std::move(file));
+        for (NamedFile& file : named_files("the PLC of --conforms-to", plc_files(a.plc))) inputs.push_back(std::move(file));
     }
     std::vector<NamedFile> written = outputs(a);
     if (table) written.push_back({"the table", "-"});
@@ -133,7 +134,7 @@ int run_check(const CheckArguments& a) {
     if (const Status ok = check_files(a, table); !ok) return fail(ok.error());
     const StageLine line(!a.quiet && stderr_is_terminal());
     line("reading");
-    const Result<Mesh> mesh = load_mesh(a.mesh, {.faces = true, .neighbours = true, .threads = a.threads});
+    const Result<Mesh> mesh = read_mesh(a.mesh, {.faces = true, .neighbours = true, .threads = a.threads});
     line.clear();
     if (!mesh) return fail(mesh.error());
     if (!a.fixed.empty()) {

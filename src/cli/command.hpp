@@ -1,10 +1,9 @@
-/// What the subcommands share: registration, exit codes, the mesh, stderr.
+/// What the subcommands share: registration, exit codes, stderr.
 #pragma once
 
 #include <string>
 #include <string_view>
 
-#include "barycert/io.hpp"
 #include "barycert/result.hpp"
 
 namespace CLI {
@@ -34,9 +33,6 @@ void tell(std::string_view text);
 
 /// "error: ..." on stderr; returns exit_error.
 int fail(const Error& error);
-
-/// One mesh, TetGen's or VTK's; the error of one that is not there has a hint at what was meant.
-Result<Mesh> load_mesh(const std::string& path, const ReadOptions& options);
 
 /// True if text for people on that stream may be coloured: a terminal, and NO_COLOR is not set.
 bool colour_on_stdout();

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <filesystem>
 
+#include <vector>
+
 #include "command.hpp"
 
 namespace barycert::cli {

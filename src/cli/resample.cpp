@@ -1,18 +1,19 @@
 // barycert resample: the fields of a mesh on a regular grid, or at the nodes of another mesh.
 
-#include "resample.hpp"
-
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <charconv>
 #include <memory>
 #include <string_view>
-#include <utility>
+#include <optional>
+#include <vector>
 
 #include "barycert/base/text.hpp"
+#include "barycert/pipeline.hpp"
 #include "command.hpp"
-#include "sampling_files.hpp"
+#include "files.hpp"
+#include "sampling_options.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -49,7 +50,7 @@ std::optional<double> positive(std::string_view text) {
     return x && *x > 0 ? x : std::nullopt;
 }
 
-void add_targets(CLI::App& sub, ResampleArguments& a) {
+void add_targets(CLI::App& sub, ResampleJob& a) {
     sub.add_option_function<std::string>(
            "--grid",
            [&a](const std::string& text) {
@@ -83,40 +84,6 @@ void add_targets(CLI::App& sub, ResampleArguments& a) {
     file_option(sub, "--onto", a.onto, "At the nodes of that mesh")->type_name("MESH2");
 }
 
-Status check_arguments(const ResampleArguments& a) {
-    const int targets = (a.counts.empty() ? 0 : 1) + (a.spacing.empty() ? 0 : 1) + (a.onto.empty() ? 0 : 1);
-    if (targets != 1)
-        return Error{.what = targets == 0 ? "no target" : "more than one target",
-                     .expected = "one of --grid, --spacing and --onto",
-                     .found = targets == 0 ? "none" : "several",
-                     .remedy = "`barycert resample --help` explains them"};
-    if (!a.bounds.empty() && !a.onto.empty())
-        return Error{.what = "--bounds beside --onto", .remedy = "bounds are for --grid and --spacing: leave them out"};
-    if (Status known = a.onto.empty() ? check_grid_output(a) : check_onto_output(a); !known) return known;
-    if (a.onto.empty()) return check_files(a, {}, {{"--output", a.output}});
-    std::vector<NamedFile> outputs;
-    for (const std::string& file : files_of_onto(a)) outputs.push_back({"--output", file});
-    return check_files(a, files_of_mesh("the mesh of --onto", a.onto), outputs);
-}
-
-Status run_resample(const ResampleArguments& a) {
-    if (Status ok = check_arguments(a); !ok) return ok;
-    const ThreadLimit limit(a.options.threads);
-    Progress progress(wants_progress(a));
-    Stopwatch whole;
-    auto engine = SamplingEngine::open(a, progress);
-    if (!engine) return engine.error();
-    report::SampleRun run = run_of("resample", a);
-    Status done =
-        a.onto.empty() ? resample_grid(a, **engine, run, progress) : resample_onto(a, **engine, run, progress);
-    if (!done) return done;
-    if (a.quiet && a.json.empty()) return done;
-    (*engine)->tell(run);
-    run.seconds.total = whole.lap();
-    progress.clear();
-    return write_reports(a, run);
-}
-
 }  // namespace
 
 void add_resample(CLI::App& app, int& exit_code) {
@@ -130,7 +97,8 @@ void add_resample(CLI::App& app, int& exit_code) {
         "and cell), STEM or STEM.node (TetGen's, with attributes), .csv, .npy.\n"
         "Values are those of `barycert sample` at the same points, bit for bit. Exit codes: 0 done, 2 usage or input\n"
         "error.");
-    const auto a = std::make_shared<ResampleArguments>();
+    const auto a = std::make_shared<ResampleJob>();
+    const auto quiet = std::make_shared<bool>(false);
     file_option(*sub, "MESH", a->mesh, "A TetGen mesh (.node/.ele; Triangle's for 2D), or a VTK file (.vtu .vtk)")
         ->required();
     add_targets(*sub, *a);
@@ -147,11 +115,8 @@ void add_resample(CLI::App& app, int& exit_code) {
            },
            "Of a picture: the values of the first and the last colour; default: the least and the largest value")
         ->type_name("MIN,MAX");
-    add_sampling_options(*sub, *a);
-    sub->callback([a, &exit_code] {
-        const Status done = run_resample(*a);
-        exit_code = done ? exit_clean : fail(done.error());
-    });
+    add_sampling_options(*sub, *a, *quiet);
+    sub->callback([=, &exit_code] { exit_code = run_sampling(*a, *quiet, [&] { return resample_files(*a); }); });
 }
 
 }  // namespace barycert::cli

@@ -339,12 +339,12 @@ void lean_values(const CubeMesh& mesh, const Queries& queries, double* out) {
 
 /// What `ask` writes on each target, required to be the same everywhere, counts of tiers included.
 template <class T, class Ask>
-std::vector<T> same_on_all_targets(const Table& table, std::size_t count, Tiers& tiers, Ask ask) {
+std::vector<T> same_on_all_targets(const Table& table, std::size_t count, TierCounts& tiers, Ask ask) {
     std::vector<T> first;
     for (const std::string& target : table.targets()) {
         require(use_simd_target(target), "a target cannot be chosen");
         std::vector<T> out(count);
-        Tiers own;
+        TierCounts own;
         ask(std::span<T>(out), &own);
         if (first.empty()) {
             first = out;
@@ -366,9 +366,9 @@ std::vector<T> same_on_all_targets(const Table& table, std::size_t count, Tiers&
 
 template <class Batch>
 std::vector<WeightSigns> verified_signs(const Table& table, const Batch& batch, const std::vector<WeightSigns>& right,
-                                        Tiers& tiers) {
-    auto found = same_on_all_targets<WeightSigns>(table, right.size(), tiers,
-                                                  [&](auto out, Tiers* t) { weight_signs(batch, out, t).value(); });
+                                        TierCounts& tiers) {
+    auto found = same_on_all_targets<WeightSigns>(
+        table, right.size(), tiers, [&](auto out, TierCounts* t) { weight_signs(batch, out, t).value(); });
     require(found == right, "signs differ from CGAL's");
     return found;
 }
@@ -380,7 +380,7 @@ void verify_singles(const Cases& cases, const std::vector<WeightSigns>* signs, c
         const Case& c = cases.list[j];
         const double* const v = c.vertices.data();
         const double* const p = c.point.data();
-        if (signs != nullptr) require(weight_signs(tetrahedron, v, p).value() == (*signs)[j], "signs of one case");
+        if (signs != nullptr) require(weight_signs(tetrahedron, v, p) == (*signs)[j], "signs of one case");
         if (weights != nullptr) {
             const Weights w = barycentric_weights(tetrahedron, v, p).value();
             for (std::size_t i = 0; i < 4; ++i)
@@ -395,17 +395,17 @@ void verify_singles(const Cases& cases, const std::vector<WeightSigns>* signs, c
 
 struct Verified {
     std::vector<double> weights, values;
-    Tiers weight_tiers, value_tiers;
+    TierCounts weight_tiers, value_tiers;
 };
 
 /// Weights and values of a batch, required to be the oracle's. `at(j)` is case j.
 template <class Batch, class Values, class At>
 Verified verified_weights(const Table& table, const Batch& batch, const Values& field, std::size_t count, At at) {
     Verified v;
-    v.weights = same_on_all_targets<double>(table, 4 * count, v.weight_tiers,
-                                            [&](auto out, Tiers* t) { barycentric_weights(batch, out, t).value(); });
+    v.weights = same_on_all_targets<double>(
+        table, 4 * count, v.weight_tiers, [&](auto out, TierCounts* t) { barycentric_weights(batch, out, t).value(); });
     v.values = same_on_all_targets<double>(table, count, v.value_tiers,
-                                           [&](auto out, Tiers* t) { interpolate(batch, field, out, t).value(); });
+                                           [&](auto out, TierCounts* t) { interpolate(batch, field, out, t).value(); });
     for (std::size_t j = 0; j < count; ++j) {
         const exact::Answer right = exact::ask(at(j));
         if (right.region == Region::degenerate) {
@@ -425,7 +425,7 @@ struct Group {
     std::vector<Row> rows;
     std::vector<Demand> demands;
 
-    std::size_t add(std::string what, std::size_t cases, std::function<void()> work, const Tiers& tiers = {}) {
+    std::size_t add(std::string what, std::size_t cases, std::function<void()> work, const TierCounts& tiers = {}) {
         rows.push_back({std::move(what), static_cast<double>(cases), std::move(work), false, tiers});
         return rows.size() - 1;
     }
@@ -460,7 +460,7 @@ Group signs_of_mesh(const Table& table, const CubeMesh& mesh, const Queries& que
     static std::vector<WeightSigns> out(count);
     std::vector<WeightSigns> right(count);
     cgal_signs(mesh, queries, right);
-    Tiers tiers;
+    TierCounts tiers;
     const MeshQueries batch = queries.of(mesh);
     verified_signs(table, batch, right, tiers);
     const auto ours = g.add(
@@ -480,7 +480,7 @@ Group signs_of_arrays(const Table& table, const Cases& small, const Cases& large
         const std::size_t n = cases == &small ? rounds : 1, count = cases->count();
         std::vector<WeightSigns> right(count);
         cgal_signs(*cases, right);
-        Tiers tiers;
+        TierCounts tiers;
         const CaseArrays batch = cases->arrays();
         verified_signs(table, batch, right, tiers);
         const std::span<WeightSigns> to(out.data(), count);
@@ -504,9 +504,9 @@ Group values_of_all(const Table& table, const CubeMesh& mesh, const Queries& que
     const NodalValues<double> field{mesh.field, 1}, field3{mesh.field3, 3};
     const Verified right =
         verified_weights(table, batch, field, all, [&](std::size_t j) { return case_of(mesh, queries, j); });
-    Tiers tiers3;
+    TierCounts tiers3;
     const auto values3 = same_on_all_targets<double>(
-        table, 3 * all, tiers3, [&](auto to, Tiers* t) { interpolate(batch, field3, to, t).value(); });
+        table, 3 * all, tiers3, [&](auto to, TierCounts* t) { interpolate(batch, field3, to, t).value(); });
     for (std::size_t j = 0; j < all; ++j) require(same_bits(values3[3 * j], right.values[j]), "a component");
     interpolate(batch, field, std::span(out).first(all), nullptr, Rounding::plain).value();
     std::size_t differ = 0;
@@ -553,7 +553,7 @@ Group values_of_all(const Table& table, const CubeMesh& mesh, const Queries& que
         const Verified own = verified_weights(table, arrays, f, count, [&](std::size_t j) { return cases->list[j]; });
         const std::span<double> to1 = std::span(out).first(count), to3 = std::span(out).first(3 * count),
                                 to4 = std::span(out).first(4 * count);
-        Tiers own3;
+        TierCounts own3;
         interpolate(arrays, f3, to3, &own3).value();
         const auto value = g.add("value, " + where, n * count, times(n, [=] { interpolate(arrays, f, to1).value(); }),
                                  own.value_tiers);
@@ -586,7 +586,7 @@ std::function<void()> each(const Cases& cases, Call call) {
 }
 
 double one_signs(const Case& c) {
-    return static_cast<double>((*weight_signs(tetrahedron, c.vertices.data(), c.point.data())).bits());
+    return static_cast<double>(weight_signs(tetrahedron, c.vertices.data(), c.point.data()).bits());
 }
 double one_weights(const Case& c) {
     return (*barycentric_weights(tetrahedron, c.vertices.data(), c.point.data())).weights[0];
@@ -597,7 +597,7 @@ double one_value(const Case& c) {
 
 int one_orient3d(const Case& c) {
     const double* const v = c.vertices.data();
-    return static_cast<int>(*orient3d(v, v + 3, v + 6, c.point.data()));
+    return static_cast<int>(orient3d(v, v + 3, v + 6, c.point.data()));
 }
 
 Group hard_cases(const Table& table, const Cases& cases, const std::string& name, bool values_only) {
@@ -608,9 +608,9 @@ Group hard_cases(const Table& table, const Cases& cases, const std::string& name
     const CaseArrays arrays = cases.arrays();
     const ValueArrays<double> f = cases.field();
     const Verified right = verified_weights(table, arrays, f, count, [&](std::size_t j) { return cases.list[j]; });
-    Tiers sign_tiers;
+    TierCounts sign_tiers;
     const auto right_signs = same_on_all_targets<WeightSigns>(
-        table, count, sign_tiers, [&](auto to, Tiers* t) { weight_signs(arrays, to, t).value(); });
+        table, count, sign_tiers, [&](auto to, TierCounts* t) { weight_signs(arrays, to, t).value(); });
     for (std::size_t j = 0; j < count; ++j) {
         const exact::Answer a = exact::ask(cases.list[j]);
         for (int i = 0; i < 4; ++i)
@@ -642,9 +642,9 @@ Group family(const Table& table, const Cases& cases) {
     static std::vector<WeightSigns> signs(cases.count());
     const std::size_t count = cases.count();
     const CaseArrays arrays = cases.arrays();
-    Tiers tiers;
+    TierCounts tiers;
     const auto right = same_on_all_targets<WeightSigns>(
-        table, count, tiers, [&](auto to, Tiers* t) { weight_signs(arrays, to, t).value(); });
+        table, count, tiers, [&](auto to, TierCounts* t) { weight_signs(arrays, to, t).value(); });
     verify_singles(cases, &right, nullptr, nullptr);
     for (std::size_t j = 0; j < count; ++j) {
         const Point* const v = cases.cgal.data() + 5 * j;
@@ -683,7 +683,7 @@ Group singles(const Cases& cases) {
     }
     const auto one_orient2d = [](const Case& c) {
         const double* const v = c.vertices.data();
-        return static_cast<int>(*orient2d(v, v + 3, v + 6));
+        return static_cast<int>(orient2d(v, v + 3, v + 6));
     };
     const auto add = [&](const char* what, bool peer, std::function<void()> work) {
         (peer ? g.add_peer(what, n * count, times(n, work)) : g.add(what, n * count, times(n, work)));

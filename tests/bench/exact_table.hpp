@@ -34,7 +34,7 @@ struct Row {
     double cases = 1;                             ///< the time is divided by this
     std::function<void()> work;                   //
     bool peer = false;                            ///< independent of the SIMD target: timed once a repetition
-    Tiers tiers = {};                             ///< of one run; none for peers
+    TierCounts tiers = {};                        ///< of one run; none for peers
     std::vector<std::vector<double>> times = {};  ///< ns per case [target][repetition]
 
     const std::vector<double>& at(std::size_t target) const { return times[peer ? 0 : target]; }

@@ -19,7 +19,7 @@ void add_all(Round& round, Contest& contest, std::optional<Locator>& locator, st
     contest.add(
         "candidates",
         [&] {
-            locator = demand_value(Locator::build(subject.mesh));
+            locator = demand_value(Locator::build(subject.mesh, {.prove = false}));
             demand_value(locator->locate(subject.points.data()));  // the first one makes the tree
         },
         [&] { locator.reset(); });

@@ -19,13 +19,12 @@ void run_grid(Round& round, SampleTable& table) {
     std::vector<double> values(round.grid_values.size());  // as a caller would keep them
     const auto ours = [&](SampleOptions how) {
         return [&round, &values, how] {
-            SampleCounts counts;
-            const auto keep = [&values](const GridBlock& block) -> Status {
+            const auto keep = [&values](const TableView& block) -> Status {
                 std::copy(block.values.begin(), block.values.end(),
-                          values.begin() + static_cast<std::ptrdiff_t>(block.first_point));
+                          values.begin() + static_cast<std::ptrdiff_t>(block.first_row));
                 return Done{};
             };
-            demand_done(resample(round.ours.one, round.subject.grid, how, keep, counts));
+            demand_value(resample(round.ours.one, round.subject.grid, how, keep));
         };
     };
     Contest contest;

@@ -18,16 +18,15 @@ struct Size {
           locator(demand_value(Locator::build(subject.mesh, subject.certificate))),
           sampler(demand_value(Sampler::build(locator, {{&subject.linear}}))) {
         require(locator.method() == Method::walk, "no walk on " + subject.name);
-        SampleCounts counts;
-        demand_done(sampler.sample(subject.points, options(1), rows, counts));
-        require(counts.locations.outside == 0, "a point of the cube is outside " + subject.name);
+        demand_done(sampler.sample(subject.points, options(1), rows));
+        require(rows.counts.locations.outside == 0, "a point of the cube is outside " + subject.name);
         verify_rows(subject, rows);
     }
 
     Subject subject;
     Locator locator;
     Sampler sampler;
-    Samples rows;
+    Table rows;
 };
 
 std::string per_cell(double value, std::size_t cells, const char* unit) {
@@ -45,8 +44,7 @@ void run_growth(std::span<const int> sizes, std::size_t point_count, const Round
         Size& size = *all.back();
         const std::string name = size.subject.name;
         contest.add("sample, " + name, [&size] {
-            SampleCounts counts;
-            demand_done(size.sampler.sample(size.subject.points, options(1), size.rows, counts));
+            demand_done(size.sampler.sample(size.subject.points, options(1), size.rows));
         });
         contest.add("locate, " + name, [&size] {
             demand_done(size.locator.locate(size.subject.points, size.rows.cells, size.rows.features, nullptr, 1));

@@ -15,7 +15,7 @@ using Which = VtkPeer::Which;
 
 /// What runs write, kept so that no run pays for new pages.
 struct Written {
-    Samples rows;
+    Table rows;
     std::vector<Mesh::Index> cells;
     std::vector<Feature> features;
     std::vector<double> values;
@@ -25,11 +25,12 @@ void add_ours(Round& round, Written& out, Contest& contest) {
     const Subject& subject = round.subject;
     const auto sample = [&](const Sampler& sampler, SampleOptions how) {
         return [&sampler, &subject, &out, how] {
-            SampleCounts counts;
-            demand_done(sampler.sample(subject.points, how, out.rows, counts));
+            demand_done(sampler.sample(subject.points, how, out.rows));
         };
     };
     out.cells.resize(subject.point_count());
+    out.rows.cells = round.rows.cells;
+    out.rows.features = round.rows.features;
     out.features.resize(subject.point_count());
     contest.add("sample", sample(round.ours.one, options(1)));
     contest.add("plain", sample(round.ours.one, options(1, Rounding::plain)));
@@ -39,9 +40,7 @@ void add_ours(Round& round, Written& out, Contest& contest) {
     contest.add("candidates", sample(round.ours.uncertified, options(1)));
     contest.add("three", sample(round.ours.three, options(1)));
     contest.add("evaluate", [&] {
-        SampleCounts counts;
-        demand_done(round.ours.one.evaluate(subject.points, round.rows.cells, round.rows.features, options(1), out.rows,
-                                            counts));
+        demand_done(round.ours.one.evaluate(subject.points, options(1), out.rows));
     });
 }
 

@@ -21,7 +21,7 @@ bool same_bits(double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) || (std::isnan(a) && std::isnan(b));
 }
 
-void require_same(const Samples& a, const Samples& b, const std::string& what) {
+void require_same(const Table& a, const Table& b, const std::string& what) {
     require(a.cells == b.cells && a.features == b.features, "owners or features differ: " + what);
     require(std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(), same_bits),
             "values differ: " + what);
@@ -57,7 +57,7 @@ struct Queries {
     MeshQueries all;
 };
 
-void verify_owners(const Subject& subject, const Samples& rows) {
+void verify_owners(const Subject& subject, const Table& rows) {
     const auto cells = corners_of(subject, rows.cells);
     const Queries queries(subject, cells);
     std::vector<WeightSigns> signs(queries.number.size());
@@ -72,7 +72,7 @@ void verify_owners(const Subject& subject, const Samples& rows) {
 }
 
 /// So many points, evenly chosen, by asking every cell.
-std::size_t verify_by_all_cells(const Subject& subject, const Samples& rows) {
+std::size_t verify_by_all_cells(const Subject& subject, const Table& rows) {
     const std::size_t cells = subject.mesh.cell_count();
     const std::size_t count =
         std::clamp<std::size_t>(20'000'000 / cells, 5, std::min<std::size_t>(1000, subject.point_count()));
@@ -92,7 +92,7 @@ std::size_t verify_by_all_cells(const Subject& subject, const Samples& rows) {
     return count;
 }
 
-std::size_t verify_by_oracle(const Subject& subject, const Samples& rows) {
+std::size_t verify_by_oracle(const Subject& subject, const Table& rows) {
     const std::size_t step = std::max<std::size_t>(1, subject.point_count() / 100'000);
     std::size_t asked = 0;
     for (std::size_t i = 0; i < subject.point_count(); i += step) {
@@ -107,7 +107,7 @@ std::size_t verify_by_oracle(const Subject& subject, const Samples& rows) {
 }
 
 /// How many values of plain rounding are not the correct ones.
-std::size_t verify_plain(const Subject& subject, const Samples& rows, const Samples& plain) {
+std::size_t verify_plain(const Subject& subject, const Table& rows, const Table& plain) {
     require(plain.cells == rows.cells && plain.features == rows.features, "owners of plain rounding");
     std::size_t differing = 0;
     for (std::size_t i = 0; i < rows.values.size(); ++i) {
@@ -123,25 +123,27 @@ std::size_t verify_plain(const Subject& subject, const Samples& rows, const Samp
 
 }  // namespace
 
-void verify_points(const Subject& subject, const Ours& ours, Samples& rows) {
-    SampleCounts counts, ignored;
-    demand_done(ours.one.sample(subject.points, options(1), rows, counts));
+void verify_points(const Subject& subject, const Ours& ours, Table& rows) {
+    demand_done(ours.one.sample(subject.points, options(1), rows));
+    const SampleCounts& counts = rows.counts;
     verify_owners(subject, rows);
     const std::size_t by_all = verify_by_all_cells(subject, rows), by_oracle = verify_by_oracle(subject, rows);
-    Samples other;
-    demand_done(ours.one.sample(subject.points, options(2), other, ignored));
+    Table other;
+    demand_done(ours.one.sample(subject.points, options(2), other));
     require_same(rows, other, "two threads");
-    demand_done(ours.uncertified.sample(subject.points, options(2), other, ignored));
+    demand_done(ours.uncertified.sample(subject.points, options(2), other));
     require_same(rows, other, "without a certificate");
     std::vector<Mesh::Index> cells(subject.point_count());
     std::vector<Feature> features(subject.point_count());
     demand_done(ours.walk.locate(subject.points, cells, features, nullptr, 1));
-    demand_done(ours.one.evaluate(subject.points, cells, features, options(1), other, ignored));
+    other.cells = std::move(cells);
+    other.features = std::move(features);
+    demand_done(ours.one.evaluate(subject.points, options(1), other));
     require_same(rows, other, "locate and evaluate");
-    demand_done(ours.three.sample(subject.points, options(1), other, ignored));
+    demand_done(ours.three.sample(subject.points, options(1), other));
     for (std::size_t i = 0; i < rows.values.size(); ++i)
         require(same_bits(rows.values[i], other.values[3 * i]), "values differ: three components");
-    demand_done(ours.one.sample(subject.points, options(1, Rounding::plain), other, ignored));
+    demand_done(ours.one.sample(subject.points, options(1, Rounding::plain), other));
     const std::size_t differing = verify_plain(subject, rows, other);
     const auto at = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
     std::printf("%s: %zu cells, %zu nodes; %zu points, %llu inside, %llu of them on faces, edges or vertices\n",
@@ -156,17 +158,16 @@ void verify_points(const Subject& subject, const Ours& ours, Samples& rows) {
 void verify_grid(const Subject& subject, const Ours& ours, std::vector<double>& values) {
     const Grid& grid = subject.grid;
     values.clear();
-    SampleCounts counts, ignored;
-    Samples rows;
+    Table rows;
     std::vector<double> points;
     const auto nx = static_cast<std::uint64_t>(grid.counts[0]), ny = static_cast<std::uint64_t>(grid.counts[1]);
-    const auto look = [&](const GridBlock& block) -> Status {
+    const auto look = [&](const TableView& block) -> Status {
         points.clear();
-        for (std::uint64_t i = block.first_point; i < block.first_point + block.cells.size(); ++i) {
+        for (std::uint64_t i = block.first_row; i < block.first_row + block.cells.size(); ++i) {
             const std::array<std::uint64_t, 3> at{i % nx, i / nx % ny, i / nx / ny};
             for (std::size_t k = 0; k < 3; ++k) points.push_back(grid.coordinate(k, static_cast<std::int64_t>(at[k])));
         }
-        demand_done(ours.one.sample(points, options(2), rows, ignored));
+        demand_done(ours.one.sample(points, options(2), rows));
         require(
             std::equal(rows.cells.begin(), rows.cells.end(), block.cells.begin(), block.cells.end()) &&
                 std::equal(rows.features.begin(), rows.features.end(), block.features.begin(), block.features.end()) &&
@@ -175,13 +176,13 @@ void verify_grid(const Subject& subject, const Ours& ours, std::vector<double>& 
         values.insert(values.end(), block.values.begin(), block.values.end());
         return Done{};
     };
-    demand_done(resample(ours.one, grid, options(1), look, counts));
+    const SampleCounts counts = demand_value(resample(ours.one, grid, options(1), look));
     require(values.size() == grid.point_count(), "points of the grid are missing");
     std::printf("  grid of %zu points, %llu inside: resample gives what sample does, bit for bit\n", values.size(),
                 static_cast<unsigned long long>(counts.locations.inside()));
 }
 
-void verify_rows(const Subject& subject, const Samples& rows) {
+void verify_rows(const Subject& subject, const Table& rows) {
     verify_owners(subject, rows);
     verify_by_oracle(subject, rows);
 }

@@ -20,10 +20,10 @@ namespace barycert::bench {
 ///   plain: the same owners, values within 200 kappa 2^-53 of the largest nodal value. (Each of four weights is off by
 ///   at most 48 kappa u + u, condition.hpp, and kappa >= 3 pays for the rest.)
 /// Prints what was looked at.
-void verify_points(const Subject& subject, const Ours& ours, Samples& rows);
+void verify_points(const Subject& subject, const Ours& ours, Table& rows);
 
 /// Only that owners, features and values of these rows are right, by exact signs, core and oracle.
-void verify_rows(const Subject& subject, const Samples& rows);
+void verify_rows(const Subject& subject, const Table& rows);
 
 /// Ends the program unless resample gives for the grid what sample does, bit for bit. `values`: those of the grid.
 void verify_grid(const Subject& subject, const Ours& ours, std::vector<double>& values);

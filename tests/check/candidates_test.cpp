@@ -94,8 +94,8 @@ TEST(Candidates, leave_out_none_that_meets) {
                 items.clear();
                 for (std::size_t c = 0; c < cells.cells.size(); c += cells.corners()) {
                     const Item item = item_of(cells, c, d + 1);
-                    const bool flat = d == 2 ? *orient2d(item.at[0], item.at[1], item.at[2]) == Sign::zero
-                                             : *orient3d(item.at[0], item.at[1], item.at[2], item.at[3]) == Sign::zero;
+                    const bool flat = d == 2 ? orient2d(item.at[0], item.at[1], item.at[2]) == Sign::zero
+                                             : orient3d(item.at[0], item.at[1], item.at[2], item.at[3]) == Sign::zero;
                     if (!flat) items.push_back(item);
                 }
                 EXPECT_GT(expect_complete(d, items,

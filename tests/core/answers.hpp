@@ -25,7 +25,7 @@ public:
     }
     /// NaN is one answer, whatever its bits.
     void add(double x) { add(std::isnan(x) ? ~std::uint64_t{0} : std::bit_cast<std::uint64_t>(x)); }
-    void add(const Tiers& t) {
+    void add(const TierCounts& t) {
         for (const std::uint64_t n : {t.filter, t.double_double, t.exact, t.degenerate, t.not_finite}) add(n);
     }
     std::uint64_t value() const { return state_; }
@@ -92,7 +92,7 @@ inline Case stream_case(Simplex s, std::uint64_t k) {
 /// All answers to cases [first, first + count) of a simplex, batches of 500 cases in both layouts and single calls.
 /// The order in `words` is that of the cases; counts go to `tiers`.
 inline void answer(Simplex s, std::uint64_t first, std::uint64_t count, std::vector<double>& numbers,
-                   std::vector<std::uint64_t>& words, std::array<Tiers, 6>& tiers) {
+                   std::vector<std::uint64_t>& words, std::array<TierCounts, 6>& tiers) {
     const auto n = static_cast<std::size_t>(vertex_count(s));
     std::vector<Case> cases;
     for (std::uint64_t k = first; k < first + count; ++k) cases.push_back(stream_case(s, k));
@@ -124,7 +124,7 @@ inline void answer(Simplex s, std::uint64_t first, std::uint64_t count, std::vec
         const Weights weights = barycentric_weights(s, vertices, c.point.data()).value();
         for (std::size_t i = 0; i < n; ++i) numbers.push_back(weights.weights[i]);
         words.push_back(static_cast<std::uint64_t>(weights.tier));
-        words.push_back(weight_signs(s, vertices, c.point.data()).value().bits());
+        words.push_back(weight_signs(s, vertices, c.point.data()).bits());
         std::array<double, 3> p{};
         const Parameter t =
             point_of_value({vertices, 2}, {vertices + 2, 2}, c.values[0], c.values[1], c.values[0] / 3, {p.data(), 2})
@@ -144,7 +144,7 @@ inline std::uint64_t hash_of_answers(int threads, std::uint64_t cases_a_simplex)
         struct Part {
             std::vector<double> numbers;
             std::vector<std::uint64_t> words;
-            std::array<Tiers, 6> tiers;
+            std::array<TierCounts, 6> tiers;
         };
         std::vector<Part> parts(chunks);
         const auto work = [&](std::uint64_t from) {
@@ -158,7 +158,7 @@ inline std::uint64_t hash_of_answers(int threads, std::uint64_t cases_a_simplex)
         for (const Part& part : parts) {
             for (const double x : part.numbers) hash.add(x);
             for (const std::uint64_t x : part.words) hash.add(x);
-            for (const Tiers& t : part.tiers) hash.add(t);
+            for (const TierCounts& t : part.tiers) hash.add(t);
         }
     }
     return hash.value();

@@ -47,13 +47,13 @@ TEST(LawD1, BatchesGiveTheBitsOfSingleCalls) {
             const Columns columns(s, cases);
             std::vector<WeightSigns> signs(count), mesh_signs(count);
             std::vector<double> w(n * count, 0.25), mesh_w(n * count, 0.25), v(count), mesh_v(count);
-            Tiers sign_tiers, w_tiers, v_tiers, one_signs, one_w, one_v;
+            TierCounts sign_tiers, w_tiers, v_tiers, one_signs, one_w, one_v;
             ASSERT_TRUE(weight_signs(columns.arrays(), signs, &sign_tiers));
             ASSERT_TRUE(barycentric_weights(columns.arrays(), w, &w_tiers));
             ASSERT_TRUE(interpolate(columns.arrays(), columns.values(), v, &v_tiers));
             for (std::size_t j = 0; j < count; ++j) {
                 const Case& c = cases[j];
-                ASSERT_EQ(signs[j], *weight_signs(s, c.vertices.data(), c.point.data(), &one_signs)) << describe(c);
+                ASSERT_EQ(signs[j], weight_signs(s, c.vertices.data(), c.point.data(), &one_signs)) << describe(c);
                 const Weights single = barycentric_weights(s, c.vertices.data(), c.point.data()).value();
                 for (std::size_t i = 0; i < n; ++i) expect_same(w[n * j + i], single.weights[i], j);
                 one_w.add(single.tier);
@@ -70,7 +70,8 @@ TEST(LawD1, BatchesGiveTheBitsOfSingleCalls) {
             EXPECT_EQ(w_tiers.cases(), count);
             EXPECT_EQ(v_tiers.cases(), count);
 
-            Tiers mesh_sign_tiers{.filter = 1000}, mesh_w_tiers, mesh_v_tiers;  // counts are added to what is there
+            TierCounts mesh_sign_tiers{.filter = 1000}, mesh_w_tiers,
+                mesh_v_tiers;  // counts are added to what is there
             ASSERT_TRUE(weight_signs(columns.mesh(), mesh_signs, &mesh_sign_tiers));
             ASSERT_TRUE(barycentric_weights(columns.mesh(), mesh_w, &mesh_w_tiers));
             ASSERT_TRUE(interpolate(columns.mesh(), columns.nodal_values(), mesh_v, &mesh_v_tiers));
@@ -155,7 +156,7 @@ TEST(LawV1, NodalValuesThatAreNoNumbersSpoilTheirComponentAlone) {
             ASSERT_TRUE(interpolate(columns.arrays(), f.arrays(), before));
             const auto last = static_cast<std::size_t>(vertex_count(s) - 1);
             f.at[last][3 * 5 + 1] = f.at[0][3 * 11 + 2] = bad;
-            Tiers tiers;
+            TierCounts tiers;
             ASSERT_TRUE(interpolate(columns.arrays(), f.arrays(), after, &tiers));
             for (std::size_t i = 0; i < after.size(); ++i)
                 expect_same(after[i], i == 3 * 5 + 1 || i == 3 * 11 + 2 ? nan : before[i], i);
@@ -168,14 +169,14 @@ TEST(LawV1, NodalValuesThatAreNoNumbersSpoilTheirComponentAlone) {
     }
 }
 
-// Tiers counts "cases with a nodal value that is NaN or infinite", whatever else is wrong with them.
+// TierCounts counts "cases with a nodal value that is NaN or infinite", whatever else is wrong with them.
 TEST(LawV1, NodalValuesThatAreNoNumbersAreCountedInDegenerateCellsToo) {
     const std::vector<Case> cases(3, Case{.simplex = Simplex::triangle, .values = {1, nan, 2}});
     const Columns columns(Simplex::triangle, cases);
     std::vector<double> v(3);
-    Tiers tiers;
+    TierCounts tiers;
     ASSERT_TRUE(interpolate(columns.arrays(), columns.values(), v, &tiers));
-    EXPECT_EQ(tiers, (Tiers{.exact = 3, .degenerate = 3, .not_finite = 3}));
+    EXPECT_EQ(tiers, (TierCounts{.exact = 3, .degenerate = 3, .not_finite = 3}));
 }
 
 /// `bad` in place `place` of case `number`: coordinates of the vertices, then of the point.
@@ -199,7 +200,7 @@ void expect_named(Simplex s, std::size_t number, int place, double bad) {
         EXPECT_EQ(status.error().what, "case " + std::to_string(number) + ": " + coordinate);
         EXPECT_EQ(status.error().expected, "a finite number");
     }
-    const auto signs_alone = weight_signs(s, c.vertices.data(), c.point.data());
+    const auto signs_alone = checked_weight_signs(s, c.vertices.data(), c.point.data());
     const auto weights_alone = barycentric_weights(s, c.vertices.data(), c.point.data());
     const auto value_alone = interpolate(s, c.vertices.data(), c.point.data(), c.values.data());
     ASSERT_FALSE(signs_alone || weights_alone || value_alone);
@@ -226,14 +227,14 @@ TEST(LawE, OrientationsOfWhatIsNoNumber) {
         for (const double bad : {nan, infinity, -infinity}) {
             std::array<double, 12> v{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
             v[place] = bad;
-            const auto three = orient3d(v.data(), v.data() + 3, v.data() + 6, v.data() + 9);
+            const auto three = checked_orient3d(v.data(), v.data() + 3, v.data() + 6, v.data() + 9);
             ASSERT_FALSE(three);
             EXPECT_EQ(three.error().what,
                       "coordinate " + std::to_string(place % 3) + " of point " + std::to_string(place / 3));
             if (place >= 6) continue;
             std::array<double, 6> t{0, 0, 1, 0, 0, 1};
             t[place] = bad;
-            const auto two = orient2d(t.data(), t.data() + 2, t.data() + 4);
+            const auto two = checked_orient2d(t.data(), t.data() + 2, t.data() + 4);
             ASSERT_FALSE(two);
             EXPECT_EQ(two.error().what,
                       "coordinate " + std::to_string(place % 2) + " of point " + std::to_string(place / 2));
@@ -256,7 +257,7 @@ TEST(Plain, IsNearOnGoodCells) {
         const std::vector<Case> cases(33, corner(s));
         const Columns columns(s, cases);
         std::vector<double> plain(33), right(33);
-        Tiers tiers;
+        TierCounts tiers;
         ASSERT_TRUE(interpolate(columns.arrays(), columns.values(), plain, &tiers, Rounding::plain));
         ASSERT_TRUE(interpolate(columns.arrays(), columns.values(), right));
         EXPECT_EQ(tiers.cases(), 0U);
@@ -301,7 +302,7 @@ TEST(Batches, SizesThatDoNotFitAreAnError) {
                                    barycentric_weights(arrays, w),
                                    barycentric_weights(queries, w),
                                    interpolate(arrays, columns.values(), v),
-                                   interpolate<double>(queries, NodalValues<double>{nodes}, v)};
+                                   interpolate(queries, NodalValues<double>{nodes}, v)};
         for (const Status& status : statuses) {
             ASSERT_FALSE(status);
             EXPECT_EQ(status.error().what, "size of the output");
@@ -312,7 +313,7 @@ TEST(Batches, SizesThatDoNotFitAreAnError) {
     EXPECT_EQ(weight_signs(odd, signs).error().message(),
               "size of the points: expected 2 coordinates for each of 2 queries, found 3");
     std::vector<double> v(2);
-    const Status none = interpolate<double>(queries, NodalValues<double>{nodes, 0}, v);
+    const Status none = interpolate(queries, NodalValues<double>{nodes, 0}, v);
     ASSERT_FALSE(none);
     EXPECT_EQ(none.error().message(), "number of components: expected at least 1, found 0");
 }

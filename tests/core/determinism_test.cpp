@@ -70,9 +70,9 @@ TEST(LawD1, TheHashSeesEveryBit) {
     a.add(1.0);
     b.add(std::nextafter(1.0, 2.0));
     EXPECT_NE(a.value(), b.value());
-    a.add(Tiers{.filter = 1});
+    a.add(TierCounts{.filter = 1});
     c.add(1.0);
-    c.add(Tiers{.exact = 1});
+    c.add(TierCounts{.exact = 1});
     EXPECT_NE(a.value(), c.value());
     // FNV-1a of eight zero bytes, from its definition.
     testing_answers::Hash zero;

@@ -72,11 +72,13 @@ inline void add_predicates(Point where, std::vector<Call>& calls) {
                              return ask(e.points, [&](int i) { return e.points[where == Point::own ? i : 0]; });
                          }});
     };
-    add("orient2d", [](const auto& p, auto last) { return orient2d(p[0], p[1], last(2)).has_value(); });
-    add("orient3d", [](const auto& p, auto last) { return orient3d(p[0], p[1], p[2], last(3)).has_value(); });
-    add("det3d", [](const auto& p, auto last) { return det3d(p[0], p[1], p[2], p[3], last(4), last(5)).has_value(); });
-    add("incircle", [](const auto& p, auto last) { return incircle(p[0], p[1], p[2], last(3)).has_value(); });
-    add("insphere", [](const auto& p, auto last) { return insphere(p[0], p[1], p[2], p[3], last(4)).has_value(); });
+    add("orient2d", [](const auto& p, auto last) { return checked_orient2d(p[0], p[1], last(2)).has_value(); });
+    add("orient3d", [](const auto& p, auto last) { return checked_orient3d(p[0], p[1], p[2], last(3)).has_value(); });
+    add("det3d",
+        [](const auto& p, auto last) { return checked_det3d(p[0], p[1], p[2], p[3], last(4), last(5)).has_value(); });
+    add("incircle", [](const auto& p, auto last) { return checked_incircle(p[0], p[1], p[2], last(3)).has_value(); });
+    add("insphere",
+        [](const auto& p, auto last) { return checked_insphere(p[0], p[1], p[2], p[3], last(4)).has_value(); });
 }
 
 inline void add_calls_of(Simplex s, Point where, std::vector<Call>& calls) {
@@ -85,7 +87,7 @@ inline void add_calls_of(Simplex s, Point where, std::vector<Call>& calls) {
                          [s, where, ask = std::move(ask)](const Extreme& e) { return ask(e, Numbers(s, e, where)); }});
     };
     add("weight_signs",
-        [s](const Extreme&, const Numbers& c) { return weight_signs(s, c.vertices, c.point).has_value(); });
+        [s](const Extreme&, const Numbers& c) { return checked_weight_signs(s, c.vertices, c.point).has_value(); });
     add("barycentric_weights",
         [s](const Extreme&, const Numbers& c) { return barycentric_weights(s, c.vertices, c.point).has_value(); });
     add("interpolate",

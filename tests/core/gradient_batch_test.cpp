@@ -35,7 +35,7 @@ struct CellMesh {
             }
         }
     }
-    Status ask(std::vector<double>& out, Tiers* tiers) const {
+    Status ask(std::vector<double>& out, TierCounts* tiers) const {
         const MeshQueries q = columns.mesh();
         out.assign(cases.size() * static_cast<std::size_t>(components * space_dimension(q.simplex)), -1);
         return gradients(q.simplex, q.nodes, q.corners, {values, components}, out, tiers);
@@ -63,7 +63,7 @@ TEST(GradientBatch, is_single_calls_on_every_target) {
                     cases.push_back(easy ? stretched_cell(r, s) : random_case(r, s, kind));
                 }
                 const CellMesh mesh(s, cases, components, r);
-                Tiers single;
+                TierCounts single;
                 std::vector<std::uint64_t> expected;
                 for (std::size_t j = 0; j < count; ++j) {
                     Tier highest = Tier::double_double;
@@ -80,7 +80,7 @@ TEST(GradientBatch, is_single_calls_on_every_target) {
                 for (const std::string& target : simd_targets()) {
                     ASSERT_TRUE(use_simd_target(target));
                     std::vector<double> out;
-                    Tiers tiers;
+                    TierCounts tiers;
                     ASSERT_TRUE(mesh.ask(out, &tiers));
                     EXPECT_EQ(tiers, single) << target;
                     ASSERT_EQ(out.size(), expected.size());
@@ -115,11 +115,11 @@ TEST(GradientBatch, ends_of_the_ranges) {
             if (finite) cases.push_back(c);
         }
         const CellMesh mesh(s, cases, 1, r);
-        Tiers first;
+        TierCounts first;
         for (const std::string& target : simd_targets()) {
             ASSERT_TRUE(use_simd_target(target));
             std::vector<double> out;
-            Tiers tiers;
+            TierCounts tiers;
             ASSERT_TRUE(mesh.ask(out, &tiers));
             if (first.cases() == 0) first = tiers;
             EXPECT_EQ(tiers, first) << target;
@@ -149,7 +149,7 @@ TEST(GradientTiers, ordinary_cells_need_double_double_alone) {
         }
         const CellMesh mesh(s, cases, 1, r);
         std::vector<double> out;
-        Tiers tiers;
+        TierCounts tiers;
         ASSERT_TRUE(mesh.ask(out, &tiers));
         EXPECT_LE(tiers.exact, 5U) << name(s);
         EXPECT_EQ(tiers.cases(), cases.size());
@@ -192,7 +192,7 @@ TEST(GradientBatch, degenerate_and_not_finite_are_counted) {
         mesh.values[2 * node_7 + 1] = std::nan("");                                   // component 1 of cell 7
         mesh.values[2 * static_cast<std::size_t>(corners[(d + 1) * 3])] = -infinity;  // of the degenerate one
         std::vector<double> out(cases.size() * d * 2);
-        Tiers tiers;
+        TierCounts tiers;
         const MeshQueries q = mesh.columns.mesh();
         ASSERT_TRUE(gradients(s, q.nodes, corners, {mesh.values, 2}, out, &tiers));
         EXPECT_EQ(tiers.degenerate, 1U);
@@ -222,7 +222,7 @@ TEST(GradientBatch, errors_are_told) {
     const std::array<double, 3> f{0, 1, 2};
     const std::array<std::int32_t, 3> corners{0, 1, 2};
     std::array<double, 2> out{};
-    Tiers tiers;
+    TierCounts tiers;
     const auto ask = [&](Simplex s, std::span<const std::int32_t> cells, int components, std::span<double> to) {
         return gradients(s, v, cells, {f, components}, to, &tiers);
     };

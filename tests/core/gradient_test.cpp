@@ -1,7 +1,7 @@
 // Law G1 of gradients: against the oracle and against exact rationals rounded by the definition.
 #include <algorithm>
 
-#include "barycert/core/gradient_exact.hpp"
+#include "barycert/core/exact_tier.hpp"
 #include "core/gradient_cases.hpp"
 
 namespace barycert {

@@ -18,7 +18,7 @@ using testing_cases::Kind;
 using testing_cases::random_case;
 
 WeightSigns signs(const Case& c) {
-    return weight_signs(c.simplex, c.vertices.data(), c.point.data()).value();
+    return weight_signs(c.simplex, c.vertices.data(), c.point.data());
 }
 
 Sign negated(Sign s) {
@@ -51,8 +51,7 @@ Case permuted(const Case& c, const std::vector<std::size_t>& order) {
 /// Orientations of the vertices by themselves.
 Sign orient(const Case& c) {
     const double* const v = c.vertices.data();
-    return c.simplex == Simplex::triangle ? orient2d(v, v + 2, v + 4).value()
-                                          : orient3d(v, v + 3, v + 6, v + 9).value();
+    return c.simplex == Simplex::triangle ? orient2d(v, v + 2, v + 4) : orient3d(v, v + 3, v + 6, v + 9);
 }
 
 bool solid(Simplex s) {
@@ -162,8 +161,8 @@ TEST(LawS1, WhereTheClassicalFilterCertifiesAWrongSign) {
     using testing_rational::Q;
     const Q exact = Q(a[2]) * Q(b[0]) * Q(c[1]) - Q(b[2]) * Q(a[0]) * Q(c[1]);
     ASSERT_GT(exact, 0);
-    EXPECT_EQ(orient3d(a, b, c, d).value(), Sign::negative);
-    EXPECT_EQ(orient3d(b, a, c, d).value(), Sign::positive);
+    EXPECT_EQ(orient3d(a, b, c, d), Sign::negative);
+    EXPECT_EQ(orient3d(b, a, c, d), Sign::positive);
 
     // As the weight of a fourth vertex: the cell's own orientation, and the point d in a cell with far vertex.
     Case t{.simplex = Simplex::tetrahedron,
@@ -173,7 +172,7 @@ TEST(LawS1, WhereTheClassicalFilterCertifiesAWrongSign) {
     EXPECT_EQ(signs(t).feature(Simplex::tetrahedron), Feature::vertex);
     t.vertex(3, 0) = -0x1p-500;  // now d is only the point: the weight of vertex 3 has the sign of orient3d(a, b, c, d)
     const double* const v = t.vertices.data();
-    const Sign cell = orient3d(v, v + 3, v + 6, v + 9).value();
+    const Sign cell = orient3d(v, v + 3, v + 6, v + 9);
     ASSERT_NE(cell, Sign::zero);
     EXPECT_EQ(signs(t).sign(3), cell == Sign::negative ? Sign::positive : Sign::negative);
 }
@@ -302,12 +301,12 @@ TEST(Features, degenerate_simplices_of_each_kind) {
         {.simplex = Simplex::tetrahedron, .vertices = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0}},  // two vertices in one
         {.simplex = Simplex::tetrahedron, .vertices = {.1, .2, .1, .7, .3, .7, 1e-320, 5, 1e-320, 1e300, 1, 1e300}},
     };
-    Tiers tiers;
+    TierCounts tiers;
     std::uint64_t asked = 0;
     for (Case c : all) {
         for (const double x : {0.0, 0.5, 1.0, -3.0}) {
             c.point = {x, x, x};
-            const WeightSigns got = weight_signs(c.simplex, c.vertices.data(), c.point.data(), &tiers).value();
+            const WeightSigns got = weight_signs(c.simplex, c.vertices.data(), c.point.data(), &tiers);
             ++asked;
             EXPECT_EQ(got, WeightSigns::degenerate_simplex()) << describe(c);
             EXPECT_EQ(got.feature(c.simplex), Feature::degenerate);
@@ -318,25 +317,29 @@ TEST(Features, degenerate_simplices_of_each_kind) {
             }
         }
     }
-    EXPECT_EQ(tiers, (Tiers{.exact = asked, .degenerate = asked}));
+    EXPECT_EQ(tiers, (TierCounts{.exact = asked, .degenerate = asked}));
 }
 
 TEST(Orientation, by_hand) {
     const double o[3] = {0, 0, 0}, x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, z[3] = {0, 0, 1};
-    EXPECT_EQ(orient2d(o, x, y).value(), Sign::positive);
-    EXPECT_EQ(orient2d(x, o, y).value(), Sign::negative);
-    EXPECT_EQ(orient2d(o, x, x).value(), Sign::zero);
-    EXPECT_EQ(orient3d(o, x, y, z).value(), Sign::positive);
-    EXPECT_EQ(orient3d(x, o, y, z).value(), Sign::negative);
-    EXPECT_EQ(orient3d(o, x, y, x).value(), Sign::zero);
+    EXPECT_EQ(orient2d(o, x, y), Sign::positive);
+    EXPECT_EQ(orient2d(x, o, y), Sign::negative);
+    EXPECT_EQ(orient2d(o, x, x), Sign::zero);
+    EXPECT_EQ(orient3d(o, x, y, z), Sign::positive);
+    EXPECT_EQ(orient3d(x, o, y, z), Sign::negative);
+    EXPECT_EQ(orient3d(o, x, y, x), Sign::zero);
 }
 
 // det3d: three differences between six points.
 
 using SixPoints = std::array<std::array<double, 3>, 6>;
 
-Result<Sign> try_det3d(const SixPoints& p) {
-    return det3d(p[0].data(), p[1].data(), p[2].data(), p[3].data(), p[4].data(), p[5].data());
+Result<Sign> checked_det3d(const SixPoints& p) {
+    return barycert::checked_det3d(p[0].data(), p[1].data(), p[2].data(), p[3].data(), p[4].data(), p[5].data());
+}
+
+Sign det3d(const SixPoints& p) {
+    return barycert::det3d(p[0].data(), p[1].data(), p[2].data(), p[3].data(), p[4].data(), p[5].data());
 }
 
 Sign det3d_by_rationals(const SixPoints& p) {
@@ -385,7 +388,7 @@ TEST(LawS1, DeterminantsOfDifferencesAreThoseOfRationals) {
             Random r = Random::stream(1, hash64("det3d"), k);
             const SixPoints p = hard_six(r, kind);
             const Sign right = det3d_by_rationals(p);
-            EXPECT_EQ(try_det3d(p).value(), right) << describe(p);
+            EXPECT_EQ(det3d(p), right) << describe(p);
             zeros += right == Sign::zero ? 1 : 0;
         }
     }
@@ -402,7 +405,7 @@ TEST(LawS1, DeterminantsOfDifferencesAboutTheLimitsOfTheFilter) {
             const int shift = limits[r.below(7)];
             for (auto& x : p) x[axis] = std::ldexp(x[axis], shift);
         }
-        EXPECT_EQ(try_det3d(p).value(), det3d_by_rationals(p)) << describe(p);
+        EXPECT_EQ(det3d(p), det3d_by_rationals(p)) << describe(p);
     }
 }
 
@@ -416,7 +419,7 @@ TEST(LawS1, DeterminantsOfDifferencesAreTheSameInEveryEnvironment) {
                 Sign got = Sign::zero;
                 {
                     const testing_environments::Changed changed(environment);
-                    got = *try_det3d(p);
+                    got = det3d(p);
                 }
                 ASSERT_EQ(got, right) << environment.name << '\n' << describe(p);
             }
@@ -429,7 +432,7 @@ TEST(LawS2, OrderOfDifferencesAndOfTheirEnds) {
         for (std::uint64_t k = 0; k < 200 && !HasFailure(); ++k) {
             Random r = Random::stream(1, hash64("det3d order"), k);
             const SixPoints p = hard_six(r, kind);
-            const Sign original = try_det3d(p).value();
+            const Sign original = det3d(p);
             for_permutations(3, [&](const auto& order, bool odd) {
                 for (unsigned swaps = 0; swaps < 8; ++swaps) {
                     SixPoints image;
@@ -440,12 +443,11 @@ TEST(LawS2, OrderOfDifferencesAndOfTheirEnds) {
                         image[2 * i + 1] = p[2 * order[i] + 1 - swapped];
                         flips ^= swapped == 1;
                     }
-                    EXPECT_EQ(try_det3d(image).value(), flips ? negated(original) : original) << describe(image);
+                    EXPECT_EQ(det3d(image), flips ? negated(original) : original) << describe(image);
                 }
             });
             const auto at = [&](std::size_t i) { return p[i].data(); };
-            EXPECT_EQ(det3d(at(0), at(1), at(0), at(2), at(0), at(3)).value(),
-                      orient3d(at(0), at(1), at(2), at(3)).value())
+            EXPECT_EQ(barycert::det3d(at(0), at(1), at(0), at(2), at(0), at(3)), orient3d(at(0), at(1), at(2), at(3)))
                 << describe(p);
         }
     }
@@ -453,17 +455,17 @@ TEST(LawS2, OrderOfDifferencesAndOfTheirEnds) {
 
 TEST(LawE, DeterminantsOfDifferences) {
     const SixPoints good{{{0, 0, 0}, {1, 2, 3}, {5, 5, 5}, {3, 2, 1}, {0, 1, 0}, {7, 7, 0}}};
-    ASSERT_EQ(try_det3d(good).value(), det3d_by_rationals(good));
+    ASSERT_EQ(det3d(good), det3d_by_rationals(good));
     for (const double bad : {testing_rational::infinity, -testing_rational::infinity, std::nan("")}) {
         for (std::size_t i = 0; i < 6; ++i) {
             for (std::size_t k = 0; k < 3; ++k) {
                 SixPoints p = good;
                 p[i][k] = bad;
-                const auto got = try_det3d(p);
+                const auto got = checked_det3d(p);
                 ASSERT_FALSE(got);
                 EXPECT_EQ(got.error().what, "coordinate " + std::to_string(k) + " of point " + std::to_string(i));
                 p[i ^ 1U][k] = bad;  // their difference is NaN
-                EXPECT_FALSE(try_det3d(p));
+                EXPECT_FALSE(checked_det3d(p));
             }
         }
     }

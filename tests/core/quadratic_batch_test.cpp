@@ -48,7 +48,7 @@ struct QuadraticMesh {
     /// Node i of case j, corners first.
     std::size_t node(std::size_t j, std::size_t i) const { return i < n ? n * j + i : n * count + m * j + (i - n); }
 
-    Status ask(std::vector<double>& out, Tiers* tiers, Rounding rounding = Rounding::correct) const {
+    Status ask(std::vector<double>& out, TierCounts* tiers, Rounding rounding = Rounding::correct) const {
         out.assign(count * stride, -1);
         return interpolate_quadratic(columns.mesh(), mid_nodes, {values, static_cast<int>(stride)}, out, tiers,
                                      rounding);
@@ -77,7 +77,7 @@ TEST(QuadraticBatch, is_single_calls_on_every_target) {
                     }
                 }
                 const QuadraticMesh mesh(s, cases, components, r);
-                Tiers expected;
+                TierCounts expected;
                 std::vector<std::uint64_t> words;
                 for (std::size_t j = 0; j < count; ++j) {
                     Tier highest = Tier::double_double;
@@ -94,7 +94,7 @@ TEST(QuadraticBatch, is_single_calls_on_every_target) {
                 for (const std::string& target : simd_targets()) {
                     ASSERT_TRUE(use_simd_target(target));
                     std::vector<double> out;
-                    Tiers tiers;
+                    TierCounts tiers;
                     ASSERT_TRUE(mesh.ask(out, &tiers));
                     EXPECT_EQ(tiers, expected) << target;
                     for (std::size_t i = 0; i < out.size(); ++i)
@@ -122,11 +122,11 @@ TEST(QuadraticBatch, ends_of_the_ranges) {
             cases.push_back(q);
         }
         const QuadraticMesh mesh(s, cases, 1, r);
-        Tiers first;
+        TierCounts first;
         for (const std::string& target : simd_targets()) {
             ASSERT_TRUE(use_simd_target(target));
             std::vector<double> out;
-            Tiers tiers;
+            TierCounts tiers;
             ASSERT_TRUE(mesh.ask(out, &tiers));
             if (first.cases() == 0) first = tiers;
             EXPECT_EQ(tiers, first) << target;
@@ -153,13 +153,13 @@ TEST(QuadraticTiers, ordinary_cells_need_double_double_alone) {
         }
         const QuadraticMesh mesh(s, cases, 1, r);
         std::vector<double> out, plain;
-        Tiers tiers, none;
+        TierCounts tiers, none;
         ASSERT_TRUE(mesh.ask(out, &tiers));
         EXPECT_LE(tiers.exact, 20U) << name(s);
         EXPECT_EQ(tiers.cases(), cases.size());
         // Plain rounding is near, and counts nothing.
         ASSERT_TRUE(mesh.ask(plain, &none, Rounding::plain));
-        EXPECT_EQ(none, Tiers{});
+        EXPECT_EQ(none, TierCounts{});
         std::size_t near = 0, same = 0;
         for (std::size_t j = 0; j < out.size(); ++j) {
             near += std::fabs(plain[j] - out[j]) <= 1e-10 * (1 + std::fabs(out[j])) ? 1 : 0;
@@ -196,7 +196,7 @@ TEST(QuadraticBatch, degenerate_and_not_finite_are_counted) {
         mesh.values[2 * mesh.node(7, mesh.n) + 1] = std::nan("");  // component 1, amid an edge
         mesh.values[2 * mesh.node(3, 1)] = -infinity;              // of the degenerate one
         std::vector<double> out;
-        Tiers tiers;
+        TierCounts tiers;
         ASSERT_TRUE(mesh.ask(out, &tiers));
         EXPECT_EQ(tiers.degenerate, 1U);
         EXPECT_EQ(tiers.not_finite, 3U);
@@ -222,7 +222,7 @@ TEST(QuadraticBatch, errors_are_told) {
     const std::array<std::int32_t, 3> corners{0, 1, 2}, mids{3, 4, 5};
     const std::array<std::int32_t, 1> cells{0};
     std::array<double, 1> out{};
-    Tiers tiers;
+    TierCounts tiers;
     MeshQueries q{Simplex::triangle, v, corners, cells, p};
     EXPECT_TRUE(interpolate_quadratic(q, mids, {f, 1}, out, &tiers));
     EXPECT_EQ(tiers.cases(), 1U);

@@ -1,5 +1,5 @@
 // Laws V1 and V2 of quadratic fields: against the oracle and against exact rationals rounded by the definition.
-#include "barycert/core/quadratic_exact.hpp"
+#include "barycert/core/exact_tier.hpp"
 #include "core/quadratic_cases.hpp"
 
 namespace barycert {

@@ -25,10 +25,16 @@ struct Points {
     std::size_t axes() const { return static_cast<std::size_t>(d); }
 };
 
-inline Result<Sign> ask(const Points& p) {
+inline Sign ask(const Points& p) {
     const auto& x = p.at;
     return p.d == 2 ? incircle(x[0].data(), x[1].data(), x[2].data(), x[3].data())
                     : insphere(x[0].data(), x[1].data(), x[2].data(), x[3].data(), x[4].data());
+}
+
+inline Result<Sign> checked_ask(const Points& p) {
+    const auto& x = p.at;
+    return p.d == 2 ? checked_incircle(x[0].data(), x[1].data(), x[2].data(), x[3].data())
+                    : checked_insphere(x[0].data(), x[1].data(), x[2].data(), x[3].data(), x[4].data());
 }
 
 inline std::string describe(const Points& p) {

@@ -36,7 +36,7 @@ std::vector<Case> cases_of(Simplex s) {
     return cases;
 }
 
-void add(Answers& out, const Tiers& t) {
+void add(Answers& out, const TierCounts& t) {
     for (const std::uint64_t n : {t.filter, t.double_double, t.exact, t.degenerate, t.not_finite}) out.add(n);
 }
 
@@ -45,7 +45,7 @@ TEST(EveryEnvironment, Signs) {
         const std::vector<Case> cases = cases_of(s);
         const Columns columns(s, cases);
         expect_same_everywhere("signs of " + std::string(name(s)), [&](Answers& out) {
-            Tiers tiers, single;
+            TierCounts tiers, single;
             std::vector<WeightSigns> signs(cases.size());
             for (const Status& done :
                  {weight_signs(columns.arrays(), signs, &tiers), weight_signs(columns.mesh(), signs, &tiers)})
@@ -53,15 +53,15 @@ TEST(EveryEnvironment, Signs) {
             add(out, tiers);
             for (std::size_t i = 0; i < cases.size(); ++i) {
                 const Case& c = cases[i];
-                out.add(*weight_signs(s, c.vertices.data(), c.point.data(), &single) == signs[i]);
+                out.add(weight_signs(s, c.vertices.data(), c.point.data(), &single) == signs[i]);
                 out.add(static_cast<int>(signs[i].feature(s)));
                 if (s == Simplex::tetrahedron) {
                     const double* const v = c.vertices.data();
-                    out.add(static_cast<int>(*orient3d(v, v + 3, v + 6, v + 9)));
-                    out.add(static_cast<int>(*insphere(v, v + 3, v + 6, v + 9, c.point.data())));
-                    out.add(static_cast<int>(*orient2d(v, v + 2, v + 4)));
-                    out.add(static_cast<int>(*incircle(v, v + 2, v + 4, v + 6)));
-                    out.add(static_cast<int>(*det3d(v, v + 3, v + 6, v + 9, v, c.point.data())));
+                    out.add(static_cast<int>(orient3d(v, v + 3, v + 6, v + 9)));
+                    out.add(static_cast<int>(insphere(v, v + 3, v + 6, v + 9, c.point.data())));
+                    out.add(static_cast<int>(orient2d(v, v + 2, v + 4)));
+                    out.add(static_cast<int>(incircle(v, v + 2, v + 4, v + 6)));
+                    out.add(static_cast<int>(det3d(v, v + 3, v + 6, v + 9, v, c.point.data())));
                 }
             }
             add(out, single);
@@ -75,7 +75,7 @@ TEST(EveryEnvironment, WeightsAndValues) {
         const Columns columns(s, cases);
         const auto n = static_cast<std::size_t>(vertex_count(s));
         expect_same_everywhere("weights and values of " + std::string(name(s)), [&](Answers& out) {
-            Tiers tiers;
+            TierCounts tiers;
             std::vector<double> w(n * cases.size()), v(cases.size());
             out.add(barycentric_weights(columns.arrays(), w, &tiers).has_value());
             out.add_all(w);
@@ -115,7 +115,7 @@ TEST(EveryEnvironment, GradientsAndQuadraticFields) {
         for (std::size_t i = 0; i < mid_nodes.size(); ++i)
             mid_nodes[i] = static_cast<std::int32_t>(n * (i / mids) + i % n);
         expect_same_everywhere("fields of " + std::string(name(s)), [&](Answers& out) {
-            Tiers tiers;
+            TierCounts tiers;
             const MeshQueries mesh = columns.mesh();
             std::vector<double> g(d * cases.size()), v(cases.size());
             out.add(gradients(s, mesh.nodes, mesh.corners, columns.nodal_values(), g, &tiers).has_value());

@@ -81,7 +81,7 @@ std::vector<double> points_around(const Subject& s, std::size_t count) {
     return points;
 }
 
-void add(Answers& out, const Tiers& t) {
+void add(Answers& out, const TierCounts& t) {
     for (const std::uint64_t n : {t.filter, t.double_double, t.exact, t.degenerate, t.not_finite}) out.add(n);
 }
 
@@ -164,14 +164,14 @@ TEST(EveryEnvironment, Locate) {
                 const auto locator = Locator::build(s.mesh, certificate);
                 std::vector<Mesh::Index> cells(points.size() / d);
                 std::vector<Feature> features(cells.size());
-                LocationCounts counts, of_all;
+                LocationCounts counts;
                 out.add(locator->locate(points, cells, features, &counts, threads).has_value());
                 out.add_all(cells);
                 for (const Feature f : features) out.add(static_cast<int>(f));
                 add(out, counts);
-                const auto all = locator->locate_all(std::span(points).first(200 * d), &of_all, threads);
+                const auto all = locator->locate_all(std::span(points).first(200 * d), threads);
                 out.add_all(all->cells);
-                add(out, of_all);
+                add(out, all->counts.locations);
                 for (std::size_t i = 0; i < 40; ++i) {
                     const Location one = *locator->locate(&points[d * i]), hinted = *locator->locate(&points[d * i], 3);
                     out.add(one.cell);
@@ -190,7 +190,7 @@ std::vector<FieldChoice> fields_of(const Mesh& mesh) {
     return {{&mesh.point_fields[0], false}, {&mesh.point_fields[1], false}, {&mesh.cell_fields[0], true}};
 }
 
-void add(Answers& out, const Samples& s) {
+void add(Answers& out, const Table& s) {
     out.add_all(s.cells);
     for (const Feature f : s.features) out.add(static_cast<int>(f));
     for (const double x : s.values) out.add(x);
@@ -208,18 +208,19 @@ TEST(EveryEnvironment, SampleAndResample) {
                     options.rounding = rounding;
                     options.outside.kind = outside;
                     options.threads = 2;
-                    const auto locator = Locator::build(s.mesh);
+                    const auto locator = Locator::build(s.mesh, {.prove = false});
                     const auto sampler = Sampler::build(*locator, fields_of(s.mesh));
-                    Samples samples, again;
+                    Table samples;
                     SampleCounts counts;
                     const std::size_t some = outside == Outside::nan ? points.size() : 60;
-                    out.add(sampler->sample(std::span(points).first(some), options, samples, counts).has_value());
+                    out.add(sampler->sample(std::span(points).first(some), options, samples).has_value());
                     add(out, samples);
-                    out.add(sampler
-                                ->evaluate(std::span(points).first(some), samples.cells, samples.features, options,
-                                           again, counts)
-                                .has_value());
+                    Table again = samples;
+                    again.values.assign(again.values.size(), 0);
+                    out.add(sampler->evaluate(std::span(points).first(some), options, again).has_value());
                     add(out, again);
+                    counts.add(samples.counts);
+                    counts.add(again.counts);
                     const auto over = grid_over(s.mesh.dimension, {5, 4, 4}, {low, low, low}, {high, high, high});
                     const auto spaced =
                         grid_spaced(s.mesh.dimension, {step, step, step}, {low, low, low}, {high, high, high});
@@ -227,13 +228,15 @@ TEST(EveryEnvironment, SampleAndResample) {
                         out.add(grid.has_value());
                         if (!grid) continue;
                         for (std::int64_t i = 0; i < grid->counts[0]; ++i) out.add(grid->coordinate(0, i));
-                        const auto sink = [&](const GridBlock& block) -> Status {
+                        const auto sink = [&](const TableView& block) -> Status {
                             out.add_all(block.cells);
                             for (const double x : block.values) out.add(x);
                             for (const double x : block.distances) out.add(x);
                             return Done{};
                         };
-                        out.add(resample(*sampler, *grid, options, sink, counts).has_value());
+                        const auto of_grid = resample(*sampler, *grid, options, sink);
+                        out.add(of_grid.has_value());
+                        if (of_grid) counts.add(*of_grid);
                     }
                     const Bounds3 bounds = bounds_of_cells(s.mesh);
                     for (const double x : bounds.low) out.add(x);
@@ -288,18 +291,18 @@ TEST(EveryEnvironment, Files) {
             add(out, *read_tetgen(folder.path("mesh.node")));
             for (const char* const name : {"points.csv", "mesh.node"}) {
                 std::vector<double> read;
-                const auto source = points::open_source(folder.path(name), s.mesh.dimension);
+                const auto source = open_points(folder.path(name), s.mesh.dimension);
                 out.add((*source)->read(1000, read).has_value());
                 out.add_all(read);
             }
             const std::vector<Mesh::Index> cells(points.size() / d, 0);
             const std::vector<Feature> features(cells.size(), Feature::interior);
-            const points::RowFormat format{
-                s.mesh.dimension, d == 2 ? std::vector<std::string>{"a", "b"} : std::vector<std::string>{"a", "b", "c"},
-                false};
+            const TableFormat format{
+                s.mesh.dimension,
+                d == 2 ? std::vector<TableField>{{"a"}, {"b"}} : std::vector<TableField>{{"a"}, {"b"}, {"c"}}, false};
             for (const char* const name : {"rows.csv", "rows.npy"}) {
-                const auto sink = points::open_sink(folder.path(name), format);
-                out.add((*sink)->write({s.mesh.dimension, points, cells, features, points, {}}).has_value());
+                const auto sink = open_table(folder.path(name), format);
+                out.add((*sink)->write({s.mesh.dimension, 0, points, cells, features, points, {}}).has_value());
                 out.add((*sink)->commit().has_value());
                 out.add(std::string_view(folder.bytes(name)));
             }
@@ -341,7 +344,7 @@ TEST(EveryEnvironment, Float32) {
     folder.put("floats.npy", npy);
     expect_same_everywhere("float32", [&](Answers& out) {
         std::vector<double> read;
-        const auto source = points::open_source(folder.path("floats.npy"), 3);
+        const auto source = open_points(folder.path("floats.npy"), 3);
         out.add(source.has_value());
         if (source) out.add((*source)->read(10, read).has_value());
         out.add_all(read);
@@ -353,12 +356,12 @@ TEST(EveryEnvironment, Pictures) {
     std::vector<double> values;
     for (int i = -20; i < 28; ++i) values.push_back(i * unit);
     expect_same_everywhere("picture", [&](Answers& out) {
-        report::Slice slice;
+        Slice slice;
         slice.width = 8;
         slice.height = 6;
         slice.values = values;
-        report::SliceCounts counts;
-        out.add(report::write_png(folder.path("slice.png"), slice, &counts).has_value());
+        SliceCounts counts;
+        out.add(write_png(folder.path("slice.png"), slice, &counts).has_value());
         out.add(std::string_view(folder.bytes("slice.png")));
         out.add(counts.low);
         out.add(counts.high);
@@ -407,7 +410,7 @@ TEST(EveryEnvironment, Audit) {
 // What a callback leaves behind ends with it.
 TEST(EveryEnvironment, CallbacksThatChangeIt) {
     const Subject s = subjects()[6];
-    const auto locator = Locator::build(s.mesh);
+    const auto locator = Locator::build(s.mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, fields_of(s.mesh));
     const auto grid = grid_over(3, {9, 7, 9}, {0, 0, 0}, {61 * s.scale, 61 * s.scale, 61 * s.scale});
     std::vector<double> right, got;
@@ -422,16 +425,15 @@ TEST(EveryEnvironment, CallbacksThatChangeIt) {
             _mm_setcsr(_mm_getcsr() | 0x8040);
 #endif
         };
-        SampleCounts counts;
         SampleOptions options;
         options.threads = 1;
         options.rounding = Rounding::plain;
-        const auto sink = [&](const GridBlock& block) -> Status {
+        const auto sink = [&](const TableView& block) -> Status {
             (rude ? got : right).insert((rude ? got : right).end(), block.values.begin(), block.values.end());
             meddle();
             return Done{};
         };
-        ASSERT_TRUE(resample(*sampler, *grid, options, sink, counts));
+        ASSERT_TRUE(resample(*sampler, *grid, options, sink));
         EXPECT_TRUE(rounds_correctly());
         check::Options how;
         how.threads = 1;

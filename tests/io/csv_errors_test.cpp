@@ -1,7 +1,7 @@
 // CSV files that are refused, and in which words.
 #include "io/points_files.hpp"
 
-namespace barycert::points::testing {
+namespace barycert::io::testing {
 namespace {
 
 void expect_refused(const std::string& text, int dimension, const Expected& expected) {
@@ -136,7 +136,7 @@ TEST(CsvErrors, numbers_that_the_end_of_the_file_may_have_cut) {
 TEST(CsvErrors, an_error_stays) {
     const TemporaryFolder folder;
     put(folder / "p.csv", "1,2\n3,4\nx,5\n6,7\n");
-    const auto source = open_source(folder / "p.csv", 2);
+    const auto source = open_points(folder / "p.csv", 2);
     ASSERT_TRUE(source);
     std::vector<double> out;
     for (int i = 0; i < 3; ++i) {
@@ -157,4 +157,4 @@ TEST(CsvErrors, files_that_cannot_be_opened) {
 }
 
 }  // namespace
-}  // namespace barycert::points::testing
+}  // namespace barycert::io::testing

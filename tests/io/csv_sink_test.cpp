@@ -7,14 +7,14 @@
 #include "barycert/base/text.hpp"
 #include "io/row_data.hpp"
 
-namespace barycert::points::testing {
+namespace barycert::io::testing {
 namespace {
 
-RowData two_rows(const RowFormat& format) {
+RowData two_rows(const TableFormat& format) {
     return {.format = format,
             .points = format.dimension == 3 ? std::vector<double>{1, 2.5, -0.0, 1e300, 0.1, 5e-324}
                                             : std::vector<double>{1, 2.5, 1e300, 0.1},
-            .values = format.columns.size() == 2 ? std::vector<double>{0.3, std::nan(""), -std::nan(""), 7}
+            .values = format.fields.size() == 2 ? std::vector<double>{0.3, std::nan(""), -std::nan(""), 7}
                                                  : std::vector<double>{},
             .distances = {0, 0.25},
             .cells = {12, -1},
@@ -29,7 +29,7 @@ std::string written(const RowData& data) {
 }
 
 TEST(CsvSink, the_text) {
-    EXPECT_EQ(written(two_rows({.dimension = 3, .columns = {"p", "T"}, .distances = true})),
+    EXPECT_EQ(written(two_rows({.dimension = 3, .fields = {{"p"}, {"T"}}, .distances = true})),
               "x,y,z,cell,feature,p,T,distance\n"
               "1,2.5,-0,12,face,0.3,nan,0\n"
               "1e+300,0.1,5e-324,-1,outside,nan,7,0.25\n");
@@ -37,7 +37,7 @@ TEST(CsvSink, the_text) {
               "x,y,cell,feature\n"
               "1,2.5,12,face\n"
               "1e+300,0.1,-1,outside\n");
-    EXPECT_EQ(written({.format = {.dimension = 3, .columns = {"p"}},
+    EXPECT_EQ(written({.format = {.dimension = 3, .fields = {{"p"}}},
                        .points = {},
                        .values = {},
                        .distances = {},
@@ -48,7 +48,7 @@ TEST(CsvSink, the_text) {
 
 TEST(CsvSink, names_are_quoted_where_they_must_be) {
     const RowData data =
-        random_rows(0, {.dimension = 2, .columns = {"a b", "a,b", "a\"b", "a\nb", "a\rb", "", "\xC3\xA4"}}, 1);
+        random_rows(0, {.dimension = 2, .fields = {{"a b"}, {"a,b"}, {"a\"b"}, {"a\nb"}, {"a\rb"}, {""}, {"\xC3\xA4"}}}, 1);
     EXPECT_EQ(written(data), "x,y,cell,feature,a b,\"a,b\",\"a\"\"b\",\"a\nb\",\"a\rb\",,\xC3\xA4\n");
 }
 
@@ -70,7 +70,7 @@ void expect_round_trip(const std::string& text, const RowData& data) {
             ASSERT_EQ(field, shortest(expected));
         };
         const auto d = static_cast<std::size_t>(data.format.dimension);
-        const std::size_t c = data.format.columns.size();
+        const std::size_t c = data.format.fields.size();
         for (std::size_t i = 0; i < d; ++i) expect_number(data.points[row * d + i]);
         std::getline(fields, field, ',');
         ASSERT_EQ(field, std::to_string(data.cells[row]));
@@ -88,11 +88,11 @@ TEST(CsvSink, every_number_reads_back_to_the_same_bits) {
     const std::vector<std::string> many(80000, "v");
     struct Case {
         std::size_t count;
-        RowFormat format;
+        TableFormat format;
     };
-    for (const Case& c : {Case{30000, {.dimension = 3, .columns = {"p", "T"}, .distances = true}},
-                          Case{30000, {.dimension = 2, .columns = {}, .distances = false}},
-                          Case{5, {.dimension = 3, .columns = many}}}) {
+    for (const Case& c : {Case{30000, {.dimension = 3, .fields = {{"p"}, {"T"}}, .distances = true}},
+                          Case{30000, {.dimension = 2, .fields = {}, .distances = false}},
+                          Case{5, {.dimension = 3, .fields = fields_of(many)}}}) {
         const RowData data = random_rows(c.count, c.format, 5);
         std::string first;
         for (const std::size_t block : {std::size_t{1}, std::size_t{4097}, std::size_t{100000}}) {
@@ -104,7 +104,7 @@ TEST(CsvSink, every_number_reads_back_to_the_same_bits) {
                 expect_round_trip(text, data);
             }
             EXPECT_TRUE(text == first) << "the blocks must not show";
-            if (c.format.columns.size() > 2) continue;
+            if (c.format.fields.size() > 2) continue;
             const Result<std::vector<double>> points = read_file(folder / "r.csv", c.format.dimension, 1000);
             ASSERT_TRUE(points) << points.error().message();
             EXPECT_EQ(bits_of(*points), bits_of(data.points));
@@ -114,7 +114,7 @@ TEST(CsvSink, every_number_reads_back_to_the_same_bits) {
 
 TEST(CsvSink, the_standard_output) {
     const TemporaryFolder folder;
-    const RowData data = random_rows(1000, {.dimension = 3, .columns = {"p"}}, 9);
+    const RowData data = random_rows(1000, {.dimension = 3, .fields = {{"p"}}}, 9);
     put(folder / "out", "before\n");
     std::fflush(stdout);
     {
@@ -129,4 +129,4 @@ TEST(CsvSink, the_standard_output) {
 }
 
 }  // namespace
-}  // namespace barycert::points::testing
+}  // namespace barycert::io::testing

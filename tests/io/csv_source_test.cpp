@@ -4,7 +4,7 @@
 #include "barycert/base/random.hpp"
 #include "io/points_files.hpp"
 
-namespace barycert::points::testing {
+namespace barycert::io::testing {
 namespace {
 
 void expect_points(const std::string& text, int dimension, const std::vector<double>& expected) {
@@ -132,7 +132,7 @@ TEST(CsvSource, lines_across_the_chunks_of_the_reader) {
 TEST(CsvSource, reads_to_the_end_and_then_nothing) {
     const TemporaryFolder folder;
     put(folder / "p.CSV", "1,2\n3,4\n");
-    const auto source = open_source(folder / "p.CSV", 2);
+    const auto source = open_points(folder / "p.CSV", 2);
     ASSERT_TRUE(source) << source.error().message();
     EXPECT_FALSE((*source)->count());
     std::vector<double> out{7};
@@ -143,4 +143,4 @@ TEST(CsvSource, reads_to_the_end_and_then_nothing) {
 }
 
 }  // namespace
-}  // namespace barycert::points::testing
+}  // namespace barycert::io::testing

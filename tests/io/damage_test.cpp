@@ -3,7 +3,7 @@
 
 #include "io/row_data.hpp"
 
-namespace barycert::points::testing {
+namespace barycert::io::testing {
 namespace {
 
 struct Sample {
@@ -115,4 +115,4 @@ TEST(Damage, random_bytes) {
 }
 
 }  // namespace
-}  // namespace barycert::points::testing
+}  // namespace barycert::io::testing

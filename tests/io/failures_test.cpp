@@ -6,10 +6,10 @@
 
 #include "io/row_data.hpp"
 
-namespace barycert::points::testing {
+namespace barycert::io::testing {
 namespace {
 
-const RowFormat one_column{.dimension = 3, .columns = {"p"}};
+const TableFormat one_column{.dimension = 3, .fields = {{"p"}}};
 
 /// No file may grow beyond `bytes` until the end of the scope.
 class SmallFiles {
@@ -42,7 +42,7 @@ TEST_P(Failures, no_more_room) {
         bool told_early = false;
         {
             const SmallFiles small(bytes);
-            const auto sink = open_sink(folder / GetParam(), one_column);
+            const auto sink = open_table(folder / GetParam(), one_column);
             ASSERT_TRUE(sink);  // nothing has been handed to the system yet
             for (int i = 0; i < 10 && !told_early; ++i) {
                 const Status written = (*sink)->write(data.rows());
@@ -75,10 +75,10 @@ TEST_P(Failures, no_more_room_at_the_end) {
 TEST_P(Failures, no_folder) {
     const TemporaryFolder folder;
     expect_error(
-        open_sink(folder / "none/" + GetParam(), one_column), GetParam(),
+        open_table(folder / "none/" + GetParam(), one_column), GetParam(),
         {0, "cannot make a file beside the target", nullptr, "No such file or directory", "make the folder first"});
     std::filesystem::create_directory(folder / GetParam());
-    expect_error(open_sink(folder / GetParam(), one_column), GetParam(),
+    expect_error(open_table(folder / GetParam(), one_column), GetParam(),
                  {0, "cannot write the file", nullptr, "Is a directory", "name a file"});
 }
 
@@ -86,7 +86,7 @@ TEST_P(Failures, no_permission) {
     if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
     const TemporaryFolder folder;
     ASSERT_EQ(::chmod((folder / "").c_str(), 0500), 0);
-    const auto sink = open_sink(folder / GetParam(), one_column);
+    const auto sink = open_table(folder / GetParam(), one_column);
     ASSERT_EQ(::chmod((folder / "").c_str(), 0700), 0);
     expect_error(sink, GetParam(),
                  {0, "cannot make a file beside the target", nullptr, "Permission denied", "may write"});
@@ -96,7 +96,7 @@ TEST_P(Failures, nothing_without_a_commit) {
     const TemporaryFolder folder;
     put(folder / GetParam(), "old");
     {
-        const auto sink = open_sink(folder / GetParam(), one_column);
+        const auto sink = open_table(folder / GetParam(), one_column);
         ASSERT_TRUE(sink);
         ASSERT_TRUE((*sink)->write(random_rows(20000, one_column, 1).rows()));
         EXPECT_EQ(get(folder / GetParam()), "old");
@@ -106,11 +106,11 @@ TEST_P(Failures, nothing_without_a_commit) {
 }
 
 TEST_P(Failures, rows_that_do_not_fit) {
-    const RowData data = random_rows(4, {.dimension = 3, .columns = {"p"}, .distances = true}, 1);
+    const RowData data = random_rows(4, {.dimension = 3, .fields = {{"p"}}, .distances = true}, 1);
     const std::vector<Feature> degenerate(4, Feature::degenerate);
     for (int i = 0; i < 8; ++i) {
         SCOPED_TRACE(i);
-        Rows rows = data.rows();
+        TableView rows = data.rows();
         if (i == 1) rows.dimension = 2;
         if (i == 2) rows.points = rows.points.first(11);
         if (i == 3) rows.cells = rows.cells.first(3);
@@ -119,7 +119,7 @@ TEST_P(Failures, rows_that_do_not_fit) {
         if (i == 6) rows.distances = {};
         if (i == 7) rows.features = degenerate;
         const TemporaryFolder folder;
-        const auto sink = open_sink(folder / GetParam(), data.format);
+        const auto sink = open_table(folder / GetParam(), data.format);
         ASSERT_TRUE(sink);
         ASSERT_TRUE((*sink)->write(data.rows()));
         const Status status = (*sink)->write(rows);
@@ -159,4 +159,4 @@ TEST(FailuresOfDevices, a_reader_that_has_gone) {
 }
 
 }  // namespace
-}  // namespace barycert::points::testing
+}  // namespace barycert::io::testing

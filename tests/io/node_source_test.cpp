@@ -1,7 +1,7 @@
 #include "barycert/io.hpp"
 #include "io/points_files.hpp"
 
-namespace barycert::points::testing {
+namespace barycert::io::testing {
 namespace {
 
 TEST(NodeSource, accepted) {
@@ -23,7 +23,7 @@ TEST(NodeSource, accepted) {
 TEST(NodeSource, tells_the_count) {
     const TemporaryFolder folder;
     put(folder / "p.node", "2 3\n1 0 0 0\n2 1 1 1\n");
-    EXPECT_EQ(open_source(folder / "p.node", 3).value()->count(), 2U);
+    EXPECT_EQ(open_points(folder / "p.node", 3).value()->count(), 2U);
 }
 
 TEST(NodeSource, refused) {
@@ -69,4 +69,4 @@ TEST(NodeSource, the_points_of_real_meshes) {
 }
 
 }  // namespace
-}  // namespace barycert::points::testing
+}  // namespace barycert::io::testing

@@ -2,7 +2,7 @@
 
 #include "io/row_data.hpp"
 
-namespace barycert::points::testing {
+namespace barycert::io::testing {
 namespace {
 
 struct Parts {
@@ -39,7 +39,7 @@ T number_at(const std::string& data, std::size_t& at) {
 
 void expect_rows(const std::string& data, const RowData& rows) {
     const auto d = static_cast<std::size_t>(rows.format.dimension);
-    const std::size_t c = rows.format.columns.size();
+    const std::size_t c = rows.format.fields.size();
     const std::size_t row_size = 8 * (d + 2 + c + (rows.format.distances ? 1 : 0));
     ASSERT_EQ(data.size(), row_size * rows.cells.size());
     std::size_t at = 0;
@@ -62,7 +62,7 @@ void expect_rows(const std::string& data, const RowData& rows) {
 }
 
 TEST(NpySink, header_and_rows) {
-    const RowData data = random_rows(20000, {.dimension = 3, .columns = {"p", "T"}, .distances = true}, 3);
+    const RowData data = random_rows(20000, {.dimension = 3, .fields = {{"p"}, {"T"}}, .distances = true}, 3);
     for (const std::size_t block : {std::size_t{1}, std::size_t{999}, std::size_t{100000}}) {
         const TemporaryFolder folder;
         const Status status = write_rows(folder / "r.npy", data, block);
@@ -91,13 +91,13 @@ TEST(NpySink, versions) {
     const TemporaryFolder folder;
     std::vector<std::string> many;
     for (int i = 0; i < 5000; ++i) many.push_back("column" + std::to_string(i));
-    const RowData wide = random_rows(3, {.dimension = 2, .columns = many}, 3);
+    const RowData wide = random_rows(3, {.dimension = 2, .fields = fields_of(many)}, 3);
     ASSERT_TRUE(write_rows(folder / "wide.npy", wide, 2));
     const Parts two = parts_of(get(folder / "wide.npy"));
     EXPECT_EQ(two.version, 2);
     EXPECT_TRUE(two.text.ends_with("'shape': (3,), }"));
     expect_rows(two.data, wide);
-    ASSERT_TRUE(write_rows(folder / "utf8.npy", random_rows(3, {.dimension = 2, .columns = {"\xC3\xA4"}}, 3), 2));
+    ASSERT_TRUE(write_rows(folder / "utf8.npy", random_rows(3, {.dimension = 2, .fields = {{"\xC3\xA4"}}}, 3), 2));
     const Parts three = parts_of(get(folder / "utf8.npy"));
     EXPECT_EQ(three.version, 3);
     EXPECT_NE(three.text.find("('\xC3\xA4', '<f8')"), std::string::npos);
@@ -106,14 +106,14 @@ TEST(NpySink, versions) {
 TEST(NpySink, names) {
     const TemporaryFolder folder;
     ASSERT_TRUE(write_rows(folder / "r.npy",
-                           random_rows(3, {.dimension = 2, .columns = {"it's", "a\\b", "a\nb", "distance"}}, 3), 2));
+                           random_rows(3, {.dimension = 2, .fields = {{"it's"}, {"a\\b"}, {"a\nb"}, {"distance"}}}, 3), 2));
     EXPECT_NE(parts_of(get(folder / "r.npy"))
                   .text.find("('it\\'s', '<f8'), ('a\\\\b', '<f8'), ('a\\x0ab', '<f8'), ('distance', '<f8')"),
               std::string::npos);
 
     const auto refused = [&](std::vector<std::string> names, bool distances, const char* expected, const char* found) {
-        const RowFormat format{.dimension = 2, .columns = std::move(names), .distances = distances};
-        expect_error(open_sink(folder / "n.npy", format), "/n.npy",
+        const TableFormat format{.dimension = 2, .fields = fields_of(names), .distances = distances};
+        expect_error(open_table(folder / "n.npy", format), "/n.npy",
                      {0, "a column name that an NPY file cannot hold", expected, found, "write CSV"});
     };
     const char* const differs = "a name that differs from the others and from x, y, z, cell, feature, distance";
@@ -128,7 +128,7 @@ TEST(NpySink, names) {
     }
     for (const char* name :
          {"\xC2\x80", "\xE0\xA0\x80", "\xED\x9F\xBF", "\xEF\xBF\xBF", "\xF0\x90\x80\x80", "\xF4\x8F\xBF\xBF"}) {
-        EXPECT_TRUE(open_sink(folder / "n.npy", {.dimension = 2, .columns = {name}}));
+        EXPECT_TRUE(open_table(folder / "n.npy", {.dimension = 2, .fields = {{name}}}));
     }
     EXPECT_EQ(folder.file_count(), 1U);
 }
@@ -136,9 +136,9 @@ TEST(NpySink, names) {
 TEST(NpySink, devices_are_refused) {
     const TemporaryFolder folder;
     std::filesystem::create_symlink("/dev/null", folder / "null.npy");
-    expect_error(open_sink(folder / "null.npy", {}), "/null.npy",
+    expect_error(open_table(folder / "null.npy", {}), "/null.npy",
                  {0, "cannot write NPY to a pipe or device", nullptr, nullptr, "CSV"});
 }
 
 }  // namespace
-}  // namespace barycert::points::testing
+}  // namespace barycert::io::testing

@@ -4,7 +4,7 @@
 
 #include "io/points_files.hpp"
 
-namespace barycert::points::testing {
+namespace barycert::io::testing {
 namespace {
 
 template <class T>
@@ -66,7 +66,7 @@ TEST(NpySource, blocks_larger_than_the_buffer) {
 TEST(NpySource, tells_the_count) {
     const TemporaryFolder folder;
     put(folder / "p.npy", npy_bytes(npy_dictionary("<f8", "(3, 3)"), as_bytes(points)));
-    EXPECT_EQ(open_source(folder / "p.npy", 3).value()->count(), 3U);
+    EXPECT_EQ(open_points(folder / "p.npy", 3).value()->count(), 3U);
 }
 
 void expect_refused(const std::string& bytes, int dimension, const Expected& expected) {
@@ -164,7 +164,7 @@ TEST(NpySource, files_that_cannot_be_opened) {
 TEST(NpySource, a_file_that_shrinks_is_told) {
     const TemporaryFolder folder;
     put(folder / "p.npy", npy_bytes(npy_dictionary("<f8", "(3, 3)"), as_bytes(points)));
-    const auto source = open_source(folder / "p.npy", 3);
+    const auto source = open_points(folder / "p.npy", 3);
     ASSERT_TRUE(source);
     std::filesystem::resize_file(folder / "p.npy", std::filesystem::file_size(folder / "p.npy") - 1);
     std::vector<double> out;
@@ -176,4 +176,4 @@ TEST(NpySource, a_file_that_shrinks_is_told) {
 }
 
 }  // namespace
-}  // namespace barycert::points::testing
+}  // namespace barycert::io::testing

@@ -3,7 +3,7 @@
 
 #include "io/row_data.hpp"
 
-namespace barycert::points::testing {
+namespace barycert::io::testing {
 namespace {
 
 bool numpy_is_there() {
@@ -19,7 +19,7 @@ TEST(NumPy, reads_what_is_written) {
     if (!numpy_is_there()) GTEST_SKIP() << "python3 has no numpy";
     const TemporaryFolder folder;
     const RowData data =
-        random_rows(5000, {.dimension = 3, .columns = {"p", "it's \\ \n", "\xC3\xA4"}, .distances = true}, 21);
+        random_rows(5000, {.dimension = 3, .fields = {{"p"}, {"it's \\ \n"}, {"\xC3\xA4"}}, .distances = true}, 21);
     ASSERT_TRUE(write_rows(folder / "r.npy", data, 700));
     put(folder / "points", bits_of(data.points));
     put(folder / "values", bits_of(data.values));
@@ -89,4 +89,4 @@ np.savetxt('blanks.csv', a)
 }
 
 }  // namespace
-}  // namespace barycert::points::testing
+}  // namespace barycert::io::testing

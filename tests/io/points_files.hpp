@@ -15,7 +15,7 @@
 #include "barycert/io.hpp"
 #include "io/tetgen/mesh_files.hpp"
 
-namespace barycert::points::testing {
+namespace barycert::io::testing {
 
 using barycert::testing::bits_of;
 using barycert::testing::get;
@@ -23,7 +23,7 @@ using barycert::testing::put;
 using barycert::testing::TemporaryFolder;
 
 /// All points, `block` at a time.
-inline Result<std::vector<double>> read_all(Source& source, std::size_t block = 3) {
+inline Result<std::vector<double>> read_all(PointSource& source, std::size_t block = 3) {
     std::vector<double> points;
     while (true) {
         const std::size_t before = points.size();
@@ -36,7 +36,7 @@ inline Result<std::vector<double>> read_all(Source& source, std::size_t block = 
 }
 
 inline Result<std::vector<double>> read_file(const std::string& path, int dimension, std::size_t block = 3) {
-    Result<std::unique_ptr<Source>> source = open_source(path, dimension);
+    Result<std::unique_ptr<PointSource>> source = open_points(path, dimension);
     if (!source) return source.error();
     EXPECT_EQ((*source)->dimension(), dimension);
     return read_all(**source, block);
@@ -121,4 +121,4 @@ private:
     int before_;
 };
 
-}  // namespace barycert::points::testing
+}  // namespace barycert::io::testing

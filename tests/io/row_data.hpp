@@ -8,18 +8,25 @@
 #include "barycert/base/random.hpp"
 #include "io/points_files.hpp"
 
-namespace barycert::points::testing {
+namespace barycert::io::testing {
 
-/// What Rows looks at.
+/// A field of one component for each name.
+inline std::vector<TableField> fields_of(const std::vector<std::string>& names) {
+    std::vector<TableField> fields;
+    for (const std::string& name : names) fields.push_back({name});
+    return fields;
+}
+
+/// What a TableView looks at.
 struct RowData {
-    RowFormat format;
+    TableFormat format;
     std::vector<double> points, values, distances;
     std::vector<std::int32_t> cells;
     std::vector<Feature> features;
 
-    Rows rows(std::size_t first, std::size_t count) const {
+    TableView rows(std::size_t first, std::size_t count) const {
         const auto d = static_cast<std::size_t>(format.dimension);
-        const std::size_t c = format.columns.size();
+        const std::size_t c = format.fields.size();
         return {.dimension = format.dimension,
                 .points = std::span(points).subspan(first * d, count * d),
                 .cells = std::span(cells).subspan(first, count),
@@ -27,7 +34,7 @@ struct RowData {
                 .values = std::span(values).subspan(first * c, count * c),
                 .distances = format.distances ? std::span(distances).subspan(first, count) : std::span<const double>()};
     }
-    Rows rows() const { return rows(0, cells.size()); }
+    TableView rows() const { return rows(0, cells.size()); }
 };
 
 /// Any finite double, every exponent as likely as the next; at times one at the ends of the range.
@@ -41,14 +48,14 @@ inline double any_finite(Random& random) {
     }
 }
 
-inline RowData random_rows(std::size_t count, const RowFormat& format, std::uint64_t seed) {
+inline RowData random_rows(std::size_t count, const TableFormat& format, std::uint64_t seed) {
     constexpr Feature all[] = {Feature::interior, Feature::face, Feature::edge, Feature::vertex, Feature::outside};
     constexpr double inf = std::numeric_limits<double>::infinity();
     Random random(seed);
     RowData data{.format = format, .points = {}, .values = {}, .distances = {}, .cells = {}, .features = {}};
     for (std::size_t row = 0; row < count; ++row) {
         for (int axis = 0; axis < format.dimension; ++axis) data.points.push_back(any_finite(random));
-        for (std::size_t i = 0; i < format.columns.size(); ++i) {
+        for (std::size_t i = 0; i < format.fields.size(); ++i) {
             const std::uint64_t kind = random.below(20);
             data.values.push_back(kind == 0 ? std::nan("") : kind == 1 ? inf : kind == 2 ? -inf : any_finite(random));
         }
@@ -62,7 +69,7 @@ inline RowData random_rows(std::size_t count, const RowFormat& format, std::uint
 
 /// Writes the rows, `block` at a time.
 inline Status write_rows(const std::string& path, const RowData& data, std::size_t block) {
-    Result<std::unique_ptr<Sink>> sink = open_sink(path, data.format);
+    Result<std::unique_ptr<TableSink>> sink = open_table(path, data.format);
     if (!sink) return sink.error();
     for (std::size_t row = 0; row < data.cells.size(); row += block) {
         const Status written = (*sink)->write(data.rows(row, std::min(block, data.cells.size() - row)));
@@ -71,4 +78,4 @@ inline Status write_rows(const std::string& path, const RowData& data, std::size
     return (*sink)->commit();
 }
 
-}  // namespace barycert::points::testing
+}  // namespace barycert::io::testing

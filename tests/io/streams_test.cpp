@@ -9,7 +9,7 @@
 
 #include "io/row_data.hpp"
 
-namespace barycert::points::testing {
+namespace barycert::io::testing {
 namespace {
 
 /// All that a source or sink may take, in MiB: their buffers are 1 to 8 MiB.
@@ -30,7 +30,7 @@ void write_fully(int descriptor, std::string_view bytes) {
 }
 
 /// Reads `count` points and keeps none; sees that memory stays flat from the first block on.
-void expect_flat(Source& source, std::size_t count) {
+void expect_flat(PointSource& source, std::size_t count) {
     std::vector<double> block;
     block.reserve(3 * 65536);
     std::size_t points = 0;
@@ -100,7 +100,7 @@ TEST(Streams, five_million_points_of_a_pipe) {
         for (std::size_t i = 0; i < many / 1000; ++i) write_fully(descriptor, block);
         ::close(descriptor);
     });
-    const auto source = open_source("-", 3);
+    const auto source = open_points("-", 3);
     EXPECT_TRUE(source);
     if (source) expect_flat(**source, many);
     writer.join();
@@ -112,7 +112,7 @@ TEST(Streams, five_million_points_of_npy) {
         const std::string head = npy_bytes(npy_dictionary("<f8", "(5000000, 3)", fortran), "");
         put(folder / "p.npy", head);
         std::filesystem::resize_file(folder / "p.npy", head.size() + 24 * many);  // zeros that take no room
-        const auto source = open_source(folder / "p.npy", 3);
+        const auto source = open_points(folder / "p.npy", 3);
         ASSERT_TRUE(source) << source.error().message();
         expect_flat(**source, many);
     }
@@ -132,20 +132,20 @@ TEST(Streams, five_million_points_of_node) {
         }
         out << text;
     }
-    const auto source = open_source(folder / "p.node", 3);
+    const auto source = open_points(folder / "p.node", 3);
     ASSERT_TRUE(source) << source.error().message();
     expect_flat(**source, many);
 }
 
 TEST(Streams, rows_out) {
-    const RowData data = random_rows(100000, {.dimension = 3, .columns = {"p"}}, 31);
+    const RowData data = random_rows(100000, {.dimension = 3, .fields = {{"p"}}}, 31);
     RowData plain = data;  // numbers as they come from sampling, not of all magnitudes
     Random random(5);
     for (double& x : plain.points) x = random.unit();
     for (double& x : plain.values) x = random.unit();
     for (const char* file : {"r.csv", "r.npy"}) {
         const TemporaryFolder folder;
-        const auto sink = open_sink(folder / file, data.format);
+        const auto sink = open_table(folder / file, data.format);
         ASSERT_TRUE(sink) << sink.error().message();
         double before = 0;
         const auto start = std::chrono::steady_clock::now();
@@ -160,4 +160,4 @@ TEST(Streams, rows_out) {
 }
 
 }  // namespace
-}  // namespace barycert::points::testing
+}  // namespace barycert::io::testing

@@ -64,7 +64,7 @@ TEST(Environment, ASubnormalBesideOrdinaryNumbers) {
     std::copy_n(point, 3, c.point.begin());
     const std::string expected = verdict(exact::ask(c)).text(4);
     in_every_environment([&](const char* environment) {
-        Verdict v = verdict(*weight_signs(Simplex::tetrahedron, vertices, point), 4);
+        Verdict v = verdict(weight_signs(Simplex::tetrahedron, vertices, point), 4);
         v.orientation = 0;  // the oracle does not tell
         EXPECT_EQ(v.text(4), expected) << environment;
     });
@@ -81,7 +81,7 @@ TEST(Environment, SignsOfMixedNumbers) {
             for (double& x : c.point) x = any_number(random);
             const std::string expected = verdict(exact::ask(c)).text(vertex_count(s));
             in_every_environment([&](const char* environment) {
-                Verdict v = verdict(*weight_signs(s, c.vertices.data(), c.point.data()), vertex_count(s));
+                Verdict v = verdict(weight_signs(s, c.vertices.data(), c.point.data()), vertex_count(s));
                 v.orientation = 0;
                 if (v.text(vertex_count(s)) == expected) return;
                 ++failures;
@@ -116,10 +116,10 @@ TEST(Environment, Orientations) {
         for (auto& q : p) {
             for (double& x : q) x = any_number(random);
         }
-        const Sign flat = *orient2d(p[0], p[1], p[2]), solid = *orient3d(p[0], p[1], p[2], p[3]);
+        const Sign flat = orient2d(p[0], p[1], p[2]), solid = orient3d(p[0], p[1], p[2], p[3]);
         in_every_environment([&](const char* environment) {
-            EXPECT_TRUE(*orient2d(p[0], p[1], p[2]) == flat) << environment << ", case " << i;
-            EXPECT_TRUE(*orient3d(p[0], p[1], p[2], p[3]) == solid) << environment << ", case " << i;
+            EXPECT_TRUE(orient2d(p[0], p[1], p[2]) == flat) << environment << ", case " << i;
+            EXPECT_TRUE(orient3d(p[0], p[1], p[2], p[3]) == solid) << environment << ", case " << i;
         });
     }
 }

@@ -97,7 +97,7 @@ inline std::string describe(const Subject& s, std::uint64_t index, const Case& c
 struct Tally {
     std::uint64_t cases = 0;
     std::uint64_t disagreements = 0;
-    Tiers tiers;
+    TierCounts tiers;
     double own_seconds = 0;    ///< in the core's batches
     double judge_seconds = 0;  ///< in the judge, as far as it was the one asked of every case
     std::vector<std::string> first;
@@ -331,7 +331,7 @@ inline Tally judge_values(const Subject& s, std::uint64_t seed, std::uint64_t fi
     std::vector<exact::Answer> answers(Block::capacity);
     for_blocks_of(s, seed, first, count, block, [&](std::uint64_t at) {
         const std::size_t cases = block.cases.size();
-        Tiers of_values;
+        TierCounts of_values;
         const Stopwatch own;
         const Status weighed = barycentric_weights(block.arrays, {weights.data(), n * cases}, &tally.tiers);
         const Status valued = interpolate(block.arrays, block.values, {values.data(), cases}, &of_values);
@@ -379,7 +379,7 @@ inline Tally judge_values(const Subject& s, std::uint64_t seed, std::uint64_t fi
             const BlockMesh mesh(block);
             std::vector<double> w(n * cases), v(cases), pairs(2 * cases);
             std::vector<WeightSigns> signs(cases), from_mesh(cases);
-            Tiers mesh_weights, mesh_values, array_tiers, mesh_tiers;
+            TierCounts mesh_weights, mesh_values, array_tiers, mesh_tiers;
             const bool fine = weight_signs(block.arrays, signs, &array_tiers).has_value() &&
                               weight_signs(mesh.queries, from_mesh, &mesh_tiers).has_value() &&
                               barycentric_weights(mesh.queries, w, &mesh_weights).has_value() &&

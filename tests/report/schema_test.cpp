@@ -41,7 +41,7 @@ void check_reports(Schema& schema) {
 
 /// Runs of sampling with something of everything.
 void sample_reports(Schema& schema) {
-    report::SampleRun run;
+    SampleSummary run;
     run.columns = {"t"};
     for (const double low : {0.25, std::numeric_limits<double>::quiet_NaN()}) {
         run.picture = report::SliceCounts{.drawn = 3, .below = 1, .above = 2, .low = low, .high = low};

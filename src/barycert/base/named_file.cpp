@@ -1,8 +1,17 @@
 #include "barycert/base/named_file.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstddef>
+#include <cstring>
 #include <filesystem>
 #include <system_error>
+#include <utility>
+
+#include "barycert/base/output_file.hpp"
 
 namespace barycert {
 
@@ -16,6 +25,22 @@ bool can_be_overwritten(const std::string& path) {
     std::error_code unknown;
     const fs::file_status status = fs::status(path, unknown);
     return !fs::exists(status) || fs::is_regular_file(status);
+}
+
+Status check_writable(const std::string& path) {
+    if (path == "-") {
+        if (fcntl(STDOUT_FILENO, F_GETFD) < 0)
+            return Error{.what = "cannot write to stdout", .found = std::strerror(errno)};
+        return Done{};
+    }
+    // A pipe would see its writer come and go: only ask of it whether it may be written.
+    struct stat status {};
+    if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
+        if (access(path.c_str(), W_OK) != 0)
+            return Error{.what = "cannot write the file", .file = path, .found = std::strerror(errno)};
+        return Done{};
+    }
+    return OutputFile(path).close();
 }
 
 }  // namespace
@@ -45,6 +70,37 @@ Status check_distinct(const std::vector<NamedFile>& inputs, const std::vector<Na
             return Error{.what = outputs[k].what + " and " + out.what + " name the same output",
                          .file = out.path,
                          .remedy = "give each its own"};
+        }
+    }
+    return Done{};
+}
+
+std::vector<NamedFile> named_files(const std::string& what, std::vector<std::string> paths) {
+    std::vector<NamedFile> files;
+    files.reserve(paths.size());
+    for (std::string& path : paths) files.push_back({what, std::move(path)});
+    return files;
+}
+
+Status check_outputs(const std::vector<NamedFile>& inputs, std::vector<NamedFile> outputs) {
+    std::erase_if(outputs, [](const NamedFile& f) { return f.path.empty(); });
+    if (Status distinct = check_distinct(inputs, outputs); !distinct) return distinct;
+    for (const NamedFile& out : outputs) {
+        if (Status ok = check_writable(out.path); !ok) return ok;
+    }
+    return Done{};
+}
+
+Status check_inputs(const std::vector<NamedFile>& inputs) {
+    for (const NamedFile& in : inputs) {
+        if (in.path == "-") {
+            if (fcntl(STDIN_FILENO, F_GETFD) < 0)
+                return Error{.what = "cannot read the standard input", .found = std::strerror(errno)};
+        } else if (access(in.path.c_str(), R_OK) != 0) {
+            return Error{.what = "cannot read the file",
+                         .file = in.path,
+                         .found = std::strerror(errno),
+                         .remedy = "check the name and the permissions"};
         }
     }
     return Done{};

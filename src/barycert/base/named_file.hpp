@@ -17,7 +17,17 @@ struct NamedFile {
 /// An empty path names no file; "-" is the standard stream, which only "-" names.
 bool same_file(const std::string& a, const std::string& b);
 
+/// The paths, all called the same.
+std::vector<NamedFile> named_files(const std::string& what, std::vector<std::string> paths);
+
 /// Error: an output is an input, or two outputs are one file. Nothing is opened.
 Status check_distinct(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
+
+/// What can be known of outputs before the work. Error: an output is an input or another output, or cannot be written.
+/// Outputs without a path are passed over.
+Status check_outputs(const std::vector<NamedFile>& inputs, std::vector<NamedFile> outputs);
+
+/// Error: one of these cannot be read. "-" is stdin.
+Status check_inputs(const std::vector<NamedFile>& inputs);
 
 }  // namespace barycert

@@ -36,7 +36,7 @@ bool collinear(int d, const double* a, const double* b, const double* c) {
     for (int k = 0; k < (d == 2 ? 1 : 3); ++k) {
         const int x = k, y = (k + 1) % 3;
         const double pa[] = {a[x], a[y]}, pb[] = {b[x], b[y]}, pc[] = {c[x], c[y]};
-        if (*orient2d(pa, pb, pc) != Sign::zero) return false;
+        if (orient2d(pa, pb, pc) != Sign::zero) return false;
     }
     return true;
 }

@@ -9,7 +9,6 @@
 #include "barycert/check/cells.hpp"
 #include "barycert/check/findings.hpp"
 #include "barycert/check/local_delaunay.hpp"
-#include "barycert/check/signs.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert::check {
@@ -81,7 +80,8 @@ private:
     /// The node lies on the other side of the facet opposite to corner i than the cell.
     bool opposite(std::size_t cell, std::array<const double*, 4> p, std::size_t i, Mesh::Index node) const {
         p[i] = point(node);
-        const int side = sign(mesh_.dimension == 2 ? orient2d(p[0], p[1], p[2]) : orient3d(p[0], p[1], p[2], p[3]));
+        const int side =
+            static_cast<int>(mesh_.dimension == 2 ? orient2d(p[0], p[1], p[2]) : orient3d(p[0], p[1], p[2], p[3]));
         return side * orientation_[cell] < 0;
     }
 
@@ -89,7 +89,7 @@ private:
     bool test(std::size_t cell, const std::array<const double*, 4>& p, Mesh::Index node, Delaunay& out) const {
         const int d = mesh_.dimension;
         const double* const at = point(node);
-        const Sign s = *(d == 2 ? incircle(p[0], p[1], p[2], at) : insphere(p[0], p[1], p[2], p[3], at));
+        const Sign s = d == 2 ? incircle(p[0], p[1], p[2], at) : insphere(p[0], p[1], p[2], p[3], at);
         if (s == Sign::zero) ++out.cospherical;
         if (static_cast<int>(s) * orientation_[cell] <= 0) return false;
         ++out.violations;

@@ -12,24 +12,24 @@
 namespace barycert::check {
 namespace {
 
-namespace formulas = HWY_NAMESPACE;
+namespace formulas = core::HWY_NAMESPACE;
 
 template <class T>
 Integer determinant(const T (&x)[2], const T (&y)[2]) {
-    return as_integer(formulas::cross(x, y));
+    return core::as_integer(formulas::cross(x, y));
 }
 
 template <class T>
 Integer determinant(const T (&x)[3], const T (&y)[3], const T (&z)[3]) {
     formulas::Product<T> minors[3];
     formulas::cross(y, z, minors);
-    return as_integer(formulas::dot(x, minors));
+    return core::as_integer(formulas::dot(x, minors));
 }
 
 /// Coordinates of a point as integers.
 template <int d, class T>
-void load(const Unit (&units)[3], const double* p, T (&out)[d]) {
-    for (int k = 0; k < d; ++k) out[k] = units[k].template multiple<T>(scaled(p[k]));
+void load(const core::Unit (&units)[3], const double* p, T (&out)[d]) {
+    for (int k = 0; k < d; ++k) out[k] = units[k].template multiple<T>(core::scaled(p[k]));
 }
 
 /// f.operator()<T>() with the narrowest integers that have room: with coordinates below 2^(64 N - 3) in N limbs a
@@ -37,8 +37,8 @@ void load(const Unit (&units)[3], const double* p, T (&out)[d]) {
 /// within the ranges 2^(64 N - 1), 2^(128 N - 1), 2^(192 N - 1) of N, 2 N and 3 N limbs.
 template <class F>
 Integer with_width(int bits, F f) {
-    if (bits <= 64 - 3) return f.template operator()<Fixed<1>>();
-    if (bits <= 128 - 3) return f.template operator()<Fixed<2>>();
+    if (bits <= 64 - 3) return f.template operator()<core::Fixed<1>>();
+    if (bits <= 128 - 3) return f.template operator()<core::Fixed<2>>();
     return f.template operator()<Integer>();
 }
 
@@ -47,7 +47,7 @@ Integer with_width(int bits, F f) {
 ExactVolumes::ExactVolumes(int d, std::span<const double> points) : d_(d) {
     const auto axes = static_cast<std::size_t>(d);
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (std::isfinite(points[i])) units_[i % axes].add(scaled(points[i]));
+        if (std::isfinite(points[i])) units_[i % axes].add(core::scaled(points[i]));
     }
     for (std::size_t k = 0; k < axes; ++k) {
         bits_ = std::max(bits_, units_[k].bits());
@@ -105,7 +105,7 @@ int ExactVolumes::exponent(const Integer& n) const {
 
 double ExactVolumes::rounded(const Integer& n, int scale) const {
     static constexpr std::array<std::uint64_t, 1> two{2}, six{6};
-    return round_quotient(n.sign() < 0, n.magnitude(), d_ == 2 ? two : six, exponent_ - d_ * scale);
+    return core::round_quotient(n.sign() < 0, n.magnitude(), d_ == 2 ? two : six, exponent_ - d_ * scale);
 }
 
 }  // namespace barycert::check

@@ -13,6 +13,8 @@
 
 namespace barycert::check {
 
+using core::Integer;
+
 class ExactVolumes {
 public:
     /// `points` holds d coordinates a node; what is not finite is left out, and must not be asked for.
@@ -38,7 +40,7 @@ private:
 
     int d_;
     int bits_ = 0;  ///< of the widest coordinate
-    Unit units_[3];
+    core::Unit units_[3];
     int exponent_ = 0;  ///< the integers count 2^exponent_
 };
 

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "barycert/check/signs.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert::check {
@@ -14,10 +13,10 @@ namespace {
 using Point = const double*;
 
 int orient(Point a, Point b, Point c) {
-    return sign(orient2d(a, b, c));
+    return static_cast<int>(orient2d(a, b, c));
 }
 int orient(Point a, Point b, Point c, Point d) {
-    return sign(orient3d(a, b, c, d));
+    return static_cast<int>(orient3d(a, b, c, d));
 }
 
 bool opposite(int s, int t) {

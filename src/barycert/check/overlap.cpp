@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "barycert/check/signs.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert::check {
@@ -20,17 +19,17 @@ constexpr std::array<std::array<std::size_t, 4>, 6> edges{
     {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}};
 
 /// Side of p at the facet of a opposite to corner i.
-int side(int d, const Corners& a, std::size_t i, const double* p) {
+Sign side(int d, const Corners& a, std::size_t i, const double* p) {
     const auto& f = faces[i];
-    if (d == 2) return sign(orient2d(a[f[0]], a[f[1]], p));
-    return sign(orient3d(a[f[0]], a[f[1]], a[f[2]], p));
+    if (d == 2) return orient2d(a[f[0]], a[f[1]], p);
+    return orient3d(a[f[0]], a[f[1]], a[f[2]], p);
 }
 
 /// A facet of a has all of b on its outer side, or on it.
 bool facet_separates(int d, const Corners& a, const Corners& b) {
     const auto corners = static_cast<std::size_t>(d) + 1;
     for (std::size_t i = 0; i < corners; ++i) {
-        const int inner = side(d, a, i, a[i]);
+        const Sign inner = side(d, a, i, a[i]);
         bool separates = true;
         for (std::size_t j = 0; j < corners && separates; ++j) separates = side(d, a, i, b[j]) != inner;
         if (separates) return true;
@@ -43,12 +42,12 @@ bool edges_separate(const Corners& a, const Corners& b, const std::array<std::si
                     const std::array<std::size_t, 4>& f) {
     const double *const p = a[e[0]], *const q = a[e[1]], *const r = b[f[0]], *const s = b[f[1]];
     // Sides of that plane; both ends of f have the same.
-    const int b_edge = sign(det3d(p, q, r, s, p, r));
-    const int a2 = sign(det3d(p, q, r, s, p, a[e[2]])), a3 = sign(det3d(p, q, r, s, p, a[e[3]]));
-    if (a2 == 0 && a3 == 0) return false;  // parallel edges: no normal
-    const int a_side = a2 != 0 ? a2 : a3;
-    if (a2 * a3 < 0 || b_edge == a_side) return false;
-    const int b2 = sign(det3d(p, q, r, s, p, b[f[2]])), b3 = sign(det3d(p, q, r, s, p, b[f[3]]));
+    const Sign b_edge = det3d(p, q, r, s, p, r);
+    const Sign a2 = det3d(p, q, r, s, p, a[e[2]]), a3 = det3d(p, q, r, s, p, a[e[3]]);
+    if (a2 == Sign::zero && a3 == Sign::zero) return false;  // parallel edges: no normal
+    const Sign a_side = a2 != Sign::zero ? a2 : a3;
+    if (a2 * a3 == Sign::negative || b_edge == a_side) return false;
+    const Sign b2 = det3d(p, q, r, s, p, b[f[2]]), b3 = det3d(p, q, r, s, p, b[f[3]]);
     return b2 != a_side && b3 != a_side;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "barycert/check/signs.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert::check {
@@ -131,7 +130,7 @@ double PlcRegion::distance(const double* p) const {
 }
 
 bool PlcRegion::in_plane(const double* p) const {
-    return sign(orient3d(plane_[0], plane_[1], plane_[2], p)) == 0;
+    return orient3d(plane_[0], plane_[1], plane_[2], p) == Sign::zero;
 }
 
 bool PlcRegion::in_ring(const Ring& ring, const Place& p) const {
@@ -172,9 +171,11 @@ PlcRegion::Crossing PlcRegion::crossing(const double* a, const double* b, double
             if (std::max(pa[0], pb[0]) < std::min(pc[0], pd[0]) || std::min(pa[0], pb[0]) > std::max(pc[0], pd[0]))
                 continue;
             const auto turn = [](const auto& u, const auto& v, const auto& w) {
-                return sign(orient2d(u.data(), v.data(), w.data()));
+                return orient2d(u.data(), v.data(), w.data());
             };
-            if (turn(pa, pb, pc) * turn(pa, pb, pd) >= 0 || turn(pc, pd, pa) * turn(pc, pd, pb) >= 0) continue;
+            if (turn(pa, pb, pc) * turn(pa, pb, pd) != Sign::negative ||
+                turn(pc, pd, pa) * turn(pc, pd, pb) != Sign::negative)
+                continue;
             const Place u = place(a), v = place(b), w = place(c), z = place(d);
             const double nearest = std::min(
                 {distance_from(u, w, z), distance_from(v, w, z), distance_from(w, u, v), distance_from(z, u, v)});

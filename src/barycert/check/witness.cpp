@@ -38,15 +38,15 @@ public:
     Lattice(int d, const Corners& a, const Corners& b) : d_(static_cast<std::size_t>(d)) {
         for (std::size_t i = 0; i <= d_; ++i) {
             for (std::size_t k = 0; k < d_; ++k) {
-                units_[k].add(scaled(a[i][k]));
-                units_[k].add(scaled(b[i][k]));
+                units_[k].add(core::scaled(a[i][k]));
+                units_[k].add(core::scaled(b[i][k]));
             }
         }
     }
     Vector at(const double* p) const {
         Vector v{};
         for (std::size_t k = 0; k < d_; ++k) {
-            const ScaledDouble x = scaled(p[k]);
+            const core::ScaledDouble x = core::scaled(p[k]);
             if (x.mantissa == 0) continue;
             v[k] = x.mantissa;
             v[k] <<= static_cast<unsigned>(x.exponent - units_[k].exponent);
@@ -56,12 +56,12 @@ public:
     }
     /// The unit of an axis as a power of two; any if all is zero.
     int exponent(std::size_t k) const {
-        return units_[k].exponent == ScaledDouble::none ? 0 : units_[k].exponent - 1074;
+        return units_[k].exponent == core::ScaledDouble::none ? 0 : units_[k].exponent - 1074;
     }
 
 private:
     std::size_t d_;
-    std::array<Unit, 3> units_;
+    std::array<core::Unit, 3> units_;
 };
 
 /// x / weight. The weight is positive.
@@ -193,7 +193,7 @@ public:
         const std::array<std::uint64_t, 2> limbs{
             static_cast<std::uint64_t>(quotient << 1 & ~std::uint64_t{0}) | (rest != 0 ? 1U : 0U),
             static_cast<std::uint64_t>(quotient >> 63)};
-        return round_integer(Integer(numerator_ < 0, limbs), -shift - 1);
+        return core::round_integer(core::Integer(numerator_ < 0, limbs), -shift - 1);
     }
 
 private:
@@ -202,7 +202,7 @@ private:
 
 /// The double itself.
 Fraction dyadic(double x) {
-    const ScaledDouble s = scaled(x);
+    const core::ScaledDouble s = core::scaled(x);
     Number mantissa = s.mantissa;
     if (s.negative) mantissa = -mantissa;
     return {mantissa, 1, s.mantissa == 0 ? 0 : s.exponent - 1074};
@@ -215,7 +215,7 @@ bool lies_in(int d, const Corners& cell, const double* point, bool inside) {
     for (int i = 0; i <= d; ++i) {
         for (int k = 0; k < d; ++k) vertices[i * d + k] = cell[static_cast<std::size_t>(i)][k];
     }
-    const auto signs = weight_signs(s, vertices, point);
+    const auto signs = checked_weight_signs(s, vertices, point);
     return signs && (inside ? signs->feature(s) == Feature::interior : signs->contains());
 }
 

@@ -1,23 +1,24 @@
-/// Internal: batches cut into blocks of cases in structure of arrays, for the SIMD lanes; and single cases out of them.
+/// Internal: the driver of all batches. It cuts them into blocks of cases in structure of arrays for the SIMD lanes,
+/// and hands single cases that these leave undecided to the last tier.
 #pragma once
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 #include <vector>
 
-#include "barycert/base/strict_math.hpp"
 #include "barycert/batch.hpp"
+#include "barycert/core/input_checks.hpp"
 #include "barycert/core/lanes.hpp"
 #include "barycert/result.hpp"
+#include "barycert/tiers.hpp"
 
-namespace barycert {
+namespace barycert::core {
 
 /// Cases of a block. Gathered tetrahedra take 16 KiB: they stay in the nearest cache, together with what goes out.
 inline constexpr std::size_t block_size = 128;
 
-/// Doubles from one gathered row to the next. Not a power of two: rows would then share a few sets of the cache.
+/// Doubles from one gathered array to the next. Not a power of two: arrays would then share a few sets of the cache.
 inline constexpr std::size_t block_stride = block_size + 8;
 
 inline std::size_t case_count(const CaseArrays& c) {
@@ -26,101 +27,16 @@ inline std::size_t case_count(const CaseArrays& c) {
 inline std::size_t case_count(const MeshQueries& q) {
     return q.count();
 }
-
-/// An Error if sizes that must fit together do not. Indices are not looked at: that would cost as much as the answers.
-inline Status check_sizes(const CaseArrays& cases, std::size_t places, std::size_t per_case) {
-    if (places == per_case * cases.count) return Done{};
-    return Error{.what = "size of the output",
-                 .expected = std::to_string(per_case) + " for each of " + std::to_string(cases.count) + " cases",
-                 .found = std::to_string(places)};
-}
-inline Status check_sizes(const MeshQueries& q, std::size_t places, std::size_t per_case) {
-    const auto d = static_cast<std::size_t>(space_dimension(q.simplex));
-    if (q.points.size() != d * q.cells.size()) {
-        return Error{
-            .what = "size of the points",
-            .expected = std::to_string(d) + " coordinates for each of " + std::to_string(q.cells.size()) + " queries",
-            .found = std::to_string(q.points.size())};
-    }
-    return check_sizes(CaseArrays{.simplex = q.simplex, .count = q.count()}, places, per_case);
+inline std::size_t case_count(const MeshCells& c) {
+    return c.count();
 }
 
-/// One case, vertex after vertex.
-struct SingleCase {
-    std::array<double, 12> vertices;
-    std::array<double, 3> point;
-};
-
-inline SingleCase single_case(Simplex s, const lanes::Cases& cases, std::size_t j) {
-    SingleCase c{};
-    const auto d = static_cast<std::size_t>(space_dimension(s));
-    const auto coordinates = d * static_cast<std::size_t>(vertex_count(s));
-    for (std::size_t i = 0; i < coordinates; ++i) c.vertices[i] = cases.vertices[i][j];
-    for (std::size_t k = 0; k < d; ++k) c.point[k] = cases.point[k][j];
-    return c;
+/// The corners of case j, n of them.
+inline const std::int32_t* corners_of(const MeshQueries& q, std::size_t n, std::size_t j) {
+    return q.corners.data() + n * static_cast<std::size_t>(q.cells[j]);
 }
-
-/// The arrays of a case that stands alone.
-inline lanes::Cases as_block(Simplex s, const double* vertices, const double* point) {
-    lanes::Cases cases{};
-    for (int i = 0; i < space_dimension(s) * vertex_count(s); ++i) cases.vertices[i] = vertices + i;
-    for (int k = 0; k < space_dimension(s); ++k) cases.point[k] = point + k;
-    cases.count = 1;
-    return cases;
-}
-
-inline bool all_finite(const double* x, int count) {
-    return std::all_of(x, x + count, [](double v) { return std::isfinite(v); });
-}
-
-inline bool all_finite(Simplex s, const double* vertices, const double* point) {
-    return all_finite(vertices, space_dimension(s) * vertex_count(s)) && all_finite(point, space_dimension(s));
-}
-
-/// Names the first coordinate that is not finite. Precondition: there is one. `which` goes before it.
-inline Error not_finite_error(Simplex s, const double* vertices, const double* point, const std::string& which = {}) {
-    const int d = space_dimension(s), coordinates = d * vertex_count(s);
-    const double* const bad =
-        std::find_if(vertices, vertices + coordinates, [](double v) { return !std::isfinite(v); });
-    const auto i = static_cast<int>(bad - vertices);
-    if (i < coordinates) {
-        return {.what = which + "coordinate " + std::to_string(i % d) + " of vertex " + std::to_string(i / d),
-                .expected = "a finite number",
-                .found = std::to_string(*bad)};
-    }
-    const int k = all_finite(point, 1) ? all_finite(point, 2) ? 2 : 1 : 0;
-    return {.what = which + "coordinate " + std::to_string(k) + " of the point",
-            .expected = "a finite number",
-            .found = std::to_string(point[k])};
-}
-
-inline std::string case_prefix(std::size_t number) {
-    return "case " + std::to_string(number) + ": ";
-}
-
-/// Blocks of cases that lie in arrays already.
-class ArrayBlocks {
-public:
-    explicit ArrayBlocks(const CaseArrays& cases) : cases_(cases) {}
-
-    lanes::Cases block(std::size_t first, std::size_t count) {
-        lanes::Cases block{};
-        for (std::size_t i = 0; i < 12; ++i) {
-            if (cases_.vertices[i] != nullptr) block.vertices[i] = cases_.vertices[i] + first;
-        }
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (cases_.point[k] != nullptr) block.point[k] = cases_.point[k] + first;
-        }
-        block.count = count;
-        return block;
-    }
-
-private:
-    const CaseArrays& cases_;
-};
-
-inline const std::int32_t* corners_of(const MeshQueries& q, std::size_t n, std::size_t query) {
-    return q.corners.data() + n * static_cast<std::size_t>(q.cells[query]);
+inline const std::int32_t* corners_of(const MeshCells& c, std::size_t n, std::size_t j) {
+    return c.corners.data() + n * j;
 }
 
 /// Asks for the memory of a query soon to come, for cells in random order: its corners, and what lies at address(node)
@@ -136,75 +52,209 @@ template <class Address>
     const std::int32_t* const next = corners_of(q, n, query + nodes_ahead);
     for (std::size_t i = 0; i < n; ++i) __builtin_prefetch(address(next[i]));
 }
+template <class Address>
+[[gnu::always_inline]] inline void fetch_ahead(const MeshCells&, std::size_t, std::size_t, Address) {}  // in order
 
-/// Blocks of mesh queries, their coordinates gathered.
-class GatheredBlocks {
+/// One case, vertex after vertex.
+struct SingleCase {
+    std::array<double, 12> vertices;
+    std::array<double, 3> point;
+};
+
+inline SingleCase single_case(Simplex s, const CaseBlock& block, std::size_t j) {
+    SingleCase c{};
+    const auto d = static_cast<std::size_t>(space_dimension(s));
+    const auto coordinates = d * static_cast<std::size_t>(vertex_count(s));
+    for (std::size_t i = 0; i < coordinates; ++i) c.vertices[i] = block.vertices[i][j];
+    for (std::size_t k = 0; k < d; ++k) c.point[k] = block.point[k] == nullptr ? 0 : block.point[k][j];
+    return c;
+}
+
+/// The block of a case that stands alone. `point` may be null.
+inline CaseBlock single_block(Simplex s, const double* vertices, const double* point) {
+    CaseBlock block{};
+    for (int i = 0; i < space_dimension(s) * vertex_count(s); ++i) block.vertices[i] = vertices + i;
+    if (point != nullptr) {
+        for (int k = 0; k < space_dimension(s); ++k) block.point[k] = point + k;
+    }
+    block.count = 1;
+    return block;
+}
+
+/// Arrays that lanes read or write, each with room for a block.
+class LaneArrays {
 public:
-    explicit GatheredBlocks(const MeshQueries& queries)
-        : queries_(queries),
-          coordinates_(static_cast<std::size_t>(space_dimension(queries.simplex)) *
-                       static_cast<std::size_t>(vertex_count(queries.simplex) + 1) * block_stride) {}
+    explicit LaneArrays(std::size_t count) : arrays_(count), buffer_(count * block_stride) {
+        for (std::size_t i = 0; i < count; ++i) arrays_[i] = buffer_.data() + i * block_stride;
+    }
 
-    lanes::Cases block(std::size_t first, std::size_t count) {
-        const Simplex s = queries_.simplex;
-        with_simplex(s, [&]<Simplex known>() { gather<vertex_count(known), space_dimension(known)>(first, count); });
-        lanes::Cases block{};
-        const int d = space_dimension(s), n = vertex_count(s);
-        for (int i = 0; i < n * d; ++i)
-            block.vertices[i] = coordinates_.data() + static_cast<std::size_t>(i) * block_stride;
-        for (int k = 0; k < d; ++k)
-            block.point[k] = coordinates_.data() + static_cast<std::size_t>(n * d + k) * block_stride;
+    std::size_t size() const { return arrays_.size(); }
+    double* operator[](std::size_t i) const { return arrays_[i]; }
+    double* const* data() const { return arrays_.data(); }
+
+    /// out[size() * j + i] = array i of case j.
+    void copy_out(std::size_t count, double* out) const {
+        for (std::size_t i = 0; i < size(); ++i) {
+            for (std::size_t j = 0; j < count; ++j) out[size() * j + i] = arrays_[i][j];
+        }
+    }
+
+private:
+    std::vector<double*> arrays_;
+    std::vector<double> buffer_;
+};
+
+/// Blocks of cases that lie in arrays already.
+class ArrayBlocks {
+public:
+    explicit ArrayBlocks(const CaseArrays& cases) : cases_(cases) {}
+
+    CaseBlock block(std::size_t first, std::size_t count) {
+        CaseBlock block{};
+        for (std::size_t i = 0; i < 12; ++i) {
+            if (cases_.vertices[i] != nullptr) block.vertices[i] = cases_.vertices[i] + first;
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (cases_.point[k] != nullptr) block.point[k] = cases_.point[k] + first;
+        }
         block.count = count;
         return block;
     }
 
 private:
+    const CaseArrays& cases_;
+};
+
+/// Blocks of MeshQueries or MeshCells, their coordinates gathered.
+template <class Batch>
+class GatheredBlocks {
+public:
+    explicit GatheredBlocks(const Batch& batch)
+        : batch_(batch),
+          coordinates_(static_cast<std::size_t>(space_dimension(batch.simplex)) *
+                       static_cast<std::size_t>(vertex_count(batch.simplex) + (has_points ? 1 : 0))) {}
+
+    CaseBlock block(std::size_t first, std::size_t count) {
+        const Simplex s = batch_.simplex;
+        with_simplex(s, [&]<Simplex known>() { gather<vertex_count(known), space_dimension(known)>(first, count); });
+        CaseBlock block{};
+        const auto d = static_cast<std::size_t>(space_dimension(s)), n = static_cast<std::size_t>(vertex_count(s));
+        for (std::size_t i = 0; i < n * d; ++i) block.vertices[i] = coordinates_[i];
+        if constexpr (has_points) {
+            for (std::size_t k = 0; k < d; ++k) block.point[k] = coordinates_[n * d + k];
+        }
+        block.count = count;
+        return block;
+    }
+
+private:
+    static constexpr bool has_points = std::is_same_v<Batch, MeshQueries>;
+
     template <std::size_t n, std::size_t d>
     void gather(std::size_t first, std::size_t count) {
-        const auto node = [this](std::int32_t i) { return queries_.nodes.data() + d * static_cast<std::size_t>(i); };
+        const auto node = [this](std::int32_t i) { return batch_.nodes.data() + d * static_cast<std::size_t>(i); };
         for (std::size_t j = 0; j < count; ++j) {
-            fetch_ahead(queries_, n, first + j, node);
-            const std::int32_t* const corners = corners_of(queries_, n, first + j);
-            double* const out = coordinates_.data() + j;
+            fetch_ahead(batch_, n, first + j, node);
+            const std::int32_t* const corners = corners_of(batch_, n, first + j);
+            double* const out = coordinates_[0] + j;
             for (std::size_t i = 0; i < n; ++i) {
                 const double* const from = node(corners[i]);
                 for (std::size_t k = 0; k < d; ++k) out[(d * i + k) * block_stride] = from[k];
             }
-            const double* const point = queries_.points.data() + d * (first + j);
-            for (std::size_t k = 0; k < d; ++k) out[(d * n + k) * block_stride] = point[k];
+            if constexpr (has_points) {
+                const double* const point = batch_.points.data() + d * (first + j);
+                for (std::size_t k = 0; k < d; ++k) out[(d * n + k) * block_stride] = point[k];
+            }
         }
     }
 
-    const MeshQueries& queries_;
-    std::vector<double> coordinates_;
+    const Batch& batch_;
+    LaneArrays coordinates_;
 };
 
 inline ArrayBlocks blocks_of(const CaseArrays& cases) {
     return ArrayBlocks(cases);
 }
-inline GatheredBlocks blocks_of(const MeshQueries& queries) {
-    return GatheredBlocks(queries);
+template <class Batch>
+GatheredBlocks<Batch> blocks_of(const Batch& batch) {
+    return GatheredBlocks<Batch>(batch);
 }
 
-/// Calls decide(first, block, undecided) for each block, which returns how many cases it left undecided, their numbers
-/// within the block in `undecided`; then escalate(first, number, c) for each of these, with the case itself, whose
-/// coordinates are finite. Stops with an Error at the first case of which they are not.
-template <class Batch, class Decide, class Escalate>
-Status for_blocks(const Batch& batch, Decide decide, Escalate escalate) {
+/// Nodal values of a block, gathered: array nodes * c + i has component c at node i of each case.
+template <class T>
+class GatheredValues {
+public:
+    GatheredValues(const NodalValues<T>& values, std::size_t nodes)
+        : values_(values.data),
+          components_(static_cast<std::size_t>(values.components)),
+          nodes_(nodes),
+          arrays_(nodes * components_) {}
+
+    /// Of the nodes at the corners of cases [first, first + count).
+    template <class Batch>
+    void gather_corners(const Batch& batch, std::size_t first, std::size_t count) {
+        const auto n = static_cast<std::size_t>(vertex_count(batch.simplex));
+        for (std::size_t j = 0; j < count; ++j) {
+            fetch_ahead(batch, n, first + j, [this](std::int32_t node) { return at(node); });
+            set(j, 0, n, corners_of(batch, n, first + j));
+        }
+    }
+
+    /// Of `number` nodes of case j of the block, as its nodes from `begin` on.
+    void set(std::size_t j, std::size_t begin, std::size_t number, const std::int32_t* nodes) {
+        double* const out = arrays_[begin] + j;
+        for (std::size_t i = 0; i < number; ++i) {
+            const T* const from = at(nodes[i]);
+            for (std::size_t c = 0; c < components_; ++c)
+                out[(nodes_ * c + i) * block_stride] = static_cast<double>(from[c]);
+        }
+    }
+
+    std::size_t nodes() const { return nodes_; }
+    double* const* arrays() const { return arrays_.data(); }
+
+private:
+    const T* at(std::int32_t node) const { return values_.data() + components_ * static_cast<std::size_t>(node); }
+
+    std::span<const T> values_;
+    std::size_t components_, nodes_;
+    LaneArrays arrays_;
+};
+
+/// What the last tier met in a case.
+struct ExactCase {
+    bool degenerate = false;
+    bool finite_values = true;
+};
+
+/// Calls decide(first, block, undecided) for each block; it returns how many cases it leaves undecided, their numbers
+/// within the block in `undecided`. Then calls exact(first, j, c) for each of these, with the case itself, whose
+/// coordinates are finite; it returns an ExactCase. Counts the cases that are decided for `tier`, the others for
+/// Tier::exact. Stops with an Error, and counts nothing, at the first undecided case with a coordinate that is not
+/// finite.
+template <class Batch, class Decide, class Exact>
+Status for_blocks(const Batch& batch, Tier tier, TierCounts* tiers, Decide decide, Exact exact) {
     auto blocks = blocks_of(batch);
     std::array<std::uint32_t, block_size> undecided;
+    TierCounts counts;
     for (std::size_t first = 0; first < case_count(batch); first += block_size) {
-        const lanes::Cases block = blocks.block(first, std::min(block_size, case_count(batch) - first));
-        const std::size_t left = decide(first, block, undecided.data());
-        for (std::size_t i = 0; i < left; ++i) {
+        const CaseBlock block = blocks.block(first, std::min(block_size, case_count(batch) - first));
+        const std::size_t undecided_count = decide(first, block, undecided.data());
+        counts.add(tier, block.count - undecided_count);
+        counts.add(Tier::exact, undecided_count);
+        for (std::size_t i = 0; i < undecided_count; ++i) {
             const auto j = static_cast<std::size_t>(undecided[i]);
             const SingleCase c = single_case(batch.simplex, block, j);
             if (!all_finite(batch.simplex, c.vertices.data(), c.point.data()))
-                return not_finite_error(batch.simplex, c.vertices.data(), c.point.data(), case_prefix(first + j));
-            escalate(first, j, c);
+                return not_finite_error(batch.simplex, c.vertices.data(), c.point.data(),
+                                        case_name(batch) + (" " + std::to_string(first + j)) + ": ");
+            const ExactCase found = exact(first, j, c);
+            counts.degenerate += found.degenerate ? 1 : 0;
+            counts.not_finite += found.finite_values ? 0 : 1;
         }
     }
+    if (tiers != nullptr) tiers->add(counts);
     return Done{};
 }
 
-}  // namespace barycert
+}  // namespace barycert::core

@@ -11,7 +11,7 @@
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/environment.hpp"
 
-namespace barycert {
+namespace barycert::core {
 namespace {
 
 template <class T>
@@ -125,11 +125,14 @@ template <int d>
 }
 
 }  // namespace
+}  // namespace barycert::core
+
+namespace barycert {
 
 double condition_number(Simplex simplex, const double* vertices) {
     const ExactEnvironment environment;
-    if (simplex == Simplex::triangle) return held(condition<2>(vertices));
-    if (simplex == Simplex::tetrahedron) return held(condition<3>(vertices));
+    if (simplex == Simplex::triangle) return held(core::condition<2>(vertices));
+    if (simplex == Simplex::tetrahedron) return held(core::condition<3>(vertices));
     return std::numeric_limits<double>::quiet_NaN();
 }
 

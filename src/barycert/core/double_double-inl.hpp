@@ -17,7 +17,7 @@
 #include "barycert/core/error_free-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::core {
 namespace HWY_NAMESPACE {
 
 template <class V>
@@ -51,6 +51,6 @@ HWY_INLINE DoubleDouble<V> difference(V x, V y) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::core
 HWY_AFTER_NAMESPACE();
 #endif

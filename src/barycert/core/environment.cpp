@@ -6,7 +6,7 @@
 #include "barycert/base/strict_math.hpp"
 #include "barycert/core/lanes.hpp"
 
-namespace barycert {
+namespace barycert::core {
 namespace {
 
 // Volatile operands keep the compiler from folding what is to be measured.
@@ -59,15 +59,18 @@ bool measured_fma() {
 }
 
 }  // namespace
+}  // namespace barycert::core
+
+namespace barycert {
 
 Environment measure_environment() {
     Environment e;
-    e.rounding = measured_rounding();
-    e.flush_to_zero = measured_flush_to_zero();
-    e.contraction = measured_contraction() || lanes::contract();
-    e.excess_precision = measured_excess_precision();
+    e.rounding = core::measured_rounding();
+    e.flush_to_zero = core::measured_flush_to_zero();
+    e.contraction = core::measured_contraction() || core::lanes_contract();
+    e.excess_precision = core::measured_excess_precision();
     e.simd = simd_target();
-    e.fma = measured_fma();
+    e.fma = core::measured_fma();
 #ifdef __clang__
     e.compiler = std::string("clang ") + __clang_version__;
 #else

@@ -25,7 +25,7 @@
 #include "barycert/base/strict_math.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::core {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -77,6 +77,6 @@ HWY_INLINE TwoTerms<V> two_product(V x, V y) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::core
 HWY_AFTER_NAMESPACE();
 #endif

@@ -1,4 +1,4 @@
-#include "barycert/core/exact_weights.hpp"
+#include "barycert/core/exact_tier.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -10,7 +10,7 @@
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 
-namespace barycert {
+namespace barycert::core {
 namespace {
 
 namespace formulas = HWY_NAMESPACE;
@@ -105,7 +105,7 @@ void add_product(std::uint64_t* sum, const std::uint64_t* x, int count, std::uin
 
 /// Sign of the determinant of three differences, each from one point to another.
 template <int count>
-int sign_of_determinant(const double* const (&points)[count], const int (&ends)[3][2]) {
+Sign sign_of_determinant(const double* const (&points)[count], const int (&ends)[3][2]) {
     return with_integers<count, 3>(points, false, [&]<class T>(const Lattice<count, 3, T>& lattice) {
         T u[3], v[3], w[3];
         formulas::Product<T> m[3];
@@ -113,7 +113,7 @@ int sign_of_determinant(const double* const (&points)[count], const int (&ends)[
         lattice.difference(ends[1][1], ends[1][0], v);
         lattice.difference(ends[2][1], ends[2][0], w);
         formulas::cross(v, w, m);
-        return sign_of(formulas::dot(u, m));
+        return static_cast<Sign>(sign_of(formulas::dot(u, m)));
     });
 }
 
@@ -124,14 +124,14 @@ static_assert(64 * (Integer::capacity - 2) >= 5 * 2099 + 7);
 /// Sign of sum n_i |r_i|^2, as lifted-inl.hpp has it, of vertices and point. All axes in one unit: squares are added
 /// up.
 template <Simplex s>
-int sign_of_lifted(const double* const (&points)[vertex_count(s) + 1]) {
+Sign sign_of_lifted(const double* const (&points)[vertex_count(s) + 1]) {
     constexpr int n = vertex_count(s), d = space_dimension(s);
     return with_integers<n + 1, d>(points, true, []<class T>(const Lattice<n + 1, d, T>& lattice) {
         formulas::Relative<s, T> c;
         formulas::Lifted<s, T> lifted;
         for (int i = 0; i < n; ++i) lattice.difference(i, n, c.r[i]);
         formulas::lift(c, lifted);
-        return sign_of(lifted.sum);
+        return static_cast<Sign>(sign_of(lifted.sum));
     });
 }
 
@@ -174,7 +174,7 @@ void ExactWeights::store(int i, const T& number) {
 }
 
 int ExactWeights::sign_of(int i) const {
-    return limbs_ == 0 ? wide_[i].sign() : barycert::sign_of(narrow_[i], limbs_);
+    return limbs_ == 0 ? wide_[i].sign() : core::sign_of(narrow_[i], limbs_);
 }
 
 Magnitude ExactWeights::magnitude(int i, std::uint64_t* buffer) const {
@@ -199,9 +199,8 @@ double ExactWeights::interpolate(std::span<const double> values) const {
         std::uint64_t sum[narrow_limbs + 1] = {}, sum_buffer[narrow_limbs + 1];
         for (int i = 0; i < count_; ++i)
             add_product(sum, narrow_[i], limbs_, unit.multiple<Fixed<1>>(parts[i]).limbs[0]);
-        return round_quotient(barycert::sign_of(sum, limbs_ + 1) != orientation(),
-                              absolute(sum, limbs_ + 1, sum_buffer), magnitude(denominator, buffer),
-                              unit.exponent - 1074);
+        return round_quotient(core::sign_of(sum, limbs_ + 1) != orientation(), absolute(sum, limbs_ + 1, sum_buffer),
+                              magnitude(denominator, buffer), unit.exponent - 1074);
     }
     Integer sum;
     for (int i = 0; i < count_; ++i)
@@ -210,28 +209,28 @@ double ExactWeights::interpolate(std::span<const double> values) const {
                           unit.exponent - 1074);
 }
 
-int exact_orient2d(const double* a, const double* b, const double* c) {
+Sign exact_orient2d(const double* a, const double* b, const double* c) {
     return with_integers<3, 2>({a, b, c}, false, []<class T>(const Lattice<3, 2, T>& lattice) {
         T ab[2], ac[2];
         lattice.difference(1, 0, ab);
         lattice.difference(2, 0, ac);
-        return sign_of(formulas::cross(ab, ac));
+        return static_cast<Sign>(sign_of(formulas::cross(ab, ac)));
     });
 }
 
-int exact_orient3d(const double* a, const double* b, const double* c, const double* d) {
+Sign exact_orient3d(const double* a, const double* b, const double* c, const double* d) {
     return sign_of_determinant<4>({a, b, c, d}, {{0, 1}, {0, 2}, {0, 3}});
 }
 
-int exact_det3d(const double* p, const double* q, const double* r, const double* s, const double* t, const double* u) {
+Sign exact_det3d(const double* p, const double* q, const double* r, const double* s, const double* t, const double* u) {
     return sign_of_determinant<6>({p, q, r, s, t, u}, {{0, 1}, {2, 3}, {4, 5}});
 }
 
-int exact_incircle(const double* a, const double* b, const double* c, const double* d) {
+Sign exact_incircle(const double* a, const double* b, const double* c, const double* d) {
     return sign_of_lifted<Simplex::triangle>({a, b, c, d});
 }
 
-int exact_insphere(const double* a, const double* b, const double* c, const double* d, const double* e) {
+Sign exact_insphere(const double* a, const double* b, const double* c, const double* d, const double* e) {
     return sign_of_lifted<Simplex::tetrahedron>({a, b, c, d, e});
 }
 
@@ -247,4 +246,4 @@ double exact_dot(const double* x, const double* y, int count) {
     return round_integer(sum, unit_x.exponent + unit_y.exponent - 2 * 1074);
 }
 
-}  // namespace barycert
+}  // namespace barycert::core

@@ -45,7 +45,7 @@
 #include "barycert/core/numerators-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::core {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -186,6 +186,6 @@ HWY_INLINE hn::Mask<D> filter(D tag, const Relative<s, V>& c, hn::Vec<hn::Rebind
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::core
 HWY_AFTER_NAMESPACE();
 #endif

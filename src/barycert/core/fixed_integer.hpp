@@ -9,7 +9,7 @@
 
 #include "barycert/core/integer.hpp"
 
-namespace barycert {
+namespace barycert::core {
 
 template <int N>
 struct Fixed {
@@ -67,4 +67,4 @@ inline const Integer& as_integer(const Integer& x) {
     return x;
 }
 
-}  // namespace barycert
+}  // namespace barycert::core

@@ -50,7 +50,7 @@
 #include "barycert/core/refinement-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::core {
 namespace HWY_NAMESPACE {
 
 /// What the gradients of all components share.
@@ -172,6 +172,6 @@ HWY_INLINE void gradient_of(D tag, const CellMatrix<d, D>& m, const V (&f)[d + 1
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::core
 HWY_AFTER_NAMESPACE();
 #endif

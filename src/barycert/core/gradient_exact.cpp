@@ -1,4 +1,4 @@
-#include "barycert/core/gradient_exact.hpp"
+#include "barycert/core/exact_tier.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -8,7 +8,7 @@
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 
-namespace barycert {
+namespace barycert::core {
 namespace {
 
 /// Row j: the edge from the last vertex to vertex j, and behind it the difference of their values.
@@ -84,4 +84,4 @@ bool exact_gradient(Simplex simplex, const double* vertices, const double* value
     return proper;
 }
 
-}  // namespace barycert
+}  // namespace barycert::core

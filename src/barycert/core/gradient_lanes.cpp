@@ -1,33 +1,25 @@
-#include "barycert/core/gradient_lanes.hpp"
-
-// Before Highway's headers.
-#include "barycert/core/simd_targets.hpp"
+#include "barycert/core/lanes.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/core/gradient_lanes.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, as Highway wants it.
-#include <hwy/highway.h>
+#include "barycert/core/foreach_target.hpp"
 
 #include "barycert/core/gradient-inl.hpp"
-#include "barycert/core/padded_lanes-inl.hpp"
-
-#undef BARYCERT_LANE_LAMBDA
-#define BARYCERT_LANE_LAMBDA HWY_ATTR __attribute__((always_inline))
+#include "barycert/core/lane_loop-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::core {
 namespace HWY_NAMESPACE {
 
 template <int d>
-std::size_t gradients_of(const double* const* vertices, const double* const* values, int components, std::size_t count,
-                         double* const* out, std::uint32_t* undecided) {
-    return for_padded_lanes(count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
+std::size_t gradients_of(const CaseBlock& cells, const double* const* values, int components, double* const* out,
+                         std::uint32_t* undecided) {
+    return for_padded_lanes(cells.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
         using D = decltype(tag);
         using V = hn::Vec<D>;
         V v[d + 1][d];
         for (int i = 0; i <= d; ++i) {
-            for (int k = 0; k < d; ++k) v[i][k] = hn::LoadU(tag, vertices[d * i + k] + at);
+            for (int k = 0; k < d; ++k) v[i][k] = hn::LoadU(tag, cells.vertices[d * i + k] + at);
         }
         const auto m = cell_matrix<d>(tag, v);
         auto certain = m.valid;
@@ -41,25 +33,25 @@ std::size_t gradients_of(const double* const* vertices, const double* const* val
     });
 }
 
-std::size_t gradients(Simplex s, const double* const* vertices, const double* const* values, int components,
-                      std::size_t count, double* const* out, std::uint32_t* undecided) {
-    return s == Simplex::triangle ? gradients_of<2>(vertices, values, components, count, out, undecided)
-                                  : gradients_of<3>(vertices, values, components, count, out, undecided);
+std::size_t gradients(Simplex s, const CaseBlock& cells, const double* const* values, int components,
+                      double* const* out, std::uint32_t* undecided) {
+    return s == Simplex::triangle ? gradients_of<2>(cells, values, components, out, undecided)
+                                  : gradients_of<3>(cells, values, components, out, undecided);
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::core
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace barycert {
+namespace barycert::core {
 
 HWY_EXPORT(gradients);
 
-std::size_t lanes::gradients(Simplex s, const double* const* vertices, const double* const* values, int components,
-                             std::size_t count, double* const* out, std::uint32_t* undecided) {
-    return HWY_DYNAMIC_DISPATCH(gradients)(s, vertices, values, components, count, out, undecided);
+std::size_t gradient_lanes(Simplex s, const CaseBlock& cells, const double* const* values, int components,
+                           double* const* out, std::uint32_t* undecided) {
+    return HWY_DYNAMIC_DISPATCH(gradients)(s, cells, values, components, out, undecided);
 }
 
-}  // namespace barycert
+}  // namespace barycert::core
 #endif

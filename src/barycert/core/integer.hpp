@@ -20,7 +20,7 @@
 #include <immintrin.h>
 #endif
 
-namespace barycert {
+namespace barycert::core {
 
 __extension__ using UInt128 = unsigned __int128;
 
@@ -173,4 +173,4 @@ private:
     std::uint64_t limbs_[capacity];  ///< set below size_ alone: most numbers need three or four
 };
 
-}  // namespace barycert
+}  // namespace barycert::core

@@ -5,14 +5,14 @@
 #include <limits>
 #include <string>
 
-#include "barycert/core/exact_weights.hpp"
+#include "barycert/core/exact_tier.hpp"
 
-namespace barycert {
+namespace barycert::core {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-Status check(std::span<const double> numbers, const char* what) {
+Status check_finite(std::span<const double> numbers, const char* what) {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         if (!std::isfinite(numbers[i]))
             return Error{.what = std::string(what) + " " + std::to_string(i),
@@ -29,6 +29,9 @@ ExactWeights along_attribute(double value_a, double value_b, double value) {
 }
 
 }  // namespace
+}  // namespace barycert::core
+
+namespace barycert {
 
 Result<Parameter> parameter_of_value(double value_a, double value_b, double value) {
     return point_of_value({}, {}, value_a, value_b, value, {});
@@ -37,13 +40,13 @@ Result<Parameter> parameter_of_value(double value_a, double value_b, double valu
 Result<Parameter> point_of_value(std::span<const double> a, std::span<const double> b, double value_a, double value_b,
                                  double value, std::span<double> point) {
     const double attribute[3] = {value_a, value_b, value};
-    if (Status s = check(attribute, "attribute value"); !s) return s.error();
-    if (Status s = check(a, "coordinate of the first end,"); !s) return s.error();
-    if (Status s = check(b, "coordinate of the second end,"); !s) return s.error();
-    const ExactWeights w = along_attribute(value_a, value_b, value);
+    if (Status s = core::check_finite(attribute, "attribute value"); !s) return s.error();
+    if (Status s = core::check_finite(a, "coordinate of the first end,"); !s) return s.error();
+    if (Status s = core::check_finite(b, "coordinate of the second end,"); !s) return s.error();
+    const core::ExactWeights w = core::along_attribute(value_a, value_b, value);
     if (w.degenerate()) {
-        std::fill(point.begin(), point.end(), nan);
-        return Parameter{nan, true};
+        std::fill(point.begin(), point.end(), core::nan);
+        return Parameter{core::nan, true};
     }
     for (std::size_t k = 0; k < point.size(); ++k) {
         const double ends[2] = {a[k], b[k]};
@@ -55,12 +58,12 @@ Result<Parameter> point_of_value(std::span<const double> a, std::span<const doub
 Status point_from_weights(Simplex simplex, const double* vertices, const double* weights, double* point) {
     const auto n = static_cast<std::size_t>(vertex_count(simplex));
     const auto d = static_cast<std::size_t>(space_dimension(simplex));
-    if (Status s = check({weights, n}, "weight"); !s) return s;
-    if (Status s = check({vertices, n * d}, "coordinate of the vertices,"); !s) return s;
+    if (Status s = core::check_finite({weights, n}, "weight"); !s) return s;
+    if (Status s = core::check_finite({vertices, n * d}, "coordinate of the vertices,"); !s) return s;
     for (std::size_t k = 0; k < d; ++k) {
         double axis[4];
         for (std::size_t i = 0; i < n; ++i) axis[i] = vertices[d * i + k];
-        point[k] = exact_dot(weights, axis, static_cast<int>(n));
+        point[k] = core::exact_dot(weights, axis, static_cast<int>(n));
     }
     return Done{};
 }

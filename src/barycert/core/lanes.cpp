@@ -4,49 +4,16 @@
 
 #include "barycert/environment.hpp"
 
-// Before Highway's headers.
-#include "barycert/core/simd_targets.hpp"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/core/lanes.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, as Highway wants it.
-#include <hwy/highway.h>
+#include "barycert/core/foreach_target.hpp"
 
+#include "barycert/core/lane_loop-inl.hpp"
 #include "barycert/core/refinement-inl.hpp"
 
-// A step must be inlined into its loop: as a function it would load every pointer and constant anew for each vector.
-#undef BARYCERT_LANE_LAMBDA
-#define BARYCERT_LANE_LAMBDA HWY_ATTR __attribute__((always_inline))
-
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::core {
 namespace HWY_NAMESPACE {
-
-using lanes::Cases;
-
-/// Runs `step(tag, at)`, which returns the mask of decided lanes, over all cases: whole vectors, then one by one.
-template <class Step>
-HWY_INLINE std::size_t for_lanes(std::size_t count, std::uint32_t* undecided, Step step) {
-    std::size_t found = 0, at = 0;
-    const auto run = [&](auto tag) BARYCERT_LANE_LAMBDA {
-        using D = decltype(tag);
-        constexpr std::size_t width = hn::MaxLanes(D());
-        for (; at + width <= count; at += width) {
-            const hn::Mask<D> decided = step(tag, at);
-            if (HWY_LIKELY(hn::AllTrue(tag, decided))) continue;
-            std::uint8_t bits[8] = {};
-            hn::StoreMaskBits(tag, decided, bits);
-            for (std::size_t i = 0; i < width; ++i) {
-                undecided[found] = static_cast<std::uint32_t>(at + i);
-                found += (bits[0] >> i & 1) == 0 ? 1 : 0;
-            }
-        }
-    };
-    run(hn::ScalableTag<double>());
-    run(hn::CappedTag<double, 1>());
-    return found;
-}
 
 /// out[n * l + i] = lane l of w[i].
 template <class D, class V = hn::Vec<D>>
@@ -73,7 +40,7 @@ HWY_INLINE void store_strided(D tag, V v, double* out, std::size_t stride) {
 }
 
 template <Simplex s>
-std::size_t signs_of(const Cases& cases, WeightSigns* out, std::uint32_t* undecided) {
+std::size_t signs_of(const CaseBlock& cases, WeightSigns* out, std::uint32_t* undecided) {
     return for_lanes(cases.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
         using D = decltype(tag);
         const hn::RebindToUnsigned<D> bits;
@@ -90,7 +57,7 @@ std::size_t signs_of(const Cases& cases, WeightSigns* out, std::uint32_t* undeci
 }
 
 template <Simplex s, class D>
-HWY_INLINE Refined<s, D> refined(D tag, const Cases& cases, std::size_t at) {
+HWY_INLINE Refined<s, D> refined(D tag, const CaseBlock& cases, std::size_t at) {
     constexpr int n = vertex_count(s), d = space_dimension(s);
     Absolute<s, hn::Vec<D>> c;
     for (int k = 0; k < d; ++k) {
@@ -105,7 +72,7 @@ HWY_INLINE Refined<s, D> refined(D tag, const Cases& cases, std::size_t at) {
 }
 
 template <Simplex s>
-std::size_t weights_of(const Cases& cases, double* out, std::uint32_t* undecided) {
+std::size_t weights_of(const CaseBlock& cases, double* out, std::uint32_t* undecided) {
     return for_lanes(cases.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
         using D = decltype(tag);
         constexpr int n = vertex_count(s);
@@ -119,7 +86,7 @@ std::size_t weights_of(const Cases& cases, double* out, std::uint32_t* undecided
 }
 
 template <Simplex s>
-std::size_t values_of(const Cases& cases, const double* const* values, int components, double* out,
+std::size_t values_of(const CaseBlock& cases, const double* const* values, int components, double* out,
                       std::uint32_t* undecided) {
     const auto stride = static_cast<std::size_t>(components);
     return for_lanes(cases.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
@@ -137,7 +104,7 @@ std::size_t values_of(const Cases& cases, const double* const* values, int compo
 }
 
 template <Simplex s>
-void plain_values_of(const Cases& cases, const double* const* values, int components, double* out) {
+void plain_values_of(const CaseBlock& cases, const double* const* values, int components, double* out) {
     const auto stride = static_cast<std::size_t>(components);
     std::uint32_t none;
     for_lanes(cases.count, &none, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
@@ -169,29 +136,29 @@ std::int64_t own_target() {
 }
 
 // One entry for all simplices: Highway's tables hold plain functions.
-std::size_t signs(Simplex s, const Cases& cases, WeightSigns* out, std::uint32_t* undecided) {
+std::size_t signs(Simplex s, const CaseBlock& cases, WeightSigns* out, std::uint32_t* undecided) {
     return with_simplex(s, [&]<Simplex known>() { return signs_of<known>(cases, out, undecided); });
 }
 
-std::size_t weights(Simplex s, const Cases& cases, double* out, std::uint32_t* undecided) {
+std::size_t weights(Simplex s, const CaseBlock& cases, double* out, std::uint32_t* undecided) {
     return with_simplex(s, [&]<Simplex known>() { return weights_of<known>(cases, out, undecided); });
 }
 
-std::size_t values(Simplex s, const Cases& cases, const double* const* f, int components, double* out,
+std::size_t values(Simplex s, const CaseBlock& cases, const double* const* f, int components, double* out,
                    std::uint32_t* undecided) {
     return with_simplex(s, [&]<Simplex known>() { return values_of<known>(cases, f, components, out, undecided); });
 }
 
-void plain_values(Simplex s, const Cases& cases, const double* const* f, int components, double* out) {
+void plain_values(Simplex s, const CaseBlock& cases, const double* const* f, int components, double* out) {
     return with_simplex(s, [&]<Simplex known>() { return plain_values_of<known>(cases, f, components, out); });
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::core
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace barycert {
+namespace barycert::core {
 
 HWY_EXPORT(signs);
 HWY_EXPORT(weights);
@@ -200,24 +167,24 @@ HWY_EXPORT(plain_values);
 HWY_EXPORT(own_target);
 HWY_EXPORT(contract);
 
-std::size_t lanes::signs(Simplex s, const Cases& cases, WeightSigns* out, std::uint32_t* undecided) {
+std::size_t sign_lanes(Simplex s, const CaseBlock& cases, WeightSigns* out, std::uint32_t* undecided) {
     return HWY_DYNAMIC_DISPATCH(signs)(s, cases, out, undecided);
 }
 
-std::size_t lanes::weights(Simplex s, const Cases& cases, double* out, std::uint32_t* undecided) {
+std::size_t weight_lanes(Simplex s, const CaseBlock& cases, double* out, std::uint32_t* undecided) {
     return HWY_DYNAMIC_DISPATCH(weights)(s, cases, out, undecided);
 }
 
-std::size_t lanes::values(Simplex s, const Cases& cases, const double* const* f, int components, double* out,
-                          std::uint32_t* undecided) {
+std::size_t value_lanes(Simplex s, const CaseBlock& cases, const double* const* f, int components, double* out,
+                        std::uint32_t* undecided) {
     return HWY_DYNAMIC_DISPATCH(values)(s, cases, f, components, out, undecided);
 }
 
-void lanes::plain_values(Simplex s, const Cases& cases, const double* const* f, int components, double* out) {
+void plain_value_lanes(Simplex s, const CaseBlock& cases, const double* const* f, int components, double* out) {
     HWY_DYNAMIC_DISPATCH(plain_values)(s, cases, f, components, out);
 }
 
-bool lanes::contract() {
+bool lanes_contract() {
     return HWY_DYNAMIC_DISPATCH(contract)();
 }
 
@@ -235,16 +202,23 @@ const std::vector<std::int64_t>& supported_targets() {
     return targets;
 }
 
+std::int64_t chosen_target() {
+    return HWY_DYNAMIC_DISPATCH(own_target)();
+}
+
 }  // namespace
+}  // namespace barycert::core
+
+namespace barycert {
 
 std::vector<std::string> simd_targets() {
     std::vector<std::string> names;
-    for (const std::int64_t target : supported_targets()) names.push_back(target_name(target));
+    for (const std::int64_t target : core::supported_targets()) names.push_back(core::target_name(target));
     return names;
 }
 
 std::string simd_target() {
-    return target_name(HWY_DYNAMIC_DISPATCH(own_target)());
+    return core::target_name(core::chosen_target());
 }
 
 bool use_simd_target(std::string_view name) {
@@ -252,8 +226,8 @@ bool use_simd_target(std::string_view name) {
         hwy::GetChosenTarget().DeInit();  // the next call asks the processor again
         return true;
     }
-    for (const std::int64_t target : supported_targets()) {
-        if (target_name(target) != name) continue;
+    for (const std::int64_t target : core::supported_targets()) {
+        if (core::target_name(target) != name) continue;
         hwy::GetChosenTarget().Update(target);
         return true;
     }

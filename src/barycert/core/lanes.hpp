@@ -10,31 +10,48 @@
 #include "barycert/predicates.hpp"
 #include "barycert/simplex.hpp"
 
-namespace barycert::lanes {
+namespace barycert::core {
 
-struct Cases {
+/// Cases in structure of arrays: coordinate k of vertex i of case j is vertices[d * i + k][j], that of its point is
+/// point[k][j].
+struct CaseBlock {
     const double* vertices[12];
-    const double* point[3];
-    std::size_t count;  ///< any; below 2^32
+    const double* point[3];  ///< null for cells without a point
+    std::size_t count;       ///< any; below 2^32
 };
 
-/// Each returns how many are undecided, their numbers, ascending, in undecided[0 ...], which has room for `count`.
+/// Each returns how many cases are undecided, their numbers, ascending, in undecided[0 ...], which has room for
+/// `count`.
 
 /// out[j] for case j.
-std::size_t signs(Simplex s, const Cases& cases, WeightSigns* out, std::uint32_t* undecided);
+std::size_t sign_lanes(Simplex s, const CaseBlock& cases, WeightSigns* out, std::uint32_t* undecided);
 
 /// out[n * j + i] for weight i of case j, n = vertex_count(s).
-std::size_t weights(Simplex s, const Cases& cases, double* out, std::uint32_t* undecided);
+std::size_t weight_lanes(Simplex s, const CaseBlock& cases, double* out, std::uint32_t* undecided);
 
 /// values[n * c + i][j] is component c at vertex i of case j; out[components * j + c].
-std::size_t values(Simplex s, const Cases& cases, const double* const* values, int components, double* out,
-                   std::uint32_t* undecided);
+std::size_t value_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components, double* out,
+                        std::uint32_t* undecided);
 
-/// As `values`, by the plain formula in double (D = sum of volumes, sum of volume times value, divided): nothing is
+/// As value_lanes, by the plain formula in double (D = sum of volumes, sum of volume times value, divided): nothing is
 /// proved, everything decided. For Rounding::plain.
-void plain_values(Simplex s, const Cases& cases, const double* const* values, int components, double* out);
+void plain_value_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components, double* out);
+
+/// Values as above; component k of the gradient of c goes to out[d * c + k][j]. Preconditions: triangle or tetrahedron;
+/// every array has room for a multiple of 8 cases, or the count is 1.
+std::size_t gradient_lanes(Simplex s, const CaseBlock& cells, const double* const* values, int components,
+                           double* const* out, std::uint32_t* undecided);
+
+/// values[m * c + i][j] is component c at node i of case j, m the nodes of a cell, mid-edge nodes behind corners; the
+/// value of component c of case j goes to out[c][j]. Preconditions as above.
+std::size_t quadratic_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components,
+                            double* const* out, std::uint32_t* undecided);
+
+/// The same by the plain formula in double: nothing is proved, everything decided.
+void plain_quadratic_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components,
+                           double* const* out);
 
 /// a * b + c is rounded once in the lanes as they were compiled for this target.
-bool contract();
+bool lanes_contract();
 
-}  // namespace barycert::lanes
+}  // namespace barycert::core

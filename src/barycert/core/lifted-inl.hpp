@@ -20,7 +20,7 @@
 #include "barycert/core/numerators-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::core {
 namespace HWY_NAMESPACE {
 
 template <Simplex s, class T>
@@ -52,6 +52,6 @@ HWY_INLINE void lift(const Relative<s, T>& c, Lifted<s, T>& out) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::core
 HWY_AFTER_NAMESPACE();
 #endif

@@ -33,7 +33,7 @@
 #include "barycert/simplex.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::core {
 namespace HWY_NAMESPACE {
 
 /// Vertices relative to the point and, for the simplices that are projected on, edges from vertex 0.
@@ -111,6 +111,6 @@ HWY_INLINE void solve(const Relative<s, T>& c, const Numerator<s, T>& zero, Frac
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::core
 HWY_AFTER_NAMESPACE();
 #endif

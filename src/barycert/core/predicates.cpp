@@ -2,127 +2,208 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
+#include <cstddef>
+#include <string>
 
-#include "barycert/core/blocks.hpp"
-#include "barycert/core/exact_weights.hpp"
-#include "barycert/core/lanes.hpp"
-#include "barycert/core/point_arguments.hpp"
-#include "barycert/environment.hpp"
+#include "barycert/base/strict_math.hpp"
+#include "barycert/core/exact_tier.hpp"
+#include "barycert/core/lifted-inl.hpp"
 
-namespace barycert {
+namespace barycert::core {
 namespace {
 
-WeightSigns exact_signs(Simplex s, const double* vertices, const double* point) {
-    const ExactWeights w(s, vertices, point);
-    if (w.degenerate()) return WeightSigns::degenerate_simplex();
-    unsigned bits = w.orientation() < 0 ? 1U << 8 : 0;
-    for (int i = 0; i < vertex_count(s); ++i) {
-        if (w.sign(i) < 0) bits |= 1U << i;
-        if (w.sign(i) == 0) bits |= 1U << (4 + i);
-    }
-    return WeightSigns(static_cast<WeightSigns::Bits>(bits));
-}
+namespace formulas = HWY_NAMESPACE;
 
-template <class Batch>
-Status batch_signs(const Batch& batch, std::span<WeightSigns> out, Tiers* tiers) {
-    const ExactEnvironment environment;  // for the tiers: signs are the same without
-    const Simplex s = batch.simplex;
-    if (Status sizes = check_sizes(batch, out.size(), 1); !sizes) return sizes;
-    Tiers counts;
-    Status status = for_blocks(
-        batch,
-        [&](std::size_t first, const lanes::Cases& block, std::uint32_t* undecided) {
-            const std::size_t left = lanes::signs(s, block, out.data() + first, undecided);
-            counts.add(Tier::filter, block.count - left);
-            return left;
-        },
-        [&](std::size_t first, std::size_t j, const SingleCase& c) {
-            out[first + j] = exact_signs(s, c.vertices.data(), c.point.data());
-            counts.add(Tier::exact);
-            counts.degenerate += out[first + j].degenerate() ? 1 : 0;
-        });
-    if (status && tiers != nullptr) tiers->add(counts);
-    return status;
-}
+// The filters: each returns the sign that its bound proves, or zero for undecided. A coordinate that is not finite
+// proves nothing: it is in a difference, which makes an extent infinite or the determinant NaN, and comparisons with
+// NaN are false.
 
-double largest(double x, double y, double z) {
+constexpr double epsilon = 0x1p-52;
+
+double max_magnitude(double x, double y, double z) {
     return std::max(std::max(std::fabs(x), std::fabs(y)), std::fabs(z));
 }
 
-// The same ranges and constants as the numerators of filter-inl.hpp, which derives them: 2 terms of 4 roundings, and 6
-// of 8 (there the last sign costs no rounding).
-constexpr double epsilon = 0x1p-52;
+// Orientations: the same ranges and constants as the numerators of filter-inl.hpp, which derives them: 2 terms of 4
+// roundings, and 6 of 8 (there the last sign costs no rounding).
 
 bool in_range(double extent) {
     return extent >= 0x1p-300 && extent <= 0x1p300;
 }
 
-/// Sign of det(u, v, w) for the differences u = points[1] - points[0], v = points[3] - points[2], w = points[5] -
-/// points[4], if the bound proves it; otherwise 0. A coordinate that is not finite proves nothing: each is in a
-/// difference, which makes an extent infinite or the determinant NaN.
-[[gnu::always_inline]] inline int filtered_det3d(const double* const (&points)[6]) {
+/// Sign of det(b - a, c - a).
+[[gnu::always_inline]] inline Sign filtered_orient2d(const double* a, const double* b, const double* c) {
+    const double ux = b[0] - a[0], uy = b[1] - a[1], vx = c[0] - a[0], vy = c[1] - a[1];
+    const double x = std::max(std::fabs(ux), std::fabs(vx)), y = std::max(std::fabs(uy), std::fabs(vy));
+    const double det = ux * vy - uy * vx;
+    if (in_range(x) && in_range(y) && std::fabs(det) > 8.5 * epsilon * (x * y))
+        return det < 0 ? Sign::negative : Sign::positive;
+    return Sign::zero;
+}
+
+/// Sign of det(q - p, s - r, t1 - t0).
+[[gnu::always_inline]] inline Sign filtered_det3d(const double* p, const double* q, const double* r, const double* s,
+                                                  const double* t0, const double* t1) {
     double u[3], v[3], w[3], extent[3];
     for (int k = 0; k < 3; ++k) {
-        u[k] = points[1][k] - points[0][k];
-        v[k] = points[3][k] - points[2][k];
-        w[k] = points[5][k] - points[4][k];
-        extent[k] = largest(u[k], v[k], w[k]);
+        u[k] = q[k] - p[k];
+        v[k] = s[k] - r[k];
+        w[k] = t1[k] - t0[k];
+        extent[k] = max_magnitude(u[k], v[k], w[k]);
     }
     const auto [x, y, z] = extent;
     const double det =
         u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
     if (in_range(x) && in_range(y) && in_range(z) && std::fabs(det) > 49 * epsilon * (x * y * z))
-        return det < 0 ? -1 : 1;
-    return 0;
+        return det < 0 ? Sign::negative : Sign::positive;
+    return Sign::zero;
+}
+
+[[gnu::always_inline]] inline Sign filtered_orient3d(const double* a, const double* b, const double* c,
+                                                     const double* d) {
+    return filtered_det3d(a, b, a, c, a, d);
+}
+
+// Circles and spheres. As in filter-inl.hpp, with e = 2^-52 for one rounding in any mode: the sum of terms of k
+// roundings each is off by at most (number of terms) * (max product) * ((1+e)^k - 1). Max products are taken over the
+// axes' extents X, Y, Z of the differences and the max square of a length L, as computed: the squares that L sums up
+// are positive, so that together they count as one term of L.
+//                     numerator           square                                  product, sums   k
+//   incircle          2 terms, k = 4      2 differences, 1 product, 1 sum         1 + 2           11    6 * 11 =  66
+//   insphere          6 terms, k = 8      2 differences, 1 product, 2 sums        1 + 2           16   24 * 16 = 384
+// times e X Y L or e X Y Z L; a difference counts for each of the factors that it is in. The constants used are
+// larger by 2 % at least: that covers (1+e)^k - 1 > k e, true differences that exceed computed ones by (1+e), L that
+// falls short of the true squares by (1+e)^3 and the roundings of the bound itself, all together below 1 + 40 e.
+//
+// Under- and overflow. With every extent in [2^-180, 2^200], and so L in [2^-361, 2^402], a difference, product or sum
+// that underflows is off by at most 2^-1020 (operands and result flushed to zero). It is multiplied by what else is in
+// its terms: lost in a product of them all it counts 2^-1020 against e X Y Z L >= 2^-52-901; elsewhere both have
+// factors in common, and what remains of the right side is larger. All far below the 2 %. Max value: 24 * 2^1002.
+
+bool in_sphere_range(double extent) {
+    return extent >= 0x1p-180 && extent <= 0x1p200;
+}
+
+template <Simplex s>
+[[gnu::always_inline]] inline Sign filtered_lifted(const double* const* points, double factor) {
+    using Differences = formulas::Relative<s, double>;
+    constexpr int n = Differences::n, d = Differences::d;
+    Differences c;
+    formulas::Lifted<s, double> lifted;
+    double bound = factor * epsilon;
+    bool valid = true;
+    for (int k = 0; k < d; ++k) {
+        double extent = 0;
+        for (int i = 0; i < n; ++i) {
+            c.r[i][k] = points[i][k] - points[n][k];
+            extent = std::max(extent, std::fabs(c.r[i][k]));
+        }
+        bound *= extent;
+        valid = valid && in_sphere_range(extent);
+    }
+    formulas::lift(c, lifted);
+    bound *= *std::max_element(lifted.square, lifted.square + n);
+    if (valid && std::fabs(lifted.sum) > bound) return lifted.sum < 0 ? Sign::negative : Sign::positive;
+    return Sign::zero;
+}
+
+[[gnu::always_inline]] inline Sign filtered_incircle(const double* a, const double* b, const double* c,
+                                                     const double* d) {
+    const double* const points[] = {a, b, c, d};
+    return filtered_lifted<Simplex::triangle>(points, 67.5);
+}
+
+[[gnu::always_inline]] inline Sign filtered_insphere(const double* a, const double* b, const double* c, const double* d,
+                                                     const double* e) {
+    const double* const points[] = {a, b, c, d, e};
+    return filtered_lifted<Simplex::tetrahedron>(points, 392);
+}
+
+bool all_finite(int d, std::initializer_list<const double*> points) {
+    return std::all_of(points.begin(), points.end(), [d](const double* p) {
+        return std::all_of(p, p + d, [](double x) { return std::isfinite(x); });
+    });
+}
+
+/// Precondition: a coordinate is not finite.
+Error not_finite_error(int d, std::initializer_list<const double*> points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double* const p = points.begin()[i];
+        for (int k = 0; k < d; ++k) {
+            if (!std::isfinite(p[k]))
+                return Error{.what = "coordinate " + std::to_string(k) + " of point " + std::to_string(i),
+                             .expected = "a finite number",
+                             .found = std::to_string(p[k])};
+        }
+    }
+    return {};
+}
+
+/// The sign by the filter, or by integers where that is undecided. Points have d coordinates. Integers that are made of
+/// NaN or infinity are as wide as those of finite numbers (scaled_double.hpp).
+template <int d, auto filtered, auto exact, class... Points>
+[[gnu::always_inline]] inline Sign sign(Points... points) {
+    const Sign by_filter = filtered(points...);
+    if (by_filter != Sign::zero) return by_filter;
+    assert(all_finite(d, {points...}));
+    return exact(points...);
+}
+
+template <int d, auto exact, class... Points>
+[[gnu::noinline]] Result<Sign> checked_exact(Points... points) {
+    if (!all_finite(d, {points...})) return not_finite_error(d, {points...});
+    return exact(points...);
+}
+
+template <int d, auto filtered, auto exact, class... Points>
+[[gnu::always_inline]] inline Result<Sign> checked_sign(Points... points) {
+    const Sign by_filter = filtered(points...);
+    if (by_filter != Sign::zero) return by_filter;
+    return checked_exact<d, exact>(points...);
 }
 
 }  // namespace
+}  // namespace barycert::core
 
-Result<Sign> orient2d(const double* a, const double* b, const double* c) {
-    const double ux = b[0] - a[0], uy = b[1] - a[1], vx = c[0] - a[0], vy = c[1] - a[1];
-    const double x = std::max(std::fabs(ux), std::fabs(vx)), y = std::max(std::fabs(uy), std::fabs(vy));
-    const double det = ux * vy - uy * vx;
-    if (in_range(x) && in_range(y) && std::fabs(det) > 8.5 * epsilon * (x * y)) return as_sign(det < 0 ? -1 : 1);
-    return exact_sign(std::array{a, b, c}, 2, [=] { return exact_orient2d(a, b, c); });
+namespace barycert {
+
+Sign orient2d(const double* a, const double* b, const double* c) noexcept {
+    return core::sign<2, core::filtered_orient2d, core::exact_orient2d>(a, b, c);
+}
+Result<Sign> checked_orient2d(const double* a, const double* b, const double* c) {
+    return core::checked_sign<2, core::filtered_orient2d, core::exact_orient2d>(a, b, c);
 }
 
-Result<Sign> orient3d(const double* a, const double* b, const double* c, const double* d) {
-    const int sign = filtered_det3d({a, b, a, c, a, d});
-    if (sign != 0) return as_sign(sign);
-    return exact_sign(std::array{a, b, c, d}, 3, [=] { return exact_orient3d(a, b, c, d); });
+Sign orient3d(const double* a, const double* b, const double* c, const double* d) noexcept {
+    return core::sign<3, core::filtered_orient3d, core::exact_orient3d>(a, b, c, d);
+}
+Result<Sign> checked_orient3d(const double* a, const double* b, const double* c, const double* d) {
+    return core::checked_sign<3, core::filtered_orient3d, core::exact_orient3d>(a, b, c, d);
 }
 
-Result<Sign> det3d(const double* p, const double* q, const double* r, const double* s, const double* t,
-                   const double* u) {
-    const int sign = filtered_det3d({p, q, r, s, t, u});
-    if (sign != 0) return as_sign(sign);
-    return exact_sign(std::array{p, q, r, s, t, u}, 3, [=] { return exact_det3d(p, q, r, s, t, u); });
+Sign det3d(const double* p, const double* q, const double* r, const double* s, const double* t,
+           const double* u) noexcept {
+    return core::sign<3, core::filtered_det3d, core::exact_det3d>(p, q, r, s, t, u);
+}
+Result<Sign> checked_det3d(const double* p, const double* q, const double* r, const double* s, const double* t,
+                           const double* u) {
+    return core::checked_sign<3, core::filtered_det3d, core::exact_det3d>(p, q, r, s, t, u);
 }
 
-Result<WeightSigns> weight_signs(Simplex simplex, const double* vertices, const double* point, Tiers* tiers) {
-    const ExactEnvironment environment;  // for the tier
-    WeightSigns out;
-    std::uint32_t undecided[1];
-    Tier tier = Tier::filter;
-    if (lanes::signs(simplex, as_block(simplex, vertices, point), &out, undecided) != 0) {
-        if (!all_finite(simplex, vertices, point)) return not_finite_error(simplex, vertices, point);
-        out = exact_signs(simplex, vertices, point);
-        tier = Tier::exact;
-    }
-    if (tiers != nullptr) {
-        tiers->add(tier);
-        tiers->degenerate += out.degenerate() ? 1 : 0;
-    }
-    return out;
+Sign incircle(const double* a, const double* b, const double* c, const double* d) noexcept {
+    return core::sign<2, core::filtered_incircle, core::exact_incircle>(a, b, c, d);
+}
+Result<Sign> checked_incircle(const double* a, const double* b, const double* c, const double* d) {
+    return core::checked_sign<2, core::filtered_incircle, core::exact_incircle>(a, b, c, d);
 }
 
-Status weight_signs(const CaseArrays& cases, std::span<WeightSigns> out, Tiers* tiers) {
-    return batch_signs(cases, out, tiers);
+Sign insphere(const double* a, const double* b, const double* c, const double* d, const double* e) noexcept {
+    return core::sign<3, core::filtered_insphere, core::exact_insphere>(a, b, c, d, e);
 }
-
-Status weight_signs(const MeshQueries& queries, std::span<WeightSigns> out, Tiers* tiers) {
-    return batch_signs(queries, out, tiers);
+Result<Sign> checked_insphere(const double* a, const double* b, const double* c, const double* d, const double* e) {
+    return core::checked_sign<3, core::filtered_insphere, core::exact_insphere>(a, b, c, d, e);
 }
 
 }  // namespace barycert

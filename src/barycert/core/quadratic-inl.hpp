@@ -36,7 +36,7 @@
 #include "barycert/core/refinement-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::core {
 namespace HWY_NAMESPACE {
 
 /// Nodes of a cell: corners, and behind them the nodes amid the edges.
@@ -113,6 +113,6 @@ HWY_INLINE V quadratic_value(D tag, const QuadraticWeights<s, D>& w, const V (&f
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::core
 HWY_AFTER_NAMESPACE();
 #endif

@@ -1,7 +1,7 @@
 /// Internal: the edges that mid-edge nodes stand on.
 #pragma once
 
-namespace barycert {
+namespace barycert::core {
 
 /// The corners of each edge, in the order of quadratic.hpp; the first three are those of a triangle.
 inline constexpr int quadratic_edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
@@ -14,4 +14,4 @@ constexpr int quadratic_edge(int i, int j) {
     return -1;
 }
 
-}  // namespace barycert
+}  // namespace barycert::core

@@ -1,4 +1,4 @@
-#include "barycert/core/quadratic_exact.hpp"
+#include "barycert/core/exact_tier.hpp"
 
 #include <algorithm>
 #include <type_traits>
@@ -10,7 +10,7 @@
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 
-namespace barycert {
+namespace barycert::core {
 namespace {
 
 namespace formulas = HWY_NAMESPACE;
@@ -117,4 +117,4 @@ bool exact_quadratic(Simplex simplex, const double* vertices, const double* poin
                : exact_quadratic<Simplex::tetrahedron>(vertices, point, values, components, out);
 }
 
-}  // namespace barycert
+}  // namespace barycert::core

@@ -1,28 +1,18 @@
-#include "barycert/core/quadratic_lanes.hpp"
-
-// Before Highway's headers.
-#include "barycert/core/simd_targets.hpp"
+#include "barycert/core/lanes.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/core/quadratic_lanes.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, as Highway wants it.
-#include <hwy/highway.h>
+#include "barycert/core/foreach_target.hpp"
 
-#include "barycert/core/padded_lanes-inl.hpp"
+#include "barycert/core/lane_loop-inl.hpp"
 #include "barycert/core/quadratic-inl.hpp"
 
-#undef BARYCERT_LANE_LAMBDA
-#define BARYCERT_LANE_LAMBDA HWY_ATTR __attribute__((always_inline))
-
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::core {
 namespace HWY_NAMESPACE {
 
-using lanes::Cases;
-
 template <Simplex s>
-std::size_t quadratic_values_of(const Cases& cases, const double* const* values, int components, double* const* out,
+std::size_t quadratic_values_of(const CaseBlock& cases, const double* const* values, int components, double* const* out,
                                 std::uint32_t* undecided) {
     return for_padded_lanes(cases.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
         using D = decltype(tag);
@@ -44,7 +34,8 @@ std::size_t quadratic_values_of(const Cases& cases, const double* const* values,
 }
 
 template <Simplex s>
-void plain_quadratic_values_of(const Cases& cases, const double* const* values, int components, double* const* out) {
+void plain_quadratic_values_of(const CaseBlock& cases, const double* const* values, int components,
+                               double* const* out) {
     std::uint32_t none;
     for_padded_lanes(cases.count, &none, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
         using D = decltype(tag);
@@ -70,38 +61,38 @@ void plain_quadratic_values_of(const Cases& cases, const double* const* values, 
     });
 }
 
-std::size_t quadratic_values(Simplex s, const Cases& cases, const double* const* values, int components,
+std::size_t quadratic_values(Simplex s, const CaseBlock& cases, const double* const* values, int components,
                              double* const* out, std::uint32_t* undecided) {
     return s == Simplex::triangle
                ? quadratic_values_of<Simplex::triangle>(cases, values, components, out, undecided)
                : quadratic_values_of<Simplex::tetrahedron>(cases, values, components, out, undecided);
 }
 
-void plain_quadratic_values(Simplex s, const Cases& cases, const double* const* values, int components,
+void plain_quadratic_values(Simplex s, const CaseBlock& cases, const double* const* values, int components,
                             double* const* out) {
     s == Simplex::triangle ? plain_quadratic_values_of<Simplex::triangle>(cases, values, components, out)
                            : plain_quadratic_values_of<Simplex::tetrahedron>(cases, values, components, out);
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::core
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace barycert {
+namespace barycert::core {
 
 HWY_EXPORT(quadratic_values);
 HWY_EXPORT(plain_quadratic_values);
 
-std::size_t lanes::quadratic_values(Simplex s, const Cases& cases, const double* const* values, int components,
-                                    double* const* out, std::uint32_t* undecided) {
+std::size_t quadratic_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components,
+                            double* const* out, std::uint32_t* undecided) {
     return HWY_DYNAMIC_DISPATCH(quadratic_values)(s, cases, values, components, out, undecided);
 }
 
-void lanes::plain_quadratic_values(Simplex s, const Cases& cases, const double* const* values, int components,
-                                   double* const* out) {
+void plain_quadratic_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components,
+                           double* const* out) {
     HWY_DYNAMIC_DISPATCH(plain_quadratic_values)(s, cases, values, components, out);
 }
 
-}  // namespace barycert
+}  // namespace barycert::core
 #endif

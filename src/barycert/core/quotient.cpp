@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace barycert {
+namespace barycert::core {
 namespace {
 
 /// Rounds (q + t) * 2^exponent, 0 <= t < 1, where t > 0 exactly if `inexact`. Precondition: q >= 2^62.
@@ -81,4 +81,4 @@ double round_integer(const Integer& number, int exponent) {
     return round_quotient(number.sign() < 0, number.magnitude(), one, exponent);
 }
 
-}  // namespace barycert
+}  // namespace barycert::core

@@ -6,7 +6,7 @@
 
 #include "barycert/core/integer.hpp"
 
-namespace barycert {
+namespace barycert::core {
 
 /// A magnitude: limbs of 64 bits, the least significant first; leading zeros are allowed.
 using Magnitude = std::span<const std::uint64_t>;
@@ -20,4 +20,4 @@ double round_quotient(bool negative, Magnitude numerator, Magnitude denominator,
 /// number * 2^exponent rounded in the same way.
 double round_integer(const Integer& number, int exponent);
 
-}  // namespace barycert
+}  // namespace barycert::core

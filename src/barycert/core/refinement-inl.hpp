@@ -62,7 +62,7 @@
 #include "barycert/core/filter-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::core {
 namespace HWY_NAMESPACE {
 
 /// Absolute coordinates of one lane's cases.
@@ -291,6 +291,6 @@ HWY_INLINE V value(D tag, const Refined<s, D>& r, const V (&f)[vertex_count(s)],
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::core
 HWY_AFTER_NAMESPACE();
 #endif

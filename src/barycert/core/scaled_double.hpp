@@ -9,7 +9,7 @@
 #include "barycert/core/fixed_integer.hpp"
 #include "barycert/core/integer.hpp"
 
-namespace barycert {
+namespace barycert::core {
 
 /// x = (-1)^negative * mantissa * 2^(exponent - 1074), the mantissa odd, or zero with an exponent of `none`.
 struct ScaledDouble {
@@ -64,4 +64,4 @@ struct Unit {
     }
 };
 
-}  // namespace barycert
+}  // namespace barycert::core

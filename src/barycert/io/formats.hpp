@@ -1,21 +1,35 @@
-/// Internal: the sources and sinks by format. `path` and `format` are as for open_source and open_sink.
+/// The sources and sinks by format.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "barycert/io.hpp"
 
-namespace barycert::points {
+namespace barycert::io {
 
-Result<std::unique_ptr<Source>> open_csv_source(const std::string& path, int dimension);
-Result<std::unique_ptr<Source>> open_npy_source(const std::string& path, int dimension);
-Result<std::unique_ptr<Source>> open_node_source(const std::string& path, int dimension);
+enum class FileFormat : std::uint8_t { csv, npy, node, vtu };
 
-Result<std::unique_ptr<Sink>> open_csv_sink(const std::string& path, const RowFormat& format);
-Result<std::unique_ptr<Sink>> open_npy_sink(const std::string& path, const RowFormat& format);
+/// By the suffix, in any case: .csv .npy .node .vtu; "-" is CSV. Returns an Error that lists them for another suffix.
+Result<FileFormat> format_of(const std::string& path);
+
+/// True if the path ends so, in any case. `suffix` is in lower case.
+bool has_suffix(std::string_view path, std::string_view suffix);
+
+/// True if the path ends as those of VTK's files do: .vtu .vtk .vtp.
+bool is_vtk_file(std::string_view path);
+
+// `path` and `format` are as for open_points and open_table.
+Result<std::unique_ptr<PointSource>> open_csv_source(const std::string& path, int dimension);
+Result<std::unique_ptr<PointSource>> open_npy_source(const std::string& path, int dimension);
+Result<std::unique_ptr<PointSource>> open_node_source(const std::string& path, int dimension);
+
+Result<std::unique_ptr<TableSink>> open_csv_sink(const std::string& path, const TableFormat& format);
+Result<std::unique_ptr<TableSink>> open_npy_sink(const std::string& path, const TableFormat& format);
 
 /// Refuses rows whose spans do not fit together and the format, and the feature degenerate.
-Status check_rows(const Rows& rows, const RowFormat& format, const std::string& path);
+Status check_rows(const TableView& rows, const TableFormat& format, const std::string& path);
 
-}  // namespace barycert::points
+}  // namespace barycert::io

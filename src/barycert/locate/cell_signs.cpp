@@ -86,19 +86,19 @@ std::optional<WeightSigns> filtered(const Situation<d>& s) {
 }
 
 template <std::size_t d>
-WeightSigns signs(const CellIndex& index, Place cell, const double* point, Tiers& tiers) {
+WeightSigns signs(const CellIndex& index, Place cell, const double* point, TierCounts& tiers) {
     const Situation<d> situation(index, index.cells[static_cast<std::size_t>(cell)], point);
     if (const auto certain = filtered<d>(situation)) {
         tiers.add(Tier::filter);
         return *certain;
     }
     // All numbers are finite: there is no Error.
-    return *weight_signs(index.simplex, vertices_of(index, cell).data(), point, &tiers);
+    return weight_signs(index.simplex, vertices_of(index, cell).data(), point, &tiers);
 }
 
 }  // namespace
 
-WeightSigns cell_signs(const CellIndex& index, Place cell, const double* point, Tiers& tiers) {
+WeightSigns cell_signs(const CellIndex& index, Place cell, const double* point, TierCounts& tiers) {
     return index.simplex == Simplex::triangle ? signs<2>(index, cell, point, tiers)
                                               : signs<3>(index, cell, point, tiers);
 }

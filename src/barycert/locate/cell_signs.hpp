@@ -11,7 +11,7 @@ namespace barycert::detail {
 /// coordinate to the bit, that weight is zero, and nothing needs to be multiplied. On the sides of a box, and in meshes
 /// along the axes, integers would else have to find most zeros. `point` has 3 coordinates (2D: the last is not looked
 /// at), all finite.
-WeightSigns cell_signs(const CellIndex& index, Place cell, const double* point, Tiers& tiers);
+WeightSigns cell_signs(const CellIndex& index, Place cell, const double* point, TierCounts& tiers);
 
 /// False if the cell's box does not hold the point, told by comparisons alone.
 inline bool box_holds(const CellIndex& index, Place cell, const double* point) {

@@ -50,7 +50,7 @@ void Finder::start(const PointRecord* points, std::size_t count) {
     }
 }
 
-void Finder::walk(const PointRecord* points, std::size_t count, Place* owner, Feature* feature, Tiers& tests) {
+void Finder::walk(const PointRecord* points, std::size_t count, Place* owner, Feature* feature, TierCounts& tests) {
     const CellIndex& index = data_.index;
     std::fill(owner, owner + count, -1);
     std::size_t stuck = 0;
@@ -66,7 +66,7 @@ void Finder::walk(const PointRecord* points, std::size_t count, Place* owner, Fe
     for (std::size_t i = 0; i < walking_; ++i) resolve(points[walks_[i].point], walks_[i], owner, feature, tests);
 }
 
-void Finder::resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, Tiers& tests) {
+void Finder::resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, TierCounts& tests) {
     const CellIndex& index = data_.index;
     // At the end of the domain the point may still be in another part of it.
     WeightSigns signs;
@@ -84,7 +84,7 @@ void Finder::resolve(const PointRecord& point, Walk stuck, Place* owner, Feature
     });
 }
 
-void Finder::ask_candidates(const PointRecord* points, Place* owner, Feature* feature, Tiers& tests) {
+void Finder::ask_candidates(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests) {
     const CellIndex& index = data_.index;
     const auto original = [&](Place place) { return index.original[static_cast<std::size_t>(place)]; };
     for_candidates(points, asked_.data(), asked_count_, tests, [&](const Candidate& c, WeightSigns signs) {

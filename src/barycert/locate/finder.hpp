@@ -44,13 +44,13 @@ public:
 
 private:
     void start(const PointRecord* points, std::size_t count);
-    void walk(const PointRecord* points, std::size_t count, Place* owner, Feature* feature, Tiers& tests);
-    void resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, Tiers& tests);
-    void ask_candidates(const PointRecord* points, Place* owner, Feature* feature, Tiers& tests);
+    void walk(const PointRecord* points, std::size_t count, Place* owner, Feature* feature, TierCounts& tests);
+    void resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, TierCounts& tests);
+    void ask_candidates(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests);
 
     /// use(candidate, exact signs of its cell) for every cell whose box holds points[which[i]].
     template <class Use>
-    void for_candidates(const PointRecord* points, const std::uint32_t* which, std::size_t count, Tiers& tests,
+    void for_candidates(const PointRecord* points, const std::uint32_t* which, std::size_t count, TierCounts& tests,
                         Use use) {
         constexpr std::size_t points_at_once = 16, enough = 4096;
         candidates_.clear();

@@ -22,39 +22,21 @@ Status check_points(const Locator& locator, std::span<const double> points) {
 
 }  // namespace
 
-void LocationCounts::add(Feature f, std::uint64_t count) {
-    switch (f) {
-        case Feature::interior:
-            interior += count;
-            break;
-        case Feature::face:
-            face += count;
-            break;
-        case Feature::edge:
-            edge += count;
-            break;
-        case Feature::vertex:
-            vertex += count;
-            break;
-        default:
-            outside += count;
-            break;
-    }
-}
-
-void LocationCounts::add(const LocationCounts& other) {
-    interior += other.interior;
-    face += other.face;
-    edge += other.edge;
-    vertex += other.vertex;
-    outside += other.outside;
-    tests.add(other.tests);
-}
-
 Locator::Locator(std::unique_ptr<detail::LocatorData> data) : data_(std::move(data)) {}
 Locator::Locator(Locator&&) noexcept = default;
 Locator& Locator::operator=(Locator&&) noexcept = default;
 Locator::~Locator() = default;
+
+Result<Locator> Locator::build(const Mesh& mesh, const BuildOptions& options) {
+    if (!options.prove) return build(mesh, check::Certificate{});
+    check::Options check;
+    check.threads = options.threads;
+    check.examples = 0;
+    check.contacts = 0;
+    check.verdict_only = true;
+    check.progress = options.progress;
+    return build(mesh, check::run(mesh, check).certificate);
+}
 
 Result<Locator> Locator::build(const Mesh& mesh, const check::Certificate& certificate) {
     const ExactEnvironment environment;
@@ -118,7 +100,18 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
     return Done{};
 }
 
-Result<AllLocations> Locator::locate_all(std::span<const double> points, LocationCounts* counts, int threads) const {
+Result<Table> Locator::locate(std::span<const double> points, int threads) const {
+    Table table;
+    table.dimension = mesh().dimension;
+    const std::size_t count = points.size() / data_->index.dimension();
+    table.cells.resize(count);
+    table.features.resize(count);
+    Status done = locate(points, table.cells, table.features, &table.counts.locations, threads);
+    if (!done) return done.error();
+    return table;
+}
+
+Result<Table> Locator::locate_all(std::span<const double> points, int threads) const {
     const ExactEnvironment environment;
     if (Status status = check_points(*this, points); !status) return status.error();
     struct Found {
@@ -151,23 +144,29 @@ Result<AllLocations> Locator::locate_all(std::span<const double> points, Locatio
             });
         });
     });
-    AllLocations all;
-    LocationCounts sum;
+    Table table;
+    table.dimension = mesh().dimension;
+    const auto push = [&](std::size_t point, Mesh::Index cell, Feature feature) {
+        table.points.insert(table.points.end(), points.data() + d * point, points.data() + d * (point + 1));
+        table.cells.push_back(cell);
+        table.features.push_back(feature);
+    };
+    table.point_begin.reserve(count + 1);
+    table.point_begin.push_back(0);
     for (std::size_t b = 0; b < blocks; ++b) {
-        sum.add(parts[b]);
         std::size_t at = 0;
         for (std::size_t i = b * block; i < std::min(count, (b + 1) * block); ++i) {
             const bool inside = at < found[b].size() && found[b][at].point == i;
-            sum.add(inside ? found[b][at].feature : Feature::outside);
-            for (; at < found[b].size() && found[b][at].point == i; ++at) {
-                all.cells.push_back(found[b][at].cell);
-                all.features.push_back(found[b][at].feature);
-            }
-            all.begin.push_back(all.cells.size());
+            table.counts.locations.add(inside ? found[b][at].feature : Feature::outside);
+            if (!inside) push(i, -1, Feature::outside);
+            for (; at < found[b].size() && found[b][at].point == i; ++at)
+                push(i, found[b][at].cell, found[b][at].feature);
+            table.point_begin.push_back(table.cells.size());
         }
+        table.counts.locations.tests.add(parts[b].tests);
+        found[b] = {};
     }
-    if (counts != nullptr) counts->add(sum);
-    return all;
+    return table;
 }
 
 Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {

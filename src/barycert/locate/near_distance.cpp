@@ -35,7 +35,7 @@ Vector cross(const Vector& x, const Vector& y) {
 class Lattice {
 public:
     void add(const Point3& p) {
-        for (const double x : p) unit_.add(scaled(x));
+        for (const double x : p) unit_.add(core::scaled(x));
     }
     void add(const NearFeature& f) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(f.count); ++i) add(f.at[i]);
@@ -43,7 +43,7 @@ public:
     Vector at(const Point3& p) const {
         Vector v;
         for (std::size_t k = 0; k < 3; ++k) {
-            const ScaledDouble x = scaled(p[k]);
+            const core::ScaledDouble x = core::scaled(p[k]);
             if (x.mantissa == 0) continue;
             v[k] = x.mantissa;
             v[k] <<= static_cast<unsigned>(x.exponent - unit_.exponent);
@@ -52,10 +52,10 @@ public:
         return v;
     }
     /// Of the unit, as a power of two; 0 if all is zero.
-    int exponent() const { return unit_.exponent == ScaledDouble::none ? 0 : unit_.exponent - 1074; }
+    int exponent() const { return unit_.exponent == core::ScaledDouble::none ? 0 : unit_.exponent - 1074; }
 
 private:
-    Unit unit_;
+    core::Unit unit_;
 };
 
 /// Of a distance: numerator / denominator.
@@ -82,8 +82,8 @@ int bits_of(const Number& x) {
 
 /// floor(sqrt(x)). The estimate is off by far less than 2^32, so its square fits and a step of Newton's leaves less
 /// than one or two; then it is counted.
-std::uint64_t root_of(UInt128 x) {
-    auto r = static_cast<UInt128>(std::sqrt(static_cast<double>(x)));
+std::uint64_t root_of(core::UInt128 x) {
+    auto r = static_cast<core::UInt128>(std::sqrt(static_cast<double>(x)));
     r = (r + x / r) / 2;
     while (r * r > x) --r;
     while ((r + 1) * (r + 1) <= x) ++r;
@@ -119,10 +119,10 @@ double distance_to(const Point3& p, const NearFeature& f) {
     Number quotient, rest;
     divide_qr(s.numerator, s.denominator, quotient, rest);
     const auto low = static_cast<std::uint64_t>(quotient & ~std::uint64_t{0});
-    const UInt128 q = static_cast<UInt128>(static_cast<std::uint64_t>(quotient >> 64)) << 64 | low;
+    const core::UInt128 q = static_cast<core::UInt128>(static_cast<std::uint64_t>(quotient >> 64)) << 64 | low;
     const std::uint64_t root = root_of(q);
-    const bool inexact = rest != 0 || static_cast<UInt128>(root) * root != q;
-    return round_integer(Integer(false, root << 1 | (inexact ? 1 : 0), 0), lattice.exponent() - shift - 1);
+    const bool inexact = rest != 0 || static_cast<core::UInt128>(root) * root != q;
+    return core::round_integer(core::Integer(false, root << 1 | (inexact ? 1 : 0), 0), lattice.exponent() - shift - 1);
 }
 
 }  // namespace barycert::detail

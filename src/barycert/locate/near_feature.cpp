@@ -4,7 +4,7 @@
 #include <bit>
 #include <optional>
 
-#include "barycert/core/exact_weights.hpp"
+#include "barycert/core/exact_tier.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
 
@@ -26,7 +26,7 @@ public:
         std::array<double, 12> vertices{};
         const auto n = static_cast<std::size_t>(cell.count), d = n - 1;
         for (std::size_t i = 0; i < n; ++i) std::copy_n(cell.at[i].begin(), d, &vertices[d * i]);
-        sides_ = *weight_signs(d == 2 ? Simplex::triangle : Simplex::tetrahedron, vertices.data(), p.data());
+        sides_ = weight_signs(d == 2 ? Simplex::triangle : Simplex::tetrahedron, vertices.data(), p.data());
     }
 
     bool degenerate() const { return sides_.degenerate(); }
@@ -51,7 +51,7 @@ private:
         if (!known) {
             std::array<double, 9> vertices{};
             for (std::size_t k = 0; k < 3; ++k) std::copy(f.at[k].begin(), f.at[k].end(), &vertices[3 * k]);
-            known = *weight_signs(f.count == 2 ? Simplex::segment : Simplex::triangle3d, vertices.data(), p_.data());
+            known = weight_signs(f.count == 2 ? Simplex::segment : Simplex::triangle3d, vertices.data(), p_.data());
         }
         const int place = std::popcount(mask & ((1U << i) - 1));
         return known->sign(place) == Sign::positive;
@@ -102,7 +102,7 @@ std::array<double, 3> weights_of(const Point3& p, const NearFeature& f) {
     if (quick) {
         std::copy_n(quick->weights.begin(), 3, weights.begin());
     } else {
-        const ExactWeights exact(simplex, vertices.data(), p.data());
+        const core::ExactWeights exact(simplex, vertices.data(), p.data());
         for (int i = 0; i < f.count; ++i) weights[static_cast<std::size_t>(i)] = exact.weight(i);
     }
     return weights;

@@ -16,6 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace barycert {
 namespace HWY_NAMESPACE {
 
+using namespace core::HWY_NAMESPACE;
+
 using detail::CellRecord;
 using detail::NodeRecord;
 using detail::Place;

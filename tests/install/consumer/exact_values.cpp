@@ -11,17 +11,16 @@ int main() {
     const std::vector<std::int32_t> corners = {0, 1, 2, 3, 4, 1, 2, 3};  // two tetrahedra with a face in common
     const double point[] = {0.25, 0.25, 0.5};                            // on that face
 
-    const Result<WeightSigns> signs = weight_signs(Simplex::tetrahedron, nodes.data(), point);
-    if (!signs) return std::fprintf(stderr, "%s\n", signs.error().message().c_str()), 2;
-    const bool on_face = signs->contains() && signs->feature(Simplex::tetrahedron) == Feature::face;
+    const WeightSigns signs = weight_signs(Simplex::tetrahedron, nodes.data(), point);
+    const bool on_face = signs.contains() && signs.feature(Simplex::tetrahedron) == Feature::face;
 
     // The same point in both cells: the same bits, whichever is asked.
     const std::vector<std::int32_t> cells = {0, 1};
     const std::vector<double> points = {0.25, 0.25, 0.5, 0.25, 0.25, 0.5};
     const std::vector<float> temperature = {10, 20, 30, 40, 50};
     std::vector<double> values(2);
-    Tiers tiers;
-    const Status status = interpolate<float>(MeshQueries{Simplex::tetrahedron, nodes, corners, cells, points},
+    TierCounts tiers;
+    const Status status = interpolate(MeshQueries{Simplex::tetrahedron, nodes, corners, cells, points},
                                              NodalValues<float>{temperature}, values, &tiers);
     if (!status) return std::fprintf(stderr, "%s\n", status.error().message().c_str()), 2;
     std::printf("%s, %g and %g, %s, %d cases\n", on_face ? "on a face" : "elsewhere", values[0], values[1],

@@ -1,12 +1,10 @@
-// barycert::barycert: locate points in a mesh and sample a field there. Prints what the test expects.
+// barycert::barycert: a field at points and on a grid. Prints what the test expects.
 
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
-#include "barycert/check.hpp"
 #include "barycert/grid.hpp"
-#include "barycert/locator.hpp"
 #include "barycert/sampler.hpp"
 
 int main() {
@@ -15,27 +13,18 @@ int main() {
     mesh.dimension = 2;
     mesh.points = {0, 0, 1, 0, 1, 1, 0, 1};
     mesh.cells = {0, 1, 2, 0, 2, 3};
-    const Field field{"height", 1, {0, 1, 3, 2}};
-
-    const auto locator = Locator::build(mesh, check::run(mesh).certificate);
-    const auto sampler = Sampler::build(*locator, {{&field}});
+    mesh.point_fields = {{"height", 1, {0, 1, 3, 2}}};
     const std::vector<double> points = {0.5, 0.25, 0.5, 0.5, 2, 2};
-    Samples samples;
-    SampleCounts counts;
-    if (!sampler->sample(points, {}, samples, counts)) return 2;
-    std::printf("%s, cells %d %d %d, values %g %g %s", locator->method() == Method::walk ? "walk" : "candidates",
-                samples.cells[0], samples.cells[1], samples.cells[2], samples.values[0], samples.values[1],
-                std::isnan(samples.values[2]) ? "nan" : "a number");
 
-    const auto grid = grid_over(2, {3, 3, 1}, {0, 0, 0}, {1, 1, 0});
-    double last = 0;
-    const Status status = resample(
-        *sampler, *grid, {},
-        [&](const GridBlock& block) -> Status {
-            last = block.values.back();
-            return Done{};
-        },
-        counts);
-    std::printf(", grid to %g, %d points\n", status ? last : -1, static_cast<int>(counts.locations.points()));
+    const Sampler sampler = Sampler::build(mesh, {"height"}).value();
+    const Table rows = sampler.sample(points).value();
+    std::printf("%s, cells %d %d %d, values %g %g %s",
+                sampler.locator().method() == Method::walk ? "walk" : "candidates", rows.cells[0], rows.cells[1],
+                rows.cells[2], rows.value(0, 0), rows.value(1, 0), std::isnan(rows.value(2, 0)) ? "nan" : "a number");
+
+    const Grid grid = grid_over(2, {3, 3, 1}, {0, 0, 0}, {1, 1, 0}).value();
+    const Table on_grid = resample(sampler, grid).value();
+    std::printf(", grid to %g, %d points\n", on_grid.values.back(),
+                static_cast<int>(rows.counts.locations.points() + on_grid.counts.locations.points()));
     return 0;
 }

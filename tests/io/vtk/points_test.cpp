@@ -4,10 +4,13 @@
 
 #include <limits>
 
+#include "barycert/io/vtk/point_rows.hpp"
 #include "barycert/vtk.hpp"
 #include "io/vtk/vtk_files.hpp"
 
 namespace barycert::testing {
+using io::PointRows;
+using io::write_vtk_points;
 namespace {
 
 TEST(VtkPoints, of_every_kind_of_file) {

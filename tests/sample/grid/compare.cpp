@@ -36,13 +36,13 @@ std::vector<double> points_of(const Grid& grid) {
 
 Resampled resampled(const Sampler& sampler, const Grid& grid, const SampleOptions& options) {
     Resampled out;
-    Samples& all = out.samples;
+    Table& all = out.samples;
     const std::size_t columns = sampler.columns().size();
     const std::uint64_t layer = grid.dimension == 3 ? grid.layer_size() : static_cast<std::uint64_t>(grid.counts[0]);
     const bool distances = options.outside.kind == Outside::nearest || options.outside.kind == Outside::extrapolate;
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-    const auto keep = [&](const GridBlock& block) -> Status {
-        EXPECT_EQ(block.first_point, all.cells.size());
+    const auto keep = [&](const TableView& block) -> Status {
+        EXPECT_EQ(block.first_row, all.cells.size());
         EXPECT_FALSE(block.cells.empty());
         EXPECT_EQ(block.cells.size() % layer, 0U);
         EXPECT_EQ(block.features.size(), block.cells.size());
@@ -55,8 +55,9 @@ Resampled resampled(const Sampler& sampler, const Grid& grid, const SampleOption
         ++out.blocks;
         return Done{};
     };
-    const Status status = resample(sampler, grid, options, keep, out.counts);
-    EXPECT_TRUE(status) << status.error().message();
+    const auto counts = resample(sampler, grid, options, keep);
+    EXPECT_TRUE(counts) << counts.error().message();
+    if (counts) out.counts = *counts;
     return out;
 }
 
@@ -66,7 +67,7 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
     return same;
 }
 
-void expect_same_rows(const Samples& expected, const Samples& found, const Grid& grid, const std::string& what) {
+void expect_same_rows(const Table& expected, const Table& found, const Grid& grid, const std::string& what) {
     const std::size_t rows = expected.cells.size();
     ASSERT_EQ(found.cells.size(), rows) << what;
     ASSERT_EQ(found.features.size(), rows) << what;
@@ -85,7 +86,7 @@ void expect_same_rows(const Samples& expected, const Samples& found, const Grid&
         const double at[] = {grid.coordinate(0, n % nx), grid.coordinate(1, n / nx % ny),
                              grid.dimension == 3 ? grid.coordinate(2, n / nx / ny) : 0};
         std::string text;
-        const auto tell = [&](const Samples& s) {
+        const auto tell = [&](const Table& s) {
             text += " cell " + std::to_string(s.cells[i]) + " " + std::string(name(s.features[i]));
             for (std::size_t c = columns * i; c < columns * (i + 1); ++c) text += " " + hexadecimal(s.values[c]);
             if (!s.distances.empty()) text += " distance " + hexadecimal(s.distances[i]);
@@ -116,9 +117,9 @@ void expect_same_counts(const SampleCounts& expected, const SampleCounts& found,
 
 SampleCounts expect_law(const Sampler& sampler, const Grid& grid, const SampleOptions& options,
                         const std::string& what) {
-    Samples expected;
-    SampleCounts counts;
-    const Status status = sampler.sample(points_of(grid), options, expected, counts);
+    Table expected;
+    const SampleCounts& counts = expected.counts;
+    const Status status = sampler.sample(points_of(grid), options, expected);
     EXPECT_TRUE(status) << what << status.error().message();
     if (!status) return counts;
     const Resampled found = resampled(sampler, grid, options);
@@ -132,7 +133,7 @@ SampleCounts expect_law(const Mesh& mesh, const Grid& grid, const std::string& w
     const auto certificate = quick(mesh).certificate;
     for (const bool certified : {true, false}) {
         if (certified && certificate.verdict() != check::Verdict::certified) continue;
-        const auto locator = certified ? Locator::build(mesh, certificate) : Locator::build(mesh);
+        const auto locator = certified ? Locator::build(mesh, certificate) : Locator::build(mesh, {.prove = false});
         EXPECT_TRUE(locator) << what;
         if (!locator) return counts;
         EXPECT_EQ(locator->method(), certified ? Method::walk : Method::candidates) << what;
@@ -147,7 +148,7 @@ SampleCounts expect_law(const Mesh& mesh, const Grid& grid, const std::string& w
 void expect_truth(const Mesh& mesh, const Grid& grid, const std::string& what) {
     const auto certificate = quick(mesh).certificate;
     for (const bool certified : {true, false}) {
-        const auto locator = certified ? Locator::build(mesh, certificate) : Locator::build(mesh);
+        const auto locator = certified ? Locator::build(mesh, certificate) : Locator::build(mesh, {.prove = false});
         ASSERT_TRUE(locator) << what;
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         ASSERT_TRUE(sampler) << what;

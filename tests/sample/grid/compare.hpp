@@ -15,7 +15,7 @@ namespace barycert::testing {
 std::vector<double> points_of(const Grid& grid);
 
 struct Resampled {
-    Samples samples;
+    Table samples;
     SampleCounts counts;
     std::size_t blocks = 0;
 };
@@ -27,7 +27,7 @@ Resampled resampled(const Sampler& sampler, const Grid& grid, const SampleOption
 bool same_bits(const std::vector<double>& a, const std::vector<double>& b);
 
 /// Owners, features, values, distances, bit for bit.
-void expect_same_rows(const Samples& expected, const Samples& found, const Grid& grid, const std::string& what);
+void expect_same_rows(const Table& expected, const Table& found, const Grid& grid, const std::string& what);
 
 /// All but LocationCounts::tests, and which tiers decided values.
 void expect_same_counts(const SampleCounts& expected, const SampleCounts& found, const std::string& what);

@@ -28,7 +28,7 @@ template <class Far>
 void judge(const Mesh& mesh, const Grid& grid, Far far, Tally& tally) {
     const auto locator = Locator::build(mesh, quick(mesh).certificate);
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
-    const Samples found = resampled(*sampler, grid).samples;
+    const Table found = resampled(*sampler, grid).samples;
     const std::vector<double> points = points_of(grid);
     const auto d = static_cast<std::size_t>(mesh.dimension);
     for (std::size_t i = 0; i < found.cells.size(); ++i) {

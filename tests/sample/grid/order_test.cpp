@@ -34,7 +34,7 @@ TEST(ResampleOrder, ThreadsAndTargets) {
             mesh.cell_fields =
                 random_fields(mesh.cell_count(), std::vector<int>(components.size() - 1, 1), false, random);
             for (const bool certified : {true, false}) {
-                const auto locator = certified ? Locator::build(mesh, quick(mesh).certificate) : Locator::build(mesh);
+                const auto locator = certified ? Locator::build(mesh, quick(mesh).certificate) : Locator::build(mesh, {.prove = false});
                 const auto sampler = Sampler::build(*locator, all_fields(mesh));
                 for (const NamedGrid& g : awkward_grids(mesh, 700, random)) {
                     use_simd_target("");
@@ -58,9 +58,9 @@ TEST(ResampleOrder, ThreadsAndTargets) {
 void expect_slabs(const Mesh& mesh, const Grid& grid, std::size_t slabs) {
     const auto locator = Locator::build(mesh, quick(mesh).certificate);
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
-    Samples expected;
-    SampleCounts counts;
-    ASSERT_TRUE(sampler->sample(points_of(grid), {}, expected, counts));
+    Table expected;
+    const SampleCounts& counts = expected.counts;
+    ASSERT_TRUE(sampler->sample(points_of(grid), {}, expected));
     for (const int threads : {1, 2}) {
         const Resampled found = resampled(*sampler, grid, on_threads(threads));
         EXPECT_EQ(found.blocks, slabs);
@@ -104,22 +104,20 @@ TEST(ResampleOrder, TheSinkStopsIt) {
     Mesh mesh = box(3, {2, 2, 2});
     mesh.cell_fields = random_fields(mesh.cell_count(), {2000}, false, random);
     mesh.point_fields = random_fields(mesh.point_count(), {1}, false, random);
-    const auto locator = Locator::build(mesh);
+    const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     const Grid grid = over(3, {70, 60, 9}, {0, 0, 0}, {2, 2, 2});
     for (const int threads : {1, 2, 8}) {
         for (const int stop : {1, 4, 9}) {
             int calls = 0;
-            SampleCounts counts;
-            const auto sink = [&](const GridBlock&) -> Status {
+            const auto sink = [&](const TableView&) -> Status {
                 if (++calls == stop) return Error{.what = "the disk is full"};
                 return Done{};
             };
-            const Status status = resample(*sampler, grid, on_threads(threads), sink, counts);
+            const auto status = resample(*sampler, grid, on_threads(threads), sink);
             ASSERT_FALSE(status);
             EXPECT_EQ(status.error().message(), "the disk is full");
             EXPECT_EQ(calls, stop);
-            EXPECT_EQ(counts.locations.points(), 0U);
         }
     }
 }
@@ -130,17 +128,16 @@ TEST(ResampleOrder, RoundingModes) {
         Random random(hash64(stem));
         Mesh mesh = own_mesh(stem);
         set_simple_fields(mesh, random);
-        const auto locator = Locator::build(mesh);
+        const auto locator = Locator::build(mesh, {.prove = false});
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         for (const NamedGrid& g : awkward_grids(mesh, 500, random)) {
             const Resampled nearest = resampled(*sampler, g.grid, on_threads(1));
             const std::vector<double> points = points_of(g.grid);
             for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
-                SampleCounts counts;
                 std::size_t wrong = 0;
-                const auto sink = [&](const GridBlock& block) -> Status {
+                const auto sink = [&](const TableView& block) -> Status {
                     for (std::size_t i = 0; i < block.cells.size(); ++i) {
-                        const std::size_t at = block.first_point + i;
+                        const std::size_t at = block.first_row + i;
                         wrong += block.cells[i] != nearest.samples.cells[at] ||
                                          block.features[i] != nearest.samples.features[at]
                                      ? 1
@@ -150,7 +147,7 @@ TEST(ResampleOrder, RoundingModes) {
                 };
                 ASSERT_EQ(std::fesetround(mode), 0);
                 const bool same = points_of(g.grid) == points;
-                const bool done = resample(*sampler, g.grid, on_threads(1), sink, counts).has_value();
+                const bool done = resample(*sampler, g.grid, on_threads(1), sink).has_value();
                 const int mode_after = std::fegetround();
                 std::fesetround(FE_TONEAREST);
                 EXPECT_TRUE(same);

@@ -72,28 +72,25 @@ TEST(ResampleOutside, ErrorNamesTheFirstPoint) {
         }
         mesh = only(mesh, keep);
         set_simple_fields(mesh, random);
-        const auto locator = Locator::build(mesh);
+        const auto locator = Locator::build(mesh, {.prove = false});
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         const Grid grid = over(d, {17, 17, d == 3 ? 17 : 1}, {0, 0, 0}, {4, 4, 4});
         const std::size_t first = d == 3 ? (5 * 17 + 5) * 17 + 5 : 5 * 17 + 5;
         for (const int threads : {1, 2, 8}) {
             const SampleOptions options{.outside = {.kind = Outside::error}, .threads = threads};
-            SampleCounts counts;
             std::size_t points = 0;
-            const auto sink = [&](const GridBlock& block) -> Status {
+            const auto sink = [&](const TableView& block) -> Status {
                 points += block.cells.size();
                 return Done{};
             };
-            const Status status = resample(*sampler, grid, options, sink, counts);
+            const auto status = resample(*sampler, grid, options, sink);
             ASSERT_FALSE(status);
             EXPECT_EQ(status.error().message(), "point " + std::to_string(first) +
                                                     " of the grid is outside the mesh; choose what points outside get: "
                                                     "nan, fill, nearest or extrapolate");
             EXPECT_LE(points, first);
-            EXPECT_EQ(counts.locations.points(), 0U);  // functions add unless they fail
-            EXPECT_EQ(counts.values.cases(), 0U);
-            Samples rows;
-            EXPECT_FALSE(sampler->sample(points_of(grid), options, rows, counts));
+            Table rows;
+            EXPECT_FALSE(sampler->sample(points_of(grid), options, rows));
         }
         // None outside: no error.
         expect_law(mesh, over(d, {17, 5, d == 3 ? 4 : 1}, {0, 0, 0}, {4, 1, 1}), "all inside",
@@ -105,17 +102,17 @@ TEST(ResampleOutside, CountsAddToWhatIsThere) {
     Random random(2);
     Mesh mesh = box(3, {2, 2, 2});
     set_simple_fields(mesh, random);
-    const auto locator = Locator::build(mesh);
+    const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     const Grid grid = over(3, {5, 5, 5}, {0, 0, 0}, {2.5, 2, 2});
-    SampleCounts counts;
-    const auto sink = [](const GridBlock&) -> Status { return Done{}; };
+    const auto sink = [](const TableView&) -> Status { return Done{}; };
     for (std::uint64_t i = 1; i < 4; ++i) {
-        ASSERT_TRUE(resample(*sampler, grid, {}, sink, counts));
-        EXPECT_EQ(counts.locations.points(), 125 * i);
-        EXPECT_EQ(counts.locations.outside, 25 * i);
-        EXPECT_EQ(counts.without_value, 25 * i);
-        EXPECT_EQ(counts.values.cases(), 100 * i);
+        const auto counts = resample(*sampler, grid, {}, sink);
+        ASSERT_TRUE(counts) << i;
+        EXPECT_EQ(counts->locations.points(), 125U) << "call " << i;
+        EXPECT_EQ(counts->locations.outside, 25U);
+        EXPECT_EQ(counts->without_value, 25U);
+        EXPECT_EQ(counts->values.cases(), 100U);
     }
 }
 

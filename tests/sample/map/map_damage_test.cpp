@@ -14,7 +14,7 @@ Mesh small_mesh(int dimension) {
 }
 
 /// Reads what it can; rows that are given must be those of `rows`, from the first on. True if all was accepted.
-bool accepted(const std::string& path, const Mesh& mesh, const LocationMap& rows, std::size_t most = 3) {
+bool accepted(const std::string& path, const Mesh& mesh, const Table& rows, std::size_t most = 3) {
     Result<MapReader> reader = MapReader::open(path, mesh);
     if (!reader) {
         EXPECT_FALSE(reader.error().remedy.empty()) << reader.error().message();
@@ -22,7 +22,7 @@ bool accepted(const std::string& path, const Mesh& mesh, const LocationMap& rows
         return false;
     }
     const auto dimension = static_cast<std::size_t>(mesh.dimension);
-    LocationMap got, block;
+    Table got, block;
     while (true) {
         const Result<std::size_t> count = reader->read(most, block);
         if (!count) {
@@ -33,7 +33,7 @@ bool accepted(const std::string& path, const Mesh& mesh, const LocationMap& rows
         }
         if (!count || *count == 0) {
             EXPECT_LE(got.cells.size(), rows.cells.size());
-            LocationMap start = rows;
+            Table start = rows;
             start.points.resize(dimension * got.cells.size());
             start.cells.resize(got.cells.size());
             start.features.resize(got.cells.size());
@@ -50,7 +50,7 @@ TEST(MapDamage, every_bit_counts) {
     for (const int dimension : {2, 3}) {
         for (const std::size_t count : {0U, 1U, 6U}) {
             const Mesh mesh = small_mesh(dimension);
-            const LocationMap rows = any_rows(random, dimension, 5, count);
+            const Table rows = any_rows(random, dimension, 5, count);
             ASSERT_TRUE(write_map(folder / "map", mesh, true, rows));
             const std::string text = get(folder / "map");
             ASSERT_TRUE(accepted(folder / "map", mesh, rows));
@@ -68,7 +68,7 @@ TEST(MapDamage, every_bit_near_the_ends_of_blocks) {
     const TemporaryFolder folder;
     Random random(8);
     const Mesh mesh = small_mesh(3);
-    const LocationMap rows = any_rows(random, 3, 5, 2 * block_rows + 1);
+    const Table rows = any_rows(random, 3, 5, 2 * block_rows + 1);
     ASSERT_TRUE(write_map(folder / "map", mesh, false, rows));
     const std::string text = get(folder / "map");
     const std::size_t block = 29 * block_rows + 8;
@@ -88,7 +88,7 @@ TEST(MapDamage, a_map_cut_off_or_with_more) {
     Random random(9);
     for (const std::size_t count : {std::size_t{0}, std::size_t{6}, block_rows + 2}) {
         const Mesh mesh = small_mesh(3);
-        const LocationMap rows = any_rows(random, 3, 5, count);
+        const Table rows = any_rows(random, 3, 5, count);
         ASSERT_TRUE(write_map(folder / "map", mesh, false, rows));
         const std::string text = get(folder / "map");
         const std::size_t step = count > 100 ? 1009 : 1;
@@ -114,7 +114,7 @@ TEST(MapDamage, cut_off_or_changed_while_it_is_read) {
     ASSERT_TRUE(write_map(folder / "map", mesh, false, any_rows(random, 3, 5, 3 * block_rows)));
     Result<MapReader> reader = MapReader::open(folder / "map", mesh);
     ASSERT_TRUE(reader);
-    LocationMap block;
+    Table block;
     ASSERT_EQ(reader->read(block_rows, block).value(), block_rows);
     std::filesystem::resize_file(folder / "map", 300000);
     const Result<std::size_t> cut = reader->read(block_rows, block);
@@ -128,7 +128,7 @@ TEST(MapDamage, blocks_out_of_place) {
     const TemporaryFolder folder;
     Random random(11);
     const Mesh mesh = small_mesh(2);
-    const LocationMap rows = any_rows(random, 2, 5, 3 * block_rows), others = any_rows(random, 2, 5, 3 * block_rows);
+    const Table rows = any_rows(random, 2, 5, 3 * block_rows), others = any_rows(random, 2, 5, 3 * block_rows);
     ASSERT_TRUE(write_map(folder / "map", mesh, false, rows));
     ASSERT_TRUE(write_map(folder / "other", mesh, false, others));
     const std::string text = get(folder / "map"), other = get(folder / "other");
@@ -151,7 +151,7 @@ TEST(MapDamage, headers_that_lie) {
     const TemporaryFolder folder;
     Random random(12);
     const Mesh mesh = small_mesh(3);
-    const LocationMap rows = any_rows(random, 3, 5, 6);
+    const Table rows = any_rows(random, 3, 5, 6);
     const PlainMap good(mesh, rows);
     const auto what = [&](const PlainMap& map) {
         put(folder / "map", map.bytes());
@@ -209,7 +209,7 @@ TEST(MapDamage, random_changes) {
         Random random(seed);
         const int dimension = random.integer(2, 3);
         const Mesh mesh = small_mesh(dimension);
-        const LocationMap rows = any_rows(random, dimension, 5, random.below(40));
+        const Table rows = any_rows(random, dimension, 5, random.below(40));
         const std::string text = PlainMap(mesh, rows).bytes();
         std::string other = text;
         for (std::uint64_t i = 1 + random.below(6); i > 0; --i) {
@@ -247,7 +247,7 @@ TEST(MapDamage, random_content_with_checksums_that_fit) {
     int good = 0, bad = 0;
     for (std::uint64_t seed = 0; seed < 2000; ++seed) {
         Random random(seed);
-        const LocationMap rows = any_rows(random, 3, 5, 4);
+        const Table rows = any_rows(random, 3, 5, 4);
         PlainMap map(mesh, rows);
         const std::size_t at = random.below(4);
         switch (random.below(3)) {
@@ -267,7 +267,7 @@ TEST(MapDamage, random_content_with_checksums_that_fit) {
             fits = fits && (map.cells[i] == -1) == (map.features[i] == 4) && std::isfinite(map.points[3 * i]);
         }
         put(folder / "map", map.bytes());
-        const Result<LocationMap> read = read_map(folder / "map", mesh, 3);
+        const Result<Table> read = read_map(folder / "map", mesh, 3);
         ASSERT_EQ(read.has_value(), fits) << "seed " << seed;
         (fits ? good : bad) += 1;
     }

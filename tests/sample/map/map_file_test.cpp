@@ -34,14 +34,14 @@ TEST(MapFile, round_trip_in_any_pieces) {
             SCOPED_TRACE(std::to_string(count) + " rows in " + std::to_string(dimension) + "D");
             const Mesh mesh = dimension == 2 ? two_triangles() : two_cells();
             const bool all = random.coin();
-            LocationMap rows;
+            Table rows;
             Result<MapWriter> writer = MapWriter::open(folder / "map", mesh, all);
             ASSERT_TRUE(writer);
             while (rows.cells.size() < count) {
-                const LocationMap piece =
+                const Table piece =
                     any_rows(random, dimension, mesh.cell_count(),
                              std::min<std::size_t>(count - rows.cells.size(), random.below(9999)));
-                ASSERT_TRUE(writer->write(piece.points, piece.cells, piece.features));
+                ASSERT_TRUE(writer->write(piece.view()));
                 append(rows, piece);
             }
             ASSERT_TRUE(writer->commit());
@@ -53,7 +53,7 @@ TEST(MapFile, round_trip_in_any_pieces) {
             EXPECT_EQ(reader->all(), all);
             EXPECT_EQ(reader->rows(), count);
             for (const std::size_t most : {std::size_t{1}, std::size_t{999}, block_rows, std::size_t{100000}}) {
-                const Result<LocationMap> read = read_map(folder / "map", mesh, most);
+                const Result<Table> read = read_map(folder / "map", mesh, most);
                 ASSERT_TRUE(read) << read.error().message();
                 EXPECT_TRUE(same(*read, rows));
             }
@@ -70,7 +70,7 @@ TEST(MapFile, blocks_are_full_until_the_end) {
     Result<MapReader> reader = MapReader::open(folder / "map", two_cells());
     ASSERT_TRUE(reader);
     MapReader moved = std::move(*reader);
-    LocationMap block;
+    Table block;
     for (std::size_t left = count; left != 0;) {
         const std::size_t expected = std::min<std::size_t>(left, 5000);
         ASSERT_EQ(moved.read(5000, block).value(), expected);
@@ -92,7 +92,7 @@ TEST(MapFile, bytes_are_as_described) {
         for (const int dimension : {2, 3}) {
             for (const bool all : {false, true}) {
                 const Mesh mesh = dimension == 2 ? two_triangles() : two_cells();
-                const LocationMap rows = any_rows(random, dimension, 2, count);
+                const Table rows = any_rows(random, dimension, 2, count);
                 ASSERT_TRUE(write_map(folder / "map", mesh, all, rows));
                 PlainMap plain(mesh, rows);
                 plain.all = all ? 1 : 0;
@@ -112,7 +112,7 @@ TEST(MapFile, fields_of_the_mesh_may_change) {
     const TemporaryFolder folder;
     Random random(4);
     const Mesh mesh = two_cells();
-    const LocationMap rows = any_rows(random, 3, 2, 20);
+    const Table rows = any_rows(random, 3, 2, 20);
     ASSERT_TRUE(write_map(folder / "map", mesh, false, rows));
     Mesh other = mesh;
     other.point_fields = {{"t", 1, {1, 2, 3, 4, 5}}};
@@ -122,7 +122,7 @@ TEST(MapFile, fields_of_the_mesh_may_change) {
     other.neighbours = {1, -1, -1, -1, -1, -1, -1, 0};
     other.index_base = 1;
     other.points[0] = -0.0;
-    const Result<LocationMap> read = read_map(folder / "map", other);
+    const Result<Table> read = read_map(folder / "map", other);
     ASSERT_TRUE(read) << read.error().message();
     EXPECT_TRUE(same(*read, rows));
 }
@@ -195,14 +195,17 @@ TEST(MapFile, rows_that_no_map_can_hold) {
         SCOPED_TRACE(i);
         const Row& row = rows[i];
         const Mesh mesh = row.dimension == 2 ? two_triangles() : two_cells();
-        const LocationMap bad{row.point, {row.cell}, {static_cast<Feature>(row.feature)}};
+        Table bad;
+        bad.points = row.point;
+        bad.cells = {row.cell};
+        bad.features = {static_cast<Feature>(row.feature)};
         put(folder / "map", "old");
         const Status written = write_map(folder / "map", mesh, false, bad);
         EXPECT_EQ(written.has_value(), row.good);
         EXPECT_EQ(get(folder / "map") == "old", !row.good);
         // The reader judges for itself, though every checksum fits.
         put(folder / "plain", PlainMap(mesh, bad).bytes());
-        const Result<LocationMap> read = read_map(folder / "plain", mesh);
+        const Result<Table> read = read_map(folder / "plain", mesh);
         EXPECT_EQ(read.has_value(), row.good);
         if (!row.good) {
             EXPECT_EQ(written.error().what, "row 0 is none of a map");
@@ -221,23 +224,23 @@ TEST(MapFile, a_writer_that_failed_stays_so) {
     {
         Result<MapWriter> writer = MapWriter::open(folder / "map", two_cells(), false);
         ASSERT_TRUE(writer);
-        EXPECT_FALSE(writer->write(point, cell, {}));
-        EXPECT_FALSE(writer->write(point, cell, feature));
+        EXPECT_FALSE(writer->write({.points = point, .cells = cell}));
+        EXPECT_FALSE(writer->write({.points = point, .cells = cell, .features = feature}));
         EXPECT_FALSE(writer->commit());
     }
     EXPECT_EQ(folder.file_count(), 0U);
     {
         Result<MapWriter> writer = MapWriter::open(folder / "map", two_cells(), false);
         ASSERT_TRUE(writer);
-        EXPECT_FALSE(writer->write({point.data(), 2}, cell, feature));
+        EXPECT_FALSE(writer->write({.points = std::span(point).first(2), .cells = cell, .features = feature}));
         EXPECT_FALSE(writer->commit());
     }
     EXPECT_EQ(folder.file_count(), 0U);
     Result<MapWriter> writer = MapWriter::open(folder / "map", two_cells(), false);
     ASSERT_TRUE(writer);
-    ASSERT_TRUE(writer->write(point, cell, feature));
+    ASSERT_TRUE(writer->write({.points = point, .cells = cell, .features = feature}));
     ASSERT_TRUE(writer->commit());
-    EXPECT_FALSE(writer->write(point, cell, feature));
+    EXPECT_FALSE(writer->write({.points = point, .cells = cell, .features = feature}));
     EXPECT_EQ(read_map(folder / "map", two_cells()).value().cells.size(), 1U);
     // Dropped without a commit: nothing appears.
     { ASSERT_TRUE(MapWriter::open(folder / "other", two_cells(), false)); }
@@ -261,7 +264,7 @@ TEST(MapFile, a_full_disk_leaves_the_target) {
     const TemporaryFolder folder;
     put(folder / "map", "old");
     Random random(6);
-    const LocationMap rows = any_rows(random, 3, 2, 20000);  // 580 kB
+    const Table rows = any_rows(random, 3, 2, 20000);  // 580 kB
     struct rlimit before {};
     ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
     const auto handler = std::signal(SIGXFSZ, SIG_IGN);
@@ -273,7 +276,7 @@ TEST(MapFile, a_full_disk_leaves_the_target) {
         const struct rlimit small { limit, before.rlim_max };
         ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
         Result<MapWriter> writer = MapWriter::open(folder / "map", two_cells(), false);
-        const Status written = writer ? writer->write(rows.points, rows.cells, rows.features) : Status(writer.error());
+        const Status written = writer ? writer->write(rows.view()) : Status(writer.error());
         failed_writes += !written;
         const Status committed = writer ? writer->commit() : written;
         ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);

@@ -28,7 +28,7 @@ TEST(MapScale, memory_does_not_grow_with_rows) {
     mesh.points = any_doubles(random, 3000);
     mesh.cells = any_indices(random, 4000, 1000);
     // Every piece differs from the others by its first row alone.
-    LocationMap piece = any_rows(random, 3, 1000, piece_rows), block;
+    Table piece = any_rows(random, 3, 1000, piece_rows), block;
 
     Peak::forget();
     const long before = Peak::now();
@@ -37,7 +37,7 @@ TEST(MapScale, memory_does_not_grow_with_rows) {
     ASSERT_TRUE(writer);
     for (std::size_t k = 0; k < pieces; ++k) {
         piece.points[0] = static_cast<double>(k);
-        ASSERT_TRUE(writer->write(piece.points, piece.cells, piece.features));
+        ASSERT_TRUE(writer->write(piece.view()));
     }
     ASSERT_TRUE(writer->commit());
     const auto middle = std::chrono::steady_clock::now();

@@ -17,8 +17,8 @@ namespace barycert::testing {
 
 inline constexpr std::size_t block_rows = 8192;
 
-inline LocationMap any_rows(Random& random, int dimension, std::size_t cells, std::size_t count) {
-    LocationMap rows;
+inline Table any_rows(Random& random, int dimension, std::size_t cells, std::size_t count) {
+    Table rows;
     for (std::size_t i = 0; i < count; ++i) {
         for (int axis = 0; axis < dimension; ++axis) rows.points.push_back(any_double(random));
         const bool outside = cells == 0 || random.below(4) == 0;
@@ -30,13 +30,13 @@ inline LocationMap any_rows(Random& random, int dimension, std::size_t cells, st
     return rows;
 }
 
-inline void append(LocationMap& to, const LocationMap& more) {
+inline void append(Table& to, const Table& more) {
     to.points.insert(to.points.end(), more.points.begin(), more.points.end());
     to.cells.insert(to.cells.end(), more.cells.begin(), more.cells.end());
     to.features.insert(to.features.end(), more.features.begin(), more.features.end());
 }
 
-inline bool same(const LocationMap& a, const LocationMap& b) {
+inline bool same(const Table& a, const Table& b) {
     const auto bits = [](const std::vector<double>& values) {
         std::vector<std::uint64_t> words;
         for (const double x : values) words.push_back(std::bit_cast<std::uint64_t>(x));
@@ -45,18 +45,18 @@ inline bool same(const LocationMap& a, const LocationMap& b) {
     return bits(a.points) == bits(b.points) && a.cells == b.cells && a.features == b.features;
 }
 
-inline Status write_map(const std::string& path, const Mesh& mesh, bool all, const LocationMap& rows) {
+inline Status write_map(const std::string& path, const Mesh& mesh, bool all, const Table& rows) {
     Result<MapWriter> writer = MapWriter::open(path, mesh, all);
     if (!writer) return writer.error();
-    if (Status written = writer->write(rows.points, rows.cells, rows.features); !written) return written;
+    if (Status written = writer->write(rows.view()); !written) return written;
     return writer->commit();
 }
 
 /// All rows of a map, `most` at a time.
-inline Result<LocationMap> read_map(const std::string& path, const Mesh& mesh, std::size_t most = 1000) {
+inline Result<Table> read_map(const std::string& path, const Mesh& mesh, std::size_t most = 1000) {
     Result<MapReader> reader = MapReader::open(path, mesh);
     if (!reader) return reader.error();
-    LocationMap whole, block;
+    Table whole, block;
     while (true) {
         const Result<std::size_t> count = reader->read(most, block);
         if (!count) return count.error();
@@ -78,7 +78,7 @@ struct PlainMap {
     std::vector<std::int32_t> cells;
     std::vector<std::uint8_t> features;
 
-    PlainMap(const Mesh& mesh, const LocationMap& rows)
+    PlainMap(const Mesh& mesh, const Table& rows)
         : dimension(static_cast<std::uint8_t>(mesh.dimension)),
           row_count(rows.cells.size()),
           nodes(mesh.point_count()),

@@ -12,7 +12,7 @@ namespace {
 
 TEST(SampleErrors, FieldsThatDoNotFit) {
     const Mesh mesh = box(3, {1, 1, 1});
-    const auto locator = Locator::build(mesh);
+    const auto locator = Locator::build(mesh, {.prove = false});
     const Field one{"one", 1, std::vector<double>(8)}, two{"two", 2, std::vector<double>(16)};
     const Field short_of{"short", 1, std::vector<double>(7)}, none{"none", 0, {}};
     const Field cells{"cells", 1, std::vector<double>(6)};
@@ -29,32 +29,34 @@ TEST(SampleErrors, FieldsThatDoNotFit) {
 
 TEST(SampleErrors, PointsAndLocations) {
     const Mesh mesh = box(3, {1, 1, 1});
-    const auto locator = Locator::build(mesh);
+    const auto locator = Locator::build(mesh, {.prove = false});
     const Field field{"f", 1, std::vector<double>(8)};
     const auto sampler = Sampler::build(*locator, {{&field, false}});
-    Samples samples;
-    SampleCounts counts;
-    EXPECT_FALSE(sampler->sample(std::vector<double>(4), {}, samples, counts));
+    Table samples;
+    const auto evaluated = [&](const std::vector<double>& points, std::vector<Mesh::Index> cells,
+                               std::vector<Feature> features) {
+        Table rows;
+        rows.cells = std::move(cells);
+        rows.features = std::move(features);
+        return sampler->evaluate(points, {}, rows).has_value();
+    };
+    EXPECT_FALSE(sampler->sample(std::vector<double>(4), {}, samples));
     for (const double bad : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
         std::vector<double> points(30, 0.5);
         points[13] = bad;
-        const Status status = sampler->sample(points, {}, samples, counts, 100);
+        const Status status = sampler->sample(points, {}, samples, 100);
         ASSERT_FALSE(status);
         EXPECT_NE(status.error().message().find("point 104"), std::string::npos) << status.error().message();
-        EXPECT_FALSE(sampler->sample(points, {.rounding = Rounding::plain, .outside = {}}, samples, counts));
-        const std::vector<Mesh::Index> cells(10, 0);
-        const std::vector<Feature> features(10, Feature::interior);
-        EXPECT_FALSE(sampler->evaluate(points, cells, features, {}, samples, counts));
+        EXPECT_FALSE(sampler->sample(points, {.rounding = Rounding::plain, .outside = {}}, samples));
+        EXPECT_FALSE(evaluated(points, std::vector<Mesh::Index>(10, 0), std::vector<Feature>(10, Feature::interior)));
     }
     const std::vector<double> points(6, 0.5);
     const std::vector<Feature> features(2, Feature::interior);
     for (const Mesh::Index wrong : {-2, 6, std::numeric_limits<Mesh::Index>::max()})
-        EXPECT_FALSE(sampler->evaluate(points, std::vector<Mesh::Index>{0, wrong}, features, {}, samples, counts));
-    EXPECT_FALSE(sampler->evaluate(points, std::vector<Mesh::Index>{0}, features, {}, samples, counts));
-    EXPECT_FALSE(
-        sampler->evaluate(points, std::vector<Mesh::Index>{0, 1}, std::span(features).first(1), {}, samples, counts));
-    EXPECT_EQ(counts.locations.points(), 0U);
-    EXPECT_TRUE(sampler->evaluate(points, std::vector<Mesh::Index>{0, -1}, features, {}, samples, counts));
+        EXPECT_FALSE(evaluated(points, {0, wrong}, features));
+    EXPECT_FALSE(evaluated(points, {0}, features));
+    EXPECT_FALSE(evaluated(points, {0, 1}, {Feature::interior}));
+    EXPECT_TRUE(evaluated(points, {0, -1}, features));
 }
 
 }  // namespace

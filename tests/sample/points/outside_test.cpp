@@ -52,12 +52,12 @@ double true_projected(const Mesh& mesh, const Field& field, std::size_t c, const
 
 void expect_outside(const Mesh& mesh, const std::vector<double>& points, const OutsidePolicy& policy,
                     const std::string& what) {
-    const auto locator = Locator::build(mesh);
+    const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     ASSERT_TRUE(sampler);
-    Samples samples;
-    SampleCounts counts;
-    ASSERT_TRUE(sampler->sample(points, {.outside = policy}, samples, counts)) << what;
+    Table samples;
+    const SampleCounts& counts = samples.counts;
+    ASSERT_TRUE(sampler->sample(points, {.outside = policy}, samples)) << what;
     expect_true_owners(mesh, points, samples, what);
     expect_true_values(mesh, points, samples, what);
     const std::size_t columns = sampler->columns().size(), rows = samples.cells.size();
@@ -134,12 +134,12 @@ TEST(SampleOutside, E1_Extrapolate) {
 // The limit is one of `nearest`.
 TEST(SampleOutside, E1_ExtrapolationKnowsNoLimit) {
     const Mesh mesh = own("plate");
-    const auto locator = Locator::build(mesh);
+    const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     const std::vector<double> point{1000, 1000};
-    Samples samples;
-    SampleCounts counts;
-    ASSERT_TRUE(sampler->sample(point, {.outside = {.kind = Outside::extrapolate, .limit = 0.1}}, samples, counts));
+    Table samples;
+    const SampleCounts& counts = samples.counts;
+    ASSERT_TRUE(sampler->sample(point, {.outside = {.kind = Outside::extrapolate, .limit = 0.1}}, samples));
     EXPECT_EQ(counts.extrapolated, 1U);
     EXPECT_FALSE(std::isnan(samples.values[0]));
 }
@@ -149,12 +149,12 @@ TEST(SampleOutside, E1_NearestValuesThatAreNotFinite) {
     Mesh mesh = box(3, {1, 1, 1});
     mesh.point_fields = {{"f", 2, std::vector<double>(16, 1.0)}};
     mesh.point_fields[0].data[0] = infinity;
-    const auto locator = Locator::build(mesh);
+    const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     const std::vector<double> points{-1, -1, -1, -1, -1, 0.25, -1, 0.25, 0.125, 0.5, 0.25, 0.125};
-    Samples samples;
-    SampleCounts counts;
-    ASSERT_TRUE(sampler->sample(points, {.outside = {.kind = Outside::nearest}}, samples, counts));
+    Table samples;
+    const SampleCounts& counts = samples.counts;
+    ASSERT_TRUE(sampler->sample(points, {.outside = {.kind = Outside::nearest}}, samples));
     for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_TRUE(std::isnan(samples.values[2 * i])) << "point " << i << ": " << samples.values[2 * i];
         EXPECT_EQ(samples.values[2 * i + 1], 1) << "point " << i;
@@ -169,12 +169,11 @@ TEST(SampleOutside, E1_NearestVertexIsAsThePointOnIt) {
     mesh.point_fields = {{"f", 5, {}}};
     mesh.point_fields[0].data.assign(20, -0.0);
     for (std::size_t i = 1; i < 5; ++i) mesh.point_fields[0].data[i] = random.uniform(-1, 1);
-    const auto locator = Locator::build(mesh);
+    const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
-    Samples samples;
-    SampleCounts counts;
+    Table samples;
     ASSERT_TRUE(
-        sampler->sample(std::vector<double>{0, 0, -1, -2}, {.outside = {.kind = Outside::nearest}}, samples, counts));
+        sampler->sample(std::vector<double>{0, 0, -1, -2}, {.outside = {.kind = Outside::nearest}}, samples));
     for (std::size_t c = 0; c < 5; ++c)
         EXPECT_TRUE(same(samples.values[c], samples.values[5 + c]))
             << c << ": " << samples.values[c] << " and " << samples.values[5 + c];
@@ -184,12 +183,12 @@ TEST(SampleOutside, E1_NearestVertexIsAsThePointOnIt) {
 TEST(SampleOutside, E1_NearestOnSecondOrderCells) {
     Random random(2);
     const Mesh mesh = own("cube-hole-o2");
-    const auto locator = Locator::build(mesh);
+    const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, {{&mesh.point_fields[0], false}});
     const std::vector<double> points = points_around(mesh, random);
-    Samples samples;
-    SampleCounts counts;
-    ASSERT_TRUE(sampler->sample(points, {.outside = {.kind = Outside::nearest}}, samples, counts));
+    Table samples;
+    const SampleCounts& counts = samples.counts;
+    ASSERT_TRUE(sampler->sample(points, {.outside = {.kind = Outside::nearest}}, samples));
     std::size_t checked = 0;
     for (std::size_t i = 0; i < samples.cells.size(); ++i) {
         const double* const p = &points[3 * i];
@@ -207,14 +206,14 @@ TEST(SampleOutside, E1_NanAndFill) {
     Random random(4);
     const Mesh mesh = own("bracket");
     const std::vector<double> points = points_around(mesh, random);
-    const auto locator = Locator::build(mesh);
+    const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     const std::size_t columns = sampler->columns().size();
     for (const OutsidePolicy& policy :
          {OutsidePolicy{}, OutsidePolicy{.kind = Outside::fill, .fill = -7}, OutsidePolicy{.kind = Outside::fill}}) {
-        Samples samples;
-        SampleCounts counts;
-        ASSERT_TRUE(sampler->sample(points, {.outside = policy}, samples, counts));
+        Table samples;
+        const SampleCounts& counts = samples.counts;
+        ASSERT_TRUE(sampler->sample(points, {.outside = policy}, samples));
         expect_true_values(mesh, points, samples, "bracket");
         for (std::size_t i = 0; i < samples.cells.size(); ++i) {
             for (std::size_t c = 0; c < columns && samples.cells[i] < 0; ++c) {
@@ -236,31 +235,28 @@ TEST(SampleOutside, E1_ErrorNamesTheFirst) {
     const auto locator = Locator::build(mesh, quick(mesh).certificate);
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     const SampleOptions options{.outside = {.kind = Outside::error}, .threads = 2};
-    Samples samples;
-    SampleCounts counts;
+    Table samples;
+    const SampleCounts& counts = samples.counts;
     std::vector<double> points;
     for (int i = 0; i < 30000; ++i) {
         const double* const node = &mesh.points[3 * random.below(mesh.point_count())];
         points.insert(points.end(), node, node + 3);
     }
-    ASSERT_TRUE(sampler->sample(points, options, samples, counts));
+    ASSERT_TRUE(sampler->sample(points, options, samples));
     EXPECT_EQ(counts.without_value, 0U);
-    const std::uint64_t before = counts.locations.points();
     for (const std::size_t bad : {29000U, 20011U, 777U, 776U, 0U}) {
         points[3 * bad] = -0.25;
-        const Status status = sampler->sample(points, options, samples, counts, 1000000);
+        const Status status = sampler->sample(points, options, samples, 1000000);
         ASSERT_FALSE(status);
         EXPECT_NE(status.error().message().find("point " + std::to_string(1000000 + bad) + " "), std::string::npos)
             << status.error().message();
-        std::vector<Mesh::Index> cells(30000);
-        std::vector<Feature> features(30000);
-        ASSERT_TRUE(locator->locate(points, cells, features));
-        const Status later = sampler->evaluate(points, cells, features, options, samples, counts, 500);
+        samples = *locator->locate(points);
+        const Status later = sampler->evaluate(points, options, samples, 500);
         ASSERT_FALSE(later);
         EXPECT_NE(later.error().message().find("point " + std::to_string(500 + bad) + " "), std::string::npos)
             << later.error().message();
     }
-    EXPECT_EQ(counts.locations.points(), before) << "calls that fail add nothing";
+    EXPECT_EQ(counts.locations.points(), 0U) << "a call that fails counts nothing";
 }
 
 }  // namespace

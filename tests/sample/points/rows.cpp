@@ -24,7 +24,7 @@ bool same(double x, double y) {
     return (std::isnan(x) && std::isnan(y)) || std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
 }
 
-bool same(const Samples& a, const Samples& b) {
+bool same(const Table& a, const Table& b) {
     const auto all = [](const std::vector<double>& x, const std::vector<double>& y) {
         bool equal = x.size() == y.size();
         for (std::size_t i = 0; equal && i < x.size(); ++i) equal = same(x[i], y[i]);
@@ -75,7 +75,7 @@ std::vector<FieldChoice> all_fields(const Mesh& mesh) {
     return all;
 }
 
-std::size_t expect_true_values(const Mesh& mesh, const std::vector<double>& points, const Samples& samples,
+std::size_t expect_true_values(const Mesh& mesh, const std::vector<double>& points, const Table& samples,
                                const std::string& what) {
     std::size_t columns = 0, inside = 0, told = 0;
     for (const FieldChoice& f : all_fields(mesh)) columns += static_cast<std::size_t>(f.field->components);
@@ -105,7 +105,7 @@ std::size_t expect_true_values(const Mesh& mesh, const std::vector<double>& poin
     return inside;
 }
 
-void expect_true_owners(const Mesh& mesh, const std::vector<double>& points, const Samples& samples,
+void expect_true_owners(const Mesh& mesh, const std::vector<double>& points, const Table& samples,
                         const std::string& what) {
     const PointJudge judge(mesh);
     const auto d = static_cast<std::size_t>(mesh.dimension);

@@ -16,7 +16,7 @@ namespace barycert::testing {
 bool same(double x, double y);
 
 /// Both outputs, bit for bit, NaN for NaN.
-bool same(const Samples& a, const Samples& b);
+bool same(const Table& a, const Table& b);
 
 /// The correctly rounded value of component c of a point field at a point, by the function of the cell, linear or
 /// quadratic as the mesh is; NaN if a nodal value is not finite or the cell is degenerate.
@@ -31,11 +31,11 @@ std::vector<Field> random_fields(std::size_t entities, const std::vector<int>& c
 std::vector<FieldChoice> all_fields(const Mesh& mesh);
 
 /// Every row that says that the point is in a cell has the values that it should have. Returns how many had one.
-std::size_t expect_true_values(const Mesh& mesh, const std::vector<double>& points, const Samples& samples,
+std::size_t expect_true_values(const Mesh& mesh, const std::vector<double>& points, const Table& samples,
                                const std::string& what);
 
 /// Owners and features are those of the judge.
-void expect_true_owners(const Mesh& mesh, const std::vector<double>& points, const Samples& samples,
+void expect_true_owners(const Mesh& mesh, const std::vector<double>& points, const Table& samples,
                         const std::string& what);
 
 }  // namespace barycert::testing

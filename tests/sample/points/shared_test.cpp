@@ -9,24 +9,12 @@
 namespace barycert::testing {
 namespace {
 
-struct AllRows {
-    std::vector<double> points;
-    std::vector<std::size_t> point_of;  ///< by row
-    AllLocations locations;
-};
-
-/// A row for each point and each cell that holds it.
-AllRows all_rows(const Locator& locator, const std::vector<double>& points) {
-    AllRows rows;
-    rows.locations = *locator.locate_all(points);
-    const auto d = static_cast<std::size_t>(locator.mesh().dimension);
-    for (std::size_t i = 0; i + 1 < rows.locations.begin.size(); ++i) {
-        for (std::size_t j = rows.locations.begin[i]; j < rows.locations.begin[i + 1]; ++j) {
-            rows.point_of.push_back(i);
-            for (std::size_t k = 0; k < d; ++k) rows.points.push_back(points[d * i + k]);
-        }
-    }
-    return rows;
+/// The point of each row.
+std::vector<std::size_t> point_of_rows(const Table& rows) {
+    std::vector<std::size_t> points;
+    for (std::size_t i = 0; i + 1 < rows.point_begin.size(); ++i)
+        points.insert(points.end(), rows.point_begin[i + 1] - rows.point_begin[i], i);
+    return points;
 }
 
 TEST(SampleShared, V2_SameBitsFromEverySide) {
@@ -38,25 +26,27 @@ TEST(SampleShared, V2_SameBitsFromEverySide) {
         mesh.point_fields = random_fields(mesh.point_count(), {1, 4}, true, random);
         mesh.cell_fields.clear();
         const std::vector<double> points = awkward_points(mesh, 120, random);
-        const auto locator = Locator::build(mesh);
-        const AllRows rows = all_rows(*locator, points);
+        const auto locator = Locator::build(mesh, {.prove = false});
+        const Table located = *locator->locate_all(points);
+        const std::vector<std::size_t> point_of = point_of_rows(located);
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
-        Samples samples;
-        SampleCounts counts;
-        ASSERT_TRUE(sampler->evaluate(rows.points, rows.locations.cells, rows.locations.features, {}, samples, counts));
-        EXPECT_EQ(samples.cells, rows.locations.cells);
-        EXPECT_EQ(samples.features, rows.locations.features);
-        expect_true_values(mesh, rows.points, samples, stem);
+        Table samples = located;
+        const SampleCounts& counts = samples.counts;
+        ASSERT_TRUE(sampler->evaluate(samples.points, {}, samples));
+        EXPECT_EQ(samples.cells, located.cells);
+        EXPECT_EQ(samples.features, located.features);
+        EXPECT_EQ(samples.points, located.points);
+        expect_true_values(mesh, samples.points, samples, stem);
         std::size_t shared = 0;
-        for (std::size_t j = 1; j < rows.point_of.size(); ++j) {
-            if (rows.point_of[j] != rows.point_of[j - 1]) continue;
+        for (std::size_t j = 1; j < point_of.size(); ++j) {
+            if (point_of[j] != point_of[j - 1]) continue;
             ++shared;
             for (std::size_t c = 0; c < 5; ++c)
                 ASSERT_TRUE(same(samples.values[5 * j + c], samples.values[5 * (j - 1) + c])) << stem << ", row " << j;
         }
         EXPECT_GT(shared, 100U) << stem;
-        EXPECT_EQ(counts.locations.points(), rows.point_of.size());
-        EXPECT_EQ(counts.values.cases(), rows.point_of.size());
+        EXPECT_EQ(counts.locations.points(), point_of.size());
+        EXPECT_EQ(counts.values.cases(), counts.locations.inside());
     }
 }
 
@@ -67,9 +57,9 @@ TEST(SampleShared, V1_AtNodes) {
         Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
         const auto locator = Locator::build(mesh, quick(mesh).certificate);
         const auto sampler = Sampler::build(*locator, {{&mesh.point_fields[1], false}});
-        Samples samples;
-        SampleCounts counts;
-        ASSERT_TRUE(sampler->sample(mesh.points, {}, samples, counts));
+        Table samples;
+        const SampleCounts& counts = samples.counts;
+        ASSERT_TRUE(sampler->sample(mesh.points, {}, samples));
         std::size_t vertices = 0;
         for (std::size_t i = 0; i < mesh.point_count(); ++i) {
             if (samples.features[i] != Feature::vertex) continue;

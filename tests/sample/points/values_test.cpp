@@ -18,13 +18,13 @@ Mesh own(const std::string& stem) {
 
 void expect_right(const Mesh& mesh, const std::vector<double>& points, const std::string& what) {
     for (const bool certified : {true, false}) {
-        const auto locator = certified ? Locator::build(mesh, quick(mesh).certificate) : Locator::build(mesh);
+        const auto locator = certified ? Locator::build(mesh, quick(mesh).certificate) : Locator::build(mesh, {.prove = false});
         ASSERT_TRUE(locator) << what;
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         ASSERT_TRUE(sampler) << what << sampler.error().message();
-        Samples samples;
-        SampleCounts counts;
-        const Status status = sampler->sample(points, {}, samples, counts);
+        Table samples;
+        const SampleCounts& counts = samples.counts;
+        const Status status = sampler->sample(points, {}, samples);
         ASSERT_TRUE(status) << what << status.error().message();
         expect_true_owners(mesh, points, samples, what);
         const std::size_t inside = expect_true_values(mesh, points, samples, what);
@@ -95,11 +95,11 @@ TEST(SampleValues, V1_ValuesThatAreNotFinite) {
         }
         const std::vector<double> points = awkward_points(mesh, 60, random);
         expect_right(mesh, points, stem);
-        const auto locator = Locator::build(mesh);
+        const auto locator = Locator::build(mesh, {.prove = false});
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
-        Samples samples;
-        SampleCounts counts;
-        ASSERT_TRUE(sampler->sample(points, {}, samples, counts));
+        Table samples;
+        const SampleCounts& counts = samples.counts;
+        ASSERT_TRUE(sampler->sample(points, {}, samples));
         std::size_t with = 0;  // points of which a component was not finite
         const std::size_t d = static_cast<std::size_t>(mesh.dimension);
         for (std::size_t i = 0; i < samples.cells.size(); ++i) {
@@ -154,7 +154,7 @@ TEST(SampleValues, ColumnsHaveNames) {
     mesh.point_fields = random_fields(mesh.point_count(), {1, 3}, false, random);
     mesh.cell_fields = random_fields(mesh.cell_count(), {2, 1}, false, random);
     mesh.cell_fields[0].name = "c", mesh.cell_fields[1].name = "e";
-    const auto locator = Locator::build(mesh);
+    const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     EXPECT_EQ(sampler->columns(), (std::vector<std::string>{"f0", "f1.0", "f1.1", "f1.2", "c.0", "c.1", "e"}));
 }

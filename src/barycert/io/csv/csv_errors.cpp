@@ -9,7 +9,7 @@
 #include "barycert/io/tetgen/row_errors.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
 
-namespace barycert::points {
+namespace barycert::io {
 namespace {
 
 std::string separator_name(char separator) {
@@ -95,4 +95,4 @@ Error csv_row_error(std::string_view line, const CsvLayout& layout, const LinePl
     return error;
 }
 
-}  // namespace barycert::points
+}  // namespace barycert::io

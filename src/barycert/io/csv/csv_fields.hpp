@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string_view>
 
-namespace barycert::points {
+namespace barycert::io {
 
 /// Cuts at a comma, semicolon or tab, or at runs of blanks (spaces and tabs) where the separator is ' '.
 /// Blanks around a field do not belong to it, but a tab that separates is no blank. A field that begins with a double
@@ -80,4 +80,4 @@ private:
     bool malformed_ = false;
 };
 
-}  // namespace barycert::points
+}  // namespace barycert::io

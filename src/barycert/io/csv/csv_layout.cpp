@@ -10,7 +10,7 @@
 #include "barycert/io/tetgen/row_errors.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
 
-namespace barycert::points {
+namespace barycert::io {
 namespace {
 
 constexpr std::array<std::array<std::string_view, 3>, 3> coordinate_names{
@@ -127,4 +127,4 @@ Result<CsvLayout> settle_csv_layout(std::string_view line, int dimension, const 
     return layout;
 }
 
-}  // namespace barycert::points
+}  // namespace barycert::io

@@ -8,7 +8,7 @@
 
 #include "barycert/result.hpp"
 
-namespace barycert::points {
+namespace barycert::io {
 
 struct CsvLayout {
     char separator = ',';        ///< ',' ';' '\t', or ' ' for blanks
@@ -31,4 +31,4 @@ Result<CsvLayout> settle_csv_layout(std::string_view line, int dimension, const 
 /// Why the row was refused. Slow: called once.
 Error csv_row_error(std::string_view line, const CsvLayout& layout, const LinePlace& place);
 
-}  // namespace barycert::points
+}  // namespace barycert::io

@@ -11,7 +11,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
 
-namespace barycert::points {
+namespace barycert::io {
 namespace {
 
 // The longest text of a double is -2.2250738585072014e-308, that of an int32 -2147483648, that of a feature
@@ -40,28 +40,30 @@ std::string as_field(const std::string& name) {
     return text + '"';
 }
 
-class CsvSink final : public Sink {
+class CsvSink final : public TableSink {
 public:
-    CsvSink(const std::string& path, RowFormat format)
+    CsvSink(const std::string& path, TableFormat format)
         : path_(path == "-" ? "standard output" : path),
           format_(std::move(format)),
+          columns_(format_.columns().size()),
           file_(path == "-" ? OutputFile::standard_output() : OutputFile(path)) {
         const std::size_t numbers =
-            static_cast<std::size_t>(format_.dimension) + format_.columns.size() + (format_.distances ? 1 : 0);
+            static_cast<std::size_t>(format_.dimension) + columns_ + (format_.distances ? 1 : 0);
         longest_row_ = numbers * longest_double + longest_cell + longest_feature + 1;
         rows_a_piece_ = std::max<std::size_t>(1, piece_size / longest_row_);
     }
 
     Status begin();
-    Status write(const Rows& rows) override;
+    Status write(const TableView& rows) override;
     Status commit() override { return error_.what.empty() ? file_.commit() : Status(error_); }
 
 private:
     /// The rows [first, last) as text; the place after it.
-    char* format(const Rows& rows, std::size_t first, std::size_t last, char* at) const;
+    char* format(const TableView& rows, std::size_t first, std::size_t last, char* at) const;
 
     std::string path_;
-    RowFormat format_;
+    TableFormat format_;
+    std::size_t columns_;
     OutputFile file_;
     std::size_t longest_row_ = 0;
     std::size_t rows_a_piece_ = 0;
@@ -71,14 +73,13 @@ private:
 
 Status CsvSink::begin() {
     std::string header = format_.dimension == 2 ? "x,y,cell,feature" : "x,y,z,cell,feature";
-    for (const std::string& column : format_.columns) header += ',' + as_field(column);
+    for (const std::string& column : format_.columns()) header += ',' + as_field(column);
     file_.write(header + (format_.distances ? ",distance\n" : "\n"));
     return file_.status();
 }
 
-char* CsvSink::format(const Rows& rows, std::size_t first, std::size_t last, char* at) const {
+char* CsvSink::format(const TableView& rows, std::size_t first, std::size_t last, char* at) const {
     const auto dimension = static_cast<std::size_t>(format_.dimension);
-    const std::size_t columns = format_.columns.size();
     for (std::size_t row = first; row < last; ++row) {
         for (const double x : rows.points.subspan(row * dimension, dimension)) {
             at = put(at, x);
@@ -87,7 +88,7 @@ char* CsvSink::format(const Rows& rows, std::size_t first, std::size_t last, cha
         at = std::to_chars(at, at + longest_cell, rows.cells[row]).ptr;
         *at++ = ',';
         for (const char c : name(rows.features[row])) *at++ = c;
-        for (const double value : rows.values.subspan(row * columns, columns)) {
+        for (const double value : rows.values.subspan(row * columns_, columns_)) {
             *at++ = ',';
             at = put(at, value);
         }
@@ -100,7 +101,7 @@ char* CsvSink::format(const Rows& rows, std::size_t first, std::size_t last, cha
     return at;
 }
 
-Status CsvSink::write(const Rows& rows) {
+Status CsvSink::write(const TableView& rows) {
     const ExactEnvironment environment;
     if (!error_.what.empty()) return error_;
     if (Status fits = check_rows(rows, format_, path_); !fits) return error_ = fits.error();
@@ -125,10 +126,10 @@ Status CsvSink::write(const Rows& rows) {
 
 }  // namespace
 
-Result<std::unique_ptr<Sink>> open_csv_sink(const std::string& path, const RowFormat& format) {
+Result<std::unique_ptr<TableSink>> open_csv_sink(const std::string& path, const TableFormat& format) {
     auto sink = std::make_unique<CsvSink>(path, format);
     if (Status begun = sink->begin(); !begun) return begun.error();
-    return std::unique_ptr<Sink>(std::move(sink));
+    return std::unique_ptr<TableSink>(std::move(sink));
 }
 
-}  // namespace barycert::points
+}  // namespace barycert::io

@@ -9,10 +9,10 @@
 #include "barycert/io/formats.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
 
-namespace barycert::points {
+namespace barycert::io {
 namespace {
 
-class CsvSource final : public Source {
+class CsvSource final : public PointSource {
 public:
     CsvSource(LineReader lines, int dimension) : lines_(std::move(lines)), dimension_(dimension) {}
 
@@ -111,12 +111,12 @@ Result<std::size_t> CsvSource::read(std::size_t most, std::vector<double>& out) 
 
 }  // namespace
 
-Result<std::unique_ptr<Source>> open_csv_source(const std::string& path, int dimension) {
+Result<std::unique_ptr<PointSource>> open_csv_source(const std::string& path, int dimension) {
     Result<LineReader> lines = LineReader::open(path);
     if (!lines) return lines.error();
     auto source = std::make_unique<CsvSource>(std::move(*lines), dimension);
     if (Status begun = source->begin(); !begun) return begun.error();
-    return std::unique_ptr<Source>(std::move(source));
+    return std::unique_ptr<PointSource>(std::move(source));
 }
 
-}  // namespace barycert::points
+}  // namespace barycert::io

@@ -10,7 +10,7 @@
 
 #include "barycert/base/input_file.hpp"
 
-namespace barycert::points {
+namespace barycert::io {
 Result<LineReader> LineReader::open(const std::string& path) {
     LineReader reader(path == "-" ? "standard input" : path);
     reader.owned_ = path != "-";
@@ -108,4 +108,4 @@ bool LineReader::next(std::string_view& line) {
     return true;
 }
 
-}  // namespace barycert::points
+}  // namespace barycert::io

@@ -8,7 +8,7 @@
 
 #include "barycert/result.hpp"
 
-namespace barycert::points {
+namespace barycert::io {
 
 /// Reads in chunks. A byte-order mark of UTF-8 is passed over, one of UTF-16 refused.
 class LineReader {
@@ -57,4 +57,4 @@ private:
     Error error_;
 };
 
-}  // namespace barycert::points
+}  // namespace barycert::io

@@ -8,7 +8,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/io/tetgen/row_errors.hpp"
 
-namespace barycert::points {
+namespace barycert::io {
 namespace {
 
 /// Well-formed UTF-8: no stray or missing continuation, no longer form than needed, no surrogate, nothing above
@@ -57,7 +57,7 @@ const char* fault_of(const std::string& name, std::set<std::string>& seen) {
 
 }  // namespace
 
-Result<NpyFields> npy_fields(const RowFormat& format, const std::string& path) {
+Result<NpyFields> npy_fields(const TableFormat& format, const std::string& path) {
     struct Field {
         std::string name;
         const char* type = "<f8";
@@ -66,7 +66,7 @@ Result<NpyFields> npy_fields(const RowFormat& format, const std::string& path) {
     if (format.dimension == 3) fields.push_back({"z"});
     fields.push_back({"cell", "<i8"});
     fields.push_back({"feature", "|S8"});
-    for (const std::string& column : format.columns) fields.push_back({column});
+    for (const std::string& column : format.columns()) fields.push_back({column});
     if (format.distances) fields.push_back({"distance"});
 
     NpyFields result{.descr = "[", .row_size = 8 * fields.size()};  // each has 8 bytes
@@ -86,4 +86,4 @@ Result<NpyFields> npy_fields(const RowFormat& format, const std::string& path) {
     return result;
 }
 
-}  // namespace barycert::points
+}  // namespace barycert::io

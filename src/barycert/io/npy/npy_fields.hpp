@@ -7,7 +7,7 @@
 #include "barycert/io.hpp"
 #include "barycert/result.hpp"
 
-namespace barycert::points {
+namespace barycert::io {
 
 /// The longest feature of a row: interior.
 inline constexpr std::size_t npy_feature_size = 8;
@@ -18,6 +18,6 @@ struct NpyFields {
 };
 
 /// Error: an empty name, one that is not UTF-8, two that are alike.
-Result<NpyFields> npy_fields(const RowFormat& format, const std::string& path);
+Result<NpyFields> npy_fields(const TableFormat& format, const std::string& path);
 
-}  // namespace barycert::points
+}  // namespace barycert::io

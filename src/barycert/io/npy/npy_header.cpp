@@ -6,7 +6,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/io/tetgen/row_errors.hpp"
 
-namespace barycert::points {
+namespace barycert::io {
 namespace {
 
 Error not_npy(const std::string& file, std::string expected, std::string found, std::string remedy) {
@@ -169,4 +169,4 @@ Result<NpyHeader> parse_npy_text(std::string_view text, const std::string& file)
     return not_npy(file, "a dictionary of descr, fortran_order and shape", quoted(text), save_again);
 }
 
-}  // namespace barycert::points
+}  // namespace barycert::io

@@ -9,7 +9,7 @@
 
 #include "barycert/result.hpp"
 
-namespace barycert::points {
+namespace barycert::io {
 
 /// Where an NPY file keeps the sizes: 6 bytes of magic, 2 of version, then the length of the text in 2 or 4 bytes.
 inline constexpr std::string_view npy_magic = "\x93NUMPY";
@@ -49,4 +49,4 @@ struct NpyLayout {
 Result<NpyLayout> settle_npy_layout(const NpyHeader& header, std::size_t dimension, std::uint64_t room,
                                     const std::string& file);
 
-}  // namespace barycert::points
+}  // namespace barycert::io

@@ -5,7 +5,7 @@
 #include "barycert/io/npy/npy_header.hpp"
 #include "barycert/io/tetgen/row_errors.hpp"
 
-namespace barycert::points {
+namespace barycert::io {
 namespace {
 
 struct Complaint {
@@ -78,4 +78,4 @@ Result<NpyLayout> settle_npy_layout(const NpyHeader& header, std::size_t dimensi
     return layout;
 }
 
-}  // namespace barycert::points
+}  // namespace barycert::io

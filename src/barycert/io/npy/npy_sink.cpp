@@ -10,7 +10,7 @@
 #include "barycert/io/npy/npy_fields.hpp"
 #include "barycert/io/npy/npy_header.hpp"
 
-namespace barycert::points {
+namespace barycert::io {
 namespace {
 
 /// NumPy aligns the numbers of a file so.
@@ -26,20 +26,21 @@ char* put(char* at, std::uint64_t bits) {
     return at + sizeof bits;
 }
 
-class NpySink final : public Sink {
+class NpySink final : public TableSink {
 public:
-    NpySink(const std::string& path, RowFormat format) : path_(path), format_(std::move(format)), file_(path) {}
+    NpySink(const std::string& path, TableFormat format) : path_(path), format_(std::move(format)), columns_(format_.columns().size()), file_(path) {}
 
     Status begin();
-    Status write(const Rows& rows) override;
+    Status write(const TableView& rows) override;
     Status commit() override;
 
 private:
     std::string header(std::uint64_t count) const;
-    void put_row(const Rows& rows, std::size_t row, char* at) const;
+    void put_row(const TableView& rows, std::size_t row, char* at) const;
 
     std::string path_;
-    RowFormat format_;
+    TableFormat format_;
+    std::size_t columns_;
     OutputFile file_;
     std::string types_;          // the descr of the header
     std::size_t text_size_ = 0;  // of the header, with room for any count
@@ -96,19 +97,18 @@ std::string NpySink::header(std::uint64_t count) const {
     return "{'descr': " + types_ + ", 'fortran_order': False, 'shape': (" + std::to_string(count) + ",), }";
 }
 
-void NpySink::put_row(const Rows& rows, std::size_t row, char* at) const {
+void NpySink::put_row(const TableView& rows, std::size_t row, char* at) const {
     const auto dimension = static_cast<std::size_t>(format_.dimension);
-    const std::size_t columns = format_.columns.size();
     for (const double x : rows.points.subspan(row * dimension, dimension))
         at = put(at, std::bit_cast<std::uint64_t>(x));
     at = put(at, static_cast<std::uint64_t>(static_cast<std::int64_t>(rows.cells[row])));
     const std::string_view feature = name(rows.features[row]);
     for (std::size_t i = 0; i < npy_feature_size; ++i) *at++ = i < feature.size() ? feature[i] : '\0';
-    for (const double x : rows.values.subspan(row * columns, columns)) at = put(at, std::bit_cast<std::uint64_t>(x));
+    for (const double x : rows.values.subspan(row * columns_, columns_)) at = put(at, std::bit_cast<std::uint64_t>(x));
     if (format_.distances) put(at, std::bit_cast<std::uint64_t>(rows.distances[row]));
 }
 
-Status NpySink::write(const Rows& rows) {
+Status NpySink::write(const TableView& rows) {
     const ExactEnvironment environment;
     if (!error_.what.empty()) return error_;
     if (Status fits = check_rows(rows, format_, path_); !fits) return error_ = fits.error();
@@ -134,10 +134,10 @@ Status NpySink::commit() {
 
 }  // namespace
 
-Result<std::unique_ptr<Sink>> open_npy_sink(const std::string& path, const RowFormat& format) {
+Result<std::unique_ptr<TableSink>> open_npy_sink(const std::string& path, const TableFormat& format) {
     auto sink = std::make_unique<NpySink>(path, format);
     if (Status begun = sink->begin(); !begun) return begun.error();
-    return std::unique_ptr<Sink>(std::move(sink));
+    return std::unique_ptr<TableSink>(std::move(sink));
 }
 
-}  // namespace barycert::points
+}  // namespace barycert::io

@@ -15,7 +15,7 @@
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy_header.hpp"
 
-namespace barycert::points {
+namespace barycert::io {
 namespace {
 
 /// Numbers read at a time.
@@ -32,7 +32,7 @@ double number_at(const char* at, bool swapped) {
     return std::bit_cast<Number>(bits);
 }
 
-class NpySource final : public Source {
+class NpySource final : public PointSource {
 public:
     NpySource(std::string path, int dimension)
         : path_(std::move(path)), dimension_(static_cast<std::size_t>(dimension)) {}
@@ -153,10 +153,10 @@ Result<std::size_t> NpySource::read(std::size_t most, std::vector<double>& out) 
 
 }  // namespace
 
-Result<std::unique_ptr<Source>> open_npy_source(const std::string& path, int dimension) {
+Result<std::unique_ptr<PointSource>> open_npy_source(const std::string& path, int dimension) {
     auto source = std::make_unique<NpySource>(path, dimension);
     if (Status begun = source->begin(); !begun) return begun.error();
-    return std::unique_ptr<Source>(std::move(source));
+    return std::unique_ptr<PointSource>(std::move(source));
 }
 
-}  // namespace barycert::points
+}  // namespace barycert::io

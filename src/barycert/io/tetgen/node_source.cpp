@@ -13,7 +13,7 @@
 #include "barycert/io/tetgen/tetgen_reader.hpp"
 #include "barycert/io/tetgen/text_table.hpp"
 
-namespace barycert::points {
+namespace barycert::io {
 namespace {
 
 using barycert::detail::ColumnKind;
@@ -25,7 +25,7 @@ using barycert::detail::TextTable;
 /// Large against a page, small against memory.
 constexpr std::ptrdiff_t kept_behind = std::ptrdiff_t{1} << 22;
 
-class NodeSource final : public Source {
+class NodeSource final : public PointSource {
 public:
     NodeSource(TextTable table, int dimension) : table_(std::move(table)), dimension_(dimension) {}
 
@@ -135,13 +135,13 @@ Result<std::size_t> NodeSource::read(std::size_t most, std::vector<double>& out)
 
 }  // namespace
 
-Result<std::unique_ptr<Source>> open_node_source(const std::string& path, int dimension) {
+Result<std::unique_ptr<PointSource>> open_node_source(const std::string& path, int dimension) {
     constexpr std::array names{"nodes", "dimensions", "attributes", "markers"};
     Result<TextTable> table = barycert::detail::open_table(path, names);
     if (!table) return table.error();
     auto source = std::make_unique<NodeSource>(std::move(*table), dimension);
     if (Status begun = source->begin(); !begun) return begun.error();
-    return std::unique_ptr<Source>(std::move(source));
+    return std::unique_ptr<PointSource>(std::move(source));
 }
 
-}  // namespace barycert::points
+}  // namespace barycert::io

@@ -14,11 +14,11 @@
 
 #include "barycert/environment.hpp"
 #include "barycert/io/vtk/mesh_to_grid.hpp"
+#include "barycert/io/vtk/point_rows.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/io/vtk/vtu_output.hpp"
-#include "barycert/vtk.hpp"
 
-namespace barycert {
+namespace barycert::io {
 namespace {
 
 constexpr const char *cell_name = "cell", *feature_name = "feature", *mask_name = "vtkValidPointMask",
@@ -107,4 +107,4 @@ Status write_vtk_points(const std::string& path, const PointRows& rows) {
     }
 }
 
-}  // namespace barycert
+}  // namespace barycert::io

@@ -37,11 +37,11 @@ Json inside_json(const LocationCounts& n) {
     return j;
 }
 
-Json outside_json(const SampleRun& run) {
-    const SampleCounts& n = run.counts;
+Json outside_json(const SampleSummary& summary) {
+    const SampleCounts& n = summary.counts;
     Json j;
     j["count"] = n.locations.outside;
-    j["policy"] = policy_text(run.outside);
+    j["policy"] = policy_text(summary.outside);
     j["snapped"] = n.snapped;
     j["extrapolated"] = n.extrapolated;
     j["without_value"] = n.without_value;
@@ -49,14 +49,14 @@ Json outside_json(const SampleRun& run) {
     return j;
 }
 
-Json values_json(const SampleRun& run) {
-    const Tiers& t = run.counts.values;
+Json values_json(const SampleSummary& summary) {
+    const TierCounts& t = summary.counts.values;
     Json j;
-    j["rounding"] = run.rounding == Rounding::correct ? "correct" : "plain";
+    j["rounding"] = summary.rounding == Rounding::correct ? "correct" : "plain";
     j["filter"] = t.filter;
     j["double_double"] = t.double_double;
     j["exact"] = t.exact;
-    j["nan"] = run.nan_values;
+    j["nan"] = summary.nan_values;
     return j;
 }
 
@@ -85,36 +85,36 @@ Json seconds_json(const SampleSeconds& s) {
 
 }  // namespace
 
-std::string sample_json(const SampleRun& run, const Environment& environment) {
+std::string sample_json(const SampleSummary& summary, const Environment& environment) {
     const ExactEnvironment exact;
     Json j;
     j["schema"] = sample_schema;
-    j["command"] = run.command;
-    j["mesh"] = run.mesh;
-    j["dimension"] = run.dimension;
-    j["nodes"] = run.nodes;
-    j["cells"] = run.cells;
-    j["degenerate_cells"] = run.degenerate_cells;
-    j["verdict"] = check::name(run.verdict);
-    j["from"] = name(run.from);
-    if (run.grid) {
-        j["grid"] = grid_json(*run.grid);
+    j["command"] = summary.command;
+    j["mesh"] = summary.mesh;
+    j["dimension"] = summary.dimension;
+    j["nodes"] = summary.nodes;
+    j["cells"] = summary.cells;
+    j["degenerate_cells"] = summary.degenerate_cells;
+    j["verdict"] = check::name(summary.verdict);
+    j["from"] = name(summary.from);
+    if (summary.grid) {
+        j["grid"] = grid_json(*summary.grid);
     } else {
-        j["file"] = run.points;
+        j["file"] = summary.points;
     }
-    j["output"] = run.output;
-    j["columns"] = run.columns;
-    j["points"] = run.counts.locations.points();
-    j["rows"] = run.rows;
-    j["on_boundary"] = run.all ? "all" : "lowest";
-    j["inside"] = inside_json(run.counts.locations);
-    j["outside"] = outside_json(run);
-    j["values"] = values_json(run);
-    if (run.picture) j["picture"] = picture_json(*run.picture);
-    j["method"] = name(run.method);
-    j["reason"] = run.reason;
-    j["seconds"] = seconds_json(run.seconds);
-    j["threads"] = run.threads;
+    j["output"] = summary.output;
+    j["columns"] = summary.columns;
+    j["points"] = summary.counts.locations.points();
+    j["rows"] = summary.rows;
+    j["on_boundary"] = summary.all ? "all" : "lowest";
+    j["inside"] = inside_json(summary.counts.locations);
+    j["outside"] = outside_json(summary);
+    j["values"] = values_json(summary);
+    if (summary.picture) j["picture"] = picture_json(*summary.picture);
+    j["method"] = name(summary.method);
+    j["reason"] = summary.reason;
+    j["seconds"] = seconds_json(summary.seconds);
+    j["threads"] = summary.threads;
     j["environment"] = environment_json(environment);
     // Names of fields and files may hold any bytes: JSON is UTF-8.
     return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -27,8 +27,8 @@ std::string inside(const LocationCounts& n) {
 }
 
 /// What became of points outside.
-std::string outside(const SampleRun& run, const Colours& paint) {
-    const SampleCounts& n = run.counts;
+std::string outside(const SampleSummary& summary, const Colours& paint) {
+    const SampleCounts& n = summary.counts;
     const std::uint64_t count = n.locations.outside;
     if (count == 0) return "0";
     std::vector<std::string> fates;
@@ -38,18 +38,18 @@ std::string outside(const SampleRun& run, const Colours& paint) {
     if (n.extrapolated != 0)
         fates.push_back(fmt::format("{} extrapolated from the nearest cell, {}", n.extrapolated, far()));
     if (n.without_value != 0) {
-        const bool limited = run.outside.kind == Outside::nearest;
-        const std::string what = run.outside.kind == Outside::fill ? "got " + shortest(run.outside.fill) : "got NaN";
+        const bool limited = summary.outside.kind == Outside::nearest;
+        const std::string what = summary.outside.kind == Outside::fill ? "got " + shortest(summary.outside.fill) : "got NaN";
         fates.push_back(fmt::format("{} {}{}", n.without_value, what,
-                                    limited ? ", farther than " + shortest(run.outside.limit) : ""));
+                                    limited ? ", farther than " + shortest(summary.outside.limit) : ""));
     }
     return paint.bold(fmt::format("{}: {}", count, fmt::join(fates, "; ")));
 }
 
-std::string values(const SampleRun& run) {
-    if (run.columns.empty()) return "none: the mesh has no fields, and none came by --field";
-    if (run.rounding == Rounding::plain) return "plain double, as asked for; cells and features are exact";
-    const Tiers& t = run.counts.values;
+std::string values(const SampleSummary& summary) {
+    if (summary.columns.empty()) return "none: the mesh has no fields, and --field was not given";
+    if (summary.rounding == Rounding::plain) return "plain double, as asked for; cells and features are exact";
+    const TierCounts& t = summary.counts.values;
     std::string text = "exact, rounded once";
     if (t.cases() != 0)
         text += fmt::format("; decided by the filter {}, by double-double {}, by integers {}", t.filter,
@@ -67,15 +67,15 @@ std::string picture(const SliceCounts& n) {
            (clear == 0 ? "" : fmt::format("; {} without a value, transparent", plural(clear, "point", "points")));
 }
 
-std::string times(const SampleRun& run) {
-    const SampleSeconds& s = run.seconds;
+std::string times(const SampleSummary& summary) {
+    const SampleSeconds& s = summary.seconds;
     std::string text = fmt::format("{:.3g} s on {}: mesh {:.3g}", s.total,
-                                   plural(static_cast<std::uint64_t>(run.threads), "thread", "threads"), s.mesh);
+                                   plural(static_cast<std::uint64_t>(summary.threads), "thread", "threads"), s.mesh);
     if (s.certify != 0) text += fmt::format(", check {:.3g}", s.certify);
     text += fmt::format(", locator {:.3g}", s.build);
-    if (run.from != PointsFrom::grid) text += fmt::format(", points {:.3g}", s.read);
+    if (summary.from != PointsFrom::grid) text += fmt::format(", points {:.3g}", s.read);
     text += fmt::format(", sampling {:.3g}, writing {:.3g}", s.sample, s.write);
-    if (const std::uint64_t n = run.counts.locations.points(); n != 0)
+    if (const std::uint64_t n = summary.counts.locations.points(); n != 0)
         text += fmt::format("; sampling took {} ns a point", brief_time(1e9 * s.sample / static_cast<double>(n)));
     return text;
 }
@@ -97,33 +97,33 @@ std::string policy_text(const OutsidePolicy& policy) {
     }
 }
 
-std::string terminal_sample(const SampleRun& run, bool colour) {
+std::string sample_text(const SampleSummary& summary, bool colour) {
     const ExactEnvironment environment;
     const Colours paint(colour);
-    std::string points = std::to_string(run.counts.locations.points());
-    if (run.grid) {
-        const Grid& g = *run.grid;
+    std::string points = std::to_string(summary.counts.locations.points());
+    if (summary.grid) {
+        const Grid& g = *summary.grid;
         points += fmt::format(": a grid of {} x {}", g.counts[0], g.counts[1]);
         if (g.dimension == 3) points += fmt::format(" x {}", g.counts[2]);
     }
-    if (run.all)
-        points += fmt::format(", in {}: one for each cell that holds a point", plural(run.rows, "row", "rows"));
+    if (summary.all)
+        points += fmt::format(", in {}: one for each cell that holds a point", plural(summary.rows, "row", "rows"));
     std::string out = line("points", points);
-    out += line("inside", inside(run.counts.locations));
-    out += line("outside", outside(run, paint));
-    out += line("values", values(run));
-    if (run.nan_values != 0)
+    out += line("inside", inside(summary.counts.locations));
+    out += line("outside", outside(summary, paint));
+    out += line("values", values(summary));
+    if (summary.nan_values != 0)
         out += line("NaN", paint.bold(fmt::format("{} of points inside: values of nodes or cells there are not finite",
-                                                  plural(run.nan_values, "value", "values"))));
-    if (run.picture) out += line("picture", picture(*run.picture));
-    std::string cells = plural(run.cells, "cell", "cells") + ", " + plural(run.nodes, "node", "nodes");
-    if (run.degenerate_cells != 0)
+                                                  plural(summary.nan_values, "value", "values"))));
+    if (summary.picture) out += line("picture", picture(*summary.picture));
+    std::string cells = plural(summary.cells, "cell", "cells") + ", " + plural(summary.nodes, "node", "nodes");
+    if (summary.degenerate_cells != 0)
         cells += paint.bold(fmt::format("; {} degenerate and own{} nothing",
-                                        plural(run.degenerate_cells, "cell is", "cells are"),
-                                        run.degenerate_cells == 1 ? "s" : ""));
+                                        plural(summary.degenerate_cells, "cell is", "cells are"),
+                                        summary.degenerate_cells == 1 ? "s" : ""));
     out += line("mesh", cells);
-    out += line("method", fmt::format("{}: {}", name(run.method), run.reason));
-    out += line("time", times(run));
+    out += line("method", fmt::format("{}: {}", name(summary.method), summary.reason));
+    out += line("time", times(summary));
     return out;
 }
 

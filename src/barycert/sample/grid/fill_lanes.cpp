@@ -23,6 +23,8 @@ HWY_BEFORE_NAMESPACE();
 namespace barycert {
 namespace HWY_NAMESPACE {
 
+using namespace core::HWY_NAMESPACE;
+
 using detail::FillTarget;
 using detail::interior_without_value;
 using detail::NodeValues;

@@ -34,6 +34,8 @@ HWY_BEFORE_NAMESPACE();
 namespace barycert {
 namespace HWY_NAMESPACE {
 
+using namespace core::HWY_NAMESPACE;
+
 using detail::Raster;
 
 constexpr std::size_t most_lanes = 8;

@@ -25,6 +25,8 @@ HWY_BEFORE_NAMESPACE();
 namespace barycert {
 namespace HWY_NAMESPACE {
 
+using namespace core::HWY_NAMESPACE;
+
 /// Of each component.
 struct ValueBlock {
     HWY_ALIGN double at_origin[most_lanes], plain[3][most_lanes], correction[3][most_lanes], error[most_lanes];

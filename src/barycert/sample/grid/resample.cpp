@@ -117,11 +117,11 @@ Status check_grid(const detail::SamplerData& data, const Grid& grid) {
 
 }  // namespace
 
-Status resample(const Sampler& sampler, const Grid& grid, const SampleOptions& options, const GridSink& sink,
-                SampleCounts& counts) {
+Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const SampleOptions& options,
+                              const GridSink& sink) {
     const ExactEnvironment environment;
     const detail::SamplerData& data = sampler.data();
-    if (Status status = check_grid(data, grid); !status) return status;
+    if (Status status = check_grid(data, grid); !status) return status.error();
     const detail::Raster raster = raster_of(grid, data.index());
     const std::vector<double>& layers = raster.at[layer_axis(grid)];
     const std::size_t layer = static_cast<std::size_t>(grid.point_count()) / layers.size();
@@ -158,8 +158,25 @@ Status resample(const Sampler& sampler, const Grid& grid, const SampleOptions& o
             }
         }
     });
-    if (status) counts.add(all);
-    return status;
+    if (!status) return status.error();
+    return all;
+}
+
+Result<Table> resample(const Sampler& sampler, const Grid& grid, const SampleOptions& options) {
+    Table all;
+    all.dimension = grid.dimension;
+    all.columns = sampler.columns();
+    const auto append = [&](const TableView& rows) -> Status {
+        all.cells.insert(all.cells.end(), rows.cells.begin(), rows.cells.end());
+        all.features.insert(all.features.end(), rows.features.begin(), rows.features.end());
+        all.values.insert(all.values.end(), rows.values.begin(), rows.values.end());
+        all.distances.insert(all.distances.end(), rows.distances.begin(), rows.distances.end());
+        return Done{};
+    };
+    Result<SampleCounts> counts = resample(sampler, grid, options, append);
+    if (!counts) return counts.error();
+    all.counts = *counts;
+    return all;
 }
 
 }  // namespace barycert

@@ -140,16 +140,19 @@ void SlabSampler::flush() {
     pending_ = 0;
 }
 
-GridBlock SlabSampler::block() const {
+TableView SlabSampler::block() const {
     const std::size_t layer = grid_.dimension == 3 ? grid_.layer_size() : static_cast<std::size_t>(grid_.counts[0]);
-    return {layer * static_cast<std::size_t>(first_), std::span(rows_.cells).first(points_),
-            std::span(rows_.features).first(points_), std::span(rows_.values).first(points_ * data_.columns.size()),
-            rows_.distances};
+    return {.dimension = grid_.dimension,
+            .first_row = layer * static_cast<std::size_t>(first_),
+            .cells = std::span(rows_.cells).first(points_),
+            .features = std::span(rows_.features).first(points_),
+            .values = std::span(rows_.values).first(points_ * data_.columns.size()),
+            .distances = rows_.distances};
 }
 
 std::optional<std::uint64_t> SlabSampler::refused() const {
     if (!sampler_->refused()) return std::nullopt;
-    return block().first_point + *sampler_->refused();
+    return block().first_row + *sampler_->refused();
 }
 
 }  // namespace barycert::detail

@@ -22,7 +22,7 @@ public:
     /// `cells`: all that can hold a point of these layers.
     void run(std::int32_t first, std::int32_t last, std::span<const Place> cells);
 
-    GridBlock block() const;
+    TableView block() const;
     const SampleCounts& counts() const { return counts_; }
     /// The first point outside, if the policy refuses such.
     std::optional<std::uint64_t> refused() const;
@@ -44,7 +44,7 @@ private:
     const SampleOptions& options_;
     std::int32_t first_ = 0, last_ = 0;
     std::size_t points_ = 0;
-    Samples rows_;
+    Table rows_;
     SampleCounts counts_;
     std::optional<ChunkSampler> sampler_;
     std::vector<Span> spans_;

@@ -34,14 +34,14 @@ struct MapWriterData {
     MapWriterData(std::string path, const MapHeader& header) : name(std::move(path)), head(header), file(name) {}
 
     Status begin();
-    Status write(std::span<const double> points, std::span<const Mesh::Index> cells, std::span<const Feature> features);
+    Status write(const TableView& rows);
     Status commit();
 
     std::string name;
     MapHeader head;  // head.rows: those written so far, without those pending
     OutputFile file;
     std::uint64_t checksum = 0;  // of the last block
-    LocationMap pending;         // fewer rows than a block has
+    Table pending;         // fewer rows than a block has
     std::vector<char> bytes;
     Error error;  // what every further call tells
     bool done = false;
@@ -51,7 +51,7 @@ private:
         error = std::move(e);
         return error;
     }
-    Status check(std::span<const double> points, std::span<const Mesh::Index> cells, std::span<const Feature> features);
+    Status check(const TableView& rows);
     void put_block();
 };
 
@@ -88,8 +88,10 @@ Status MapWriterData::begin() {
     return Done{};
 }
 
-Status MapWriterData::check(std::span<const double> points, std::span<const Mesh::Index> cells,
-                            std::span<const Feature> features) {
+Status MapWriterData::check(const TableView& rows) {
+    const auto& points = rows.points;
+    const auto& cells = rows.cells;
+    const auto& features = rows.features;
     const auto dimension = static_cast<std::size_t>(head.dimension);
     if (points.size() != dimension * cells.size() || features.size() != cells.size()) {
         return fail({.what = "the arrays of a map do not fit together",
@@ -114,20 +116,19 @@ Status MapWriterData::check(std::span<const double> points, std::span<const Mesh
     return Done{};
 }
 
-Status MapWriterData::write(std::span<const double> points, std::span<const Mesh::Index> cells,
-                            std::span<const Feature> features) {
+Status MapWriterData::write(const TableView& rows) {
     if (!error.what.empty()) return error;
     if (done)
         return fail({.what = "rows after the end of a map", .file = name, .remedy = "write them before commit()"});
-    if (Status fits = check(points, cells, features); !fits) return fits;
+    if (Status fits = check(rows); !fits) return fits;
     const auto dimension = static_cast<std::size_t>(head.dimension);
-    for (std::size_t row = 0; row < cells.size();) {
-        const std::size_t step = std::min(cells.size() - row, map_block_rows - pending.cells.size());
-        const auto coordinates = points.subspan(row * dimension, step * dimension);
+    for (std::size_t row = 0; row < rows.row_count();) {
+        const std::size_t step = std::min(rows.row_count() - row, map_block_rows - pending.row_count());
+        const auto coordinates = rows.points.subspan(row * dimension, step * dimension);
         pending.points.insert(pending.points.end(), coordinates.begin(), coordinates.end());
         for (std::size_t i = row; i < row + step; ++i) {
-            pending.cells.push_back(cells[i]);
-            pending.features.push_back(features[i]);
+            pending.cells.push_back(rows.cells[i]);
+            pending.features.push_back(rows.features[i]);
         }
         row += step;
         if (pending.cells.size() == map_block_rows) put_block();
@@ -180,10 +181,9 @@ Result<MapWriter> MapWriter::open(const std::string& path, const Mesh& mesh, boo
     return MapWriter(std::move(data));
 }
 
-Status MapWriter::write(std::span<const double> points, std::span<const Mesh::Index> cells,
-                        std::span<const Feature> features) {
+Status MapWriter::write(const TableView& rows) {
     const ExactEnvironment environment;
-    return data_->write(points, cells, features);
+    return data_->write(rows);
 }
 
 Status MapWriter::commit() {

@@ -19,7 +19,7 @@ struct MapReaderData {
     explicit MapReaderData(std::string path) : name(std::move(path)) {}
 
     Status open(const Mesh& mesh);
-    Result<std::size_t> read(std::size_t most, LocationMap& out);
+    Result<std::size_t> read(std::size_t max_rows, Table& out);
 
     std::string name;
     MapHeader head;
@@ -44,7 +44,7 @@ private:
     std::uint64_t row = 0;       // the first of the next block
     std::uint64_t checksum = 0;  // of the last block
     std::vector<char> bytes;
-    LocationMap block;      // the last one read
+    Table block;      // the last one read
     std::size_t given = 0;  // rows of it
     Error error;            // what every further call tells
 };
@@ -189,22 +189,25 @@ Status MapReaderData::decode(std::size_t count) {
     return Done{};
 }
 
-Result<std::size_t> MapReaderData::read(std::size_t most, LocationMap& out) {
+Result<std::size_t> MapReaderData::read(std::size_t max_rows, Table& out) {
+    out.dimension = head.dimension;
     out.points.clear();
     out.cells.clear();
     out.features.clear();
     if (!error.what.empty()) return error;
     const auto dimension = static_cast<std::size_t>(head.dimension);
-    while (out.cells.size() < most) {
+    while (out.cells.size() < max_rows) {
         if (given == block.cells.size()) {
             if (row == head.rows) break;
             if (Status next = next_block(); !next) {
                 error = next.error();
-                out = {};
+                out.points.clear();
+                out.cells.clear();
+                out.features.clear();
                 return error;
             }
         }
-        const std::size_t end = given + std::min(most - out.cells.size(), block.cells.size() - given);
+        const std::size_t end = given + std::min(max_rows - out.cells.size(), block.cells.size() - given);
         for (std::size_t i = dimension * given; i < dimension * end; ++i) out.points.push_back(block.points[i]);
         for (; given < end; ++given) {
             out.cells.push_back(block.cells[given]);
@@ -232,9 +235,9 @@ bool MapReader::all() const {
 std::uint64_t MapReader::rows() const {
     return data_->head.rows;
 }
-Result<std::size_t> MapReader::read(std::size_t most, LocationMap& block) {
+Result<std::size_t> MapReader::read(std::size_t max_rows, Table& rows) {
     const ExactEnvironment environment;
-    return data_->read(most, block);
+    return data_->read(max_rows, rows);
 }
 
 MapReader::MapReader(std::unique_ptr<detail::MapReaderData> data) : data_(std::move(data)) {}

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "barycert/core/exact_weights.hpp"
+#include "barycert/core/exact_tier.hpp"
 #include "barycert/quadratic.hpp"
 #include "barycert/sample/points/outside.hpp"
 
@@ -46,7 +46,7 @@ void ChunkSampler::interpolate_exactly(const PointRecord& point, Place cell) {
     const std::size_t corners = index.corners();
     const auto& node = index.cells[static_cast<std::size_t>(cell)].node;
     const std::array<double, 12> vertices = vertices_of(index, cell);
-    const ExactWeights weights(index.simplex, vertices.data(), point.at.data());
+    const core::ExactWeights weights(index.simplex, vertices.data(), point.at.data());
     counts_.values.add(Tier::exact);
     if (weights.degenerate()) {  // an owner never is, but a caller of evaluate() may name any cell
         ++counts_.values.degenerate;

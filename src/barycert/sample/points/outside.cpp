@@ -59,7 +59,7 @@ Piece cell_piece(const SamplerData& data, std::size_t cell) {
 }
 
 double linear(const SamplerData& data, Rounding rounding, const Piece& piece, const double* point, std::size_t c,
-              Tiers& tiers) {
+              TierCounts& tiers) {
     const auto space = static_cast<std::size_t>(space_dimension(piece.simplex));
     CaseArrays one{.simplex = piece.simplex, .count = 1};
     ValueArrays<double> values;
@@ -97,7 +97,7 @@ void plain_projected(const SamplerData& data, const NearFeature& feature, const 
 
 /// All components at once, in the cell.
 void quadratic(const SamplerData& data, Rounding rounding, std::size_t cell, const double* point, double* out,
-               Tiers& tiers) {
+               TierCounts& tiers) {
     const Mesh& mesh = *data.located().mesh;
     const auto index = static_cast<std::int32_t>(cell);
     const auto d = static_cast<std::size_t>(mesh.dimension);
@@ -113,7 +113,7 @@ void quadratic(const SamplerData& data, Rounding rounding, std::size_t cell, con
 /// it is that of the point with these others as coordinates in the cell with the unit vectors as corners, the corner of
 /// the largest weight at the origin.
 void quadratic_projected(const SamplerData& data, Rounding rounding, std::size_t cell, const NearFeature& feature,
-                         const std::array<double, 3>& weights, double* out, Tiers& tiers) {
+                         const std::array<double, 3>& weights, double* out, TierCounts& tiers) {
     const Mesh& mesh = *data.located().mesh;
     const std::size_t d = static_cast<std::size_t>(mesh.dimension), corners = d + 1;
     const auto mids = static_cast<std::size_t>(mid_node_count(data.index().simplex));
@@ -152,7 +152,7 @@ void quadratic_projected(const SamplerData& data, Rounding rounding, std::size_t
 }  // namespace
 
 std::optional<double> value_outside(const SamplerData& data, const SampleOptions& options, const double* point,
-                                    double* values, Tiers& tiers) {
+                                    double* values, TierCounts& tiers) {
     const Mesh& mesh = *data.located().mesh;
     const bool snap = options.outside.kind == Outside::nearest;
     // The points are finite.
@@ -167,7 +167,7 @@ std::optional<double> value_outside(const SamplerData& data, const SampleOptions
     for (const Mesh::Index node : nearest.nodes) {
         if (node >= 0) nodes.push_back(node);
     }
-    Tiers used;
+    TierCounts used;
     if (snap && nodes.size() == 1 && data.point_components != 0) {
         bool finite = true;
         for (std::size_t c = 0; c < data.point_components; ++c) {

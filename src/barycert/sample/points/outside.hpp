@@ -13,6 +13,6 @@ namespace barycert::detail {
 /// fields that of the nearest cell. On cells of second order the weights of the projection are rounded first, so that
 /// they remain those of a point of the cell, then the quadratic is evaluated there.
 std::optional<double> value_outside(const SamplerData& data, const SampleOptions& options, const double* point,
-                                    double* values, Tiers& tiers);
+                                    double* values, TierCounts& tiers);
 
 }  // namespace barycert::detail

@@ -6,6 +6,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"
+#include "barycert/sample/points/field_choice.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
 #include "barycert/sampler.hpp"
 
@@ -29,11 +30,6 @@ Status check_field(const Mesh& mesh, const FieldChoice& choice) {
                  .expected = std::to_string(expected) + " numbers, " + std::to_string(field.components) + " for each " +
                              (choice.of_cells ? "cell" : "node"),
                  .found = std::to_string(field.data.size())};
-}
-
-void add_columns(const Field& field, std::vector<std::string>& columns) {
-    for (int c = 0; c < field.components; ++c)
-        columns.push_back(field.components == 1 ? field.name : field.name + "." + std::to_string(c));
 }
 
 /// visit(component among all, node of the mesh, value) for every number of the point fields.
@@ -93,7 +89,9 @@ bool gives_distances(const OutsidePolicy& policy) {
     return policy.kind == Outside::nearest || policy.kind == Outside::extrapolate;
 }
 
-void resize(const SamplerData& data, const SampleOptions& options, std::size_t rows, Samples& out) {
+void resize(const SamplerData& data, const SampleOptions& options, std::size_t rows, Table& out) {
+    out.dimension = data.located().mesh->dimension;
+    out.columns = data.columns;
     out.cells.resize(rows);
     out.features.resize(rows);
     out.values.resize(rows * data.columns.size());
@@ -101,7 +99,7 @@ void resize(const SamplerData& data, const SampleOptions& options, std::size_t r
     if (gives_distances(options.outside)) out.distances.assign(rows, 0);
 }
 
-detail::BlockRows rows_from(const SamplerData& data, std::size_t first, Samples& out) {
+detail::BlockRows rows_from(const SamplerData& data, std::size_t first, Table& out) {
     return {out.cells.data() + first, out.features.data() + first, out.values.data() + first * data.columns.size(),
             out.distances.empty() ? nullptr : out.distances.data() + first};
 }
@@ -124,9 +122,9 @@ public:
     }
     const detail::ChunkSampler& sampler() const { return *sampler_; }
 
-    void write(const detail::SortedPoints& sorted, std::size_t first, Samples& out) const {
+    void write(const detail::SortedPoints& sorted, std::size_t first, Table& out) const {
         const std::size_t columns = data_.columns.size();
-        const Samples& rows = *rows_;
+        const Table& rows = *rows_;
         sorted.for_each_in_callers_order(
             [&](std::size_t place) {
                 __builtin_prefetch(&rows.cells[place]);
@@ -143,7 +141,7 @@ public:
 
 private:
     const SamplerData& data_;
-    std::unique_ptr<Samples> rows_;
+    std::unique_ptr<Table> rows_;
     std::optional<detail::ChunkSampler> sampler_;
 };
 
@@ -153,7 +151,7 @@ public:
     explicit Outcome(std::size_t blocks) : counts_(blocks), refused_(blocks) {}
 
     /// `first`: where the rows of the block begin in `out`.
-    void set(std::size_t block, std::size_t first, const detail::ChunkSampler& sampler, const Samples& out) {
+    void set(std::size_t block, std::size_t first, const detail::ChunkSampler& sampler, const Table& out) {
         counts_[block] = sampler.counts();
         if (!sampler.refused()) return;
         const auto begin = out.cells.begin() + static_cast<std::ptrdiff_t>(first);
@@ -179,15 +177,6 @@ private:
 
 }  // namespace
 
-void SampleCounts::add(const SampleCounts& other) {
-    locations.add(other.locations);
-    values.add(other.values);
-    snapped += other.snapped;
-    extrapolated += other.extrapolated;
-    without_value += other.without_value;
-    farthest = std::max(farthest, other.farthest);
-}
-
 Sampler::Sampler(std::unique_ptr<SamplerData> data) : data_(std::move(data)) {}
 Sampler::Sampler(Sampler&&) noexcept = default;
 Sampler& Sampler::operator=(Sampler&&) noexcept = default;
@@ -202,25 +191,52 @@ Result<Sampler> Sampler::build(const Locator& locator, std::vector<FieldChoice> 
         if (Status status = check_field(locator.mesh(), choice); !status) return status.error();
         (choice.of_cells ? data->cell_fields : data->point_fields).push_back(choice.field);
     }
-    for (const Field* field : data->point_fields) add_columns(*field, data->columns);
-    data->point_components = data->columns.size();
-    for (const Field* field : data->cell_fields) add_columns(*field, data->columns);
+    for (const Field* field : data->point_fields) data->fields.push_back({field->name, field->components});
+    data->point_components = column_names(data->fields).size();
+    for (const Field* field : data->cell_fields) data->fields.push_back({field->name, field->components});
+    data->columns = column_names(data->fields);
     if (data->point_components != 0) data->quadratic ? arrange_by_node(*data) : arrange_by_place(*data);
     return Sampler(std::move(data));
+}
+
+Result<Sampler> Sampler::build(const Mesh& mesh, const std::vector<std::string>& fields, const BuildOptions& options) {
+    Result<std::vector<FieldChoice>> chosen = sample::fields_named(mesh, fields);
+    if (!chosen) return chosen.error();
+    Result<Locator> locator = Locator::build(mesh, options);
+    if (!locator) return locator.error();
+    auto own = std::make_unique<const Locator>(std::move(*locator));
+    Result<Sampler> sampler = build(*own, std::move(*chosen));
+    if (sampler) sampler->data_->own_locator = std::move(own);
+    return sampler;
+}
+
+const Locator& Sampler::locator() const {
+    return *data_->locator;
+}
+
+const std::vector<TableField>& Sampler::fields() const {
+    return data_->fields;
 }
 
 const std::vector<std::string>& Sampler::columns() const {
     return data_->columns;
 }
 
-Status Sampler::sample(std::span<const double> points, const SampleOptions& options, Samples& out, SampleCounts& counts,
+Result<Table> Sampler::sample(std::span<const double> points, const SampleOptions& options) const {
+    Table rows;
+    if (Status done = sample(points, options, rows); !done) return done.error();
+    return rows;
+}
+
+Status Sampler::sample(std::span<const double> points, const SampleOptions& options, Table& out,
                        std::size_t first_point) const {
     const ExactEnvironment environment;
+    out.counts = {};
     if (Status status = check_call(*data_, points, first_point); !status) return status;
     resize(*data_, options, points.size() / data_->index().dimension(), out);
+    out.point_begin.clear();
     LocationCounts locations;
     Status status = Done{};
-    SampleCounts all;
     detail::in_arena(options.threads, [&] {
         const std::size_t count = out.cells.size(), block = detail::block_of(count);
         Outcome outcome((count + block - 1) / block);
@@ -231,20 +247,21 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
         };
         detail::for_chunks(data_->located(), points, locations, make, keep);
         status = outcome.status(first_point);
-        outcome.add_to(all);
+        outcome.add_to(out.counts);
     });
-    if (!status) return status;
-    all.locations = locations;
-    counts.add(all);
-    return Done{};
+    out.counts.locations = locations;
+    if (!status) out.counts = {};
+    return status;
 }
 
-Status Sampler::evaluate(std::span<const double> points, std::span<const Mesh::Index> cells,
-                         std::span<const Feature> features, const SampleOptions& options, Samples& out,
-                         SampleCounts& counts, std::size_t first_point) const {
+Status Sampler::evaluate(std::span<const double> points, const SampleOptions& options, Table& out,
+                         std::size_t first_point) const {
     const ExactEnvironment environment;
+    out.counts = {};
     if (Status status = check_call(*data_, points, first_point); !status) return status;
     const std::size_t d = data_->index().dimension(), count = points.size() / d;
+    const std::span<const Mesh::Index> cells = out.cells;
+    const std::span<const Feature> features = out.features;
     if (cells.size() != count || features.size() != count)
         return Error{.what = "size of the locations",
                      .expected = "one cell and one feature for each of " + std::to_string(count) + " points",
@@ -278,10 +295,8 @@ Status Sampler::evaluate(std::span<const double> points, std::span<const Mesh::I
         });
     });
     if (Status status = outcome.status(first_point); !status) return status;
-    SampleCounts all;
-    outcome.add_to(all);
-    for (const Feature feature : features) all.locations.add(feature);
-    counts.add(all);
+    outcome.add_to(out.counts);
+    for (const Feature feature : features) out.counts.locations.add(feature);
     return Done{};
 }
 

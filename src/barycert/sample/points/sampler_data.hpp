@@ -1,6 +1,7 @@
 /// Internal: all that a Sampler keeps.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,10 @@
 namespace barycert::detail {
 
 struct SamplerData {
+    std::unique_ptr<const Locator> own_locator;  ///< unless it is somebody else's
     const Locator* locator = nullptr;
     std::vector<const Field*> point_fields, cell_fields;  ///< columns are those of the former, then of the latter
+    std::vector<TableField> fields;
     std::vector<std::string> columns;
     std::size_t point_components = 0;
     bool quadratic = false;
@@ -23,7 +26,7 @@ struct SamplerData {
     // Quadratic ones: component c of node i of the mesh at values[point_components * i + c].
     std::vector<double> values;
 
-    Pool<Samples> rows;  ///< room for blocks of them, in the order in which they are found
+    Pool<Table> rows;  ///< room for blocks of them, in the order in which they are found
 
     const LocatorData& located() const { return locator->data(); }
     const CellIndex& index() const { return locator->data().index; }

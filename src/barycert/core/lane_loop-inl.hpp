@@ -1,0 +1,83 @@
+// Internal: loops over cases on SIMD lanes, which list the cases that are left undecided.
+//
+// Included once per SIMD target.
+#if defined(BARYCERT_CORE_LANE_LOOP_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef BARYCERT_CORE_LANE_LOOP_INL_HPP
+#undef BARYCERT_CORE_LANE_LOOP_INL_HPP
+#else
+#define BARYCERT_CORE_LANE_LOOP_INL_HPP
+#endif
+
+#include "barycert/core/simd_targets.hpp"
+// After the targets.
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+// A step must be inlined into its loop: as a function it would load every pointer and constant anew for each vector.
+#undef BARYCERT_LANE_LAMBDA
+#define BARYCERT_LANE_LAMBDA HWY_ATTR __attribute__((always_inline))
+
+HWY_BEFORE_NAMESPACE();
+namespace barycert::core {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Numbers of undecided cases, ascending.
+struct UndecidedList {
+    std::uint32_t* numbers;  ///< room for all cases
+    std::size_t count = 0;
+
+    /// Adds those of cases at ... at + used - 1, one a lane, that are not decided.
+    template <class D>
+    HWY_INLINE void add(D tag, hn::Mask<D> decided, std::size_t at, std::size_t used) {
+        static_assert(hn::MaxLanes(D()) <= 8);
+        if (HWY_LIKELY(hn::AllTrue(tag, decided))) return;
+        std::uint8_t bits[8] = {};
+        hn::StoreMaskBits(tag, decided, bits);
+        for (std::size_t i = 0; i < used; ++i) {
+            numbers[count] = static_cast<std::uint32_t>(at + i);
+            count += (bits[0] >> i & 1) == 0 ? 1 : 0;
+        }
+    }
+};
+
+/// Runs step(tag, at), which returns the mask of decided lanes, over all cases: whole vectors, then one by one. Lists
+/// the undecided cases and returns how many they are.
+template <class Step>
+HWY_INLINE std::size_t for_lanes(std::size_t count, std::uint32_t* undecided, Step step) {
+    UndecidedList list{undecided};
+    std::size_t at = 0;
+    const auto run = [&](auto tag) BARYCERT_LANE_LAMBDA {
+        constexpr std::size_t width = hn::MaxLanes(decltype(tag)());
+        for (; at + width <= count; at += width) list.add(tag, step(tag, at), at, width);
+    };
+    run(hn::ScalableTag<double>());
+    run(hn::CappedTag<double, 1>());
+    return list.count;
+}
+
+/// The same without a tail. Precondition: what a step reads and writes has room for a multiple of 8 cases, or count is
+/// 1.
+template <class Step>
+HWY_INLINE std::size_t for_padded_lanes(std::size_t count, std::uint32_t* undecided, Step step) {
+    UndecidedList list{undecided};
+    const auto run = [&](auto tag) BARYCERT_LANE_LAMBDA {
+        constexpr std::size_t width = hn::MaxLanes(decltype(tag)());
+        for (std::size_t at = 0; at < count; at += width) list.add(tag, step(tag, at), at, std::min(width, count - at));
+    };
+    if (count == 1) {
+        run(hn::CappedTag<double, 1>());
+    } else {
+        run(hn::ScalableTag<double>());
+    }
+    return list.count;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace barycert::core
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,19 @@
+/// Fields from files of their own: a row of numbers for each node or cell.
+#pragma once
+
+#include <string>
+
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+
+namespace barycert::io {
+
+/// One field of any number of rows, all of as many components.
+///
+/// Text: a row a line, numbers between blanks, tabs, commas or semicolons, rounded to nearest; nan and inf are taken as
+/// they are. Blank lines, and what follows a #, are passed over. NPY (by the suffix): an array of shape (rows,) or
+/// (rows, components) of floats or integers, of either byte order and either order of axes. Errors: it cannot be read;
+/// a word that is no number; rows of different lengths; an integer that is no double; another array.
+Result<Field> read_field_file(const std::string& name, const std::string& path);
+
+}  // namespace barycert::io

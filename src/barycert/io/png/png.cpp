@@ -1,0 +1,146 @@
+#include "barycert/picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "barycert/base/strict_math.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/io/png/colour_bar.hpp"
+#include "barycert/io/png/colour_map.hpp"
+#include "barycert/io/png/png_rows.hpp"
+
+namespace barycert {
+namespace {
+
+using namespace io;
+
+Error refusal(const std::string& path, const char* what, std::string expected, std::string found, const char* remedy) {
+    return {.what = what,
+            .file = path,
+            .line = 0,
+            .expected = std::move(expected),
+            .found = std::move(found),
+            .remedy = remedy};
+}
+
+std::string by(std::size_t width, std::size_t height) {
+    return std::to_string(width) + " by " + std::to_string(height);
+}
+
+Status check(const std::string& path, const Slice& s) {
+    const std::string most = std::to_string(longest_png_side);
+    if (s.width < 1 || s.height < 1 || s.width > longest_png_side || s.height > longest_png_side) {
+        return refusal(path, "a slice of that size cannot be a picture", "1 to " + most + " values a side",
+                       by(s.width, s.height), "choose fewer points, or at least one, on each axis");
+    }
+    if (s.values.size() != s.width * s.height || (!s.valid.empty() && s.valid.size() != s.values.size())) {
+        return refusal(path, "the arrays of the slice do not fit together", by(s.width, s.height) + " values",
+                       std::to_string(s.values.size()) + " values and " + std::to_string(s.valid.size()) +
+                           " marks of which are valid",
+                       "give one value, and one mark or none, for each point");
+    }
+    if (!(s.aspect > 0) || !std::isfinite(s.aspect)) {
+        return refusal(path, "the aspect of a slice is none", "a positive number", shortest(s.aspect),
+                       "divide the spacing along a line by the spacing of lines");
+    }
+    if (s.range &&
+        (!std::isfinite(s.range->first) || !std::isfinite(s.range->second) || s.range->first > s.range->second)) {
+        return refusal(path, "the range of colours is none", "two finite numbers, the lower one first",
+                       shortest(s.range->first) + " and " + shortest(s.range->second), "choose another range");
+    }
+    return Done{};
+}
+
+/// From values to colours.
+struct Scale {
+    double low = 0, high = 0;
+
+    int operator()(double x) const {
+        if (low == high) return x < low ? 0 : x > low ? colour_count - 1 : colour_count / 2;
+        if (x <= low) return 0;
+        if (x >= high) return colour_count - 1;
+        double part = x - low, whole = high - low;
+        if (!std::isfinite(whole)) {  // too large a difference: of halves there is one
+            part = 0.5 * x - 0.5 * low;
+            whole = 0.5 * high - 0.5 * low;
+        }
+        return std::min(colour_count - 1, static_cast<int>(colour_count * (part / whole)));
+    }
+};
+
+bool has_colour(const Slice& s, std::size_t i) {
+    return (s.valid.empty() || s.valid[i] != 0) && std::isfinite(s.values[i]);
+}
+
+SliceCounts count(const Slice& s) {
+    SliceCounts c;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t i = 0; i < s.values.size(); ++i) {
+        if (!has_colour(s, i)) {
+            ++(s.valid.empty() || s.valid[i] != 0 ? c.not_finite : c.outside);
+            continue;
+        }
+        ++c.drawn;
+        low = std::min(low, s.values[i]);
+        high = std::max(high, s.values[i]);
+        if (s.range && s.values[i] < s.range->first) ++c.below;
+        if (s.range && s.values[i] > s.range->second) ++c.above;
+    }
+    c.low = s.range ? s.range->first : c.drawn != 0 ? low : std::numeric_limits<double>::quiet_NaN();
+    c.high = s.range ? s.range->second : c.drawn != 0 ? high : std::numeric_limits<double>::quiet_NaN();
+    // A zero may come with either sign, and first come is what std::min keeps: the bar says 0.
+    if (c.low == 0) c.low = 0;
+    if (c.high == 0) c.high = 0;
+    return c;
+}
+
+}  // namespace
+
+Status write_png(const std::string& path, const Slice& s, SliceCounts* counts) {
+    const ExactEnvironment environment;
+    if (Status good = check(path, s); !good) return good;
+    const double wide = s.aspect > 1 ? std::round(static_cast<double>(s.width) * s.aspect) : 0;
+    const double tall = s.aspect < 1 ? std::round(static_cast<double>(s.height) / s.aspect) : 0;
+    const auto limit = static_cast<double>(longest_png_side);
+    if (wide > limit || tall > limit) {
+        return refusal(path, "a slice of that aspect cannot be a picture",
+                       "at most " + std::to_string(longest_png_side) + " pixels a side", shortest(std::max(wide, tall)),
+                       "choose spacings that differ less");
+    }
+    const std::size_t columns = wide != 0 ? static_cast<std::size_t>(wide) : s.width;
+    const std::size_t lines = tall != 0 ? static_cast<std::size_t>(tall) : s.height;
+
+    const SliceCounts told = count(s);
+    const Scale scale{told.low, told.high};
+    const bool with_bar = s.bar && !std::isnan(told.low);
+    const std::size_t height = with_bar ? std::max(lines, least_bar_height) : lines;
+    const ColourBar bar(told.low, told.high, std::max(height, least_bar_height));
+    const std::size_t width = columns + (with_bar ? bar.width() : 0);
+    if (width > longest_png_side) {
+        return refusal(path, "there is no room for the colour bar",
+                       "at most " + std::to_string(longest_png_side) + " pixels a side", std::to_string(width),
+                       "leave out the bar, or choose fewer points");
+    }
+    const auto row = [&](std::size_t r, std::uint8_t* pixels) {
+        for (std::size_t i = 0; i < 4 * columns; ++i) pixels[i] = 0;
+        if (r < lines) {
+            const std::size_t upwards = lines - 1 - r;
+            const std::size_t first = (2 * upwards + 1) * s.height / (2 * lines) * s.width;
+            for (std::size_t x = 0; x < columns; ++x) {
+                const std::size_t i = first + (2 * x + 1) * s.width / (2 * columns);
+                if (!has_colour(s, i)) continue;
+                const Colour c = colour(scale(s.values[i]));
+                for (std::size_t k = 0; k < 3; ++k) pixels[4 * x + k] = c[k];
+                pixels[4 * x + 3] = 255;
+            }
+        }
+        if (with_bar) bar.row(r, pixels + 4 * columns);
+    };
+    if (Status written = write_png_rows(path, width, height, row); !written) return written;
+    if (counts != nullptr) *counts = told;
+    return Done{};
+}
+
+}  // namespace barycert

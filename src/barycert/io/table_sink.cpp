@@ -1,0 +1,67 @@
+#include <algorithm>
+
+#include "barycert/environment.hpp"
+#include "barycert/io.hpp"
+#include "barycert/io/formats.hpp"
+#include "barycert/io/vtk_files.hpp"
+
+namespace barycert {
+namespace io {
+
+Status check_rows(const TableView& rows, const TableFormat& format, const std::string& path) {
+    const std::size_t count = rows.cells.size();
+    const std::size_t columns = format.columns().size();
+    const bool good = rows.dimension == format.dimension &&
+                      rows.points.size() == count * static_cast<std::size_t>(format.dimension) &&
+                      rows.features.size() == count && rows.values.size() == count * columns &&
+                      rows.distances.size() == (format.distances ? count : 0);
+    const auto degenerate = std::find(rows.features.begin(), rows.features.end(), Feature::degenerate);
+    if (good && degenerate != rows.features.end()) {
+        return Error{
+            .what = "a row that lies in a degenerate cell",
+            .file = path,
+            .expected = "interior, face, edge, vertex or outside",
+            .found = "degenerate, in row " + std::to_string(degenerate - rows.features.begin()) + " of a block",
+            .remedy = "degenerate cells hold no points: call it outside"};
+    }
+    if (good) return Done{};
+    return Error{.what = "a block of rows whose parts do not fit together",
+                 .file = path,
+                 .expected = "for each cell " + std::to_string(format.dimension) + " coordinates, a feature, " +
+                             std::to_string(columns) + " values" +
+                             (format.distances ? ", a distance" : ""),
+                 .found = std::to_string(count) + " cells, " + std::to_string(rows.points.size()) + " coordinates, " +
+                          std::to_string(rows.features.size()) + " features, " + std::to_string(rows.values.size()) +
+                          " values, " + std::to_string(rows.distances.size()) + " distances",
+                 .remedy = "hand over whole rows of the sink's format"};
+}
+
+}  // namespace io
+
+TableSink::~TableSink() = default;
+
+Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const TableFormat& format) {
+    const ExactEnvironment environment;
+    if (format.dimension != 2 && format.dimension != 3) {
+        return Error{.what = "rows of an impossible dimension",
+                     .file = path,
+                     .expected = "2 or 3",
+                     .found = std::to_string(format.dimension),
+                     .remedy = {}};
+    }
+    const Result<io::FileFormat> kind = io::format_of(path);
+    if (kind && *kind == io::FileFormat::csv) return io::open_csv_sink(path, format);
+    if (kind && *kind == io::FileFormat::npy) return io::open_npy_sink(path, format);
+    if (kind && *kind == io::FileFormat::vtu) {
+        const io::VtkFiles* const vtk = io::vtk_files();
+        if (vtk == nullptr) return io::vtk_missing(path);
+        return vtk->open_table(path, format);
+    }
+    return Error{.what = "cannot write rows in the format of that suffix",
+                 .file = path,
+                 .expected = ".csv, .npy or .vtu, or - for CSV on the standard output",
+                 .found = kind ? "a format for points alone" : kind.error().found,
+                 .remedy = "name a .csv, .npy or .vtu file"};
+}
+
+}  // namespace barycert

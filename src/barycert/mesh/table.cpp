@@ -1,0 +1,64 @@
+#include "barycert/table.hpp"
+
+#include <algorithm>
+
+namespace barycert {
+
+void LocationCounts::add(Feature f, std::uint64_t count) {
+    switch (f) {
+        case Feature::interior:
+            interior += count;
+            break;
+        case Feature::face:
+            face += count;
+            break;
+        case Feature::edge:
+            edge += count;
+            break;
+        case Feature::vertex:
+            vertex += count;
+            break;
+        default:
+            outside += count;
+            break;
+    }
+}
+
+void LocationCounts::add(const LocationCounts& other) {
+    interior += other.interior;
+    face += other.face;
+    edge += other.edge;
+    vertex += other.vertex;
+    outside += other.outside;
+    tests.add(other.tests);
+}
+
+void SampleCounts::add(const SampleCounts& other) {
+    locations.add(other.locations);
+    values.add(other.values);
+    snapped += other.snapped;
+    extrapolated += other.extrapolated;
+    without_value += other.without_value;
+    farthest = std::max(farthest, other.farthest);
+}
+
+std::vector<std::string> column_names(const std::vector<TableField>& fields) {
+    std::vector<std::string> names;
+    for (const TableField& field : fields) {
+        for (int c = 0; c < field.components; ++c)
+            names.push_back(field.components == 1 ? field.name : field.name + "." + std::to_string(c));
+    }
+    return names;
+}
+
+void append_rows(const TableView& rows, std::vector<Field>& fields) {
+    const double* at = rows.values.data();
+    for (std::size_t i = 0; i < rows.row_count(); ++i) {
+        for (Field& field : fields) {
+            field.data.insert(field.data.end(), at, at + field.components);
+            at += field.components;
+        }
+    }
+}
+
+}  // namespace barycert

@@ -1,0 +1,128 @@
+/// Whole jobs, files to files: what the command line and the bindings call.
+///
+/// A job names its files and options; one call reads the mesh and its fields, checks the mesh where that pays, streams
+/// points through a Sampler and writes rows, grids, pictures or meshes. Memory is that of the mesh and some blocks of
+/// points. Output files appear whole or not at all; rows on stdout cannot be taken back.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "barycert/check.hpp"
+#include "barycert/grid.hpp"
+#include "barycert/picture.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
+
+namespace barycert {
+
+/// A field from a file of its own: a row of numbers for each node, or for each cell.
+struct FieldFile {
+    enum class Of : std::uint8_t { either, points, cells };
+    Of of = Of::either;
+    std::string name, path;
+};
+
+/// Whether the mesh is checked first, so that points can be found by walks: `automatic` where points are many enough to
+/// repay it.
+enum class Certify : std::uint8_t { automatic, always, never };
+
+/// What a job is doing.
+struct JobProgress {
+    std::string_view stage;  ///< such as "reading part.1" or "points"
+    std::uint64_t done = 0;  ///< how many; 0: not counted
+};
+
+/// What both jobs have.
+struct SamplingJob {
+    std::string mesh;  ///< as for read_mesh
+    std::vector<FieldFile> field_files = {};
+    std::vector<std::string> fields = {};  ///< names, see Sampler::build; empty: all
+    std::string output;                    ///< the format goes by the suffix; "-" is CSV on stdout
+    SampleOptions options = {};
+    Certify certify = Certify::automatic;
+
+    /// Where the caller will write a report: the job makes sure that this is no other file of the job, and can be
+    /// written. Empty: nowhere.
+    std::string report;
+    std::string program = "barycert";  ///< how the user calls the program, for commands in messages
+    std::function<void(const JobProgress&)> progress = {};
+};
+
+/// Fields at points: rows to CSV, NPY or VTU files.
+struct SampleJob : SamplingJob {
+    std::string points;         ///< as for open_points; or
+    std::string map;            ///< a map (map.hpp) in place of points
+    std::string save_map;       ///< where to write one; empty: nowhere
+    std::optional<bool> all{};  ///< a row for each cell that holds a point; not set: no, or as the map has it
+};
+
+/// Fields on a regular grid, or at the nodes of another mesh: exactly one of counts, spacing and onto is set.
+struct ResampleJob : SamplingJob {
+    std::vector<std::int64_t> counts = {};  ///< points along each axis
+    std::vector<double> spacing = {};       ///< of points: one for all axes, or one each
+    std::vector<double> bounds = {};        ///< low and high, axis after axis; empty: the box of the cells
+    std::string onto;                       ///< a mesh
+    std::optional<std::array<double, 2>> range{};  ///< of the colours of a picture
+};
+
+/// How the owners of points were found.
+enum class FoundBy : std::uint8_t { walk, candidates, map, grid };
+
+constexpr std::string_view name(FoundBy f) {
+    return f == FoundBy::walk ? "walk" : f == FoundBy::candidates ? "candidates" : f == FoundBy::map ? "map" : "grid";
+}
+
+/// Where points came from.
+enum class PointsFrom : std::uint8_t { points, map, mesh, grid };
+
+constexpr std::string_view name(PointsFrom f) {
+    return f == PointsFrom::points ? "points" : f == PointsFrom::map ? "map" : f == PointsFrom::mesh ? "mesh" : "grid";
+}
+
+/// Wall times of the stages.
+struct SampleSeconds {
+    double mesh = 0;     ///< reading the mesh and the files of fields
+    double certify = 0;  ///< the check of the mesh
+    double build = 0;    ///< of the locator and the sampler
+    double read = 0;     ///< of points
+    double sample = 0;   ///< owners, features and values
+    double write = 0;
+    double total = 0;
+};
+
+/// What a job did: what its reports are made of.
+struct SampleSummary {
+    std::string command;  ///< "sample" or "resample"
+    std::string mesh, output;
+    PointsFrom from = PointsFrom::points;
+    std::string points;        ///< the file they came from; empty for a grid
+    std::optional<Grid> grid;  ///< of ResampleJob::counts and spacing
+    std::optional<SliceCounts> picture;
+    int dimension = 3;
+    std::uint64_t nodes = 0, cells = 0, degenerate_cells = 0;
+    std::vector<std::string> columns;  ///< of values
+    Rounding rounding = Rounding::correct;
+    bool all = false;  ///< a row for each cell that holds a point
+    OutsidePolicy outside;
+    SampleCounts counts;  ///< locations: one a point
+    std::uint64_t rows = 0;
+    std::uint64_t nan_values = 0;  ///< of points inside: from values of nodes or cells that are not finite
+    FoundBy method = FoundBy::walk;
+    std::string reason;  ///< why that method: a clause
+    check::Verdict verdict = check::Verdict::not_checked;
+    SampleSeconds seconds;
+    int threads = 1;
+};
+
+/// Returns an Error, and writes nothing, if the job contradicts itself, an input cannot be read, an output is an input or
+/// cannot be written, or the policy for points outside is `error` and a point is outside.
+Result<SampleSummary> sample_files(const SampleJob& job);
+Result<SampleSummary> resample_files(const ResampleJob& job);
+
+}  // namespace barycert

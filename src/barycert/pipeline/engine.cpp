@@ -1,0 +1,141 @@
+#include "barycert/pipeline/engine.hpp"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <array>
+#include <functional>
+#include <utility>
+
+#include "barycert/io.hpp"
+#include "barycert/pipeline/field_files.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/sample/points/field_choice.hpp"
+
+namespace barycert::pipeline {
+namespace {
+
+/// From so many points a cell on the mesh is checked. On 203,693 cells and one thread the check cost 1.3 to 1.6 us a
+/// cell, and a walk saved 1.0 to 1.3 us a point inside: so many points repay it.
+constexpr double points_a_cell = 1.25;
+
+bool is_degenerate(const Mesh& mesh, std::size_t cell) {
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    std::array<const double*, 4> at{};
+    for (std::size_t i = 0; i <= d; ++i)
+        at[i] = mesh.points.data() + d * static_cast<std::size_t>(mesh.cells[(d + 1) * cell + i]);
+    const Sign sign = d == 2 ? orient2d(at[0], at[1], at[2]) : orient3d(at[0], at[1], at[2], at[3]);
+    return sign == Sign::zero;
+}
+
+std::uint64_t count_degenerate(const Mesh& mesh) {
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, mesh.cell_count(), 1 << 14), std::uint64_t{0},
+        [&](const tbb::blocked_range<std::size_t>& range, std::uint64_t n) {
+            for (std::size_t c = range.begin(); c != range.end(); ++c) n += is_degenerate(mesh, c) ? 1 : 0;
+            return n;
+        },
+        std::plus<>());
+}
+
+bool gives_distances(const OutsidePolicy& policy) {
+    return policy.kind == Outside::nearest || policy.kind == Outside::extrapolate;
+}
+
+std::string counted(std::uint64_t n, const char* what, bool at_least = false) {
+    return fmt::format("{}{} {}{}", at_least ? "at least " : "", n, what, n == 1 ? "" : "s");
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Engine>> Engine::open(Run& run) {
+    Stopwatch watch;
+    run.stage("reading " + run.job.mesh);
+    const int threads = run.job.options.threads;
+    Result<Mesh> mesh = read_mesh(run.job.mesh, {.faces = false, .neighbours = false, .threads = threads});
+    if (!mesh) return mesh.error();
+    std::unique_ptr<Engine> engine(new Engine(run));
+    engine->mesh_ = std::move(*mesh);
+    if (Status added = add_fields(run.job.field_files, engine->mesh_); !added) return added.error();
+    Result<std::vector<FieldChoice>> fields = sample::fields_named(engine->mesh_, run.job.fields);
+    if (!fields) return fields.error();
+    engine->fields_ = std::move(*fields);
+    SampleSummary& summary = run.summary;
+    summary.dimension = engine->mesh_.dimension;
+    summary.nodes = engine->mesh_.point_count();
+    summary.cells = engine->mesh_.cell_count();
+    summary.seconds.mesh = watch.lap();
+    return engine;
+}
+
+TableFormat Engine::format() const {
+    return {mesh_.dimension, sampler_->fields(), gives_distances(run_.job.options.outside)};
+}
+
+void Engine::check_mesh() {
+    Stopwatch watch;
+    check::Options options;
+    options.threads = run_.job.options.threads;
+    options.examples = 0;
+    options.contacts = 0;
+    options.verdict_only = true;
+    options.progress = [&](const char* stage) { run_.stage(fmt::format("checking the mesh: {}", stage)); };
+    const check::Report report = check::run(mesh_, options);
+    certificate_ = report.certificate;
+    run_.summary.verdict = certificate_.verdict();
+    run_.summary.seconds.certify += watch.lap();
+}
+
+Status Engine::build(const check::Certificate& certificate) {
+    Stopwatch watch;
+    run_.stage("building the locator");
+    sampler_.reset();
+    locator_.reset();
+    Result<Locator> locator = Locator::build(mesh_, certificate);
+    if (!locator) return locator.error();
+    locator_.emplace(std::move(*locator));
+    Result<Sampler> sampler = Sampler::build(*locator_, fields_);
+    if (!sampler) return sampler.error();
+    sampler_.emplace(std::move(*sampler));
+    SampleSummary& summary = run_.summary;
+    summary.columns = sampler_->columns();
+    const bool certified = certificate_.verdict() == check::Verdict::certified;
+    summary.degenerate_cells = certified ? 0 : count_degenerate(mesh_);
+    summary.seconds.build += watch.lap();
+    return Done{};
+}
+
+Status Engine::prepare_for(std::uint64_t points, bool at_least) {
+    const Certify certify = run_.job.certify;
+    const bool checked = certificate_.verdict() != check::Verdict::not_checked;
+    const std::size_t cells = mesh_.cell_count();
+    const bool pays = static_cast<double>(points) >= points_a_cell * static_cast<double>(cells);
+    if (locator_ && (checked || certify != Certify::automatic || !pays)) return Done{};
+    const std::string sizes = counted(points, "point", at_least) + " for " + counted(cells, "cell");
+    SampleSummary& summary = run_.summary;
+    if (certify == Certify::never || (certify == Certify::automatic && !pays)) {
+        summary.method = FoundBy::candidates;
+        summary.reason = certify == Certify::never ? "check skipped: --certify never"
+                                                   : "check skipped: too few points (" + sizes + ")";
+        return build({});
+    }
+    check_mesh();
+    if (Status built = build(certificate_); !built) return built;
+    const bool walks = locator_->method() == Method::walk;
+    const std::string why = certify == Certify::always ? "--certify always" : sizes;
+    summary.method = walks ? FoundBy::walk : FoundBy::candidates;
+    summary.reason =
+        walks ? fmt::format("the mesh is certified (checked: {})", why)
+              : fmt::format("the mesh is not certified (checked: {}); `{} check` tells why", why, run_.job.program);
+    return Done{};
+}
+
+Status Engine::prepare_without_search(FoundBy method, const std::string& reason) {
+    run_.summary.method = method;
+    run_.summary.reason = reason;
+    if (run_.job.certify == Certify::always) check_mesh();
+    return build(certificate_);
+}
+
+}  // namespace barycert::pipeline

@@ -1,0 +1,52 @@
+#include "barycert/pipeline/job_files.hpp"
+
+#include <unistd.h>
+
+#include <utility>
+
+#include "barycert/base/text.hpp"
+#include "barycert/io/formats.hpp"
+#include "barycert/io/vtk_files.hpp"
+
+namespace barycert::pipeline {
+
+Status check_files(const SamplingJob& job, const std::vector<NamedFile>& more_inputs, std::vector<NamedFile> outputs) {
+    std::vector<NamedFile> to_read = more_inputs;
+    // The reader of meshes has hints at what may be meant.
+    std::erase_if(to_read, [](const NamedFile& f) { return f.what.starts_with("the mesh"); });
+    std::vector<NamedFile> inputs = named_files("the mesh", mesh_files(job.mesh));
+    for (const FieldFile& f : job.field_files) {
+        inputs.push_back({"field " + f.name, f.path});
+        to_read.push_back(inputs.back());
+    }
+    inputs.insert(inputs.end(), more_inputs.begin(), more_inputs.end());
+    outputs.push_back({"--json", job.report});
+    if (Status readable = check_inputs(to_read); !readable) return readable;
+    return check_outputs(inputs, std::move(outputs));
+}
+
+Error unknown_output(const std::string& path, const std::string& expected) {
+    const std::size_t dot = path.find_last_of("./");
+    const bool suffix = dot != std::string::npos && path[dot] == '.';
+    return {.what = "--output in a format that is not known by its suffix",
+            .file = path,
+            .expected = expected,
+            .found = suffix ? '"' + path.substr(dot) + '"' : "no suffix",
+            .remedy = "choose another name"};
+}
+
+Status check_rows_format(const std::string& path) {
+    if (path == "-" || io::has_suffix(path, ".csv") || io::has_suffix(path, ".npy")) return Done{};
+    if (!io::has_suffix(path, ".vtu")) return unknown_output(path, ".csv, .npy or .vtu, or - for CSV on stdout");
+    if (io::vtk_files() == nullptr) return io::vtk_missing(path);
+    return Done{};
+}
+
+Result<std::unique_ptr<TableSink>> open_rows(const SamplingJob& job, const TableFormat& format) {
+    if (job.output != "-" || isatty(STDOUT_FILENO) != 1) return open_table(job.output, format);
+    TableFormat shown = format;
+    for (TableField& field : shown.fields) field.name = printable(field.name);
+    return open_table(job.output, shown);
+}
+
+}  // namespace barycert::pipeline

@@ -1,0 +1,28 @@
+/// The files of a job: what can be known of them before the work.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "barycert/base/named_file.hpp"
+#include "barycert/io.hpp"
+#include "barycert/pipeline.hpp"
+#include "barycert/result.hpp"
+
+namespace barycert::pipeline {
+
+/// What can be known of files before the work: of a job with those outputs and, besides the common ones, those inputs.
+/// Errors: an output is an input or another output, or cannot be written; an input cannot be read.
+Status check_files(const SamplingJob& job, const std::vector<NamedFile>& more_inputs, std::vector<NamedFile> outputs);
+
+/// That the suffix of the output is none of those `expected`.
+Error unknown_output(const std::string& path, const std::string& expected);
+
+/// Refuses what open_rows would refuse by its suffix alone.
+Status check_rows_format(const std::string& path);
+
+/// The output of the job as rows; names in a header that a terminal shows are without control characters.
+Result<std::unique_ptr<TableSink>> open_rows(const SamplingJob& job, const TableFormat& format);
+
+}  // namespace barycert::pipeline

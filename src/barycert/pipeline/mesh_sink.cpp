@@ -1,0 +1,99 @@
+#include "barycert/pipeline/mesh_sink.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "barycert/io/formats.hpp"
+#include "barycert/io/vtk_files.hpp"
+#include "barycert/pipeline/job_files.hpp"
+
+namespace barycert::pipeline {
+namespace {
+
+/// The other mesh with what was sampled at its nodes, written when all is there.
+class MeshSink final : public TableSink {
+public:
+    MeshSink(Mesh mesh, std::string path, const std::vector<TableField>& fields)
+        : mesh_(std::move(mesh)), path_(std::move(path)) {
+        mesh_.point_fields.clear();
+        for (const TableField& f : fields) mesh_.point_fields.push_back({f.name, f.components, {}});
+        mask_ = {"vtkValidPointMask", 1, {}};
+        cell_ = {"cell", 1, {}};
+        distance_ = {"distance", 1, {}};
+    }
+
+    Status write(const TableView& rows) override {
+        append_rows(rows, mesh_.point_fields);
+        for (const Mesh::Index cell : rows.cells) {
+            mask_.data.push_back(cell >= 0 ? 1 : 0);
+            cell_.data.push_back(cell);
+        }
+        distance_.data.insert(distance_.data.end(), rows.distances.begin(), rows.distances.end());
+        return Done{};
+    }
+
+    Status commit() override { return io::is_vtk_file(path_) ? write_vtk_file() : write_tetgen_files(); }
+
+private:
+    Status write_vtk_file() {
+        if (!distance_.data.empty()) mesh_.point_fields.push_back(std::move(distance_));
+        mesh_.point_fields.push_back(std::move(mask_));
+        mesh_.point_fields.push_back(std::move(cell_));
+        const io::VtkFiles* const vtk = io::vtk_files();
+        return vtk == nullptr ? Status(io::vtk_missing(path_)) : vtk->write_mesh(mesh_, path_);
+    }
+
+    Status write_tetgen_files() {
+        for (const Field& f : mesh_.point_fields) {
+            const auto it = std::find_if(f.data.begin(), f.data.end(), [](double x) { return !std::isfinite(x); });
+            if (it == f.data.end()) continue;
+            const auto node = static_cast<std::size_t>(it - f.data.begin()) / static_cast<std::size_t>(f.components);
+            return Error{
+                .what = fmt::format("field \"{}\" is not finite at node {}, counted from 0", f.name, node),
+                .file = path_,
+                .expected = "finite attributes: a .node file holds no others",
+                .remedy = "choose --outside nearest, extrapolate or fill=V for nodes outside, or another format"};
+        }
+        return write_tetgen(mesh_, tetgen_stem(path_));
+    }
+
+    Mesh mesh_;
+    std::string path_;
+    Field mask_, cell_, distance_;
+};
+
+}  // namespace
+
+bool is_rows_output(const std::string& path) {
+    return path == "-" || io::has_suffix(path, ".csv") || io::has_suffix(path, ".npy");
+}
+
+std::vector<std::string> files_of_mesh_output(const ResampleJob& job) {
+    if (is_rows_output(job.output) || io::is_vtk_file(job.output)) return {job.output};
+    const std::string stem = tetgen_stem(job.output);
+    return {stem + ".node", stem + ".ele"};
+}
+
+Status check_mesh_output(const ResampleJob& job) {
+    if (job.range) return Error{.what = "--range beside --onto", .remedy = "it is for pictures: leave it out"};
+    if (is_rows_output(job.output)) return Done{};
+    if (io::has_suffix(job.output, ".vtu") || io::has_suffix(job.output, ".vtk")) {
+        if (io::vtk_files() == nullptr) return io::vtk_missing(job.output);
+        return Done{};
+    }
+    const std::size_t dot = job.output.find_last_of("./");
+    const std::string suffix = dot == std::string::npos || job.output[dot] == '/' ? "" : job.output.substr(dot);
+    // part.1 is a stem: only what others use as a suffix is refused.
+    const bool digits = suffix.find_first_not_of("0123456789", 1) == std::string::npos;
+    if (digits || suffix == ".node" || suffix == ".ele") return Done{};
+    return unknown_output(job.output, ".vtu, .vtk, .node, .csv or .npy, a stem of TetGen's files, or - for CSV on stdout");
+}
+
+std::unique_ptr<TableSink> mesh_sink(Mesh mesh, const std::string& path, const std::vector<TableField>& fields) {
+    return std::make_unique<MeshSink>(std::move(mesh), path, fields);
+}
+
+}  // namespace barycert::pipeline

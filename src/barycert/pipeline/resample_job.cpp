@@ -1,0 +1,156 @@
+// Fields on a regular grid, or at the nodes of another mesh.
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "barycert/grid.hpp"
+#include "barycert/io.hpp"
+#include "barycert/pipeline/engine.hpp"
+#include "barycert/pipeline/grid_sinks.hpp"
+#include "barycert/pipeline/job_files.hpp"
+#include "barycert/pipeline/mesh_sink.hpp"
+#include "barycert/pipeline/stream.hpp"
+
+namespace barycert {
+namespace {
+
+using pipeline::Engine;
+using pipeline::Run;
+using pipeline::Stopwatch;
+
+Error wrong_axes(const std::string& option, int dimension, const std::string& expected, std::size_t found) {
+    return {.what = option + " does not fit the mesh",
+            .expected = fmt::format("{} for a mesh of dimension {}", expected, dimension),
+            .found = std::to_string(found)};
+}
+
+Result<Grid> grid_of(const ResampleJob& a, const Mesh& mesh) {
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    Bounds3 box = bounds_of_cells(mesh);
+    if (!a.bounds.empty()) {
+        if (a.bounds.size() != 2 * d)
+            return wrong_axes("--bounds", mesh.dimension, fmt::format("{} numbers", 2 * d), a.bounds.size());
+        for (std::size_t k = 0; k < d; ++k) {
+            box.low[k] = a.bounds[2 * k];
+            box.high[k] = a.bounds[2 * k + 1];
+        }
+    }
+    if (!a.counts.empty()) {
+        const bool one_layer = d == 2 && a.counts.size() == 3 && a.counts[2] == 1;
+        if (a.counts.size() != d && !one_layer)
+            return wrong_axes("--grid", mesh.dimension, fmt::format("{} numbers of points", d), a.counts.size());
+        std::array<std::int64_t, 3> counts{1, 1, 1};
+        for (std::size_t k = 0; k < d; ++k) counts[k] = a.counts[k];
+        return grid_over(mesh.dimension, counts, box.low, box.high);
+    }
+    if (a.spacing.size() != 1 && a.spacing.size() != d)
+        return wrong_axes("--spacing", mesh.dimension, fmt::format("one number or {}", d), a.spacing.size());
+    std::array<double, 3> spacing{};
+    for (std::size_t k = 0; k < d; ++k) spacing[k] = a.spacing[a.spacing.size() == 1 ? 0 : k];
+    return grid_spaced(mesh.dimension, spacing, box.low, box.high);
+}
+
+std::vector<double> point_of(const Grid& grid, std::uint64_t i) {
+    const auto nx = static_cast<std::uint64_t>(grid.counts[0]), ny = static_cast<std::uint64_t>(grid.counts[1]);
+    const std::array<std::uint64_t, 3> at{i % nx, i / nx % ny, i / (nx * ny)};
+    std::vector<double> point;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k)
+        point.push_back(grid.coordinate(k, static_cast<std::int64_t>(at[k])));
+    return point;
+}
+
+Status check_job(const ResampleJob& job) {
+    const int targets = (job.counts.empty() ? 0 : 1) + (job.spacing.empty() ? 0 : 1) + (job.onto.empty() ? 0 : 1);
+    if (targets != 1)
+        return Error{.what = targets == 0 ? "no target" : "more than one target",
+                     .expected = "one of --grid, --spacing and --onto",
+                     .found = targets == 0 ? "none" : "several",
+                     .remedy = "`barycert resample --help` explains them"};
+    if (!job.bounds.empty() && !job.onto.empty())
+        return Error{.what = "--bounds beside --onto", .remedy = "bounds are for --grid and --spacing: leave them out"};
+    if (job.onto.empty()) {
+        if (Status known = pipeline::check_grid_output(job); !known) return known;
+        return pipeline::check_files(job, {}, {{"--output", job.output}});
+    }
+    if (Status known = pipeline::check_mesh_output(job); !known) return known;
+    return pipeline::check_files(job, named_files("the mesh of --onto", mesh_files(job.onto)),
+                                 named_files("--output", pipeline::files_of_mesh_output(job)));
+}
+
+Status onto_grid(Run& run, const ResampleJob& job, Engine& engine) {
+    const Result<Grid> grid = grid_of(job, engine.mesh());
+    if (!grid) return grid.error();
+    SampleSummary& summary = run.summary;
+    summary.from = PointsFrom::grid;
+    summary.grid = *grid;
+    if (Status ready = engine.prepare_without_search(FoundBy::grid, "each cell finds the points that it holds"); !ready)
+        return ready;
+    Stopwatch watch, within;
+    auto output = pipeline::open_grid_sink(job, engine.format(), *grid);
+    if (!output) return output.error();
+    double writing = 0;
+    const bool refuse = job.options.outside.kind == Outside::error;
+    const std::string what = fmt::format("points of {}", grid->point_count());
+    const auto sink = [&](const TableView& rows) -> Status {
+        const auto outside = refuse ? std::find(rows.cells.begin(), rows.cells.end(), -1) : rows.cells.end();
+        if (outside != rows.cells.end()) {
+            const std::uint64_t i =
+                rows.first_row + static_cast<std::uint64_t>(std::distance(rows.cells.begin(), outside));
+            return pipeline::outside_error("point " + std::to_string(i) + " of the grid", point_of(*grid, i), "");
+        }
+        summary.nan_values += pipeline::count_nan(rows);
+        within.lap();
+        Status written = output->sink->write(rows);
+        writing += within.lap();
+        run.count(what, rows.first_row + rows.row_count());
+        return written;
+    };
+    Result<SampleCounts> counts = resample(engine.sampler(), *grid, pipeline::without_refusal(job.options), sink);
+    if (!counts) return counts.error();
+    summary.counts = *counts;
+    summary.rows = grid->point_count();
+    summary.seconds.sample = watch.lap() - writing;
+    Status committed = output->sink->commit();
+    summary.seconds.write = writing + watch.lap();
+    if (output->picture != nullptr) summary.picture = *output->picture;
+    return committed;
+}
+
+Status onto_mesh(Run& run, const ResampleJob& job, Engine& engine) {
+    run.stage("reading " + job.onto);
+    Stopwatch watch;
+    const bool to_rows = pipeline::is_rows_output(job.output);
+    Result<Mesh> other =
+        read_mesh(job.onto, {.faces = !to_rows, .neighbours = !to_rows, .threads = job.options.threads});
+    if (!other) return other.error();
+    const int d = engine.mesh().dimension;
+    if (other->dimension != d)
+        return Error{.what = "the meshes have different dimensions",
+                     .file = job.onto,
+                     .expected = fmt::format("{}, as {} has", d, job.mesh),
+                     .found = std::to_string(other->dimension),
+                     .remedy = "resample between meshes of triangles, or between meshes of tetrahedra"};
+    run.summary.from = PointsFrom::mesh;
+    run.summary.points = job.onto;
+    const auto source = memory_points(other->points, d);
+    run.summary.seconds.read = watch.lap();
+    const auto open = [&](const TableFormat& format) -> Result<std::unique_ptr<TableSink>> {
+        if (to_rows) return pipeline::open_rows(job, format);
+        return pipeline::mesh_sink(std::move(*other), job.output, format.fields);
+    };
+    return pipeline::sample_stream(run, engine, *source, open, "");
+}
+
+}  // namespace
+
+Result<SampleSummary> resample_files(const ResampleJob& job) {
+    if (Status ok = check_job(job); !ok) return ok.error();
+    return pipeline::run_job("resample", job, [&](Run& run, Engine& engine) {
+        return job.onto.empty() ? onto_grid(run, job, engine) : onto_mesh(run, job, engine);
+    });
+}
+
+}  // namespace barycert

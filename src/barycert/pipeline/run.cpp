@@ -1,0 +1,36 @@
+#include "barycert/pipeline/run.hpp"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "barycert/pipeline/engine.hpp"
+
+namespace barycert::pipeline {
+
+Result<SampleSummary> run_job(const std::string& command, const SamplingJob& job,
+                              const std::function<Status(Run&, Engine&)>& work) {
+    const int threads = job.options.threads;
+    std::optional<tbb::global_control> limit;
+    if (threads > 0)
+        limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    Stopwatch whole;
+    Run run{job};
+    SampleSummary& summary = run.summary;
+    summary.command = command;
+    summary.mesh = job.mesh;
+    summary.output = job.output;
+    summary.rounding = job.options.rounding;
+    summary.outside = job.options.outside;
+    summary.threads = threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    auto engine = Engine::open(run);
+    if (!engine) return engine.error();
+    if (Status done = work(run, **engine); !done) return done.error();
+    summary.seconds.total = whole.lap();
+    return summary;
+}
+
+}  // namespace barycert::pipeline

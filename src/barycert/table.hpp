@@ -1,0 +1,87 @@
+/// Rows of results: what locators, samplers, maps and files exchange.
+///
+/// A row belongs to one point, or to one point and one cell that holds it. `Table` owns rows, `TableView` refers to the
+/// rows of somebody else. Parts that nobody asked for are empty; all others have one entry a row.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/tiers.hpp"
+
+namespace barycert {
+
+/// Where points lie. Functions that take counts add to them, unless they fail.
+struct LocationCounts {
+    std::uint64_t interior = 0, face = 0, edge = 0, vertex = 0, outside = 0;
+    TierCounts tests;  ///< of points against cells, where something was decided
+
+    std::uint64_t points() const { return interior + face + edge + vertex + outside; }
+    std::uint64_t inside() const { return points() - outside; }
+    void add(Feature f, std::uint64_t count = 1);
+    void add(const LocationCounts& other);
+};
+
+/// How values were found.
+struct SampleCounts {
+    LocationCounts locations;
+    TierCounts values;               ///< of points with point fields, by the highest tier that one of their values needed
+    std::uint64_t snapped = 0;  ///< points outside that got the value of the nearest point
+    std::uint64_t extrapolated = 0;
+    std::uint64_t without_value = 0;  ///< points outside that got NaN, or the number to fill in
+    double farthest = 0;              ///< max distance of those snapped or extrapolated
+
+    void add(const SampleCounts& other);
+};
+
+/// Rows of somebody else.
+struct TableView {
+    int dimension = 3;
+    std::uint64_t first_row = 0;                ///< number of rows that came before, in a stream of blocks
+    std::span<const double> points = {};        ///< `dimension` coordinates a row; empty where a grid has them
+    std::span<const Mesh::Index> cells = {};    ///< 0-based; -1 outside
+    std::span<const Feature> features = {};     ///< of the point in that cell
+    std::span<const double> values = {};        ///< as many a row as there are columns, row after row
+    std::span<const double> distances = {};     ///< from the point to the mesh: see Table
+
+    std::size_t row_count() const { return cells.size(); }
+};
+
+struct Table {
+    int dimension = 3;
+    std::vector<double> points;      ///< `dimension` coordinates a row; empty where the caller has them
+    std::vector<Mesh::Index> cells;  ///< 0-based; -1 outside
+    std::vector<Feature> features;   ///< of the point in that cell
+    std::vector<std::string> columns;  ///< names of the values of a row: NAME, or NAME.0, NAME.1, ...
+    std::vector<double> values;        ///< columns.size() a row, row after row
+    /// From the point to the mesh: 0 inside, NaN where a point outside got no value. Empty unless the policy for
+    /// points outside is nearest or extrapolate.
+    std::vector<double> distances;
+    /// Where points have any number of rows (Locator::locate_all): the rows of point i are point_begin[i] to
+    /// point_begin[i + 1] - 1. Empty where row i is for point i.
+    std::vector<std::size_t> point_begin;
+    SampleCounts counts;  ///< one a point
+
+    std::size_t row_count() const { return cells.size(); }
+    double value(std::size_t row, std::size_t column) const { return values[columns.size() * row + column]; }
+    TableView view() const { return {dimension, 0, points, cells, features, values, distances}; }
+};
+
+/// Consecutive columns of one field.
+struct TableField {
+    std::string name;
+    int components = 1;
+};
+
+/// NAME for a field of one component, else NAME.0, NAME.1, ...
+std::vector<std::string> column_names(const std::vector<TableField>& fields);
+
+/// Appends the values of the rows to the data of the fields, whose components are the columns in their order.
+void append_rows(const TableView& rows, std::vector<Field>& fields);
+
+}  // namespace barycert

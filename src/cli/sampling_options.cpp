@@ -1,0 +1,136 @@
+#include "sampling_options.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "barycert/base/text.hpp"
+#include "barycert/report.hpp"
+#include "command.hpp"
+#include "files.hpp"
+#include "progress.hpp"
+
+namespace barycert::cli {
+namespace {
+
+/// The number after `word=`; nothing if the text is something else.
+std::optional<double> number_after(std::string_view word, std::string_view text) {
+    if (!text.starts_with(word) || text.substr(word.size(), 1) != "=") return std::nullopt;
+    return parse_double(text.substr(word.size() + 1));
+}
+
+OutsidePolicy policy_of(const std::string& text) {
+    if (text == "nan") return {};
+    if (text == "error") return {.kind = Outside::error};
+    if (text == "extrapolate") return {.kind = Outside::extrapolate};
+    if (text == "nearest") return {.kind = Outside::nearest};
+    if (const auto value = number_after("fill", text)) return {.kind = Outside::fill, .fill = *value};
+    if (const auto limit = number_after("nearest", text); limit && std::isfinite(*limit) && *limit >= 0)
+        return {.kind = Outside::nearest, .limit = *limit};
+    throw CLI::ValidationError("--outside",
+                               "expected nan, error, fill=NUMBER, nearest, nearest=DISTANCE (at least 0) or "
+                               "extrapolate, found \"" +
+                                   text + '"');
+}
+
+/// An option of a few words, each of which stands for a value.
+template <class Value>
+void choice_option(CLI::App& sub, const std::string& name, Value& value, const std::map<std::string, Value>& words,
+                   const std::string& type, const std::string& help) {
+    const auto set = [&value, words](const std::string& word) { value = words.at(word); };
+    sub.add_option_function<std::string>(name, set, help)->check(CLI::IsMember(words).description(""))->type_name(type);
+}
+
+FieldFile field_file_of(const std::string& option, FieldFile::Of of, const std::string& text) {
+    const std::size_t sign = text.find('=');
+    if (sign == std::string::npos || sign == 0 || sign + 1 == text.size())
+        throw CLI::ValidationError(option, "expected NAME=FILE, found \"" + text + '"');
+    return {of, text.substr(0, sign), text.substr(sign + 1)};
+}
+
+void add_field_files(CLI::App& sub, SamplingJob& a) {
+    struct Option {
+        const char* name;
+        FieldFile::Of of;
+        const char* help;
+    };
+    for (const Option& o :
+         {Option{"--field", FieldFile::Of::either,
+                 "One more field: a row of numbers for each node, or for each cell (text, blanks or commas between "
+                 "numbers; or .npy)"},
+          Option{"--point-field", FieldFile::Of::points,
+                 "The same where the rows are for nodes, whatever their number"},
+          Option{"--cell-field", FieldFile::Of::cells, "The same where the rows are for cells"}}) {
+        sub.add_option_function<std::vector<std::string>>(
+               o.name,
+               [&a, o](const std::vector<std::string>& all) {
+                   for (const std::string& text : all) a.field_files.push_back(field_file_of(o.name, o.of, text));
+               },
+               o.help)
+            ->allow_extra_args(false)
+            ->type_name("NAME=FILE");
+    }
+}
+
+Status write_reports(const SamplingJob& job, bool quiet, const SampleSummary& summary) {
+    Status json = Done{};
+    if (!job.report.empty()) json = write_output(job.report, report::sample_json(summary, measure_environment()));
+    if (quiet) return json;
+    if (job.output == "-" || job.report == "-") {
+        tell(report::sample_text(summary, false));
+        return json;
+    }
+    Status told = write_output("-", report::sample_text(summary, colour_on_stdout()));
+    return json ? told : json;
+}
+
+}  // namespace
+
+void add_sampling_options(CLI::App& sub, SamplingJob& a, bool& quiet) {
+    add_field_files(sub, a);
+    sub.add_option("--fields", a.fields,
+                   "The fields to sample, in that order: A,B,...; cell:A for the field A of cells "
+                   "where there is one of nodes, too; default: all there are")
+        ->allow_extra_args(false)
+        ->type_name("NAMES");
+    choice_option<Rounding>(sub, "--rounding", a.options.rounding,
+                            {{"correct", Rounding::correct}, {"plain", Rounding::plain}}, "correct|plain",
+                            "correct: values are the exact ones, rounded once (default); plain: faster, in double");
+    sub.add_option_function<std::string>(
+           "--outside", [&a](const std::string& text) { a.options.outside = policy_of(text); },
+           "What points outside every cell get: nan (default); error: none may be; fill=NUMBER; nearest[=DISTANCE]: "
+           "the "
+           "value at the nearest point of the mesh, within DISTANCE; extrapolate: the function of the nearest cell")
+        ->type_name("nan|error|fill=V|nearest[=D]|extrapolate");
+    choice_option<Certify>(sub, "--certify", a.certify,
+                           {{"auto", Certify::automatic}, {"always", Certify::always}, {"never", Certify::never}},
+                           "auto|always|never",
+                           "Check the mesh first, for then points are found faster: auto (default): where there are at "
+                           "least 1.25 points a "
+                           "cell. No row depends on it");
+    sub.add_option("--threads", a.options.threads, "0: all of them")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 4096).description(""))
+        ->type_name("N");
+    file_option(sub, "--json", a.report, "Write what was done as JSON; - is stdout");
+    sub.add_flag("--quiet", quiet, "No summary and no progress");
+}
+
+int run_sampling(SamplingJob& job, bool quiet, const std::function<Result<SampleSummary>()>& run) {
+    // Rows on the same terminal would run into the progress.
+    const bool rows_on_terminal = job.output == "-" && isatty(STDOUT_FILENO) == 1;
+    Progress progress(!quiet && stderr_is_terminal() && !rows_on_terminal);
+    job.progress = [&](const JobProgress& p) { p.done == 0 ? progress.stage(p.stage) : progress.count(p.stage, p.done); };
+    job.program = command_name();
+    const Result<SampleSummary> summary = run();
+    progress.clear();
+    if (!summary) return fail(summary.error());
+    const Status written = write_reports(job, quiet, *summary);
+    return written ? exit_clean : fail(written.error());
+}
+
+}  // namespace barycert::cli

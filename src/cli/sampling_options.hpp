@@ -1,0 +1,21 @@
+/// The options that `barycert sample` and `barycert resample` share, and what both do around their job.
+#pragma once
+
+#include <functional>
+
+#include "barycert/pipeline.hpp"
+#include "barycert/result.hpp"
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace barycert::cli {
+
+void add_sampling_options(CLI::App& sub, SamplingJob& job, bool& quiet);
+
+/// Does the job by `run`, with progress on a terminal, and writes its reports: the JSON where it is asked for, and the
+/// summary on stdout, or, where that has rows or the JSON, on stderr. Returns the exit code.
+int run_sampling(SamplingJob& job, bool quiet, const std::function<Result<SampleSummary>()>& run);
+
+}  // namespace barycert::cli
