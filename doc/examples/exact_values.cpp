@@ -29,7 +29,7 @@ int main() {
     const std::vector<float> temperature = {10, 20, 30, 40, 50};
     std::vector<double> out(2);
     TierCounts tiers;  // how many the filter, double-double and integers decided
-    interpolate<float>(MeshQueries{Simplex::tetrahedron, nodes, corners, cells, points}, NodalValues<float>{temperature},
+    interpolate(MeshQueries{Simplex::tetrahedron, nodes, corners, cells, points}, NodalValues<float>{temperature},
                        out, &tiers)
         .value();
     std::printf("%s\n", out[0] == out[1] ? "the same bits from both cells" : "different");

@@ -9,7 +9,7 @@ using namespace barycert;
 
 int main() {
     const Mesh mesh = read_mesh("data/meshes/flange").value();
-    const Sampler sampler = Sampler::build(mesh, {"attribute1"}).value();
+    const Sampler sampler = Sampler::build(mesh, {"attribute0"}).value();
 
     const Bounds3 box = bounds_of_cells(mesh);
     const Grid grid = grid_over(3, {64, 64, 16}, box.low, box.high).value();

@@ -12,7 +12,7 @@ int main() {
     const Mesh mesh = read_mesh("data/meshes/flange").value();
     const Locator locator = Locator::build(mesh).value();
 
-    double particle[] = {1.5, 0, 0.25};
+    double particle[] = {0.75, 0, 0.25};
     Mesh::Index last_cell = -1;
     for (int step = 0; step < 3; ++step) {
         const Location at = locator.locate(particle, last_cell).value();  // the hint makes the search shorter
