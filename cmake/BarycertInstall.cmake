@@ -8,7 +8,7 @@ install(TARGETS barycert EXPORT barycertTargets INCLUDES DESTINATION ${CMAKE_INS
 # that a build may leave out.
 file(GLOB public_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/barycert/*.hpp ${PROJECT_SOURCE_DIR}/src/barycert/*.h)
 if(NOT TARGET barycert_audit)
-  list(FILTER public_headers EXCLUDE REGEX "/(oracle|audit|audit_report)\.hpp$")
+  list(FILTER public_headers EXCLUDE REGEX "/(oracle|audit[a-z_]*)\.hpp$")
 endif()
 if(NOT TARGET barycert_vtk)
   list(FILTER public_headers EXCLUDE REGEX "/vtk\.hpp$")

@@ -9,30 +9,30 @@
 
 // Reports as text for a terminal or a log.
 
-namespace barycert::report {
+namespace barycert {
 
 /// The table of kernels, worst first; below it the families; below them each kernel's worst witness with the command
 /// that replays it.
-std::string terminal_report(const audit::Report& report, const TerminalStyle& style);
+std::string audit_text(const AuditReport& report, const TerminalStyle& style);
 
 /// One witness: the case, the exact answer, and every kernel's next to it.
-std::string terminal_witness(const audit::Replay& replay, const TerminalStyle& style);
+std::string witness_text(const Replay& replay, const TerminalStyle& style);
 
 /// The catalogue and the families, one paragraph each.
-std::string terminal_kernels(const std::vector<Kernel>& kernels);
-std::string terminal_families(const std::vector<audit::Family>& families);
+std::string kernels_text(const std::vector<Kernel>& kernels);
+std::string families_text(const std::vector<Family>& families);
 
 // Reports as JSON. Every member is documented in SCHEMA.md beside this file.
 
 /// One number for reports and witness files: `barycert replay` reads both.
-inline constexpr int audit_schema = audit::witness_schema;
+inline constexpr int audit_schema = witness_schema;
 
 /// The whole audit, witnesses included.
-std::string json_report(const audit::Report& report);
+std::string audit_json(const AuditReport& report);
 
 /// The catalogue and the families, as `barycert kernels --json` and `barycert families --json` print them.
 std::string kernels_json(const std::vector<Kernel>& kernels);
-std::string families_json(const std::vector<audit::Family>& families);
+std::string families_json(const std::vector<Family>& families);
 
 // The errors of kernels against the condition numbers of cells, as a picture.
 
@@ -42,6 +42,6 @@ std::string families_json(const std::vector<audit::Family>& families);
 /// Which kernels: those on tetrahedra if any has cases to show, else those on triangles; of these those with an error
 /// beyond half of 2^-53; if more than six, without variants (names with a second dot); if still more than six, six of
 /// them, evenly from the least to the largest worst factor.
-std::string condition_plot(const audit::Report& report);
+std::string condition_plot(const AuditReport& report);
 
-}  // namespace barycert::report
+}  // namespace barycert

@@ -29,7 +29,7 @@
 #include <span>
 #include <vector>
 
-#include "barycert/check.hpp"
+#include "barycert/certificate.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"
@@ -85,7 +85,7 @@ public:
 
     /// The same with a certificate of check::run on this very mesh. Without a certificate, or with one of another mesh,
     /// every candidate is asked. Time O(cells), one thread.
-    static Result<Locator> build(const Mesh& mesh, const check::Certificate& certificate);
+    static Result<Locator> build(const Mesh& mesh, const Certificate& certificate);
 
     Locator(Locator&&) noexcept;
     Locator& operator=(Locator&&) noexcept;

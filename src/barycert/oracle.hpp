@@ -19,9 +19,9 @@
 
 #include "barycert/simplex.hpp"
 
-namespace barycert::exact {
+namespace barycert {
 
-struct Answer {
+struct OracleAnswer {
     Region region = Region::outside;
     Feature feature = Feature::outside;
     std::uint8_t support = 0;            ///< bit i is set if the exact weight i is not zero
@@ -32,10 +32,12 @@ struct Answer {
 };
 
 /// Precondition: all numbers of the case are finite.
-Answer ask(const Case& c);
+OracleAnswer ask_oracle(const Case& c);
 
+namespace exact {
 /// The same by wide integers alone. For tests: both must always agree.
-Answer ask_wide(const Case& c);
+OracleAnswer ask_wide(const Case& c);
+}  // namespace exact
 
 /// Exact (sum of weights) - 1, rounded once. Precondition: weights finite.
 double partition_residual(std::span<const double> weights);
@@ -54,17 +56,17 @@ int affine_dimension(const Case& c);
 // in two faces; interpolate along the edges, the segments, the line. Both are carried out in CGAL's rationals and
 // compared with ratios of signed areas or volumes. In floating point the three differ; the audit shows how.
 
-enum class Identity : std::uint8_t {
+enum class IdentityVerdict : std::uint8_t {
     holds,      ///< equal as rational numbers, every weight
     fails,      ///< unequal: would refute the theorem
     undefined,  ///< degenerate, or every choice of auxiliary lines meets a vertex or runs along a side
 };
 
 /// Precondition: c.simplex == Simplex::triangle, finite coordinates.
-Identity bilinear_is_barycentric(const Case& c);
+IdentityVerdict bilinear_is_barycentric(const Case& c);
 
 /// Precondition: c.simplex == Simplex::tetrahedron, finite coordinates.
-Identity trilinear_is_barycentric(const Case& c);
+IdentityVerdict trilinear_is_barycentric(const Case& c);
 
 // The gradient of a linear field, by the oracle: exact integers, rounded once, nothing shared with core.
 //
@@ -80,7 +82,7 @@ struct GradientAnswer {
 
 /// Of the field with c.values at the vertices; the point has no part in it. Preconditions: triangle or tetrahedron,
 /// everything finite.
-GradientAnswer gradient(const Case& c);
+GradientAnswer oracle_gradient(const Case& c);
 
 // Quadratic interpolation on a straight-sided cell with nodes amid its edges, by the oracle: exact integers, rounded
 // once, nothing shared with core.
@@ -88,6 +90,6 @@ GradientAnswer gradient(const Case& c);
 /// sum l_i (2 l_i - 1) f_i + sum 4 l_i l_j f_ij with the exact weights l of the point, f = c.values at the corners and
 /// `mids` on the edges 01 12 02 (triangle) or 01 12 02 03 13 23 (tetrahedron), correctly rounded; NaN if degenerate.
 /// Preconditions: triangle or tetrahedron, everything finite, a value for each edge.
-double quadratic_value(const Case& c, std::span<const double> mids);
+double oracle_quadratic_value(const Case& c, std::span<const double> mids);
 
-}  // namespace barycert::exact
+}  // namespace barycert

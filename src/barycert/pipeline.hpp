@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "barycert/check.hpp"
+#include "barycert/certificate.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/picture.hpp"
 #include "barycert/result.hpp"
@@ -115,7 +115,7 @@ struct SampleSummary {
     std::uint64_t nan_values = 0;  ///< of points inside: from values of nodes or cells that are not finite
     FoundBy method = FoundBy::walk;
     std::string reason;  ///< why that method: a clause
-    check::Verdict verdict = check::Verdict::not_checked;
+    Verdict verdict = Verdict::not_checked;
     SampleSeconds seconds;
     int threads = 1;
 };

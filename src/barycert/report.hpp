@@ -16,7 +16,7 @@
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
 
-namespace barycert::report {
+namespace barycert {
 
 /// How text looks on the user's terminal, and what commands in it begin with.
 struct TerminalStyle {
@@ -40,15 +40,15 @@ std::string policy_text(const OutsidePolicy& policy);
 /// The verdict in one line; below it what was checked, what was found and what to do about it, pairs of cells that meet
 /// where they must not, measures, notes. At most 100 columns, names of files aside. `mesh` is what the report is of,
 /// `name` what the user calls it.
-std::string terminal_check(const check::Report& report, const Mesh& mesh, const std::string& name,
-                           const TerminalStyle& style);
+std::string check_text(const CheckReport& report, const Mesh& mesh, const std::string& name,
+                       const TerminalStyle& style);
 
 // The report on a mesh as JSON. Every member is documented in SCHEMA.md beside this file.
 
 inline constexpr int check_schema = 1;
 
 /// `name`: what the user calls the mesh.
-std::string check_json(const check::Report& report, const std::string& name, const Environment& environment);
+std::string check_json(const CheckReport& report, const std::string& name, const Environment& environment);
 
 // The report on a mesh as one HTML page, for people: to read, to print, to pass on.
 
@@ -58,7 +58,7 @@ std::string check_json(const check::Report& report, const std::string& name, con
 /// at most, whatever the size of the mesh. `mesh` is what the report is of, `mesh_name` what the user calls it.
 ///
 /// Cost: some passes over the mesh, and its boundary once more. Of broken meshes nothing is drawn that has no place.
-std::string check_html(const check::Report& report, const Mesh& mesh, const std::string& mesh_name);
+std::string check_html(const CheckReport& report, const Mesh& mesh, const std::string& mesh_name);
 
 // What a run of sampling did, for people.
 
@@ -71,4 +71,4 @@ inline constexpr int sample_schema = 1;
 
 std::string sample_json(const SampleSummary& summary, const Environment& environment);
 
-}  // namespace barycert::report
+}  // namespace barycert

@@ -31,7 +31,7 @@ struct AuditArguments {
 /// One line on stderr that is written over and over, at most ten times a second.
 class ProgressLine {
 public:
-    void operator()(const audit::Progress& p) {
+    void operator()(const AuditProgress& p) {
         const auto now = std::chrono::steady_clock::now();
         if (shown_ && now - last_ < std::chrono::milliseconds(100)) return;
         shown_ = true;
@@ -65,15 +65,15 @@ Status check_files(const AuditArguments& a, bool table) {
 }
 
 int run_audit(const AuditArguments& a) {
-    std::vector<audit::Rule> rules;
+    std::vector<Threshold> rules;
     for (const std::string& text : a.fail_on) {
-        const Result<audit::Rule> rule = audit::parse_rule(text);
+        const Result<Threshold> rule = parse_threshold(text);
         if (!rule) return fail(rule.error());
         rules.push_back(*rule);
     }
     const bool table = !a.quiet && a.json != "-" && a.witnesses != "-" && a.plot != "-";
     if (const Status ok = check_files(a, table); !ok) return fail(ok.error());
-    audit::Options options;
+    AuditOptions options;
     options.count = a.count;
     options.seed = a.seed;
     options.threads = a.threads;
@@ -84,37 +84,35 @@ int run_audit(const AuditArguments& a) {
     if (!families) return fail(families.error());
     options.families = *families;
     // Without a family that draws from meshes barycert's own need not be there.
-    const bool wanted =
-        std::any_of(families->begin(), families->end(), [](const audit::Family& f) { return f.needs_mesh; });
-    const Result<audit::MeshSource> meshes =
-        wanted || !a.meshes.empty() ? load_meshes(a.meshes, !a.no_check) : audit::MeshSource();
+    const bool wanted = std::any_of(families->begin(), families->end(), [](const Family& f) { return f.needs_mesh; });
+    const Result<MeshSource> meshes = wanted || !a.meshes.empty() ? load_meshes(a.meshes, !a.no_check) : MeshSource();
     if (!meshes) return fail(meshes.error());
 
     ProgressLine line;
     if (!a.quiet && stderr_is_terminal()) options.progress = std::ref(line);
-    const Result<audit::Report> report = audit::run(options, *meshes);
+    const Result<AuditReport> report = run_audit(options, *meshes);
     line.clear();
     if (!report) return fail(report.error());
 
     // Files first: whoever reads the table may stop reading (`| head`). A file that could not be written does not cost
     // the user the table, the fruit of the whole run.
     std::vector<Status> written;
-    if (!a.json.empty()) written.push_back(write_output(a.json, report::json_report(*report)));
-    if (!a.witnesses.empty()) written.push_back(write_output(a.witnesses, audit::witness_file(*report)));
-    if (!a.plot.empty()) written.push_back(write_output(a.plot, report::condition_plot(*report)));
+    if (!a.json.empty()) written.push_back(write_output(a.json, audit_json(*report)));
+    if (!a.witnesses.empty()) written.push_back(write_output(a.witnesses, witnesses_json(*report)));
+    if (!a.plot.empty()) written.push_back(write_output(a.plot, condition_plot(*report)));
     if (table) {
-        const report::TerminalStyle style{.colour = colour_on_stdout(),
-                                          .command = command_name(),
-                                          .witness_path = a.witnesses.empty() ? a.json : a.witnesses,
-                                          .mesh_arguments = a.meshes,
-                                          .library_arguments = a.libraries};
-        written.push_back(write_output("-", report::terminal_report(*report, style)));
+        const TerminalStyle style{.colour = colour_on_stdout(),
+                                  .command = command_name(),
+                                  .witness_path = a.witnesses.empty() ? a.json : a.witnesses,
+                                  .mesh_arguments = a.meshes,
+                                  .library_arguments = a.libraries};
+        written.push_back(write_output("-", audit_text(*report, style)));
     }
     for (const Status& status : written) {
         if (!status) return fail(status.error());
     }
-    const auto broken = audit::violations(*report, rules);
-    for (const audit::Violation& v : broken)
+    const auto broken = violations(*report, rules);
+    for (const Violation& v : broken)
         tell(fmt::format("fails: {}: {} is {}, over {}\n", v.kernel, v.figure, shortest(v.value), shortest(v.limit)));
     return broken.empty() ? exit_clean : exit_findings;
 }
@@ -154,7 +152,7 @@ void add_audit(CLI::App& app, int& exit_code) {
     file_option(*sub, "--plot", a->plot,
                 "Draw the kernels' errors against the condition numbers of the cells, as SVG; - is stdout");
     std::string names;
-    for (const std::string& rule : audit::rule_names()) names += " " + rule;
+    for (const std::string& rule : threshold_names()) names += " " + rule;
     sub->add_option("--fail-on", a->fail_on,
                     "Exit with 1 if a kernel exceeds NAME or NAME>NUMBER; may be repeated. NAME is one of:" + names)
         ->type_name("RULE")

@@ -70,21 +70,21 @@ Result<std::vector<std::string>> own_meshes() {
     return paths;
 }
 
-Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths, bool certify) {
+Result<MeshSource> load_meshes(const std::vector<std::string>& paths, bool certify) {
     std::vector<std::string> from = paths;
     if (from.empty()) {
         auto own = own_meshes();
         if (!own) return own.error();
         from = *own;
     }
-    audit::MeshSource source;
+    MeshSource source;
     for (const std::string& path : from) {
         Result<Mesh> mesh = read_mesh(path, {.faces = false, .neighbours = false, .threads = 0});
         if (!mesh) return mesh.error();
         if (mesh->cell_count() == 0) return Error{.what = "the mesh has no cells", .file = path};
-        check::Options verdict;
+        CheckOptions verdict;
         verdict.verdict_only = true;
-        const check::Certificate certificate = certify ? check::run(*mesh, verdict).certificate : check::Certificate();
+        const Certificate certificate = certify ? check_mesh(*mesh, verdict).certificate : Certificate();
         source.add(paths.empty() ? fs::path(path).stem().string() : path, std::move(*mesh), certificate);
     }
     return source;
@@ -113,9 +113,8 @@ Result<std::vector<Kernel>> select_kernels(const std::vector<std::string>& globs
     return chosen;
 }
 
-Result<std::vector<audit::Family>> select_families(const std::vector<std::string>& globs) {
-    return select<audit::Family>(globs, audit::families_matching, "family",
-                                 "`barycert families` lists them; * and ? are wildcards");
+Result<std::vector<Family>> select_families(const std::vector<std::string>& globs) {
+    return select<Family>(globs, families_matching, "family", "`barycert families` lists them; * and ? are wildcards");
 }
 
 CLI::Validator whole_number() {

@@ -19,12 +19,12 @@ Result<std::vector<std::string>> own_meshes();
 
 /// The meshes named by the user, or barycert's own if none is.
 /// `certify`: check each (see check.hpp), so that its certificate is known.
-Result<audit::MeshSource> load_meshes(const std::vector<std::string>& paths, bool certify);
+Result<MeshSource> load_meshes(const std::vector<std::string>& paths, bool certify);
 
 /// Catalogue entries that match any of the globs ("*" if there are none), then the kernels of the libraries.
 Result<std::vector<Kernel>> select_kernels(const std::vector<std::string>& globs,
                                            const std::vector<std::string>& libraries);
-Result<std::vector<audit::Family>> select_families(const std::vector<std::string>& globs);
+Result<std::vector<Family>> select_families(const std::vector<std::string>& globs);
 
 /// Refuses "-1" and 2^64 where a seed or the number of a case is due: the parser would take both for 2^64 - 1.
 CLI::Validator whole_number();

@@ -36,8 +36,7 @@ void add_catalogue(CLI::App& app, int& exit_code) {
     file_option(*kernels, "--json", k->json, "Write the list as JSON; - is stdout");
     kernels->callback([k, &exit_code] {
         const auto chosen = select_kernels(k->globs, k->libraries);
-        exit_code =
-            chosen ? print(*k, report::terminal_kernels(*chosen), report::kernels_json(*chosen)) : fail(chosen.error());
+        exit_code = chosen ? print(*k, kernels_text(*chosen), kernels_json(*chosen)) : fail(chosen.error());
     });
     const auto f = std::make_shared<ListArguments>();
     auto* families = app.add_subcommand("families", "List the families of cases: what each is after, and its recipe");
@@ -45,8 +44,7 @@ void add_catalogue(CLI::App& app, int& exit_code) {
     file_option(*families, "--json", f->json, "Write the list as JSON; - is stdout");
     families->callback([f, &exit_code] {
         const auto chosen = select_families(f->globs);
-        exit_code = chosen ? print(*f, report::terminal_families(*chosen), report::families_json(*chosen))
-                           : fail(chosen.error());
+        exit_code = chosen ? print(*f, families_text(*chosen), families_json(*chosen)) : fail(chosen.error());
     });
 }
 

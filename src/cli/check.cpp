@@ -11,7 +11,6 @@
 
 #include "barycert/io.hpp"
 #include "barycert/check.hpp"
-#include "barycert/check/orientation.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report.hpp"
 #include "command.hpp"
@@ -36,17 +35,17 @@ struct TextOutput {
     const char* option;
     const char* help;
     std::string CheckArguments::*path;
-    std::string (*text)(const check::Report&, const Mesh&, const CheckArguments&);
+    std::string (*text)(const CheckReport&, const Mesh&, const CheckArguments&);
 };
 constexpr std::array<TextOutput, 2> text_outputs{{
     {"--json", "Write the whole report as JSON; - is stdout, and then there is no table", &CheckArguments::json,
-     [](const check::Report& report, const Mesh&, const CheckArguments& a) {
-         return report::check_json(report, a.mesh, measure_environment());
+     [](const CheckReport& report, const Mesh&, const CheckArguments& a) {
+         return check_json(report, a.mesh, measure_environment());
      }},
     {"--html", "Write the report as one HTML page with histograms and pictures of cells; - is stdout likewise",
      &CheckArguments::html,
-     [](const check::Report& report, const Mesh& mesh, const CheckArguments& a) {
-         return report::check_html(report, mesh, tetgen_stem(a.mesh));
+     [](const CheckReport& report, const Mesh& mesh, const CheckArguments& a) {
+         return check_html(report, mesh, tetgen_stem(a.mesh));
      }},
 }};
 
@@ -109,8 +108,8 @@ private:
 
 #ifdef BARYCERT_WITH_VTK
 /// The mesh with the measures of its cells as fields.
-Status write_measures(const check::Report& report, Mesh mesh, const std::string& path) {
-    const check::Measures& m = report.measures;
+Status write_measures(const CheckReport& report, Mesh mesh, const std::string& path) {
+    const CellMeasures& m = report.measures;
     mesh.cell_fields.push_back({"orientation", 1, {m.orientation.begin(), m.orientation.end()}});
     const std::array<std::pair<const char*, const std::vector<double>*>, 6> measures{{{"volume", &m.volume},
                                                                                       {"condition", &m.condition},
@@ -119,11 +118,11 @@ Status write_measures(const check::Report& report, Mesh mesh, const std::string&
                                                                                       {"min_angle", &m.min_angle},
                                                                                       {"max_angle", &m.max_angle}}};
     for (const auto& [name, values] : measures) mesh.cell_fields.push_back({name, 1, *values});
-    mesh.cell_fields.push_back({"problems", 1, {m.problems.begin(), m.problems.end()}});
+    mesh.cell_fields.push_back({"problems", 1, {m.defects.begin(), m.defects.end()}});
     return write_vtu(mesh, path);
 }
 #else
-Status write_measures(const check::Report&, const Mesh&, const std::string&) {
+Status write_measures(const CheckReport&, const Mesh&, const std::string&) {
     return Done{};  // refused before the work
 }
 #endif
@@ -150,14 +149,14 @@ int run_check(const CheckArguments& a) {
         plc = read_plc(a.plc);
         if (!plc) return fail(plc.error());
     }
-    check::Options options;
+    CheckOptions options;
     if (!a.plc.empty()) options.plc = &*plc;
     options.threads = a.threads;
     options.delaunay = a.delaunay;
     options.examples = a.examples;
     options.contacts = a.contacts;
     options.progress = line;
-    const check::Report report = check::run(*mesh, options);
+    const CheckReport report = check_mesh(*mesh, options);
     line.clear();
 
     // Files first: whoever reads the table may stop reading (`| head`). A file that could not be written does not cost
@@ -169,10 +168,10 @@ int run_check(const CheckArguments& a) {
     }
     if (!a.vtu.empty()) written.push_back(write_measures(report, *mesh, a.vtu));
     if (!a.fixed.empty())
-        written.push_back(write_tetgen(check::with_positive_cells(*mesh, report.measures.orientation), a.fixed));
+        written.push_back(write_tetgen(with_positive_cells(*mesh, report.measures.orientation), a.fixed));
     if (table) {
-        const report::TerminalStyle style{.colour = colour_on_stdout(), .command = command_name()};
-        written.push_back(write_output("-", report::terminal_check(report, *mesh, name, style)));
+        const TerminalStyle style{.colour = colour_on_stdout(), .command = command_name()};
+        written.push_back(write_output("-", check_text(report, *mesh, name, style)));
     }
     for (const Status& status : written) {
         if (!status) return fail(status.error());

@@ -27,14 +27,14 @@ struct ReplayArguments {
 };
 
 /// The witness that --family and --case describe, made again.
-Result<std::vector<audit::Witness>> made_again(const ReplayArguments& a, const std::vector<Kernel>& kernels) {
+Result<std::vector<Witness>> made_again(const ReplayArguments& a, const std::vector<Kernel>& kernels) {
     const auto families = select_families({a.family});
     if (!families) return families.error();
     if (families->size() != 1 || families->front().name != a.family)
         return Error{.what = "--family must name one family",
                      .found = '"' + a.family + '"',
                      .remedy = "`barycert families` lists them"};
-    const audit::Family& family = families->front();
+    const Family& family = families->front();
     std::optional<Simplex> simplex = simplex_named(a.simplex);
     if (!a.simplex.empty() && !simplex)
         return Error{.what = "unknown simplex",
@@ -54,7 +54,7 @@ Result<std::vector<audit::Witness>> made_again(const ReplayArguments& a, const s
         return Error{.what = "which simplex? The family applies to several, or not to that one",
                      .remedy = "add --simplex NAME or --kernel NAME"};
     }
-    audit::MeshSource meshes;
+    MeshSource meshes;
     if (family.needs_mesh) {
         auto loaded = load_meshes(a.meshes, false);
         if (!loaded) return loaded.error();
@@ -62,13 +62,13 @@ Result<std::vector<audit::Witness>> made_again(const ReplayArguments& a, const s
         if (!meshes.supplies(*simplex))
             return Error{.what = "no mesh supplies a " + std::string(name(*simplex)), .remedy = "name one with --mesh"};
     }
-    audit::Witness w;
+    Witness w;
     w.kernel = a.kernel;
     w.family = family.name;
     w.seed = a.seed;
     w.index = *a.index;
-    w.c = audit::make_case(family, *simplex, a.seed, *a.index, meshes);
-    return std::vector<audit::Witness>{w};
+    w.c = make_case(family, *simplex, a.seed, *a.index, meshes);
+    return std::vector<Witness>{w};
 }
 
 int run_replay(const ReplayArguments& a) {
@@ -80,20 +80,20 @@ int run_replay(const ReplayArguments& a) {
     if (!a.family.empty() && !a.index) return fail({.what = "--family needs --case"});
     if (std::error_code ignored; std::filesystem::is_directory(a.file, ignored))
         return fail({.what = "cannot read the witnesses", .file = a.file, .expected = "a file", .found = "a folder"});
-    const auto witnesses = a.file.empty() ? made_again(a, *kernels) : audit::read_witnesses(a.file);
+    const auto witnesses = a.file.empty() ? made_again(a, *kernels) : read_witnesses(a.file);
     if (!witnesses) return fail(witnesses.error());
     bool any = false, all_reproduced = true;
-    const report::TerminalStyle style{.colour = colour_on_stdout(),
-                                      .command = command_name(),
-                                      .witness_path = {},
-                                      .mesh_arguments = {},
-                                      .library_arguments = {}};
-    for (const audit::Witness& w : *witnesses) {
+    const TerminalStyle style{.colour = colour_on_stdout(),
+                              .command = command_name(),
+                              .witness_path = {},
+                              .mesh_arguments = {},
+                              .library_arguments = {}};
+    for (const Witness& w : *witnesses) {
         if (!a.file.empty() && !a.kernel.empty() && !glob_match(a.kernel, w.kernel)) continue;
         if (!a.file.empty() && !a.reason.empty() && !glob_match(a.reason, w.reason)) continue;
-        const audit::Replay replay = audit::replay(w, *kernels);
-        const std::string above = any ? "\n" : report::environment_line(environment) + "\n\n";
-        const Status written = write_output("-", above + report::terminal_witness(replay, style));
+        const Replay replay = replay_witness(w, *kernels);
+        const std::string above = any ? "\n" : environment_line(environment) + "\n\n";
+        const Status written = write_output("-", above + witness_text(replay, style));
         if (!written) return fail(written.error());
         any = true;
         if (!replay.not_reproduced.empty()) {

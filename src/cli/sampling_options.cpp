@@ -78,13 +78,13 @@ void add_field_files(CLI::App& sub, SamplingJob& a) {
 
 Status write_reports(const SamplingJob& job, bool quiet, const SampleSummary& summary) {
     Status json = Done{};
-    if (!job.report.empty()) json = write_output(job.report, report::sample_json(summary, measure_environment()));
+    if (!job.report.empty()) json = write_output(job.report, sample_json(summary, measure_environment()));
     if (quiet) return json;
     if (job.output == "-" || job.report == "-") {
-        tell(report::sample_text(summary, false));
+        tell(sample_text(summary, false));
         return json;
     }
-    Status told = write_output("-", report::sample_text(summary, colour_on_stdout()));
+    Status told = write_output("-", sample_text(summary, colour_on_stdout()));
     return json ? told : json;
 }
 

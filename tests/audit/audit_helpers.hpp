@@ -39,32 +39,32 @@ inline const MeshSource& own_meshes() {
     return source;
 }
 
-inline Report audit_of(std::vector<Kernel> kernels, std::vector<Family> families, std::uint64_t count,
-                       const MeshSource& meshes = {}, int threads = 2) {
-    Options options;
+inline AuditReport audit_of(std::vector<Kernel> kernels, std::vector<Family> families, std::uint64_t count,
+                            const MeshSource& meshes = {}, int threads = 2) {
+    AuditOptions options;
     options.kernels = std::move(kernels);
     options.families = std::move(families);
     options.count = count;
     options.threads = threads;
-    return run(options, meshes).value();
+    return run_audit(options, meshes).value();
 }
 
 /// The statistics of one kernel in one family.
-inline Statistics statistics_of(const Kernel& kernel, const std::string& family, std::uint64_t count,
-                                const MeshSource& meshes = {}) {
+inline KernelStatistics statistics_of(const Kernel& kernel, const std::string& family, std::uint64_t count,
+                                      const MeshSource& meshes = {}) {
     return audit_of({kernel}, {family_named(family)}, count, meshes).kernels.at(0).families.at(0).statistics;
 }
 
-inline Statistics statistics_of(const std::string& kernel, const std::string& family, std::uint64_t count,
-                                const MeshSource& meshes = {}) {
+inline KernelStatistics statistics_of(const std::string& kernel, const std::string& family, std::uint64_t count,
+                                      const MeshSource& meshes = {}) {
     return statistics_of(kernel_named(kernel), family, count, meshes);
 }
 
-inline double share(const Statistics& s, std::uint64_t n) {
+inline double share(const KernelStatistics& s, std::uint64_t n) {
     return static_cast<double>(n) / static_cast<double>(s.cases);
 }
 
-inline std::uint64_t count_of(const Statistics& s, Finding f) {
+inline std::uint64_t count_of(const KernelStatistics& s, Finding f) {
     return s.counts[static_cast<std::size_t>(f)];
 }
 

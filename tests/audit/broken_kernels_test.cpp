@@ -84,7 +84,7 @@ Kernel kernel(WeightsFunction weights) {
     return k;
 }
 
-Statistics audited(WeightsFunction weights, const std::string& family) {
+KernelStatistics audited(WeightsFunction weights, const std::string& family) {
     return statistics_of(kernel(weights), family, 2000, own_meshes());
 }
 
@@ -96,14 +96,14 @@ TEST(BrokenKernels, TheSoundOneIsCleanWhereTheyAreFound) {
 }
 
 TEST(BrokenKernels, FlippedSign) {
-    const Statistics s = audited(flipped_sign, "mesh.inside");
+    const KernelStatistics s = audited(flipped_sign, "mesh.inside");
     EXPECT_EQ(count_of(s, Finding::opposite_sign), s.cases);
     EXPECT_EQ(count_of(s, Finding::false_outside), s.cases);
 }
 
 TEST(BrokenKernels, SwappedVertices) {
     // Inside, every sign is still right: only the size of the error tells, and the point that the weights reproduce.
-    const Statistics inside = audited(swapped_vertices, "random.inside");
+    const KernelStatistics inside = audited(swapped_vertices, "random.inside");
     EXPECT_EQ(inside.wrong_cases, 0U);
     EXPECT_GT(inside.weight_ulps.quantile(0.75), 1e12);  // two weights of four
     EXPECT_GT(inside.reproduction_residual.value, 0.1);
@@ -112,17 +112,17 @@ TEST(BrokenKernels, SwappedVertices) {
 }
 
 TEST(BrokenKernels, DroppedTerm) {
-    const Statistics s = audited(dropped_term, "mesh.inside");
+    const KernelStatistics s = audited(dropped_term, "mesh.inside");
     EXPECT_GT(share(s, s.wrong_cases), 0.05);
     EXPECT_GT(s.weight_ulps.quantile(0.9), 1e9);  // one weight of four
     EXPECT_GT(s.partition_residual.value, 1e-3);
 }
 
 TEST(BrokenKernels, AbsoluteGuardInTheDenominator) {
-    const Statistics s = audited(guarded_denominator, "degenerate.plane");
+    const KernelStatistics s = audited(guarded_denominator, "degenerate.plane");
     EXPECT_EQ(count_of(s, Finding::missed_degenerate), s.cases);
     // Where volumes are of the guard's size it is no guard but a wrong divisor.
-    const Statistics tiny = statistics_of(kernel(guarded_denominator), "tiny", 2000);
+    const KernelStatistics tiny = statistics_of(kernel(guarded_denominator), "tiny", 2000);
     EXPECT_GT(count_of(tiny, Finding::false_zero),
               count_of(statistics_of(kernel(sound), "tiny", 2000), Finding::false_zero));
 }
@@ -130,12 +130,12 @@ TEST(BrokenKernels, AbsoluteGuardInTheDenominator) {
 TEST(BrokenKernels, ForcedClosure) {
     // Points of faces that the sound kernel finds exactly: the closure puts rounding noise where a zero belongs.
     ASSERT_EQ(audited(sound, "lattice.integers").wrong_cases, 0U);
-    const Statistics s = audited(forced_closure, "lattice.integers");
+    const KernelStatistics s = audited(forced_closure, "lattice.integers");
     EXPECT_GT(count_of(s, Finding::false_nonzero), 0U);
 }
 
 TEST(BrokenKernels, Clamp) {
-    const Statistics s = audited(clamped, "random");
+    const KernelStatistics s = audited(clamped, "random");
     const auto& outside = s.confusion[static_cast<std::size_t>(Region::outside)];
     EXPECT_EQ(outside[static_cast<std::size_t>(Region::outside)], 0U);
     EXPECT_EQ(count_of(s, Finding::false_inside), s.cases - s.confusion[0][0]);
@@ -155,7 +155,7 @@ int leaves_another_rounding_mode(const double* v, const double* p, double* w) {
 TEST(BrokenKernels, UnsetWeightsAreNotFinite) {
     Kernel lazy = kernel(sets_nothing);
     lazy.name = "tetrahedron.lazy";
-    const Report r = audit_of({kernel(sound), lazy}, {family_named("random.inside")}, 500);
+    const AuditReport r = audit_of({kernel(sound), lazy}, {family_named("random.inside")}, 500);
     ASSERT_EQ(r.kernels.front().kernel.name, "tetrahedron.lazy");
     EXPECT_EQ(count_of(r.kernels.front().total, Finding::not_finite), 4 * r.cases);
 }
@@ -163,10 +163,10 @@ TEST(BrokenKernels, UnsetWeightsAreNotFinite) {
 TEST(BrokenKernels, ARoundingModeLeftBehindStaysWithItsKernel) {
     Kernel rude = kernel(leaves_another_rounding_mode);
     rude.name = "tetrahedron.rude";
-    const Report beside =
+    const AuditReport beside =
         audit_of({rude, kernel_named("tetrahedron.kahan")}, {family_named("near-facet.1e-14")}, 500, {}, 1);
     EXPECT_EQ(std::fegetround(), FE_TONEAREST);
-    const Statistics alone = statistics_of("tetrahedron.kahan", "near-facet.1e-14", 500);
+    const KernelStatistics alone = statistics_of("tetrahedron.kahan", "near-facet.1e-14", 500);
     for (const KernelResult& k : beside.kernels) {
         if (k.kernel.name == "tetrahedron.kahan") {
             EXPECT_EQ(k.total.weight_ulp.value, alone.weight_ulp.value);
@@ -178,7 +178,7 @@ TEST(BrokenKernels, ARoundingModeLeftBehindStaysWithItsKernel) {
 TEST(BrokenKernels, WorstFirst) {
     std::vector<Kernel> kernels{kernel_named("tetrahedron.cramer"), kernel(flipped_sign),
                                 kernel_named("tetrahedron.kahan")};
-    const Report r = audit_of(kernels, {family_named("random.inside")}, 500);
+    const AuditReport r = audit_of(kernels, {family_named("random.inside")}, 500);
     EXPECT_EQ(r.kernels.front().kernel.name, "tetrahedron.under-test");
 }
 
@@ -186,7 +186,7 @@ TEST(BrokenKernels, AFalseCertificateOutranksEverything) {
     Kernel certified = kernel_named("tetrahedron.cramer");
     certified.name = "tetrahedron.certified";
     certified.certifies = true;
-    const Report r = audit_of({kernel(flipped_sign), certified}, {family_named("random.inside")}, 500);
+    const AuditReport r = audit_of({kernel(flipped_sign), certified}, {family_named("random.inside")}, 500);
     EXPECT_EQ(r.kernels.front().kernel.name, "tetrahedron.certified");
     EXPECT_EQ(r.kernels.front().witnesses.front().reason, "false_certificate");
 }

@@ -11,7 +11,7 @@ namespace {
 TEST(ExactKernels, HaveNoFindingInAnyFamily) {
     const auto kernels = kernels_matching("*.exact");
     ASSERT_EQ(kernels.size(), all_simplices.size());
-    const Report r = audit_of(kernels, all_families(), 2000, own_meshes());
+    const AuditReport r = audit_of(kernels, all_families(), 2000, own_meshes());
     for (const KernelResult& k : r.kernels) {
         EXPECT_GT(k.total.cases, 2000U * 20) << k.kernel.name;
         EXPECT_EQ(k.total.wrong_cases, 0U) << k.kernel.name;
@@ -31,7 +31,7 @@ double off_by_one_ulp(const double* vertices, const double* point, const double*
 TEST(ExactKernels, AreHeldToTheLastBitOfTheValue) {
     auto kernels = kernels_matching("tetrahedron.exact");
     kernels.at(0).interpolate = off_by_one_ulp;
-    const Report r = audit_of(kernels, {family_named("random.inside")}, 100);
+    const AuditReport r = audit_of(kernels, {family_named("random.inside")}, 100);
     EXPECT_EQ(r.kernels.at(0).total.counts[static_cast<std::size_t>(Finding::false_certificate)], 100U);
 }
 

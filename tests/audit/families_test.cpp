@@ -35,12 +35,12 @@ double share_of(const std::string& family, bool (*holds)(const Case&)) {
 }
 
 bool zero_weight(const Case& c) {
-    const exact::Answer a = exact::ask(c);
+    const OracleAnswer a = ask_oracle(c);
     return a.region != Region::degenerate && std::popcount(a.support) < vertex_count(c.simplex);
 }
 
 bool degenerate(const Case& c) {
-    return exact::ask(c).region == Region::degenerate;
+    return ask_oracle(c).region == Region::degenerate;
 }
 
 TEST(Families, NamesAreUniqueAndExplained) {
@@ -93,9 +93,9 @@ TEST(Families, SeedsAndNumbersGiveDifferentCases) {
 TEST(Families, DegenerateOnesAreDegenerate) {
     for (const char* name : {"degenerate.point", "degenerate.line", "degenerate.plane"})
         EXPECT_EQ(share_of(name, degenerate), 1) << name;
-    for_each_case("degenerate.point", [](const Case& c) { EXPECT_EQ(exact::affine_dimension(c), 0); });
-    for_each_case("degenerate.line", [](const Case& c) { EXPECT_LE(exact::affine_dimension(c), 1); });
-    for_each_case("degenerate.plane", [](const Case& c) { EXPECT_LE(exact::affine_dimension(c), 2); });
+    for_each_case("degenerate.point", [](const Case& c) { EXPECT_EQ(affine_dimension(c), 0); });
+    for_each_case("degenerate.line", [](const Case& c) { EXPECT_LE(affine_dimension(c), 1); });
+    for_each_case("degenerate.plane", [](const Case& c) { EXPECT_LE(affine_dimension(c), 2); });
 }
 
 TEST(Families, NearlyDegenerateOnesMostlyAreNot) {
@@ -114,7 +114,7 @@ TEST(Families, DiagonalHasExactZeros) {
 TEST(Families, PointsOnFacetsMostlyMissThem) {
     EXPECT_LT(share_of("on-facet", zero_weight), 0.9);
     for_each_case("on-facet", [](const Case& c) {
-        const exact::Answer a = exact::ask(c);
+        const OracleAnswer a = ask_oracle(c);
         EXPECT_LT(std::fabs(a.weights[static_cast<std::size_t>(vertex_count(c.simplex) - 1)]), 1e-9);
     });
 }
@@ -201,7 +201,7 @@ TEST(Families, PointsNearFacetsAreNear) {
     const Family& f = family_named("near-facet.1e-13");
     for (std::uint64_t i = 0; i < cases; ++i) {
         const Case c = make_case(f, Simplex::tetrahedron, 1, i, {});
-        const double h = exact::ask(c).weights[3] * height(c);
+        const double h = ask_oracle(c).weights[3] * height(c);
         EXPECT_NEAR(std::fabs(h), 1e-13, 2e-15) << i;
     }
 }

@@ -29,7 +29,7 @@ class KnownFailures : public testing::TestWithParam<Pinned> {};
 
 TEST_P(KnownFailures, StandWhereTheyMust) {
     const Pinned& p = GetParam();
-    const Statistics s = statistics_of(p.kernel, p.family, p.cases);
+    const KernelStatistics s = statistics_of(p.kernel, p.family, p.cases);
     EXPECT_EQ(s.wrong_cases, p.wrong_cases);
     EXPECT_EQ(count_of(s, Finding::opposite_sign), p.opposite_signs);
 }
@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(KnownFailuresByConstruction, UnsignedRatiosNeverSayOutside) {
     for (const char* kernel : {"triangle.unsigned-area", "tetrahedron.unsigned-volume"}) {
         for (const char* family : {"mesh.hull.near", "mesh.hull.far", "random"}) {
-            const Statistics s = statistics_of(kernel, family, 2000, own_meshes());
+            const KernelStatistics s = statistics_of(kernel, family, 2000, own_meshes());
             const auto& outside = s.confusion[static_cast<std::size_t>(Region::outside)];
             EXPECT_EQ(outside[static_cast<std::size_t>(Region::outside)], 0U) << kernel << " " << family;
             EXPECT_EQ(count_of(s, Finding::false_inside), outside[0] + outside[1]) << kernel << " " << family;
@@ -87,14 +87,14 @@ TEST(KnownFailuresByConstruction, UnsignedRatiosNeverSayOutside) {
 
 // Slivers of height 1e-12: weights off by 2.6e15 u, sums by 1.2e15 u, were measured of translated determinants.
 TEST(KnownFailuresByConstruction, SliversLoseTheWeightsToo) {
-    const Statistics s = statistics_of("tetrahedron.homogeneous", "sliver.1e-12", 20000);
+    const KernelStatistics s = statistics_of("tetrahedron.homogeneous", "sliver.1e-12", 20000);
     EXPECT_GT(s.weight_ulp.value, 1e15);
     EXPECT_GT(s.partition_residual.value, 1e12 * 0x1p-53);
 }
 
 // Half of the points next to a facet lie outside, and each of them passes for inside.
 TEST(KnownFailuresByConstruction, TheTolerantRuleTakesOutsideForInside) {
-    const Statistics s = statistics_of("tetrahedron.vtk-tolerance", "near-facet.1e-13", 20000);
+    const KernelStatistics s = statistics_of("tetrahedron.vtk-tolerance", "near-facet.1e-13", 20000);
     std::uint64_t outside = 0;
     for (const auto n : s.confusion[static_cast<std::size_t>(Region::outside)]) outside += n;
     EXPECT_GT(outside, 9000U);

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "audit_helpers.hpp"
+#include "barycert/audit/mesh_draws.hpp"
 #include "barycert/base/random.hpp"
 
 namespace barycert::audit {
@@ -17,7 +18,7 @@ namespace {
 std::map<Feature, int> features(const std::string& family, Simplex s) {
     std::map<Feature, int> count;
     for (std::uint64_t i = 0; i < 1000; ++i)
-        ++count[exact::ask(make_case(family_named(family), s, 1, i, own_meshes())).feature];
+        ++count[ask_oracle(make_case(family_named(family), s, 1, i, own_meshes())).feature];
     return count;
 }
 
@@ -67,13 +68,13 @@ TEST(MeshFamilies, NeighboursAreMostlyOutside) {
 TEST(MeshFamilies, NodalValuesComeFromTheField) {
     MeshSource source;
     source.add("cube-hole", read_tetgen(BARYCERT_DATA_DIR "/meshes/cube-hole").value());
-    const Mesh& mesh = source.meshes().front().mesh;
+    const Mesh& mesh = source.meshes().front()->mesh;
     ASSERT_FALSE(mesh.point_fields.empty());
     ASSERT_GT(mesh.point_fields.size(), 1U);
     std::set<std::size_t> met;
     Random random(1);
     for (int i = 0; i < 100; ++i) {
-        const Draw draw = source.any(Simplex::tetrahedron, random);
+        const Draw draw = draw_any(source, Simplex::tetrahedron, random);
         const auto carries = [&](const Field& f) {
             for (std::size_t k = 0; k < 4; ++k) {
                 if (draw.simplex.values[k] != f.data[static_cast<std::size_t>(draw.nodes[k])]) return false;

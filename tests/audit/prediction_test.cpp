@@ -1,4 +1,5 @@
 #include "barycert/audit.hpp"
+#include "barycert/audit/comparison.hpp"
 #include "barycert/base/random.hpp"
 
 #include <gtest/gtest.h>
@@ -119,7 +120,7 @@ struct Proportional {
 };
 
 TEST(Prediction, APlantedErrorIsMeasured) {
-    const Report report = audit_of({planted<Constant>()}, {family_named("mesh.inside")}, 2000, own_meshes());
+    const AuditReport report = audit_of({planted<Constant>()}, {family_named("mesh.inside")}, 2000, own_meshes());
     const Prediction& p = report.kernels.at(0).prediction;
     EXPECT_EQ(p.cases(), report.regions[0] + report.regions[1]);
     EXPECT_GT(p.bins().size(), 2U);
@@ -130,12 +131,12 @@ TEST(Prediction, APlantedErrorIsMeasured) {
 }
 
 TEST(Prediction, APlantedMultipleOfKappaIsTheFactor) {
-    const Report report = audit_of({planted<Proportional>()}, {family_named("sliver.1e-12")}, 1000);
+    const AuditReport report = audit_of({planted<Proportional>()}, {family_named("sliver.1e-12")}, 1000);
     EXPECT_NEAR(report.kernels.at(0).prediction.worst_factor(), 1024, 1);
 }
 
-const Report& everything() {
-    static const Report report = audit_of(kernels_matching("t*"), all_families(), 1000, own_meshes());
+const AuditReport& everything() {
+    static const AuditReport report = audit_of(kernels_matching("t*"), all_families(), 1000, own_meshes());
     return report;
 }
 
@@ -192,7 +193,7 @@ TEST(Prediction, HoldsInTheMiddleOfANeedleAlongTheSpaceDiagonal) {
         for (std::size_t axis = 0; axis < 3; ++axis)
             c.point[axis] =
                 0.25 * (c.vertices[axis] + c.vertices[3 + axis] + c.vertices[6 + axis] + c.vertices[9 + axis]);
-        const exact::Answer answer = exact::ask(c);
+        const OracleAnswer answer = ask_oracle(c);
         const double kappa = predicting_condition(c, answer.region);
         if (std::isnan(kappa)) continue;
         const Kernel& kernel = kernel_named("tetrahedron.signed-volume");
@@ -209,7 +210,7 @@ TEST(Prediction, DoesNotDependOnThreads) {
     const auto with = [](int threads) {
         return audit_of(kernels_matching("t*.homogeneous"), all_families(), 1000, own_meshes(), threads);
     };
-    const Report one = with(1), two = with(2);
+    const AuditReport one = with(1), two = with(2);
     ASSERT_EQ(one.kernels.size(), two.kernels.size());
     for (std::size_t k = 0; k < one.kernels.size(); ++k)
         expect_same(one.kernels[k].prediction, two.kernels[k].prediction);

@@ -9,13 +9,13 @@
 namespace barycert::audit {
 namespace {
 
-std::string without_times(Report r) {
+std::string without_times(AuditReport r) {
     r.seconds = 0;
     r.threads = 0;
     std::stable_sort(r.kernels.begin(), r.kernels.end(),
                      [](const auto& a, const auto& b) { return a.kernel.name < b.kernel.name; });
     for (KernelResult& k : r.kernels) k.ns = 0;
-    return report::json_report(r);
+    return audit_json(r);
 }
 
 TEST(Runner, ThreadsChangeNothing) {
@@ -29,14 +29,14 @@ TEST(Runner, ThreadsChangeNothing) {
 
 TEST(Runner, CountsAreWhatWasAskedFor) {
     for (const std::uint64_t count : {1U, 255U, 256U, 257U, 1000U}) {
-        const Report r = audit_of(kernels_matching("tetrahedron.c*"), {family_named("random")}, count);
+        const AuditReport r = audit_of(kernels_matching("tetrahedron.c*"), {family_named("random")}, count);
         EXPECT_EQ(r.cases, count);
         for (const KernelResult& k : r.kernels) EXPECT_EQ(k.total.cases, count);
     }
 }
 
 TEST(Runner, ConfusionHoldsEveryCase) {
-    const Report r = audit_of(kernels_matching("triangle.*"), {family_named("lattice.integers")}, 1000);
+    const AuditReport r = audit_of(kernels_matching("triangle.*"), {family_named("lattice.integers")}, 1000);
     for (const KernelResult& k : r.kernels) {
         std::uint64_t sum = 0;
         for (const auto& row : k.total.confusion) {
@@ -47,7 +47,7 @@ TEST(Runner, ConfusionHoldsEveryCase) {
 }
 
 TEST(Runner, AllKernelsMeetTheSameCases) {
-    const Report r = audit_of(kernels_matching("tetrahedron.*"), {family_named("lattice.tenths")}, 1000);
+    const AuditReport r = audit_of(kernels_matching("tetrahedron.*"), {family_named("lattice.tenths")}, 1000);
     for (const KernelResult& k : r.kernels) {
         for (std::size_t exact = 0; exact < 4; ++exact) {
             std::uint64_t sum = 0, first = 0;
@@ -61,16 +61,16 @@ TEST(Runner, AllKernelsMeetTheSameCases) {
 }
 
 TEST(Runner, NothingToAuditIsAnError) {
-    Options options;
+    AuditOptions options;
     options.kernels = kernels_matching("triangle.*");
     options.families = {family_named("degenerate.plane")};  // tetrahedra only
-    const auto r = run(options, {});
+    const auto r = run_audit(options, {});
     ASSERT_FALSE(r);
     EXPECT_FALSE(r.error().remedy.empty());
 }
 
 TEST(Runner, MeshFamiliesAreLeftOutWithoutAMesh) {
-    const Report r =
+    const AuditReport r =
         audit_of(kernels_matching("tetrahedron.kahan"), {family_named("mesh.inside"), family_named("random")}, 100);
     ASSERT_EQ(r.kernels.size(), 1U);
     EXPECT_EQ(r.kernels[0].families.size(), 1U);
@@ -78,17 +78,17 @@ TEST(Runner, MeshFamiliesAreLeftOutWithoutAMesh) {
 }
 
 TEST(Runner, TellsProgressToTheEnd) {
-    Options options;
+    AuditOptions options;
     options.kernels = kernels_matching("tetrahedron.kahan");
     options.families = {family_named("random"), family_named("tiny")};
     options.count = 2000;
     options.threads = 1;
     std::vector<std::uint64_t> told;
-    options.progress = [&](const Progress& p) {
+    options.progress = [&](const AuditProgress& p) {
         EXPECT_EQ(p.cases_total, 4000U);
         told.push_back(p.cases_done);
     };
-    ASSERT_TRUE(run(options, {}));
+    ASSERT_TRUE(run_audit(options, {}));
     ASSERT_FALSE(told.empty());
     EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
     EXPECT_EQ(told.back(), 4000U);
@@ -102,18 +102,18 @@ TEST(Runner, SkippingResidualsLosesNothing) {
         for (const char* family : {"random", "needle", "lattice.tenths", "subnormal", "mixed-scale", "offset.2^20"}) {
             const Family& f = family_named(family);
             if (!f.applies_to(kernel.simplex)) continue;
-            const Statistics s = statistics_of(kernel, family, 300);
+            const KernelStatistics s = statistics_of(kernel, family, 300);
             double partition = -1, reproduction = -1;
             for (std::uint64_t i = 0; i < 300; ++i) {
                 const Case c = make_case(f, kernel.simplex, 1, i, {});
                 std::array<double, 4> w{};
                 if (kernel.weights(c.vertices.data(), c.point.data(), w.data()) != 0 ||
-                    exact::ask(c).region == Region::degenerate)
+                    ask_oracle(c).region == Region::degenerate)
                     continue;
                 const std::span<const double> weights(w.data(), static_cast<std::size_t>(vertex_count(c.simplex)));
                 if (!std::all_of(weights.begin(), weights.end(), [](double x) { return std::isfinite(x); })) continue;
-                partition = std::max(partition, std::fabs(exact::partition_residual(weights)));
-                reproduction = std::max(reproduction, exact::reproduction_residual(c, weights));
+                partition = std::max(partition, std::fabs(partition_residual(weights)));
+                reproduction = std::max(reproduction, reproduction_residual(c, weights));
             }
             EXPECT_EQ(s.partition_residual.value, partition) << name << " " << family;
             EXPECT_EQ(s.reproduction_residual.value, reproduction) << name << " " << family;

@@ -46,8 +46,8 @@ TEST(LogHistogram, HugeNumbersShareTheLastBin) {
     EXPECT_GE(h.quantile(1), 0x1p127);
 }
 
-TEST(Worst, EqualValuesKeepTheFirstCase) {
-    Worst w;
+TEST(WorstCase, EqualValuesKeepTheFirstCase) {
+    WorstCase w;
     w.include(2, 7);
     w.include(2, 3);
     w.include(2, 9);
@@ -67,8 +67,8 @@ Comparison comparison(int seed) {
 }
 
 // Merging parts in any order gives what adding one by one gives: results cannot depend on threads.
-RC_GTEST_PROP(Statistics, MergeIsAdd, (std::vector<unsigned short> seeds, unsigned char cut)) {
-    Statistics whole, left, right;
+RC_GTEST_PROP(KernelStatistics, MergeIsAdd, (std::vector<unsigned short> seeds, unsigned char cut)) {
+    KernelStatistics whole, left, right;
     for (std::size_t i = 0; i < seeds.size(); ++i) {
         const Region exact = all_regions[seeds[i] / 7 % 4];
         whole.add(comparison(seeds[i]), exact, i);

@@ -9,26 +9,27 @@
 namespace barycert::audit {
 namespace {
 
-Rule rule(const std::string& text) {
-    return parse_rule(text).value();
+Threshold rule(const std::string& text) {
+    return parse_threshold(text).value();
 }
 
 TEST(Thresholds, NamesAndLimits) {
     EXPECT_EQ(rule("opposite_sign").limit, 0);
     EXPECT_EQ(rule("opposite_sign>12").limit, 12);
     EXPECT_EQ(rule("worst_weight_ulp>1.5").limit, 1.5);
-    for (const std::string& name : rule_names()) EXPECT_EQ(rule(name).name, name);
+    for (const std::string& name : threshold_names()) EXPECT_EQ(rule(name).name, name);
 }
 
 TEST(Thresholds, WhatIsNoRule) {
     for (const char* text : {"", "nonsense", "opposite_sign>", "opposite_sign>x", "opposite_sign>-1",
                              "opposite_sign>nan", "opposite_sign=3", ">3"})
-        EXPECT_FALSE(parse_rule(text)) << text;
+        EXPECT_FALSE(parse_threshold(text)) << text;
 }
 
 TEST(Thresholds, OnlyWhatExceedsTheLimitIsBroken) {
-    const Report r = audit_of({kernel_named("tetrahedron.unsigned-volume"), kernel_named("tetrahedron.signed-volume")},
-                              {family_named("random")}, 1000);
+    const AuditReport r =
+        audit_of({kernel_named("tetrahedron.unsigned-volume"), kernel_named("tetrahedron.signed-volume")},
+                 {family_named("random")}, 1000);
     const auto wrong = static_cast<double>(r.kernels[0].total.wrong_cases);
     ASSERT_GT(wrong, 0);
     ASSERT_EQ(r.kernels[1].total.wrong_cases, 0U);
@@ -55,7 +56,7 @@ TEST(Thresholds, SilenceIsNotAccuracy) {
     for (const WeightsFunction mute : {only_nan, declares_everything}) {
         Kernel k = kernel_named("tetrahedron.kahan");
         k.weights = mute;
-        const Report r = audit_of({k}, {family_named("random.inside")}, 300);
+        const AuditReport r = audit_of({k}, {family_named("random.inside")}, 300);
         for (const char* name :
              {"worst_weight_ulp", "p999_weight_ulp", "worst_value_ulp", "worst_partition_residual"}) {
             EXPECT_EQ(violations(r, {{name, 1e300}}).size(), 1U) << name;

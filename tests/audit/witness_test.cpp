@@ -1,6 +1,7 @@
 // Witnesses: they show what they say, and survive a file bit for bit.
 
 #include "barycert/audit.hpp"
+#include "barycert/audit/comparison.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,7 @@
 namespace barycert::audit {
 namespace {
 
-Report nasty_audit() {
+AuditReport nasty_audit() {
     return audit_of(
         catalogue(),
         {family_named("huge"), family_named("subnormal"), family_named("lattice.tenths"), family_named("mesh.faces")},
@@ -37,7 +38,7 @@ TEST(Witness, ShowsWhatItSays) {
     int seen = 0;
     for (const KernelResult& k : nasty_audit().kernels) {
         for (const Witness& w : k.witnesses) {
-            const exact::Answer answer = exact::ask(w.c);
+            const OracleAnswer answer = ask_oracle(w.c);
             std::array<double, 4> weights{};
             const int status = k.kernel.weights(w.c.vertices.data(), w.c.point.data(), weights.data());
             const Comparison r = compare(k.kernel, w.c, answer, status, weights);
@@ -57,7 +58,7 @@ TEST(Witness, ShowsWhatItSays) {
     EXPECT_GT(seen, 100);
 }
 
-void expect_same(const std::vector<Witness>& read, const Report& report) {
+void expect_same(const std::vector<Witness>& read, const AuditReport& report) {
     std::size_t i = 0;
     for (const KernelResult& k : report.kernels) {
         for (const Witness& w : k.witnesses) {
@@ -83,9 +84,9 @@ void expect_same(const std::vector<Witness>& read, const Report& report) {
 }
 
 TEST(Witness, FilesKeepEveryBit) {
-    const Report report = nasty_audit();
-    expect_same(read_witnesses(TemporaryFile(witness_file(report)).path()).value(), report);
-    expect_same(read_witnesses(TemporaryFile(report::json_report(report)).path()).value(), report);
+    const AuditReport report = nasty_audit();
+    expect_same(read_witnesses(TemporaryFile(witnesses_json(report)).path()).value(), report);
+    expect_same(read_witnesses(TemporaryFile(audit_json(report)).path()).value(), report);
 }
 
 std::string refusal(const std::string& bytes) {

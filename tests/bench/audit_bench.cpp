@@ -14,20 +14,20 @@ namespace {
 using namespace barycert;
 
 void audit_mesh_cases(benchmark::State& state) {
-    audit::MeshSource meshes;
+    MeshSource meshes;
     meshes.add("bracket", read_tetgen(BARYCERT_DATA_DIR "/meshes/bracket").value());
-    audit::Options options;
+    AuditOptions options;
     options.kernels = kernels_matching("tetrahedron.*");
-    options.families = audit::families_matching("mesh.*");
+    options.families = families_matching("mesh.*");
     options.threads = static_cast<int>(state.range(0));
-    const auto applies = [](const audit::Family& f) { return f.applies_to(Simplex::tetrahedron); };
+    const auto applies = [](const Family& f) { return f.applies_to(Simplex::tetrahedron); };
     const auto parts = std::count_if(options.families.begin(), options.families.end(), applies);
     options.count = static_cast<std::uint64_t>(state.range(1)) / static_cast<std::uint64_t>(parts);
     for (auto _ : state) {
-        const audit::Report report = audit::run(options, meshes).value();
+        const AuditReport report = run_audit(options, meshes).value();
         // Verified before it is believed: every case was met, and the worst and a sound kernel stand where they must.
-        const audit::Statistics& worst = report.kernels.front().total;
-        const audit::Statistics& best = report.kernels.back().total;
+        const KernelStatistics& worst = report.kernels.front().total;
+        const KernelStatistics& best = report.kernels.back().total;
         if (report.cases != options.count * static_cast<std::uint64_t>(parts) || worst.cases != report.cases ||
             worst.wrong_cases * 3 < worst.cases || best.wrong_cases * 20 > best.cases) {
             state.SkipWithError("the audit is wrong");

@@ -82,11 +82,11 @@ std::size_t differences(const std::vector<double>& ours, const std::vector<doubl
     return count;
 }
 
-check::Report check_with(const Mesh& mesh, int threads, bool delaunay = false) {
-    check::Options options;
+CheckReport check_with(const Mesh& mesh, int threads, bool delaunay = false) {
+    CheckOptions options;
     options.threads = threads;
     options.delaunay = delaunay;
-    return check::run(mesh, options);
+    return check_mesh(mesh, options);
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ check::Report check_with(const Mesh& mesh, int threads, bool delaunay = false) {
 int main() {
     const Mesh mesh = read_tetgen(large_mesh_stem()).value();
     const double before = barycert::bench::peak_mib();
-    const check::Report report = check_with(mesh, 2);
+    const CheckReport report = check_with(mesh, 2);
     const double after = barycert::bench::peak_mib();
     if (!report.certified() || report.volume.cells != 1 || !report.volume.equal || !report.findings.empty()) {
         std::fprintf(stderr, "the mesh is not certified, or not the unit cube\n");

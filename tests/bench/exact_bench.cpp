@@ -245,11 +245,10 @@ Cases cases_of_ties(std::size_t count) {
 }
 
 Cases cases_of_family(const char* glob, std::size_t count) {
-    const std::vector<audit::Family> families = audit::families_matching(glob);
+    const std::vector<Family> families = families_matching(glob);
     require(families.size() == 1, "no such family");
     std::vector<Case> list;
-    for (std::size_t j = 0; j < count; ++j)
-        list.push_back(audit::make_case(families[0], tetrahedron, 1, j, audit::MeshSource()));
+    for (std::size_t j = 0; j < count; ++j) list.push_back(make_case(families[0], tetrahedron, 1, j, MeshSource()));
     return Cases(std::move(list));
 }
 
@@ -407,7 +406,7 @@ Verified verified_weights(const Table& table, const Batch& batch, const Values& 
     v.values = same_on_all_targets<double>(table, count, v.value_tiers,
                                            [&](auto out, TierCounts* t) { interpolate(batch, field, out, t).value(); });
     for (std::size_t j = 0; j < count; ++j) {
-        const exact::Answer right = exact::ask(at(j));
+        const OracleAnswer right = ask_oracle(at(j));
         if (right.region == Region::degenerate) {
             require(std::isnan(v.values[j]) && std::isnan(v.weights[4 * j]), "a degenerate cell has weights");
             continue;
@@ -612,7 +611,7 @@ Group hard_cases(const Table& table, const Cases& cases, const std::string& name
     const auto right_signs = same_on_all_targets<WeightSigns>(
         table, count, sign_tiers, [&](auto to, TierCounts* t) { weight_signs(arrays, to, t).value(); });
     for (std::size_t j = 0; j < count; ++j) {
-        const exact::Answer a = exact::ask(cases.list[j]);
+        const OracleAnswer a = ask_oracle(cases.list[j]);
         for (int i = 0; i < 4; ++i)
             require(static_cast<int>(right_signs[j].sign(i)) == a.signs[static_cast<std::size_t>(i)], "an exact sign");
     }

@@ -46,7 +46,7 @@ void verify(const std::vector<Case>& cases) {
     for (const Case& c : cases) {
         const auto n = barycert::bench::numerators<CGAL::Gmpq>(c);
         const CGAL::Gmpq whole = n[0] + n[1] + n[2] + n[3];
-        const exact::Answer a = exact::ask(c), w = exact::ask_wide(c);
+        const OracleAnswer a = ask_oracle(c), w = exact::ask_wide(c);
         for (std::size_t i = 0; i < 4; ++i) {
             const int sign = static_cast<int>(CGAL::sign(n[i])) * static_cast<int>(CGAL::sign(whole));
             const bool weights_agree = a.weights[i] == w.weights[i] || a.region == Region::degenerate;
@@ -97,7 +97,7 @@ void add(const char* name, Kind kind, double (*work)(const Case&)) {
 }
 
 double ask(const Case& c) {
-    return exact::ask(c).weights[0];
+    return ask_oracle(c).weights[0];
 }
 double ask_wide(const Case& c) {
     return exact::ask_wide(c).weights[0];

@@ -28,9 +28,9 @@ void add_all(Round& round, Contest& contest, std::optional<Locator>& locator, st
         [&] { sampler.reset(); });
     for (const int threads : {1, 2}) {
         contest.add("check " + std::to_string(threads), [&subject, threads] {
-            check::Options how;
+            CheckOptions how;
             how.threads = threads;
-            require(check::run(subject.mesh, how).certified(), "the mesh is not certified any more");
+            require(check_mesh(subject.mesh, how).certified(), "the mesh is not certified any more");
         });
     }
     if (VtkPeer* const vtk = round.vtk.get(); vtk != nullptr) {

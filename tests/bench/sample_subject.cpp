@@ -38,9 +38,9 @@ SampleOptions options(int threads, Rounding rounding) {
 
 Subject::Subject(const std::string& name_, Mesh mesh_, std::size_t point_count, std::int64_t grid_side)
     : name(name_ + " " + in_thousands(mesh_.cell_count())), mesh(std::move(mesh_)) {
-    check::Options how;
+    CheckOptions how;
     how.threads = 2;
-    const check::Report report = check::run(mesh, how);
+    const CheckReport report = check_mesh(mesh, how);
     require(report.certified(), "the mesh " + name + " is not certified");
     certificate = report.certificate;
 

@@ -97,8 +97,8 @@ std::size_t verify_by_oracle(const Subject& subject, const Table& rows) {
     std::size_t asked = 0;
     for (std::size_t i = 0; i < subject.point_count(); i += step) {
         if (rows.cells[i] < 0) continue;
-        const exact::Answer answer =
-            exact::ask(case_of(subject, static_cast<std::size_t>(rows.cells[i]), subject.points.data() + 3 * i));
+        const OracleAnswer answer =
+            ask_oracle(case_of(subject, static_cast<std::size_t>(rows.cells[i]), subject.points.data() + 3 * i));
         require(answer.feature == rows.features[i], "the oracle has another feature of point " + std::to_string(i));
         require(same_bits(answer.value, rows.values[i]), "the oracle has another value at point " + std::to_string(i));
         ++asked;

@@ -152,7 +152,7 @@ TEST(Candidates, are_few_in_a_pinwheel) {
 }
 
 TEST(Candidates, a_pinwheel_is_certified_in_time) {
-    const check::Report r = quick(pinwheel(2, 30000));
+    const CheckReport r = quick(pinwheel(2, 30000));
     EXPECT_TRUE(r.certified());
     EXPECT_LT(r.seconds, 10) << "0.2 s on one core of 2.5 GHz; two minutes if every pair is asked";
 }

@@ -9,18 +9,18 @@
 namespace barycert::testing {
 namespace {
 
-void expect_not_covered(const check::Certificate& c, const Mesh& mesh) {
+void expect_not_covered(const Certificate& c, const Mesh& mesh) {
     EXPECT_FALSE(c.covers(mesh));
-    EXPECT_EQ(c.verdict_on(mesh), check::Verdict::not_checked);
+    EXPECT_EQ(c.verdict_on(mesh), Verdict::not_checked);
 }
 
 TEST(Certificate, covers_the_mesh_alone) {
     for (const int d : {2, 3}) {
         const Mesh mesh = box(d, {2, 2, 2});
-        const check::Certificate c = quick(mesh).certificate;
+        const Certificate c = quick(mesh).certificate;
         ASSERT_TRUE(c.covers(mesh));
         EXPECT_TRUE(c.covers(Mesh(mesh)));
-        EXPECT_EQ(c.verdict(), check::Verdict::certified);
+        EXPECT_EQ(c.verdict(), Verdict::certified);
         for (std::size_t i = 0; i < mesh.points.size(); ++i) {
             for (int bit = 0; bit < 64; ++bit) {
                 Mesh other = mesh;
@@ -42,7 +42,7 @@ TEST(Certificate, covers_the_mesh_alone) {
 TEST(Certificate, order_and_size_matter) {
     for (const int d : {2, 3}) {
         const Mesh mesh = box(d, {2, 2, 2});
-        const check::Certificate c = quick(mesh).certificate;
+        const Certificate c = quick(mesh).certificate;
         for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
             for (std::size_t j = 0; j < i; ++j) {
                 if (mesh.cells[i] == mesh.cells[j]) continue;
@@ -66,13 +66,13 @@ TEST(Certificate, order_and_size_matter) {
 
 TEST(Certificate, of_nothing_and_of_a_bad_mesh) {
     const Mesh mesh = box(3, {1, 1, 1});
-    expect_not_covered(check::Certificate{}, mesh);
-    expect_not_covered(check::Certificate{}, Mesh{});
+    expect_not_covered(Certificate{}, mesh);
+    expect_not_covered(Certificate{}, Mesh{});
     Mesh bad = mesh;
     bad.cells[0] = -1;
-    const check::Certificate c = quick(bad).certificate;
-    EXPECT_EQ(c.verdict(), check::Verdict::not_certified);
-    EXPECT_EQ(c.verdict_on(bad), check::Verdict::not_certified);
+    const Certificate c = quick(bad).certificate;
+    EXPECT_EQ(c.verdict(), Verdict::not_certified);
+    EXPECT_EQ(c.verdict_on(bad), Verdict::not_certified);
     EXPECT_FALSE(c.covers(bad));
     expect_not_covered(c, mesh);
     EXPECT_TRUE(quick(Mesh{}).certificate.covers(Mesh{}));

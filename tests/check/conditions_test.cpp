@@ -1,4 +1,4 @@
-// Each condition of the theorem violated alone, the others holding: the findings name that one, and what follows.
+// Each condition of the theorem violated alone, the others holding: the defects name that one, and what follows.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -17,10 +17,10 @@ Mesh solid(std::vector<double> points, std::vector<Mesh::Index> cells) {
     return mesh;
 }
 
-void expect_only(const Mesh& mesh, ProblemSet problems, std::size_t contacts = 0) {
-    const check::Report r = quick(mesh, 20);
+void expect_only(const Mesh& mesh, DefectSet problems, std::size_t contacts = 0) {
+    const CheckReport r = quick(mesh, 20);
     EXPECT_FALSE(r.certified());
-    EXPECT_EQ(words(found(r) & ~set_of(Problem::mixed_orientation)), words(problems));
+    EXPECT_EQ(words(found(r) & ~set_of(DefectKind::mixed_orientation)), words(problems));
     EXPECT_EQ(r.contacts.size(), contacts);
     EXPECT_FALSE(r.certificate.covers(mesh));
 }
@@ -31,15 +31,15 @@ TEST(Conditions, p1) {
     EXPECT_TRUE(quick(good).certified());
     Mesh bad = good;
     bad.points[23] = std::numeric_limits<double>::infinity();
-    expect_only(bad, set_of(Problem::not_finite));
+    expect_only(bad, set_of(DefectKind::not_finite));
     bad = good, bad.cells[7] = 8;
-    expect_only(bad, set_of(Problem::index_out_of_range, Problem::unused_node));
+    expect_only(bad, set_of(DefectKind::index_out_of_range, DefectKind::unused_node));
     bad = good, bad.cells[7] = 6;
-    expect_only(bad, set_of(Problem::repeated_node, Problem::unused_node));
+    expect_only(bad, set_of(DefectKind::repeated_node, DefectKind::unused_node));
     // On one line: no facet has an area, so that P2 to P4 say nothing of it.
     bad = good;
     for (std::size_t i = 12; i < 24; ++i) bad.points[i] = static_cast<double>(5 + (i - 12) / 3);
-    expect_only(bad, set_of(Problem::degenerate_cell));
+    expect_only(bad, set_of(DefectKind::degenerate_cell));
 }
 
 // One cell folded into another, a third that keeps clear at the facet that comes first: P3 and P4 hold.
@@ -47,8 +47,8 @@ TEST(Conditions, p2_same_side) {
     const Mesh folded =
         solid({1, -5, 1, 0, 0, 0, 8, 0, 0, 0, 8, 0, 2, 2, 2, 0, 0, 8}, {1, 2, 3, 4, 1, 2, 3, 5, 0, 1, 2, 5});
     // Cell 2 hangs at a facet of cell 1, outside of both.
-    expect_only(folded, set_of(Problem::same_side, Problem::open_boundary, Problem::overlapping_cells), 1);
-    EXPECT_EQ(quick(folded).find(Problem::same_side)->count, 1U);
+    expect_only(folded, set_of(DefectKind::same_side, DefectKind::open_boundary, DefectKind::overlapping_cells), 1);
+    EXPECT_EQ(quick(folded).find(DefectKind::same_side)->count, 1U);
     EXPECT_EQ(judge(folded).overlaps.size(), 1U);
 }
 
@@ -57,25 +57,25 @@ TEST(Conditions, p2_overfull) {
     Mesh mesh = box(3, {3, 3, 3});
     const std::size_t inner = 13 * 6 + 1;  // in the cube in the middle
     for (std::size_t i = 0; i < 4; ++i) mesh.cells.push_back(mesh.cells[inner * 4 + i]);
-    expect_only(mesh, set_of(Problem::duplicate_cell, Problem::overfull_facet, Problem::overlapping_cells), 1);
-    EXPECT_EQ(quick(mesh).find(Problem::overfull_facet)->count, 4U);
-    EXPECT_EQ(quick(mesh).find(Problem::duplicate_cell)->count, 1U);
+    expect_only(mesh, set_of(DefectKind::duplicate_cell, DefectKind::overfull_facet, DefectKind::overlapping_cells), 1);
+    EXPECT_EQ(quick(mesh).find(DefectKind::overfull_facet)->count, 4U);
+    EXPECT_EQ(quick(mesh).find(DefectKind::duplicate_cell)->count, 1U);
 }
 
 // Two cells that touch face to face, node to node, but have no common nodes: no cell overlaps another.
 TEST(Conditions, p3) {
     const Mesh crack =
         solid({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, -1}, {0, 1, 2, 3, 4, 5, 6, 7});
-    expect_only(crack, set_of(Problem::boundary_contact, Problem::coincident_nodes), 1);
-    EXPECT_EQ(quick(crack).find(Problem::boundary_contact)->count, 16U);  // every facet meets every other
+    expect_only(crack, set_of(DefectKind::boundary_contact, DefectKind::coincident_nodes), 1);
+    EXPECT_EQ(quick(crack).find(DefectKind::boundary_contact)->count, 16U);  // every facet meets every other
     // A corner on a face.
     const Mesh corner =
         solid({0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4, 1, 1, 0, 1, 1, -1, 2, 1, -1, 1, 2, -1}, {0, 1, 2, 3, 4, 5, 6, 7});
-    expect_only(corner, set_of(Problem::boundary_contact), 1);
+    expect_only(corner, set_of(DefectKind::boundary_contact), 1);
     // Edges that cross: no corner is on anything.
     const Mesh edges =
         solid({-1, 0, 0, 1, 0, 0, 0, -1, -1, 0, 1, -1, 0, -1, 0, 0, 1, 0, -1, 0, 1, 1, 0, 1}, {0, 1, 2, 3, 4, 5, 6, 7});
-    expect_only(edges, set_of(Problem::boundary_contact), 1);
+    expect_only(edges, set_of(DefectKind::boundary_contact), 1);
 }
 
 // Two facets in one plane that cross as a hexagram: each edge of one crosses two of the other, no corner is on the
@@ -83,8 +83,8 @@ TEST(Conditions, p3) {
 TEST(Conditions, p3_in_one_plane) {
     const Mesh star = solid({3, 0, 0, -3, 3, 0, -3, -3, 0, 0, 0, 5, -3.5, 0, 0, 2, 3, 0, 2, -3, 0, 0, 0, -5},
                             {0, 1, 2, 3, 4, 5, 6, 7});
-    expect_only(star, set_of(Problem::boundary_contact), 1);
-    EXPECT_EQ(quick(star).find(Problem::boundary_contact)->count, 13U);
+    expect_only(star, set_of(DefectKind::boundary_contact), 1);
+    EXPECT_EQ(quick(star).find(DefectKind::boundary_contact)->count, 13U);
     EXPECT_EQ(quick(star, 1).contacts[0].dimension, 2);
 }
 
@@ -92,7 +92,7 @@ TEST(Conditions, p3_in_one_plane) {
 TEST(Conditions, p4) {
     const Mesh nested =
         solid({0, 0, 0, 8, 0, 0, 0, 8, 0, 0, 0, 8, 1, 1, 1, 2, 1, 1, 1, 2, 1, 1, 1, 2}, {0, 1, 2, 3, 4, 5, 6, 7});
-    expect_only(nested, set_of(Problem::nested_part, Problem::overlapping_cells), 1);
+    expect_only(nested, set_of(DefectKind::nested_part, DefectKind::overlapping_cells), 1);
     EXPECT_EQ(quick(nested).volume.equal, true);  // volumes alone would not tell
 }
 
@@ -103,17 +103,17 @@ TEST(Conditions, p5) {
     EXPECT_TRUE(quick(mesh).certified());
     Mesh bad = mesh;
     bad.neighbours[10] = bad.neighbours[10] == 5 ? 6 : 5;
-    expect_only(bad, set_of(Problem::wrong_neighbour));
-    EXPECT_EQ(quick(bad).find(Problem::wrong_neighbour)->count, 1U);
+    expect_only(bad, set_of(DefectKind::wrong_neighbour));
+    EXPECT_EQ(quick(bad).find(DefectKind::wrong_neighbour)->count, 1U);
     bad = mesh, bad.neighbours.pop_back();
-    expect_only(bad, set_of(Problem::wrong_neighbour));
+    expect_only(bad, set_of(DefectKind::wrong_neighbour));
     for (const std::array<Mesh::Index, 3> face : {std::array{0, 0, 1}, std::array{0, 2, 26}, std::array{-1, 0, 1}}) {
         bad = mesh, bad.faces.insert(bad.faces.end(), face.begin(), face.end());
-        expect_only(bad, set_of(Problem::wrong_face));
-        EXPECT_EQ(quick(bad).find(Problem::wrong_face)->count, 1U);
+        expect_only(bad, set_of(DefectKind::wrong_face));
+        EXPECT_EQ(quick(bad).find(DefectKind::wrong_face)->count, 1U);
     }
     bad = mesh, bad.faces.push_back(0);
-    expect_only(bad, set_of(Problem::wrong_face));
+    expect_only(bad, set_of(DefectKind::wrong_face));
 }
 
 // Triangles in the plane have no faces, whatever stands there.
@@ -121,12 +121,12 @@ TEST(Conditions, p5_in_the_plane) {
     Mesh mesh = box(2, {2, 2, 0});
     EXPECT_TRUE(quick(mesh).certified());
     mesh.faces = {mesh.cells[0], mesh.cells[1], mesh.cells[2]};
-    expect_only(mesh, set_of(Problem::wrong_face));
-    const check::Report report = quick(mesh);
-    ASSERT_NE(report.find(Problem::wrong_face), nullptr);
-    EXPECT_STREQ(report.find(Problem::wrong_face)->places[0].detail, "a mesh of triangles has no faces");
+    expect_only(mesh, set_of(DefectKind::wrong_face));
+    const CheckReport report = quick(mesh);
+    ASSERT_NE(report.find(DefectKind::wrong_face), nullptr);
+    EXPECT_STREQ(report.find(DefectKind::wrong_face)->places[0].detail, "a mesh of triangles has no faces");
     mesh.faces.pop_back();
-    expect_only(mesh, set_of(Problem::wrong_face));
+    expect_only(mesh, set_of(DefectKind::wrong_face));
 }
 
 // The plane has the same conditions.
@@ -135,15 +135,15 @@ TEST(Conditions, plane) {
     mesh.dimension = 2;
     mesh.points = {0, 0, 8, 0, 0, 8, 1, 1, 2, 1, 1, 2};
     mesh.cells = {0, 1, 2, 3, 4, 5};
-    expect_only(mesh, set_of(Problem::nested_part, Problem::overlapping_cells), 1);
+    expect_only(mesh, set_of(DefectKind::nested_part, DefectKind::overlapping_cells), 1);
     mesh.points = {0, 0, 8, 0, 0, 8, 0, 0, 8, 0, 4, -1};
-    expect_only(mesh, set_of(Problem::boundary_contact, Problem::coincident_nodes), 1);
+    expect_only(mesh, set_of(DefectKind::boundary_contact, DefectKind::coincident_nodes), 1);
     mesh.points = {0, 0, 8, 0, 0, 8, 4, 0, 5, -1, 3, -1};
-    expect_only(mesh, set_of(Problem::boundary_contact), 1);
+    expect_only(mesh, set_of(DefectKind::boundary_contact), 1);
     // Folded along 0 1, with a cell that keeps clear at the facet that comes first.
     mesh.points = {0, 9, 8, 0, 0, 0, 0, 8, 2, 2};
     mesh.cells = {1, 2, 3, 1, 2, 4, 0, 1, 3};
-    expect_only(mesh, set_of(Problem::same_side, Problem::open_boundary, Problem::overlapping_cells), 1);
+    expect_only(mesh, set_of(DefectKind::same_side, DefectKind::open_boundary, DefectKind::overlapping_cells), 1);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Conformity to a PLC: on meshes whose PLC is known, and on planted differences.
+// ConformityReport to a PLC: on meshes whose PLC is known, and on planted differences.
 #include <gtest/gtest.h>
 
 #include "barycert/io.hpp"
@@ -14,12 +14,12 @@ Plc plc_of(const std::string& name) {
     return read_plc(BARYCERT_DATA_DIR "/plc/" + name).value();
 }
 
-check::Conformity conformity(const Mesh& mesh, const Plc& plc, int threads = 1) {
-    check::Options options;
+ConformityReport conformity(const Mesh& mesh, const Plc& plc, int threads = 1) {
+    CheckOptions options;
     options.plc = &plc;
     options.threads = threads;
     options.contacts = 0;
-    return check::run(mesh, options).conformity.value();
+    return check_mesh(mesh, options).conformity.value();
 }
 
 /// The unit cube: six squares, one of them with a square hole in which another facet lies.
@@ -38,7 +38,7 @@ Plc cube() {
     return plc;
 }
 
-TEST(Conformity, OfTheProjectsOwnMeshes) {
+TEST(ConformityReport, OfTheProjectsOwnMeshes) {
     struct Known {
         const char *mesh, *plc;
         std::uint64_t facets, exact, rounded;
@@ -51,7 +51,7 @@ TEST(Conformity, OfTheProjectsOwnMeshes) {
                            {"lattice-box", "lattice-box.poly", 6, 6, 0},
                            {"torus", "torus.off", 1296, 720, 0},
                            {"needle-slit", "needle-slit.smesh", 13, 5, 8}}) {
-        const check::Conformity c = conformity(mesh_of(k.mesh), plc_of(k.plc));
+        const ConformityReport c = conformity(mesh_of(k.mesh), plc_of(k.plc));
         EXPECT_EQ(c.facets, k.facets) << k.mesh;
         EXPECT_EQ(c.exact, k.exact) << k.mesh;
         EXPECT_EQ(c.rounded, k.rounded) << k.mesh;
@@ -62,14 +62,14 @@ TEST(Conformity, OfTheProjectsOwnMeshes) {
     }
 }
 
-TEST(Conformity, FacetsWithHolesAndWithoutArea) {
+TEST(ConformityReport, FacetsWithHolesAndWithoutArea) {
     const Mesh mesh = box(3, {4, 4, 4});
-    const check::Conformity c = conformity(mesh, cube());
+    const ConformityReport c = conformity(mesh, cube());
     EXPECT_EQ(c.facets, 7U);  // the last has segments alone
     EXPECT_EQ(c.exact, 7U);
     EXPECT_EQ(c.missing_vertices, 0U);
     // Coarser cells do not respect the square in the bottom.
-    const check::Conformity coarse = conformity(mapped(box(3, {1, 1, 1}), {4, 4, 4}, {0, 0, 0}), cube());
+    const ConformityReport coarse = conformity(mapped(box(3, {1, 1, 1}), {4, 4, 4}, {0, 0, 0}), cube());
     EXPECT_EQ(coarse.exact, 5U);
     EXPECT_EQ(coarse.violated, 2U);
     EXPECT_EQ(coarse.missing_vertices, 4U);
@@ -78,7 +78,7 @@ TEST(Conformity, FacetsWithHolesAndWithoutArea) {
     EXPECT_EQ(coarse.examples[1].facet, 1);
 }
 
-TEST(Conformity, AFaceCanLieInside) {
+TEST(ConformityReport, AFaceCanLieInside) {
     Plc plc;
     plc.points = {2, 0, 0, 2, 4, 0, 2, 4, 4, 2, 0, 4};
     plc.facets = {{{{0, 1, 2, 3}}, {}, 0}};
@@ -87,7 +87,7 @@ TEST(Conformity, AFaceCanLieInside) {
     EXPECT_EQ(conformity(box(3, {4, 4, 4}), plc).violated, 1U);
 }
 
-TEST(Conformity, ANodeThatIsMovedIsTold) {
+TEST(ConformityReport, ANodeThatIsMovedIsTold) {
     const auto node = [](int x, int y, int z) { return static_cast<std::size_t>(x + 5 * (y + 5 * z)); };
     const Mesh good = box(3, {4, 4, 4});
     // On the middle of the side x = 0, off its plane: by an ulp of 4, then by a thousandth.
@@ -95,7 +95,7 @@ TEST(Conformity, ANodeThatIsMovedIsTold) {
     Mesh rounded = good, moved = good;
     rounded.points[3 * node(0, 2, 2)] = 0x1p-50;
     moved.points[3 * node(0, 2, 2)] = 0x1p-10;
-    const check::Conformity r = conformity(rounded, cube()), m = conformity(moved, cube());
+    const ConformityReport r = conformity(rounded, cube()), m = conformity(moved, cube());
     EXPECT_EQ(r.exact, 6U);
     EXPECT_EQ(r.rounded, 1U);
     EXPECT_EQ(r.largest_distance, 0x1p-50);
@@ -125,22 +125,22 @@ Mesh slab(const std::vector<std::array<double, 2>>& polygon) {
     return mesh;
 }
 
-TEST(Conformity, EqualAreasAreNotEnough) {
+TEST(ConformityReport, EqualAreasAreNotEnough) {
     // A bulge at the top as large as the dent at the bottom: all corners of the square are nodes.
     const Mesh bulge = slab({{0.5, 0.25}, {1, 0}, {1, 1}, {0.5, 1.25}, {0, 1}, {0, 0}});
-    ASSERT_TRUE(check::run(bulge).certified());
+    ASSERT_TRUE(check_mesh(bulge).certified());
     Plc square;
     square.points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     square.facets = {{{{0, 1, 2, 3}}, {}, 0}};
-    const check::Conformity c = conformity(bulge, square);
+    const ConformityReport c = conformity(bulge, square);
     EXPECT_EQ(c.missing_vertices, 0U);
     EXPECT_EQ(c.violated, 1U);
     // The whole mesh beside its place by a twentieth.
-    const check::Conformity shifted = conformity(mapped(box(3, {4, 4, 4}), {1, 1, 1}, {0.05, 0, 0}), cube());
+    const ConformityReport shifted = conformity(mapped(box(3, {4, 4, 4}), {1, 1, 1}, {0.05, 0, 0}), cube());
     EXPECT_EQ(shifted.violated, 7U);
 }
 
-TEST(Conformity, PolygonsSideBySideOrOneInAnotherAreOneFilledFacet) {
+TEST(ConformityReport, PolygonsSideBySideOrOneInAnotherAreOneFilledFacet) {
     const Mesh mesh = mapped(box(3, {4, 2, 1}), {0.5, 0.5, 1}, {0, 0, 0});
     Plc plc;
     plc.points = {0, 0, 0, 1, 0, 0, 2, 0, 0, 2, 1, 0, 1, 1, 0, 0, 1, 0, 0.5, 0, 0, 1, 0.5, 0};
@@ -157,7 +157,7 @@ TEST(Conformity, PolygonsSideBySideOrOneInAnotherAreOneFilledFacet) {
     EXPECT_EQ(conformity(mesh, plc).exact, 1U);
 }
 
-TEST(Conformity, AtTheEndsOfTheRange) {
+TEST(ConformityReport, AtTheEndsOfTheRange) {
     for (const double s : {0x1p-1060, 0x1p-560, 0x1p560, 0x1p1021}) {
         Plc plc = cube();
         for (double& x : plc.points) x *= s;
@@ -170,19 +170,19 @@ TEST(Conformity, AtTheEndsOfTheRange) {
     }
 }
 
-TEST(Conformity, DoesNotDependOnThreadsOrderOrOrientation) {
+TEST(ConformityReport, DoesNotDependOnThreadsOrderOrOrientation) {
     Random random(2);
     const Mesh flange = mesh_of("flange");
     Mesh other = renumbered(flange, random);
     flip_some(other, random);
     const Plc plc = plc_of("flange.poly");
-    const check::Conformity a = conformity(flange, plc, 1), b = conformity(other, plc, 3);
+    const ConformityReport a = conformity(flange, plc, 1), b = conformity(other, plc, 3);
     EXPECT_EQ(a.exact, b.exact);
     EXPECT_EQ(a.rounded, b.rounded);
     EXPECT_EQ(a.largest_distance, b.largest_distance);
 }
 
-TEST(Conformity, OfBrokenMeshesEndsWell) {
+TEST(ConformityReport, OfBrokenMeshesEndsWell) {
     Mesh mesh = box(3, {2, 2, 2});
     mesh.cells[5] = -1;
     mesh.cells[9] = 1000;
@@ -192,9 +192,9 @@ TEST(Conformity, OfBrokenMeshesEndsWell) {
     EXPECT_EQ(conformity(mesh, Plc()).facets, 0U);
     Mesh plane = box(2, {2, 2, 1});
     const Plc plc = cube();
-    check::Options options;
+    CheckOptions options;
     options.plc = &plc;
-    EXPECT_FALSE(check::run(plane, options).conformity);
+    EXPECT_FALSE(check_mesh(plane, options).conformity);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ struct Seen {
     std::array<std::size_t, 4> dimensions{};
 };
 
-void expect_witness(const Mesh& mesh, const check::Contact& c, Seen& seen) {
+void expect_witness(const Mesh& mesh, const CellContact& c, Seen& seen) {
     const Meeting m = meeting(mesh, c.cells[0], c.cells[1]);
     ASSERT_EQ(c.dimension, m.dimension);
     ASSERT_EQ(c.overlap, m.dimension == mesh.dimension);
@@ -74,16 +74,16 @@ void expect_witness(const Mesh& mesh, const check::Contact& c, Seen& seen) {
 }
 
 void compare(const Mesh& mesh, Seen& seen) {
-    const check::Report r = quick(mesh, 1000);
+    const CheckReport r = quick(mesh, 1000);
     std::vector<std::array<Mesh::Index, 2>> overlaps;
-    for (const check::Contact& c : r.contacts) {
+    for (const CellContact& c : r.contacts) {
         expect_witness(mesh, c, seen);
         ASSERT_LT(c.cells[0], c.cells[1]);
         if (c.overlap) overlaps.push_back(c.cells);
     }
     ASSERT_EQ(overlaps, judge(mesh).overlaps);
     ASSERT_EQ(r.contacts.empty(),
-              r.find(Problem::boundary_contact) == nullptr && r.find(Problem::overlapping_cells) == nullptr);
+              r.find(DefectKind::boundary_contact) == nullptr && r.find(DefectKind::overlapping_cells) == nullptr);
 }
 
 TEST(Contacts, of_random_meshes) {
@@ -127,7 +127,7 @@ TEST(Contacts, of_extreme_coordinates) {
     for (const int d : {2, 3}) {
         Random random = Random::stream(33, static_cast<std::uint64_t>(d), 0);
         const Mesh mesh = extreme_soup(d, 60, 300, random);
-        const check::Report r = quick(mesh, 300);
+        const CheckReport r = quick(mesh, 300);
         ASSERT_EQ(r.contacts.size(), 300U);
         EXPECT_LT(r.seconds, 20) << "2 s on one core of 2.5 GHz";
         Seen seen;
@@ -135,7 +135,7 @@ TEST(Contacts, of_extreme_coordinates) {
             expect_witness(mesh, r.contacts[i], seen);
         EXPECT_GT(seen.exact, 2U) << d;
         EXPECT_LT(seen.exact, 30U) << d;
-        for (const check::Contact& c : r.contacts) {
+        for (const CellContact& c : r.contacts) {
             for (const std::string& text : c.witness.fraction) {
                 // Of doubles: 2^1074 and more bits, 2 * 650 digits. Others: degree 13 in 2100 bits, 2 * 8300 digits.
                 EXPECT_LT(text.size(), c.witness.exact ? 2500U : 17000U);
@@ -151,7 +151,7 @@ TEST(Contacts, no_double_between) {
     const double next = std::nextafter(1.0, 2.0);
     mesh.points = {1, 0, next, 0, next, 1, 1, 1, 1, -1, next, 0.5};
     mesh.cells = {0, 1, 2, 3, 4, 5};
-    const check::Report r = quick(mesh, 5);
+    const CheckReport r = quick(mesh, 5);
     ASSERT_EQ(r.contacts.size(), 1U);
     Seen seen;
     expect_witness(mesh, r.contacts[0], seen);

@@ -11,11 +11,11 @@ namespace barycert::testing {
 namespace {
 
 using Index = Mesh::Index;
-using P = Problem;
+using P = DefectKind;
 
-constexpr ProblemSet pinched = set_of(P::pinched_ridge, P::pinched_node);
-constexpr ProblemSet gone = set_of(P::unused_node) | pinched;  // as if the cell were not there
-constexpr ProblemSet overlap = set_of(P::overlapping_cells);
+constexpr DefectSet pinched = set_of(P::pinched_ridge, P::pinched_node);
+constexpr DefectSet gone = set_of(P::unused_node) | pinched;  // as if the cell were not there
+constexpr DefectSet overlap = set_of(P::overlapping_cells);
 
 Index& corner(const Site& s, std::size_t cell, std::size_t i) {
     return s.mesh.cells[cell * s.mesh.corners() + i];
@@ -293,11 +293,11 @@ void thin_cell(const Site& s, Random& random) {
 
 }  // namespace
 
-constexpr ProblemSet doubled = set_of(P::same_side, P::overfull_facet, P::open_boundary, P::boundary_contact,
-                                      P::nested_part, P::mixed_orientation) |
-                               pinched;
+constexpr DefectSet doubled = set_of(P::same_side, P::overfull_facet, P::open_boundary, P::boundary_contact,
+                                     P::nested_part, P::mixed_orientation) |
+                              pinched;
 
-const std::vector<Defect> defects{
+const std::vector<PlantedDefect> defects{
     {"index -1", set_of(P::index_out_of_range), gone, wild_index<-1>},
     {"index past the end", set_of(P::index_out_of_range), gone, index_past_the_end},
     {"largest index", set_of(P::index_out_of_range), gone, wild_index<std::numeric_limits<Index>::max()>},
@@ -332,9 +332,9 @@ const std::vector<Defect> defects{
     {"thin cell", set_of(P::plain_sign_wrong), set_of(P::mixed_orientation), thin_cell},
 };
 
-bool harmless(const Defect& defect) {
-    for (const auto& t : check::problem_texts) {
-        if (t.breaks && (defect.must & check::bit(t.problem)) != 0) return false;
+bool harmless(const PlantedDefect& defect) {
+    for (const auto& t : defect_texts) {
+        if (t.breaks && (defect.must & defect_bit(t.kind)) != 0) return false;
     }
     return true;
 }

@@ -18,18 +18,18 @@ struct Site {
     std::size_t any_node(Random& random) const { return first_node + random.below(nodes); }
 };
 
-struct Defect {
+struct PlantedDefect {
     const char* name;
-    ProblemSet must;  ///< these are found
-    ProblemSet may;   ///< these may be found besides
+    DefectSet must;  ///< these are found
+    DefectSet may;   ///< these may be found besides
     void (*plant)(const Site& site, Random& random);
     bool only_3d = false;
 };
 
 /// All that is told of it breaks nothing.
-bool harmless(const Defect& defect);
+bool harmless(const PlantedDefect& defect);
 
-extern const std::vector<Defect> defects;
+extern const std::vector<PlantedDefect> defects;
 
 /// Side of the cubes along each axis.
 constexpr int site_side = 3;

@@ -8,11 +8,11 @@ namespace barycert::testing {
 namespace {
 
 // What the mesh's own neighbours say of cells that are changed, added or taken away by another defect.
-constexpr ProblemSet follows = set_of(Problem::wrong_neighbour, Problem::wrong_face);
+constexpr DefectSet follows = set_of(DefectKind::wrong_neighbour, DefectKind::wrong_face);
 
-void expect_named(const Mesh& mesh, ProblemSet must, ProblemSet may, bool good) {
-    const check::Report r = quick(mesh);
-    const ProblemSet all = found(r);
+void expect_named(const Mesh& mesh, DefectSet must, DefectSet may, bool good) {
+    const CheckReport r = quick(mesh);
+    const DefectSet all = found(r);
     EXPECT_EQ(words(must & ~all), "nothing") << "was not found; found: " << words(all);
     EXPECT_EQ(words(all & ~(must | may)), "nothing") << "was found besides";
     EXPECT_EQ(r.certified(), good);
@@ -25,7 +25,7 @@ TEST(Defects, none) {
 
 TEST(Defects, alone) {
     for (const int d : {2, 3}) {
-        for (const Defect& defect : defects) {
+        for (const PlantedDefect& defect : defects) {
             if (defect.only_3d && d == 2) continue;
             for (std::uint64_t i = 0; i < 15; ++i) {
                 SCOPED_TRACE(std::string(defect.name) + ", " + std::to_string(d) + "D, " + std::to_string(i));
@@ -43,8 +43,8 @@ TEST(Defects, alone) {
 
 TEST(Defects, in_pairs) {
     for (const int d : {2, 3}) {
-        for (const Defect& a : defects) {
-            for (const Defect& b : defects) {
+        for (const PlantedDefect& a : defects) {
+            for (const PlantedDefect& b : defects) {
                 if ((a.only_3d || b.only_3d) && d == 2) continue;
                 SCOPED_TRACE(std::string(a.name) + " and " + b.name + ", " + std::to_string(d) + "D");
                 Random random = Random::stream(6, hash64(a.name), hash64(b.name));
@@ -53,7 +53,7 @@ TEST(Defects, in_pairs) {
                 if (((a.must | b.must) & follows) == 0) mesh.neighbours.clear(), mesh.faces.clear();
                 a.plant(at, random);
                 b.plant(other, random);
-                expect_named(mesh, a.must | b.must, a.may | b.may | follows | set_of(Problem::mixed_orientation),
+                expect_named(mesh, a.must | b.must, a.may | b.may | follows | set_of(DefectKind::mixed_orientation),
                              harmless(a) && harmless(b));
             }
         }
@@ -63,8 +63,8 @@ TEST(Defects, in_pairs) {
 // In the same box they may hide each other, or even make good: the judge decides.
 TEST(Defects, in_pairs_in_one_place) {
     std::size_t certified = 0;
-    for (const Defect& a : defects) {
-        for (const Defect& b : defects) {
+    for (const PlantedDefect& a : defects) {
+        for (const PlantedDefect& b : defects) {
             if (a.only_3d || b.only_3d) continue;
             SCOPED_TRACE(std::string(a.name) + " and " + b.name);
             Random random = Random::stream(7, hash64(a.name), hash64(b.name));
@@ -74,9 +74,9 @@ TEST(Defects, in_pairs_in_one_place) {
             if (&a == &b) continue;
             a.plant(site, random);
             b.plant(site, random);
-            const check::Report r = quick(mesh);
+            const CheckReport r = quick(mesh);
             EXPECT_FALSE(r.certified() && !judge(mesh).complex);
-            if (!r.certified() && (found(r) & (follows | set_of(Problem::not_finite))) == 0) {
+            if (!r.certified() && (found(r) & (follows | set_of(DefectKind::not_finite))) == 0) {
                 EXPECT_FALSE(judge(mesh).complex);
             }
             certified += r.certified() ? 1 : 0;
@@ -95,7 +95,8 @@ TEST(Defects, cell_taken_out) {
             std::vector<bool> keep(mesh.cell_count(), true);
             keep[random.below(keep.size())] = false;
             mesh = only(mesh, keep);
-            expect_named(mesh, 0, set_of(Problem::unused_node, Problem::pinched_node, Problem::pinched_ridge), true);
+            expect_named(mesh, 0, set_of(DefectKind::unused_node, DefectKind::pinched_node, DefectKind::pinched_ridge),
+                         true);
         }
     }
 }
@@ -107,28 +108,28 @@ TEST(Defects, places) {
     const auto cells = static_cast<Mesh::Index>(mesh.cell_count());
     const Site site = site_of(mesh, 1, 0);
     Random random(1);
-    for (const Defect& defect : defects) {
+    for (const PlantedDefect& defect : defects) {
         const std::string name = defect.name;
         if (name == "flat cell" || name == "cell on a line" || name == "cell in a point") defect.plant(site, random);
     }
     mesh.cells.insert(mesh.cells.end(), {8, 9, 8, 3, 2, 1, 0, -1});
-    const check::Report r = quick(mesh);
-    const check::Finding& degenerate = *r.find(Problem::degenerate_cell);
+    const CheckReport r = quick(mesh);
+    const Defect& degenerate = *r.find(DefectKind::degenerate_cell);
     ASSERT_EQ(degenerate.places.size(), 3U);
     const char* const kinds[] = {"coplanar", "collinear", "a point"};
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_STREQ(degenerate.places[i].detail, kinds[i]);
         EXPECT_EQ(degenerate.places[i].cells[0], cells + static_cast<Mesh::Index>(i));
     }
-    EXPECT_EQ(r.find(Problem::repeated_node)->places.at(0).cells[0], cells + 3);
-    EXPECT_EQ(r.find(Problem::index_out_of_range)->places.at(0).cells[0], cells + 4);
-    for (const check::Finding& f : r.findings) {
-        for (const check::Place& place : f.places) {
+    EXPECT_EQ(r.find(DefectKind::repeated_node)->places.at(0).cells[0], cells + 3);
+    EXPECT_EQ(r.find(DefectKind::index_out_of_range)->places.at(0).cells[0], cells + 4);
+    for (const Defect& f : r.defects) {
+        for (const DefectPlace& place : f.places) {
             for (const Mesh::Index c : place.cells) {
-                EXPECT_TRUE(c < 0 || (r.measures.problems[static_cast<std::size_t>(c)] & check::bit(f.problem)) != 0 ||
-                            f.problem == Problem::pinched_node || f.problem == Problem::pinched_ridge ||
-                            f.problem == Problem::open_boundary)
-                    << words(check::bit(f.problem)) << " of cell " << c;
+                EXPECT_TRUE(c < 0 || (r.measures.defects[static_cast<std::size_t>(c)] & defect_bit(f.kind)) != 0 ||
+                            f.kind == DefectKind::pinched_node || f.kind == DefectKind::pinched_ridge ||
+                            f.kind == DefectKind::open_boundary)
+                    << words(defect_bit(f.kind)) << " of cell " << c;
             }
         }
     }

@@ -58,8 +58,8 @@ std::optional<Point> circumcentre(const Mesh& mesh, std::size_t cell) {
     return centre;
 }
 
-check::Delaunay slow_delaunay(const Mesh& mesh) {
-    check::Delaunay out;
+DelaunayReport slow_delaunay(const Mesh& mesh) {
+    DelaunayReport out;
     const std::vector<Mesh::Index> neighbours = compute_neighbours(mesh);
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
         const auto centre = circumcentre(mesh, cell);
@@ -84,16 +84,16 @@ check::Delaunay slow_delaunay(const Mesh& mesh) {
     return out;
 }
 
-check::Delaunay delaunay(const Mesh& mesh, int threads = 1) {
-    check::Options options;
+DelaunayReport delaunay(const Mesh& mesh, int threads = 1) {
+    CheckOptions options;
     options.delaunay = true;
     options.threads = threads;
     options.contacts = 0;
-    return check::run(mesh, options).delaunay.value();
+    return check_mesh(mesh, options).delaunay.value();
 }
 
 void expect_same(const Mesh& mesh, std::uint64_t seed) {
-    const check::Delaunay fast = delaunay(mesh), slow = slow_delaunay(mesh);
+    const DelaunayReport fast = delaunay(mesh), slow = slow_delaunay(mesh);
     EXPECT_EQ(fast.facets, slow.facets) << seed;
     EXPECT_EQ(fast.violations, slow.violations) << seed;
     EXPECT_EQ(fast.cospherical, slow.cospherical) << seed;
@@ -125,7 +125,7 @@ TEST(Delaunay, OfDataAndOnAnyNumberOfThreads) {
     expect_same(torus, 0);
     const Mesh plate = read_tetgen(BARYCERT_DATA_DIR "/meshes/plate").value();
     expect_same(plate, 0);
-    const check::Delaunay one = delaunay(torus, 1), five = delaunay(torus, 5);
+    const DelaunayReport one = delaunay(torus, 1), five = delaunay(torus, 5);
     EXPECT_EQ(one.violations, five.violations);
     EXPECT_EQ(one.worst_depth, five.worst_depth);
     EXPECT_EQ(one.worst_cell, five.worst_cell);
@@ -136,10 +136,10 @@ TEST(Delaunay, AtTheEndsOfTheRange) {
     Random random(3);
     Mesh mesh = box(3, {2, 2, 2});
     for (double& x : mesh.points) x += 0.25 * random.integer(-1, 1);
-    const check::Delaunay plain = delaunay(mesh);
+    const DelaunayReport plain = delaunay(mesh);
     ASSERT_GT(plain.violations, 0U);
     for (const double scale : {0x1p900, 0x1p-900, 0x1p-1060}) {
-        const check::Delaunay scaled = delaunay(mapped(mesh, {scale, scale, scale}, {0, 0, 0}));
+        const DelaunayReport scaled = delaunay(mapped(mesh, {scale, scale, scale}, {0, 0, 0}));
         EXPECT_EQ(scaled.violations, plain.violations) << scale;
         EXPECT_EQ(scaled.cospherical, plain.cospherical) << scale;
         EXPECT_NEAR(scaled.worst_depth, plain.worst_depth, 1e-9) << scale;
@@ -160,7 +160,7 @@ TEST(Delaunay, OfFoldedCellsDoesNotDependOnTheirOrder) {
 TEST(Delaunay, OnlyIfAskedAndNeverOfDegenerateCells) {
     const Mesh flat = mapped(box(3, {1, 1, 1}), {1, 1, 0}, {0, 0, 0});
     EXPECT_EQ(delaunay(flat).facets, 0U);
-    EXPECT_FALSE(check::run(flat).delaunay);
+    EXPECT_FALSE(check_mesh(flat).delaunay);
 }
 
 }  // namespace

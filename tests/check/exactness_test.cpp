@@ -33,7 +33,7 @@ int cgal_orientation(const Mesh& mesh, std::size_t cell) {
 
 /// Every sign, volume and sum of a mesh whose cells have different nodes.
 void expect_exact(const Mesh& mesh) {
-    const check::Report r = quick(mesh);
+    const CheckReport r = quick(mesh);
     second_path::Q sum(0);
     std::uint64_t wrong = 0;
     for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
@@ -44,12 +44,12 @@ void expect_exact(const Mesh& mesh) {
                   std::bit_cast<std::uint64_t>(exact_volume(mesh, c) + 0.0))
             << r.measures.volume[c] << " for " << exact_volume(mesh, c);
         const bool plainly = plain_sign(mesh, c) == sign;
-        ASSERT_EQ((r.measures.problems[c] & check::bit(Problem::plain_sign_wrong)) == 0, plainly);
+        ASSERT_EQ((r.measures.defects[c] & defect_bit(DefectKind::plain_sign_wrong)) == 0, plainly);
         wrong += plainly ? 0 : 1;
         ASSERT_EQ(std::isinf(r.measures.condition[c]), sign == 0);
         sum += abs(determinant<second_path::Q>(mesh, c));
     }
-    const check::Finding* const f = r.find(Problem::plain_sign_wrong);
+    const Defect* const f = r.find(DefectKind::plain_sign_wrong);
     ASSERT_EQ(f == nullptr ? 0 : f->count, wrong);
     ASSERT_EQ(r.volume.cells, second_path::nearest(sum / (mesh.dimension == 2 ? 2 : 6)));
 }
@@ -103,17 +103,17 @@ TEST(Exactness, at_the_widths_of_integers) {
 
 /// The same in other units: exactly the same verdict and counts.
 void expect_same_in(const Mesh& mesh, std::array<double, 3> factor) {
-    const check::Report r = quick(mesh), s = quick(mapped(mesh, factor, {0, 0, 0}));
+    const CheckReport r = quick(mesh), s = quick(mapped(mesh, factor, {0, 0, 0}));
     EXPECT_EQ(r.certified(), s.certified());
-    const ProblemSet doubtful = set_of(Problem::plain_sign_wrong);  // plain double may over- or underflow
+    const DefectSet doubtful = set_of(DefectKind::plain_sign_wrong);  // plain double may over- or underflow
     EXPECT_EQ(words(found(r) & ~doubtful), words(found(s) & ~doubtful));
     EXPECT_EQ(r.degenerate, s.degenerate);
     EXPECT_EQ(r.boundary.facets, s.boundary.facets);
     EXPECT_EQ(r.boundary.pieces, s.boundary.pieces);
     EXPECT_EQ(r.volume.equal, s.volume.equal);
-    for (const check::Finding& f : r.findings) {
-        const check::Finding* const g = s.find(f.problem);
-        if (f.problem != Problem::plain_sign_wrong) {
+    for (const Defect& f : r.defects) {
+        const Defect* const g = s.find(f.kind);
+        if (f.kind != DefectKind::plain_sign_wrong) {
             EXPECT_TRUE(g != nullptr && f.count == g->count);
         }
     }
@@ -163,10 +163,10 @@ TEST(Exactness, one_ulp_decides) {
                 // Moved sideways, so that nodes do not coincide.
                 for (std::size_t i = 1; i < right.points.size(); i += static_cast<std::size_t>(d))
                     right.points[i] += at / 3;
-                const check::Report r = quick(joined(left, right));
+                const CheckReport r = quick(joined(left, right));
                 EXPECT_EQ(r.certified(), side > 0) << at;
-                EXPECT_EQ(r.find(Problem::overlapping_cells) != nullptr, side < 0) << at;
-                EXPECT_EQ(r.find(Problem::boundary_contact) != nullptr, side <= 0) << at;
+                EXPECT_EQ(r.find(DefectKind::overlapping_cells) != nullptr, side < 0) << at;
+                EXPECT_EQ(r.find(DefectKind::boundary_contact) != nullptr, side <= 0) << at;
             }
         }
     }

@@ -12,14 +12,14 @@ namespace {
 
 struct Good {
     const char* stem;
-    ProblemSet told = 0;  ///< harmless
+    DefectSet told = 0;  ///< harmless
     std::int64_t tunnels = 0;
     std::uint64_t cavities = 0;
     double volume = 0;  ///< 0: not known by heart
 };
 
 /// What does not depend on how things are numbered, ordered and turned.
-void expect_same(const check::Report& r, const check::Report& s) {
+void expect_same(const CheckReport& r, const CheckReport& s) {
     EXPECT_EQ(r.certified(), s.certified());
     EXPECT_EQ(r.nodes, s.nodes);
     EXPECT_EQ(r.cells, s.cells);
@@ -38,7 +38,7 @@ void expect_good(const std::string& folder, const Good& good, bool positive) {
     SCOPED_TRACE(good.stem);
     Result<Mesh> mesh = read_tetgen(folder + good.stem);
     ASSERT_TRUE(mesh) << mesh.error().message();
-    const check::Report r = check::run(*mesh);
+    const CheckReport r = check_mesh(*mesh);
     EXPECT_TRUE(r.certified());
     EXPECT_EQ(words(found(r)), words(good.told));
     EXPECT_TRUE(r.certificate.covers(*mesh));
@@ -67,18 +67,18 @@ void expect_good(const std::string& folder, const Good& good, bool positive) {
     Mesh other = *mesh;
     other.neighbours.clear(), other.faces.clear();
     const auto flipped = flip_some(other, random);
-    const check::Report s = check::run(other);
-    EXPECT_EQ(words(found(s)), words(good.told | set_of(Problem::mixed_orientation)));
+    const CheckReport s = check_mesh(other);
+    EXPECT_EQ(words(found(s)), words(good.told | set_of(DefectKind::mixed_orientation)));
     if (positive) {
         EXPECT_EQ(s.negative, flipped);
     }
-    EXPECT_EQ(s.find(Problem::mixed_orientation)->count, std::min(s.negative, s.positive));
+    EXPECT_EQ(s.find(DefectKind::mixed_orientation)->count, std::min(s.negative, s.positive));
     expect_same(s, r);
-    const std::size_t unused = r.find(Problem::unused_node) != nullptr ? r.find(Problem::unused_node)->count : 0;
+    const std::size_t unused = r.find(DefectKind::unused_node) != nullptr ? r.find(DefectKind::unused_node)->count : 0;
     if (!mesh->mid_nodes.empty()) return;  // renumbered() leaves nodes at mid-edges out
-    const check::Report t = check::run(renumbered(other, random));
+    const CheckReport t = check_mesh(renumbered(other, random));
     EXPECT_EQ(words(found(t)), words(found(s)));
-    EXPECT_EQ(t.find(Problem::unused_node) != nullptr ? t.find(Problem::unused_node)->count : 0, unused);
+    EXPECT_EQ(t.find(DefectKind::unused_node) != nullptr ? t.find(DefectKind::unused_node)->count : 0, unused);
     expect_same(t, r);
 }
 
@@ -123,8 +123,8 @@ TEST(GoodMeshes, of_other_programs) {
 TEST(GoodMeshes, volume_exact) {
     const Result<Mesh> mesh = read_tetgen(std::string(BARYCERT_DATA_DIR) + "/meshes/lattice-eighths");
     ASSERT_TRUE(mesh);
-    EXPECT_EQ(check::run(*mesh).volume.cells, 1.0);
-    EXPECT_EQ(check::run(*mesh).volume.boundary, 1.0);
+    EXPECT_EQ(check_mesh(*mesh).volume.cells, 1.0);
+    EXPECT_EQ(check_mesh(*mesh).volume.boundary, 1.0);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// Is a mesh a simplicial complex? The slow twin of check::run: every pair of cells is intersected as half-spaces, in
+/// Is a mesh a simplicial complex? The slow twin of check_mesh: every pair of cells is intersected as half-spaces, in
 /// exact integers, and every extreme point of what they have in common is looked at. Shares nothing with src.
 #pragma once
 

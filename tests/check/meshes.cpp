@@ -126,25 +126,25 @@ std::vector<double> in_cell(const Mesh& mesh, std::size_t cell, const std::vecto
     return at;
 }
 
-ProblemSet found(const check::Report& report) {
-    ProblemSet all = 0;
-    for (const check::Finding& f : report.findings) all |= check::bit(f.problem);
+DefectSet found(const CheckReport& report) {
+    DefectSet all = 0;
+    for (const Defect& f : report.defects) all |= defect_bit(f.kind);
     return all;
 }
 
-std::string words(ProblemSet problems) {
+std::string words(DefectSet problems) {
     std::string text;
-    for (const auto& t : check::problem_texts) {
-        if ((problems & check::bit(t.problem)) != 0) text += (text.empty() ? "" : " ") + std::string(t.name);
+    for (const auto& t : defect_texts) {
+        if ((problems & defect_bit(t.kind)) != 0) text += (text.empty() ? "" : " ") + std::string(t.name);
     }
     return text.empty() ? "nothing" : text;
 }
 
-check::Report quick(const Mesh& mesh, std::size_t contacts) {
-    check::Options options;
+CheckReport quick(const Mesh& mesh, std::size_t contacts) {
+    CheckOptions options;
     options.threads = 1;
     options.contacts = contacts;
-    return check::run(mesh, options);
+    return check_mesh(mesh, options);
 }
 
 }  // namespace barycert::testing

@@ -11,9 +11,6 @@
 
 namespace barycert::testing {
 
-using check::Problem;
-using check::ProblemSet;
-
 /// Unit cubes (2D: squares) in d! cells each, all positive; nodes at the lattice points from 0 on.
 Mesh box(int d, std::array<int, 3> cubes);
 
@@ -38,18 +35,18 @@ std::vector<double> node_at(const Mesh& mesh, Mesh::Index node);
 std::vector<double> in_cell(const Mesh& mesh, std::size_t cell, const std::vector<double>& weights);
 
 /// The problems found, as a set; and in words.
-ProblemSet found(const check::Report& report);
-std::string words(ProblemSet problems);
+DefectSet found(const CheckReport& report);
+std::string words(DefectSet problems);
 
 /// On one thread, and without witnesses unless asked for: so small meshes are quick.
-check::Report quick(const Mesh& mesh, std::size_t contacts = 0);
+CheckReport quick(const Mesh& mesh, std::size_t contacts = 0);
 
-constexpr ProblemSet set_of() {
+constexpr DefectSet set_of() {
     return 0;
 }
 template <class... P>
-constexpr ProblemSet set_of(Problem p, P... more) {
-    return check::bit(p) | set_of(more...);
+constexpr DefectSet set_of(DefectKind p, P... more) {
+    return defect_bit(p) | set_of(more...);
 }
 
 }  // namespace barycert::testing

@@ -1,6 +1,6 @@
 // A copy with all cells positive: only the order of corners changes, and what depends on it.
 
-#include "barycert/check/orientation.hpp"
+#include "barycert/check.hpp"
 
 #include <algorithm>
 #include <array>
@@ -73,11 +73,11 @@ void expect_only_reordered(const Mesh& before, const Mesh& after) {
 
 /// The law, on a mesh with cells of both orders.
 void expect_fixed(const Mesh& mixed) {
-    const check::Report before = check::run(mixed);
+    const CheckReport before = check_mesh(mixed);
     ASSERT_GT(before.negative, 0U);
-    const Mesh fixed = check::with_positive_cells(mixed, before.measures.orientation);
+    const Mesh fixed = with_positive_cells(mixed, before.measures.orientation);
     expect_only_reordered(mixed, fixed);
-    const check::Report after = check::run(fixed);
+    const CheckReport after = check_mesh(fixed);
     EXPECT_EQ(after.positive, before.positive + before.negative);
     EXPECT_EQ(after.negative, 0U);
     EXPECT_EQ(after.degenerate, before.degenerate);
@@ -104,7 +104,7 @@ TEST(orientation, of_meshes_from_files) {
         SCOPED_TRACE(name);
         const Mesh mesh = own(name);
         expect_fixed(shuffled(mesh, 1));
-        EXPECT_TRUE(check::run(shuffled(mesh, 1)).certified());
+        EXPECT_TRUE(check_mesh(shuffled(mesh, 1)).certified());
     }
     EXPECT_FALSE(own("cube-hole").neighbours.empty());
     EXPECT_FALSE(own("cube-hole").faces.empty());
@@ -120,12 +120,12 @@ TEST(orientation, of_second_order_cells_in_every_order_of_files) {
 
 TEST(orientation, leaves_positive_and_degenerate_cells_alone) {
     const Mesh mesh = own("cube-hole");
-    expect_same(check::with_positive_cells(mesh, check::run(mesh).measures.orientation), mesh);
+    expect_same(with_positive_cells(mesh, check_mesh(mesh).measures.orientation), mesh);
     Mesh flat;
     flat.points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
     flat.cells = {0, 1, 2, 3};
-    expect_same(check::with_positive_cells(flat, {0}), flat);
-    expect_same(check::with_positive_cells(flat, {}), flat);
+    expect_same(with_positive_cells(flat, {0}), flat);
+    expect_same(with_positive_cells(flat, {}), flat);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ Mesh flat(std::vector<double> points, std::vector<Mesh::Index> cells) {
 // The scaled volume is subnormal, is rounded there, and scaled back: rounded twice.
 TEST(Regressions, volume_of_an_anisotropic_cell) {
     const Mesh mesh = flat({0, 0, 1.1e200, 0, 0, 1.3e-110}, {0, 1, 2});
-    const check::Report r = quick(mesh);
+    const CheckReport r = quick(mesh);
     EXPECT_EQ(r.measures.volume[0], exact_volume(mesh, 0));
     EXPECT_EQ(r.measures.volume[0], r.volume.cells);
 }
@@ -32,7 +32,7 @@ TEST(Regressions, cavities_of_a_pinched_boundary) {
     const Mesh mesh = flat({0, 0, 4, 0, 0, 4, 2, 0, 2, 2, 0, 2}, {0, 3, 5, 1, 4, 3, 2, 5, 4});
     for (const double x : {0.0, 10.0, -10.0}) {
         for (const double y : {0.0, 10.0}) {
-            const check::Report r = quick(mapped(mesh, {1, 1, 1}, {x, y, 0}));
+            const CheckReport r = quick(mapped(mesh, {1, 1, 1}, {x, y, 0}));
             EXPECT_EQ(r.boundary.cavities, quick(mesh).boundary.cavities) << x << " " << y;
         }
     }
@@ -43,12 +43,12 @@ TEST(Regressions, tunnels_and_cavities_where_pinched) {
     Mesh mesh;
     mesh.points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, -1, 0, 0, 0, -1, 0, 0, 0, -1};
     mesh.cells = {0, 1, 2, 3, 0, 4, 6, 5};
-    const check::Report node = quick(mesh);
+    const CheckReport node = quick(mesh);
     EXPECT_FALSE(node.boundary.manifold);
     EXPECT_EQ(node.boundary.tunnels, 0);
     EXPECT_EQ(node.boundary.cavities, 0U);
     mesh.cells = {0, 1, 2, 3, 0, 1, 5, 6};  // both have the edge 0 1
-    const check::Report edge = quick(mesh);
+    const CheckReport edge = quick(mesh);
     EXPECT_TRUE(edge.certified());
     EXPECT_FALSE(edge.boundary.tunnels);
     EXPECT_FALSE(edge.boundary.cavities);
@@ -57,7 +57,7 @@ TEST(Regressions, tunnels_and_cavities_where_pinched) {
 // "It is the mesh that was checked, and P1 to P5 of check.hpp hold."
 TEST(Regressions, covers_after_neighbours_were_spoilt) {
     Mesh mesh = box(3, {1, 1, 1});
-    const check::Certificate c = quick(mesh).certificate;
+    const Certificate c = quick(mesh).certificate;
     mesh.neighbours.assign(mesh.cells.size(), 0);
     EXPECT_FALSE(c.covers(mesh));
 }
@@ -67,12 +67,12 @@ TEST(Regressions, shape_of_needles) {
         Mesh mesh;
         mesh.points = {0, 0, 0, t, 0, 0, 0, t, 0, 0, 0, 1};
         mesh.cells = {0, 1, 2, 3};
-        const check::Measures m = quick(mesh).measures;
+        const CellMeasures m = quick(mesh).measures;
         EXPECT_NEAR(m.radius_edge[0] / (0.5 / t), 1, 1e-12) << t;
         EXPECT_NEAR(m.min_angle[0], 45, 1e-12) << t;
         EXPECT_NEAR(m.max_angle[0], 90, 1e-12) << t;
     }
-    const check::Measures m = quick(flat({0, 0, 1.1e200, 0, 0, 1.3e-110}, {0, 1, 2})).measures;
+    const CellMeasures m = quick(flat({0, 0, 1.1e200, 0, 0, 1.3e-110}, {0, 1, 2})).measures;
     EXPECT_FALSE(std::isnan(m.radius_edge[0]));
     // Corner cells at the end of the range are as good as any.
     for (const double t : {0x1p-1074, 0x1p1022}) {
@@ -95,18 +95,18 @@ TEST(Regressions, time_of_cells_one_in_another) {
         return mesh;
     };
     const auto start = std::chrono::steady_clock::now();
-    const check::Report report = quick(nest(3000));
+    const CheckReport report = quick(nest(3000));
     // It took minutes; now less than a second on an idle machine.
     EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 30);
-    ASSERT_NE(report.find(Problem::nested_part), nullptr);
-    EXPECT_EQ(report.find(Problem::nested_part)->count, check::pair_limit);
-    EXPECT_TRUE(report.find(Problem::nested_part)->at_least);
+    ASSERT_NE(report.find(DefectKind::nested_part), nullptr);
+    EXPECT_EQ(report.find(DefectKind::nested_part)->count, check::pair_limit);
+    EXPECT_TRUE(report.find(DefectKind::nested_part)->at_least);
 }
 
 // An odd number of indices: the last one stands alone in the fingerprint.
 TEST(Regressions, covers_sees_the_last_index_of_a_single_triangle) {
     Mesh mesh = flat({0, 0, 1, 0, 0, 1, 1, 1}, {0, 1, 2});
-    const check::Certificate c = quick(mesh).certificate;
+    const Certificate c = quick(mesh).certificate;
     EXPECT_TRUE(c.covers(mesh));
     mesh.cells[2] = 3;
     EXPECT_FALSE(c.covers(mesh));

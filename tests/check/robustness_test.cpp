@@ -19,11 +19,11 @@ void expect_same_bits(const std::vector<T>& x, const std::vector<T>& y) {
     for (std::size_t i = 0; i < x.size(); ++i) ASSERT_TRUE(x[i] == y[i] || (x[i] != x[i] && y[i] != y[i])) << i;
 }
 
-void expect_same(const check::Report& r, const check::Report& s) {
+void expect_same(const CheckReport& r, const CheckReport& s) {
     ASSERT_EQ(r.certified(), s.certified());
     ASSERT_EQ(words(found(r)), words(found(s)));
-    for (std::size_t i = 0; i < r.findings.size(); ++i) {
-        const check::Finding &f = r.findings[i], &g = s.findings[i];
+    for (std::size_t i = 0; i < r.defects.size(); ++i) {
+        const Defect &f = r.defects[i], &g = s.defects[i];
         ASSERT_EQ(f.count, g.count);
         ASSERT_EQ(f.at_least, g.at_least);
         ASSERT_EQ(f.places.size(), g.places.size());
@@ -43,16 +43,16 @@ void expect_same(const check::Report& r, const check::Report& s) {
     ASSERT_EQ(r.boundary.pieces, s.boundary.pieces);
     ASSERT_EQ(r.volume.cells, s.volume.cells);
     expect_same_bits(r.measures.orientation, s.measures.orientation);
-    expect_same_bits(r.measures.problems, s.measures.problems);
-    for (const auto m : {&check::Measures::volume, &check::Measures::condition, &check::Measures::radius_edge,
-                         &check::Measures::aspect, &check::Measures::min_angle, &check::Measures::max_angle})
+    expect_same_bits(r.measures.defects, s.measures.defects);
+    for (const auto m : {&CellMeasures::volume, &CellMeasures::condition, &CellMeasures::radius_edge,
+                         &CellMeasures::aspect, &CellMeasures::min_angle, &CellMeasures::max_angle})
         expect_same_bits(r.measures.*m, s.measures.*m);
 }
 
-check::Report with_threads(const Mesh& mesh, int threads) {
-    check::Options options;
+CheckReport with_threads(const Mesh& mesh, int threads) {
+    CheckOptions options;
     options.threads = threads;
-    return check::run(mesh, options);
+    return check_mesh(mesh, options);
 }
 
 TEST(Robustness, sizes_that_do_not_fit) {
@@ -62,7 +62,7 @@ TEST(Robustness, sizes_that_do_not_fit) {
             mesh.dimension = d;
             mesh.points.assign(n, 1);
             mesh.cells.assign(n, 0);
-            const check::Report r = quick(mesh);
+            const CheckReport r = quick(mesh);
             EXPECT_FALSE(r.certified());
             EXPECT_EQ(words(found(r)), "bad_structure");
             EXPECT_FALSE(r.certificate.covers(mesh));
@@ -98,10 +98,10 @@ TEST(Robustness, any_indices) {
                 mesh.faces.resize(random.below(20));
                 for (Mesh::Index& n : mesh.faces) n = any();
             }
-            const check::Report r = quick(mesh, 5);
+            const CheckReport r = quick(mesh, 5);
             if (r.certified()) {
                 EXPECT_TRUE(judge(mesh).complex);
-            } else if (!extra && r.find(Problem::not_finite) == nullptr) {
+            } else if (!extra && r.find(DefectKind::not_finite) == nullptr) {
                 EXPECT_FALSE(judge(mesh).complex);
             }
             certified += r.certified() ? 1 : 0;
@@ -119,13 +119,13 @@ TEST(Robustness, all_the_same) {
         for (double& x : mesh.points) x = nan;
         EXPECT_EQ(words(found(quick(mesh))), "not_finite");
         for (double& x : mesh.points) x = 1e308;
-        EXPECT_EQ(words(found(quick(mesh, 5)) & ~set_of(Problem::coincident_nodes)), "degenerate_cell");
+        EXPECT_EQ(words(found(quick(mesh, 5)) & ~set_of(DefectKind::coincident_nodes)), "degenerate_cell");
         mesh = box(d, {3, 3, 3});
         for (std::size_t c = 1; c < mesh.cell_count(); ++c) {
             for (std::size_t i = 0; i < mesh.corners(); ++i) mesh.cells[c * mesh.corners() + i] = mesh.cells[i];
         }
-        const check::Report r = quick(mesh, 5);
-        EXPECT_EQ(r.find(Problem::duplicate_cell)->count, mesh.cell_count() - 1);
+        const CheckReport r = quick(mesh, 5);
+        EXPECT_EQ(r.find(DefectKind::duplicate_cell)->count, mesh.cell_count() - 1);
         mesh.points.clear();
         EXPECT_EQ(words(found(quick(mesh))), "index_out_of_range");
     }
@@ -145,8 +145,8 @@ TEST(Robustness, same_from_any_threads) {
         }
         mesh.points[random.below(mesh.points.size())] = nan;
         mesh.cells[random.below(mesh.cells.size())] = -1;
-        const check::Report r = with_threads(mesh, 1);
-        EXPECT_GE(r.findings.size(), 8U) << words(found(r));
+        const CheckReport r = with_threads(mesh, 1);
+        EXPECT_GE(r.defects.size(), 8U) << words(found(r));
         for (const int threads : {2, 5}) expect_same(r, with_threads(mesh, threads));
         expect_same(r, with_threads(mesh, 2));
     }
@@ -163,13 +163,13 @@ TEST(Robustness, all_overlap_all) {
             for (int k = 0; k < d; ++k)
                 mesh.points.push_back((i % (d + 1) == k + 1 ? 4 : -1) + random.uniform(-0.1, 0.1));
         }
-        const check::Report r = quick(mesh, 5);
+        const CheckReport r = quick(mesh, 5);
         EXPECT_FALSE(r.certified());
-        ASSERT_NE(r.find(Problem::overlapping_cells), nullptr);
-        EXPECT_TRUE(r.find(Problem::overlapping_cells)->at_least);
-        EXPECT_EQ(r.find(Problem::overlapping_cells)->count, 1000U);
-        EXPECT_EQ(r.find(Problem::boundary_contact)->count, 1000U);
-        EXPECT_EQ(r.find(Problem::nested_part)->count, 300U);
+        ASSERT_NE(r.find(DefectKind::overlapping_cells), nullptr);
+        EXPECT_TRUE(r.find(DefectKind::overlapping_cells)->at_least);
+        EXPECT_EQ(r.find(DefectKind::overlapping_cells)->count, 1000U);
+        EXPECT_EQ(r.find(DefectKind::boundary_contact)->count, 1000U);
+        EXPECT_EQ(r.find(DefectKind::nested_part)->count, 300U);
         EXPECT_EQ(r.contacts.size(), 5U);
     }
 }
@@ -184,11 +184,12 @@ TEST(Robustness, at_the_limit_of_pairs) {
             mesh.points.insert(mesh.points.end(), {x, 0, x + 4, 0, x, 4, x + 1, 1, x + 2, 1, x + 1, 2});
             for (int k = 0; k < 6; ++k) mesh.cells.push_back(6 * i + k);
         }
-        const check::Report r = quick(mesh);
-        EXPECT_EQ(r.find(Problem::overlapping_cells)->count, static_cast<std::uint64_t>(std::min(overlapping, 1000)));
-        EXPECT_EQ(r.find(Problem::overlapping_cells)->at_least, overlapping > 1000);
-        EXPECT_EQ(r.find(Problem::nested_part)->count, 1000U);  // of two a pair
-        EXPECT_TRUE(r.find(Problem::nested_part)->at_least);
+        const CheckReport r = quick(mesh);
+        EXPECT_EQ(r.find(DefectKind::overlapping_cells)->count,
+                  static_cast<std::uint64_t>(std::min(overlapping, 1000)));
+        EXPECT_EQ(r.find(DefectKind::overlapping_cells)->at_least, overlapping > 1000);
+        EXPECT_EQ(r.find(DefectKind::nested_part)->count, 1000U);  // of two a pair
+        EXPECT_TRUE(r.find(DefectKind::nested_part)->at_least);
     }
 }
 
@@ -196,11 +197,11 @@ TEST(Robustness, examples) {
     Mesh mesh = box(2, {20, 20, 0});
     for (std::size_t i = 0; i < 50; ++i) mesh.cells[i * 6] = -1;
     for (const std::size_t n : {0U, 1U, 7U, 1000U}) {
-        check::Options options;
+        CheckOptions options;
         options.examples = n;
-        const check::Report r = check::run(mesh, options);
-        EXPECT_EQ(r.find(Problem::index_out_of_range)->count, 50U);
-        EXPECT_EQ(r.find(Problem::index_out_of_range)->places.size(), std::min<std::size_t>(n, 50));
+        const CheckReport r = check_mesh(mesh, options);
+        EXPECT_EQ(r.find(DefectKind::index_out_of_range)->count, 50U);
+        EXPECT_EQ(r.find(DefectKind::index_out_of_range)->places.size(), std::min<std::size_t>(n, 50));
     }
 }
 

@@ -36,7 +36,7 @@ void expect_shape(int d, std::vector<double> points, const Shape& wanted, bool s
         do {  // whichever corner comes first
             Mesh other = mesh;
             other.cells = order;
-            const check::Measures m = quick(other).measures;
+            const CellMeasures m = quick(other).measures;
             expect_near(m.radius_edge[0], wanted.radius_edge);
             expect_near(m.aspect[0], wanted.aspect);
             expect_near(m.min_angle[0], wanted.least);
@@ -65,7 +65,7 @@ TEST(Shape, slivers) {
     for (const double h : {1e-2, 1e-5, 1e-9, 1e-12, 1e-30, 1e-100}) {
         const double s = std::sqrt(1 + h * h);
         const Mesh mesh = cell(3, {1, 0, 0, -1, 0, 0, 0, 1, h, 0, -1, h});
-        const check::Measures m = quick(mesh).measures;
+        const CellMeasures m = quick(mesh).measures;
         // Edges of length 2 along x and y, at distance h; the faces at each meet at the angle 2 atan(1 / h).
         EXPECT_NEAR(m.max_angle[0], 2 * std::atan(1 / h) * degrees, 1e-11);
         // Normals of the faces at the edge from (1, 0, 0) to (0, 1, h): (0, h, -1) and (h, 0, 1) up to signs.
@@ -78,7 +78,7 @@ TEST(Shape, slivers) {
 
 TEST(Shape, needles_of_triangles) {
     for (const double h : {1e-2, 1e-5, 1e-9, 1e-15, 1e-40, 1e-100}) {
-        const check::Measures m = quick(cell(2, {0, 0, 2, 0, 1, h})).measures;
+        const CellMeasures m = quick(cell(2, {0, 0, 2, 0, 1, h})).measures;
         expect_near(m.min_angle[0], std::atan(h) * degrees);
         EXPECT_NEAR(m.max_angle[0], 180 - 2 * std::atan(h) * degrees, 1e-12);
         const double side = std::sqrt(1 + h * h), radius = (1 + h * h) / (2 * h);
@@ -91,7 +91,7 @@ TEST(Shape, degenerate) {
     const double infinity = std::numeric_limits<double>::infinity();
     for (const auto& points : {std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0},
                                std::vector<double>{0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3}, std::vector<double>(12, 0.1)}) {
-        const check::Measures m = quick(cell(3, points)).measures;
+        const CellMeasures m = quick(cell(3, points)).measures;
         EXPECT_EQ(m.orientation[0], 0);
         EXPECT_EQ(m.volume[0], 0);
         EXPECT_EQ(m.radius_edge[0], infinity);
@@ -99,21 +99,21 @@ TEST(Shape, degenerate) {
         EXPECT_EQ(m.condition[0], infinity);
     }
     Mesh nowhere = cell(3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, std::nan("")});
-    const check::Measures m = quick(nowhere).measures;
+    const CellMeasures m = quick(nowhere).measures;
     for (const double x : {m.volume[0], m.condition[0], m.radius_edge[0], m.aspect[0], m.min_angle[0], m.max_angle[0]})
         EXPECT_TRUE(std::isnan(x));
 }
 
 TEST(Shape, distribution) {
     const double nan = std::nan("");
-    const check::Distribution d = check::distribution({nan, 3, 1, nan, 2, 9});
-    EXPECT_EQ(d.least, 1);
+    const Distribution d = distribution({nan, 3, 1, nan, 2, 9});
+    EXPECT_EQ(d.min, 1);
     EXPECT_EQ(d.median, 2);
-    EXPECT_EQ(d.most, 9);
-    EXPECT_EQ(d.least_cell, 2);
-    EXPECT_EQ(d.most_cell, 5);
-    EXPECT_EQ(check::distribution({nan}).least_cell, -1);
-    EXPECT_EQ(check::distribution({}).most_cell, -1);
+    EXPECT_EQ(d.max, 9);
+    EXPECT_EQ(d.min_cell, 2);
+    EXPECT_EQ(d.max_cell, 5);
+    EXPECT_EQ(distribution({nan}).min_cell, -1);
+    EXPECT_EQ(distribution({}).max_cell, -1);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace barycert::testing {
 namespace {
 
-std::string text_of(const Mesh& mesh) {
+std::string defect_text(const Mesh& mesh) {
     std::string text = "points";
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
         text += (i % static_cast<std::size_t>(mesh.dimension) == 0 ? " | " : " ");
@@ -34,18 +34,18 @@ struct Tally {
 /// The verdict, the pairs that overlap, the cells that are flat: as the judge has them.
 void compare(const Mesh& mesh, Tally& tally) {
     const Judgement j = judge(mesh);
-    const check::Report report = quick(mesh);
-    ASSERT_EQ(report.certified(), j.complex) << words(found(report)) << "\n" << text_of(mesh);
-    ASSERT_EQ(report.degenerate, j.degenerate) << text_of(mesh);
-    const check::Finding* const overlaps = report.find(Problem::overlapping_cells);
+    const CheckReport report = quick(mesh);
+    ASSERT_EQ(report.certified(), j.complex) << words(found(report)) << "\n" << defect_text(mesh);
+    ASSERT_EQ(report.degenerate, j.degenerate) << defect_text(mesh);
+    const Defect* const overlaps = report.find(DefectKind::overlapping_cells);
     ASSERT_EQ(overlaps == nullptr ? 0 : overlaps->count, j.overlaps.size()) << words(found(report)) << "\n"
-                                                                            << text_of(mesh);
+                                                                            << defect_text(mesh);
     for (std::size_t i = 0; overlaps != nullptr && i < overlaps->places.size(); ++i)
-        ASSERT_EQ(overlaps->places[i].cells, j.overlaps[i]) << text_of(mesh);
-    ASSERT_TRUE(!j.complex || report.volume.equal) << text_of(mesh);
+        ASSERT_EQ(overlaps->places[i].cells, j.overlaps[i]) << defect_text(mesh);
+    ASSERT_TRUE(!j.complex || report.volume.equal) << defect_text(mesh);
     ++tally.meshes;
     tally.certified += j.complex ? 1 : 0;
-    for (const check::Finding& f : report.findings) ++tally.problems[std::string(check::text_of(f.problem).name)];
+    for (const Defect& f : report.defects) ++tally.problems[std::string(defect_text(f.kind).name)];
 }
 
 using Recipe = Mesh (*)(int, Random&);
@@ -78,10 +78,10 @@ void expect_share(const Tally& tally, double least, double most) {
 TEST(Theorem, soups) {
     const Tally tally = compare_many("soup", random_soup, 25000, false);
     expect_share(tally, 0.1, 0.5);
-    for (const Problem p :
-         {Problem::degenerate_cell, Problem::duplicate_cell, Problem::overfull_facet, Problem::same_side,
-          Problem::open_boundary, Problem::boundary_contact, Problem::nested_part, Problem::overlapping_cells}) {
-        EXPECT_GT(tally.problems.count(std::string(check::text_of(p).name)), 0U) << check::text_of(p).name;
+    for (const DefectKind p : {DefectKind::degenerate_cell, DefectKind::duplicate_cell, DefectKind::overfull_facet,
+                               DefectKind::same_side, DefectKind::open_boundary, DefectKind::boundary_contact,
+                               DefectKind::nested_part, DefectKind::overlapping_cells}) {
+        EXPECT_GT(tally.problems.count(std::string(defect_text(p).name)), 0U) << defect_text(p).name;
     }
 }
 

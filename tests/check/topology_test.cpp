@@ -13,8 +13,8 @@ struct Counts {
     std::optional<std::int64_t> tunnels;
 };
 
-void expect_certified(const Mesh& mesh, ProblemSet told, const Counts& c) {
-    const check::Report r = quick(mesh);
+void expect_certified(const Mesh& mesh, DefectSet told, const Counts& c) {
+    const CheckReport r = quick(mesh);
     EXPECT_TRUE(r.certified());
     EXPECT_EQ(words(found(r)), words(told));
     EXPECT_EQ(r.parts, c.parts);
@@ -26,7 +26,7 @@ void expect_certified(const Mesh& mesh, ProblemSet told, const Counts& c) {
     if (mesh.dimension == 2) {
         EXPECT_FALSE(r.boundary.tunnels);
     }
-    EXPECT_EQ(r.boundary.manifold, (told & set_of(Problem::pinched_node, Problem::pinched_ridge)) == 0);
+    EXPECT_EQ(r.boundary.manifold, (told & set_of(DefectKind::pinched_node, DefectKind::pinched_ridge)) == 0);
     EXPECT_TRUE(r.boundary.closed);
     EXPECT_TRUE(r.volume.equal);
 }
@@ -51,11 +51,11 @@ TEST(Topology, empty_and_one) {
         expect_certified(none, 0, {0, 0, 0, 0});
         EXPECT_EQ(quick(none).volume.cells, 0);
         none.points.assign(static_cast<std::size_t>(d), 7);
-        expect_certified(none, set_of(Problem::unused_node), {0, 0, 0, 0});
+        expect_certified(none, set_of(DefectKind::unused_node), {0, 0, 0, 0});
         Mesh one = box(d, {1, 1, 1});
         std::vector<bool> keep(one.cell_count(), false);
         keep[0] = true;
-        expect_certified(only(one, keep), set_of(Problem::unused_node), {1, 1, 0, 0});
+        expect_certified(only(one, keep), set_of(DefectKind::unused_node), {1, 1, 0, 0});
         EXPECT_EQ(quick(one).volume.cells, 1);
     }
 }
@@ -95,18 +95,18 @@ TEST(Topology, tunnels) {
 // Cubes that touch in one node or along one edge, with common nodes: a complex, though no manifold.
 TEST(Topology, pinched) {
     const auto diagonal = [](int x, int y, int z) { return x != y || y != z; };
-    expect_certified(box_without(3, {2, 2, 2}, diagonal), set_of(Problem::unused_node, Problem::pinched_node),
+    expect_certified(box_without(3, {2, 2, 2}, diagonal), set_of(DefectKind::unused_node, DefectKind::pinched_node),
                      {2, 2, 0, {}});
     expect_certified(box_without(3, {2, 2, 1}, [](int x, int y, int) { return x != y; }),
-                     set_of(Problem::unused_node, Problem::pinched_ridge), {2, 2, {}, {}});
-    expect_certified(box_without(3, {3, 3, 3}, diagonal), set_of(Problem::unused_node, Problem::pinched_node),
+                     set_of(DefectKind::unused_node, DefectKind::pinched_ridge), {2, 2, {}, {}});
+    expect_certified(box_without(3, {3, 3, 3}, diagonal), set_of(DefectKind::unused_node, DefectKind::pinched_node),
                      {3, 3, 0, {}});
     const Mesh squares = box_without(2, {2, 2, 1}, [](int x, int y, int) { return x != y; });
-    const check::Report r = quick(squares);
+    const CheckReport r = quick(squares);
     EXPECT_TRUE(r.certified());
     EXPECT_EQ(words(found(r)), "unused_node pinched_ridge");
-    EXPECT_EQ(r.find(Problem::pinched_ridge)->count, 1U);
-    EXPECT_EQ(r.find(Problem::pinched_ridge)->places[0].nodes[0], 4);
+    EXPECT_EQ(r.find(DefectKind::pinched_ridge)->count, 1U);
+    EXPECT_EQ(r.find(DefectKind::pinched_ridge)->places[0].nodes[0], 4);
     EXPECT_EQ(r.parts, 2U);
     EXPECT_FALSE(r.boundary.cavities);
 }
@@ -118,7 +118,7 @@ TEST(Topology, touch_without_common_nodes) {
             std::array<double, 3> shift{0, 0, 0};
             for (int k = 0; k < axes; ++k) shift[static_cast<std::size_t>(k)] = 1;
             const Mesh two = joined(box(d, {1, 1, 1}), mapped(box(d, {1, 1, 1}), {1, 1, 1}, shift));
-            const check::Report r = quick(two);
+            const CheckReport r = quick(two);
             EXPECT_FALSE(r.certified());
             EXPECT_FALSE(judge(two).complex);
             EXPECT_EQ(words(found(r)), "boundary_contact coincident_nodes");

@@ -14,13 +14,13 @@ namespace barycert::testing {
 namespace {
 
 struct Asked {
-    check::Report report;
+    CheckReport report;
     std::vector<std::string> stages;
 };
 
 Asked verdict_of(const Mesh& mesh) {
     Asked asked;
-    asked.report = check::run(
+    asked.report = check_mesh(
         mesh, {.threads = 1, .examples = 0, .contacts = 0, .verdict_only = true, .progress = [&](const char* stage) {
                    asked.stages.emplace_back(stage);
                }});
@@ -34,11 +34,11 @@ TEST(VerdictOnly, is_the_verdict) {
             Random random = Random::stream(34, static_cast<std::uint64_t>(d), i);
             Mesh mesh = i % 3 == 0 ? random_soup(d, random) : damaged_box(d, random);
             if (i % 3 == 2) mesh = box(d, {1 + static_cast<int>(random.below(3)), 2, 1});
-            const check::Report whole = quick(mesh), verdict = verdict_of(mesh).report;
+            const CheckReport whole = quick(mesh), verdict = verdict_of(mesh).report;
             ASSERT_EQ(verdict.certificate.verdict(), whole.certificate.verdict());
             ASSERT_EQ(verdict.measures.orientation, whole.measures.orientation);
             EXPECT_TRUE(verdict.measures.condition.empty() && verdict.contacts.empty());
-            for (const check::Finding& f : verdict.findings) EXPECT_NE(whole.find(f.problem), nullptr);
+            for (const Defect& f : verdict.defects) EXPECT_NE(whole.find(f.kind), nullptr);
             ++(whole.certified() ? certified : broken);
         }
     }
@@ -53,13 +53,13 @@ TEST(VerdictOnly, stops_at_the_first_proof) {
     for (const double x : mesh.points) most = std::max(most, std::abs(x));
     for (double& x : mesh.points) x = std::round(x * 8 / most);
     const Asked degenerate = verdict_of(mesh);
-    EXPECT_NE(degenerate.report.find(Problem::degenerate_cell), nullptr);
+    EXPECT_NE(degenerate.report.find(DefectKind::degenerate_cell), nullptr);
     EXPECT_EQ(degenerate.stages.back(), "cells");
 
     // Cells upon each other: facets do not tell, contacts of the boundary do.
     const Asked twice = verdict_of(joined(box(3, {4, 4, 4}), mapped(box(3, {4, 4, 4}), {1, 1, 1}, {0.5, 0.25, 0.125})));
-    EXPECT_NE(twice.report.find(Problem::boundary_contact), nullptr);
-    EXPECT_LE(twice.report.find(Problem::boundary_contact)->count, 1U);
+    EXPECT_NE(twice.report.find(DefectKind::boundary_contact), nullptr);
+    EXPECT_LE(twice.report.find(DefectKind::boundary_contact)->count, 1U);
     EXPECT_EQ(twice.stages.back(), "contacts of the boundary");
     EXPECT_EQ(std::count(twice.stages.begin(), twice.stages.end(), "overlapping cells"), 0);
 }

@@ -14,7 +14,7 @@ inline Gradient gradient_in(const Case& c) {
 
 /// The oracle's bits; its degeneracy, and NaN there.
 inline void expect_as_oracle(const Case& c, const Gradient& g) {
-    const exact::GradientAnswer answer = exact::gradient(c);
+    const GradientAnswer answer = oracle_gradient(c);
     ASSERT_EQ(g.degenerate, answer.degenerate) << testing_cases::describe(c);
     for (std::size_t k = 0; k < static_cast<std::size_t>(space_dimension(c.simplex)); ++k) {
         if (answer.degenerate) {

@@ -14,7 +14,7 @@ inline Value value_of(const QuadraticCase& q) {
 }
 
 inline void expect_as_oracle(const QuadraticCase& q, const Value& v) {
-    const double exact = exact::quadratic_value(q.linear, q.mids);
+    const double exact = oracle_quadratic_value(q.linear, q.mids);
     ASSERT_EQ(v.degenerate, std::isnan(exact)) << describe(q);
     if (v.degenerate) {
         EXPECT_TRUE(std::isnan(v.value));

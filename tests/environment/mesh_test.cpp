@@ -97,12 +97,12 @@ void add(Answers& out, const SampleCounts& n) {
     out.add(n.farthest);
 }
 
-void add(Answers& out, const check::Report& r) {
+void add(Answers& out, const CheckReport& r) {
     out.add(static_cast<int>(r.certificate.verdict()));
-    for (const check::Finding& f : r.findings) {
+    for (const Defect& f : r.findings) {
         out.add(static_cast<int>(f.problem));
         out.add(f.count);
-        for (const check::Place& p : f.places) {
+        for (const DefectPlace& p : f.places) {
             for (const Mesh::Index c : p.cells) out.add(c);
             for (const Mesh::Index n : p.nodes) out.add(n);
             out.add(std::string_view(p.detail));
@@ -115,10 +115,10 @@ void add(Answers& out, const check::Report& r) {
     for (const auto* m : {&r.measures.volume, &r.measures.condition, &r.measures.radius_edge, &r.measures.aspect,
                           &r.measures.min_angle, &r.measures.max_angle}) {
         out.add_all(*m);
-        const check::Distribution d = check::distribution(*m);
+        const Distribution d = distribution(*m);
         for (const double x : {d.least, d.median, d.most}) out.add(x);
     }
-    for (const check::Contact& c : r.contacts) {
+    for (const CellContact& c : r.contacts) {
         out.add(c.dimension);
         out.add(c.witness.exact);
         for (std::size_t k = 0; k < static_cast<std::size_t>(r.dimension); ++k) {
@@ -136,27 +136,27 @@ TEST(EveryEnvironment, Check) {
     for (const Subject& s : subjects()) {
         for (const int threads : {1, 2}) {
             expect_same_everywhere("check of " + s.name, [&](Answers& out) {
-                check::Options options;
+                CheckOptions options;
                 options.threads = threads;
                 options.delaunay = true;
-                check::Report report = check::run(s.mesh, options);
+                CheckReport report = check_mesh(s.mesh, options);
                 add(out, report);
                 report.seconds = 0;
                 report.threads = 1;
-                out.add(std::string_view(report::check_json(report, "mesh", {})));
-                out.add(std::string_view(report::terminal_check(report, s.mesh, "mesh", {})));
-                out.add(std::string_view(report::check_html(report, s.mesh, "mesh")));
+                out.add(std::string_view(check_json(report, "mesh", {})));
+                out.add(std::string_view(check_text(report, s.mesh, "mesh", {})));
+                out.add(std::string_view(check_html(report, s.mesh, "mesh")));
             });
         }
     }
     const std::vector<Subject> all = subjects();
-    EXPECT_TRUE(check::run(all[0].mesh).certified()) << all[0].name;
-    EXPECT_FALSE(check::run(all[1].mesh).certified()) << all[1].name;
+    EXPECT_TRUE(check_mesh(all[0].mesh).certified()) << all[0].name;
+    EXPECT_FALSE(check_mesh(all[1].mesh).certified()) << all[1].name;
 }
 
 TEST(EveryEnvironment, Locate) {
     for (const Subject& s : subjects()) {
-        const check::Certificate certificate = check::run(s.mesh).certificate;
+        const Certificate certificate = check_mesh(s.mesh).certificate;
         const std::vector<double> points = points_around(s, 20000);
         const auto d = static_cast<std::size_t>(s.mesh.dimension);
         for (const int threads : {1, 2}) {
@@ -369,39 +369,38 @@ TEST(EveryEnvironment, Pictures) {
 }
 
 TEST(EveryEnvironment, Audit) {
-    audit::MeshSource meshes;
+    MeshSource meshes;
     const Subject tiny = subjects()[6], plain = subjects()[10];
     meshes.add("tiny", tiny.mesh);
     meshes.add("plain", plain.mesh);
     const std::vector<Kernel> kernels = kernels_matching("*");
     const Folder folder;
     expect_same_everywhere("audit", [&](Answers& out) {
-        audit::Options options;
+        AuditOptions options;
         // Kernels in doubles answer by what the processor has; the library's environment is what they are asked in.
         options.kernels = kernels;
-        options.families = audit::families_matching("*");
+        options.families = families_matching("*");
         options.count = 40;
         options.threads = 2;
-        auto report = audit::run(options, meshes);
+        auto report = run_audit(options, meshes);
         out.add(report.has_value());
         if (!report) return;
         report->seconds = 0;
-        for (audit::KernelResult& k : report->kernels) k.ns = 0;
-        out.add(std::string_view(report::json_report(*report)));
-        out.add(std::string_view(report::terminal_report(*report, {})));
-        out.add(std::string_view(report::condition_plot(*report)));
-        folder.put("witnesses.json", audit::witness_file(*report));
-        const auto witnesses = audit::read_witnesses(folder.path("witnesses.json"));
+        for (KernelResult& k : report->kernels) k.ns = 0;
+        out.add(std::string_view(audit_json(*report)));
+        out.add(std::string_view(audit_text(*report, {})));
+        out.add(std::string_view(condition_plot(*report)));
+        folder.put("witnesses.json", witnesses_json(*report));
+        const auto witnesses = read_witnesses(folder.path("witnesses.json"));
         out.add(witnesses.has_value());
         for (std::size_t i = 0; i < witnesses->size(); i += 7) {
-            const audit::Replay again = audit::replay((*witnesses)[i], kernels);
+            const Replay again = replay_witness((*witnesses)[i], kernels);
             out.add(std::string_view(again.not_reproduced));
-            out.add(std::string_view(report::terminal_witness(again, {})));
-            out.add(exact::partition_residual(again.exact.weights));
+            out.add(std::string_view(witness_text(again, {})));
+            out.add(partition_residual(again.exact.weights));
         }
         for (std::uint64_t i = 0; i < 20; ++i) {
-            const Case c =
-                audit::make_case(options.families[i % options.families.size()], Simplex::triangle, 3, i, meshes);
+            const Case c = make_case(options.families[i % options.families.size()], Simplex::triangle, 3, i, meshes);
             for (const double x : c.vertices) out.add(x);
         }
     });
@@ -435,10 +434,10 @@ TEST(EveryEnvironment, CallbacksThatChangeIt) {
         };
         ASSERT_TRUE(resample(*sampler, *grid, options, sink));
         EXPECT_TRUE(rounds_correctly());
-        check::Options how;
+        CheckOptions how;
         how.threads = 1;
         how.progress = [&](const char*) { meddle(); };
-        add(rude ? checked : checked_right, check::run(s.mesh, how));
+        add(rude ? checked : checked_right, check_mesh(s.mesh, how));
         EXPECT_TRUE(rounds_correctly());
     }
     EXPECT_GT(calls, 4U);

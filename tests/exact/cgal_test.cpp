@@ -37,13 +37,13 @@ int predicate_sign(const Case& c, int replaced) {
 // promise.
 TEST(OracleAgainstCgal, SignsOfEveryFamily) {
     std::uint64_t asked = 0;
-    for (const audit::Family& f : audit::all_families()) {
+    for (const Family& f : all_families()) {
         if (f.needs_mesh || f.name == "huge" || f.name == "subnormal") continue;
         for (const Simplex s : {Simplex::triangle, Simplex::tetrahedron}) {
             if (!f.applies_to(s)) continue;
             for (std::uint64_t i = 0; i < 1000; ++i) {
-                const Case c = audit::make_case(f, s, 7, i, {});
-                const Answer a = ask(c);
+                const Case c = make_case(f, s, 7, i, {});
+                const OracleAnswer a = ask_oracle(c);
                 for (int k = 0; k < vertex_count(s); ++k) {
                     ASSERT_EQ(a.signs[static_cast<std::size_t>(k)], predicate_sign(c, k)) << f.name << " case " << i;
                     ++asked;
@@ -58,10 +58,10 @@ TEST(OracleAgainstCgal, SignsOfEveryFamily) {
 TEST(OracleAgainstCgal, WeightsAreNearest) {
     using Q = CGAL::Gmpq;
     for (const char* name : {"random", "lattice.tenths", "anisotropic-plane", "sliver.1e-15", "mixed-scale"}) {
-        const audit::Family f = audit::families_matching(name).at(0);
+        const Family f = families_matching(name).at(0);
         for (std::uint64_t i = 0; i < 300; ++i) {
-            const Case c = audit::make_case(f, Simplex::tetrahedron, 7, i, {});
-            const Answer a = ask(c);
+            const Case c = make_case(f, Simplex::tetrahedron, 7, i, {});
+            const OracleAnswer a = ask_oracle(c);
             if (a.region == Region::degenerate) continue;
             const auto volume = [&](int r) {
                 std::array<std::array<Q, 3>, 3> e;

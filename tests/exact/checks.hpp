@@ -19,7 +19,7 @@ inline void expect_same_bits(double got, double expected, std::string_view what)
     }
 }
 
-inline void expect_same(const Answer& a, const Answer& b) {
+inline void expect_same(const OracleAnswer& a, const OracleAnswer& b) {
     EXPECT_EQ(a.region, b.region);
     EXPECT_EQ(a.feature, b.feature);
     EXPECT_EQ(a.support, b.support);
@@ -29,9 +29,9 @@ inline void expect_same(const Answer& a, const Answer& b) {
 }
 
 /// What the oracle should answer, from the exact weights of the second path.
-inline Answer expected_answer(const Case& c, const std::optional<std::vector<second_path::Q>>& exact) {
+inline OracleAnswer expected_answer(const Case& c, const std::optional<std::vector<second_path::Q>>& exact) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    Answer a;
+    OracleAnswer a;
     if (!exact) {
         a.region = Region::degenerate;
         a.feature = Feature::degenerate;
@@ -65,10 +65,10 @@ inline Answer expected_answer(const Case& c, const std::optional<std::vector<sec
     return a;
 }
 
-/// Everything ask() says of a case, by both widths. Returns the answer for tallies.
-inline Answer check(const Case& c) {
+/// Everything ask_oracle() says of a case, by both widths. Returns the answer for tallies.
+inline OracleAnswer check(const Case& c) {
     SCOPED_TRACE(testing_cases::describe(c));
-    const Answer a = ask(c);
+    const OracleAnswer a = ask_oracle(c);
     expect_same(a, ask_wide(c));
     expect_same(a, expected_answer(c, second_path::weights(c)));
     EXPECT_EQ(affine_dimension(c), second_path::affine_dimension(c));

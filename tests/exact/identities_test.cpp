@@ -49,9 +49,10 @@ TEST(Bilinear, holds_wherever_it_is_defined) {
         for (int k = 0; k < (kind == Kind::bit_patterns ? 60 : 800); ++k) {
             Random r = Random::stream(1, hash64("bilinear") + hash64(name(kind)), static_cast<std::uint64_t>(k));
             const Case c = random_case(r, Simplex::triangle, kind);
-            const Identity found = bilinear_is_barycentric(c);
-            ASSERT_EQ(found, bilinear_must_be_undefined(c) ? Identity::undefined : Identity::holds) << describe(c);
-            holds += found == Identity::holds ? 1 : 0;
+            const IdentityVerdict found = bilinear_is_barycentric(c);
+            ASSERT_EQ(found, bilinear_must_be_undefined(c) ? IdentityVerdict::undefined : IdentityVerdict::holds)
+                << describe(c);
+            holds += found == IdentityVerdict::holds ? 1 : 0;
         }
         EXPECT_GT(holds, 50) << name(kind);
     }
@@ -61,13 +62,13 @@ TEST(Bilinear, special_positions) {
     const auto identity = [](std::array<double, 12> v, std::array<double, 3> p) {
         return bilinear_is_barycentric({Simplex::triangle, v, p, {}});
     };
-    EXPECT_EQ(identity({0, 0, 3, 1, 1, 4}, {1, 1}), Identity::holds);
-    EXPECT_EQ(identity({0, 0, 3, 1, 1, 4}, {9, 0}), Identity::holds);      // level with one vertex only
-    EXPECT_EQ(identity({0, 0, 3, 0, 0, 3}, {1, 1}), Identity::holds);      // one side level: the other apex serves
-    EXPECT_EQ(identity({0, 0, 3, 0, 0, 3}, {1, 3}), Identity::undefined);  // and the point level with that apex
-    EXPECT_EQ(identity({0, 0, 3, 0, 0, 3}, {1, 0}), Identity::holds);      // on the level side
-    EXPECT_EQ(identity({0, 0, 1, 1, 2, 2}, {1, 0}), Identity::undefined);  // degenerate
-    EXPECT_EQ(identity({5, 5, 5, 5, 5, 5}, {5, 5}), Identity::undefined);
+    EXPECT_EQ(identity({0, 0, 3, 1, 1, 4}, {1, 1}), IdentityVerdict::holds);
+    EXPECT_EQ(identity({0, 0, 3, 1, 1, 4}, {9, 0}), IdentityVerdict::holds);  // level with one vertex only
+    EXPECT_EQ(identity({0, 0, 3, 0, 0, 3}, {1, 1}), IdentityVerdict::holds);  // one side level: the other apex serves
+    EXPECT_EQ(identity({0, 0, 3, 0, 0, 3}, {1, 3}), IdentityVerdict::undefined);  // and the point level with that apex
+    EXPECT_EQ(identity({0, 0, 3, 0, 0, 3}, {1, 0}), IdentityVerdict::holds);      // on the level side
+    EXPECT_EQ(identity({0, 0, 1, 1, 2, 2}, {1, 0}), IdentityVerdict::undefined);  // degenerate
+    EXPECT_EQ(identity({5, 5, 5, 5, 5, 5}, {5, 5}), IdentityVerdict::undefined);
 }
 
 TEST(Trilinear, never_fails_and_holds_in_general_position) {
@@ -76,14 +77,14 @@ TEST(Trilinear, never_fails_and_holds_in_general_position) {
         for (int k = 0; k < (kind == Kind::bit_patterns ? 30 : 250); ++k) {
             Random r = Random::stream(1, hash64("trilinear") + hash64(name(kind)), static_cast<std::uint64_t>(k));
             const Case c = random_case(r, Simplex::tetrahedron, kind);
-            const Identity found = trilinear_is_barycentric(c);
-            ASSERT_NE(found, Identity::fails) << describe(c);
+            const IdentityVerdict found = trilinear_is_barycentric(c);
+            ASSERT_NE(found, IdentityVerdict::fails) << describe(c);
             if (!second_path::weights(c)) {
-                ASSERT_EQ(found, Identity::undefined) << describe(c);
+                ASSERT_EQ(found, IdentityVerdict::undefined) << describe(c);
             } else if (!has_coincidence(c)) {
-                ASSERT_EQ(found, Identity::holds) << describe(c);
+                ASSERT_EQ(found, IdentityVerdict::holds) << describe(c);
             }
-            holds += found == Identity::holds ? 1 : 0;
+            holds += found == IdentityVerdict::holds ? 1 : 0;
         }
         EXPECT_GT(holds, 10) << name(kind);
     }
@@ -94,12 +95,12 @@ TEST(Trilinear, special_positions) {
         return trilinear_is_barycentric({Simplex::tetrahedron, v, p, {}});
     };
     const std::array<double, 12> corner{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-    EXPECT_EQ(identity(corner, {0.25, 0.25, 0.25}), Identity::holds);   // a level face: only one apex serves
-    EXPECT_EQ(identity(corner, {0.25, 0.25, 1}), Identity::undefined);  // level with that apex
-    EXPECT_EQ(identity(corner, {7, -9, 11}), Identity::holds);          // far outside
+    EXPECT_EQ(identity(corner, {0.25, 0.25, 0.25}), IdentityVerdict::holds);   // a level face: only one apex serves
+    EXPECT_EQ(identity(corner, {0.25, 0.25, 1}), IdentityVerdict::undefined);  // level with that apex
+    EXPECT_EQ(identity(corner, {7, -9, 11}), IdentityVerdict::holds);          // far outside
     // Two pairs of level vertices: no apex has three edges that cross levels.
-    EXPECT_EQ(identity({0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 1}, {0.5, 0.5, 0.5}), Identity::undefined);
-    EXPECT_EQ(identity({0, 0, 0, 1, 0, 1, 0, 1, 2, 1, 1, 3}, {0.5, 0.5, 0.5}), Identity::undefined);  // coplanar
+    EXPECT_EQ(identity({0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 1}, {0.5, 0.5, 0.5}), IdentityVerdict::undefined);
+    EXPECT_EQ(identity({0, 0, 0, 1, 0, 1, 0, 1, 2, 1, 1, 3}, {0.5, 0.5, 0.5}), IdentityVerdict::undefined);  // coplanar
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST(Environment, ASubnormalBesideOrdinaryNumbers) {
     Case c;
     std::copy_n(vertices, 12, c.vertices.begin());
     std::copy_n(point, 3, c.point.begin());
-    const std::string expected = verdict(exact::ask(c)).text(4);
+    const std::string expected = verdict(ask_oracle(c)).text(4);
     in_every_environment([&](const char* environment) {
         Verdict v = verdict(weight_signs(Simplex::tetrahedron, vertices, point), 4);
         v.orientation = 0;  // the oracle does not tell
@@ -79,7 +79,7 @@ TEST(Environment, SignsOfMixedNumbers) {
             c.simplex = s;
             for (double& x : c.vertices) x = any_number(random);
             for (double& x : c.point) x = any_number(random);
-            const std::string expected = verdict(exact::ask(c)).text(vertex_count(s));
+            const std::string expected = verdict(ask_oracle(c)).text(vertex_count(s));
             in_every_environment([&](const char* environment) {
                 Verdict v = verdict(weight_signs(s, c.vertices.data(), c.point.data()), vertex_count(s));
                 v.orientation = 0;

@@ -78,7 +78,7 @@ int run(const Call& call) {
     std::printf("%-24s %12s %6s %12s %12s %12s %10s %9s %9s\n", "family", "cases", "wrong", "filter", "dbl-double",
                 "exact", "degenerate", "ns own", "ns judge");
     Tally total;
-    for (const audit::Family& f : audit::all_families()) {
+    for (const Family& f : all_families()) {
         Tally of_family;
         for (std::size_t i = 0; i < subjects.size(); ++i) {
             if (subjects[i].family == &f) of_family.add(tallies[i]);

@@ -34,9 +34,9 @@
 namespace barycert::laws {
 
 /// The project's own meshes, all of them.
-inline const audit::MeshSource& own_meshes() {
-    static const audit::MeshSource source = [] {
-        audit::MeshSource s;
+inline const MeshSource& own_meshes() {
+    static const MeshSource source = [] {
+        MeshSource s;
         for (const char* name :
              {"bracket", "cube-hole", "flange", "lattice-box", "lattice-eighths", "needle-slit", "plate", "torus"}) {
             s.add(name, read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + name).value());
@@ -47,7 +47,7 @@ inline const audit::MeshSource& own_meshes() {
 }
 
 struct Subject {
-    const audit::Family* family = nullptr;
+    const Family* family = nullptr;
     Simplex simplex = Simplex::tetrahedron;
 
     std::string title() const { return family->name + " " + std::string(name(simplex)); }
@@ -57,14 +57,14 @@ struct Subject {
 /// Every family with every simplex that it applies to.
 inline std::vector<Subject> all_subjects() {
     std::vector<Subject> subjects;
-    for (const audit::Family& f : audit::all_families()) {
+    for (const Family& f : all_families()) {
         for (const Simplex s : f.simplices) subjects.push_back({&f, s});
     }
     return subjects;
 }
 
 /// The family's coordinates stay where Epick promises to be right.
-inline bool within_range(const audit::Family& f) {
+inline bool within_range(const Family& f) {
     static const std::array<const char*, 7> at_the_ends{"subnormal",   "small",           "tiny", "large", "huge",
                                                         "mixed-scale", "filter-underflow"};
     return std::none_of(at_the_ends.begin(), at_the_ends.end(), [&](const char* name) { return f.name == name; });
@@ -167,7 +167,7 @@ Verdict cgal_verdict(const Case& c) {
     return v;
 }
 
-inline Verdict verdict(const exact::Answer& a) {
+inline Verdict verdict(const OracleAnswer& a) {
     Verdict v;
     v.degenerate = a.region == Region::degenerate;
     std::copy(a.signs.begin(), a.signs.end(), v.signs.begin());
@@ -194,7 +194,7 @@ public:
         coordinates_.resize((n + 1) * d * capacity);
         values_.resize(n * capacity);
         for (std::size_t j = 0; j < count; ++j) {
-            const Case c = audit::make_case(*s.family, s.simplex, seed, first + j, own_meshes());
+            const Case c = make_case(*s.family, s.simplex, seed, first + j, own_meshes());
             cases[j] = c;
             for (std::size_t i = 0; i < n * d; ++i) coordinates_[i * capacity + j] = c.vertices[i];
             for (std::size_t k = 0; k < d; ++k) coordinates_[(n * d + k) * capacity + j] = c.point[k];
@@ -269,7 +269,7 @@ inline Tally judge_signs(const Subject& s, std::uint64_t seed, std::uint64_t fir
     Block block;
     std::vector<WeightSigns> out(Block::capacity);
     std::vector<Verdict> verdicts(Block::capacity);
-    std::vector<exact::Answer> answers(epick ? 0 : Block::capacity);
+    std::vector<OracleAnswer> answers(epick ? 0 : Block::capacity);
     for_blocks_of(s, seed, first, count, block, [&](std::uint64_t at) {
         const std::size_t cases = block.cases.size();
         const std::span<WeightSigns> signs(out.data(), cases);
@@ -283,7 +283,7 @@ inline Tally judge_signs(const Subject& s, std::uint64_t seed, std::uint64_t fir
             if (epick) {
                 verdicts[j] = cgal_verdict<Epick>(block.cases[j]);
             } else {
-                answers[j] = exact::ask(block.cases[j]);
+                answers[j] = ask_oracle(block.cases[j]);
             }
         }
         tally.judge_seconds += judging.seconds();
@@ -302,7 +302,7 @@ inline Tally judge_signs(const Subject& s, std::uint64_t seed, std::uint64_t fir
             };
             if (epick) compare(verdicts[j], true, "Epick");
             if (!epick || (at + j) % 16 == 0) {
-                const exact::Answer a = epick ? exact::ask(c) : answers[j];
+                const OracleAnswer a = epick ? ask_oracle(c) : answers[j];
                 compare(verdict(a), false, "oracle");
                 if (a.region != w.region() || a.feature != w.feature(s.simplex))
                     tell("oracle", std::string(name(a.region)) + ", " + std::string(name(a.feature)),
@@ -328,7 +328,7 @@ inline Tally judge_values(const Subject& s, std::uint64_t seed, std::uint64_t fi
     Tally tally;
     Block block;
     std::vector<double> weights(n * Block::capacity), values(Block::capacity);
-    std::vector<exact::Answer> answers(Block::capacity);
+    std::vector<OracleAnswer> answers(Block::capacity);
     for_blocks_of(s, seed, first, count, block, [&](std::uint64_t at) {
         const std::size_t cases = block.cases.size();
         TierCounts of_values;
@@ -340,13 +340,13 @@ inline Tally judge_values(const Subject& s, std::uint64_t seed, std::uint64_t fi
             return tally.disagree(s.title() + ": " + (weighed ? valued : weighed).error().message());
 
         const Stopwatch judging;
-        for (std::size_t j = 0; j < cases; ++j) answers[j] = exact::ask(block.cases[j]);
+        for (std::size_t j = 0; j < cases; ++j) answers[j] = ask_oracle(block.cases[j]);
         tally.judge_seconds += judging.seconds();
 
         std::uint64_t degenerate = 0;
         for (std::size_t j = 0; j < cases; ++j) {
             const Case& c = block.cases[j];
-            const exact::Answer& a = answers[j];
+            const OracleAnswer& a = answers[j];
             const auto check = [&](double judged, double answer, const std::string& what) {
                 if (!same(judged, answer))
                     tally.disagree(describe(s, at + j, c) + "  " + what + ": judge " + hexadecimal(judged) +
@@ -394,7 +394,7 @@ inline Tally judge_values(const Subject& s, std::uint64_t seed, std::uint64_t fi
                 if ((at + j) % 16 == 0) {
                     Case next = block.cases[j];
                     for (std::size_t i = 0; i < n; ++i) next.values[i] = block.cases[j].values[(i + 1) % n];
-                    alike = alike && same(pairs[2 * j], exact::ask(next).value);
+                    alike = alike && same(pairs[2 * j], ask_oracle(next).value);
                 }
                 if (!alike) tally.disagree(describe(s, at + j, block.cases[j]) + "  mesh queries differ\n");
             }

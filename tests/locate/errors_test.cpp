@@ -18,7 +18,7 @@ const double nan = std::numeric_limits<double>::quiet_NaN();
 TEST(LocateErrors, TheFirstPointThatIsNotFiniteIsNamed) {
     for (const int d : {2, 3}) {
         const Mesh mesh = box(d, {2, 2, 2});
-        for (const check::Certificate& certificate : {check::Certificate{}, quick(mesh).certificate}) {
+        for (const Certificate& certificate : {Certificate{}, quick(mesh).certificate}) {
             const auto locator = Locator::build(mesh, certificate);
             for (const double bad : {nan, infinity, -infinity}) {
                 std::vector<double> points(static_cast<std::size_t>(20 * d), 0.5);
@@ -154,7 +154,7 @@ TEST(LocateErrors, FieldsMayHoldAnything) {
 TEST(LocateErrors, ACertificateOfAnotherMeshIsNone) {
     for (const int d : {2, 3}) {
         const Mesh mesh = box(d, {3, 3, 2});
-        const check::Certificate certificate = quick(mesh).certificate;
+        const Certificate certificate = quick(mesh).certificate;
         ASSERT_TRUE(certificate.covers(mesh));
         Mesh folded = mesh;  // the same sizes, but a node went through facets
         for (int k = 0; k < d; ++k) folded.points[static_cast<std::size_t>(k)] += 1.5;
@@ -170,8 +170,8 @@ TEST(LocateErrors, ACertificateOfAnotherMeshIsNone) {
             ASSERT_EQ(*other->locate(&points[i]), (Location{owner.cell, owner.feature}));
         }
         // One that says "not certified" is none either, on its own mesh.
-        const check::Certificate refused = quick(folded).certificate;
-        EXPECT_EQ(refused.verdict(), check::Verdict::not_certified);
+        const Certificate refused = quick(folded).certificate;
+        EXPECT_EQ(refused.verdict(), Verdict::not_certified);
         EXPECT_EQ(Locator::build(folded, refused)->method(), Method::candidates);
     }
 }

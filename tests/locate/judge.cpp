@@ -43,7 +43,7 @@ std::vector<Held> PointJudge::holders(const double* point) const {
         bool beyond = false;
         for (std::size_t k = 0; k < d; ++k) beyond |= point[k] < low[k] || point[k] > high[k];
         if (beyond) continue;
-        const exact::Answer a = exact::ask(case_of(mesh_, static_cast<Mesh::Index>(c), point));
+        const OracleAnswer a = ask_oracle(case_of(mesh_, static_cast<Mesh::Index>(c), point));
         if (a.region == Region::interior || a.region == Region::boundary)
             all.push_back({static_cast<Mesh::Index>(c), a.feature});
     }

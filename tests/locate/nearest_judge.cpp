@@ -76,7 +76,7 @@ Q NearestJudge::to_hull(const double* point, std::span<const Mesh::Index> nodes)
 
 bool NearestJudge::degenerate(Mesh::Index cell) const {
     const std::array<double, 3> origin{};
-    return exact::ask(case_of(mesh_, cell, origin.data())).region == Region::degenerate;
+    return ask_oracle(case_of(mesh_, cell, origin.data())).region == Region::degenerate;
 }
 
 TrueNearest NearestJudge::nearest(const double* point) const {

@@ -50,7 +50,7 @@ TEST(LocateOrder, D1_ManyPoints) {
         std::vector<double> points = awkward_points(mesh, 1200, random);
         const std::vector<double> inner = inner_points(mesh, 30000, random);
         points.insert(points.end(), inner.begin(), inner.end());
-        const check::Certificate certificate = quick(mesh).certificate;
+        const Certificate certificate = quick(mesh).certificate;
         const auto walks = Locator::build(mesh, certificate), asks = Locator::build(mesh, {.prove = false});
         const Answers right = ask(*walks, points, 1);
         EXPECT_TRUE(ask(*asks, points, 1) == right) << stem;

@@ -109,11 +109,11 @@ private:
 
 bool expect_right(const Mesh& mesh, const std::vector<double>& points, Random& random, const std::string& what,
                   const Ways& ways) {
-    check::Options options;
+    CheckOptions options;
     options.threads = 1;
     options.contacts = 0;
-    const check::Certificate certificate = check::run(mesh, options).certificate;
-    const bool certified = certificate.verdict() == check::Verdict::certified;
+    const Certificate certificate = check_mesh(mesh, options).certificate;
+    const bool certified = certificate.verdict() == Verdict::certified;
     const std::vector<std::string> targets = ways.targets ? simd_targets() : std::vector<std::string>{simd_target()};
     const std::vector<int> threads = ways.threads ? std::vector<int>{1, 2, 8} : std::vector<int>{1};
     // As many as are asked for, also on a machine with fewer.

@@ -17,7 +17,7 @@ struct Ways {
     std::size_t most = 3;  ///< failures told
 };
 
-/// Batch, single and locate_all, with the certificate of check::run and without, against the judge; counts too. Returns
+/// Batch, single and locate_all, with the certificate of check_mesh and without, against the judge; counts too. Returns
 /// whether the mesh was certified.
 bool expect_right(const Mesh& mesh, const std::vector<double>& points, Random& random, const std::string& what,
                   const Ways& ways = {});

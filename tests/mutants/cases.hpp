@@ -19,7 +19,7 @@ inline constexpr int group_count = 8;
 
 struct Record {
     Case c;
-    exact::Answer answer;
+    OracleAnswer answer;
     Group group = Group::family;
     std::int8_t orientation = 1;  ///< of the simplex, as WeightSigns has it
 };

@@ -118,7 +118,7 @@ void check_batches(Simplex s, Group g, const std::vector<const Record*>& records
     expect(interpolate(a.cases, a.values, values, &value_tiers).has_value(), "values: error " + where);
     expect(interpolate(a.cases, a.with_triples, triples).has_value(), "triples: error " + where);
     for (std::size_t j = 0; j < count; ++j) {
-        const exact::Answer& answer = records[j]->answer;
+        const OracleAnswer& answer = records[j]->answer;
         for (std::size_t i = 0; i < n; ++i) expect(same(weights[n * j + i], answer.weights[i]), "weights " + where);
         expect(same(values[j], answer.value), "values " + where);
         const bool is_one = answer.region == Region::degenerate ? std::isnan(triples[3 * j]) : triples[3 * j] == 1;

@@ -180,7 +180,7 @@ Case overflowing(Random& random) {
 }
 
 std::vector<Record> make_records(const std::string& data) {
-    audit::MeshSource meshes;
+    MeshSource meshes;
     for (const char* mesh : {"cube-hole", "lattice-box", "plate"})
         meshes.add(mesh, read_tetgen(data + "/meshes/" + mesh).value());
     std::vector<Record> records;
@@ -190,9 +190,9 @@ std::vector<Record> make_records(const std::string& data) {
         r.group = g;
         records.push_back(r);
     };
-    for (const audit::Family& f : audit::all_families()) {
+    for (const Family& f : all_families()) {
         for (const Simplex s : f.simplices) {
-            for (std::uint64_t i = 0; i < 300; ++i) add(audit::make_case(f, s, 77, i, meshes), Group::family);
+            for (std::uint64_t i = 0; i < 300; ++i) add(make_case(f, s, 77, i, meshes), Group::family);
         }
     }
     for (const Simplex s : all_simplices) {
@@ -207,10 +207,9 @@ std::vector<Record> make_records(const std::string& data) {
         for (int i = 0; i < 4000 && projected; ++i) add(projected_tie(s, random), Group::ties);
         add_near_ties(s, records);
         // near a facet, scaled to where products leave the range
-        const audit::Family near = audit::families_matching(projected && n == 2 ? "random" : "on-facet").at(0);
+        const Family near = families_matching(projected && n == 2 ? "random" : "on-facet").at(0);
         for (std::uint64_t i = 0; i < 15000; ++i) {
-            Case c = audit::make_case(i % 4 == 0 ? audit::families_matching("nearly-degenerate").at(0) : near, s, 5, i,
-                                      meshes);
+            Case c = make_case(i % 4 == 0 ? families_matching("nearly-degenerate").at(0) : near, s, 5, i, meshes);
             int common = i % 2 == 0 ? random.integer(-1000, 900) : random.integer(-400, -300);
             if (projected && i % 2 == 1) common = random.integer(-290, -100);
             for (int k = 0; k < d; ++k) {
@@ -301,7 +300,7 @@ std::vector<Record> make_records(const std::string& data) {
         add(c, Group::environment);
     }
     for (Record& r : records) {
-        r.answer = exact::ask(r.c);
+        r.answer = ask_oracle(r.c);
         const bool oriented = r.c.simplex == Simplex::triangle || r.c.simplex == Simplex::tetrahedron;
         const bool flat = r.answer.region == Region::degenerate;
         const auto sign = [&] { return exact_orientation(r.c.vertices.data(), space_dimension(r.c.simplex)); };

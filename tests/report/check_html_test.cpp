@@ -100,7 +100,7 @@ std::vector<std::uint64_t> cells_in_histograms(const std::string& page) {
 }
 
 std::string page_of(const Mesh& mesh, const std::string& name = "mesh") {
-    return report::check_html(checked(mesh, true), mesh, name);
+    return check_html(checked(mesh, true), mesh, name);
 }
 
 void expect_complete(const Mesh& mesh) {
@@ -236,14 +236,14 @@ TEST(CheckHtml, BrokenMeshes) {
         EXPECT_TRUE(has(page, "Cells with problems"));
         EXPECT_TRUE(has(page, "What is wrong, and what to do"));
         EXPECT_TRUE(has(page, "class=\"witness\""));
-        for (const check::Finding& f : checked(mesh).findings)
-            EXPECT_TRUE(has(page, report::html_escaped(text_of(f.problem).text))) << text_of(f.problem).name;
+        for (const Defect& f : checked(mesh).defects)
+            EXPECT_TRUE(has(page, report::html_escaped(defect_text(f.kind).text))) << defect_text(f.kind).name;
     }
 }
 
 TEST(CheckHtml, TheExhibitsAreTheWorstCells) {
     const Mesh mesh = own_mesh("needle-slit");
-    const check::Report r = checked(mesh);
+    const CheckReport r = checked(mesh);
     const auto worst = report::worst_cells(r, mesh, 6);
     ASSERT_EQ(worst.size(), 6U);
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
@@ -252,14 +252,14 @@ TEST(CheckHtml, TheExhibitsAreTheWorstCells) {
         const auto last = static_cast<std::size_t>(worst.back().cells[0]);
         EXPECT_TRUE(shown || r.measures.min_angle[cell] >= r.measures.min_angle[last]) << cell;
     }
-    EXPECT_TRUE(report::problem_cells(r, mesh, 6).empty());
+    EXPECT_TRUE(report::defect_cells(r, mesh, 6).empty());
     // A degenerate cell is a problem, not the worst shape; each kind of problem gets its turn.
     const Mesh broken = thoroughly_broken();
-    const check::Report found = checked(broken);
+    const CheckReport found = checked(broken);
     for (const report::Exhibit& e : report::worst_cells(found, broken, 6))
         EXPECT_NE(found.measures.orientation[static_cast<std::size_t>(e.cells[0])], 0);
     bool degenerate = false, overlap = false;
-    for (const report::Exhibit& e : report::problem_cells(found, broken, 6)) {
+    for (const report::Exhibit& e : report::defect_cells(found, broken, 6)) {
         degenerate |= has(e.what, "degenerate cell");
         overlap |= e.contact != nullptr && e.contact->overlap;
     }
@@ -356,9 +356,9 @@ TEST(CheckHtml, SizeIsBounded) {
     const Mesh again = folded;
     for (const Mesh::Index i : again.cells) folded.cells.push_back(i + static_cast<Mesh::Index>(again.point_count()));
     for (const double x : again.points) folded.points.push_back(x * 0.9 + 0.05);
-    check::Options options;
+    CheckOptions options;
     options.examples = options.contacts = 100000;
-    const std::string page = report::check_html(check::run(folded, options), folded, "folded");
+    const std::string page = check_html(check_mesh(folded, options), folded, "folded");
     expect_well_formed(page);
     EXPECT_LT(page.size(), 200000U);
 }

@@ -52,11 +52,11 @@ inline Mesh broken_plane() {
     return mesh;
 }
 
-inline check::Report checked(const Mesh& mesh, bool delaunay = false) {
-    check::Options options;
+inline CheckReport checked(const Mesh& mesh, bool delaunay = false) {
+    CheckOptions options;
     options.threads = 2;
     options.delaunay = delaunay;
-    return check::run(mesh, options);
+    return check_mesh(mesh, options);
 }
 
 }  // namespace barycert::report_test

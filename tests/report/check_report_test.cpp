@@ -15,11 +15,10 @@ namespace barycert::report_test {
 namespace {
 
 using Json = nlohmann::json;
-using check::Problem;
 using Lines = std::vector<std::string>;
 
-std::string text(const check::Report& report, const Mesh& mesh, bool colour = false) {
-    return report::terminal_check(report, mesh, "part", {.colour = colour});
+std::string text(const CheckReport& report, const Mesh& mesh, bool colour = false) {
+    return check_text(report, mesh, "part", {.colour = colour});
 }
 std::string text(const Mesh& mesh) {
     return text(checked(mesh, true), mesh);
@@ -36,16 +35,16 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-Json json(const check::Report& report) {
-    return Json::parse(report::check_json(report, "part.1", measure_environment()));
+Json json(const CheckReport& report) {
+    return Json::parse(check_json(report, "part.1", measure_environment()));
 }
 
 /// A report of one problem, not of any mesh.
-check::Report with_finding(Problem problem, std::uint64_t count, bool at_least = false) {
-    check::Report r;
+CheckReport with_finding(DefectKind problem, std::uint64_t count, bool at_least = false) {
+    CheckReport r;
     r.nodes = 8;
     r.cells = 2;
-    r.findings.push_back({problem, count, at_least, {{.cells = {0, 1}}}});
+    r.defects.push_back({problem, count, at_least, {{.cells = {0, 1}}}});
     return r;
 }
 
@@ -70,14 +69,14 @@ TEST(check_terminal, the_first_line_is_the_verdict) {
 }
 
 TEST(check_terminal, every_problem_has_words_for_one_and_for_more) {
-    for (const check::ProblemText& t : check::problem_texts) {
+    for (const DefectText& t : defect_texts) {
         if (!t.breaks) continue;
-        const std::string one = lines_of(text(with_finding(t.problem, 1), {})).front();
-        const std::string two = lines_of(text(with_finding(t.problem, 2), {})).front();
+        const std::string one = lines_of(text(with_finding(t.kind, 1), {})).front();
+        const std::string two = lines_of(text(with_finding(t.kind, 2), {})).front();
         EXPECT_EQ(one.find("part: NOT certified: 1 "), 0U) << t.name;
         EXPECT_EQ(two.find("part: NOT certified: 2 "), 0U) << t.name;
         EXPECT_NE(one.substr(24), two.substr(24)) << t.name;
-        EXPECT_TRUE(contains(text(with_finding(t.problem, 1), {}), "\n" + std::string(t.name) + " ")) << t.name;
+        EXPECT_TRUE(contains(text(with_finding(t.kind, 1), {}), "\n" + std::string(t.name) + " ")) << t.name;
     }
 }
 
@@ -88,10 +87,10 @@ TEST(check_terminal, lines_fit_a_terminal) {
         for (const std::string& line : lines_of(text(mesh)))
             EXPECT_LE(line.size(), 100U + std::string("part").size()) << line;
     }
-    check::Report wide = with_finding(Problem::overlapping_cells, 1000, true);
+    CheckReport wide = with_finding(DefectKind::overlapping_cells, 1000, true);
     const Mesh::Index big = std::numeric_limits<Mesh::Index>::max();
-    wide.findings[0].places.assign(20, {{big - 1, big}, {big - 2, big - 1, big}, "coplanar"});
-    check::Contact c;
+    wide.defects[0].places.assign(20, {{big - 1, big}, {big - 2, big - 1, big}, "coplanar"});
+    CellContact c;
     c.cells = {big - 1, big};
     c.witness.point.fill(-1.2345678901234567e-300);
     c.witness.exact = true;
@@ -117,8 +116,8 @@ TEST(check_terminal, conditions_say_how_often_they_fail) {
     EXPECT_EQ(row(bad, "P3 "), "3");
     EXPECT_EQ(row(bad, "P4 "), "2");
     EXPECT_EQ(row(bad, "    hence"), "1");
-    EXPECT_EQ(row(text(with_finding(Problem::boundary_contact, 1000, true), {}), "P3 "), "1000");
-    EXPECT_TRUE(contains(text(with_finding(Problem::boundary_contact, 1000, true), {}), ">= 1000"));
+    EXPECT_EQ(row(text(with_finding(DefectKind::boundary_contact, 1000, true), {}), "P3 "), "1000");
+    EXPECT_TRUE(contains(text(with_finding(DefectKind::boundary_contact, 1000, true), {}), ">= 1000"));
     Mesh no_mesh = pair_of_cells();
     no_mesh.cells.pop_back();
     EXPECT_EQ(row(text(no_mesh), "P1 "), "1");
@@ -137,7 +136,7 @@ TEST(check_terminal, long_lists_are_cut_and_say_so) {
                          "Notes, harmless to a partition\nmixed_orientation           40  cells of the rarer "
                          "orientation\n    cells 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, and 30 more\n    -> --fix"));
     EXPECT_FALSE(contains(shown, "What is wrong"));
-    const std::string more = text(with_finding(Problem::overlapping_cells, 1000, true), {});
+    const std::string more = text(with_finding(DefectKind::overlapping_cells, 1000, true), {});
     EXPECT_TRUE(contains(more,
                          "overlapping_cells      >= 1000  pairs of cells whose interiors meet\n    cells 0 and 1; "
                          "and more\n"));
@@ -160,8 +159,8 @@ TEST(check_terminal, witnesses_are_exact_or_say_that_they_are_rounded) {
     EXPECT_TRUE(contains(shown, "\n    (0x1."));
     EXPECT_FALSE(contains(shown, "rounded\n"));
 
-    check::Report r = with_finding(Problem::boundary_contact, 2);
-    check::Contact c;
+    CheckReport r = with_finding(DefectKind::boundary_contact, 2);
+    CellContact c;
     c.cells = {0, 1};
     c.dimension = 1;
     c.witness.point = {1 / 3.0, 0.5, -2};
@@ -210,7 +209,7 @@ TEST(check_terminal, volumes_tell_whether_they_are_equal) {
 TEST(check_terminal, delaunay_only_if_asked) {
     const Mesh mesh = own_mesh("plate");
     EXPECT_FALSE(contains(text(checked(mesh), mesh), "Delaunay"));
-    check::Report r = checked(pair_of_cells(), true);
+    CheckReport r = checked(pair_of_cells(), true);
     ASSERT_TRUE(r.delaunay);
     EXPECT_TRUE(contains(text(r, {}), "Delaunay   1 interior facet tested: all are locally Delaunay"));
     *r.delaunay = {10, 2, 3, 0.25, 7, 11};
@@ -234,7 +233,7 @@ TEST(check_terminal, measures_have_their_worst_cell) {
 
 TEST(check_terminal, colour_changes_no_letter) {
     for (const Mesh& mesh : {own_mesh("bracket"), thoroughly_broken()}) {
-        const check::Report r = checked(mesh);
+        const CheckReport r = checked(mesh);
         std::string coloured = text(r, mesh, true);
         EXPECT_TRUE(contains(coloured, "\033["));
         for (std::size_t at; (at = coloured.find('\033')) != std::string::npos;)
@@ -245,7 +244,7 @@ TEST(check_terminal, colour_changes_no_letter) {
 
 TEST(check_json, says_what_the_report_says) {
     const Mesh mesh = own_mesh("bracket");
-    const check::Report r = checked(mesh, true);
+    const CheckReport r = checked(mesh, true);
     const Json j = json(r);
     EXPECT_EQ(j["schema"], 1);
     EXPECT_EQ(j["mesh"], "part.1");
@@ -254,30 +253,30 @@ TEST(check_json, says_what_the_report_says) {
     EXPECT_EQ(j["nodes"], mesh.point_count());
     ASSERT_EQ(j["conditions"].size(), 5U);
     for (const Json& c : j["conditions"]) EXPECT_EQ(c["holds"], true);
-    EXPECT_EQ(j["findings"].size(), r.findings.size());
+    EXPECT_EQ(j["findings"].size(), r.defects.size());
     EXPECT_EQ(j["orientation"]["positive"], mesh.cell_count());
     EXPECT_EQ(j["volume"]["cells"], r.volume.cells);
     EXPECT_EQ(j["volume"]["equal"], true);
     EXPECT_EQ(j["boundary"]["tunnels"], 1);
-    EXPECT_EQ(j["measures"]["min_angle"]["least"], check::distribution(r.measures.min_angle).least);
-    EXPECT_EQ(j["measures"]["condition"]["most_cell"], check::distribution(r.measures.condition).most_cell);
+    EXPECT_EQ(j["measures"]["min_angle"]["least"], distribution(r.measures.min_angle).min);
+    EXPECT_EQ(j["measures"]["condition"]["most_cell"], distribution(r.measures.condition).max_cell);
     EXPECT_EQ(j["delaunay"]["facets"], r.delaunay->facets);
     EXPECT_FALSE(json(checked(mesh)).contains("delaunay"));
-    for (std::size_t i = 0; i < check::problem_count; ++i)
-        EXPECT_EQ(j["problem_bits"][i], check::text_of(static_cast<Problem>(i)).name);
-    EXPECT_EQ(check::bit(Problem::degenerate_cell), 1U << 4U) << "position i is bit i";
+    for (std::size_t i = 0; i < defect_kind_count; ++i)
+        EXPECT_EQ(j["problem_bits"][i], defect_text(static_cast<DefectKind>(i)).name);
+    EXPECT_EQ(defect_bit(DefectKind::degenerate_cell), 1U << 4U) << "position i is bit i";
     EXPECT_EQ(j["problem_bits"][4], "degenerate_cell");
 }
 
 TEST(check_json, findings_and_contacts_stand_whole) {
-    const check::Report r = checked(thoroughly_broken());
+    const CheckReport r = checked(thoroughly_broken());
     const Json j = json(r);
     EXPECT_EQ(j["verdict"], "not certified");
-    ASSERT_EQ(j["findings"].size(), r.findings.size());
-    for (std::size_t i = 0; i < r.findings.size(); ++i) {
-        const check::Finding& f = r.findings[i];
+    ASSERT_EQ(j["findings"].size(), r.defects.size());
+    for (std::size_t i = 0; i < r.defects.size(); ++i) {
+        const Defect& f = r.defects[i];
         const Json& w = j["findings"][i];
-        EXPECT_EQ(w["name"], check::text_of(f.problem).name);
+        EXPECT_EQ(w["name"], defect_text(f.kind).name);
         EXPECT_EQ(w["count"], f.count);
         EXPECT_EQ(w["at_least"], f.at_least);
         ASSERT_EQ(w["places"].size(), f.places.size());
@@ -295,7 +294,7 @@ TEST(check_json, findings_and_contacts_stand_whole) {
             EXPECT_EQ(w["fraction"][k], r.contacts[i].witness.fraction[k]);
         }
     }
-    EXPECT_EQ(json(with_finding(Problem::overlapping_cells, 1000, true))["findings"][0]["at_least"], true);
+    EXPECT_EQ(json(with_finding(DefectKind::overlapping_cells, 1000, true))["findings"][0]["at_least"], true);
 }
 
 /// No null but where it says something, and no number that JSON has not.
@@ -328,7 +327,7 @@ TEST(check_json, knows_no_nan_and_does_not_hide_infinity) {
 }
 
 TEST(check_json, a_name_that_is_no_utf8_is_no_crash) {
-    EXPECT_TRUE(contains(report::check_json(checked(pair_of_cells()), "\xff", measure_environment()), "\xef\xbf\xbd"));
+    EXPECT_TRUE(contains(check_json(checked(pair_of_cells()), "\xff", measure_environment()), "\xef\xbf\xbd"));
 }
 
 }  // namespace

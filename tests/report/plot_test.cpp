@@ -15,15 +15,15 @@
 namespace barycert::report_test {
 namespace {
 
-const audit::Report& audited() {
-    static const audit::Report report = small_audit();
+const AuditReport& audited() {
+    static const AuditReport report = small_audit();
     return report;
 }
 
-audit::Report only(const std::string& glob) {
-    audit::Report report = audited();
+AuditReport only(const std::string& glob) {
+    AuditReport report = audited();
     const std::vector<Kernel> wanted = kernels_matching(glob);
-    std::erase_if(report.kernels, [&](const audit::KernelResult& k) {
+    std::erase_if(report.kernels, [&](const KernelResult& k) {
         return std::none_of(wanted.begin(), wanted.end(), [&](const Kernel& w) { return w.name == k.kernel.name; });
     });
     return report;
@@ -121,7 +121,7 @@ TEST(Svg, ALineIsCutAtTheFrame) {
 }
 
 TEST(Plot, OfEverythingShowsSixKernels) {
-    const std::string svg = report::condition_plot(audited());
+    const std::string svg = condition_plot(audited());
     expect_readable(svg);
     const auto names = shown(svg);
     EXPECT_EQ(names.size(), 6U);
@@ -130,11 +130,11 @@ TEST(Plot, OfEverythingShowsSixKernels) {
     EXPECT_NE(svg.find("prediction: κ"), std::string::npos);
     EXPECT_NE(svg.find("without variants"), std::string::npos);
     EXPECT_NE(svg.find(": tetrahedra</title>"), std::string::npos);
-    EXPECT_EQ(svg, report::condition_plot(audited()));
+    EXPECT_EQ(svg, condition_plot(audited()));
 }
 
 TEST(Plot, OfAFewShowsThemVariantsToo) {
-    const std::string svg = report::condition_plot(only("tetrahedron.signed-volume*"));
+    const std::string svg = condition_plot(only("tetrahedron.signed-volume*"));
     expect_readable(svg);
     EXPECT_EQ(svg.find("without variants"), std::string::npos);
     EXPECT_EQ(shown(svg), (std::set<std::string>{"signed-volume", "signed-volume.O0", "signed-volume.contracted",
@@ -142,7 +142,7 @@ TEST(Plot, OfAFewShowsThemVariantsToo) {
 }
 
 TEST(Plot, OfTrianglesIfThereAreNoTetrahedra) {
-    const std::string svg = report::condition_plot(only("triangle.*"));
+    const std::string svg = condition_plot(only("triangle.*"));
     expect_readable(svg);
     EXPECT_NE(svg.find(": triangles</title>"), std::string::npos);
     EXPECT_EQ(shown(svg).size(), 6U);
@@ -150,7 +150,7 @@ TEST(Plot, OfTrianglesIfThereAreNoTetrahedra) {
 
 TEST(Plot, WithNothingToShowSaysSo) {
     for (const char* glob : {"segment.*", "triangle3d.*", "*.exact"}) {
-        const std::string svg = report::condition_plot(only(glob));
+        const std::string svg = condition_plot(only(glob));
         expect_readable(svg);
         EXPECT_NE(svg.find("Nothing to show"), std::string::npos) << glob;
         EXPECT_TRUE(shown(svg).empty());

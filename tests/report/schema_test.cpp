@@ -16,8 +16,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-const audit::Report& audited() {
-    static const audit::Report report = small_audit();
+const AuditReport& audited() {
+    static const AuditReport report = small_audit();
     return report;
 }
 
@@ -28,14 +28,14 @@ void check_reports(Schema& schema) {
     for (const Mesh& mesh : {own_mesh("bracket"), own_mesh("plate"), pair_of_cells(), thoroughly_broken(),
                              broken_plane(), Mesh(), no_mesh}) {
         for (const bool delaunay : {false, true}) {
-            const std::string text = report::check_json(checked(mesh, delaunay), "part", measure_environment());
+            const std::string text = check_json(checked(mesh, delaunay), "part", measure_environment());
             schema.check("Check", Json::parse(text), "check");
         }
     }
     const Plc plc = read_plc(BARYCERT_DATA_DIR "/plc/torus.off").value();
-    check::Options options;
+    CheckOptions options;
     options.plc = &plc;
-    const std::string text = report::check_json(check::run(own_mesh("torus"), options), "part", measure_environment());
+    const std::string text = check_json(check_mesh(own_mesh("torus"), options), "part", measure_environment());
     schema.check("Check", Json::parse(text), "check");
 }
 
@@ -44,8 +44,8 @@ void sample_reports(Schema& schema) {
     SampleSummary run;
     run.columns = {"t"};
     for (const double low : {0.25, std::numeric_limits<double>::quiet_NaN()}) {
-        run.picture = report::SliceCounts{.drawn = 3, .below = 1, .above = 2, .low = low, .high = low};
-        schema.check("Sample", Json::parse(report::sample_json(run, measure_environment())), "sample");
+        run.picture = SliceCounts{.drawn = 3, .below = 1, .above = 2, .low = low, .high = low};
+        schema.check("Sample", Json::parse(sample_json(run, measure_environment())), "sample");
         run.grid = Grid{.dimension = 3, .counts = {2, 1, 2}, .origin = {-1, 0, 0}, .spacing = {1, 0, 1}, .last = {}};
     }
 }
@@ -53,10 +53,10 @@ void sample_reports(Schema& schema) {
 /// Everything that is written, checked against a schema.
 Schema checked() {
     Schema schema(BARYCERT_SCHEMA);
-    schema.check("Report", Json::parse(report::json_report(audited())), "report");
-    schema.check("Witnesses", Json::parse(audit::witness_file(audited())), "witnesses");
-    schema.check("Kernels", Json::parse(report::kernels_json(catalogue())), "kernels");
-    schema.check("Families", Json::parse(report::families_json(audit::all_families())), "families");
+    schema.check("Report", Json::parse(audit_json(audited())), "report");
+    schema.check("Witnesses", Json::parse(witnesses_json(audited())), "witnesses");
+    schema.check("Kernels", Json::parse(kernels_json(catalogue())), "kernels");
+    schema.check("Families", Json::parse(families_json(all_families())), "families");
     check_reports(schema);
     sample_reports(schema);
     return schema;
@@ -86,7 +86,7 @@ TEST(schema, null_is_met_where_it_is_documented_and_so_is_a_figure) {
 }
 
 TEST(schema, the_check_itself_finds_faults) {
-    Json report = Json::parse(report::json_report(audited()));
+    Json report = Json::parse(audit_json(audited()));
     const auto complaints = [](const Json& changed) {
         Schema schema(BARYCERT_SCHEMA);
         schema.check("Report", changed, "report");
@@ -109,9 +109,9 @@ TEST(schema, the_check_itself_finds_faults) {
 }
 
 TEST(schema, numbers_read_back_to_the_same_bits) {
-    const Json report = Json::parse(report::json_report(audited()));
+    const Json report = Json::parse(audit_json(audited()));
     for (std::size_t i = 0; i < audited().kernels.size(); ++i) {
-        const audit::KernelResult& k = audited().kernels[i];
+        const KernelResult& k = audited().kernels[i];
         const Json& j = report["kernels"][i];
         ASSERT_EQ(j["name"], k.kernel.name);
         const auto same = [](const Json& written, double x) { return x < 0 ? written.is_null() : written == x; };
@@ -128,20 +128,20 @@ TEST(schema, numbers_read_back_to_the_same_bits) {
 }
 
 TEST(schema, an_infinite_residual_is_not_hidden_by_null) {
-    audit::Report report = audited();
+    AuditReport report = audited();
     report.kernels.resize(1);
     report.kernels[0].total.reproduction_residual.value = std::numeric_limits<double>::infinity();
     report.kernels[0].total.partition_residual.value = -1;
-    const Json j = Json::parse(report::json_report(report))["kernels"][0];
+    const Json j = Json::parse(audit_json(report))["kernels"][0];
     EXPECT_EQ(j["worst_reproduction_residual"], std::numeric_limits<double>::max());
     EXPECT_TRUE(j["worst_partition_residual"].is_null());
 }
 
 TEST(schema, the_number_is_the_documented_one) {
-    EXPECT_EQ(report::audit_schema, 1);
-    EXPECT_EQ(audit::witness_schema, 1);
-    EXPECT_EQ(report::check_schema, 1);
-    EXPECT_EQ(report::sample_schema, 1);
+    EXPECT_EQ(audit_schema, 1);
+    EXPECT_EQ(witness_schema, 1);
+    EXPECT_EQ(check_schema, 1);
+    EXPECT_EQ(sample_schema, 1);
 }
 
 }  // namespace

@@ -30,21 +30,21 @@ inline Kernel stubborn_kernel() {
     return k;
 }
 
-inline audit::Report small_audit() {
-    audit::MeshSource meshes;
+inline AuditReport small_audit() {
+    MeshSource meshes;
     for (const char* name : {"bracket", "plate"}) {
         meshes.add(name, read_tetgen(std::string(BARYCERT_DATA_DIR) + "/meshes/" + name + ".node",
                                      {.faces = false, .neighbours = false, .threads = 0})
                              .value());
     }
-    audit::Options options;
+    AuditOptions options;
     options.kernels = kernels_matching("*");
     options.kernels.push_back(silent_kernel());
     options.kernels.push_back(stubborn_kernel());
-    options.families = audit::all_families();
+    options.families = all_families();
     options.count = 30;
     options.threads = 2;
-    return audit::run(options, meshes).value();
+    return run_audit(options, meshes).value();
 }
 
 }  // namespace barycert::report_test

@@ -11,8 +11,8 @@
 namespace barycert::report_test {
 namespace {
 
-const audit::Report& audited() {
-    static const audit::Report report = small_audit();
+const AuditReport& audited() {
+    static const AuditReport report = small_audit();
     return report;
 }
 
@@ -27,11 +27,11 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-std::string text_of(const report::TerminalStyle& style = {}) {
-    return report::terminal_report(audited(), style);
+std::string text_of(const TerminalStyle& style = {}) {
+    return audit_text(audited(), style);
 }
 
-double wrong_share(const audit::KernelResult& k) {
+double wrong_share(const KernelResult& k) {
     return static_cast<double>(k.total.wrong_cases) / static_cast<double>(k.total.cases);
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "barycert/audit/comparison.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/oracle.hpp"
@@ -23,7 +24,7 @@ struct ResidualBound {
     double partition = 0;
     double reproduction = 0;
 
-    ResidualBound(const Case& c, const exact::Answer& answer, const double* weights) {
+    ResidualBound(const Case& c, const OracleAnswer& answer, const double* weights) {
         constexpr double u = 0x1p-53, tiny = 0x1p-1070;
         const auto n = static_cast<std::size_t>(vertex_count(c.simplex));
         std::array<double, 4> d{}, e{};
@@ -54,7 +55,7 @@ struct ResidualBound {
 };
 
 /// The exact residuals are only asked for where they could exceed the worst so far: the worst is all that is kept.
-void add_residuals(Statistics& s, const Case& c, const exact::Answer& answer, const double* weights,
+void add_residuals(KernelStatistics& s, const Case& c, const OracleAnswer& answer, const double* weights,
                    std::uint64_t index) {
     const auto n = static_cast<std::size_t>(vertex_count(c.simplex));
     for (std::size_t i = 0; i < n; ++i) {
@@ -63,10 +64,10 @@ void add_residuals(Statistics& s, const Case& c, const exact::Answer& answer, co
     const ResidualBound bound(c, answer, weights);
     const std::span<const double> w(weights, n);
     if (!(bound.partition < s.partition_residual.value)) {
-        s.partition_residual.include(std::fabs(exact::partition_residual(w)), index);
+        s.partition_residual.include(std::fabs(partition_residual(w)), index);
     }
     if (!(bound.reproduction < s.reproduction_residual.value)) {
-        s.reproduction_residual.include(exact::reproduction_residual(c, w), index);
+        s.reproduction_residual.include(reproduction_residual(c, w), index);
     }
 }
 
@@ -77,12 +78,12 @@ void run_block(const Family& family, Simplex simplex, std::uint64_t seed, std::u
     const ExactEnvironment environment;
     using Clock = std::chrono::steady_clock;
     thread_local std::vector<Case> cases(block_size);
-    thread_local std::vector<exact::Answer> answers(block_size);
+    thread_local std::vector<OracleAnswer> answers(block_size);
     std::array<double, block_size> kappa{};
     const auto count = static_cast<std::size_t>(last - first);
     for (std::size_t i = 0; i < count; ++i) {
         cases[i] = make_case(family, simplex, seed, first + i, meshes);
-        answers[i] = exact::ask(cases[i]);
+        answers[i] = ask_oracle(cases[i]);
         kappa[i] = predicting_condition(cases[i], answers[i].region);
     }
     std::array<std::array<double, 4>, block_size> weights;

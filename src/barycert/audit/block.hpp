@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "barycert/audit.hpp"
+#include "barycert/audit_families.hpp"
+#include "barycert/audit_findings.hpp"
 #include "barycert/kernels.hpp"
 
 namespace barycert::audit {
@@ -14,7 +15,7 @@ inline constexpr std::uint64_t block_size = 256;
 
 /// What one thread has learnt of one kernel in one family.
 struct BlockResult {
-    Statistics statistics;
+    KernelStatistics statistics;
     Prediction prediction;
     std::vector<float> ns;  ///< per evaluation, one a block, the first `kept_times` blocks
     static constexpr std::size_t kept_times = 1024;

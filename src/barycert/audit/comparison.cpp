@@ -1,4 +1,4 @@
-#include "barycert/audit.hpp"
+#include "barycert/audit/comparison.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +50,7 @@ void compare_weight(Comparison& r, std::size_t i, double w, double exact, int si
 
 }  // namespace
 
-Comparison compare(const Kernel& kernel, const Case& c, const exact::Answer& answer, int status,
+Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answer, int status,
                    std::span<const double> weights) {
     const ExactEnvironment environment;
     Comparison r;

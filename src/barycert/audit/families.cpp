@@ -1,4 +1,5 @@
-#include "barycert/audit.hpp"
+#include "barycert/audit/recipes.hpp"
+#include "barycert/audit_families.hpp"
 #include "barycert/base/random.hpp"
 
 #include <algorithm>
@@ -6,7 +7,9 @@
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 
-namespace barycert::audit {
+namespace barycert {
+
+using namespace audit;
 
 bool Family::applies_to(Simplex s) const {
     return std::find(simplices.begin(), simplices.end(), s) != simplices.end();
@@ -45,4 +48,4 @@ Case make_case(const Family& family, Simplex s, std::uint64_t seed, std::uint64_
     return c;
 }
 
-}  // namespace barycert::audit
+}  // namespace barycert

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "barycert/audit.hpp"
 #include "barycert/audit/combine.hpp"
-#include "barycert/base/random.hpp"
+#include "barycert/audit/mesh_draws.hpp"
+#include "barycert/audit/recipes.hpp"
 
 namespace barycert::audit {
 namespace {
@@ -16,11 +16,11 @@ void shuffle_vertices(Draw& draw, Random& random) {
     for (int i = n - 1; i > 0; --i) {
         std::swap(draw.nodes[random.below(static_cast<std::uint64_t>(i) + 1)], draw.nodes[static_cast<std::size_t>(i)]);
     }
-    draw = MeshSource::from_nodes(*draw.from, draw.cell, draw.nodes, draw.simplex.simplex, random);
+    draw = draw_of_nodes(*draw.from, draw.cell, draw.nodes, draw.simplex.simplex, random);
 }
 
 Draw shuffled(const Case& c, Random& random, const MeshSource& meshes) {
-    Draw draw = meshes.any(c.simplex, random);
+    Draw draw = draw_any(meshes, c.simplex, random);
     shuffle_vertices(draw, random);
     return draw;
 }
@@ -31,12 +31,12 @@ void nudge(Case& c, Random& random) {
 }
 
 void inside(Case& c, Random& random, const MeshSource& meshes) {
-    c = meshes.any(c.simplex, random).simplex;
+    c = draw_any(meshes, c.simplex, random).simplex;
     c.point = random_point(c, random, vertex_count(c.simplex));
 }
 
 void centroids(Case& c, Random& random, const MeshSource& meshes) {
-    c = meshes.any(c.simplex, random).simplex;
+    c = draw_any(meshes, c.simplex, random).simplex;
     const int n = vertex_count(c.simplex);
     c.point = combination(c, {1, 1, 1, 1}, n);
     for (double& x : c.point) x /= n;
@@ -74,7 +74,7 @@ void vertices_nudged(Case& c, Random& random, const MeshSource& meshes) {
 
 // From a point of the hull's facet outwards, away from the vertex that the facet leaves out.
 void hull_near(Case& c, Random& random, const MeshSource& meshes) {
-    c = meshes.at_hull(c.simplex, random).simplex;
+    c = draw_at_hull(meshes, c.simplex, random).simplex;
     const int n = vertex_count(c.simplex);
     c.point = random_point(c, random, n - 1);
     const double step = random.scaled(0.5, 1, -50, -4);
@@ -85,7 +85,7 @@ void hull_near(Case& c, Random& random, const MeshSource& meshes) {
 }
 
 void hull_far(Case& c, Random& random, const MeshSource& meshes) {
-    const Draw draw = meshes.at_hull(c.simplex, random);
+    const Draw draw = draw_at_hull(meshes, c.simplex, random);
     c = draw.simplex;
     const double reach = std::ldexp(1, random.integer(1, 20));
     for (std::size_t axis = 0; axis < static_cast<std::size_t>(space_dimension(c.simplex)); ++axis) {
@@ -103,18 +103,18 @@ Draw neighbour_cell(Draw& draw, Random& random) {
     std::array<Mesh::Index, 4> nodes{};
     for (std::size_t i = 0; i < corners; ++i) nodes[i] = draw.from->mesh.cells[chosen * corners + i];
     const Simplex whole = draw.from->mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron;
-    return MeshSource::from_nodes(*draw.from, static_cast<Mesh::Index>(chosen), nodes, whole, random);
+    return draw_of_nodes(*draw.from, static_cast<Mesh::Index>(chosen), nodes, whole, random);
 }
 
 void neighbour_points(Case& c, Random& random, const MeshSource& meshes) {
-    Draw draw = meshes.any(c.simplex, random);
+    Draw draw = draw_any(meshes, c.simplex, random);
     const Case other = neighbour_cell(draw, random).simplex;
     c = draw.simplex;
     c.point = random_point(other, random, vertex_count(other.simplex));
 }
 
 void neighbour_vertices(Case& c, Random& random, const MeshSource& meshes) {
-    Draw draw = meshes.any(c.simplex, random);
+    Draw draw = draw_any(meshes, c.simplex, random);
     const Case other = neighbour_cell(draw, random).simplex;
     c = draw.simplex;
     const auto i = static_cast<int>(random.below(static_cast<std::uint64_t>(vertex_count(other.simplex))));

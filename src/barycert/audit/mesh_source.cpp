@@ -1,5 +1,4 @@
-#include "barycert/audit.hpp"
-#include "barycert/base/random.hpp"
+#include "barycert/audit/mesh_draws.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -14,44 +13,21 @@ bool serves(const PreparedMesh& m, Simplex s) {
     return s == Simplex::triangle ? m.mesh.dimension == 2 : m.mesh.dimension == 3;
 }
 
+/// A mesh that serves; each has the same chance, however large: small ones are the nasty ones.
+const PreparedMesh& pick(const MeshSource& source, Simplex s, Random& random) {
+    const auto& meshes = source.meshes();
+    const auto count = std::count_if(meshes.begin(), meshes.end(), [s](const auto& m) { return serves(*m, s); });
+    auto skip = random.below(static_cast<std::uint64_t>(count));
+    for (const auto& m : meshes) {
+        if (serves(*m, s) && skip-- == 0) return *m;
+    }
+    return *meshes.front();  // not reached: supplies(s) holds
+}
+
 }  // namespace
 
-void MeshSource::add(std::string name, Mesh mesh, const check::Certificate& certificate) {
-    if (mesh.cell_count() == 0) return;
-    PreparedMesh p;
-    p.name = std::move(name);
-    p.mesh = std::move(mesh);
-    p.certificate = certificate;
-    p.neighbours = compute_neighbours(p.mesh);
-    const auto hull = hull_facets(p.mesh, p.neighbours);
-    p.hull_facets.assign(hull.begin(), hull.end());
-    const auto d = static_cast<std::size_t>(p.mesh.dimension);
-    p.low.fill(std::numeric_limits<double>::infinity());
-    p.high.fill(-std::numeric_limits<double>::infinity());
-    for (std::size_t i = 0; i < p.mesh.points.size(); ++i) {
-        p.low[i % d] = std::min(p.low[i % d], p.mesh.points[i]);
-        p.high[i % d] = std::max(p.high[i % d], p.mesh.points[i]);
-    }
-    meshes_.push_back(std::move(p));
-}
-
-bool MeshSource::supplies(Simplex s) const {
-    return std::any_of(meshes_.begin(), meshes_.end(), [s](const PreparedMesh& m) { return serves(m, s); });
-}
-
-const PreparedMesh& MeshSource::pick(Simplex s, Random& random) const {
-    // Every mesh that serves has the same chance, however large: small ones are the nasty ones.
-    const auto count =
-        std::count_if(meshes_.begin(), meshes_.end(), [s](const PreparedMesh& m) { return serves(m, s); });
-    auto skip = random.below(static_cast<std::uint64_t>(count));
-    for (const PreparedMesh& m : meshes_) {
-        if (serves(m, s) && skip-- == 0) return m;
-    }
-    return meshes_.front();  // not reached: supplies(s) holds
-}
-
-Draw MeshSource::from_nodes(const PreparedMesh& from, Mesh::Index cell, std::array<Mesh::Index, 4> nodes, Simplex s,
-                            Random& random) {
+Draw draw_of_nodes(const PreparedMesh& from, Mesh::Index cell, std::array<Mesh::Index, 4> nodes, Simplex s,
+                   Random& random) {
     Draw draw;
     draw.from = &from;
     draw.cell = cell;
@@ -74,8 +50,8 @@ Draw MeshSource::from_nodes(const PreparedMesh& from, Mesh::Index cell, std::arr
     return draw;
 }
 
-Draw MeshSource::any(Simplex s, Random& random) const {
-    const PreparedMesh& from = pick(s, random);
+Draw draw_any(const MeshSource& meshes, Simplex s, Random& random) {
+    const PreparedMesh& from = pick(meshes, s, random);
     const auto corners = from.mesh.corners();
     const auto cell = random.below(from.mesh.cell_count());
     std::array<Mesh::Index, 4> nodes{};
@@ -83,19 +59,46 @@ Draw MeshSource::any(Simplex s, Random& random) const {
     // A face leaves out one corner, an edge another one: rotate what is left out to the end.
     if (s == Simplex::triangle3d || s == Simplex::segment) std::swap(nodes[random.below(4)], nodes[3]);
     if (s == Simplex::segment) std::swap(nodes[random.below(3)], nodes[2]);
-    return from_nodes(from, static_cast<Mesh::Index>(cell), nodes, s, random);
+    return draw_of_nodes(from, static_cast<Mesh::Index>(cell), nodes, s, random);
 }
 
-Draw MeshSource::at_hull(Simplex s, Random& random) const {
-    const PreparedMesh& from = pick(s, random);
+Draw draw_at_hull(const MeshSource& meshes, Simplex s, Random& random) {
+    const PreparedMesh& from = pick(meshes, s, random);
     const auto corners = from.mesh.corners();
-    if (from.hull_facets.empty()) return any(s, random);
+    if (from.hull_facets.empty()) return draw_any(meshes, s, random);
     const auto facet = static_cast<std::size_t>(from.hull_facets[random.below(from.hull_facets.size())]);
     const auto cell = facet / corners;
     std::array<Mesh::Index, 4> nodes{};
     for (std::size_t i = 0; i < corners; ++i) nodes[i] = from.mesh.cells[cell * corners + i];
     std::swap(nodes[facet % corners], nodes[corners - 1]);
-    return from_nodes(from, static_cast<Mesh::Index>(cell), nodes, s, random);
+    return draw_of_nodes(from, static_cast<Mesh::Index>(cell), nodes, s, random);
 }
 
 }  // namespace barycert::audit
+
+namespace barycert {
+
+void MeshSource::add(std::string name, Mesh mesh, const Certificate& certificate) {
+    if (mesh.cell_count() == 0) return;
+    audit::PreparedMesh p;
+    p.name = std::move(name);
+    p.mesh = std::move(mesh);
+    p.certificate = certificate;
+    p.neighbours = compute_neighbours(p.mesh);
+    const auto hull = hull_facets(p.mesh, p.neighbours);
+    p.hull_facets.assign(hull.begin(), hull.end());
+    const auto d = static_cast<std::size_t>(p.mesh.dimension);
+    p.low.fill(std::numeric_limits<double>::infinity());
+    p.high.fill(-std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < p.mesh.points.size(); ++i) {
+        p.low[i % d] = std::min(p.low[i % d], p.mesh.points[i]);
+        p.high[i % d] = std::max(p.high[i % d], p.mesh.points[i]);
+    }
+    meshes_.push_back(std::make_shared<const audit::PreparedMesh>(std::move(p)));
+}
+
+bool MeshSource::supplies(Simplex s) const {
+    return std::any_of(meshes_.begin(), meshes_.end(), [s](const auto& m) { return audit::serves(*m, s); });
+}
+
+}  // namespace barycert

@@ -1,4 +1,4 @@
-#include "barycert/audit.hpp"
+#include "barycert/audit/comparison.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -10,7 +10,7 @@
 #include "barycert/condition.hpp"
 #include "barycert/environment.hpp"
 
-namespace barycert::audit {
+namespace barycert {
 namespace {
 
 constexpr double unit = 0x1p-53;
@@ -49,7 +49,7 @@ bool in_range(const Case& c) {
 
 }  // namespace
 
-double predicting_condition(const Case& c, Region region) {
+double audit::predicting_condition(const Case& c, Region region) {
     const ExactEnvironment environment;
     const bool inside = region == Region::interior || region == Region::boundary;
     const bool fills_space = c.simplex == Simplex::triangle || c.simplex == Simplex::tetrahedron;
@@ -105,4 +105,4 @@ std::vector<Prediction::Bin> Prediction::bins() const {
     return out;
 }
 
-}  // namespace barycert::audit
+}  // namespace barycert

@@ -2,12 +2,19 @@
 #pragma once
 
 #include <utility>
+#include <vector>
 
-#include "barycert/audit.hpp"
 #include "barycert/audit/combine.hpp"
+#include "barycert/audit_families.hpp"
 #include "barycert/base/random.hpp"
 
 namespace barycert::audit {
+
+/// The parts of all_families(): from meshes, and made.
+std::vector<Family> mesh_families();
+std::vector<Family> near_families();
+std::vector<Family> shape_families();
+std::vector<Family> range_families();
 
 /// Every coordinate of every vertex, and of the point, from `make(axis)`.
 template <class Make>

@@ -1,14 +1,18 @@
-#include "barycert/audit.hpp"
+#include "barycert/audit/comparison.hpp"
+#include "barycert/audit_witness.hpp"
 
 #include <algorithm>
 
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 
-namespace barycert::audit {
+namespace barycert {
+
+using namespace audit;
+
 namespace {
 
-KernelAnswer answer_of(const Kernel& kernel, const Case& c, const exact::Answer& exact) {
+KernelAnswer answer_of(const Kernel& kernel, const Case& c, const OracleAnswer& exact) {
     KernelAnswer a;
     a.kernel = kernel.name;
     a.weights = unset_weights;
@@ -42,15 +46,15 @@ std::string not_reproduced(const Replay& r, const std::vector<Kernel>& kernels) 
 
 }  // namespace
 
-Replay replay(const Witness& witness, const std::vector<Kernel>& kernels) {
+Replay replay_witness(const Witness& witness, const std::vector<Kernel>& kernels) {
     const ExactEnvironment environment;
     Replay r;
     r.witness = witness;
     const Case& c = witness.c;
-    r.exact = exact::ask(c);
-    r.affine_dimension = exact::affine_dimension(c);
-    if (c.simplex == Simplex::triangle) r.identity = exact::bilinear_is_barycentric(c);
-    if (c.simplex == Simplex::tetrahedron) r.identity = exact::trilinear_is_barycentric(c);
+    r.exact = ask_oracle(c);
+    r.affine_dimension = affine_dimension(c);
+    if (c.simplex == Simplex::triangle) r.identity = bilinear_is_barycentric(c);
+    if (c.simplex == Simplex::tetrahedron) r.identity = trilinear_is_barycentric(c);
     for (const Kernel& k : kernels) {
         if (k.simplex == c.simplex) r.answers.push_back(answer_of(k, c, r.exact));
     }
@@ -58,4 +62,4 @@ Replay replay(const Witness& witness, const std::vector<Kernel>& kernels) {
     return r;
 }
 
-}  // namespace barycert::audit
+}  // namespace barycert

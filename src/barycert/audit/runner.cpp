@@ -13,9 +13,13 @@
 #include <thread>
 
 #include "barycert/audit/block.hpp"
+#include "barycert/audit/mesh_draws.hpp"
 #include "barycert/environment.hpp"
 
-namespace barycert::audit {
+namespace barycert {
+
+using namespace audit;
+
 namespace {
 
 /// The work for one family and simplex: which kernels take part.
@@ -25,7 +29,7 @@ struct Job {
     std::vector<std::size_t> kernels;
 };
 
-std::vector<Job> plan(const Options& options, const MeshSource& meshes) {
+std::vector<Job> plan(const AuditOptions& options, const MeshSource& meshes) {
     std::vector<Job> jobs;
     for (std::size_t f = 0; f < options.families.size(); ++f) {
         for (const Simplex s : all_simplices) {
@@ -49,7 +53,7 @@ double median(std::vector<float> values) {
 }
 
 /// Largest first among the witnesses' sources: the family whose worst case is worst overall.
-void collect_witnesses(KernelResult& result, const Options& options, const MeshSource& meshes) {
+void collect_witnesses(KernelResult& result, const AuditOptions& options, const MeshSource& meshes) {
     for (std::size_t reason = 0; reason < witness_reasons; ++reason) {
         const FamilyResult* from = nullptr;
         for (const FamilyResult& f : result.families) {
@@ -57,7 +61,7 @@ void collect_witnesses(KernelResult& result, const Options& options, const MeshS
             if (value >= 0 && (from == nullptr || value > from->statistics.witnesses[reason].value)) from = &f;
         }
         if (from == nullptr) continue;
-        const Worst& worst = from->statistics.witnesses[reason];
+        const WorstCase& worst = from->statistics.witnesses[reason];
         if (reason >= finding_count && worst.value == 0) continue;
         const Family& family = options.families[from->family];
         Witness w;
@@ -89,9 +93,9 @@ bool worse(const KernelResult& a, const KernelResult& b) {
 
 }  // namespace
 
-Result<Report> run(const Options& options, const MeshSource& meshes) {
+Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& meshes) {
     const ExactEnvironment exact;
-    Report report;
+    AuditReport report;
     report.environment = measure_environment();
     if (const Status ok = check_environment(report.environment); !ok) return ok.error();
     const std::vector<Job> jobs = plan(options, meshes);
@@ -105,9 +109,9 @@ Result<Report> run(const Options& options, const MeshSource& meshes) {
     report.threads =
         options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     report.families = options.families;
-    for (const PreparedMesh& m : meshes.meshes()) {
-        report.meshes.push_back(m.name);
-        report.verdicts.push_back(m.certificate.verdict_on(m.mesh));
+    for (const auto& m : meshes.meshes()) {
+        report.meshes.push_back(m->name);
+        report.verdicts.push_back(m->certificate.verdict_on(m->mesh));
     }
     for (const Kernel& k : options.kernels)
         report.kernels.push_back(
@@ -155,7 +159,7 @@ Result<Report> run(const Options& options, const MeshSource& meshes) {
         }
         report.cases += options.count;
         // Every kernel of the job met the same cases: one of them tells what they were.
-        const Statistics& met = report.kernels[job.kernels.front()].families.back().statistics;
+        const KernelStatistics& met = report.kernels[job.kernels.front()].families.back().statistics;
         for (std::size_t r = 0; r < 4; ++r) {
             for (const std::uint64_t n : met.confusion[r]) report.regions[r] += n;
         }
@@ -175,4 +179,4 @@ const Witness* worst_witness(const KernelResult& result) {
     return result.witnesses.empty() ? nullptr : &result.witnesses.front();
 }
 
-}  // namespace barycert::audit
+}  // namespace barycert

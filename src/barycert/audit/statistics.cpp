@@ -1,4 +1,4 @@
-#include "barycert/audit.hpp"
+#include "barycert/audit_findings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "barycert/environment.hpp"
 
-namespace barycert::audit {
+namespace barycert {
 
 // Bin 0 holds 0; bin k > 0 holds (edge(k-1), edge(k)], where edge(k) = 2^((k-1)/8) with the mantissa in steps of 1/8:
 // 1, 1.125, ...
@@ -47,7 +47,7 @@ double LogHistogram::quantile(double fraction) const {
     return held(upper_edge(bin_count - 1));
 }
 
-void Statistics::add(const Comparison& r, Region exact, std::uint64_t index) {
+void KernelStatistics::add(const Comparison& r, Region exact, std::uint64_t index) {
     const ExactEnvironment environment;
     ++cases;
     ++confusion[static_cast<std::size_t>(exact)][static_cast<std::size_t>(r.claimed)];
@@ -71,7 +71,7 @@ void Statistics::add(const Comparison& r, Region exact, std::uint64_t index) {
     }
 }
 
-void Statistics::merge(const Statistics& other) {
+void KernelStatistics::merge(const KernelStatistics& other) {
     const ExactEnvironment environment;
     cases += other.cases;
     wrong_cases += other.wrong_cases;
@@ -81,7 +81,7 @@ void Statistics::merge(const Statistics& other) {
     }
     weight_ulps.merge(other.weight_ulps);
     value_ulps.merge(other.value_ulps);
-    const auto include = [](Worst& mine, const Worst& theirs) { mine.include(theirs.value, theirs.index); };
+    const auto include = [](WorstCase& mine, const WorstCase& theirs) { mine.include(theirs.value, theirs.index); };
     include(weight_ulp, other.weight_ulp);
     include(value_ulp, other.value_ulp);
     include(partition_residual, other.partition_residual);
@@ -89,4 +89,4 @@ void Statistics::merge(const Statistics& other) {
     for (std::size_t i = 0; i < witness_reasons; ++i) include(witnesses[i], other.witnesses[i]);
 }
 
-}  // namespace barycert::audit
+}  // namespace barycert

@@ -8,37 +8,37 @@
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 
-namespace barycert::audit {
+namespace barycert {
 namespace {
 
-using Figure = std::pair<std::string, std::function<double(const Statistics&)>>;
+using Figure = std::pair<std::string, std::function<double(const KernelStatistics&)>>;
 
 const std::vector<Figure>& figures() {
     static const std::vector<Figure> all = [] {
         std::vector<Figure> f;
         for (std::size_t i = 0; i < finding_count; ++i) {
             f.emplace_back(std::string(finding_texts[i].name),
-                           [i](const Statistics& s) { return static_cast<double>(s.counts[i]); });
+                           [i](const KernelStatistics& s) { return static_cast<double>(s.counts[i]); });
         }
-        const auto wrong = [](const Statistics& s) { return static_cast<double>(s.wrong_cases); };
+        const auto wrong = [](const KernelStatistics& s) { return static_cast<double>(s.wrong_cases); };
         f.emplace_back("any", wrong);
         f.emplace_back("wrong_cases", wrong);
         // A kernel that gives no finite weight where there is one to give has no error to measure: it is worse than
         // any.
-        const auto size = [&](const char* name, double (*figure)(const Statistics&)) {
-            f.emplace_back(name, [figure](const Statistics& s) {
+        const auto size = [&](const char* name, double (*figure)(const KernelStatistics&)) {
+            f.emplace_back(name, [figure](const KernelStatistics& s) {
                 const auto seen = [&](Finding x) { return s.counts[static_cast<std::size_t>(x)] != 0; };
                 const double value = figure(s);
                 const bool mute = value < 0 && (seen(Finding::not_finite) || seen(Finding::false_declaration));
                 return mute ? std::numeric_limits<double>::infinity() : value;
             });
         };
-        size("worst_weight_ulp", [](const Statistics& s) { return s.weight_ulp.value; });
-        size("p999_weight_ulp", [](const Statistics& s) { return s.p999_weight_ulp(); });
-        size("worst_value_ulp", [](const Statistics& s) { return s.value_ulp.value; });
-        size("p999_value_ulp", [](const Statistics& s) { return s.p999_value_ulp(); });
-        size("worst_partition_residual", [](const Statistics& s) { return s.partition_residual.value; });
-        size("worst_reproduction_residual", [](const Statistics& s) { return s.reproduction_residual.value; });
+        size("worst_weight_ulp", [](const KernelStatistics& s) { return s.weight_ulp.value; });
+        size("p999_weight_ulp", [](const KernelStatistics& s) { return s.p999_weight_ulp(); });
+        size("worst_value_ulp", [](const KernelStatistics& s) { return s.value_ulp.value; });
+        size("p999_value_ulp", [](const KernelStatistics& s) { return s.p999_value_ulp(); });
+        size("worst_partition_residual", [](const KernelStatistics& s) { return s.partition_residual.value; });
+        size("worst_reproduction_residual", [](const KernelStatistics& s) { return s.reproduction_residual.value; });
         return f;
     }();
     return all;
@@ -52,10 +52,10 @@ const Figure* figure_named(std::string_view name) {
 
 }  // namespace
 
-Result<Rule> parse_rule(std::string_view text) {
+Result<Threshold> parse_threshold(std::string_view text) {
     const ExactEnvironment environment;
     const std::size_t sign = text.find('>');
-    Rule rule{std::string(text.substr(0, sign)), 0};
+    Threshold rule{std::string(text.substr(0, sign)), 0};
     if (figure_named(rule.name) == nullptr) {
         std::string names;
         for (const auto& [name, value] : figures()) names += (names.empty() ? "" : ", ") + name;
@@ -74,11 +74,11 @@ Result<Rule> parse_rule(std::string_view text) {
     return rule;
 }
 
-std::vector<Violation> violations(const Report& report, const std::vector<Rule>& rules) {
+std::vector<Violation> violations(const AuditReport& report, const std::vector<Threshold>& rules) {
     const ExactEnvironment environment;
     std::vector<Violation> all;
     for (const KernelResult& k : report.kernels) {
-        for (const Rule& rule : rules) {
+        for (const Threshold& rule : rules) {
             const double value = figure_named(rule.name)->second(k.total);
             if (value > rule.limit) all.push_back({k.kernel.name, rule.name, value, rule.limit});
         }
@@ -86,10 +86,10 @@ std::vector<Violation> violations(const Report& report, const std::vector<Rule>&
     return all;
 }
 
-std::vector<std::string> rule_names() {
+std::vector<std::string> threshold_names() {
     std::vector<std::string> names;
     for (const auto& [name, value] : figures()) names.push_back(name);
     return names;
 }
 
-}  // namespace barycert::audit
+}  // namespace barycert

@@ -1,4 +1,5 @@
 #include "barycert/audit.hpp"
+#include "barycert/audit_witness.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -8,7 +9,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 
-namespace barycert::audit {
+namespace barycert {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -98,7 +99,7 @@ Witness witness_from(const Json& j, const std::string& where) {
 
 }  // namespace
 
-Json witness_json(const Witness& w) {
+Json audit::witness_json(const Witness& w) {
     const int n = vertex_count(w.c.simplex), d = space_dimension(w.c.simplex);
     const auto hex = [](double x) { return Json(hexadecimal(x)); };
     Json j;
@@ -118,13 +119,13 @@ Json witness_json(const Witness& w) {
     return j;
 }
 
-std::string witness_file(const Report& report) {
+std::string witnesses_json(const AuditReport& report) {
     const ExactEnvironment environment;
     Json out;
     out["schema"] = witness_schema;
     out["witnesses"] = Json::array();
     for (const KernelResult& k : report.kernels) {
-        for (const Witness& w : k.witnesses) out["witnesses"].push_back(witness_json(w));
+        for (const Witness& w : k.witnesses) out["witnesses"].push_back(audit::witness_json(w));
     }
     return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -166,4 +167,4 @@ Result<std::vector<Witness>> read_witnesses(const std::string& path) {
     }
 }
 
-}  // namespace barycert::audit
+}  // namespace barycert

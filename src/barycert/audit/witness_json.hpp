@@ -4,7 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "barycert/audit.hpp"
+#include "barycert/audit_witness.hpp"
 
 namespace barycert::audit {
 

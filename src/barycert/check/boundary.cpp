@@ -45,11 +45,11 @@ std::vector<FacetRidge> ridges_of(int d, const std::vector<BoundaryFacet>& facet
 
 class BoundaryChecker {
 public:
-    BoundaryChecker(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, Findings& findings)
+    BoundaryChecker(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, DefectList& defects)
         : mesh_(mesh),
           d_(mesh.dimension),
           facets_(facets),
-          findings_(findings),
+          defects_(defects),
           piece_(facets.size()),
           fans_(facets.size() * 3) {}
 
@@ -65,7 +65,7 @@ public:
         const std::size_t fans = d_ == 3 ? find_pinched_nodes() : distinct;
         out_.summary.facets = facets_.size();
         gather_pieces(volumes);
-        const bool counted = out_.summary.closed && findings_.count(Problem::pinched_ridge) == 0;
+        const bool counted = out_.summary.closed && defects_.count(DefectKind::pinched_ridge) == 0;
         if (counted) out_.summary.cavities = cavities_;
         // Vertices - edges + faces is 2 - 2 tunnels, summed over closed surfaces.
         if (d_ == 3 && counted) {
@@ -84,15 +84,15 @@ private:
             forward += r.forward ? 1 : 0;
             oriented = oriented && facets_[r.facet].oriented;
         }
-        const Place place{.cells = {cell(same.front()), cell(same.back())},
-                          .nodes = {same[0].low, d_ == 2 ? -1 : same[0].high, -1}};
+        const DefectPlace place{.cells = {cell(same.front()), cell(same.back())},
+                                .nodes = {same[0].low, d_ == 2 ? -1 : same[0].high, -1}};
         if (oriented ? 2 * forward != same.size() : same.size() % 2 != 0) {
             out_.summary.closed = false;
-            findings_.add(Problem::open_boundary, place);
+            defects_.add(DefectKind::open_boundary, place);
         }
         if (same.size() > 2) {
             out_.summary.manifold = false;
-            findings_.add(Problem::pinched_ridge, place);
+            defects_.add(DefectKind::pinched_ridge, place);
         }
         if (same.size() == 2) piece_.join(same[0].facet, same[1].facet);
         if (d_ == 3) {
@@ -125,7 +125,7 @@ private:
             std::uint8_t& fans = fans_at[static_cast<std::size_t>(node)];
             if (fans == 1) {
                 out_.summary.manifold = false;
-                findings_.add(Problem::pinched_node, {.cells = {facets_[i / 3].cell, -1}, .nodes = {node, -1, -1}});
+                defects_.add(DefectKind::pinched_node, {.cells = {facets_[i / 3].cell, -1}, .nodes = {node, -1, -1}});
             }
             if (fans < 2) ++fans;
         }
@@ -162,7 +162,7 @@ private:
     const Mesh& mesh_;
     int d_;
     const std::vector<BoundaryFacet>& facets_;
-    Findings& findings_;
+    DefectList& defects_;
     DisjointSets piece_;
     DisjointSets fans_;
     std::uint64_t cavities_ = 0;
@@ -172,8 +172,8 @@ private:
 }  // namespace
 
 BoundaryPieces check_boundary(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, const ExactVolumes& volumes,
-                              Findings& findings) {
-    return BoundaryChecker(mesh, facets, findings).run(volumes);
+                              DefectList& defects) {
+    return BoundaryChecker(mesh, facets, defects).run(volumes);
 }
 
 }  // namespace barycert::check

@@ -88,7 +88,7 @@ Shape shape_of(int d, const double* const* p, double volume, const Integer& exac
 }
 
 struct Part {
-    Findings findings;
+    DefectList defects;
     Integer total;
     std::uint64_t positive = 0, negative = 0, degenerate = 0;
 };
@@ -96,7 +96,7 @@ struct Part {
 class CellChecker {
 public:
     CellChecker(const Mesh& mesh, const std::vector<std::uint8_t>& finite, const ExactVolumes& volumes,
-                Measures& measures, std::vector<std::uint8_t>& usable)
+                CellMeasures& measures, std::vector<std::uint8_t>& usable)
         : mesh_(mesh), finite_(finite), volumes_(volumes), m_(measures), usable_(usable) {}
 
     void operator()(std::size_t cell, Part& part) const {
@@ -113,18 +113,18 @@ public:
 private:
     bool usable(std::size_t cell, Part& part) const {
         const Mesh::Index* const nodes = &mesh_.cells[cell * mesh_.corners()];
-        const Place place{.cells = {static_cast<Mesh::Index>(cell), -1}};
+        const DefectPlace place{.cells = {static_cast<Mesh::Index>(cell), -1}};
         bool is_finite = true, repeated = false;
         for (std::size_t i = 0; i < mesh_.corners(); ++i) {
             if (nodes[i] < 0 || static_cast<std::size_t>(nodes[i]) >= finite_.size()) {
-                note(Problem::index_out_of_range, cell, place, part);
+                note(DefectKind::index_out_of_range, cell, place, part);
                 return false;
             }
             is_finite = is_finite && finite_[static_cast<std::size_t>(nodes[i])] != 0;
             for (std::size_t j = 0; j < i; ++j) repeated = repeated || nodes[i] == nodes[j];
         }
-        if (!is_finite) m_.problems[cell] |= bit(Problem::not_finite);
-        if (repeated) note(Problem::repeated_node, cell, place, part);
+        if (!is_finite) m_.defects[cell] |= defect_bit(DefectKind::not_finite);
+        if (repeated) note(DefectKind::repeated_node, cell, place, part);
         return is_finite && !repeated;
     }
 
@@ -133,17 +133,17 @@ private:
         const Integer volume = volumes_.cell(p);
         const int sign = volume.sign();
         m_.orientation[cell] = static_cast<std::int8_t>(sign);
-        const Place place{.cells = {static_cast<Mesh::Index>(cell), -1}};
+        const DefectPlace place{.cells = {static_cast<Mesh::Index>(cell), -1}};
         if (sign == 0) {
             ++part.degenerate;
-            Place degenerate = place;
+            DefectPlace degenerate = place;
             degenerate.detail = kind(d, p);
-            note(Problem::degenerate_cell, cell, degenerate, part);
+            note(DefectKind::degenerate_cell, cell, degenerate, part);
         } else {
             ++(sign > 0 ? part.positive : part.negative);
             part.total = sign > 0 ? part.total + volume : part.total - volume;
         }
-        if (plain_sign(d, p) != sign) note(Problem::plain_sign_wrong, cell, place, part);
+        if (plain_sign(d, p) != sign) note(DefectKind::plain_sign_wrong, cell, place, part);
         if (m_.volume.empty()) return;  // shapes are not asked for
 
         m_.volume[cell] = volumes_.rounded(volume);
@@ -158,38 +158,38 @@ private:
         m_.condition[cell] = condition_number(d == 2 ? Simplex::triangle : Simplex::tetrahedron, vertices);
     }
 
-    void note(Problem problem, std::size_t cell, const Place& place, Part& part) const {
-        m_.problems[cell] |= bit(problem);
-        part.findings.add(problem, place);
+    void note(DefectKind problem, std::size_t cell, const DefectPlace& place, Part& part) const {
+        m_.defects[cell] |= defect_bit(problem);
+        part.defects.add(problem, place);
     }
 
     const Mesh& mesh_;
     const std::vector<std::uint8_t>& finite_;
     const ExactVolumes& volumes_;
-    Measures& m_;
+    CellMeasures& m_;
     std::vector<std::uint8_t>& usable_;
 };
 
 /// Cells in both orders: those of the rarer one are told.
-void find_mixed(const Cells& cells, Measures& measures, Findings& findings) {
+void find_mixed(const Cells& cells, CellMeasures& measures, DefectList& defects) {
     if (cells.positive == 0 || cells.negative == 0) return;
     const std::int8_t rarer = cells.negative <= cells.positive ? -1 : 1;
     for (std::size_t cell = 0; cell < measures.orientation.size(); ++cell) {
         if (measures.orientation[cell] != rarer) continue;
-        measures.problems[cell] |= bit(Problem::mixed_orientation);
-        findings.add(Problem::mixed_orientation, {.cells = {static_cast<Mesh::Index>(cell), -1}});
+        measures.defects[cell] |= defect_bit(DefectKind::mixed_orientation);
+        defects.add(DefectKind::mixed_orientation, {.cells = {static_cast<Mesh::Index>(cell), -1}});
     }
 }
 
 }  // namespace
 
 Cells check_cells(const Mesh& mesh, const std::vector<std::uint8_t>& finite, const ExactVolumes& volumes, bool shapes,
-                  Measures& measures, Findings& findings) {
+                  CellMeasures& measures, DefectList& defects) {
     const std::size_t count = mesh.cell_count();
     Cells cells;
     cells.usable.assign(count, 0);
     measures.orientation.assign(count, 0);
-    measures.problems.assign(count, 0);
+    measures.defects.assign(count, 0);
     for (auto* measure : {&measures.volume, &measures.condition, &measures.radius_edge, &measures.aspect,
                           &measures.min_angle, &measures.max_angle})
         barycert::detail::resize_large(*measure, shapes ? count : 0);
@@ -197,19 +197,19 @@ Cells check_cells(const Mesh& mesh, const std::vector<std::uint8_t>& finite, con
     in_blocks(
         count, 8192,
         [&] {
-            return Part{Findings(findings.examples()), Integer(), 0, 0, 0};
+            return Part{DefectList(defects.examples()), Integer(), 0, 0, 0};
         },
         [&](std::size_t first, std::size_t last, Part& part) {
             for (std::size_t cell = first; cell < last; ++cell) check(cell, part);
         },
         [&](const Part& part) {
-            findings.append(part.findings);
+            defects.append(part.defects);
             cells.total = cells.total + part.total;
             cells.positive += part.positive;
             cells.negative += part.negative;
             cells.degenerate += part.degenerate;
         });
-    find_mixed(cells, measures, findings);
+    find_mixed(cells, measures, defects);
     return cells;
 }
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "barycert/check/defect_list.hpp"
 #include "barycert/check/exact_volumes.hpp"
-#include "barycert/check/findings.hpp"
 #include "barycert/core/integer.hpp"
 #include "barycert/mesh.hpp"
 
@@ -22,7 +22,7 @@ struct Cells {
 /// Fills `measures`, without `shapes` their orientations and problems alone. Finds index_out_of_range, repeated_node,
 /// degenerate_cell, plain_sign_wrong, mixed_orientation.
 Cells check_cells(const Mesh& mesh, const std::vector<std::uint8_t>& finite, const ExactVolumes& volumes, bool shapes,
-                  Measures& measures, Findings& findings);
+                  CellMeasures& measures, DefectList& defects);
 
 /// Where the corners of a cell stand. Precondition: it is usable.
 inline std::array<const double*, 4> corner_points(const Mesh& mesh, std::size_t cell) {

@@ -1,11 +1,11 @@
-#include "barycert/check.hpp"
+#include "barycert/certificate.hpp"
 
 #include <bit>
 #include <cstddef>
 #include <cstring>
 #include <span>
 
-namespace barycert::check {
+namespace barycert {
 namespace {
 
 /// Mixes bytes, eight at a time. Not for adversaries: it is to tell a mesh from one that was changed since.
@@ -55,4 +55,4 @@ Verdict Certificate::verdict_on(const Mesh& mesh) const {
     return verdict_;
 }
 
-}  // namespace barycert::check
+}  // namespace barycert

@@ -12,10 +12,10 @@
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/check/boundary.hpp"
 #include "barycert/check/cells.hpp"
+#include "barycert/check/defect_list.hpp"
 #include "barycert/check/exact_volumes.hpp"
 #include "barycert/check/facets.hpp"
 #include "barycert/check/files.hpp"
-#include "barycert/check/findings.hpp"
 #include "barycert/check/local_delaunay.hpp"
 #include "barycert/check/nodes.hpp"
 #include "barycert/check/pairs.hpp"
@@ -23,7 +23,10 @@
 #include "barycert/environment.hpp"
 #include "barycert/mesh/consistency.hpp"
 
-namespace barycert::check {
+namespace barycert {
+
+using namespace check;
+
 namespace {
 
 /// Sets of usable cells connected over facets.
@@ -42,8 +45,8 @@ std::uint64_t count_parts(const Mesh& mesh, const std::vector<std::uint8_t>& usa
 }
 
 /// Overlapping pairs first, then those whose boundary facets touch; each with its witness.
-std::vector<Contact> contacts(const Mesh& mesh, const Measures& measures, std::vector<CellPair> overlapping,
-                              std::vector<CellPair> touching, std::size_t limit) {
+std::vector<CellContact> contacts(const Mesh& mesh, const CellMeasures& measures, std::vector<CellPair> overlapping,
+                                  std::vector<CellPair> touching, std::size_t limit) {
     std::vector<CellPair> pairs;
     for (auto* list : {&overlapping, &touching}) {
         for (CellPair& p : *list) std::sort(p.begin(), p.end());
@@ -52,7 +55,7 @@ std::vector<Contact> contacts(const Mesh& mesh, const Measures& measures, std::v
             if (std::find(pairs.begin(), pairs.end(), p) == pairs.end() && pairs.size() < limit) pairs.push_back(p);
         }
     }
-    std::vector<Contact> all;
+    std::vector<CellContact> all;
     for (const CellPair& p : pairs) {
         const auto a = static_cast<std::size_t>(p[0]), b = static_cast<std::size_t>(p[1]);
         if (a == b || measures.orientation[a] == 0 || measures.orientation[b] == 0) continue;
@@ -75,17 +78,17 @@ const char* fault_of_sizes(const Mesh& mesh) {
 
 class Check {
 public:
-    Check(const Mesh& mesh, const Options& options) : mesh_(mesh), options_(options), findings_(options.examples) {}
+    Check(const Mesh& mesh, const CheckOptions& options) : mesh_(mesh), options_(options), defects_(options.examples) {}
 
-    bool run(Report& report) {
+    bool run(CheckReport& report) {
         if (const char* fault = fault_of_sizes(mesh_); fault != nullptr) {
-            findings_.add(Problem::bad_structure, {.detail = fault});
+            defects_.add(DefectKind::bad_structure, {.detail = fault});
         } else {
             check_all(report);
         }
-        report.findings = std::move(findings_).list();
-        return std::none_of(report.findings.begin(), report.findings.end(),
-                            [](const Finding& f) { return text_of(f.problem).breaks; });
+        report.defects = std::move(defects_).list();
+        return std::none_of(report.defects.begin(), report.defects.end(),
+                            [](const Defect& f) { return defect_text(f.kind).breaks; });
     }
 
 private:
@@ -95,19 +98,19 @@ private:
         ExactEnvironment::renew();
     }
 
-    void check_all(Report& report) {
-        Measures& measures = report.measures;
+    void check_all(CheckReport& report) {
+        CellMeasures& measures = report.measures;
         stage("nodes");
-        const std::vector<std::uint8_t> finite = check_nodes(mesh_, findings_);
+        const std::vector<std::uint8_t> finite = check_nodes(mesh_, defects_);
         stage("cells");
         const ExactVolumes volumes(mesh_.dimension, mesh_.points);
-        const Cells cells = check_cells(mesh_, finite, volumes, !options_.verdict_only, measures, findings_);
+        const Cells cells = check_cells(mesh_, finite, volumes, !options_.verdict_only, measures, defects_);
         report.positive = cells.positive;
         report.negative = cells.negative;
         report.degenerate = cells.degenerate;
         if (enough()) return;
         stage("facets");
-        const Facets facets = check_facets(mesh_, cells.usable, measures, findings_);
+        const Facets facets = check_facets(mesh_, cells.usable, measures, defects_);
         if (enough()) return;
         // What one thread does alone is done beside the rest.
         tbb::task_group parts;
@@ -117,7 +120,7 @@ private:
         parts.wait();
         // Last, as it says nothing of where cells lie: what is certified is accepted by all who ask for a whole mesh.
         if (const char* fault = detail::inconsistency_of_extras(mesh_, detail::FieldValues::any); fault != nullptr) {
-            findings_.add(Problem::unfit_array, {.detail = fault});
+            defects_.add(DefectKind::unfit_array, {.detail = fault});
         }
         if (enough()) return;
         if (options_.delaunay) {
@@ -130,62 +133,61 @@ private:
         }
     }
 
-    void check_boundary_and_pairs(Report& report, const Cells& cells, const Facets& facets,
+    void check_boundary_and_pairs(CheckReport& report, const Cells& cells, const Facets& facets,
                                   const ExactVolumes& volumes) {
-        Measures& measures = report.measures;
+        CellMeasures& measures = report.measures;
         stage("boundary");
-        const BoundaryPieces pieces = check_boundary(mesh_, facets.boundary, volumes, findings_);
+        const BoundaryPieces pieces = check_boundary(mesh_, facets.boundary, volumes, defects_);
         report.boundary = pieces.summary;
         report.volume = {volumes.rounded(cells.total), volumes.rounded(pieces.enclosed),
                          (cells.total - pieces.enclosed).sign() == 0};
         if (enough()) return;
         stage("contacts of the boundary");
         const std::size_t limit = options_.verdict_only ? 1 : pair_limit;
-        std::vector<CellPair> touching = find_boundary_contacts(mesh_, facets.boundary, limit, measures, findings_);
+        std::vector<CellPair> touching = find_boundary_contacts(mesh_, facets.boundary, limit, measures, defects_);
         if (enough()) return;
-        find_nested_parts(mesh_, facets.boundary, pieces.facets, limit, measures, findings_);
-        check_files(mesh_, cells.usable, facets, findings_);
+        find_nested_parts(mesh_, facets.boundary, pieces.facets, limit, measures, defects_);
+        check_files(mesh_, cells.usable, facets, defects_);
         if (enough()) return;
         std::vector<CellPair> overlapping;
         if (may_overlap()) {
             stage("overlapping cells");
-            overlapping = find_overlapping_cells(mesh_, measures, findings_);
+            overlapping = find_overlapping_cells(mesh_, measures, defects_);
         }
         report.contacts = contacts(mesh_, measures, std::move(overlapping), std::move(touching), options_.contacts);
     }
 
     /// The verdict is known, and nothing else is asked for.
     bool enough() const {
-        return options_.verdict_only &&
-               std::any_of(problem_texts.begin(), problem_texts.end(),
-                           [&](const ProblemText& t) { return t.breaks && findings_.count(t.problem) > 0; });
+        return options_.verdict_only && std::any_of(defect_texts.begin(), defect_texts.end(), [&](const DefectText& t) {
+                   return t.breaks && defects_.count(t.kind) > 0;
+               });
     }
 
     /// One of P2 to P4 fails, or a cell is left out of them; otherwise the theorem says that there is none.
     bool may_overlap() const {
-        for (const ProblemText& t : problem_texts) {
-            if (t.breaks && t.condition != "P5" && findings_.count(t.problem) > 0) return true;
+        for (const DefectText& t : defect_texts) {
+            if (t.breaks && t.condition != "P5" && defects_.count(t.kind) > 0) return true;
         }
         return false;
     }
 
     const Mesh& mesh_;
-    const Options& options_;
-    Findings findings_;
+    const CheckOptions& options_;
+    DefectList defects_;
 };
 
 }  // namespace
 
-const Finding* Report::find(Problem problem) const {
-    const auto f =
-        std::find_if(findings.begin(), findings.end(), [&](const Finding& g) { return g.problem == problem; });
-    return f == findings.end() ? nullptr : &*f;
+const Defect* CheckReport::find(DefectKind problem) const {
+    const auto f = std::find_if(defects.begin(), defects.end(), [&](const Defect& g) { return g.kind == problem; });
+    return f == defects.end() ? nullptr : &*f;
 }
 
-Report run(const Mesh& mesh, const Options& options) {
+CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options) {
     const ExactEnvironment environment;
     const auto start = std::chrono::steady_clock::now();
-    Report report;
+    CheckReport report;
     report.dimension = mesh.dimension;
     // oneTBB prints a warning when asked for more than there are.
     const int available = tbb::info::default_concurrency();
@@ -203,4 +205,4 @@ Report run(const Mesh& mesh, const Options& options) {
     return report;
 }
 
-}  // namespace barycert::check
+}  // namespace barycert

@@ -7,8 +7,8 @@
 #include <iterator>
 #include <span>
 
+#include "barycert/check/defect_list.hpp"
 #include "barycert/check/exact_volumes.hpp"
-#include "barycert/check/findings.hpp"
 #include "barycert/check/plc_facet.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/mesh/facets.hpp"
@@ -95,10 +95,10 @@ public:
         for (const PlcFacet& facet : plc.facets) regions_.emplace_back(plc, facet, exponent_);
     }
 
-    Conformity run(std::size_t examples) {
+    ConformityReport run(std::size_t examples) {
         missing_ = find_missing();
         const std::vector<Candidate> candidates = find_candidates();
-        Conformity out;
+        ConformityReport out;
         auto at = candidates.begin();
         for (std::size_t i = 0; i < regions_.size(); ++i) {
             const auto end = std::find_if(at, candidates.end(), [&](const Candidate& c) { return c.facet != i; });
@@ -155,16 +155,16 @@ private:
     }
 
     bool close(const PlcRegion& region, const std::array<const double*, 3>& nodes) const {
-        PlcRegion::Place centroid{};
+        PlcRegion::PlcPosition centroid{};
         for (const double* p : nodes) {
             if (region.distance(p) > slack) return false;
-            const PlcRegion::Place at = region.place(p);
+            const PlcRegion::PlcPosition at = region.place(p);
             for (std::size_t k = 0; k < 2; ++k) centroid[k] += at[k] / 3;
         }
         return region.holds(centroid);
     }
 
-    void judge(std::size_t i, std::span<const Candidate> faces, std::size_t examples, Conformity& out) const {
+    void judge(std::size_t i, std::span<const Candidate> faces, std::size_t examples, ConformityReport& out) const {
         ++out.facets;
         const PlcRegion& region = regions_[i];
         const Areas areas(region, faces);
@@ -234,7 +234,8 @@ private:
 
 }  // namespace
 
-Conformity check_conformity(const Mesh& mesh, std::span<const std::uint8_t> use, const Plc& plc, std::size_t examples) {
+ConformityReport check_conformity(const Mesh& mesh, std::span<const std::uint8_t> use, const Plc& plc,
+                                  std::size_t examples) {
     const ExactEnvironment environment;
     return ConformityChecker(mesh, use, plc).run(examples);
 }

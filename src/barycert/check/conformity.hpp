@@ -26,6 +26,7 @@ namespace barycert::check {
 
 /// Of the cells for which use[cell] is not 0: their corners are nodes with finite coordinates. Areas mean little where
 /// the mesh is not certified. Precondition: tetrahedra. On all threads of the calling arena.
-Conformity check_conformity(const Mesh& mesh, std::span<const std::uint8_t> use, const Plc& plc, std::size_t examples);
+ConformityReport check_conformity(const Mesh& mesh, std::span<const std::uint8_t> use, const Plc& plc,
+                                  std::size_t examples);
 
 }  // namespace barycert::check

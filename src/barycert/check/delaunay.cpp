@@ -7,7 +7,7 @@
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/check/cells.hpp"
-#include "barycert/check/findings.hpp"
+#include "barycert/check/defect_list.hpp"
 #include "barycert/check/local_delaunay.hpp"
 #include "barycert/predicates.hpp"
 
@@ -57,7 +57,7 @@ public:
         : mesh_(mesh), neighbours_(neighbours), orientation_(orientation) {}
 
     /// The facets of `cell` to cells of higher number.
-    void operator()(std::size_t cell, Delaunay& out) const {
+    void operator()(std::size_t cell, DelaunayReport& out) const {
         if (orientation_[cell] == 0) return;
         const auto p = corner_points(mesh_, cell);
         for (std::size_t i = 0; i < mesh_.corners(); ++i) {
@@ -86,7 +86,7 @@ private:
     }
 
     /// True if the node lies strictly in the cell's sphere.
-    bool test(std::size_t cell, const std::array<const double*, 4>& p, Mesh::Index node, Delaunay& out) const {
+    bool test(std::size_t cell, const std::array<const double*, 4>& p, Mesh::Index node, DelaunayReport& out) const {
         const int d = mesh_.dimension;
         const double* const at = point(node);
         const Sign s = d == 2 ? incircle(p[0], p[1], p[2], at) : insphere(p[0], p[1], p[2], p[3], at);
@@ -116,16 +116,16 @@ private:
 
 }  // namespace
 
-Delaunay check_delaunay(const Mesh& mesh, const std::vector<Mesh::Index>& neighbours,
-                        const std::vector<std::int8_t>& orientation) {
-    Delaunay all;
+DelaunayReport check_delaunay(const Mesh& mesh, const std::vector<Mesh::Index>& neighbours,
+                              const std::vector<std::int8_t>& orientation) {
+    DelaunayReport all;
     const FacetTester test(mesh, neighbours, orientation);
     in_blocks(
-        mesh.cell_count(), 8192, [] { return Delaunay(); },
-        [&](std::size_t first, std::size_t last, Delaunay& part) {
+        mesh.cell_count(), 8192, [] { return DelaunayReport(); },
+        [&](std::size_t first, std::size_t last, DelaunayReport& part) {
             for (std::size_t cell = first; cell < last; ++cell) test(cell, part);
         },
-        [&](const Delaunay& part) {
+        [&](const DelaunayReport& part) {
             all.facets += part.facets;
             all.violations += part.violations;
             all.cospherical += part.cospherical;

@@ -21,13 +21,13 @@ int parity(int d, const std::array<Mesh::Index, 3>& n) {
 }
 
 struct Part {
-    Findings findings;
+    DefectList defects;
     std::vector<BoundaryFacet> boundary;
 };
 
 class FacetChecker {
 public:
-    FacetChecker(const Mesh& mesh, Measures& measures, std::vector<Mesh::Index>& neighbours)
+    FacetChecker(const Mesh& mesh, CellMeasures& measures, std::vector<Mesh::Index>& neighbours)
         : mesh_(mesh), m_(measures), neighbours_(neighbours) {}
 
     void operator()(std::span<const CellFacet> equal, Part& part) const {
@@ -39,13 +39,13 @@ public:
         detail::pair_facets(equal, mesh_.corners(), neighbours_);
         if (equal.size() > 2 || apex(equal[0]) == apex(equal[1])) find_duplicates(equal, part);
         if (equal.size() > 2) {
-            Place place{.cells = {equal[0].cell, equal[1].cell}, .nodes = outward(equal[0])};
-            for (const CellFacet& f : equal) mark(f, Problem::overfull_facet);
-            part.findings.add(Problem::overfull_facet, place);
+            DefectPlace place{.cells = {equal[0].cell, equal[1].cell}, .nodes = outward(equal[0])};
+            for (const CellFacet& f : equal) mark(f, DefectKind::overfull_facet);
+            part.defects.add(DefectKind::overfull_facet, place);
         } else if (side(equal[0]) * side(equal[1]) > 0) {
-            for (const CellFacet& f : equal) mark(f, Problem::same_side);
-            part.findings.add(Problem::same_side,
-                              {.cells = {equal[0].cell, equal[1].cell}, .nodes = outward(equal[0])});
+            for (const CellFacet& f : equal) mark(f, DefectKind::same_side);
+            part.defects.add(DefectKind::same_side,
+                             {.cells = {equal[0].cell, equal[1].cell}, .nodes = outward(equal[0])});
         }
     }
 
@@ -77,20 +77,20 @@ private:
             if (apex(copy) != apex(original)) {
                 first = i;
             } else if (apex(copy) > copy.highest) {
-                part.findings.add(Problem::duplicate_cell, {.cells = {original.cell, copy.cell}});
-                mark(original, Problem::duplicate_cell);
-                mark(copy, Problem::duplicate_cell);
+                part.defects.add(DefectKind::duplicate_cell, {.cells = {original.cell, copy.cell}});
+                mark(original, DefectKind::duplicate_cell);
+                mark(copy, DefectKind::duplicate_cell);
             }
         }
     }
 
     /// Blocks of facets share cells: bits are set one thread at a time.
-    void mark(const CellFacet& f, Problem p) const {
-        std::atomic_ref(m_.problems[index(f)]).fetch_or(bit(p), std::memory_order_relaxed);
+    void mark(const CellFacet& f, DefectKind p) const {
+        std::atomic_ref(m_.defects[index(f)]).fetch_or(defect_bit(p), std::memory_order_relaxed);
     }
 
     const Mesh& mesh_;
-    Measures& m_;
+    CellMeasures& m_;
     std::vector<Mesh::Index>& neighbours_;
 };
 
@@ -111,7 +111,8 @@ std::array<Mesh::Index, 3> outward_nodes(const Mesh& mesh, std::size_t cell, std
     return out;
 }
 
-Facets check_facets(const Mesh& mesh, const std::vector<std::uint8_t>& usable, Measures& measures, Findings& findings) {
+Facets check_facets(const Mesh& mesh, const std::vector<std::uint8_t>& usable, CellMeasures& measures,
+                    DefectList& defects) {
     Facets facets;
     detail::resize_large(facets.neighbours, mesh.cells.size());
     std::fill(facets.neighbours.begin(), facets.neighbours.end(), -1);
@@ -120,13 +121,13 @@ Facets check_facets(const Mesh& mesh, const std::vector<std::uint8_t>& usable, M
     in_blocks(
         table.node_count(), 4096,
         [&] {
-            return Part{Findings(findings.examples()), {}};
+            return Part{DefectList(defects.examples()), {}};
         },
         [&](std::size_t first, std::size_t last, Part& part) {
             table.for_each_group(first, last, [&](std::span<const CellFacet> equal) { check(equal, part); });
         },
         [&](const Part& part) {
-            findings.append(part.findings);
+            defects.append(part.defects);
             facets.boundary.insert(facets.boundary.end(), part.boundary.begin(), part.boundary.end());
         });
     return facets;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "barycert/check/findings.hpp"
+#include "barycert/check/defect_list.hpp"
 #include "barycert/mesh.hpp"
 
 namespace barycert::check {
@@ -25,7 +25,8 @@ struct Facets {
 };
 
 /// Finds duplicate_cell, overfull_facet, same_side. `orientation`: the exact sign of each cell.
-Facets check_facets(const Mesh& mesh, const std::vector<std::uint8_t>& usable, Measures& measures, Findings& findings);
+Facets check_facets(const Mesh& mesh, const std::vector<std::uint8_t>& usable, CellMeasures& measures,
+                    DefectList& defects);
 
 /// The nodes of the facet opposite to `corner`, in the order that turns its normal outward if the cell's orientation is
 /// not negative; `orientation` is that of the cell. 2D: two of them.

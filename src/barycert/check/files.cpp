@@ -14,29 +14,29 @@ namespace {
 
 using Triple = std::array<Mesh::Index, 3>;
 
-void check_neighbours(const Mesh& mesh, const Facets& facets, Findings& findings) {
+void check_neighbours(const Mesh& mesh, const Facets& facets, DefectList& defects) {
     if (mesh.neighbours.empty()) return;
     if (mesh.neighbours.size() != mesh.cells.size()) {
-        findings.add(Problem::wrong_neighbour, {.detail = "not one for each facet of each cell"});
+        defects.add(DefectKind::wrong_neighbour, {.detail = "not one for each facet of each cell"});
         return;
     }
     for (std::size_t i = 0; i < mesh.neighbours.size(); ++i) {
         if (mesh.neighbours[i] == facets.neighbours[i]) continue;
         const auto cell = static_cast<Mesh::Index>(i / mesh.corners());
-        findings.add(Problem::wrong_neighbour, {.cells = {cell, mesh.neighbours[i]}});
+        defects.add(DefectKind::wrong_neighbour, {.cells = {cell, mesh.neighbours[i]}});
     }
 }
 
 /// The given faces in lists by their lowest node, to look facets up in.
 class FaceTable {
 public:
-    FaceTable(const Mesh& mesh, Findings& findings) : begin_(mesh.point_count() + 1, 0) {
+    FaceTable(const Mesh& mesh, DefectList& defects) : begin_(mesh.point_count() + 1, 0) {
         const auto nodes = static_cast<Mesh::Index>(mesh.point_count());
         for (std::size_t f = 0; f < mesh.face_count(); ++f) {
             Face face{{mesh.faces[3 * f], mesh.faces[3 * f + 1], mesh.faces[3 * f + 2]}, f};
             std::sort(face.nodes.begin(), face.nodes.end());
             if (face.nodes[0] < 0 || face.nodes[2] >= nodes) {
-                findings.add(Problem::wrong_face, {.nodes = nodes_of(mesh, f), .detail = "a corner is no node"});
+                defects.add(DefectKind::wrong_face, {.nodes = nodes_of(mesh, f), .detail = "a corner is no node"});
                 continue;
             }
             faces_.push_back(face);
@@ -57,13 +57,13 @@ public:
         }
     }
 
-    void tell_missing(const Mesh& mesh, Findings& findings) const {
+    void tell_missing(const Mesh& mesh, DefectList& defects) const {
         std::vector<std::size_t> missing;
         for (std::size_t i = 0; i < faces_.size(); ++i) {
             if (found_[i] == 0) missing.push_back(faces_[i].index);
         }
         std::sort(missing.begin(), missing.end());
-        for (const std::size_t f : missing) findings.add(Problem::wrong_face, {.nodes = nodes_of(mesh, f)});
+        for (const std::size_t f : missing) defects.add(DefectKind::wrong_face, {.nodes = nodes_of(mesh, f)});
     }
 
 private:
@@ -80,14 +80,14 @@ private:
     std::vector<std::uint8_t> found_;
 };
 
-void check_faces(const Mesh& mesh, const std::vector<std::uint8_t>& usable, Findings& findings) {
+void check_faces(const Mesh& mesh, const std::vector<std::uint8_t>& usable, DefectList& defects) {
     if (mesh.faces.empty()) return;
     if (mesh.dimension == 2) {
-        findings.add(Problem::wrong_face, {.detail = barycert::detail::faces_of_triangles});
+        defects.add(DefectKind::wrong_face, {.detail = barycert::detail::faces_of_triangles});
         return;
     }
-    if (mesh.faces.size() % 3 != 0) findings.add(Problem::wrong_face, {.detail = "the last one is not whole"});
-    FaceTable table(mesh, findings);
+    if (mesh.faces.size() % 3 != 0) defects.add(DefectKind::wrong_face, {.detail = "the last one is not whole"});
+    FaceTable table(mesh, defects);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.cell_count(), 4096), [&](const auto& range) {
         for (std::size_t cell = range.begin(); cell != range.end(); ++cell) {
             if (usable[cell] == 0) continue;
@@ -100,14 +100,14 @@ void check_faces(const Mesh& mesh, const std::vector<std::uint8_t>& usable, Find
             table.meet({n[1], n[2], n[3]});
         }
     });
-    table.tell_missing(mesh, findings);
+    table.tell_missing(mesh, defects);
 }
 
 }  // namespace
 
-void check_files(const Mesh& mesh, const std::vector<std::uint8_t>& usable, const Facets& facets, Findings& findings) {
-    check_neighbours(mesh, facets, findings);
-    check_faces(mesh, usable, findings);
+void check_files(const Mesh& mesh, const std::vector<std::uint8_t>& usable, const Facets& facets, DefectList& defects) {
+    check_neighbours(mesh, facets, defects);
+    check_faces(mesh, usable, defects);
 }
 
 }  // namespace barycert::check

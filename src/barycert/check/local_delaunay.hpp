@@ -10,7 +10,7 @@ namespace barycert::check {
 
 /// `neighbours` as compute_neighbours gives them for the cells that have a place in space, `orientation` their exact
 /// signs, 0 for all others. On all threads of the calling arena.
-Delaunay check_delaunay(const Mesh& mesh, const std::vector<Mesh::Index>& neighbours,
-                        const std::vector<std::int8_t>& orientation);
+DelaunayReport check_delaunay(const Mesh& mesh, const std::vector<Mesh::Index>& neighbours,
+                              const std::vector<std::int8_t>& orientation);
 
 }  // namespace barycert::check

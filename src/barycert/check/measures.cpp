@@ -6,7 +6,7 @@
 
 #include "barycert/environment.hpp"
 
-namespace barycert::check {
+namespace barycert {
 
 Distribution distribution(const std::vector<double>& values) {
     const ExactEnvironment environment;
@@ -17,8 +17,8 @@ Distribution distribution(const std::vector<double>& values) {
         const double x = values[i];
         if (std::isnan(x)) continue;
         sorted.push_back(x);
-        if (d.least_cell < 0 || x < d.least) d.least = x, d.least_cell = static_cast<std::int64_t>(i);
-        if (d.most_cell < 0 || x > d.most) d.most = x, d.most_cell = static_cast<std::int64_t>(i);
+        if (d.min_cell < 0 || x < d.min) d.min = x, d.min_cell = static_cast<std::int64_t>(i);
+        if (d.max_cell < 0 || x > d.max) d.max = x, d.max_cell = static_cast<std::int64_t>(i);
     }
     if (sorted.empty()) return d;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) / 2);
@@ -27,4 +27,4 @@ Distribution distribution(const std::vector<double>& values) {
     return d;
 }
 
-}  // namespace barycert::check
+}  // namespace barycert

@@ -16,7 +16,7 @@ struct PlacedNode {
 };
 
 /// Nodes at the place of another one, each told with the lowest that is there.
-void find_coincident(const Mesh& mesh, const std::vector<std::uint8_t>& finite, Findings& findings) {
+void find_coincident(const Mesh& mesh, const std::vector<std::uint8_t>& finite, DefectList& defects) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
     std::vector<PlacedNode> nodes;
     nodes.reserve(finite.size());
@@ -30,7 +30,7 @@ void find_coincident(const Mesh& mesh, const std::vector<std::uint8_t>& finite, 
     tbb::parallel_sort(nodes.begin(), nodes.end(), [](const PlacedNode& a, const PlacedNode& b) {
         return a.at != b.at ? a.at < b.at : a.node < b.node;
     });
-    std::vector<Place> places;
+    std::vector<DefectPlace> places;
     for (std::size_t i = 1, first = 0; i < nodes.size(); ++i) {
         if (nodes[i].at != nodes[first].at) {
             first = i;
@@ -38,8 +38,9 @@ void find_coincident(const Mesh& mesh, const std::vector<std::uint8_t>& finite, 
             places.push_back({.nodes = {nodes[first].node, nodes[i].node, -1}});
         }
     }
-    std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.nodes[1] < b.nodes[1]; });
-    for (const Place& place : places) findings.add(Problem::coincident_nodes, place);
+    std::sort(places.begin(), places.end(),
+              [](const DefectPlace& a, const DefectPlace& b) { return a.nodes[1] < b.nodes[1]; });
+    for (const DefectPlace& place : places) defects.add(DefectKind::coincident_nodes, place);
 }
 
 void mark_used(const std::vector<Mesh::Index>& indices, std::vector<std::uint8_t>& used) {
@@ -50,7 +51,7 @@ void mark_used(const std::vector<Mesh::Index>& indices, std::vector<std::uint8_t
 
 }  // namespace
 
-std::vector<std::uint8_t> check_nodes(const Mesh& mesh, Findings& findings) {
+std::vector<std::uint8_t> check_nodes(const Mesh& mesh, DefectList& defects) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
     const std::size_t count = mesh.point_count();
     std::vector<std::uint8_t> finite(count, 1), used(count, 0);
@@ -60,11 +61,11 @@ std::vector<std::uint8_t> check_nodes(const Mesh& mesh, Findings& findings) {
     mark_used(mesh.cells, used);
     mark_used(mesh.mid_nodes, used);
     for (std::size_t i = 0; i < count; ++i) {
-        const Place place{.nodes = {static_cast<Mesh::Index>(i), -1, -1}};
-        if (finite[i] == 0) findings.add(Problem::not_finite, place);
-        if (used[i] == 0) findings.add(Problem::unused_node, place);
+        const DefectPlace place{.nodes = {static_cast<Mesh::Index>(i), -1, -1}};
+        if (finite[i] == 0) defects.add(DefectKind::not_finite, place);
+        if (used[i] == 0) defects.add(DefectKind::unused_node, place);
     }
-    find_coincident(mesh, finite, findings);
+    find_coincident(mesh, finite, defects);
     return finite;
 }
 

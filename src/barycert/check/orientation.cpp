@@ -1,4 +1,4 @@
-#include "barycert/check/orientation.hpp"
+#include "barycert/check.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include "barycert/mesh/mid_edges.hpp"
 
-namespace barycert::check {
+namespace barycert {
 
 Mesh with_positive_cells(const Mesh& mesh, const std::vector<std::int8_t>& orientation) {
     Mesh out = mesh;
@@ -36,4 +36,4 @@ Mesh with_positive_cells(const Mesh& mesh, const std::vector<std::int8_t>& orien
     return out;
 }
 
-}  // namespace barycert::check
+}  // namespace barycert

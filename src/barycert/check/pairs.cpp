@@ -78,14 +78,14 @@ unsigned common_outcode(const Mesh& mesh, const std::vector<std::uint8_t>& codes
     return common;
 }
 
-void mark(Measures& measures, Mesh::Index cell, Problem problem) {
-    measures.problems[static_cast<std::size_t>(cell)] |= bit(problem);
+void mark(CellMeasures& measures, Mesh::Index cell, DefectKind problem) {
+    measures.defects[static_cast<std::size_t>(cell)] |= defect_bit(problem);
 }
 
 }  // namespace
 
 std::vector<CellPair> find_boundary_contacts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
-                                             std::size_t limit, Measures& measures, Findings& findings) {
+                                             std::size_t limit, CellMeasures& measures, DefectList& defects) {
     std::vector<PlacedFacet> proper_facets;
     std::vector<Mesh::Index> cells;
     std::vector<Item> items;
@@ -103,16 +103,16 @@ std::vector<CellPair> find_boundary_contacts(const Mesh& mesh, const std::vector
     std::vector<CellPair> pairs;
     for (const Pair& p : conflicts(mesh.dimension, items, conflict, limit, complete)) {
         pairs.push_back({cells[p.first], cells[p.second]});
-        for (const Mesh::Index cell : pairs.back()) mark(measures, cell, Problem::boundary_contact);
-        findings.add(Problem::boundary_contact, {.cells = pairs.back(), .nodes = proper_facets[p.first].nodes});
+        for (const Mesh::Index cell : pairs.back()) mark(measures, cell, DefectKind::boundary_contact);
+        defects.add(DefectKind::boundary_contact, {.cells = pairs.back(), .nodes = proper_facets[p.first].nodes});
     }
-    if (!complete) findings.add_at_least(Problem::boundary_contact);
+    if (!complete) defects.add_at_least(DefectKind::boundary_contact);
     return pairs;
 }
 
 void find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
-                       const std::vector<std::uint32_t>& pieces, std::size_t limit, Measures& measures,
-                       Findings& findings) {
+                       const std::vector<std::uint32_t>& pieces, std::size_t limit, CellMeasures& measures,
+                       DefectList& defects) {
     std::vector<std::size_t> inner;  // a cell at each piece
     std::vector<Item> items;
     for (const std::uint32_t piece : pieces) {
@@ -160,14 +160,14 @@ void find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facet
     for (std::size_t i = 0, found = 0; i < inner.size() && found < limit; ++i) {
         if (lowest[i] == none) continue;
         ++found;
-        const Place place{.cells = {static_cast<Mesh::Index>(inner[i]), static_cast<Mesh::Index>(lowest[i])}};
-        for (const Mesh::Index cell : place.cells) mark(measures, cell, Problem::nested_part);
-        findings.add(Problem::nested_part, place);
+        const DefectPlace place{.cells = {static_cast<Mesh::Index>(inner[i]), static_cast<Mesh::Index>(lowest[i])}};
+        for (const Mesh::Index cell : place.cells) mark(measures, cell, DefectKind::nested_part);
+        defects.add(DefectKind::nested_part, place);
     }
-    if (!complete) findings.add_at_least(Problem::nested_part);
+    if (!complete) defects.add_at_least(DefectKind::nested_part);
 }
 
-std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, Measures& measures, Findings& findings) {
+std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, CellMeasures& measures, DefectList& defects) {
     std::vector<Mesh::Index> cells;
     std::vector<Item> items;
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
@@ -183,10 +183,10 @@ std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, Measures& measure
     std::vector<CellPair> pairs;
     for (const Pair& p : conflicts(mesh.dimension, items, conflict, pair_limit, complete)) {
         pairs.push_back({cells[p.first], cells[p.second]});
-        for (const Mesh::Index cell : pairs.back()) mark(measures, cell, Problem::overlapping_cells);
-        findings.add(Problem::overlapping_cells, {.cells = pairs.back()});
+        for (const Mesh::Index cell : pairs.back()) mark(measures, cell, DefectKind::overlapping_cells);
+        defects.add(DefectKind::overlapping_cells, {.cells = pairs.back()});
     }
-    if (!complete) findings.add_at_least(Problem::overlapping_cells);
+    if (!complete) defects.add_at_least(DefectKind::overlapping_cells);
     return pairs;
 }
 

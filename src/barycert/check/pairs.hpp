@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "barycert/check/defect_list.hpp"
 #include "barycert/check/facets.hpp"
-#include "barycert/check/findings.hpp"
 #include "barycert/mesh.hpp"
 
 namespace barycert::check {
@@ -19,15 +19,15 @@ using CellPair = std::array<Mesh::Index, 2>;
 
 /// P3: finds boundary_contact, up to `limit` of them; the cells of the facets of each.
 std::vector<CellPair> find_boundary_contacts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
-                                             std::size_t limit, Measures& measures, Findings& findings);
+                                             std::size_t limit, CellMeasures& measures, DefectList& defects);
 
 /// P4: finds nested_part, up to `limit` of them, each with the lowest cell that overlaps. `pieces`: one of the `facets`
 /// of each piece of the boundary.
 void find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
-                       const std::vector<std::uint32_t>& pieces, std::size_t limit, Measures& measures,
-                       Findings& findings);
+                       const std::vector<std::uint32_t>& pieces, std::size_t limit, CellMeasures& measures,
+                       DefectList& defects);
 
 /// Finds overlapping_cells among all that are not degenerate.
-std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, Measures& measures, Findings& findings);
+std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, CellMeasures& measures, DefectList& defects);
 
 }  // namespace barycert::check

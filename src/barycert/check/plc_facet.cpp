@@ -9,7 +9,7 @@ namespace barycert::check {
 namespace {
 
 using Vector = std::array<double, 3>;
-using Place = PlcRegion::Place;
+using PlcPosition = PlcRegion::PlcPosition;
 
 Vector cross(const Vector& a, const Vector& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -20,12 +20,12 @@ Vector minus(const Vector& a, const Vector& b) {
 double length(const Vector& v) {
     return std::hypot(v[0], v[1], v[2]);
 }
-double cross(const Place& o, const Place& a, const Place& b) {
+double cross(const PlcPosition& o, const PlcPosition& a, const PlcPosition& b) {
     return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
 }
 
 /// Distance of p from the segment ab.
-double distance_from(const Place& p, const Place& a, const Place& b) {
+double distance_from(const PlcPosition& p, const PlcPosition& a, const PlcPosition& b) {
     const double x = b[0] - a[0], y = b[1] - a[1], square = x * x + y * y;
     const double t = square > 0 ? std::clamp(((p[0] - a[0]) * x + (p[1] - a[1]) * y) / square, 0.0, 1.0) : 0;
     return std::hypot(a[0] + t * x - p[0], a[1] + t * y - p[1]);
@@ -53,7 +53,7 @@ Vector PlcRegion::relative(const double* p) const {
     return v;
 }
 
-Place PlcRegion::place(const double* p) const {
+PlcPosition PlcRegion::place(const double* p) const {
     const Vector v = relative(p);
     return {v[axes()[0]], v[axes()[1]]};
 }
@@ -105,16 +105,16 @@ void PlcRegion::set_holes(const PlcFacet& facet) {
 
 /// Inside the ring: at its lowest corner, which is convex, between it and what of the ring lies deepest in the triangle
 /// with its neighbours, or in the middle of that triangle.
-Place PlcRegion::inner_place(const Ring& ring) const {
-    std::vector<Place> at;
+PlcPosition PlcRegion::inner_place(const Ring& ring) const {
+    std::vector<PlcPosition> at;
     for (const double* p : ring.points) at.push_back(place(p));
     const auto n = at.size();
     const auto corner = static_cast<std::size_t>(std::min_element(at.begin(), at.end()) - at.begin());
-    const Place &v = at[corner], &a = at[(corner + n - 1) % n], &b = at[(corner + 1) % n];
+    const PlcPosition &v = at[corner], &a = at[(corner + n - 1) % n], &b = at[(corner + 1) % n];
     const double turn = cross(a, v, b) < 0 ? -1 : 1;
-    const Place* deepest = nullptr;
+    const PlcPosition* deepest = nullptr;
     double depth = 0;
-    for (const Place& p : at) {
+    for (const PlcPosition& p : at) {
         if (turn * cross(a, v, p) <= 0 || turn * cross(v, b, p) <= 0 || turn * cross(b, a, p) <= 0) continue;
         if (turn * cross(b, a, p) <= depth) continue;
         depth = turn * cross(b, a, p);
@@ -133,10 +133,10 @@ bool PlcRegion::in_plane(const double* p) const {
     return orient3d(plane_[0], plane_[1], plane_[2], p) == Sign::zero;
 }
 
-bool PlcRegion::in_ring(const Ring& ring, const Place& p) const {
+bool PlcRegion::in_ring(const Ring& ring, const PlcPosition& p) const {
     bool inside = false;
     for (std::size_t i = 0, j = ring.points.size() - 1; i < ring.points.size(); j = i++) {
-        const Place a = place(ring.points[i]), b = place(ring.points[j]);
+        const PlcPosition a = place(ring.points[i]), b = place(ring.points[j]);
         // A ray along the first axis crosses the side ab.
         if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < (b[0] - a[0]) * ((p[1] - a[1]) / (b[1] - a[1])) + a[0])
             inside = !inside;
@@ -144,7 +144,7 @@ bool PlcRegion::in_ring(const Ring& ring, const Place& p) const {
     return inside;
 }
 
-const PlcRegion::Ring* PlcRegion::innermost(const Place& p, const Ring* but) const {
+const PlcRegion::Ring* PlcRegion::innermost(const PlcPosition& p, const Ring* but) const {
     const Ring* found = nullptr;
     for (const Ring& ring : rings_) {
         if (&ring != but && (found == nullptr || ring.area < found->area) &&
@@ -154,7 +154,7 @@ const PlcRegion::Ring* PlcRegion::innermost(const Place& p, const Ring* but) con
     return found;
 }
 
-bool PlcRegion::holds(const Place& p) const {
+bool PlcRegion::holds(const PlcPosition& p) const {
     const Ring* const ring = innermost(p, nullptr);
     return ring != nullptr && !ring->hole;
 }
@@ -176,7 +176,7 @@ PlcRegion::Crossing PlcRegion::crossing(const double* a, const double* b, double
             if (turn(pa, pb, pc) * turn(pa, pb, pd) != Sign::negative ||
                 turn(pc, pd, pa) * turn(pc, pd, pb) != Sign::negative)
                 continue;
-            const Place u = place(a), v = place(b), w = place(c), z = place(d);
+            const PlcPosition u = place(a), v = place(b), w = place(c), z = place(d);
             const double nearest = std::min(
                 {distance_from(u, w, z), distance_from(v, w, z), distance_from(w, u, v), distance_from(z, u, v)});
             if (nearest > slack) return Crossing::deep;

@@ -39,9 +39,9 @@ public:
     bool in_plane(const double* p) const;
 
     /// A place, relative and projected, lies in the region.
-    using Place = std::array<double, 2>;
-    Place place(const double* p) const;
-    bool holds(const Place& p) const;
+    using PlcPosition = std::array<double, 2>;
+    PlcPosition place(const double* p) const;
+    bool holds(const PlcPosition& p) const;
 
     /// How a side of a face passes the sides of the rings: properly across none, across one within `slack` of an end of
     /// either, or else deeply. The first is exact.
@@ -52,9 +52,9 @@ public:
 
 private:
     std::array<double, 3> relative(const double* p) const;
-    bool in_ring(const Ring& ring, const Place& p) const;
-    const Ring* innermost(const Place& p, const Ring* but) const;
-    Place inner_place(const Ring& ring) const;
+    bool in_ring(const Ring& ring, const PlcPosition& p) const;
+    const Ring* innermost(const PlcPosition& p, const Ring* but) const;
+    PlcPosition inner_place(const Ring& ring) const;
     void set_plane();
     void set_holes(const PlcFacet& facet);
 

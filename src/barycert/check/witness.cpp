@@ -241,7 +241,7 @@ Common common_part(int d, const Corners& a, const Corners& b) {
             if (i != j) factors[i] *= points[j].weight;
         }
     }
-    Witness& w = common.witness;
+    CommonPoint& w = common.witness;
     bool finite = true, short_enough = true;
     std::vector<Fraction> means;
     for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) {

@@ -11,7 +11,7 @@ namespace barycert::check {
 /// microseconds, or up to some milliseconds (coordinates over the whole range of doubles, numbers of 30,000 bits).
 struct Common {
     int dimension = -1;
-    Witness witness;
+    CommonPoint witness;
 };
 Common common_part(int d, const Corners& a, const Corners& b);
 

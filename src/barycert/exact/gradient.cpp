@@ -6,7 +6,10 @@
 #include "barycert/exact/rounding.hpp"
 #include "barycert/exact/solve.hpp"
 
-namespace barycert::exact {
+namespace barycert {
+
+using namespace exact;
+
 namespace {
 
 using Numbers = std::array<BigInteger, 3>;
@@ -25,7 +28,7 @@ Numbers weight_gradient(Simplex s, const std::array<Vector<Wide>, 4>& v, std::si
 
 }  // namespace
 
-GradientAnswer gradient(const Case& c) {
+GradientAnswer oracle_gradient(const Case& c) {
     const ExactEnvironment environment;
     const auto d = static_cast<std::size_t>(space_dimension(c.simplex));
     Case at_vertex = c;
@@ -50,4 +53,4 @@ GradientAnswer gradient(const Case& c) {
     return answer;
 }
 
-}  // namespace barycert::exact
+}  // namespace barycert

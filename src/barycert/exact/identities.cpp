@@ -8,7 +8,10 @@
 
 #include "barycert/environment.hpp"
 
-namespace barycert::exact {
+namespace barycert {
+
+using namespace exact;
+
 namespace {
 
 using Rational = CGAL::Gmpq;
@@ -70,14 +73,14 @@ std::optional<Weights> ratios(const Case& c) {
     return w;
 }
 
-Identity compare(const std::optional<Weighted>& found, const std::optional<Weights>& expected) {
-    if (!found || !expected) return Identity::undefined;
-    return found->weights == *expected ? Identity::holds : Identity::fails;
+IdentityVerdict compare(const std::optional<Weighted>& found, const std::optional<Weights>& expected) {
+    if (!found || !expected) return IdentityVerdict::undefined;
+    return found->weights == *expected ? IdentityVerdict::holds : IdentityVerdict::fails;
 }
 
 }  // namespace
 
-Identity bilinear_is_barycentric(const Case& c) {
+IdentityVerdict bilinear_is_barycentric(const Case& c) {
     const ExactEnvironment environment;
     const Point p{Rational(c.point[0]), Rational(c.point[1]), Rational(0)};
     const auto expected = ratios(c);
@@ -89,10 +92,10 @@ Identity bilinear_is_barycentric(const Case& c) {
         if (!left || !right) continue;
         if (const auto found = along(*left, *right, 0, p[0])) return compare(found, expected);
     }
-    return Identity::undefined;
+    return IdentityVerdict::undefined;
 }
 
-Identity trilinear_is_barycentric(const Case& c) {
+IdentityVerdict trilinear_is_barycentric(const Case& c) {
     const ExactEnvironment environment;
     const Point p{Rational(c.point[0]), Rational(c.point[1]), Rational(c.point[2])};
     const auto expected = ratios(c);
@@ -109,7 +112,7 @@ Identity trilinear_is_barycentric(const Case& c) {
         if (!left || !right) continue;
         if (const auto found = along(*left, *right, 0, p[0])) return compare(found, expected);
     } while (std::next_permutation(order.begin(), order.end()));
-    return Identity::undefined;
+    return IdentityVerdict::undefined;
 }
 
-}  // namespace barycert::exact
+}  // namespace barycert

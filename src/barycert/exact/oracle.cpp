@@ -7,7 +7,10 @@
 #include "barycert/exact/rounding.hpp"
 #include "barycert/exact/solve.hpp"
 
-namespace barycert::exact {
+namespace barycert {
+
+using namespace exact;
+
 namespace {
 
 /// The feature that a set of non-zero weights spans.
@@ -18,11 +21,11 @@ Feature feature_of(Simplex simplex, std::uint8_t support) {
 }
 
 template <class Types>
-Answer answer(const Case& c, const Scales& scales) {
+OracleAnswer answer(const Case& c, const Scales& scales) {
     using N = typename Types::Number;
     const Solution<Types> s = solve<Types>(c, scales);
     const auto count = static_cast<std::size_t>(vertex_count(c.simplex));
-    Answer a;
+    OracleAnswer a;
     const int orientation = s.denominator.sign();
     if (orientation == 0) {
         a.region = Region::degenerate;
@@ -49,16 +52,16 @@ Answer answer(const Case& c, const Scales& scales) {
 
 }  // namespace
 
-Answer ask(const Case& c) {
+OracleAnswer ask_oracle(const Case& c) {
     const ExactEnvironment environment;
     const Scales scales(c);
     if (!scales.narrow) return answer<Wide>(c, scales);
-    Answer a = answer<Narrow>(c, scales);
+    OracleAnswer a = answer<Narrow>(c, scales);
     a.narrow = true;
     return a;
 }
 
-Answer ask_wide(const Case& c) {
+OracleAnswer exact::ask_wide(const Case& c) {
     const ExactEnvironment environment;
     return answer<Wide>(c, Scales(c));
 }
@@ -130,4 +133,4 @@ int affine_dimension(const Case& c) {
     return dimension;
 }
 
-}  // namespace barycert::exact
+}  // namespace barycert

@@ -7,9 +7,11 @@
 #include "barycert/exact/rounding.hpp"
 #include "barycert/exact/solve.hpp"
 
-namespace barycert::exact {
+namespace barycert {
 
-double quadratic_value(const Case& c, std::span<const double> mids) {
+using namespace exact;
+
+double oracle_quadratic_value(const Case& c, std::span<const double> mids) {
     const ExactEnvironment environment;
     constexpr std::array<std::array<std::size_t, 2>, 6> edges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
     Scales scales(c);
@@ -26,4 +28,4 @@ double quadratic_value(const Case& c, std::span<const double> mids) {
     return round_quotient(sum, BigInteger(s.denominator * s.denominator), low);
 }
 
-}  // namespace barycert::exact
+}  // namespace barycert

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "barycert/environment.hpp"
+#include "barycert/check.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/locator_data.hpp"
 #include "barycert/mesh/consistency.hpp"
@@ -28,17 +29,17 @@ Locator& Locator::operator=(Locator&&) noexcept = default;
 Locator::~Locator() = default;
 
 Result<Locator> Locator::build(const Mesh& mesh, const BuildOptions& options) {
-    if (!options.prove) return build(mesh, check::Certificate{});
-    check::Options check;
+    if (!options.prove) return build(mesh, Certificate{});
+    CheckOptions check;
     check.threads = options.threads;
     check.examples = 0;
     check.contacts = 0;
     check.verdict_only = true;
     check.progress = options.progress;
-    return build(mesh, check::run(mesh, check).certificate);
+    return build(mesh, check_mesh(mesh, check).certificate);
 }
 
-Result<Locator> Locator::build(const Mesh& mesh, const check::Certificate& certificate) {
+Result<Locator> Locator::build(const Mesh& mesh, const Certificate& certificate) {
     const ExactEnvironment environment;
     if (const char* const wrong = detail::inconsistency_of_cells(mesh, detail::FieldValues::any))
         return Error{.what = std::string("the mesh is inconsistent: ") + wrong};

@@ -12,10 +12,10 @@ enum class FieldValues : bool { finite, any };
 /// passes can be written, and what is written can be read.
 const char* inconsistency(const Mesh& mesh, FieldValues values = FieldValues::finite);
 
-/// All of it but what belongs to faces: their markers and nodes at mid-edges. What check::run certifies passes.
+/// All of it but what belongs to faces: their markers and nodes at mid-edges. What check_mesh certifies passes.
 const char* inconsistency_of_cells(const Mesh& mesh, FieldValues values);
 
-/// The part of that which check::run does not find otherwise: about what belongs to nodes and cells (markers, fields,
+/// The part of that which check_mesh does not find otherwise: about what belongs to nodes and cells (markers, fields,
 /// nodes at mid-edges), and the index base. Precondition: whole nodes and cells of dimension 2 or 3.
 const char* inconsistency_of_extras(const Mesh& mesh, FieldValues values);
 

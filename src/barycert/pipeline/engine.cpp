@@ -73,21 +73,21 @@ TableFormat Engine::format() const {
     return {mesh_.dimension, sampler_->fields(), gives_distances(run_.job.options.outside)};
 }
 
-void Engine::check_mesh() {
+void Engine::prove() {
     Stopwatch watch;
-    check::Options options;
+    CheckOptions options;
     options.threads = run_.job.options.threads;
     options.examples = 0;
     options.contacts = 0;
     options.verdict_only = true;
     options.progress = [&](const char* stage) { run_.stage(fmt::format("checking the mesh: {}", stage)); };
-    const check::Report report = check::run(mesh_, options);
+    const CheckReport report = check_mesh(mesh_, options);
     certificate_ = report.certificate;
     run_.summary.verdict = certificate_.verdict();
     run_.summary.seconds.certify += watch.lap();
 }
 
-Status Engine::build(const check::Certificate& certificate) {
+Status Engine::build(const Certificate& certificate) {
     Stopwatch watch;
     run_.stage("building the locator");
     sampler_.reset();
@@ -100,7 +100,7 @@ Status Engine::build(const check::Certificate& certificate) {
     sampler_.emplace(std::move(*sampler));
     SampleSummary& summary = run_.summary;
     summary.columns = sampler_->columns();
-    const bool certified = certificate_.verdict() == check::Verdict::certified;
+    const bool certified = certificate_.verdict() == Verdict::certified;
     summary.degenerate_cells = certified ? 0 : count_degenerate(mesh_);
     summary.seconds.build += watch.lap();
     return Done{};
@@ -108,7 +108,7 @@ Status Engine::build(const check::Certificate& certificate) {
 
 Status Engine::prepare_for(std::uint64_t points, bool at_least) {
     const Certify certify = run_.job.certify;
-    const bool checked = certificate_.verdict() != check::Verdict::not_checked;
+    const bool checked = certificate_.verdict() != Verdict::not_checked;
     const std::size_t cells = mesh_.cell_count();
     const bool pays = static_cast<double>(points) >= points_a_cell * static_cast<double>(cells);
     if (locator_ && (checked || certify != Certify::automatic || !pays)) return Done{};
@@ -120,7 +120,7 @@ Status Engine::prepare_for(std::uint64_t points, bool at_least) {
                                                    : "check skipped: too few points (" + sizes + ")";
         return build({});
     }
-    check_mesh();
+    prove();
     if (Status built = build(certificate_); !built) return built;
     const bool walks = locator_->method() == Method::walk;
     const std::string why = certify == Certify::always ? "--certify always" : sizes;
@@ -134,7 +134,7 @@ Status Engine::prepare_for(std::uint64_t points, bool at_least) {
 Status Engine::prepare_without_search(FoundBy method, const std::string& reason) {
     run_.summary.method = method;
     run_.summary.reason = reason;
-    if (run_.job.certify == Certify::always) check_mesh();
+    if (run_.job.certify == Certify::always) prove();
     return build(certificate_);
 }
 

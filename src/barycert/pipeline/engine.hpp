@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "barycert/certificate.hpp"
 #include "barycert/check.hpp"
 #include "barycert/io.hpp"
 #include "barycert/locator.hpp"
@@ -41,15 +42,15 @@ public:
 
 private:
     explicit Engine(Run& run) : run_(run) {}
-    Status build(const check::Certificate& certificate);
-    void check_mesh();
+    Status build(const Certificate& certificate);
+    void prove();
 
     Run& run_;
     Mesh mesh_;
     std::vector<FieldChoice> fields_;
     std::optional<Locator> locator_;
     std::optional<Sampler> sampler_;
-    check::Certificate certificate_;
+    Certificate certificate_;
 };
 
 }  // namespace barycert::pipeline

@@ -13,17 +13,17 @@ int main() {
     c.vertices = {0, 0, 3, 0, 0, 3};
     c.point = {1, 1};
     c.values = {0, 1, 2};
-    const exact::Answer answer = exact::ask(c);
+    const OracleAnswer answer = ask_oracle(c);
 
-    audit::Options options;
+    AuditOptions options;
     options.kernels = kernels_matching("tetrahedron.inverse");
-    options.families = audit::families_matching("huge");
+    options.families = families_matching("huge");
     options.count = 10;
     options.threads = 1;
-    const auto report = audit::run(options, {});
+    const auto report = run_audit(options, {});
     if (!report) return 2;
     std::printf("%s, third %s, value %g, report %s\n", name(answer.region).data(),
                 answer.weights[1] == 1.0 / 3 ? "exact" : "wrong", answer.value,
-                report::json_report(*report).size() > 1000 ? "long" : "short");
+                audit_json(*report).size() > 1000 ? "long" : "short");
     return 0;
 }

@@ -132,7 +132,7 @@ SampleCounts expect_law(const Mesh& mesh, const Grid& grid, const std::string& w
     SampleCounts counts;
     const auto certificate = quick(mesh).certificate;
     for (const bool certified : {true, false}) {
-        if (certified && certificate.verdict() != check::Verdict::certified) continue;
+        if (certified && certificate.verdict() != Verdict::certified) continue;
         const auto locator = certified ? Locator::build(mesh, certificate) : Locator::build(mesh, {.prove = false});
         EXPECT_TRUE(locator) << what;
         if (!locator) return counts;

@@ -41,7 +41,7 @@ void judge(const Mesh& mesh, const Grid& grid, Far far, Tally& tally) {
         Case question = case_of(mesh, 0, &points[d * i]);
         for (std::size_t n = 0; n <= d; ++n)
             question.values[n] = mesh.point_fields[0].data[static_cast<std::size_t>(mesh.cells[n])];
-        const exact::Answer right = exact::ask(question);
+        const OracleAnswer right = ask_oracle(question);
         const bool in = right.region == Region::interior || right.region == Region::boundary;
         bool near = false;
         for (std::size_t n = 0; n <= d; ++n) near |= right.weights[n] != 0 && std::abs(right.weights[n]) < 0x1p-24;

@@ -47,7 +47,7 @@ double true_projected(const Mesh& mesh, const Field& field, std::size_t c, const
         if (!std::isfinite(question.values[i])) return std::nan("");
     }
     for (std::size_t k = 0; k < d; ++k) question.point[k] = point[k];
-    return exact::ask(question).value;
+    return ask_oracle(question).value;
 }
 
 void expect_outside(const Mesh& mesh, const std::vector<double>& points, const OutsidePolicy& policy,

@@ -49,7 +49,7 @@ double true_value(const Mesh& mesh, const Field& field, std::size_t c, Mesh::Ind
         finite &= std::isfinite(mids.back());
     }
     if (!finite) return nan;
-    return mids.empty() ? exact::ask(question).value : exact::quadratic_value(question, mids);
+    return mids.empty() ? ask_oracle(question).value : oracle_quadratic_value(question, mids);
 }
 
 std::vector<Field> random_fields(std::size_t entities, const std::vector<int>& components, bool awkward,

@@ -9,11 +9,11 @@
 #include "barycert/environment.hpp"
 #include "barycert/report/common/svg.hpp"
 
-namespace barycert::report {
-namespace {
+namespace barycert {
 
-using audit::KernelResult;
-using audit::Prediction;
+using namespace report;
+
+namespace {
 
 constexpr std::size_t most_kernels = 6;
 
@@ -42,7 +42,7 @@ double largest_error(const KernelResult& k) {
 }
 
 /// Those with something to show, largest worst factor first.
-std::vector<const KernelResult*> candidates(const audit::Report& report, Simplex simplex) {
+std::vector<const KernelResult*> candidates(const AuditReport& report, Simplex simplex) {
     std::vector<const KernelResult*> list;
     for (const KernelResult& k : report.kernels) {
         if (k.kernel.simplex == simplex && k.prediction.cases() > 0 && largest_error(k) > 0.5) list.push_back(&k);
@@ -123,7 +123,7 @@ void draw_legend(Svg& svg, const std::vector<const KernelResult*>& kernels, doub
 
 }  // namespace
 
-std::string condition_plot(const audit::Report& report) {
+std::string condition_plot(const AuditReport& report) {
     const ExactEnvironment environment;
     Simplex simplex = Simplex::tetrahedron;
     std::vector<const KernelResult*> all = candidates(report, simplex);
@@ -171,4 +171,4 @@ std::string condition_plot(const audit::Report& report) {
     return std::move(svg).finish();
 }
 
-}  // namespace barycert::report
+}  // namespace barycert

@@ -8,21 +8,23 @@
 #include "barycert/environment.hpp"
 #include "barycert/report/common/environment_json.hpp"
 
-namespace barycert::report {
+namespace barycert {
+
+using namespace report;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
-using audit::Statistics;
 
 /// null where there is no figure. JSON knows no infinity, and null would hide it: the largest double stands for it.
 Json figure(double x) {
     return x >= 0 ? Json(std::min(x, std::numeric_limits<double>::max())) : Json(nullptr);
 }
 
-void add_statistics(Json& j, const Statistics& s) {
+void add_statistics(Json& j, const KernelStatistics& s) {
     j["cases"] = s.cases;
     j["wrong_cases"] = s.wrong_cases;
-    for (std::size_t f = 0; f < audit::finding_count; ++f) j[std::string(audit::finding_texts[f].name)] = s.counts[f];
+    for (std::size_t f = 0; f < finding_count; ++f) j[std::string(finding_texts[f].name)] = s.counts[f];
     j["worst_weight_ulp"] = figure(s.weight_ulp.value);
     j["p999_weight_ulp"] = figure(s.p999_weight_ulp());
     j["worst_value_ulp"] = figure(s.value_ulp.value);
@@ -38,12 +40,12 @@ void add_statistics(Json& j, const Statistics& s) {
     }
 }
 
-Json prediction_json(const audit::Prediction& p) {
+Json prediction_json(const Prediction& p) {
     Json j;
     j["cases"] = p.cases();
     j["worst_factor"] = figure(p.worst_factor());
     j["bins"] = Json::array();
-    for (const audit::Prediction::Bin& bin : p.bins()) {
+    for (const Prediction::Bin& bin : p.bins()) {
         Json b;
         b["bits"] = bin.bits;
         b["cases"] = bin.cases;
@@ -68,7 +70,7 @@ Json kernel_json(const Kernel& k) {
     return j;
 }
 
-Json family_json(const audit::Family& f) {
+Json family_json(const Family& f) {
     Json j;
     j["name"] = f.name;
     j["after"] = f.after;
@@ -87,7 +89,7 @@ Json list(const auto& items, auto convert) {
 
 }  // namespace
 
-std::string json_report(const audit::Report& r) {
+std::string audit_json(const AuditReport& r) {
     const ExactEnvironment environment;
     Json j;
     j["schema"] = audit_schema;
@@ -96,7 +98,7 @@ std::string json_report(const audit::Report& r) {
     j["count"] = r.count;
     j["threads"] = r.threads;
     j["meshes"] = r.meshes;
-    j["verdicts"] = list(r.verdicts, [](check::Verdict v) { return Json(check::name(v)); });
+    j["verdicts"] = list(r.verdicts, [](Verdict v) { return Json(name(v)); });
     j["cases"] = r.cases;
     for (const Region region : all_regions)
         j["regions"][std::string(name(region))] = r.regions[static_cast<std::size_t>(region)];
@@ -104,20 +106,20 @@ std::string json_report(const audit::Report& r) {
     j["families"] = list(r.families, family_json);
     j["kernels"] = Json::array();
     Json witnesses = Json::array();
-    for (const audit::KernelResult& k : r.kernels) {
+    for (const KernelResult& k : r.kernels) {
         Json entry = kernel_json(k.kernel);
         add_statistics(entry, k.total);
         entry["ns"] = figure(k.ns);
         entry["prediction"] = prediction_json(k.prediction);
         entry["families"] = Json::array();
-        for (const audit::FamilyResult& f : k.families) {
+        for (const FamilyResult& f : k.families) {
             Json part;
             part["name"] = r.families[f.family].name;
             add_statistics(part, f.statistics);
             entry["families"].push_back(std::move(part));
         }
         j["kernels"].push_back(std::move(entry));
-        for (const audit::Witness& w : k.witnesses) witnesses.push_back(audit::witness_json(w));
+        for (const Witness& w : k.witnesses) witnesses.push_back(audit::witness_json(w));
     }
     j["witnesses"] = std::move(witnesses);
     return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -130,11 +132,11 @@ std::string kernels_json(const std::vector<Kernel>& kernels) {
     return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string families_json(const std::vector<audit::Family>& families) {
+std::string families_json(const std::vector<Family>& families) {
     Json j;
     j["schema"] = audit_schema;
     j["families"] = list(families, family_json);
     return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace barycert::report
+}  // namespace barycert

@@ -7,22 +7,20 @@
 #include "barycert/environment.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
-namespace barycert::report {
+namespace barycert {
+
+using namespace report;
+
 namespace {
 
-using audit::Finding;
-using audit::KernelResult;
-using audit::Report;
-using audit::Statistics;
-
-std::uint64_t count_of(const Statistics& s, Finding f) {
+std::uint64_t count_of(const KernelStatistics& s, Finding f) {
     return s.counts[static_cast<std::size_t>(f)];
 }
 
 /// Cases and wrong ones of a kernel in the families that draw from meshes.
-std::pair<std::uint64_t, std::uint64_t> on_meshes(const Report& report, const KernelResult& k) {
+std::pair<std::uint64_t, std::uint64_t> on_meshes(const AuditReport& report, const KernelResult& k) {
     std::uint64_t wrong = 0, cases = 0;
-    for (const audit::FamilyResult& f : k.families) {
+    for (const FamilyResult& f : k.families) {
         if (!report.families[f.family].needs_mesh) continue;
         wrong += f.statistics.wrong_cases;
         cases += f.statistics.cases;
@@ -30,7 +28,7 @@ std::pair<std::uint64_t, std::uint64_t> on_meshes(const Report& report, const Ke
     return {wrong, cases};
 }
 
-std::string kernel_table(const Report& report, const Colours& paint) {
+std::string kernel_table(const AuditReport& report, const Colours& paint) {
     std::size_t width = 6;
     for (const KernelResult& k : report.kernels) width = std::max(width, k.kernel.name.size());
     const auto row = [&](const auto&... cells) {
@@ -46,7 +44,7 @@ std::string kernel_table(const Report& report, const Colours& paint) {
                           "degen.", "degen.", "99.9%", "worst", "99.9%", "")) +
            "\n";
     for (const KernelResult& k : report.kernels) {
-        const Statistics& s = k.total;
+        const KernelStatistics& s = k.total;
         const auto n = [&](Finding f) { return brief_count(count_of(s, f)); };
         const auto [mesh_wrong, mesh_cases] = on_meshes(report, k);
         const std::string line =
@@ -72,7 +70,7 @@ std::string kernel_table(const Report& report, const Colours& paint) {
     return out;
 }
 
-std::string exact_regions(const Report& report) {
+std::string exact_regions(const AuditReport& report) {
     std::string out = "exactly: ";
     for (const Region r : all_regions) {
         out += fmt::format("{}{} {}", r == Region::interior ? "" : ", ", report.regions[static_cast<std::size_t>(r)],
@@ -81,7 +79,7 @@ std::string exact_regions(const Report& report) {
     return out + "\n";
 }
 
-std::string family_table(const Report& report, const Colours& paint) {
+std::string family_table(const AuditReport& report, const Colours& paint) {
     struct Row {
         std::uint64_t cases = 0;
         std::size_t clean = 0;
@@ -90,7 +88,7 @@ std::string family_table(const Report& report, const Colours& paint) {
     std::map<std::pair<std::size_t, Simplex>, Row> rows;
     std::size_t width = 6;
     for (const KernelResult& k : report.kernels) {
-        for (const audit::FamilyResult& f : k.families) {
+        for (const FamilyResult& f : k.families) {
             Row& row = rows[{f.family, k.kernel.simplex}];
             row.cases = f.statistics.cases;
             row.clean += f.statistics.wrong_cases == 0 ? 1 : 0;
@@ -121,7 +119,7 @@ std::string family_table(const Report& report, const Colours& paint) {
                "clean: kernels without a finding, of all. median, worst: share of wrong cases over the kernels.\n");
 }
 
-std::string replay_command(const Report& report, const KernelResult& k, const audit::Witness& w,
+std::string replay_command(const AuditReport& report, const KernelResult& k, const Witness& w,
                            const TerminalStyle& style) {
     std::string libraries;
     for (const std::string& library : style.library_arguments) libraries += " --kernel-library " + shell_word(library);
@@ -140,17 +138,17 @@ std::string replay_command(const Report& report, const KernelResult& k, const au
 }
 
 /// What a witness shows, in words.
-std::string shows(const audit::Witness& w) {
+std::string shows(const Witness& w) {
     if (w.reason.ends_with("_ulp")) return brief(w.magnitude) + " ulps";
     if (w.reason == "false_declaration") return "declared degenerate";
     if (w.reason == "missed_degenerate") return "weights up to " + brief(w.magnitude);
     return std::isfinite(w.magnitude) ? "a weight off by " + brief(w.magnitude) : "a weight that is not finite";
 }
 
-std::string witness_list(const Report& report, const TerminalStyle& style, const Colours& paint) {
+std::string witness_list(const AuditReport& report, const TerminalStyle& style, const Colours& paint) {
     std::string out;
     for (const KernelResult& k : report.kernels) {
-        const audit::Witness* w = audit::worst_witness(k);
+        const Witness* w = worst_witness(k);
         if (w == nullptr) {
             out += paint.bold(k.kernel.name) + ": none, every weight and value is correctly rounded\n";
             continue;
@@ -162,28 +160,27 @@ std::string witness_list(const Report& report, const TerminalStyle& style, const
 }
 
 /// The meshes, by what is known of them.
-std::string mesh_lines(const Report& report, const TerminalStyle& style, const Colours& paint) {
+std::string mesh_lines(const AuditReport& report, const TerminalStyle& style, const Colours& paint) {
     if (report.meshes.empty()) return "meshes: none\n";
     std::string out;
-    const auto line = [&](check::Verdict verdict, std::string_view text, std::string_view hint) {
+    const auto line = [&](Verdict verdict, std::string_view text, std::string_view hint) {
         std::string names;
         for (std::size_t i = 0; i < report.meshes.size(); ++i) {
             if (report.verdicts[i] == verdict) names += (names.empty() ? "" : ", ") + printable(report.meshes[i]);
         }
         if (names.empty()) return;
         const std::string whole = fmt::format("meshes, {}: {}{}", text, names, hint);
-        out += (verdict == check::Verdict::not_certified ? paint.bad(whole) : whole) + "\n";
+        out += (verdict == Verdict::not_certified ? paint.bad(whole) : whole) + "\n";
     };
-    line(check::Verdict::certified, "certified to be partitions", "");
-    line(check::Verdict::not_certified, "NOT certified to be partitions",
-         fmt::format(" (why: {} check MESH)", style.command));
-    line(check::Verdict::not_checked, "not checked", "");
+    line(Verdict::certified, "certified to be partitions", "");
+    line(Verdict::not_certified, "NOT certified to be partitions", fmt::format(" (why: {} check MESH)", style.command));
+    line(Verdict::not_checked, "not checked", "");
     return out;
 }
 
 }  // namespace
 
-std::string terminal_report(const Report& report, const TerminalStyle& style) {
+std::string audit_text(const AuditReport& report, const TerminalStyle& style) {
     const ExactEnvironment environment;
     const Colours paint(style.colour);
     std::string out = environment_line(report.environment) + "\n";
@@ -198,4 +195,4 @@ std::string terminal_report(const Report& report, const TerminalStyle& style) {
     return out;
 }
 
-}  // namespace barycert::report
+}  // namespace barycert

@@ -8,13 +8,16 @@
 #include "barycert/environment.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
-namespace barycert::report {
+namespace barycert {
+
+using namespace report;
+
 namespace {
 
-std::string findings(const audit::Comparison& r) {
+std::string findings(const Comparison& r) {
     std::string out;
-    for (std::size_t f = 0; f < audit::finding_count; ++f) {
-        if (r.counts[f] != 0) out += (out.empty() ? "" : ", ") + std::string(audit::finding_texts[f].name);
+    for (std::size_t f = 0; f < finding_count; ++f) {
+        if (r.counts[f] != 0) out += (out.empty() ? "" : ", ") + std::string(finding_texts[f].name);
     }
     return out.empty() ? "-" : out;
 }
@@ -29,16 +32,16 @@ std::string coordinates(const Case& c, auto at) {
 }
 
 /// Interpolating along auxiliary lines is barycentric interpolation, in exact arithmetic.
-std::string identity_line(const audit::Replay& r) {
+std::string identity_line(const Replay& r) {
     const char* const what = r.witness.c.simplex == Simplex::triangle
                                  ? "bilinear interpolation and ratios of signed areas"
                                  : "trilinear interpolation and ratios of signed volumes";
     switch (r.identity) {
-        case exact::Identity::holds:
+        case IdentityVerdict::holds:
             return fmt::format("    in exact arithmetic {} give the same weights here\n", what);
-        case exact::Identity::fails:
+        case IdentityVerdict::fails:
             return fmt::format("    in exact arithmetic {} DIFFER here: a fault of barycert\n", what);
-        case exact::Identity::undefined:
+        case IdentityVerdict::undefined:
             break;
     }
     return "";
@@ -46,13 +49,13 @@ std::string identity_line(const audit::Replay& r) {
 
 }  // namespace
 
-std::string terminal_witness(const audit::Replay& replay, const TerminalStyle& style) {
+std::string witness_text(const Replay& replay, const TerminalStyle& style) {
     const ExactEnvironment environment;
     const Colours paint(style.colour);
-    const audit::Witness& witness = replay.witness;
+    const Witness& witness = replay.witness;
     const Case& c = witness.c;
     const int n = vertex_count(c.simplex);
-    const exact::Answer& answer = replay.exact;
+    const OracleAnswer& answer = replay.exact;
     std::string title(name(c.simplex));
     if (!witness.kernel.empty())
         title += ", " + (witness.reason.empty() ? "" : witness.reason + " of ") + witness.kernel;
@@ -70,7 +73,7 @@ std::string terminal_witness(const audit::Replay& replay, const TerminalStyle& s
     out += "\n";
 
     std::size_t width = 5;
-    for (const audit::KernelAnswer& a : replay.answers) width = std::max(width, a.kernel.size());
+    for (const KernelAnswer& a : replay.answers) width = std::max(width, a.kernel.size());
     const auto row = [&](std::string_view mark, std::string_view kernel, std::string_view region,
                          const std::array<std::string, 4>& cells, std::string_view ulps, std::string_view value,
                          std::string_view text) {
@@ -85,9 +88,9 @@ std::string terminal_witness(const audit::Replay& replay, const TerminalStyle& s
         cells[static_cast<std::size_t>(i)] = shortest(answer.weights[static_cast<std::size_t>(i)]);
     out += paint.good(
         row("=", "exact, correctly rounded", name(answer.region), cells, "", "", "value " + shortest(answer.value)));
-    for (const audit::KernelAnswer& a : replay.answers) {
+    for (const KernelAnswer& a : replay.answers) {
         for (std::size_t i = 0; i < 4; ++i) cells[i] = a.status != 0 ? "declared" : shortest(a.weights[i]);
-        const audit::Comparison& r = a.comparison;
+        const Comparison& r = a.comparison;
         const std::string line = row(a.kernel == witness.kernel ? ">" : "", a.kernel, name(r.claimed), cells,
                                      brief(a.worst_weight_ulp), brief(r.value_ulp), findings(r));
         out += r.wrong() ? paint.bad(line) : line;
@@ -95,7 +98,7 @@ std::string terminal_witness(const audit::Replay& replay, const TerminalStyle& s
     return out + identity_line(replay);
 }
 
-std::string terminal_kernels(const std::vector<Kernel>& kernels) {
+std::string kernels_text(const std::vector<Kernel>& kernels) {
     std::string out;
     for (const Kernel& k : kernels) {
         out += fmt::format("{}\n    formula  {}\n    source   {}\n    fails    {}\n", k.name, printable(k.formula),
@@ -108,9 +111,9 @@ std::string terminal_kernels(const std::vector<Kernel>& kernels) {
     return out;
 }
 
-std::string terminal_families(const std::vector<audit::Family>& families) {
+std::string families_text(const std::vector<Family>& families) {
     std::string out;
-    for (const audit::Family& f : families) {
+    for (const Family& f : families) {
         std::string simplices;
         for (const Simplex s : f.simplices) simplices += (simplices.empty() ? "" : ", ") + std::string(name(s));
         out += fmt::format("{}\n    after    {}\n    recipe   {}\n    for      {}{}\n", f.name, f.after, f.parameters,
@@ -119,4 +122,4 @@ std::string terminal_families(const std::vector<audit::Family>& families) {
     return out;
 }
 
-}  // namespace barycert::report
+}  // namespace barycert

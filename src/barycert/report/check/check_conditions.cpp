@@ -4,10 +4,7 @@
 
 namespace barycert::report {
 
-using check::Finding;
-using check::Problem;
-
-std::vector<ConditionRow> condition_rows(const check::Report& report, const Mesh& mesh) {
+std::vector<ConditionRow> condition_rows(const CheckReport& report, const Mesh& mesh) {
     const bool plane = report.dimension == 2;
     std::vector<ConditionRow> rows{
         {"P1", plane ? "every cell has 3 different nodes, finite coordinates and an area"
@@ -21,12 +18,12 @@ std::vector<ConditionRow> condition_rows(const check::Report& report, const Mesh
                      : "neighbours and faces that came with the mesh are those of its cells"},
     };
     const bool files = !mesh.neighbours.empty() || !mesh.faces.empty();
-    const bool looked_at = report.find(Problem::bad_structure) == nullptr;
+    const bool looked_at = report.find(DefectKind::bad_structure) == nullptr;
     for (ConditionRow& row : rows) {
-        for (const Finding& f : report.findings) {
+        for (const Defect& f : report.defects) {
             const bool here =
-                row.name.empty() ? f.problem == Problem::overlapping_cells : text_of(f.problem).condition == row.name;
-            if (!text_of(f.problem).breaks || !here) continue;
+                row.name.empty() ? f.kind == DefectKind::overlapping_cells : defect_text(f.kind).condition == row.name;
+            if (!defect_text(f.kind).breaks || !here) continue;
             row.count += f.count;
             row.at_least |= f.at_least;
         }
@@ -35,10 +32,10 @@ std::vector<ConditionRow> condition_rows(const check::Report& report, const Mesh
     return rows;
 }
 
-bool left_cells_out(const check::Report& report) {
-    return std::any_of(report.findings.begin(), report.findings.end(), [](const Finding& f) {
-        return f.problem == Problem::index_out_of_range || f.problem == Problem::not_finite ||
-               f.problem == Problem::repeated_node;
+bool left_cells_out(const CheckReport& report) {
+    return std::any_of(report.defects.begin(), report.defects.end(), [](const Defect& f) {
+        return f.kind == DefectKind::index_out_of_range || f.kind == DefectKind::not_finite ||
+               f.kind == DefectKind::repeated_node;
     });
 }
 

@@ -17,9 +17,9 @@ struct ConditionRow {
     std::string_view instead = {};  ///< without violations: "ok", "none came" or "not checked"
 };
 
-std::vector<ConditionRow> condition_rows(const check::Report& report, const Mesh& mesh);
+std::vector<ConditionRow> condition_rows(const CheckReport& report, const Mesh& mesh);
 
 /// Some cells took no part in P2 to P5, for they have no place in space.
-bool left_cells_out(const check::Report& report);
+bool left_cells_out(const CheckReport& report);
 
 }  // namespace barycert::report

@@ -15,12 +15,11 @@
 #include "barycert/report/check/check_html_picture.hpp"
 #include "barycert/report/check/check_html_style.hpp"
 
-namespace barycert::report {
-namespace {
+namespace barycert {
 
-using check::Finding;
-using check::Problem;
-using check::Report;
+using namespace report;
+
+namespace {
 
 /// However many the report holds: the page stays small, and --json has them all.
 constexpr std::size_t most_places = 12, most_contacts = 8, most_drawn = 6;
@@ -30,7 +29,7 @@ std::string counted(std::uint64_t n, std::string_view one, std::string_view more
 }
 
 /// A count that may be a lower bound, escaped.
-std::string count_of(const Finding& f) {
+std::string count_of(const Defect& f) {
     return (f.at_least ? "at least " : "") + grouped(f.count);
 }
 
@@ -41,7 +40,7 @@ std::string words(std::string_view name) {
     return out;
 }
 
-std::string domain(const Report& r) {
+std::string domain(const CheckReport& r) {
     std::string text = counted(r.parts, "part", "parts");
     if (!r.boundary.cavities) return text;
     text += " with " + (r.dimension == 2 ? counted(*r.boundary.cavities, "hole", "holes")
@@ -51,7 +50,7 @@ std::string domain(const Report& r) {
     return text;
 }
 
-std::string verdict(const Report& r) {
+std::string verdict(const CheckReport& r) {
     if (r.certified()) {
         const std::string what =
             r.cells == 0 ? "The mesh has no cells, so there is nothing that could be wrong with them."
@@ -63,16 +62,16 @@ std::string verdict(const Report& r) {
     }
     // An open boundary follows from other problems, if there are any.
     std::string reasons, open;
-    for (const Finding& f : r.findings) {
-        if (!text_of(f.problem).breaks) continue;
-        (f.problem == Problem::open_boundary ? open : reasons) +=
-            fmt::format("<li>{}: {}</li>", html_escaped(text_of(f.problem).text), count_of(f));
+    for (const Defect& f : r.defects) {
+        if (!defect_text(f.kind).breaks) continue;
+        (f.kind == DefectKind::open_boundary ? open : reasons) +=
+            fmt::format("<li>{}: {}</li>", html_escaped(defect_text(f.kind).text), count_of(f));
     }
-    const bool files_only = std::all_of(r.findings.begin(), r.findings.end(), [](const Finding& f) {
-        return !text_of(f.problem).breaks || text_of(f.problem).condition == "P5";
+    const bool files_only = std::all_of(r.defects.begin(), r.defects.end(), [](const Defect& f) {
+        return !defect_text(f.kind).breaks || defect_text(f.kind).condition == "P5";
     });
     const std::string_view what =
-        r.find(Problem::bad_structure) != nullptr
+        r.find(DefectKind::bad_structure) != nullptr
             ? "The arrays of the mesh do not make cells: nothing else was looked at."
         : files_only ? "The cells partition a domain, but other arrays of the mesh do not belong to them."
                      : "The cells are no partition of a domain.";
@@ -80,12 +79,12 @@ std::string verdict(const Report& r) {
                        what, reasons.empty() ? open : reasons);
 }
 
-std::string tiles(const Report& r) {
+std::string tiles(const CheckReport& r) {
     std::string out = "<div class=\"tiles\">";
     const auto tile = [&](std::string_view what, const std::string& value) {
         out += fmt::format("<div><b>{}</b><span>{}</span></div>", value, what);
     };
-    const check::Boundary& b = r.boundary;
+    const BoundaryReport& b = r.boundary;
     tile("dimension", std::to_string(r.dimension));
     tile(r.dimension == 2 ? "triangles" : "tetrahedra", grouped(r.cells));
     tile("nodes", grouped(r.nodes));
@@ -97,8 +96,8 @@ std::string tiles(const Report& r) {
     return out + "</div>\n";
 }
 
-std::string whole_mesh(const Report& r) {
-    const check::Boundary& b = r.boundary;
+std::string whole_mesh(const CheckReport& r) {
+    const BoundaryReport& b = r.boundary;
     const std::string_view size = r.dimension == 2 ? "Area" : "Volume";
     const auto row = [](std::string_view what, const std::string& text) {
         return fmt::format("<tr><th class=\"k\">{}</th><td>{}</td></tr>\n", what, text);
@@ -118,7 +117,7 @@ std::string whole_mesh(const Report& r) {
                                                : "; cavities and tunnels are counted only where it is closed and does "
                                                  "not touch itself along a ridge"));
     if (r.delaunay) {
-        const check::Delaunay& d = *r.delaunay;
+        const DelaunayReport& d = *r.delaunay;
         std::string text = counted(d.facets, "interior facet", "interior facets") + " tested, exactly: ";
         text += d.violations == 0 ? "all are locally Delaunay" : grouped(d.violations) + " not locally Delaunay";
         if (d.cospherical != 0)
@@ -129,7 +128,7 @@ std::string whole_mesh(const Report& r) {
         out += row("Delaunay", text);
     }
     if (r.conformity) {
-        const check::Conformity& c = *r.conformity;
+        const ConformityReport& c = *r.conformity;
         std::string text = fmt::format("of {}: {} respected exactly, {} by rounding, {} violated",
                                        counted(c.facets, "facet", "facets"), grouped(c.exact), grouped(c.rounded),
                                        grouped(c.violated));
@@ -138,7 +137,7 @@ std::string whole_mesh(const Report& r) {
                                 c.largest_distance, c.relative_distance);
         if (c.missing_vertices != 0)
             text += fmt::format(". Vertices that are no node: {}", grouped(c.missing_vertices));
-        for (const check::ViolatedFacet& f : c.examples)
+        for (const ViolatedFacet& f : c.examples)
             text += fmt::format("{}{} ({:.3g} %)",
                                 &f == c.examples.data() ? ". Violated facets (share that is covered): " : ", ", f.facet,
                                 100 * f.covered);
@@ -149,7 +148,7 @@ std::string whole_mesh(const Report& r) {
     return out + "</table>\n";
 }
 
-std::string conditions(const Report& r, const Mesh& mesh) {
+std::string conditions(const CheckReport& r, const Mesh& mesh) {
     std::string out =
         "<h2>What was checked</h2>\n<table><tr><th>condition</th><th></th><th class=\"n\">violations</th></tr>\n";
     for (const ConditionRow& row : condition_rows(r, mesh)) {
@@ -170,7 +169,7 @@ std::string conditions(const Report& r, const Mesh& mesh) {
 }
 
 /// "cells 3 and 17, nodes 4 5 6 (coplanar)".
-std::string place(const check::Place& p) {
+std::string place(const DefectPlace& p) {
     std::vector<Mesh::Index> cells, nodes;
     for (const Mesh::Index i : p.cells) {
         if (i >= 0) cells.push_back(i);
@@ -188,10 +187,10 @@ std::string place(const check::Place& p) {
     return out;
 }
 
-std::string findings(const Report& r, bool breaking) {
+std::string defects(const CheckReport& r, bool breaking) {
     std::string rows;
-    for (const Finding& f : r.findings) {
-        const check::ProblemText& t = text_of(f.problem);
+    for (const Defect& f : r.defects) {
+        const DefectText& t = defect_text(f.kind);
         if (t.breaks != breaking) continue;
         std::string where;
         const std::size_t shown = std::min(f.places.size(), most_places);
@@ -222,7 +221,7 @@ std::string shortened(const std::string& fraction) {
                        fraction.size());
 }
 
-std::string contacts(const Report& r) {
+std::string contacts(const CheckReport& r) {
     if (r.contacts.empty()) return "";
     static constexpr std::array<std::string_view, 3> extents{"touch in a point", "touch along a segment",
                                                              "touch in an area"};
@@ -233,7 +232,7 @@ std::string contacts(const Report& r) {
         "<table><tr><th>cells</th><th>how they meet</th><th>a point of both</th></tr>\n";
     const std::size_t shown = std::min(r.contacts.size(), most_contacts);
     for (std::size_t i = 0; i < shown; ++i) {
-        const check::Contact& c = r.contacts[i];
+        const CellContact& c = r.contacts[i];
         std::vector<std::string> decimal, exact;
         for (std::size_t k = 0; k < static_cast<std::size_t>(r.dimension); ++k) {
             const double x = c.witness.point[k];
@@ -256,8 +255,8 @@ std::string contacts(const Report& r) {
     return out;
 }
 
-std::string histograms(const Report& r) {
-    const check::Measures& m = r.measures;
+std::string histograms(const CheckReport& r) {
+    const CellMeasures& m = r.measures;
     const bool plane = r.dimension == 2;
     const std::string unit = plane ? "squared" : "cubed";
     std::vector<double> size(m.volume), bits(m.condition);
@@ -305,8 +304,8 @@ std::string histograms(const Report& r) {
     return out + "</div>\n";
 }
 
-std::string exhibits(const Report& r, const Mesh& mesh) {
-    const std::vector<Exhibit> worst = worst_cells(r, mesh, most_drawn), bad = problem_cells(r, mesh, most_drawn);
+std::string exhibits(const CheckReport& r, const Mesh& mesh) {
+    const std::vector<Exhibit> worst = worst_cells(r, mesh, most_drawn), bad = defect_cells(r, mesh, most_drawn);
     std::vector<Exhibit> all = bad;
     all.insert(all.end(), worst.begin(), worst.end());
     std::string out = "<h2>Where the worst cells are</h2>\n" + exhibit_map(r, mesh, all);
@@ -324,7 +323,7 @@ std::string exhibits(const Report& r, const Mesh& mesh) {
 
 }  // namespace
 
-std::string check_html(const Report& r, const Mesh& mesh, const std::string& mesh_name) {
+std::string check_html(const CheckReport& r, const Mesh& mesh, const std::string& mesh_name) {
     const ExactEnvironment environment;
     const std::string name = html_escaped(mesh_name);
     std::string out = fmt::format(
@@ -334,18 +333,18 @@ std::string check_html(const Report& r, const Mesh& mesh, const std::string& mes
         name, r.certified() ? "certified" : "NOT certified", html_style, name);
     out += verdict(r);
     // Without a structure there are no measures, and nothing that could be drawn.
-    const bool looked_at = r.find(Problem::bad_structure) == nullptr;
+    const bool looked_at = r.find(DefectKind::bad_structure) == nullptr;
     const bool cells = looked_at && r.cells != 0 && r.measures.volume.size() == r.cells &&
                        mesh.dimension == r.dimension && mesh.cell_count() == r.cells;
     if (looked_at) out += tiles(r);
     if (cells) out += whole_mesh(r);
-    if (!r.findings.empty() || r.cells != 0)
+    if (!r.defects.empty() || r.cells != 0)
         out += fmt::format(
             "<p class=\"small\">Cells and nodes are named by their positions in the file, counted from 0{}.</p>\n",
             mesh.index_base == 1 ? "; the file itself counts from 1" : "");
-    out += conditions(r, mesh) + findings(r, true) + contacts(r);
+    out += conditions(r, mesh) + defects(r, true) + contacts(r);
     if (cells) out += exhibits(r, mesh) + histograms(r);
-    out += findings(r, false);
+    out += defects(r, false);
     return out + fmt::format(
                      "<footer>Made by barycert {} check: {} and {}, checked in {:.3g} s on {}. Signs, counts, "
                      "contacts and the verdict are exact; angles and ratios are plain double precision."
@@ -355,4 +354,4 @@ std::string check_html(const Report& r, const Mesh& mesh, const std::string& mes
                      counted(static_cast<std::uint64_t>(r.threads), "thread", "threads"));
 }
 
-}  // namespace barycert::report
+}  // namespace barycert

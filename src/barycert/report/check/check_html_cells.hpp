@@ -13,22 +13,22 @@ namespace barycert::report {
 struct Exhibit {
     std::array<Mesh::Index, 2> cells{-1, -1};  ///< the second is -1 if it is one cell
     std::string what;                          ///< why it is shown, escaped
-    const check::Contact* contact = nullptr;   ///< with a witness
-    bool problem = false;                      ///< else it is just the worst by shape
+    const CellContact* contact = nullptr;      ///< with a witness
+    bool defect = false;                       ///< else it is just the worst by shape
 };
 
 /// The cells of smallest (dihedral) angle, smallest first, that are not degenerate and can be drawn; ties by index.
-std::vector<Exhibit> worst_cells(const check::Report& report, const Mesh& mesh, std::size_t most);
+std::vector<Exhibit> worst_cells(const CheckReport& report, const Mesh& mesh, std::size_t most);
 
 /// Cells with problems, each problem in turn, so that a few of one kind leave room for the others. Contacts and places
-/// of findings that name cells which can be drawn.
-std::vector<Exhibit> problem_cells(const check::Report& report, const Mesh& mesh, std::size_t most);
+/// of defects that name cells which can be drawn.
+std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, std::size_t most);
 
 /// A card: the cell from two sides, at the same scale, with the numbers of its nodes; what is known of it. `number` is
 /// the one it has in the map.
-std::string exhibit_card(const check::Report& report, const Mesh& mesh, const Exhibit& exhibit, std::size_t number);
+std::string exhibit_card(const CheckReport& report, const Mesh& mesh, const Exhibit& exhibit, std::size_t number);
 
 /// Where in the mesh they are: its boundary, thinned out to at most 3000 marks, and the exhibits by their numbers.
-std::string exhibit_map(const check::Report& report, const Mesh& mesh, const std::vector<Exhibit>& exhibits);
+std::string exhibit_map(const CheckReport& report, const Mesh& mesh, const std::vector<Exhibit>& exhibits);
 
 }  // namespace barycert::report

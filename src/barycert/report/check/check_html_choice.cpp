@@ -34,27 +34,27 @@ Cells drawn_of(const Mesh& mesh, Cells cells) {
     return cells;
 }
 
-Exhibit of_contact(const check::Contact& c, const Cells& cells) {
+Exhibit of_contact(const CellContact& c, const Cells& cells) {
     static constexpr std::array<std::string_view, 3> extents{"in a point", "along a segment", "in an area"};
     return {.cells = cells,
             .what = c.overlap ? std::string("overlapping cells")
                               : fmt::format("cells that touch {} where they must not",
                                             extents[static_cast<std::size_t>(std::clamp(c.dimension, 0, 2))]),
             .contact = &c,
-            .problem = true};
+            .defect = true};
 }
 
-Exhibit of_place(check::Problem problem, const check::Place& p, const Cells& cells) {
-    std::string what(text_of(problem).name);
+Exhibit of_place(DefectKind problem, const DefectPlace& p, const Cells& cells) {
+    std::string what(defect_text(problem).name);
     std::replace(what.begin(), what.end(), '_', ' ');
     if (*p.detail != '\0') what += fmt::format(" ({})", p.detail);
-    return {.cells = cells, .what = html_escaped(what), .problem = true};
+    return {.cells = cells, .what = html_escaped(what), .defect = true};
 }
 
 }  // namespace
 
-std::vector<Exhibit> worst_cells(const check::Report& report, const Mesh& mesh, std::size_t most) {
-    const check::Measures& m = report.measures;
+std::vector<Exhibit> worst_cells(const CheckReport& report, const Mesh& mesh, std::size_t most) {
+    const CellMeasures& m = report.measures;
     std::vector<std::pair<double, Mesh::Index>> worst;  // a heap, the least bad on top
     for (std::size_t cell = 0; cell < m.min_angle.size(); ++cell) {
         const double angle = m.min_angle[cell];
@@ -78,7 +78,7 @@ std::vector<Exhibit> worst_cells(const check::Report& report, const Mesh& mesh, 
     return exhibits;
 }
 
-std::vector<Exhibit> problem_cells(const check::Report& report, const Mesh& mesh, std::size_t most) {
+std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, std::size_t most) {
     // One queue a kind of problem; of pairs of cells, those with a witness first.
     std::vector<std::vector<Exhibit>> queues;
     const auto open_queue = [&] { queues.emplace_back(); };
@@ -87,14 +87,14 @@ std::vector<Exhibit> problem_cells(const check::Report& report, const Mesh& mesh
     };
     for (const bool overlap : {true, false}) {
         open_queue();
-        for (const check::Contact& c : report.contacts) {
+        for (const CellContact& c : report.contacts) {
             if (c.overlap == overlap) add(of_contact(c, drawn_of(mesh, c.cells)));
         }
     }
-    for (const check::Finding& f : report.findings) {
-        if (!text_of(f.problem).breaks) continue;
+    for (const Defect& f : report.defects) {
+        if (!defect_text(f.kind).breaks) continue;
         open_queue();
-        for (const check::Place& p : f.places) add(of_place(f.problem, p, drawn_of(mesh, p.cells)));
+        for (const DefectPlace& p : f.places) add(of_place(f.kind, p, drawn_of(mesh, p.cells)));
     }
     // First such as have only cells that were not shown yet; one cell may overlap many.
     std::vector<Exhibit> exhibits;

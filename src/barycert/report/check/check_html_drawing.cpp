@@ -185,8 +185,8 @@ std::string figure(double x) {
     return std::isinf(x) ? "∞" : std::isnan(x) ? "unknown" : fmt::format("{:.4g}", x + 0.0);
 }
 
-std::string facts(const check::Report& r, const Mesh& mesh, Mesh::Index cell, std::string_view swatch) {
-    const check::Measures& m = r.measures;
+std::string facts(const CheckReport& r, const Mesh& mesh, Mesh::Index cell, std::string_view swatch) {
+    const CellMeasures& m = r.measures;
     const auto c = static_cast<std::size_t>(cell);
     std::vector<Mesh::Index> nodes(mesh.cells.begin() + static_cast<std::ptrdiff_t>(c * mesh.corners()),
                                    mesh.cells.begin() + static_cast<std::ptrdiff_t>((c + 1) * mesh.corners()));
@@ -206,13 +206,13 @@ std::string facts(const check::Report& r, const Mesh& mesh, Mesh::Index cell, st
 
 }  // namespace
 
-std::string exhibit_card(const check::Report& r, const Mesh& mesh, const Exhibit& e, std::size_t number) {
+std::string exhibit_card(const CheckReport& r, const Mesh& mesh, const Exhibit& e, std::size_t number) {
     const Scene scene = scene_of(mesh, e);
     const std::vector<Shown> views = views_of(mesh, scene);
     const double scale = scale_of(views, scene);
     std::string out =
         fmt::format("<figure class=\"half card\"><h3><span class=\"badge{}\">{}</span> {}</h3>\n<div class=\"views\">",
-                    e.problem ? " problem" : "", number, e.what);
+                    e.defect ? " problem" : "", number, e.what);
     const bool pair = e.cells[1] >= 0;
     const std::string title =
         pair ? fmt::format("cells {} and {}", e.cells[0], e.cells[1]) : fmt::format("cell {}", e.cells[0]);

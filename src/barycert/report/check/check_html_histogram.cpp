@@ -194,13 +194,13 @@ Histogram histogram(const std::vector<double>& values, const BinRule& rule) {
 
 std::string histogram_figure(const std::vector<double>& values, const BinRule& rule, const HistogramText& text) {
     const Histogram h = histogram(values, rule);
-    const check::Distribution d = check::distribution(values);
+    const Distribution d = distribution(values);
     std::string out = fmt::format("<figure class=\"half\"><h3>{}</h3>\n", html_escaped(text.title));
-    if (d.least_cell >= 0) {
+    if (d.min_cell >= 0) {
         const auto figure = [](double x) { return std::isinf(x) ? "∞" : fmt::format("{:.4g}", x + 0.0); };
-        out += fmt::format("<p class=\"small\">least {} · median {} · most {} · worst in cell <b>{}</b></p>\n",
-                           figure(d.least), figure(d.median), figure(d.most),
-                           text.most_is_worst ? d.most_cell : d.least_cell);
+        out +=
+            fmt::format("<p class=\"small\">least {} · median {} · most {} · worst in cell <b>{}</b></p>\n",
+                        figure(d.min), figure(d.median), figure(d.max), text.most_is_worst ? d.max_cell : d.min_cell);
     }
     Picture svg(width, height, std::string(text.title) + ": number of cells");
     draw(svg, h, text);

@@ -242,14 +242,14 @@ void draw_outline(Picture& svg, const Map& map, const Outline& outline, int d) {
 }
 
 /// Cells with problems, some of them if they are many.
-std::vector<Pixel> problem_marks(const check::Report& r, const Mesh& mesh, const Map& map) {
-    check::ProblemSet breaking = 0;
-    for (const check::ProblemText& t : check::problem_texts) {
-        if (t.breaks) breaking |= check::bit(t.problem);
+std::vector<Pixel> problem_marks(const CheckReport& r, const Mesh& mesh, const Map& map) {
+    DefectSet breaking = 0;
+    for (const DefectText& t : defect_texts) {
+        if (t.breaks) breaking |= defect_bit(t.kind);
     }
     std::vector<Mesh::Index> cells;
-    for (std::size_t cell = 0; cell < r.measures.problems.size(); ++cell) {
-        if ((r.measures.problems[cell] & breaking) != 0 && drawable(mesh, cell))
+    for (std::size_t cell = 0; cell < r.measures.defects.size(); ++cell) {
+        if ((r.measures.defects[cell] & breaking) != 0 && drawable(mesh, cell))
             cells.push_back(static_cast<Mesh::Index>(cell));
     }
     std::vector<Pixel> marks;
@@ -274,7 +274,7 @@ std::string legend(const Mesh& mesh, const std::vector<Exhibit>& exhibits) {
             middle.push_back(fmt::format("{:.4g}", x + 0.0));
         }
         out += fmt::format("<tr><td><span class=\"badge{}\">{}</span></td><td>{}{}</td><td>({})</td></tr>\n",
-                           e.problem ? " problem" : "", i + 1, e.cells[0],
+                           e.defect ? " problem" : "", i + 1, e.cells[0],
                            e.cells[1] < 0 ? "" : fmt::format(", {}", e.cells[1]), fmt::join(middle, ", "));
     }
     return out + "</table>\n";
@@ -289,12 +289,12 @@ std::string extent(const Box& box, int d) {
 
 }  // namespace
 
-std::string exhibit_map(const check::Report& r, const Mesh& mesh, const std::vector<Exhibit>& exhibits) {
+std::string exhibit_map(const CheckReport& r, const Mesh& mesh, const std::vector<Exhibit>& exhibits) {
     const Box box = box_of(mesh);
     if (box.empty) return "";
-    const bool proper = std::none_of(r.findings.begin(), r.findings.end(), [](const check::Finding& f) {
-        return f.problem == check::Problem::index_out_of_range || f.problem == check::Problem::not_finite ||
-               f.problem == check::Problem::repeated_node;
+    const bool proper = std::none_of(r.defects.begin(), r.defects.end(), [](const Defect& f) {
+        return f.kind == DefectKind::index_out_of_range || f.kind == DefectKind::not_finite ||
+               f.kind == DefectKind::repeated_node;
     });
     const Map map(mesh, box);
     Outline outline;
@@ -310,9 +310,9 @@ std::string exhibit_map(const check::Report& r, const Mesh& mesh, const std::vec
     for (std::size_t i = exhibits.size(); i-- > 0;) {  // the first on top
         const Exhibit& e = exhibits[i];
         const Pixel at = map.cell(e.cells[0]);
-        svg.dot(at, 4, e.problem ? "spot problem" : "spot",
+        svg.dot(at, 4, e.defect ? "spot problem" : "spot",
                 fmt::format("cell {}{}", e.cells[0], e.cells[1] < 0 ? "" : fmt::format(" and {}", e.cells[1])));
-        labels.push_back({at, std::to_string(i + 1), e.problem ? "number bad" : "number"});
+        labels.push_back({at, std::to_string(i + 1), e.defect ? "number bad" : "number"});
     }
     std::reverse(labels.begin(), labels.end());
     place_labels(svg, std::move(labels));

@@ -39,7 +39,7 @@ figure{margin:0;break-inside:avoid}
 .card p{margin:4px 0;font-size:13px;overflow-wrap:anywhere}
 .map{display:flex;gap:24px;align-items:center}.map div{flex:1}.map table{font-size:13px;margin:0}.map td{white-space:nowrap}
 .badge{display:inline-block;min-width:22px;padding:0 6px;border-radius:11px;background:#0072b2;color:#fff;
- text-align:center;font-size:13px;line-height:22px}.badge.problem{background:#c8102e}
+ text-align:center;font-size:13px;line-height:22px}.badge.kind{background:#c8102e}
 .swatch{display:inline-block;width:11px;height:11px;margin-right:6px;border-radius:2px}
 .swatch.a{background:#0072b2}.swatch.b{background:#e69f00}
 footer{margin-top:40px;border-top:1px solid #ddd;padding-top:10px;color:#555;font-size:13px}
@@ -60,9 +60,9 @@ svg .far{stroke-dasharray:4 4;stroke-width:1px}
 .node{fill:#222}.witness{fill:#d00;stroke:#fff;stroke-width:1.2px}
 .hull{stroke:#a8b0b7;stroke-width:.7px}.crease{stroke:#7d868e;stroke-width:.8px}
 svg .dots{stroke-width:2.4px}.dots.l0{stroke:#a3acb5}.dots.l1{stroke:#c3cad0}.dots.l2{stroke:#dde2e6}
-.problems{stroke:#e06070;stroke-width:4px;stroke-opacity:.6}
+.defects{stroke:#e06070;stroke-width:4px;stroke-opacity:.6}
 .box{stroke:#999;stroke-width:.8px;stroke-dasharray:2 4}
-.spot{fill:#0072b2;stroke:#fff;stroke-width:1px}.spot.problem{fill:#c8102e}
+.spot{fill:#0072b2;stroke:#fff;stroke-width:1px}.spot.kind{fill:#c8102e}
 @page{margin:12mm}
 @media print{body{padding:0;max-width:none;font-size:12px}.half{min-width:0}.figures{gap:14px 20px}
  h2{font-size:16px}.small,.places,.witness-at,.card p,.map table,.map th,th,code{font-size:10.5px}h2{margin-top:22px}}

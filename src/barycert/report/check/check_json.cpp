@@ -11,7 +11,10 @@
 #include "barycert/report/check/check_conditions.hpp"
 #include "barycert/report/common/environment_json.hpp"
 
-namespace barycert::report {
+namespace barycert {
+
+using namespace report;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -22,7 +25,7 @@ Json figure(double x) {
     return std::isnan(x) ? Json(nullptr) : Json(std::clamp(x, -largest, largest));
 }
 
-Json conditions_json(const check::Report& r, const Mesh& mesh) {
+Json conditions_json(const CheckReport& r, const Mesh& mesh) {
     Json list = Json::array();
     for (const ConditionRow& row : condition_rows(r, mesh)) {
         if (row.name.empty()) continue;  // what follows from the others
@@ -47,8 +50,8 @@ Json indices(const auto& all) {
     return j;
 }
 
-Json finding_json(const check::Finding& f) {
-    const check::ProblemText& t = text_of(f.problem);
+Json finding_json(const Defect& f) {
+    const DefectText& t = defect_text(f.kind);
     Json j;
     j["name"] = t.name;
     if (!t.condition.empty()) j["condition"] = t.condition;
@@ -58,7 +61,7 @@ Json finding_json(const check::Finding& f) {
     j["text"] = t.text;
     j["remedy"] = t.remedy;
     j["places"] = Json::array();
-    for (const check::Place& p : f.places) {
+    for (const DefectPlace& p : f.places) {
         Json place;
         place["cells"] = indices(p.cells);
         place["nodes"] = indices(p.nodes);
@@ -68,7 +71,7 @@ Json finding_json(const check::Finding& f) {
     return j;
 }
 
-Json boundary_json(const check::Boundary& b) {
+Json boundary_json(const BoundaryReport& b) {
     Json j;
     j["facets"] = b.facets;
     j["pieces"] = b.pieces;
@@ -80,18 +83,18 @@ Json boundary_json(const check::Boundary& b) {
 }
 
 Json distribution_json(const std::vector<double>& values) {
-    const check::Distribution d = check::distribution(values);
-    if (d.least_cell < 0) return nullptr;
+    const Distribution d = distribution(values);
+    if (d.min_cell < 0) return nullptr;
     Json j;
-    j["least"] = figure(d.least);
+    j["least"] = figure(d.min);
     j["median"] = figure(d.median);
-    j["most"] = figure(d.most);
-    j["least_cell"] = d.least_cell;
-    j["most_cell"] = d.most_cell;
+    j["most"] = figure(d.max);
+    j["least_cell"] = d.min_cell;
+    j["most_cell"] = d.max_cell;
     return j;
 }
 
-Json measures_json(const check::Measures& m) {
+Json measures_json(const CellMeasures& m) {
     std::vector<double> size(m.volume);
     for (double& x : size) x = std::fabs(x);
     Json j;
@@ -104,7 +107,7 @@ Json measures_json(const check::Measures& m) {
     return j;
 }
 
-Json contact_json(const check::Contact& c, int d) {
+Json contact_json(const CellContact& c, int d) {
     Json j;
     j["cells"] = indices(c.cells);
     j["overlap"] = c.overlap;
@@ -120,7 +123,7 @@ Json contact_json(const check::Contact& c, int d) {
     return j;
 }
 
-Json delaunay_json(const check::Delaunay& d) {
+Json delaunay_json(const DelaunayReport& d) {
     Json j;
     j["facets"] = d.facets;
     j["violations"] = d.violations;
@@ -131,7 +134,7 @@ Json delaunay_json(const check::Delaunay& d) {
     return j;
 }
 
-Json conformity_json(const check::Conformity& c) {
+Json conformity_json(const ConformityReport& c) {
     Json j;
     j["facets"] = c.facets;
     j["exact"] = c.exact;
@@ -141,27 +144,27 @@ Json conformity_json(const check::Conformity& c) {
     j["largest_distance"] = figure(c.largest_distance);
     j["relative_distance"] = figure(c.relative_distance);
     j["examples"] = Json::array();
-    for (const check::ViolatedFacet& f : c.examples)
+    for (const ViolatedFacet& f : c.examples)
         j["examples"].push_back(Json{{"facet", f.facet}, {"covered", figure(f.covered)}});
     return j;
 }
 
 }  // namespace
 
-std::string check_json(const check::Report& r, const std::string& name, const Environment& environment) {
+std::string check_json(const CheckReport& r, const std::string& name, const Environment& environment) {
     const ExactEnvironment exact;
     Json j;
     j["schema"] = check_schema;
     j["mesh"] = name;
-    j["verdict"] = check::name(r.certificate.verdict());
+    j["verdict"] = barycert::name(r.certificate.verdict());
     j["dimension"] = r.dimension;
     j["nodes"] = r.nodes;
     j["cells"] = r.cells;
     j["conditions"] = conditions_json(r, Mesh());  // whether files came changes no count
     j["findings"] = Json::array();
-    for (const check::Finding& f : r.findings) j["findings"].push_back(finding_json(f));
+    for (const Defect& f : r.defects) j["findings"].push_back(finding_json(f));
     j["contacts"] = Json::array();
-    for (const check::Contact& c : r.contacts) j["contacts"].push_back(contact_json(c, r.dimension));
+    for (const CellContact& c : r.contacts) j["contacts"].push_back(contact_json(c, r.dimension));
     j["orientation"]["positive"] = r.positive;
     j["orientation"]["negative"] = r.negative;
     j["orientation"]["degenerate"] = r.degenerate;
@@ -174,11 +177,11 @@ std::string check_json(const check::Report& r, const std::string& name, const En
     if (r.delaunay) j["delaunay"] = delaunay_json(*r.delaunay);
     if (r.conformity) j["conformity"] = conformity_json(*r.conformity);
     j["problem_bits"] = Json::array();
-    for (const check::ProblemText& t : check::problem_texts) j["problem_bits"].push_back(t.name);
+    for (const DefectText& t : defect_texts) j["problem_bits"].push_back(t.name);
     j["seconds"] = r.seconds;
     j["threads"] = r.threads;
     j["environment"] = environment_json(environment);
     return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace barycert::report
+}  // namespace barycert

@@ -10,12 +10,11 @@
 #include "barycert/report/check/check_conditions.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
-namespace barycert::report {
-namespace {
+namespace barycert {
 
-using check::Finding;
-using check::Problem;
-using check::Report;
+using namespace report;
+
+namespace {
 
 constexpr std::size_t columns = 100;
 
@@ -25,35 +24,34 @@ std::string plural(std::uint64_t n, std::string_view one, std::string_view more)
 
 /// What a problem means for the verdict, after its count.
 struct Clause {
-    Problem problem;
+    DefectKind kind;
     std::string_view one, more;
 };
 constexpr std::array<Clause, 15> clauses{{
-    {Problem::bad_structure, "fault in its arrays", "faults in its arrays"},
-    {Problem::index_out_of_range, "cell has a corner that is no node", "cells have a corner that is no node"},
-    {Problem::not_finite, "node is not finite", "nodes are not finite"},
-    {Problem::repeated_node, "cell has a node twice", "cells have a node twice"},
-    {Problem::degenerate_cell, "cell is degenerate", "cells are degenerate"},
-    {Problem::duplicate_cell, "cell is there again", "cells are there again"},
-    {Problem::overfull_facet, "facet belongs to more than two cells", "facets belong to more than two cells"},
-    {Problem::same_side, "facet has both cells on the same side", "facets have both cells on the same side"},
-    {Problem::open_boundary, "ridge leaves the boundary open", "ridges leave the boundary open"},
-    {Problem::boundary_contact, "pair of boundary facets meets", "pairs of boundary facets meet"},
-    {Problem::nested_part, "piece of the boundary lies in cells", "pieces of the boundary lie in cells"},
-    {Problem::overlapping_cells, "pair of cells overlaps", "pairs of cells overlap"},
-    {Problem::wrong_neighbour, "entry of .neigh is wrong", "entries of .neigh are wrong"},
-    {Problem::wrong_face, "triangle of .face is no facet", "triangles of .face are no facets"},
-    {Problem::unfit_array, "array does not fit nodes and cells", "arrays do not fit nodes and cells"},
+    {DefectKind::bad_structure, "fault in its arrays", "faults in its arrays"},
+    {DefectKind::index_out_of_range, "cell has a corner that is no node", "cells have a corner that is no node"},
+    {DefectKind::not_finite, "node is not finite", "nodes are not finite"},
+    {DefectKind::repeated_node, "cell has a node twice", "cells have a node twice"},
+    {DefectKind::degenerate_cell, "cell is degenerate", "cells are degenerate"},
+    {DefectKind::duplicate_cell, "cell is there again", "cells are there again"},
+    {DefectKind::overfull_facet, "facet belongs to more than two cells", "facets belong to more than two cells"},
+    {DefectKind::same_side, "facet has both cells on the same side", "facets have both cells on the same side"},
+    {DefectKind::open_boundary, "ridge leaves the boundary open", "ridges leave the boundary open"},
+    {DefectKind::boundary_contact, "pair of boundary facets meets", "pairs of boundary facets meet"},
+    {DefectKind::nested_part, "piece of the boundary lies in cells", "pieces of the boundary lie in cells"},
+    {DefectKind::overlapping_cells, "pair of cells overlaps", "pairs of cells overlap"},
+    {DefectKind::wrong_neighbour, "entry of .neigh is wrong", "entries of .neigh are wrong"},
+    {DefectKind::wrong_face, "triangle of .face is no facet", "triangles of .face are no facets"},
+    {DefectKind::unfit_array, "array does not fit nodes and cells", "arrays do not fit nodes and cells"},
 }};
 
-std::string clause(const Finding& f) {
-    const auto c =
-        std::find_if(clauses.begin(), clauses.end(), [&](const Clause& x) { return x.problem == f.problem; });
+std::string clause(const Defect& f) {
+    const auto c = std::find_if(clauses.begin(), clauses.end(), [&](const Clause& x) { return x.kind == f.kind; });
     return (f.at_least ? "at least " : "") + plural(f.count, c->one, c->more);
 }
 
 /// "1 part, 0 cavities, 7 tunnels"; in the plane a cavity is a hole.
-std::string domain(const Report& r) {
+std::string domain(const CheckReport& r) {
     std::string text = plural(r.parts, "part", "parts");
     if (r.boundary.cavities) {
         text += ", " + (r.dimension == 2 ? plural(*r.boundary.cavities, "hole", "holes")
@@ -65,7 +63,7 @@ std::string domain(const Report& r) {
     return text;
 }
 
-std::string certified(const Report& r, const std::string& name, const Colours& paint) {
+std::string certified(const CheckReport& r, const std::string& name, const Colours& paint) {
     if (r.cells == 0) return paint.good(name + ": certified, trivially: the mesh has no cells") + "\n";
     return paint.good(fmt::format("{}: certified: {} {} a domain of {}", name, plural(r.cells, "cell", "cells"),
                                   r.cells == 1 ? "is" : "partition", domain(r))) +
@@ -73,14 +71,14 @@ std::string certified(const Report& r, const std::string& name, const Colours& p
 }
 
 /// As many reasons as fit in a line, at least one.
-std::string not_certified(const Report& r, const std::string& name, const Colours& paint) {
+std::string not_certified(const CheckReport& r, const std::string& name, const Colours& paint) {
     // Overlaps first: they are what it is about. What follows from other problems is left to the list below.
     std::vector<std::string> reasons;
-    for (const Finding& f : r.findings) {
-        if (!text_of(f.problem).breaks || f.problem == Problem::open_boundary) continue;
-        reasons.insert(f.problem == Problem::overlapping_cells ? reasons.begin() : reasons.end(), clause(f));
+    for (const Defect& f : r.defects) {
+        if (!defect_text(f.kind).breaks || f.kind == DefectKind::open_boundary) continue;
+        reasons.insert(f.kind == DefectKind::overlapping_cells ? reasons.begin() : reasons.end(), clause(f));
     }
-    const Finding* const open = r.find(Problem::open_boundary);
+    const Defect* const open = r.find(DefectKind::open_boundary);
     if (reasons.empty() && open != nullptr) reasons.push_back(clause(*open));
     std::string text = ": NOT certified";
     for (std::size_t i = 0; i < reasons.size(); ++i) {
@@ -96,7 +94,7 @@ std::string not_certified(const Report& r, const std::string& name, const Colour
 }
 
 /// What must hold, and how often it does not.
-std::string condition_table(const Report& r, const Mesh& mesh, const Colours& paint) {
+std::string condition_table(const CheckReport& r, const Mesh& mesh, const Colours& paint) {
     std::string out = paint.bold(fmt::format("{:<75}{:>13}", "condition", "violations")) + "\n";
     for (const ConditionRow& row : condition_rows(r, mesh)) {
         const std::string what =
@@ -122,7 +120,7 @@ std::vector<Mesh::Index> used(const std::array<Mesh::Index, N>& indices) {
 }
 
 /// "cells 3 and 17, nodes 4 5 6 (coplanar)".
-std::string place(const check::Place& p) {
+std::string place(const DefectPlace& p) {
     const auto cells = used(p.cells), nodes = used(p.nodes);
     std::vector<std::string> parts;
     if (!cells.empty())
@@ -149,17 +147,17 @@ std::string wrapped(const std::vector<std::string>& pieces, char between) {
 }
 
 /// The places that are listed of a finding. Where each is just a cell or a node, so much need not be said of each.
-std::string places(const Finding& f) {
+std::string places(const Defect& f) {
     if (f.places.empty()) return "";
     const auto plain = [&](bool cells) {
-        return std::all_of(f.places.begin(), f.places.end(), [&](const check::Place& p) {
+        return std::all_of(f.places.begin(), f.places.end(), [&](const DefectPlace& p) {
             return *p.detail == '\0' && used(p.cells).size() == (cells ? 1U : 0U) &&
                    used(p.nodes).size() == (cells ? 0U : 1U);
         });
     };
     const bool cells = plain(true), nodes = !cells && plain(false);
     std::vector<std::string> pieces;
-    for (const check::Place& p : f.places) {
+    for (const DefectPlace& p : f.places) {
         std::string text = place(p);
         if (cells || nodes) {
             const std::string number = text.substr(text.find(' ') + 1);
@@ -173,8 +171,8 @@ std::string places(const Finding& f) {
     return wrapped(pieces, cells || nodes ? ',' : ';');
 }
 
-std::string finding(const Report& r, const Finding& f, const Colours& paint) {
-    const check::ProblemText& t = text_of(f.problem);
+std::string finding(const CheckReport& r, const Defect& f, const Colours& paint) {
+    const DefectText& t = defect_text(f.kind);
     const std::string count = (f.at_least ? ">= " : "") + std::to_string(f.count);
     std::string out = fmt::format("{} {:>11}  {}\n", paint.bold(fmt::format("{:<18}", t.name)), count, t.text);
     out += places(f);
@@ -182,15 +180,15 @@ std::string finding(const Report& r, const Finding& f, const Colours& paint) {
     std::string_view remedy = t.remedy;
     if (remedy.starts_with(none)) remedy.remove_prefix(std::min(remedy.size(), none.size() + 2));
     // Beside a folded cell that remedy could be taken for more than it is.
-    const bool folded = f.problem == Problem::mixed_orientation && r.find(Problem::same_side) != nullptr;
+    const bool folded = f.kind == DefectKind::mixed_orientation && r.find(DefectKind::same_side) != nullptr;
     return remedy.empty() ? out
                           : out + fmt::format("    -> {}{}\n", remedy, folded ? "; that mends no folded cell" : "");
 }
 
-std::string finding_list(const Report& r, bool breaking, const Colours& paint) {
+std::string finding_list(const CheckReport& r, bool breaking, const Colours& paint) {
     std::string out;
-    for (const Finding& f : r.findings) {
-        if (text_of(f.problem).breaks == breaking) out += finding(r, f, paint);
+    for (const Defect& f : r.defects) {
+        if (defect_text(f.kind).breaks == breaking) out += finding(r, f, paint);
     }
     if (out.empty()) return out;
     return "\n" + paint.bold(breaking ? "What is wrong, and what to do" : "Notes, harmless to a partition") + "\n" +
@@ -206,7 +204,7 @@ std::string shortened(const std::string& fraction, bool& cut) {
                        fraction.size());
 }
 
-std::string contact(const check::Contact& c, int d, bool& cut) {
+std::string contact(const CellContact& c, int d, bool& cut) {
     static constexpr std::array<std::string_view, 3> extents{"in a point", "along a segment", "in an area"};
     const std::string_view meet =
         c.overlap ? "overlap" : extents[static_cast<std::size_t>(std::clamp(c.dimension, 0, 2))];
@@ -224,14 +222,14 @@ std::string contact(const check::Contact& c, int d, bool& cut) {
     return out;
 }
 
-std::string contact_list(const Report& r, const Colours& paint) {
+std::string contact_list(const CheckReport& r, const Colours& paint) {
     if (r.contacts.empty()) return "";
     std::string out = "\n" +
                       paint.bold(plural(r.contacts.size(), "pair", "pairs") +
                                  " of cells that meet where they must not, each with an exact point of both") +
                       "\n";
     bool cut = false;
-    for (const check::Contact& c : r.contacts) out += contact(c, r.dimension, cut);
+    for (const CellContact& c : r.contacts) out += contact(c, r.dimension, cut);
     if (cut) out += "--json FILE has the fractions whole.\n";
     return out;
 }
@@ -241,14 +239,14 @@ std::string figure(double x) {
 }
 
 std::string measure_row(std::string_view name, const std::vector<double>& values, bool most_is_worst) {
-    const check::Distribution d = check::distribution(values);
-    if (d.least_cell < 0) return fmt::format("{:<31}{:>12}{:>12}{:>12}{:>12}", name, "-", "-", "-", "-");
-    return fmt::format("{:<31}{:>12}{:>12}{:>12}{:>12}", name, figure(d.least), figure(d.median), figure(d.most),
-                       most_is_worst ? d.most_cell : d.least_cell);
+    const Distribution d = distribution(values);
+    if (d.min_cell < 0) return fmt::format("{:<31}{:>12}{:>12}{:>12}{:>12}", name, "-", "-", "-", "-");
+    return fmt::format("{:<31}{:>12}{:>12}{:>12}{:>12}", name, figure(d.min), figure(d.median), figure(d.max),
+                       most_is_worst ? d.max_cell : d.min_cell);
 }
 
-std::string measure_table(const Report& r, const Colours& paint) {
-    const check::Measures& m = r.measures;
+std::string measure_table(const CheckReport& r, const Colours& paint) {
+    const CellMeasures& m = r.measures;
     const bool plane = r.dimension == 2;
     std::vector<double> size(m.volume), bits(m.condition);
     for (double& x : size) x = std::fabs(x);
@@ -269,7 +267,7 @@ std::string measure_table(const Report& r, const Colours& paint) {
            "\n";
 }
 
-std::string conformity_lines(const check::Conformity& c) {
+std::string conformity_lines(const ConformityReport& c) {
     std::string out = fmt::format("PLC        {} of the PLC: {} respected exactly, {} by rounding, {} violated\n",
                                   plural(c.facets, "facet", "facets"), c.exact, c.rounded, c.violated);
     if (c.rounded != 0)
@@ -280,7 +278,7 @@ std::string conformity_lines(const check::Conformity& c) {
                            plural(c.missing_vertices, "vertex", "vertices"), c.missing_vertices == 1 ? "is" : "are");
     std::string violated;
     std::size_t shown = 0;
-    for (const check::ViolatedFacet& f : c.examples) {
+    for (const ViolatedFacet& f : c.examples) {
         const std::string one = fmt::format("{}{} ({:.3g} %)", violated.empty() ? "" : ", ", f.facet, 100 * f.covered);
         if (violated.size() + one.size() > columns - 60) break;
         violated += one;
@@ -291,8 +289,8 @@ std::string conformity_lines(const check::Conformity& c) {
     return out;
 }
 
-std::string whole_mesh(const Report& r) {
-    const check::Boundary& b = r.boundary;
+std::string whole_mesh(const CheckReport& r) {
+    const BoundaryReport& b = r.boundary;
     const std::string_view what = r.dimension == 2 ? "area" : "volume";
     std::string out = fmt::format("\ncells      {} positive, {} negative, {} degenerate, by the exact sign of the {}\n",
                                   r.positive, r.negative, r.degenerate, what);
@@ -307,7 +305,7 @@ std::string whole_mesh(const Report& r) {
     out += fmt::format("{:<10} {} in the cells, {} within the boundary: {}\n", what, shortest(r.volume.cells),
                        shortest(r.volume.boundary), r.volume.equal ? "equal, exactly" : "NOT equal");
     if (r.delaunay) {
-        const check::Delaunay& d = *r.delaunay;
+        const DelaunayReport& d = *r.delaunay;
         out += fmt::format("Delaunay   {} tested: {}", plural(d.facets, "interior facet", "interior facets"),
                            d.violations == 0 ? "all are locally Delaunay"
                                              : plural(d.violations, "is", "are") + " not locally Delaunay");
@@ -325,12 +323,12 @@ std::string whole_mesh(const Report& r) {
 
 }  // namespace
 
-std::string terminal_check(const Report& r, const Mesh& mesh, const std::string& path, const TerminalStyle& style) {
+std::string check_text(const CheckReport& r, const Mesh& mesh, const std::string& path, const TerminalStyle& style) {
     const ExactEnvironment environment;
     const Colours paint(style.colour);
     const std::string name = printable(path);
     std::string out = r.certified() ? certified(r, name, paint) : not_certified(r, name, paint);
-    if (!r.findings.empty() || r.cells != 0) {
+    if (!r.defects.empty() || r.cells != 0) {
         out += fmt::format("Cells and nodes are counted from 0, in the order of the file{}.\n",
                            mesh.index_base == 1 ? " (which counts from 1)" : "");
     }
@@ -343,4 +341,4 @@ std::string terminal_check(const Report& r, const Mesh& mesh, const std::string&
                              plural(static_cast<std::uint64_t>(r.threads), "thread", "threads"));
 }
 
-}  // namespace barycert::report
+}  // namespace barycert

@@ -2,7 +2,7 @@
 
 #include "barycert/report.hpp"
 
-namespace barycert::report {
+namespace barycert {
 
 std::string environment_line(const Environment& e) {
     return fmt::format("barycert {}, {}, rounding {}, contraction {}, subnormals {}, SIMD {}{}", e.version, e.compiler,
@@ -10,4 +10,4 @@ std::string environment_line(const Environment& e) {
                        e.fma ? ", FMA" : "");
 }
 
-}  // namespace barycert::report
+}  // namespace barycert

@@ -8,7 +8,10 @@
 #include "barycert/environment.hpp"
 #include "barycert/report/common/environment_json.hpp"
 
-namespace barycert::report {
+namespace barycert {
+
+using namespace report;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -120,4 +123,4 @@ std::string sample_json(const SampleSummary& summary, const Environment& environ
     return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace barycert::report
+}  // namespace barycert

@@ -7,7 +7,10 @@
 #include "barycert/environment.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
-namespace barycert::report {
+namespace barycert {
+
+using namespace report;
+
 namespace {
 
 std::string plural(std::uint64_t n, std::string_view one, std::string_view more) {
@@ -127,4 +130,4 @@ std::string sample_text(const SampleSummary& summary, bool colour) {
     return out;
 }
 
-}  // namespace barycert::report
+}  // namespace barycert

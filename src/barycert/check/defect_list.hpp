@@ -1,4 +1,4 @@
-/// Internal: gathering findings from several threads, in an order that does not depend on them.
+/// Internal: gathering defects from several threads, in an order that does not depend on them.
 #pragma once
 
 #include <tbb/blocked_range.h>
@@ -12,25 +12,25 @@
 
 namespace barycert::check {
 
-/// Findings of all problems, each with its count and its first places.
-class Findings {
+/// DefectList of all problems, each with its count and its first places.
+class DefectList {
 public:
-    explicit Findings(std::size_t examples = 0) : examples_(examples), all_(problem_count) {
-        for (std::size_t i = 0; i < problem_count; ++i) all_[i].problem = problem_texts[i].problem;
+    explicit DefectList(std::size_t examples = 0) : examples_(examples), all_(defect_kind_count) {
+        for (std::size_t i = 0; i < defect_kind_count; ++i) all_[i].kind = defect_texts[i].kind;
     }
 
-    void add(Problem p, const Place& place, std::uint64_t count = 1) {
-        Finding& f = of(p);
+    void add(DefectKind p, const DefectPlace& place, std::uint64_t count = 1) {
+        Defect& f = of(p);
         f.count += count;
         if (f.places.size() < examples_) f.places.push_back(place);
     }
-    void add_at_least(Problem p) { of(p).at_least = true; }
+    void add_at_least(DefectKind p) { of(p).at_least = true; }
 
     /// Appends what another block of the same work found.
-    void append(const Findings& other) {
-        for (std::size_t i = 0; i < problem_count; ++i) {
-            Finding& f = all_[i];
-            const Finding& g = other.all_[i];
+    void append(const DefectList& other) {
+        for (std::size_t i = 0; i < defect_kind_count; ++i) {
+            Defect& f = all_[i];
+            const Defect& g = other.all_[i];
             f.count += g.count;
             f.at_least |= g.at_least;
             const std::size_t room = std::min(examples_ - std::min(examples_, f.places.size()), g.places.size());
@@ -38,20 +38,20 @@ public:
         }
     }
 
-    std::uint64_t count(Problem p) const { return all_[static_cast<std::size_t>(p)].count; }
+    std::uint64_t count(DefectKind p) const { return all_[static_cast<std::size_t>(p)].count; }
     std::size_t examples() const { return examples_; }
 
     /// Those that occur.
-    std::vector<Finding> list() && {
-        std::erase_if(all_, [](const Finding& f) { return f.count == 0; });
+    std::vector<Defect> list() && {
+        std::erase_if(all_, [](const Defect& f) { return f.count == 0; });
         return std::move(all_);
     }
 
 private:
-    Finding& of(Problem p) { return all_[static_cast<std::size_t>(p)]; }
+    Defect& of(DefectKind p) { return all_[static_cast<std::size_t>(p)]; }
 
     std::size_t examples_;
-    std::vector<Finding> all_;
+    std::vector<Defect> all_;
 };
 
 /// work(first, last, part) for blocks of [0, count), on all threads of the calling arena; then join(part) for each
