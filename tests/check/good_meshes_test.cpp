@@ -62,8 +62,8 @@ void expect_good(const std::string& folder, const Good& good, bool positive) {
 
     if (mesh->cell_count() > 60000) return;
     // The boundary that the library's own adjacency has.
-    EXPECT_EQ(r.boundary.facets, hull_facets(*mesh, compute_neighbours(*mesh)).size());
-    Random random(hash64(good.stem));
+    EXPECT_EQ(r.boundary.facets, mesh::hull_facets(*mesh, mesh::compute_neighbours(*mesh)).size());
+    base::Random random(base::hash64(good.stem));
     Mesh other = *mesh;
     other.neighbours.clear(), other.faces.clear();
     const auto flipped = flip_some(other, random);

@@ -67,7 +67,7 @@ Mesh joined(Mesh a, const Mesh& b) {
     return a;
 }
 
-Mesh renumbered(const Mesh& mesh, Random& random) {
+Mesh renumbered(const Mesh& mesh, base::Random& random) {
     const auto shuffled = [&](std::size_t n) {
         std::vector<std::size_t> order(n);
         std::iota(order.begin(), order.end(), std::size_t{0});
@@ -95,7 +95,7 @@ Mesh renumbered(const Mesh& mesh, Random& random) {
     return out;
 }
 
-std::size_t flip_some(Mesh& mesh, Random& random) {
+std::size_t flip_some(Mesh& mesh, base::Random& random) {
     std::size_t flipped = 0;
     for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
         if (random.coin()) continue;

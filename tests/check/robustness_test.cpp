@@ -84,7 +84,7 @@ TEST(Robustness, any_indices) {
     for (const int d : {2, 3}) {
         std::size_t certified = 0;
         for (std::uint64_t i = 0; i < 1000; ++i) {
-            Random random = Random::stream(41, static_cast<std::uint64_t>(d), i);
+            base::Random random = base::Random::stream(41, static_cast<std::uint64_t>(d), i);
             Mesh mesh = i % 2 == 0 ? damaged_box(d, random) : random_soup(d, random);
             const auto any = [&] { return wild[random.below(std::size(wild))]; };
             for (std::uint64_t k = random.below(3); k > 0 && !mesh.cells.empty(); --k)
@@ -136,7 +136,7 @@ TEST(Robustness, same_from_any_threads) {
     for (const int d : {2, 3}) {
         Mesh mesh = d == 2 ? box(2, {120, 100, 0}) : box(3, {9, 8, 7});
         mesh = joined(mesh, mapped(mesh, {1, 1, 1}, {d == 2 ? 119.5 : 8.5, 0.25, 0.25}));
-        Random random(43);
+        base::Random random(43);
         mesh = renumbered(mesh, random);
         flip_some(mesh, random);
         for (int i = 0; i < 50; ++i) {
@@ -155,7 +155,7 @@ TEST(Robustness, same_from_any_threads) {
 // Every cell overlaps every other: the searches are given up, and say so.
 TEST(Robustness, all_overlap_all) {
     for (const int d : {2, 3}) {
-        Random random(44);
+        base::Random random(44);
         Mesh mesh;
         mesh.dimension = d;
         for (int i = 0; i < 300 * (d + 1); ++i) {

@@ -77,7 +77,7 @@ TEST(RoundQuotient, zero_is_positive_and_underflow_keeps_its_sign) {
 // The leading limbs are the same for all three; the rest decides. Catches the rest ignored or of the wrong sign.
 TEST(RoundQuotient, ties_and_their_neighbours) {
     for (int k = 0; k < 1500 && !::testing::Test::HasFailure(); ++k) {
-        Random r = Random::stream(1, hash64("core ties"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("core ties"), static_cast<std::uint64_t>(k));
         const Z d = k % 5 == 0 ? Z(1) : Z(abs(number(awkward_integer(r, r.integer(1, 5)))) + 1);
         const int length = r.integer(1, 54);  // of the tie, its last bit the half
         const std::uint64_t leading = std::uint64_t{1} << (length - 1);
@@ -139,7 +139,7 @@ TEST(RoundQuotient, lengths_about_the_limbs) {
 // One limb against 160, and back, brought into the range of doubles by the exponent.
 TEST(RoundQuotient, operands_of_very_different_lengths) {
     for (int k = 0; k < 600 && !::testing::Test::HasFailure(); ++k) {
-        Random r = Random::stream(1, hash64("core lengths"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("core lengths"), static_cast<std::uint64_t>(k));
         const int short_length = r.integer(1, 3), long_length = k % 2 == 0 ? 160 : r.integer(1, 164);
         const Z x = abs(number(awkward_integer(r, short_length))) + 1,
                 y = abs(number(awkward_integer(r, long_length))) + 1;
@@ -168,7 +168,7 @@ TEST(RoundQuotient, leading_zero_limbs_do_not_count) {
 // Divisors and digits of all ones or a single one: where the estimate from the leading limbs is off by the most.
 TEST(RoundQuotient, awkward_limbs) {
     for (int k = 0; k < 6000 && !::testing::Test::HasFailure(); ++k) {
-        Random r = Random::stream(1, hash64("core awkward"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("core awkward"), static_cast<std::uint64_t>(k));
         const Z d = abs(number(awkward_integer(r, r.integer(1, 6)))) + r.integer(0, 1);
         const Z n = abs(number(awkward_integer(r, r.integer(1, 6))));
         if (d != 0) expect_rounded(n, d, r.integer(-200, 200));

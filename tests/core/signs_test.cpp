@@ -56,7 +56,7 @@ WeightSigns expected(const Case& c) {
 
 /// Random cases, and some that are as near to a boundary as doubles allow: the point is a rounded combination of the
 /// vertices, a vertex moved by an ulp, or the cell flattened into a plane but for rounding.
-Case hard_case(Random& r, Simplex s, Kind kind) {
+Case hard_case(base::Random& r, Simplex s, Kind kind) {
     Case c = random_case(r, s, kind);
     const int d = space_dimension(s), n = vertex_count(s), how = r.integer(0, 4);
     if (how == 0) return c;
@@ -80,7 +80,7 @@ TEST(LawS1, SignsAreThoseOfRationals) {
     for (const Simplex s : all_simplices) {
         for (const Kind kind : all_kinds) {
             for (std::uint64_t k = 0; k < 250 && !HasFailure(); ++k) {
-                Random r = Random::stream(2, hash64("signs"), k);
+                base::Random r = base::Random::stream(2, base::hash64("signs"), k);
                 const Case c = hard_case(r, s, kind);
                 EXPECT_EQ(weight_signs(s, c.vertices.data(), c.point.data()), expected(c)) << describe(c);
                 if (solid(s)) {
@@ -95,7 +95,7 @@ TEST(LawS1, SignsAreThoseOfRationals) {
 TEST(LawS1, AboutTheLimitsOfTheFilter) {
     for (const Simplex s : all_simplices) {
         for (std::uint64_t k = 0; k < 1500 && !HasFailure(); ++k) {
-            Random r = Random::stream(2, hash64("limits"), k);
+            base::Random r = base::Random::stream(2, base::hash64("limits"), k);
             Case c = hard_case(r, s, r.coin() ? Kind::ordinary : Kind::thin);
             const int limits[] = {-540, -301, -300, -200, -150, -100, 99, 100, 199, 299, 300, 340};
             int shift = limits[r.below(12)];
@@ -121,7 +121,7 @@ TEST(LawS1, SignsAreTheSameInEveryEnvironmentAndOnEveryTarget) {
             std::vector<Case> cases;
             std::vector<WeightSigns> right;
             for (std::uint64_t k = 0; k < count; ++k) {
-                Random r = Random::stream(3, hash64("environments"), k);
+                base::Random r = base::Random::stream(3, base::hash64("environments"), k);
                 cases.push_back(hard_case(r, s, kind));
                 right.push_back(weight_signs(s, cases.back().vertices.data(), cases.back().point.data()));
             }
@@ -162,7 +162,7 @@ TEST(LawS1, SignsAreTheSameInEveryEnvironmentAndOnEveryTarget) {
 TEST(LawS1, SubnormalsBesideOrdinaryNumbersCountWhereTheyAreFlushed) {
     for (const Simplex s : all_simplices) {
         for (std::uint64_t k = 0; k < 200; ++k) {
-            Random r = Random::stream(3, hash64("few subnormals"), k);
+            base::Random r = base::Random::stream(3, base::hash64("few subnormals"), k);
             Case c = random_case(r, s, r.coin() ? Kind::ordinary : Kind::lattice);
             const int n = vertex_count(s), d = space_dimension(s), axis = r.integer(0, d - 1);
             // On a face's plane but for subnormals, on one axis or on all.

@@ -18,7 +18,7 @@ Mesh own(const std::string& stem) {
 TEST(LocateData, L1_L2_OwnMeshes) {
     for (const char* stem : {"bracket", "cube-hole", "cube-hole-o2", "lattice-box", "lattice-eighths", "needle-slit",
                              "plate", "torus", "flange"}) {
-        Random random(hash64(stem));
+        base::Random random(base::hash64(stem));
         const Mesh mesh = own(stem);
         const std::vector<double> points = awkward_points(mesh, mesh.cell_count() > 10000 ? 40 : 100, random);
         EXPECT_TRUE(expect_right(mesh, points, random, stem)) << stem;
@@ -27,14 +27,15 @@ TEST(LocateData, L1_L2_OwnMeshes) {
 
 // Holes, slits and thin walls are no different where the numbers are.
 TEST(LocateData, L1_L2_OwnMeshesElsewhere) {
-    struct Place {
+    struct locate::Place {
         std::array<double, 3> factor, shift;
     };
     for (const char* stem : {"bracket", "needle-slit", "lattice-eighths", "plate"}) {
-        for (const Place& place :
-             {Place{{1, 1, 1}, {1e6, -1e6, 1e6}}, Place{{0x1p-1000, 0x1p-1000, 0x1p-1000}, {}},
-              Place{{1e300, 1e300, 1e300}, {}}, Place{{1e-9, 1, 1e9}, {}}, Place{{-1e-6, 1, 1}, {1, 0, 0}}}) {
-            Random random(hash64(stem));
+        for (const locate::Place& place :
+             {locate::Place{{1, 1, 1}, {1e6, -1e6, 1e6}}, locate::Place{{0x1p-1000, 0x1p-1000, 0x1p-1000}, {}},
+              locate::Place{{1e300, 1e300, 1e300}, {}}, locate::Place{{1e-9, 1, 1e9}, {}},
+              locate::Place{{-1e-6, 1, 1}, {1, 0, 0}}}) {
+            base::Random random(base::hash64(stem));
             const Mesh mesh = mapped(own(stem), place.factor, place.shift);
             expect_right(mesh, awkward_points(mesh, 25, random), random,
                          std::string(stem) + " times " + std::to_string(place.factor[0]));
@@ -44,7 +45,7 @@ TEST(LocateData, L1_L2_OwnMeshesElsewhere) {
 
 TEST(LocateData, L1_L2_FlippedAndRenumbered) {
     for (const char* stem : {"cube-hole", "lattice-eighths", "plate"}) {
-        Random random(hash64(stem));
+        base::Random random(base::hash64(stem));
         Mesh mesh = renumbered(own(stem), random);
         flip_some(mesh, random);
         EXPECT_TRUE(expect_right(mesh, awkward_points(mesh, 60, random), random, stem)) << stem;
@@ -57,7 +58,7 @@ TEST(LocateData, L1_L2_SharedMeshes) {
     for (const char* stem : {"Cube21", "ellipsoid_15811_elements", "cylinder_14748_elem", "cube_136_elements",
                              "cube_1626_elements_quadratic", "disk_984_elements", "disk_984_elements_indexed_from_1",
                              "cube_2mm_12_elements_with_node_attributes", "armadillo_203693"}) {
-        Random random(hash64(stem));
+        base::Random random(base::hash64(stem));
         const auto mesh = read_tetgen(folder + "/" + stem);
         ASSERT_TRUE(mesh) << mesh.error().message();
         const std::vector<double> points = awkward_points(*mesh, mesh->cell_count() > 10000 ? 25 : 80, random);

@@ -162,7 +162,7 @@ TEST(LocateErrors, ACertificateOfAnotherMeshIsNone) {
         ASSERT_TRUE(other);
         EXPECT_EQ(other->method(), Method::candidates);
         const PointJudge judge(folded);
-        Random random(1);
+        base::Random random(1);
         const std::vector<double> points = awkward_points(folded, 40, random);
         for (std::size_t i = 0; i < points.size(); i += static_cast<std::size_t>(d)) {
             const std::vector<Held> all = judge.holders(&points[i]);

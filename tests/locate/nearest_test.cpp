@@ -106,7 +106,7 @@ std::vector<double> moderate(std::vector<double> points, double instead) {
 
 TEST(LocateNearest, OwnMeshes) {
     for (const char* stem : {"cube-hole", "bracket", "needle-slit", "plate", "torus"}) {
-        Random random(hash64(stem));
+        base::Random random(base::hash64(stem));
         const Mesh mesh = own(stem);
         expect_nearest(mesh, moderate(awkward_points(mesh, 12, random), 7.3), stem);
     }
@@ -115,11 +115,11 @@ TEST(LocateNearest, OwnMeshes) {
 TEST(LocateNearest, AnyMagnitude) {
     for (const int d : {2, 3}) {
         for (const double factor : {1e-300, 1e300, 0x1p-1060, 1e6}) {
-            Random random(3);
+            base::Random random(3);
             const Mesh mesh = mapped(box(d, {3, 2, 2}), {factor, factor, factor}, {factor, -factor, 0});
             std::vector<double> points = awkward_points(mesh, 10, random);
             for (double& x : points) x = std::abs(x) < 10 * factor ? x : 7.3 * factor;
-            expect_nearest(mesh, points, "factor " + hexadecimal(factor));
+            expect_nearest(mesh, points, "factor " + base::hexadecimal(factor));
         }
     }
 }
@@ -130,7 +130,7 @@ TEST(LocateNearest, InsideACavity) {
         const std::size_t middle = d == 2 ? 4 : 13, each = d == 2 ? 2 : 6;
         for (std::size_t c = each * middle; c < each * (middle + 1); ++c) keep[c] = false;
         const Mesh mesh = only(box(d, {3, 3, 3}), keep);
-        Random random(4);
+        base::Random random(4);
         std::vector<double> points;
         for (int i = 0; i < 60 * d; ++i) points.push_back(random.uniform(1, 2));
         // The middle is as far from all sides: of those, the lowest cell's.
@@ -146,15 +146,15 @@ TEST(LocateNearest, ThinCells) {
             Mesh mesh = mapped(box(d, {4, d == 2 ? 1 : 3, 1}), {0.1, d == 2 ? thin : 0.1, thin}, {0.1, 0.3, 0.7});
             const auto n = static_cast<std::size_t>(d);
             for (std::size_t i = 0; i < mesh.points.size(); i += n) mesh.points[i + n - 1] += 0.3 * mesh.points[i];
-            Random random(5);
-            expect_nearest(mesh, moderate(awkward_points(mesh, 12, random), 7.3), "thin " + hexadecimal(thin));
+            base::Random random(5);
+            expect_nearest(mesh, moderate(awkward_points(mesh, 12, random), 7.3), "thin " + base::hexadecimal(thin));
         }
     }
 }
 
 TEST(LocateNearest, FarPoints) {
     for (const int d : {2, 3}) {
-        Random random(6);
+        base::Random random(6);
         const Mesh mesh = mapped(box(d, {2, 2, 2}), {0.1, 0.1, 0.1}, {0.3, -0.1, 0.2});
         std::vector<double> points;
         for (int i = 0; i < 12 * d; ++i) {
@@ -180,7 +180,7 @@ TEST(LocateNearest, L3_DegenerateCellsAreNeverChosen) {
         flat[0] = 0;
         if (d == 3) flat[1] = 1;
         mesh.cells.insert(mesh.cells.begin(), flat.begin(), flat.end());
-        Random random(7);
+        base::Random random(7);
         std::vector<double> points = moderate(awkward_points(mesh, 15, random), 9);
         const std::vector<double> at = node_at(mesh, far);
         points.insert(points.end(), at.begin(), at.end());
@@ -207,7 +207,7 @@ TEST(LocateNearest, NoCell) {
 }
 
 /// Points outside a mesh, some of them very near.
-std::vector<double> outside_of(const Mesh& mesh, Random& random) {
+std::vector<double> outside_of(const Mesh& mesh, base::Random& random) {
     std::vector<double> points;
     const PointJudge holders(mesh);
     const auto d = static_cast<std::size_t>(mesh.dimension);
@@ -222,7 +222,7 @@ std::vector<double> outside_of(const Mesh& mesh, Random& random) {
 // What is as near as the limit counts: so a point is found again with the distance that was reported as its limit.
 TEST(LocateNearest, TheLimitIncludesItself) {
     for (const char* stem : {"cube-hole", "plate"}) {
-        Random random(8);
+        base::Random random(8);
         const Mesh mesh = own(stem);
         const auto locator = Locator::build(mesh, {.prove = false});
         const std::vector<double> points = outside_of(mesh, random);

@@ -16,7 +16,7 @@ constexpr double largest = std::numeric_limits<double>::max();
 
 class Maker {
 public:
-    Maker(const Mesh& mesh, Random& random)
+    Maker(const Mesh& mesh, base::Random& random)
         : mesh_(mesh), random_(random), d_(static_cast<std::size_t>(mesh.dimension)) {
         low_.fill(infinity);
         high_.fill(-infinity);
@@ -89,14 +89,14 @@ private:
     double at(Mesh::Index node, std::size_t k) const { return mesh_.points[d_ * static_cast<std::size_t>(node) + k]; }
 
     const Mesh& mesh_;
-    Random& random_;
+    base::Random& random_;
     std::size_t d_;
     std::array<double, 3> low_{}, high_{};
 };
 
 }  // namespace
 
-void nudge(double* point, std::size_t d, Random& random) {
+void nudge(double* point, std::size_t d, base::Random& random) {
     for (std::size_t k = 0; k < d; ++k) {
         const int way = random.integer(-1, 1);
         const double x = way == 0 ? point[k] : std::nextafter(point[k], way < 0 ? -infinity : infinity);
@@ -104,7 +104,7 @@ void nudge(double* point, std::size_t d, Random& random) {
     }
 }
 
-std::vector<double> awkward_points(const Mesh& mesh, std::size_t of_each, Random& random) {
+std::vector<double> awkward_points(const Mesh& mesh, std::size_t of_each, base::Random& random) {
     if (mesh.cells.empty()) return std::vector<double>(static_cast<std::size_t>(2 * mesh.dimension), 0.0);
     Maker maker(mesh, random);
     const auto corners = static_cast<std::size_t>(mesh.dimension) + 1;
@@ -122,7 +122,7 @@ std::vector<double> awkward_points(const Mesh& mesh, std::size_t of_each, Random
     return maker.points;
 }
 
-std::vector<double> inner_points(const Mesh& mesh, std::size_t count, Random& random) {
+std::vector<double> inner_points(const Mesh& mesh, std::size_t count, base::Random& random) {
     Maker maker(mesh, random);
     for (std::size_t i = 0; i < count; ++i) maker.on_cell(static_cast<std::size_t>(mesh.dimension) + 1);
     return maker.points;
@@ -130,7 +130,7 @@ std::vector<double> inner_points(const Mesh& mesh, std::size_t count, Random& ra
 
 std::string text_of(const double* point, int d) {
     std::string text = "(";
-    for (int k = 0; k < d; ++k) text += (k == 0 ? "" : ", ") + hexadecimal(point[k]);
+    for (int k = 0; k < d; ++k) text += (k == 0 ? "" : ", ") + base::hexadecimal(point[k]);
     return text + ")";
 }
 

@@ -289,8 +289,8 @@ TEST(check_json, findings_and_contacts_stand_whole) {
         const Json& w = j["contacts"][i]["witness"];
         EXPECT_EQ(w["exact"], r.contacts[i].witness.exact);
         for (std::size_t k = 0; k < 3; ++k) {
-            EXPECT_EQ(parse_double(w["hex"][k].get<std::string>()), r.contacts[i].witness.point[k]);
-            EXPECT_EQ(parse_double(w["decimal"][k].get<std::string>()), r.contacts[i].witness.point[k]);
+            EXPECT_EQ(base::parse_double(w["hex"][k].get<std::string>()), r.contacts[i].witness.point[k]);
+            EXPECT_EQ(base::parse_double(w["decimal"][k].get<std::string>()), r.contacts[i].witness.point[k]);
             EXPECT_EQ(w["fraction"][k], r.contacts[i].witness.fraction[k]);
         }
     }

@@ -79,7 +79,7 @@ TEST(Legacy, meshes_of_the_data_folder) {
 }
 
 TEST(Legacy, random_meshes) {
-    Random random(3);
+    base::Random random(3);
     int tried = 0;
     for (int i = 0; i < 200; ++i) {
         SCOPED_TRACE(i);

@@ -72,7 +72,7 @@ void expect_fields(vtkFieldData* data, const std::vector<Field>& fields, std::si
 
 void expect_cells(vtkUnstructuredGrid* grid, const Mesh& mesh) {
     const std::size_t corners = mesh.corners();
-    const std::size_t mids = mesh.mid_nodes.empty() ? 0 : detail::edges_of(mesh.dimension).size();
+    const std::size_t mids = mesh.mid_nodes.empty() ? 0 : mesh::edges_of(mesh.dimension).size();
     int type = mesh.dimension == 3 ? VTK_TETRA : VTK_TRIANGLE;
     if (mids != 0) type = mesh.dimension == 3 ? VTK_QUADRATIC_TETRA : VTK_QUADRATIC_TRIANGLE;
     ASSERT_EQ(static_cast<std::size_t>(grid->GetNumberOfCells()), mesh.cell_count());
@@ -135,7 +135,7 @@ TEST(Vtu, meshes_of_the_data_folder) {
 }
 
 TEST(Vtu, random_meshes) {
-    Random random(1);
+    base::Random random(1);
     for (int i = 0; i < 200; ++i) {
         SCOPED_TRACE(i);
         expect_round_trip(any_mesh(random));

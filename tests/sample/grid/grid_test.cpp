@@ -17,7 +17,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest = std::numeric_limits<double>::max();
 
 TEST(Grids, OverABoxEndsOnIt) {
-    Random random(1);
+    base::Random random(1);
     for (int i = 0; i < 20000; ++i) {
         const double a = random.scaled(-1, 1, -60, 60), b = random.scaled(-1, 1, -60, 60);
         const double low = std::min(a, b), high = std::max(a, b);
@@ -60,7 +60,7 @@ TEST(Grids, SpacedGoAsFarAsTheyCan) {
         EXPECT_EQ(grid->counts[1], 1);
         EXPECT_EQ(grid->counts[2], 1);
     }
-    Random random(2);
+    base::Random random(2);
     for (int i = 0; i < 20000; ++i) {
         const double step = random.scaled(0.5, 1, -20, 20), low = random.scaled(-1, 1, -20, 20);
         const double high = low + step * random.uniform(0, 3000);
@@ -133,7 +133,7 @@ TEST(Grids, BoundsOfCells) {
 // Made by hand: refused with an error, or sampled rightly.
 TEST(Grids, MadeByHand) {
     for (const int d : {2, 3}) {
-        Random random(3);
+        base::Random random(3);
         Mesh mesh = box(d, {2, 2, 2});
         set_simple_fields(mesh, random);
         const auto locator = Locator::build(mesh, {.prove = false});
@@ -190,13 +190,12 @@ TEST(Grids, MadeByHand) {
 TEST(Grids, OfAnotherDimension) {
     for (const int d : {2, 3}) {
         Mesh mesh = box(d, {1, 1, 1});
-        Random random(4);
+        base::Random random(4);
         set_simple_fields(mesh, random);
         const auto locator = Locator::build(mesh, {.prove = false});
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
-        const auto status = resample(
-            *sampler, over(5 - d, {2, 2, 2}, {0, 0, 0}, {1, 1, 1}), {},
-            [](const TableView&) -> Status { return Done{}; });
+        const auto status = resample(*sampler, over(5 - d, {2, 2, 2}, {0, 0, 0}, {1, 1, 1}), {},
+                                     [](const TableView&) -> Status { return Done{}; });
         ASSERT_FALSE(status);
         EXPECT_EQ(status.error().message(), "dimension of the grid: expected " + std::to_string(d) +
                                                 ", that of the mesh, found " + std::to_string(5 - d));

@@ -17,13 +17,13 @@ namespace {
 
 Mesh own(const std::string& stem) {
     Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
-    Random random(1);
+    base::Random random(1);
     mesh.cell_fields = random_fields(mesh.cell_count(), {2}, true, random);
     return mesh;
 }
 
 Table sampled(const Sampler& sampler, const std::vector<double>& points, const SampleOptions& options,
-                SampleCounts* counts = nullptr) {
+              SampleCounts* counts = nullptr) {
     Table samples;
     const Status status = sampler.sample(points, options, samples);
     EXPECT_TRUE(status) << status.error().message();
@@ -32,7 +32,7 @@ Table sampled(const Sampler& sampler, const std::vector<double>& points, const S
 }
 
 Table evaluated(const Sampler& sampler, const std::vector<double>& points, const Table& from,
-                  const SampleOptions& options, SampleCounts& counts) {
+                const SampleOptions& options, SampleCounts& counts) {
     Table samples;
     samples.cells = from.cells;
     samples.features = from.features;
@@ -61,7 +61,7 @@ std::vector<SampleOptions> all_options() {
 TEST(SampleOrder, D1_ThreadsTargetsMethodsAndEvaluate) {
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
     for (const char* stem : {"lattice-eighths", "cube-hole-o2", "plate", "bracket"}) {
-        Random random(hash64(stem));
+        base::Random random(base::hash64(stem));
         const Mesh mesh = own(stem);
         const std::vector<double> points = awkward_points(mesh, 40, random);
         const auto walks = Locator::build(mesh, quick(mesh).certificate), asks = Locator::build(mesh, {.prove = false});
@@ -95,7 +95,7 @@ TEST(SampleOrder, D1_ThreadsTargetsMethodsAndEvaluate) {
 TEST(SampleOrder, D1_AHundredThousandPointsInAnyOrder) {
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
     for (const char* stem : {"cube-hole", "cube-hole-o2", "plate"}) {
-        Random random(hash64(stem));
+        base::Random random(base::hash64(stem));
         const Mesh mesh = own(stem);
         std::vector<double> points = inner_points(mesh, 95000, random);
         const std::vector<double> more = awkward_points(mesh, 600, random);
@@ -107,8 +107,7 @@ TEST(SampleOrder, D1_AHundredThousandPointsInAnyOrder) {
         ASSERT_GE(count, 100000U);
         for (const Rounding rounding : {Rounding::correct, Rounding::plain}) {
             SampleCounts counts, others;
-            const Table right =
-                sampled(*sampler, points, {.rounding = rounding, .outside = {}, .threads = 2}, &counts);
+            const Table right = sampled(*sampler, points, {.rounding = rounding, .outside = {}, .threads = 2}, &counts);
             EXPECT_EQ(counts.locations.points(), count);
             std::vector<std::size_t> order(count);
             std::iota(order.begin(), order.end(), std::size_t{0});
@@ -154,7 +153,7 @@ TEST(SampleOrder, NoPointAndOnePoint) {
 }
 
 TEST(SampleOrder, NoFieldAndNoCell) {
-    Random random(2);
+    base::Random random(2);
     const Mesh mesh = own("plate");
     const std::vector<double> points = awkward_points(mesh, 20, random);
     const auto locator = Locator::build(mesh, {.prove = false});
@@ -183,7 +182,7 @@ TEST(SampleOrder, NoFieldAndNoCell) {
 // In plain double values are near, and owners are what they are.
 TEST(SampleOrder, PlainRounding) {
     for (const char* stem : {"lattice-eighths", "cube-hole-o2", "plate"}) {
-        Random random(hash64(stem));
+        base::Random random(base::hash64(stem));
         Mesh mesh = own(stem);
         mesh.cell_fields.clear();
         const std::vector<double> points = awkward_points(mesh, 150, random);
@@ -191,7 +190,7 @@ TEST(SampleOrder, PlainRounding) {
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         SampleCounts counts;
         const Table right = sampled(*sampler, points, {}),
-                      plain = sampled(*sampler, points, {Rounding::plain, {}, 0}, &counts);
+                    plain = sampled(*sampler, points, {Rounding::plain, {}, 0}, &counts);
         EXPECT_EQ(plain.cells, right.cells);
         EXPECT_EQ(plain.features, right.features);
         EXPECT_EQ(counts.values.cases(), 0U) << "nothing is promised, nothing is counted";

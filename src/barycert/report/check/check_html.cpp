@@ -103,10 +103,10 @@ std::string whole_mesh(const CheckReport& r) {
         return fmt::format("<tr><th class=\"k\">{}</th><td>{}</td></tr>\n", what, text);
     };
     std::string out = "<table>\n";
-    out += row(size,
-               fmt::format(
-                   "{} in the cells, {} within the boundary: {}", shortest(r.volume.cells), shortest(r.volume.boundary),
-                   r.volume.equal ? "<span class=\"ok\">equal, exactly</span>" : "<b class=\"bad\">NOT equal</b>"));
+    out += row(size, fmt::format("{} in the cells, {} within the boundary: {}", base::shortest(r.volume.cells),
+                                 base::shortest(r.volume.boundary),
+                                 r.volume.equal ? "<span class=\"ok\">equal, exactly</span>"
+                                                : "<b class=\"bad\">NOT equal</b>"));
     out += row("Cells",
                fmt::format("{} positive, {} negative, {} degenerate, by the exact sign of the {}", grouped(r.positive),
                            grouped(r.negative), grouped(r.degenerate), r.dimension == 2 ? "area" : "volume"));
@@ -236,8 +236,8 @@ std::string contacts(const CheckReport& r) {
         std::vector<std::string> decimal, exact;
         for (std::size_t k = 0; k < static_cast<std::size_t>(r.dimension); ++k) {
             const double x = c.witness.point[k];
-            decimal.push_back(shortest(x));
-            exact.push_back(c.witness.exact ? hexadecimal(x)
+            decimal.push_back(base::shortest(x));
+            exact.push_back(c.witness.exact ? base::hexadecimal(x)
                                             : fmt::format("{} = {}", "xyz"[k], shortened(c.witness.fraction[k])));
         }
         out += fmt::format(

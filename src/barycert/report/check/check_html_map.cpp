@@ -86,7 +86,7 @@ Box box_of(const Mesh& mesh) {
 std::vector<HullFacet> hull_of(const Mesh& mesh, const Normalised& normalised) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
     std::vector<HullFacet> hull;
-    for (const std::int64_t at : hull_facets(mesh, compute_neighbours(mesh))) {
+    for (const std::int64_t at : mesh::hull_facets(mesh, mesh::compute_neighbours(mesh))) {
         const auto cell = static_cast<std::size_t>(at) / (d + 1), corner = static_cast<std::size_t>(at) % (d + 1);
         HullFacet f;
         std::size_t n = 0;
@@ -283,7 +283,8 @@ std::string legend(const Mesh& mesh, const std::vector<Exhibit>& exhibits) {
 std::string extent(const Box& box, int d) {
     std::vector<std::string> axes;
     for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k)
-        axes.push_back(fmt::format("{} from {} to {}", "xyz"[k], shortest(box.low[k]), shortest(box.high[k])));
+        axes.push_back(
+            fmt::format("{} from {} to {}", "xyz"[k], base::shortest(box.low[k]), base::shortest(box.high[k])));
     return fmt::format("{}", fmt::join(axes, ", "));
 }
 

@@ -116,8 +116,8 @@ Json contact_json(const CellContact& c, int d) {
     w["exact"] = c.witness.exact;
     for (const char* form : {"decimal", "hex", "fraction"}) w[form] = Json::array();
     for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) {
-        w["decimal"].push_back(shortest(c.witness.point[k]));
-        w["hex"].push_back(hexadecimal(c.witness.point[k]));
+        w["decimal"].push_back(base::shortest(c.witness.point[k]));
+        w["hex"].push_back(base::hexadecimal(c.witness.point[k]));
         w["fraction"].push_back(c.witness.fraction[k]);
     }
     return j;

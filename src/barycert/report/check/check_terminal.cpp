@@ -210,8 +210,8 @@ std::string contact(const CellContact& c, int d, bool& cut) {
         c.overlap ? "overlap" : extents[static_cast<std::size_t>(std::clamp(c.dimension, 0, 2))];
     std::vector<std::string> decimal, hex;
     for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) {
-        decimal.push_back(shortest(c.witness.point[k]));
-        hex.push_back(hexadecimal(c.witness.point[k]));
+        decimal.push_back(base::shortest(c.witness.point[k]));
+        hex.push_back(base::hexadecimal(c.witness.point[k]));
     }
     std::string out = fmt::format("cells {} and {} {}{}:", c.cells[0], c.cells[1], c.overlap ? "" : "touch ", meet);
     const std::string point = fmt::format("({}){}", fmt::join(decimal, ", "), c.witness.exact ? "" : ", rounded");
@@ -302,8 +302,8 @@ std::string whole_mesh(const CheckReport& r) {
     out += fmt::format("boundary   {} in {}, {}, {}\n", plural(b.facets, "facet", "facets"),
                        plural(b.pieces, "piece", "pieces"), b.closed ? "closed" : "NOT closed",
                        b.manifold ? "manifold" : "touching itself (not manifold)");
-    out += fmt::format("{:<10} {} in the cells, {} within the boundary: {}\n", what, shortest(r.volume.cells),
-                       shortest(r.volume.boundary), r.volume.equal ? "equal, exactly" : "NOT equal");
+    out += fmt::format("{:<10} {} in the cells, {} within the boundary: {}\n", what, base::shortest(r.volume.cells),
+                       base::shortest(r.volume.boundary), r.volume.equal ? "equal, exactly" : "NOT equal");
     if (r.delaunay) {
         const DelaunayReport& d = *r.delaunay;
         out += fmt::format("Delaunay   {} tested: {}", plural(d.facets, "interior facet", "interior facets"),
@@ -326,7 +326,7 @@ std::string whole_mesh(const CheckReport& r) {
 std::string check_text(const CheckReport& r, const Mesh& mesh, const std::string& path, const TerminalStyle& style) {
     const ExactEnvironment environment;
     const Colours paint(style.colour);
-    const std::string name = printable(path);
+    const std::string name = base::printable(path);
     std::string out = r.certified() ? certified(r, name, paint) : not_certified(r, name, paint);
     if (!r.defects.empty() || r.cells != 0) {
         out += fmt::format("Cells and nodes are counted from 0, in the order of the file{}.\n",
