@@ -45,7 +45,7 @@ EXPLICIT = [
     (F, "most = hn::Max(most, x[k])", 0, "most = x[k]", "the range of the last axis alone"),
     (F, "least = hn::Min(least, x[k])", 0, "least = x[k]", "the range of the last axis alone"),
     (F, "out[k] = hn::Max(out[k], hn::Abs(vectors[2][k]))", 0, "out[k] = hn::Abs(vectors[2][k])", "extents of the last vector"),
-    (F, "out[k] = hn::Max(out[k], larger_magnitude(vectors[2][k], vectors[3][k]))", 0, "", "extents of two vectors"),
+    (F, "out[k] = hn::Max(out[k], max_magnitude(vectors[2][k], vectors[3][k]))", 0, "", "extents of two vectors"),
     (F, "return hn::Max(hn::Abs(x), hn::Abs(y))", 0, "return hn::Max(x, y)", "a sign in the extents"),
     (F, "hn::And(bound.valid, hn::Gt(smallest, bound.numerator))", 0, "bound.valid", "numerators are never checked"),
     (F, "hn::Gt(hn::Abs(f.denominator), bound.denominator)", 0, "bound.valid", "the denominator is never checked"),
