@@ -36,7 +36,7 @@ void expect_same(const CheckReport& r, const CheckReport& s) {
     ASSERT_EQ(r.contacts.size(), s.contacts.size());
     for (std::size_t i = 0; i < r.contacts.size(); ++i) {
         ASSERT_EQ(r.contacts[i].cells, s.contacts[i].cells);
-        ASSERT_EQ(r.contacts[i].witness.fraction, s.contacts[i].witness.fraction);
+        ASSERT_EQ(r.contacts[i].common.fraction, s.contacts[i].common.fraction);
     }
     ASSERT_EQ(r.parts, s.parts);
     ASSERT_EQ(r.boundary.facets, s.boundary.facets);

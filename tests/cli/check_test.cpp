@@ -65,7 +65,7 @@ TEST(check, a_good_mesh_is_certified) {
 TEST(check, a_broken_mesh_is_not) {
     const Scratch scratch;
     expect_verdict(put_overlapping(scratch), 1,
-                   "NOT certified: 1 pair of cells overlaps, 3 pairs of boundary facets meet, and 1 more problem");
+                   "NOT certified: 1 pair of cells overlaps, 3 pairs of boundary facets meet, and 1 more defect");
     expect_verdict(put_mesh(scratch, "flat", two_cells, apart.substr(0, apart.rfind("7 ")) + "7 3 1 0\n"), 1,
                    "NOT certified: 1 cell is degenerate, 4 pairs of boundary facets meet");
     const Ended twice = run(check(put_mesh(scratch, "twice", "3 4 0\n0 0 1 2 3\n1 4 5 6 7\n2 0 1 2 3\n")));
@@ -78,7 +78,7 @@ TEST(check, a_broken_mesh_is_not) {
     expect_verdict(neigh, 1, "NOT certified: 1 entry of .neigh is wrong");
     const std::string face = put_mesh(scratch, "face", two_cells);
     scratch.put("face.face", "2 0\n0 0 1 2\n1 0 1 7\n");
-    expect_verdict(face, 1, "NOT certified: 1 triangle of .face is no facet");
+    expect_verdict(face, 1, "NOT certified: 1 triangle of .face is not a facet");
 }
 
 TEST(check, conformity_to_the_plc_if_asked) {
@@ -86,12 +86,12 @@ TEST(check, conformity_to_the_plc_if_asked) {
     const Ended good = run(check(mesh("cube-hole"), {"--conforms-to", plc + "cube-hole.poly"}));
     EXPECT_EQ(good.code, 0) << good.err;
     EXPECT_TRUE(
-        contains(good.out, "\nPLC        326 facets of the PLC: 326 respected exactly, 0 by rounding, 0 violated\n"))
+        contains(good.out, "\nPLC        326 facets of the PLC: 326 respected exactly, 0 up to rounding, 0 violated\n"))
         << good.out;
     // Another shape: told, and the mesh is a partition nevertheless.
     const Ended other = run(check(mesh("cube-hole"), {"--conforms-to", plc + "torus.off"}));
     EXPECT_EQ(other.code, 0) << other.err;
-    EXPECT_TRUE(contains(other.out, "0 by rounding, 1296 violated\n")) << other.out;
+    EXPECT_TRUE(contains(other.out, "0 up to rounding, 1296 violated\n")) << other.out;
     EXPECT_FALSE(contains(run(check(mesh("cube-hole"))).out, "PLC"));
     const Scratch scratch;
     const std::string cut = scratch.put("cut.off", "OFF\n3 1 0\n0 0 0\n");

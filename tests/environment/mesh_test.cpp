@@ -120,10 +120,10 @@ void add(Answers& out, const CheckReport& r) {
     }
     for (const CellContact& c : r.contacts) {
         out.add(c.dimension);
-        out.add(c.witness.exact);
+        out.add(c.common.exact);
         for (std::size_t k = 0; k < static_cast<std::size_t>(r.dimension); ++k) {
-            out.add(c.witness.point[k]);
-            out.add(std::string_view(c.witness.fraction[k]));
+            out.add(c.common.point[k]);
+            out.add(std::string_view(c.common.fraction[k]));
         }
     }
     if (r.delaunay) {

@@ -105,7 +105,7 @@ public:
             if (regions_[i].proper()) judge(i, {at, end}, examples, out);
             at = end;
         }
-        out.largest_distance = std::scalbn(out.relative_distance, exponent_);
+        out.max_distance = std::scalbn(out.relative_distance, exponent_);
         if (half_extent_ > 0) out.relative_distance /= std::scalbn(half_extent_, 1 - exponent_);
         out.missing_vertices = missing_.size();
         return out;

@@ -14,6 +14,7 @@
 #include "barycert/report/check/check_html_cells.hpp"
 #include "barycert/report/check/check_html_picture.hpp"
 #include "barycert/report/check/check_html_view.hpp"
+#include "barycert/report/check/check_words.hpp"
 
 namespace barycert::report {
 namespace {

@@ -72,12 +72,6 @@ std::string html_escaped(std::string_view text) {
     return xml_escaped(valid);
 }
 
-std::string grouped(std::uint64_t n) {
-    std::string digits = std::to_string(n);
-    for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
-    return digits;
-}
-
 Picture::Picture(double width, double height, std::string_view title)
     : width_(width),
       height_(height),
