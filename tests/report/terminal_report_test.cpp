@@ -11,11 +11,6 @@
 namespace barycert::report_test {
 namespace {
 
-const AuditReport& audited() {
-    static const AuditReport report = small_audit();
-    return report;
-}
-
 std::vector<std::string> lines_of(const std::string& text) {
     std::istringstream in(text);
     std::vector<std::string> lines;
