@@ -11,11 +11,10 @@
 
 #include "barycert/base/random.hpp"
 #include "exact/second_path.hpp"
+#include "limits.hpp"
 
 namespace barycert {
 namespace {
-
-constexpr double largest = std::numeric_limits<double>::max();
 
 std::uint64_t bits(double x) {
     return std::bit_cast<std::uint64_t>(x);
@@ -85,7 +84,7 @@ TEST(ParseDouble, accepts) {
         {"-0X1P-1", -0.5},
         {"0x10", 16},
         {"0x.8", 0.5},
-        {"1.7976931348623157e308", largest},
+        {"1.7976931348623157e308", testing::max_double},
         {"2.2250738585072011e-308", 0x0.fffffffffffffp-1022},
         {"9007199254740993", 9007199254740992},  // a tie, to even
         {"9007199254740993.0000000000000000000000000000000000000000000000001", 9007199254740994},

@@ -10,11 +10,10 @@
 #include "barycert/base/random.hpp"
 #include "barycert/base/text.hpp"
 #include "exact/second_path.hpp"
+#include "limits.hpp"
 
 namespace barycert {
 namespace {
-
-constexpr double largest = std::numeric_limits<double>::max();
 
 TEST(UlpExponent, at_the_ends_of_binades) {
     EXPECT_EQ(base::ulp_exponent(1), -52);
@@ -22,7 +21,7 @@ TEST(UlpExponent, at_the_ends_of_binades) {
     EXPECT_EQ(base::ulp_exponent(0x1.fffffffffffffp+0), -52);
     EXPECT_EQ(base::ulp_exponent(0x1.fffffffffffffp-1), -53);
     EXPECT_EQ(base::ulp_exponent(2), -51);
-    EXPECT_EQ(base::ulp_exponent(largest), 971);
+    EXPECT_EQ(base::ulp_exponent(testing::max_double), 971);
     EXPECT_EQ(base::ulp_exponent(0x1p-1022), -1074);  // the last normal and all below share one ulp
     EXPECT_EQ(base::ulp_exponent(0x1p-1021), -1073);
     EXPECT_EQ(base::ulp_exponent(0x0.fffffffffffffp-1022), -1074);
@@ -41,9 +40,10 @@ TEST(UlpError, by_hand) {
     EXPECT_EQ(base::ulp_error(0, 0x1p-1074), 1);
     EXPECT_EQ(base::ulp_error(-0x1p-1074, 0x1p-1074), 2);
     EXPECT_EQ(base::ulp_error(0x0.fffffffffffffp-1022, 0x1p-1022), 1);
-    EXPECT_EQ(base::ulp_error(largest, -largest), 0x1.fffffffffffffp+53);  // the plain difference would overflow
-    EXPECT_EQ(base::ulp_error(largest, 0x1p-1074), largest);               // the quotient does
-    EXPECT_EQ(base::ulp_error(0, largest), 0x1.fffffffffffffp+52);
+    EXPECT_EQ(base::ulp_error(testing::max_double, -testing::max_double),
+              0x1.fffffffffffffp+53);                                           // the plain difference would overflow
+    EXPECT_EQ(base::ulp_error(testing::max_double, 0x1p-1074), testing::max_double);  // the quotient does
+    EXPECT_EQ(base::ulp_error(0, testing::max_double), 0x1.fffffffffffffp+52);
 }
 
 double random_finite(base::Random& r) {
@@ -59,7 +59,7 @@ double exact_error(double computed, double reference) {
     int exponent = 1023;
     while (exponent > -1022 && cmp(abs(Q(reference)), second_path::power_of_two(exponent)) < 0) --exponent;
     const Q error = abs(Q(Q(computed) - Q(reference))) / second_path::power_of_two(exponent - 52);
-    return std::min(second_path::nearest(error), largest);
+    return std::min(second_path::nearest(error), testing::max_double);
 }
 
 // Any two doubles; neighbours; across binades; subnormals. Catches a difference that is rounded twice.
@@ -78,7 +78,7 @@ TEST(UlpError, is_exact_but_for_one_rounding) {
                 reference = std::ldexp(r.uniform(-1, 1), -1000 - r.integer(0, 70));
                 computed = std::ldexp(r.uniform(-1, 1), -990 - r.integer(0, 80));
                 break;
-            case 3:  // about the largest
+            case 3:  // about the testing::max_double
                 reference = std::ldexp(r.uniform(1, 2), 1023 - r.integer(0, 3));
                 computed = -std::ldexp(r.uniform(1, 2), 1023 - r.integer(0, 60));
                 break;
@@ -112,8 +112,8 @@ TEST(Neighbours, next_up_and_down) {
     EXPECT_EQ(base::next_down(1), 1 - 0x1p-53);
     EXPECT_EQ(base::next_up(0), 0x1p-1074);
     EXPECT_EQ(base::next_down(0), -0x1p-1074);
-    EXPECT_EQ(base::next_up(largest), HUGE_VAL);
-    EXPECT_EQ(base::next_down(-largest), -HUGE_VAL);
+    EXPECT_EQ(base::next_up(testing::max_double), HUGE_VAL);
+    EXPECT_EQ(base::next_down(-testing::max_double), -HUGE_VAL);
     EXPECT_EQ(base::next_up(-0x1p-1074), 0);
 }
 

@@ -19,7 +19,7 @@ struct Good {
 };
 
 /// What does not depend on how things are numbered, ordered and turned.
-void expect_same(const CheckReport& r, const CheckReport& s) {
+void expect_same_counts(const CheckReport& r, const CheckReport& s) {
     EXPECT_EQ(r.certified(), s.certified());
     EXPECT_EQ(r.nodes, s.nodes);
     EXPECT_EQ(r.cells, s.cells);
@@ -73,13 +73,13 @@ void expect_good(const std::string& folder, const Good& good, bool positive) {
         EXPECT_EQ(s.negative, flipped);
     }
     EXPECT_EQ(s.find(DefectKind::mixed_orientation)->count, std::min(s.negative, s.positive));
-    expect_same(s, r);
+    expect_same_counts(s, r);
     const std::size_t unused = r.find(DefectKind::unused_node) != nullptr ? r.find(DefectKind::unused_node)->count : 0;
     if (!mesh->mid_nodes.empty()) return;  // renumbered() leaves nodes at mid-edges out
     const CheckReport t = check_mesh(renumbered(other, random));
     EXPECT_EQ(words(found(t)), words(found(s)));
     EXPECT_EQ(t.find(DefectKind::unused_node) != nullptr ? t.find(DefectKind::unused_node)->count : 0, unused);
-    expect_same(t, r);
+    expect_same_counts(t, r);
 }
 
 TEST(GoodMeshes, own) {

@@ -4,7 +4,13 @@
 #include <cstddef>
 #include <numeric>
 
+#include "barycert/io.hpp"
+
 namespace barycert::testing {
+
+Mesh own_mesh(const std::string& stem) {
+    return read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
+}
 
 Mesh box(int d, std::array<int, 3> cubes) {
     Mesh mesh;

@@ -14,6 +14,9 @@ namespace barycert::testing {
 /// Unit cubes (2D: squares) in d! cells each, all positive; nodes at the lattice points from 0 on.
 Mesh box(int d, std::array<int, 3> cubes);
 
+/// A mesh of the folder data.
+Mesh own_mesh(const std::string& stem);
+
 /// Only the cells that have 1.
 Mesh only(const Mesh& mesh, const std::vector<bool>& keep);
 

@@ -19,7 +19,7 @@ void expect_same_bits(const std::vector<T>& x, const std::vector<T>& y) {
     for (std::size_t i = 0; i < x.size(); ++i) ASSERT_TRUE(x[i] == y[i] || (x[i] != x[i] && y[i] != y[i])) << i;
 }
 
-void expect_same(const CheckReport& r, const CheckReport& s) {
+void expect_same_report(const CheckReport& r, const CheckReport& s) {
     ASSERT_EQ(r.certified(), s.certified());
     ASSERT_EQ(words(found(r)), words(found(s)));
     for (std::size_t i = 0; i < r.defects.size(); ++i) {
@@ -147,8 +147,8 @@ TEST(Robustness, same_from_any_threads) {
         mesh.cells[random.below(mesh.cells.size())] = -1;
         const CheckReport r = with_threads(mesh, 1);
         EXPECT_GE(r.defects.size(), 8U) << words(found(r));
-        for (const int threads : {2, 5}) expect_same(r, with_threads(mesh, threads));
-        expect_same(r, with_threads(mesh, 2));
+        for (const int threads : {2, 5}) expect_same_report(r, with_threads(mesh, threads));
+        expect_same_report(r, with_threads(mesh, 2));
     }
 }
 

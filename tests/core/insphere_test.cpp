@@ -22,7 +22,7 @@ using testing_spheres::describe;
 using testing_spheres::for_hard_points;
 using testing_spheres::Points;
 
-Sign negated(Sign s) {
+Sign opposite(Sign s) {
     return static_cast<Sign>(-static_cast<int>(s));
 }
 
@@ -169,7 +169,7 @@ TEST(LawS2, EvenPermutationsKeepASideOddOnesFlip) {
                 image.at[i] = p.at[order[i]];
                 for (std::size_t j = 0; j < i; ++j) odd ^= order[j] > order[i];
             }
-            ASSERT_EQ(ask(image), odd ? negated(original) : original) << describe(image);
+            ASSERT_EQ(ask(image), odd ? opposite(original) : original) << describe(image);
         } while (std::next_permutation(order.begin(), order.end()));
     });
 }
@@ -238,7 +238,7 @@ TEST(Sides, of_flat_simplices) {
     const double a[2] = {0, 0}, b[2] = {1, 1}, c[2] = {3, 3}, above[2] = {0, 1}, below[2] = {1, 0}, on[2] = {7, 7};
     const Sign side = incircle(a, b, c, above);
     EXPECT_NE(side, Sign::zero);
-    EXPECT_EQ(incircle(a, b, c, below), negated(side));
+    EXPECT_EQ(incircle(a, b, c, below), opposite(side));
     EXPECT_EQ(incircle(a, b, c, on), Sign::zero);
     EXPECT_EQ(incircle(a, b, b, above), Sign::zero);
 
@@ -246,7 +246,7 @@ TEST(Sides, of_flat_simplices) {
                  far[3] = {5, 6, 0}, under[3] = {2, -7, -1}, level[3] = {.5, .25, 0};
     const Sign half = insphere(o, x, y, far, z);
     EXPECT_NE(half, Sign::zero);
-    EXPECT_EQ(insphere(o, x, y, far, under), negated(half));
+    EXPECT_EQ(insphere(o, x, y, far, under), opposite(half));
     EXPECT_EQ(insphere(o, x, y, far, level), Sign::zero);
     EXPECT_EQ(orient3d(o, x, y, far), Sign::zero);
     EXPECT_EQ(insphere(o, x, y, xy, z), Sign::zero);  // on one circle

@@ -22,7 +22,7 @@ using testing_rational::bits;
 using testing_rational::infinity;
 using testing_rational::largest;
 
-constexpr double tiny = 0x1p-1074;
+constexpr double min_double = 0x1p-1074;
 
 TEST(LawV1Quadratic, every_kind_of_number) {
     for (const Simplex s : full) {
@@ -93,7 +93,7 @@ TEST(LawV1Quadratic, the_widest_integers) {
             const auto extreme = [&]() {
                 const int how = r.integer(0, 3);
                 const double sign = r.coin() ? 1 : -1;
-                return how < 2 ? sign * largest : how == 2 ? sign * r.integer(1, 1 << 20) * tiny : any_finite(r);
+                return how < 2 ? sign * largest : how == 2 ? sign * r.integer(1, 1 << 20) * min_double : any_finite(r);
             };
             QuadraticCase q{Case{.simplex = s}, {}};
             for (double& x : q.linear.vertices) x = extreme();
@@ -107,8 +107,8 @@ TEST(LawV1Quadratic, the_widest_integers) {
     QuadraticCase q{Case{.simplex = Simplex::tetrahedron}, {-largest, largest, -largest, largest, -largest, largest}};
     const double x = largest;
     q.linear.vertices = {x, x, -x, x, -x, x, -x, x, x, -x, -x, -x};
-    q.linear.point = {-x, x, -tiny};
-    q.linear.values = {x, -x, x, tiny};
+    q.linear.point = {-x, x, -min_double};
+    q.linear.values = {x, -x, x, min_double};
     expect_law(q);
 }
 
@@ -277,9 +277,9 @@ TEST(LawV1Quadratic, ties_and_the_ends_of_the_range) {
     EXPECT_EQ(ask({0, 0, 0}, {1, 0, 1 + odd}).value, 1);  // a tie
     EXPECT_EQ(ask({0, 0, 0}, {1 + odd, 0, 1 + 2 * odd}).value, 1 + 2 * odd);
     EXPECT_EQ(ask({0, 0, 0}, {1 + odd, 0, 1 + 2 * odd}).tier, Tier::exact);
-    EXPECT_EQ(ask({0, 0, 0}, {tiny, 0, 0}).value, 0);
-    EXPECT_TRUE(std::signbit(ask({0, 0, 0}, {-tiny, 0, 0}).value));
-    EXPECT_EQ(ask({0, 0, 0}, {tiny, 2 * tiny, 0}).value, tiny);
+    EXPECT_EQ(ask({0, 0, 0}, {min_double, 0, 0}).value, 0);
+    EXPECT_TRUE(std::signbit(ask({0, 0, 0}, {-min_double, 0, 0}).value));
+    EXPECT_EQ(ask({0, 0, 0}, {min_double, 2 * min_double, 0}).value, min_double);
     EXPECT_EQ(ask({0, -largest, -largest}, {largest, largest, largest}).value, infinity);  // 3/2 of the largest
     EXPECT_EQ(ask({0, largest, largest}, {largest, largest, largest}).value, largest);
     EXPECT_EQ(bits(ask({7, -0.0, -0.0}, {-0.0, -0.0, -0.0}).value), 0U);

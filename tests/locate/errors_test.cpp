@@ -6,13 +6,13 @@
 
 #include "barycert/locator.hpp"
 #include "check/meshes.hpp"
+#include "limits.hpp"
 #include "locate/points.hpp"
 #include "locate/ways.hpp"
 
 namespace barycert::testing {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(LocateErrors, TheFirstPointThatIsNotFiniteIsNamed) {

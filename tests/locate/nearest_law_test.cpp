@@ -9,14 +9,13 @@
 #include "barycert/locate/nearest.hpp"
 #include "check/meshes.hpp"
 #include "check/random_complexes.hpp"
+#include "limits.hpp"
 #include "locate/judge.hpp"
 #include "locate/nearest_judge.hpp"
 #include "locate/points.hpp"
 
 namespace barycert::testing {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Directions along axes, along diagonals, and any; each in turn one ulp off.
 std::array<double, 3> direction(std::size_t i, base::Random& random) {
@@ -188,14 +187,13 @@ TEST(LocateNearest, N2_BeyondTheLimit) {
 
 // A distance that no double holds is infinite: beyond every finite limit, within an infinite one.
 TEST(LocateNearest, DistancesThatOverflow) {
-    constexpr double largest = std::numeric_limits<double>::max();
-    const Mesh mesh = mapped(box(2, {1, 1, 0}), {1e300, 1e300, 1}, {-largest, -largest, 0});
+    const Mesh mesh = mapped(box(2, {1, 1, 0}), {1e300, 1e300, 1}, {-max_double, -max_double, 0});
     const auto locator = Locator::build(mesh, {.prove = false});
-    const std::array<double, 2> p{largest, largest};
+    const std::array<double, 2> p{max_double, max_double};
     const Nearest found = *locator->nearest(p.data(), infinity);
     EXPECT_GE(found.cell, 0);
     EXPECT_EQ(found.distance, infinity);
-    EXPECT_EQ(locator->nearest(p.data(), largest)->cell, -1);
+    EXPECT_EQ(locator->nearest(p.data(), max_double)->cell, -1);
 }
 
 }  // namespace

@@ -9,19 +9,13 @@
 #include "barycert/io.hpp"
 #include "barycert/locator.hpp"
 #include "check/meshes.hpp"
+#include "limits.hpp"
 #include "locate/judge.hpp"
 #include "locate/nearest_judge.hpp"
 #include "locate/points.hpp"
 
 namespace barycert::testing {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double largest = std::numeric_limits<double>::max();
-
-Mesh own(const std::string& stem) {
-    return read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
-}
 
 double root(const mpq_class& square) {
     return mpf_class(sqrt(mpf_class(square, 4000))).get_d();
@@ -107,7 +101,7 @@ std::vector<double> moderate(std::vector<double> points, double instead) {
 TEST(LocateNearest, OwnMeshes) {
     for (const char* stem : {"cube-hole", "bracket", "needle-slit", "plate", "torus"}) {
         base::Random random(base::hash64(stem));
-        const Mesh mesh = own(stem);
+        const Mesh mesh = own_mesh(stem);
         expect_nearest(mesh, moderate(awkward_points(mesh, 12, random), 7.3), stem);
     }
 }
@@ -158,16 +152,16 @@ TEST(LocateNearest, FarPoints) {
         const Mesh mesh = mapped(box(d, {2, 2, 2}), {0.1, 0.1, 0.1}, {0.3, -0.1, 0.2});
         std::vector<double> points;
         for (int i = 0; i < 12 * d; ++i) {
-            static constexpr double some[]{1e15, -1e9, 0.35, 1e300, -1e300, 0.25 * largest};
+            static constexpr double some[]{1e15, -1e9, 0.35, 1e300, -1e300, 0.25 * max_double};
             points.push_back(some[random.below(std::size(some))]);
         }
         expect_nearest(mesh, points, "far points");
         const auto locator = Locator::build(mesh, {.prove = false});
-        const std::array<double, 3> corner{largest, -largest, largest};
+        const std::array<double, 3> corner{max_double, -max_double, max_double};
         const auto found = locator->nearest(corner.data(), infinity);
         ASSERT_TRUE(found);
         EXPECT_GE(found->cell, 0);
-        EXPECT_GE(found->distance, largest);  // more than that, or infinity
+        EXPECT_GE(found->distance, max_double);  // more than that, or infinity
     }
 }
 
@@ -223,7 +217,7 @@ std::vector<double> outside_of(const Mesh& mesh, base::Random& random) {
 TEST(LocateNearest, TheLimitIncludesItself) {
     for (const char* stem : {"cube-hole", "plate"}) {
         base::Random random(8);
-        const Mesh mesh = own(stem);
+        const Mesh mesh = own_mesh(stem);
         const auto locator = Locator::build(mesh, {.prove = false});
         const std::vector<double> points = outside_of(mesh, random);
         std::size_t lost = 0, beyond = 0;

@@ -37,16 +37,12 @@ std::vector<std::size_t> shuffled(std::size_t n, base::Random& random) {
     return order;
 }
 
-Mesh own(const std::string& stem) {
-    return read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
-}
-
 // More points than fit in a block, of all kinds: threads, targets, methods and the order of points change nothing.
 TEST(LocateOrder, D1_ManyPoints) {
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
     for (const char* stem : {"cube-hole", "lattice-eighths", "plate"}) {
         base::Random random(base::hash64(stem));
-        const Mesh mesh = own(stem);
+        const Mesh mesh = own_mesh(stem);
         std::vector<double> points = awkward_points(mesh, 1200, random);
         const std::vector<double> inner = inner_points(mesh, 30000, random);
         points.insert(points.end(), inner.begin(), inner.end());
@@ -79,7 +75,7 @@ TEST(LocateOrder, D1_ManyPoints) {
 TEST(LocateOrder, L1_CellsPermuted) {
     for (const char* stem : {"cube-hole", "lattice-box", "plate"}) {
         base::Random random(base::hash64(stem));
-        const Mesh mesh = own(stem);
+        const Mesh mesh = own_mesh(stem);
         Mesh other = mesh;
         other.neighbours.clear();
         other.faces.clear();
@@ -116,7 +112,7 @@ TEST(LocateOrder, L1_CellsPermuted) {
 TEST(LocateOrder, D1_Hints) {
     for (const char* stem : {"bracket", "torus", "plate"}) {
         base::Random random(base::hash64(stem));
-        const Mesh mesh = own(stem);
+        const Mesh mesh = own_mesh(stem);
         const std::vector<double> points = awkward_points(mesh, 400, random);
         const auto locator = Locator::build(mesh, quick(mesh).certificate);
         const Answers right = ask(*locator, points, 1);
@@ -132,7 +128,7 @@ TEST(LocateOrder, D1_Hints) {
 
 TEST(LocateOrder, CountsAreAddedTo) {
     base::Random random(9);
-    const Mesh mesh = own("lattice-eighths");
+    const Mesh mesh = own_mesh("lattice-eighths");
     const std::vector<double> points = awkward_points(mesh, 50, random);
     const auto locator = Locator::build(mesh, {.prove = false});
     std::vector<Mesh::Index> cells(points.size() / 3);

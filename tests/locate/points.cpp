@@ -1,4 +1,5 @@
 #include "locate/points.hpp"
+#include "limits.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +11,6 @@
 
 namespace barycert::testing {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double largest = std::numeric_limits<double>::max();
 
 class Maker {
 public:
@@ -50,7 +48,7 @@ public:
             double x = 0;
             for (std::size_t i = 0; i <= d_; ++i)
                 if (weight[i] != 0) x += weight[i] / sum * at(mesh_.cells[cell * (d_ + 1) + i], k);
-            points.push_back(std::clamp(x, -largest, largest));
+            points.push_back(std::clamp(x, -max_double, max_double));
         }
     }
     void any_node() {
@@ -68,12 +66,13 @@ public:
                 points.push_back(random_.coin() ? low_[k] : high_[k]);
             } else {
                 const double x = low_[k] + 2 * side * random_.uniform(-beyond, 1 + beyond);
-                points.push_back(std::clamp(x, -largest, largest));
+                points.push_back(std::clamp(x, -max_double, max_double));
             }
         }
     }
     void far() {
-        static constexpr std::array<double, 9> some{largest, -largest, 1e300, -1e200, 1e30, -1e9, 0, 5e-324, -0.0};
+        static constexpr std::array<double, 9> some{max_double, -max_double, 1e300,  -1e200, 1e30,
+                                                    -1e9,       0,           5e-324, -0.0};
         for (std::size_t k = 0; k < d_; ++k)
             points.push_back(random_.below(4) == 0 ? at(mesh_.cells[0], k) : some[random_.below(some.size())]);
     }

@@ -5,13 +5,12 @@
 #include <limits>
 
 #include "check/meshes.hpp"
+#include "limits.hpp"
 #include "locate/points.hpp"
 #include "locate/ways.hpp"
 
 namespace barycert::testing {
 namespace {
-
-constexpr double largest = std::numeric_limits<double>::max();
 
 std::string text_of(const std::array<double, 3>& x) {
     return testing::text_of(x.data(), 3);
@@ -36,15 +35,15 @@ TEST(LocateRanges, L1_L2_AnyMagnitude) {
     }
 }
 
-// From the lowest double to the largest: differences of coordinates overflow.
+// From the lowest double to the max_double: differences of coordinates overflow.
 TEST(LocateRanges, L1_L2_AllOfTheDoubles) {
     for (const int d : {2, 3}) {
         base::Random random(8);
         Mesh mesh = box(d, {2, 2, 2});
-        for (double& x : mesh.points) x = x == 0 ? -largest : x == 1 ? 0 : largest;
+        for (double& x : mesh.points) x = x == 0 ? -max_double : x == 1 ? 0 : max_double;
         expect_right(mesh, awkward_points(mesh, 60, random), random, "all of the doubles");
         Mesh one = box(d, {1, 1, 1});
-        for (double& x : one.points) x = x == 0 ? -largest : largest;
+        for (double& x : one.points) x = x == 0 ? -max_double : max_double;
         expect_right(one, awkward_points(one, 60, random), random, "one cube of all doubles");
     }
 }
@@ -74,7 +73,7 @@ TEST(LocateRanges, L1_L2_AFewUlpsWide) {
             for (double& x : mesh.points) {
                 const int steps = static_cast<int>(x);
                 x = at;
-                for (int i = 0; i < steps; ++i) x = std::nextafter(x, largest);
+                for (int i = 0; i < steps; ++i) x = std::nextafter(x, max_double);
             }
             EXPECT_TRUE(
                 expect_right(mesh, awkward_points(mesh, 30, random), random, "ulps from " + std::to_string(at)));
@@ -118,7 +117,7 @@ TEST(LocateRanges, L1_L2_Graded) {
     }
 }
 
-// Far outside, on the box but outside the mesh, and at the largest doubles, whatever the mesh.
+// Far outside, on the box but outside the mesh, and at the max_double doubles, whatever the mesh.
 TEST(LocateRanges, L1_PointsOutside) {
     for (const int d : {2, 3}) {
         base::Random random(13);
@@ -127,7 +126,8 @@ TEST(LocateRanges, L1_PointsOutside) {
         const Mesh mesh = only(box(d, {3, 3, 3}), keep);
         std::vector<double> points;
         for (int i = 0; i < 200 * d; ++i) {
-            static constexpr double some[]{largest, -largest, 0, 3, 1.5, 5e-324, -5e-324, 0x1.8000000000001p+1, 0.25};
+            static constexpr double some[]{max_double, -max_double,          0,   3, 1.5, 5e-324,
+                                           -5e-324,    0x1.8000000000001p+1, 0.25};
             points.push_back(some[random.below(std::size(some))]);
         }
         EXPECT_TRUE(expect_right(mesh, points, random, "outside"));

@@ -9,6 +9,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/report.hpp"
 #include "check_meshes.hpp"
+#include "lines.hpp"
 #include "schema_tables.hpp"
 
 namespace barycert::report_test {
@@ -22,17 +23,6 @@ std::string text(const CheckReport& report, const Mesh& mesh, bool colour = fals
 }
 std::string text(const Mesh& mesh) {
     return text(checked(mesh, true), mesh);
-}
-
-Lines lines_of(const std::string& text) {
-    std::istringstream in(text);
-    Lines lines;
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
-    return lines;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 Json json(const CheckReport& report) {

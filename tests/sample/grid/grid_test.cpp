@@ -7,14 +7,12 @@
 #include <limits>
 
 #include "check/meshes.hpp"
+#include "limits.hpp"
 #include "sample/grid/compare.hpp"
 #include "sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double largest = std::numeric_limits<double>::max();
 
 TEST(Grids, OverABoxEndsOnIt) {
     base::Random random(1);
@@ -102,10 +100,10 @@ TEST(Grids, Refused) {
             EXPECT_EQ(bounds_refused(n, bad, bad), both);
         }
         EXPECT_EQ(bounds_refused(n, 1, 0), both);
-        EXPECT_EQ(bounds_refused(n, -largest, largest), both);  // the difference overflows
+        EXPECT_EQ(bounds_refused(n, -max_double, max_double), both);  // the difference overflows
         EXPECT_EQ(bounds_refused(n, 2, 2), n == 1 ? none : over_alone);
         EXPECT_EQ(bounds_refused(n, 2, std::nextafter(2, 3)), none);
-        EXPECT_EQ(bounds_refused(n, 0, largest), none);
+        EXPECT_EQ(bounds_refused(n, 0, max_double), none);
     }
     EXPECT_TRUE(!grid_over(2, {3, 1, 1}, {0, 0, 0}, {5e-324, 0, 0}));  // a spacing of zero
     for (const double step : {0.0, -0.0, -1.0, infinity, -infinity, std::nan("")})
@@ -177,7 +175,7 @@ TEST(Grids, MadeByHand) {
             }
             Grid grid = good;
             grid.counts[k] = 1;
-            for (const double spacing : {0.0, 5e-324, 1.0, largest}) {
+            for (const double spacing : {0.0, 5e-324, 1.0, max_double}) {
                 grid.spacing[k] = spacing;
                 expect_law(mesh, grid, "a spacing of one point");
             }

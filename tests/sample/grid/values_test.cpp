@@ -5,13 +5,12 @@
 #include <limits>
 
 #include "check/meshes.hpp"
+#include "limits.hpp"
 #include "sample/grid/compare.hpp"
 #include "sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Over the whole mesh, and around a node of it.
 std::vector<Grid> some_grids(const Mesh& mesh) {

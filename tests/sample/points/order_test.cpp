@@ -15,8 +15,8 @@
 namespace barycert::testing {
 namespace {
 
-Mesh own(const std::string& stem) {
-    Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
+Mesh own_with_fields(const std::string& stem) {
+    Mesh mesh = own_mesh(stem);
     base::Random random(1);
     mesh.cell_fields = random_fields(mesh.cell_count(), {2}, true, random);
     return mesh;
@@ -62,7 +62,7 @@ TEST(SampleOrder, D1_ThreadsTargetsMethodsAndEvaluate) {
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
     for (const char* stem : {"lattice-eighths", "cube-hole-o2", "plate", "bracket"}) {
         base::Random random(base::hash64(stem));
-        const Mesh mesh = own(stem);
+        const Mesh mesh = own_with_fields(stem);
         const std::vector<double> points = awkward_points(mesh, 40, random);
         const auto walks = Locator::build(mesh, quick(mesh).certificate), asks = Locator::build(mesh, {.prove = false});
         const auto one = Sampler::build(*walks, all_fields(mesh)), other = Sampler::build(*asks, all_fields(mesh));
@@ -96,7 +96,7 @@ TEST(SampleOrder, D1_AHundredThousandPointsInAnyOrder) {
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
     for (const char* stem : {"cube-hole", "cube-hole-o2", "plate"}) {
         base::Random random(base::hash64(stem));
-        const Mesh mesh = own(stem);
+        const Mesh mesh = own_with_fields(stem);
         std::vector<double> points = inner_points(mesh, 95000, random);
         const std::vector<double> more = awkward_points(mesh, 600, random);
         points.insert(points.end(), more.begin(), more.end());
@@ -134,7 +134,7 @@ TEST(SampleOrder, D1_AHundredThousandPointsInAnyOrder) {
 }
 
 TEST(SampleOrder, NoPointAndOnePoint) {
-    const Mesh mesh = own("plate");
+    const Mesh mesh = own_with_fields("plate");
     const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     for (const SampleOptions& options : all_options()) {
@@ -154,7 +154,7 @@ TEST(SampleOrder, NoPointAndOnePoint) {
 
 TEST(SampleOrder, NoFieldAndNoCell) {
     base::Random random(2);
-    const Mesh mesh = own("plate");
+    const Mesh mesh = own_with_fields("plate");
     const std::vector<double> points = awkward_points(mesh, 20, random);
     const auto locator = Locator::build(mesh, {.prove = false});
     const auto none = Sampler::build(*locator, {});
@@ -183,7 +183,7 @@ TEST(SampleOrder, NoFieldAndNoCell) {
 TEST(SampleOrder, PlainRounding) {
     for (const char* stem : {"lattice-eighths", "cube-hole-o2", "plate"}) {
         base::Random random(base::hash64(stem));
-        Mesh mesh = own(stem);
+        Mesh mesh = own_with_fields(stem);
         mesh.cell_fields.clear();
         const std::vector<double> points = awkward_points(mesh, 150, random);
         const auto locator = Locator::build(mesh, quick(mesh).certificate);

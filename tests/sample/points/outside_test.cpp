@@ -9,16 +9,15 @@
 #include "barycert/io.hpp"
 #include "barycert/oracle.hpp"
 #include "check/meshes.hpp"
+#include "limits.hpp"
 #include "locate/points.hpp"
 #include "sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Mesh own(const std::string& stem) {
-    Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
+Mesh own_with_field(const std::string& stem) {
+    Mesh mesh = own_mesh(stem);
     base::Random random(1);
     mesh.cell_fields = random_fields(mesh.cell_count(), {2}, false, random);
     return mesh;
@@ -110,7 +109,7 @@ void expect_outside(const Mesh& mesh, const std::vector<double>& points, const O
 TEST(SampleOutside, E1_Nearest) {
     for (const char* stem : {"cube-hole", "bracket", "plate"}) {
         base::Random random(base::hash64(stem));
-        const Mesh mesh = own(stem);
+        const Mesh mesh = own_with_field(stem);
         expect_outside(mesh, points_around(mesh, random), {.kind = Outside::nearest}, stem);
     }
 }
@@ -118,7 +117,7 @@ TEST(SampleOutside, E1_Nearest) {
 TEST(SampleOutside, E1_NearestWithinALimit) {
     for (const char* stem : {"cube-hole", "plate"}) {
         base::Random random(base::hash64(stem));
-        const Mesh mesh = own(stem);
+        const Mesh mesh = own_with_field(stem);
         expect_outside(mesh, points_around(mesh, random), {.kind = Outside::nearest, .limit = 0.1}, stem);
     }
 }
@@ -126,14 +125,14 @@ TEST(SampleOutside, E1_NearestWithinALimit) {
 TEST(SampleOutside, E1_Extrapolate) {
     for (const char* stem : {"cube-hole", "cube-hole-o2", "bracket", "plate"}) {
         base::Random random(base::hash64(stem));
-        const Mesh mesh = own(stem);
+        const Mesh mesh = own_with_field(stem);
         expect_outside(mesh, points_around(mesh, random), {.kind = Outside::extrapolate}, stem);
     }
 }
 
 // The limit is one of `nearest`.
 TEST(SampleOutside, E1_ExtrapolationKnowsNoLimit) {
-    const Mesh mesh = own("plate");
+    const Mesh mesh = own_with_field("plate");
     const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     const std::vector<double> point{1000, 1000};
@@ -181,7 +180,7 @@ TEST(SampleOutside, E1_NearestVertexIsAsThePointOnIt) {
 // Second order: the projection is rounded, so the value is near that of the quadratic there.
 TEST(SampleOutside, E1_NearestOnSecondOrderCells) {
     base::Random random(2);
-    const Mesh mesh = own("cube-hole-o2");
+    const Mesh mesh = own_with_field("cube-hole-o2");
     const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, {{&mesh.point_fields[0], false}});
     const std::vector<double> points = points_around(mesh, random);
@@ -203,7 +202,7 @@ TEST(SampleOutside, E1_NearestOnSecondOrderCells) {
 
 TEST(SampleOutside, E1_NanAndFill) {
     base::Random random(4);
-    const Mesh mesh = own("bracket");
+    const Mesh mesh = own_with_field("bracket");
     const std::vector<double> points = points_around(mesh, random);
     const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
@@ -230,7 +229,7 @@ TEST(SampleOutside, E1_NanAndFill) {
 // The first one in the caller's order, counted from where the caller says, whatever the order they were found in.
 TEST(SampleOutside, E1_ErrorNamesTheFirst) {
     base::Random random(5);
-    const Mesh mesh = own("cube-hole");
+    const Mesh mesh = own_with_field("cube-hole");
     const auto locator = Locator::build(mesh, quick(mesh).certificate);
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     const SampleOptions options{.outside = {.kind = Outside::error}, .threads = 2};

@@ -12,10 +12,6 @@
 namespace barycert::testing {
 namespace {
 
-Mesh own(const std::string& stem) {
-    return read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
-}
-
 void expect_right(const Mesh& mesh, const std::vector<double>& points, const std::string& what) {
     for (const bool certified : {true, false}) {
         const auto locator =
@@ -47,7 +43,7 @@ TEST(SampleValues, V1_OwnMeshesAndTheirFields) {
     for (const char* stem :
          {"bracket", "cube-hole", "cube-hole-o2", "lattice-box", "lattice-eighths", "needle-slit", "plate", "torus"}) {
         base::Random random(base::hash64(stem));
-        const Mesh mesh = own(stem);
+        const Mesh mesh = own_mesh(stem);
         ASSERT_FALSE(mesh.point_fields.empty());
         expect_right(mesh, awkward_points(mesh, 60, random), stem);
     }
@@ -57,7 +53,7 @@ TEST(SampleValues, V1_OwnMeshesAndTheirFields) {
 TEST(SampleValues, V1_AnyNumberOfComponents) {
     for (const char* stem : {"cube-hole", "cube-hole-o2", "plate"}) {
         base::Random random(base::hash64(stem));
-        Mesh mesh = own(stem);
+        Mesh mesh = own_mesh(stem);
         const std::vector<double> points = awkward_points(mesh, 3, random);
         for (const std::vector<int>& of_nodes :
              {std::vector<int>{1}, {2}, {3}, {4}, {5}, {6}, {8}, {9}, {1, 1}, {3, 1, 5}, {9, 4, 2, 1}, {17}, {}}) {
@@ -74,7 +70,7 @@ TEST(SampleValues, V1_AnyNumberOfComponents) {
 TEST(SampleValues, V1_AwkwardValues) {
     for (const char* stem : {"lattice-eighths", "cube-hole-o2", "plate"}) {
         base::Random random(base::hash64(stem));
-        Mesh mesh = own(stem);
+        Mesh mesh = own_mesh(stem);
         mesh.point_fields = random_fields(mesh.point_count(), {3, 2}, true, random);
         expect_right(mesh, awkward_points(mesh, 60, random), stem);
     }
@@ -84,7 +80,7 @@ TEST(SampleValues, V1_AwkwardValues) {
 TEST(SampleValues, V1_ValuesThatAreNotFinite) {
     for (const char* stem : {"lattice-eighths", "cube-hole-o2", "plate"}) {
         base::Random random(base::hash64(stem));
-        Mesh mesh = own(stem);
+        Mesh mesh = own_mesh(stem);
         mesh.point_fields = random_fields(mesh.point_count(), {3, 2}, false, random);
         mesh.cell_fields = random_fields(mesh.cell_count(), {2}, false, random);
         for (Field* field : {&mesh.point_fields[0], &mesh.point_fields[1], &mesh.cell_fields[0]}) {

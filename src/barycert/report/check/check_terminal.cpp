@@ -186,14 +186,14 @@ std::string contact_list(const CheckReport& r, const Colours& paint) {
     return out;
 }
 
-std::string figure(double x) {
+std::string rounded(double x) {
     return fmt::format("{:.4g}", x == 0 ? 0.0 : x);
 }
 
 std::string measure_row(std::string_view name, const std::vector<double>& values, bool max_is_worst) {
     const Distribution d = distribution(values);
     if (d.min_cell < 0) return fmt::format("{:<31}{:>12}{:>12}{:>12}{:>12}", name, "-", "-", "-", "-");
-    return fmt::format("{:<31}{:>12}{:>12}{:>12}{:>12}", name, figure(d.min), figure(d.median), figure(d.max),
+    return fmt::format("{:<31}{:>12}{:>12}{:>12}{:>12}", name, rounded(d.min), rounded(d.median), rounded(d.max),
                        max_is_worst ? d.max_cell : d.min_cell);
 }
 
