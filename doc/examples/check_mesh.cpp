@@ -14,7 +14,7 @@ int main() {
     const CheckReport report = check_mesh(mesh, {.delaunay = true});
     std::printf("%s\n", report.certified() ? "certified" : "not certified");
     for (const Defect& defect : report.defects) {
-        const DefectText& text = text_of(defect.kind);
+        const DefectText& text = defect_text(defect.kind);
         std::printf("%d %s: %s\n", static_cast<int>(defect.count), text.name.data(), text.text.data());
     }
 }
