@@ -83,7 +83,7 @@ public:
     static Result<Locator> build(const Mesh& mesh, const BuildOptions& options = {});
     static Result<Locator> build(Mesh&&, const BuildOptions& = {}) = delete;
 
-    /// The same with a certificate of check::run on this very mesh. Without a certificate, or with one of another mesh,
+    /// The same with a certificate of check_mesh on this very mesh. Without a certificate, or with one of another mesh,
     /// every candidate is asked. Time O(cells), one thread.
     static Result<Locator> build(const Mesh& mesh, const Certificate& certificate);
 

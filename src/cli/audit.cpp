@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <chrono>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -15,6 +15,7 @@
 #include "barycert/base/text.hpp"
 #include "command.hpp"
 #include "files.hpp"
+#include "progress.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -28,25 +29,14 @@ struct AuditArguments {
     bool quiet = false, no_check = false;
 };
 
-/// One line on stderr that is written over and over, at most ten times a second.
-class ProgressLine {
-public:
-    void operator()(const AuditProgress& p) {
-        const auto now = std::chrono::steady_clock::now();
-        if (shown_ && now - last_ < std::chrono::milliseconds(100)) return;
-        shown_ = true;
-        last_ = now;
-        tell(fmt::format("\r\033[K{:3d} %  {} of {} cases, {}", p.cases_done * 100 / p.cases_total, p.cases_done,
-                         p.cases_total, p.family));
-    }
-    void clear() const {
-        if (shown_) tell("\r\033[K");
-    }
-
-private:
-    bool shown_ = false;
-    std::chrono::steady_clock::time_point last_;
-};
+/// The callback that shows how far the audit is.
+std::function<void(const AuditProgress&)> shown_on(Progress& progress) {
+    return [&progress](const AuditProgress& p) {
+        if (!progress.due()) return;
+        progress.stage(fmt::format("{:3d} %  {} of {} cases, {}", p.cases_done * 100 / p.cases_total, p.cases_done,
+                                   p.cases_total, p.family));
+    };
+}
 
 /// What can be known of files before the work.
 Status check_files(const AuditArguments& a, bool table) {
@@ -88,10 +78,10 @@ int run_audit(const AuditArguments& a) {
     const Result<MeshSource> meshes = wanted || !a.meshes.empty() ? load_meshes(a.meshes, !a.no_check) : MeshSource();
     if (!meshes) return fail(meshes.error());
 
-    ProgressLine line;
-    if (!a.quiet && stderr_is_terminal()) options.progress = std::ref(line);
-    const Result<AuditReport> report = run_audit(options, *meshes);
-    line.clear();
+    Progress progress(!a.quiet && stderr_is_terminal());
+    options.progress = shown_on(progress);
+    const Result<AuditReport> report = barycert::run_audit(options, *meshes);
+    progress.clear();
     if (!report) return fail(report.error());
 
     // Files first: whoever reads the table may stop reading (`| head`). A file that could not be written does not cost

@@ -15,6 +15,7 @@
 #include "barycert/report.hpp"
 #include "command.hpp"
 #include "files.hpp"
+#include "progress.hpp"
 
 #ifdef BARYCERT_WITH_VTK
 #include "barycert/vtk.hpp"
@@ -91,21 +92,6 @@ Status check_nothing_in_the_way(const Mesh& mesh, const std::string& stem) {
     return Done{};
 }
 
-/// What is being done, on one line of stderr that is written over and over.
-class StageLine {
-public:
-    explicit StageLine(bool on) : on_(on) {}
-    void operator()(const char* stage) const {
-        if (on_) tell(fmt::format("\r\033[Kchecking: {}", stage));
-    }
-    void clear() const {
-        if (on_) tell("\r\033[K");
-    }
-
-private:
-    bool on_;
-};
-
 #ifdef BARYCERT_WITH_VTK
 /// The mesh with the measures of its cells as fields.
 Status write_measures(const CheckReport& report, Mesh mesh, const std::string& path) {
@@ -131,10 +117,10 @@ int run_check(const CheckArguments& a) {
     const bool table = !a.quiet && std::none_of(text_outputs.begin(), text_outputs.end(),
                                                 [&](const TextOutput& t) { return a.*t.path == "-"; });
     if (const Status ok = check_files(a, table); !ok) return fail(ok.error());
-    const StageLine line(!a.quiet && stderr_is_terminal());
-    line("reading");
+    Progress progress(!a.quiet && stderr_is_terminal());
+    progress.stage("checking: reading");
     const Result<Mesh> mesh = read_mesh(a.mesh, {.faces = true, .neighbours = true, .threads = a.threads});
-    line.clear();
+    progress.clear();
     if (!mesh) return fail(mesh.error());
     if (!a.fixed.empty()) {
         if (const Status ok = check_nothing_in_the_way(*mesh, a.fixed); !ok) return fail(ok.error());
@@ -155,9 +141,9 @@ int run_check(const CheckArguments& a) {
     options.delaunay = a.delaunay;
     options.examples = a.examples;
     options.contacts = a.contacts;
-    options.progress = line;
+    options.progress = [&](const char* stage) { progress.stage(fmt::format("checking: {}", stage)); };
     const CheckReport report = check_mesh(*mesh, options);
-    line.clear();
+    progress.clear();
 
     // Files first: whoever reads the table may stop reading (`| head`). A file that could not be written does not cost
     // the user the table, the fruit of the whole run.

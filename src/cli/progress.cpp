@@ -15,8 +15,11 @@ void Progress::stage(std::string_view text) {
 }
 
 void Progress::count(std::string_view what, std::uint64_t done) {
-    if (on_ && std::chrono::steady_clock::now() - last_ > std::chrono::milliseconds(100))
-        stage(fmt::format("{}: {}", what, done));
+    if (due()) stage(fmt::format("{}: {}", what, done));
+}
+
+bool Progress::due() const {
+    return on_ && std::chrono::steady_clock::now() - last_ > std::chrono::milliseconds(100);
 }
 
 void Progress::clear() {

@@ -96,7 +96,7 @@ int main() {
     const double before = barycert::bench::peak_mib();
     const CheckReport report = check_with(mesh, 2);
     const double after = barycert::bench::peak_mib();
-    if (!report.certified() || report.volume.cells != 1 || !report.volume.equal || !report.findings.empty()) {
+    if (!report.certified() || report.volume.cells != 1 || !report.volume.equal || !report.defects.empty()) {
         std::fprintf(stderr, "the mesh is not certified, or not the unit cube\n");
         return 1;
     }

@@ -283,15 +283,17 @@ void cgal_signs(const Cases& cases, std::vector<WeightSigns>& out) {
 /// The library's own blocks, decided by plain determinants.
 template <class Batch>
 void plain_signs(const Batch& batch, WeightSigns* out) {
-    const auto decide = [&](std::size_t first, const lanes::Cases& block, std::uint32_t*) -> std::size_t {
+    const auto decide = [&](std::size_t first, const core::CaseBlock& block, std::uint32_t*) -> std::size_t {
         peers::plain_signs(block, out + first);
         return 0;
     };
-    for_blocks(batch, decide, [](std::size_t, std::size_t, const SingleCase&) {}).value();
+    core::for_blocks(batch, Tier::filter, nullptr, decide, [](std::size_t, std::size_t, const core::SingleCase&) {
+        return core::ExactCase{};
+    }).value();
 }
 
 void lean_values(const Cases& cases, double* out) {
-    lanes::Cases all{};
+    core::CaseBlock all{};
     for (std::size_t i = 0; i < 12; ++i) all.vertices[i] = cases.vertices[i].data();
     for (std::size_t k = 0; k < 3; ++k) all.point[k] = cases.point[k].data();
     all.count = cases.count();
@@ -301,15 +303,15 @@ void lean_values(const Cases& cases, double* out) {
 
 /// Coordinates and values of a mesh gathered at once, those of the cases to come asked for ahead.
 void lean_values(const CubeMesh& mesh, const Queries& queries, double* out) {
-    alignas(64) static std::array<std::array<double, block_size + 8>, 19> buffer;
-    lanes::Cases block{};
+    alignas(64) static std::array<std::array<double, core::block_size + 8>, 19> buffer;
+    core::CaseBlock block{};
     std::array<const double*, 4> f{};
     for (std::size_t i = 0; i < 12; ++i) block.vertices[i] = buffer[i].data();
     for (std::size_t k = 0; k < 3; ++k) block.point[k] = buffer[12 + k].data();
     for (std::size_t i = 0; i < 4; ++i) f[i] = buffer[15 + i].data();
-    block.count = block_size;
-    for (std::size_t first = 0; first < queries.cells.size(); first += block_size) {
-        for (std::size_t j = 0; j < block_size; ++j) {
+    block.count = core::block_size;
+    for (std::size_t first = 0; first < queries.cells.size(); first += core::block_size) {
+        for (std::size_t j = 0; j < core::block_size; ++j) {
             if (first + j + 32 < queries.cells.size()) {
                 const auto corners_of = [&](std::size_t ahead) {
                     return mesh.corners.data() + 4 * static_cast<std::size_t>(queries.cells[first + j + ahead]);

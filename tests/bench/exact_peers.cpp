@@ -29,7 +29,7 @@ HWY_INLINE V dot(const V (&x)[3], const V (&y)[3]) {
 }
 
 /// n[1] and n[3] with the other sign: the determinants are n[0], -n[1], n[2], -n[3].
-HWY_INLINE void determinants(const lanes::Cases& cases, std::size_t at, V (&n)[4]) {
+HWY_INLINE void determinants(const core::CaseBlock& cases, std::size_t at, V (&n)[4]) {
     const D tag;
     V r[4][3], m01[3], m23[3];
     for (int k = 0; k < 3; ++k) {
@@ -44,7 +44,7 @@ HWY_INLINE void determinants(const lanes::Cases& cases, std::size_t at, V (&n)[4
     n[3] = dot(r[2], m01);
 }
 
-void signs(const lanes::Cases& cases, WeightSigns* out) {
+void signs(const core::CaseBlock& cases, WeightSigns* out) {
     const D tag;
     const hn::RebindToUnsigned<D> bits;
     const hn::Rebind<WeightSigns::Bits, D> narrow;
@@ -66,7 +66,7 @@ void signs(const lanes::Cases& cases, WeightSigns* out) {
     }
 }
 
-void values(const lanes::Cases& cases, const double* const* f, double* out) {
+void values(const core::CaseBlock& cases, const double* const* f, double* out) {
     const D tag;
     for (std::size_t at = 0; at < cases.count; at += hn::MaxLanes(tag)) {
         V n[4];
@@ -92,11 +92,11 @@ HWY_EXPORT(signs);
 HWY_EXPORT(values);
 }  // namespace peers
 
-void peers::plain_signs(const lanes::Cases& cases, WeightSigns* out) {
+void peers::plain_signs(const core::CaseBlock& cases, WeightSigns* out) {
     HWY_DYNAMIC_DISPATCH(signs)(cases, out);
 }
 
-void peers::plain_values(const lanes::Cases& cases, const double* const* f, double* out) {
+void peers::plain_values(const core::CaseBlock& cases, const double* const* f, double* out) {
     HWY_DYNAMIC_DISPATCH(values)(cases, f, out);
 }
 

@@ -11,9 +11,9 @@ namespace barycert::peers {
 
 /// Sign bits of the four determinants and of their sum, in the code of WeightSigns; a determinant that is zero counts
 /// as it comes. Precondition: cases.count is a multiple of the lanes.
-void plain_signs(const lanes::Cases& cases, WeightSigns* out);
+void plain_signs(const core::CaseBlock& cases, WeightSigns* out);
 
 /// sum n_i f_i / sum n_i of the four determinants n_i; values[i][j] is that at vertex i of case j. Same precondition.
-void plain_values(const lanes::Cases& cases, const double* const* values, double* out);
+void plain_values(const core::CaseBlock& cases, const double* const* values, double* out);
 
 }  // namespace barycert::peers

@@ -16,7 +16,7 @@
 #include "barycert/core/refinement-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::core {
 namespace HWY_NAMESPACE {
 
 /// The same number in all lanes of the widest vectors: what the library works on.
@@ -96,14 +96,14 @@ bool refined(Simplex s, const double* vertices, const double* point, double* wei
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::core
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "exact/cases.hpp"
 #include "exact/second_path.hpp"
 
-namespace barycert {
+namespace barycert::core {
 
 HWY_EXPORT(transform);
 HWY_EXPORT(dekker);
@@ -281,5 +281,5 @@ TEST(Refinement, TheBoundHolds) {
 }
 
 }  // namespace
-}  // namespace barycert
+}  // namespace barycert::core
 #endif

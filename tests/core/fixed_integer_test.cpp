@@ -4,7 +4,7 @@
 #include "barycert/core/scaled_double.hpp"
 #include "core/rational.hpp"
 
-namespace barycert {
+namespace barycert::core {
 namespace {
 
 using testing_rational::any_finite;
@@ -210,4 +210,4 @@ TEST(Unit, of_units) {
 }
 
 }  // namespace
-}  // namespace barycert
+}  // namespace barycert::core

@@ -18,7 +18,7 @@
 #include "barycert/core/gradient-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::core {
 namespace HWY_NAMESPACE {
 
 /// plain, correction and error of each component; whether they are valid.
@@ -46,13 +46,13 @@ bool refined_gradients(Simplex s, const double* vertices, const double* values, 
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::core
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "core/field_cases.hpp"
 
-namespace barycert {
+namespace barycert::core {
 
 HWY_EXPORT(refined_gradients);
 
@@ -166,5 +166,5 @@ TEST(GradientBound, holds_on_every_target) {
 }
 
 }  // namespace
-}  // namespace barycert
+}  // namespace barycert::core
 #endif

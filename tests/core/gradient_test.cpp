@@ -4,7 +4,7 @@
 #include "barycert/core/exact_tier.hpp"
 #include "core/gradient_cases.hpp"
 
-namespace barycert {
+namespace barycert::core {
 namespace {
 
 using testing_cases::all_kinds;
@@ -156,4 +156,4 @@ TEST(LawG1, the_order_of_vertices_does_not_matter) {
 }
 
 }  // namespace
-}  // namespace barycert
+}  // namespace barycert::core

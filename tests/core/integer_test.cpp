@@ -3,7 +3,7 @@
 
 #include "core/rational.hpp"
 
-namespace barycert {
+namespace barycert::core {
 namespace {
 
 using testing_rational::awkward_integer;
@@ -135,4 +135,4 @@ TEST(Integer, copies) {
 }
 
 }  // namespace
-}  // namespace barycert
+}  // namespace barycert::core

@@ -17,7 +17,7 @@
 #include "barycert/core/quadratic-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::core {
 namespace HWY_NAMESPACE {
 
 /// high, low and error; whether they are valid.
@@ -77,13 +77,13 @@ bool value_from_weights(Simplex s, const double* weights, const double* correcti
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::core
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "core/field_cases.hpp"
 
-namespace barycert {
+namespace barycert::core {
 
 HWY_EXPORT(refined_value);
 HWY_EXPORT(value_from_weights);
@@ -242,5 +242,5 @@ TEST(QuadraticBound, covers_errors_of_weights) {
 }
 
 }  // namespace
-}  // namespace barycert
+}  // namespace barycert::core
 #endif

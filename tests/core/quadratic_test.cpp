@@ -2,7 +2,7 @@
 #include "barycert/core/exact_tier.hpp"
 #include "core/quadratic_cases.hpp"
 
-namespace barycert {
+namespace barycert::core {
 namespace {
 
 using testing_cases::all_kinds;
@@ -289,4 +289,4 @@ TEST(LawV1Quadratic, ties_and_the_ends_of_the_range) {
 }
 
 }  // namespace
-}  // namespace barycert
+}  // namespace barycert::core

@@ -3,7 +3,7 @@
 
 #include "core/rational.hpp"
 
-namespace barycert {
+namespace barycert::core {
 namespace {
 
 using testing_rational::awkward_integer;
@@ -176,4 +176,4 @@ TEST(RoundQuotient, awkward_limbs) {
 }
 
 }  // namespace
-}  // namespace barycert
+}  // namespace barycert::core

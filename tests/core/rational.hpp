@@ -19,6 +19,9 @@
 
 namespace barycert::testing_rational {
 
+using core::Fixed;
+using core::Integer;
+
 using Q = mpq_class;
 using Z = mpz_class;
 

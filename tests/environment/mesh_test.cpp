@@ -99,8 +99,8 @@ void add(Answers& out, const SampleCounts& n) {
 
 void add(Answers& out, const CheckReport& r) {
     out.add(static_cast<int>(r.certificate.verdict()));
-    for (const Defect& f : r.findings) {
-        out.add(static_cast<int>(f.problem));
+    for (const Defect& f : r.defects) {
+        out.add(static_cast<int>(f.kind));
         out.add(f.count);
         for (const DefectPlace& p : f.places) {
             for (const Mesh::Index c : p.cells) out.add(c);
@@ -116,7 +116,7 @@ void add(Answers& out, const CheckReport& r) {
                           &r.measures.min_angle, &r.measures.max_angle}) {
         out.add_all(*m);
         const Distribution d = distribution(*m);
-        for (const double x : {d.least, d.median, d.most}) out.add(x);
+        for (const double x : {d.min, d.median, d.max}) out.add(x);
     }
     for (const CellContact& c : r.contacts) {
         out.add(c.dimension);

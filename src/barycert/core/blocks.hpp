@@ -153,10 +153,11 @@ private:
     template <std::size_t n, std::size_t d>
     void gather(std::size_t first, std::size_t count) {
         const auto node = [this](std::int32_t i) { return batch_.nodes.data() + d * static_cast<std::size_t>(i); };
+        double* const arrays = coordinates_[0];
         for (std::size_t j = 0; j < count; ++j) {
             fetch_ahead(batch_, n, first + j, node);
             const std::int32_t* const corners = corners_of(batch_, n, first + j);
-            double* const out = coordinates_[0] + j;
+            double* const out = arrays + j;
             for (std::size_t i = 0; i < n; ++i) {
                 const double* const from = node(corners[i]);
                 for (std::size_t k = 0; k < d; ++k) out[(d * i + k) * block_stride] = from[k];
@@ -190,23 +191,28 @@ public:
           nodes_(nodes),
           arrays_(nodes * components_) {}
 
-    /// Of the nodes at the corners of cases [first, first + count).
+    /// Of the nodes at the corners of cases [first, first + count), as the first nodes of each case.
     template <class Batch>
     void gather_corners(const Batch& batch, std::size_t first, std::size_t count) {
         const auto n = static_cast<std::size_t>(vertex_count(batch.simplex));
-        for (std::size_t j = 0; j < count; ++j) {
+        gather(0, n, count, [&](std::size_t j) {
             fetch_ahead(batch, n, first + j, [this](std::int32_t node) { return at(node); });
-            set(j, 0, n, corners_of(batch, n, first + j));
-        }
+            return corners_of(batch, n, first + j);
+        });
     }
 
-    /// Of `number` nodes of case j of the block, as its nodes from `begin` on.
-    void set(std::size_t j, std::size_t begin, std::size_t number, const std::int32_t* nodes) {
-        double* const out = arrays_[begin] + j;
-        for (std::size_t i = 0; i < number; ++i) {
-            const T* const from = at(nodes[i]);
-            for (std::size_t c = 0; c < components_; ++c)
-                out[(nodes_ * c + i) * block_stride] = static_cast<double>(from[c]);
+    /// Of the `number` nodes at indices(j) of each case j, as its nodes from `begin` on.
+    template <class Indices>
+    void gather(std::size_t begin, std::size_t number, std::size_t count, Indices indices) {
+        const std::size_t components = components_, nodes = nodes_;
+        double* const arrays = arrays_[begin];
+        for (std::size_t j = 0; j < count; ++j) {
+            const std::int32_t* const of_case = indices(j);
+            for (std::size_t i = 0; i < number; ++i) {
+                const T* const from = at(of_case[i]);
+                for (std::size_t c = 0; c < components; ++c)
+                    arrays[(nodes * c + i) * block_stride + j] = static_cast<double>(from[c]);
+            }
         }
     }
 

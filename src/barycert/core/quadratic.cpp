@@ -92,8 +92,9 @@ Status interpolate_quadratic(const MeshQueries& queries, std::span<const std::in
         queries, Tier::double_double, plain ? nullptr : tiers,
         [&](std::size_t first, const core::CaseBlock& block, std::uint32_t* undecided) {
             block_values.gather_corners(queries, first, block.count);
-            for (std::size_t j = 0; j < block.count; ++j)
-                block_values.set(j, n, m, mid_nodes.data() + m * static_cast<std::size_t>(queries.cells[first + j]));
+            block_values.gather(n, m, block.count, [&](std::size_t j) {
+                return mid_nodes.data() + m * static_cast<std::size_t>(queries.cells[first + j]);
+            });
             std::size_t undecided_count = 0;
             if (plain) {
                 core::plain_quadratic_lanes(s, block, block_values.arrays(), components, results.data());

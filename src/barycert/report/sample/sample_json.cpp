@@ -98,7 +98,7 @@ std::string sample_json(const SampleSummary& summary, const Environment& environ
     j["nodes"] = summary.nodes;
     j["cells"] = summary.cells;
     j["degenerate_cells"] = summary.degenerate_cells;
-    j["verdict"] = check::name(summary.verdict);
+    j["verdict"] = name(summary.verdict);
     j["from"] = name(summary.from);
     if (summary.grid) {
         j["grid"] = grid_json(*summary.grid);
