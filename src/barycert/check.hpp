@@ -144,7 +144,7 @@ struct CheckOptions {
     /// more; of measures the orientations alone, no contacts, and nothing else that came later. The verdict is the
     /// same.
     bool verdict_only = false;
-    std::function<void(const char* stage)> progress;  ///< called as each stage begins, from the calling thread
+    std::function<void(const char* stage)> progress = {};  ///< called as each stage begins, from the calling thread
 };
 
 /// The boundary, as it is combinatorially.

@@ -185,7 +185,7 @@ for block in "$folder"/blocks/*; do
         *) printed=no ;;
     esac
 done
-for link in $(grep -oE '(\]\(|src=")[^)"#: ]+' "$sources/$document" | sed -E 's/^(\]\(|src=")//'); do
+for link in $(awk '/^```/ { code = !code } !code' "$sources/$document" | grep -oE '(\]\(|src=")[^)"#: ]+' | sed -E 's/^(\]\(|src=")//'); do
     [ -e "$(dirname "$sources/$document")/$link" ] || fails "no such file: $link"
 done
 [ "$failures" = 0 ] || { echo "$failures failures"; exit 1; }
