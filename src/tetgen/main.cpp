@@ -174,7 +174,7 @@ int run(const Options& options) {
 }  // namespace barycert
 
 int main(int argc, char** argv) {
-    barycert::remove_begun_files_on_signals();
+    barycert::base::remove_begun_files_on_signals();
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, like a full disk
     // The child that runs TetGen has it too.
     const barycert::ExactEnvironment environment;
@@ -182,7 +182,7 @@ int main(int argc, char** argv) {
         const barycert::Parsed parsed = barycert::parse_options(argc, argv);
         return parsed.exit_code ? *parsed.exit_code : barycert::run(parsed.options);
     } catch (const std::exception& problem) {
-        fmt::print(stderr, "error: {}\n", barycert::printable(problem.what()));
+        fmt::print(stderr, "error: {}\n", barycert::base::printable(problem.what()));
         return 2;
     }
 }
