@@ -1,4 +1,4 @@
-/// A certificate: what check_mesh has proved of a mesh, as a value that others can rely on.
+/// The result of a mesh check as a value that stays bound to the mesh it was made for.
 #pragma once
 
 #include <cstdint>
@@ -17,18 +17,18 @@ constexpr std::string_view name(Verdict v) {
     return v == Verdict::certified ? "certified" : v == Verdict::not_certified ? "not certified" : "not checked";
 }
 
-/// Only check_mesh makes one that is not `not_checked`. It remembers which mesh it speaks of by a fingerprint of its
-/// coordinates, cells, neighbours and faces.
+/// Made by check_mesh; a default-constructed one is `not_checked`. It identifies its mesh by a hash of coordinates,
+/// cells, neighbours and faces.
 class Certificate {
 public:
     Certificate() = default;
 
     Verdict verdict() const { return verdict_; }
 
-    /// The verdict if `mesh` is the mesh that was checked, else not_checked. Reads the whole mesh once.
+    /// The verdict if `mesh` is the mesh that was checked, else not_checked. Reads the whole mesh.
     Verdict verdict_on(const Mesh& mesh) const;
 
-    /// True if `mesh` is certified: it is the mesh that was checked, and P1 to P5 of check.hpp hold.
+    /// True if `mesh` is the mesh that was checked and is certified: P1 to P5 of check.hpp hold.
     bool covers(const Mesh& mesh) const { return verdict_on(mesh) == Verdict::certified; }
 
 private:

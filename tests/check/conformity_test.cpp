@@ -98,7 +98,7 @@ TEST(ConformityReport, ANodeThatIsMovedIsTold) {
     const ConformityReport r = conformity(rounded, cube()), m = conformity(moved, cube());
     EXPECT_EQ(r.exact, 6U);
     EXPECT_EQ(r.rounded, 1U);
-    EXPECT_EQ(r.largest_distance, 0x1p-50);
+    EXPECT_EQ(r.max_distance, 0x1p-50);
     EXPECT_EQ(r.relative_distance, 0x1p-52);
     EXPECT_EQ(m.exact, 6U);
     ASSERT_EQ(m.violated, 1U);
@@ -171,7 +171,7 @@ TEST(ConformityReport, AtTheEndsOfTheRange) {
 }
 
 TEST(ConformityReport, DoesNotDependOnThreadsOrderOrOrientation) {
-    Random random(2);
+    base::Random random(2);
     const Mesh flange = mesh_of("flange");
     Mesh other = renumbered(flange, random);
     flip_some(other, random);
@@ -179,7 +179,7 @@ TEST(ConformityReport, DoesNotDependOnThreadsOrderOrOrientation) {
     const ConformityReport a = conformity(flange, plc, 1), b = conformity(other, plc, 3);
     EXPECT_EQ(a.exact, b.exact);
     EXPECT_EQ(a.rounded, b.rounded);
-    EXPECT_EQ(a.largest_distance, b.largest_distance);
+    EXPECT_EQ(a.max_distance, b.max_distance);
 }
 
 TEST(ConformityReport, OfBrokenMeshesEndsWell) {

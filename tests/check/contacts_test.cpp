@@ -57,20 +57,20 @@ void expect_witness(const Mesh& mesh, const CellContact& c, Seen& seen) {
     ++(c.overlap ? seen.overlaps : seen.touches);
     Vector x, rounded;
     for (std::size_t k = 0; k < static_cast<std::size_t>(mesh.dimension); ++k) {
-        x[k] = Q(c.witness.fraction[k]);
+        x[k] = Q(c.common.fraction[k]);
         x[k].canonicalize();
-        rounded[k] = Q(c.witness.point[k]);
-        ASSERT_EQ(c.witness.point[k], second_path::nearest(x[k]));
+        rounded[k] = Q(c.common.point[k]);
+        ASSERT_EQ(c.common.point[k], second_path::nearest(x[k]));
     }
     for (const Mesh::Index cell : c.cells) {
         const Q whole = least_weight(mesh, cell, x);
         ASSERT_TRUE(c.overlap ? whole > 0 : whole >= 0);
-        if (c.witness.exact) {
+        if (c.common.exact) {
             const Q least = least_weight(mesh, cell, rounded);
             ASSERT_TRUE(c.overlap ? least > 0 : least >= 0);
         }
     }
-    seen.exact += c.witness.exact ? 1 : 0;
+    seen.exact += c.common.exact ? 1 : 0;
 }
 
 void compare(const Mesh& mesh, Seen& seen) {
@@ -90,7 +90,7 @@ TEST(Contacts, of_random_meshes) {
     for (const int d : {2, 3}) {
         Seen seen;
         for (std::uint64_t i = 0; i < 400 && !HasFatalFailure(); ++i) {
-            Random random = Random::stream(31, static_cast<std::uint64_t>(d), i);
+            base::Random random = base::Random::stream(31, static_cast<std::uint64_t>(d), i);
             Mesh mesh = i % 2 == 0 ? random_soup(d, random) : damaged_box(d, random);
             if (judge(mesh).degenerate > 0) continue;  // contacts of such cells have no witness
             if (i % 5 == 0) mesh = mapped(mesh, {0x1p-500, 0x1p400, 3}, {0, 0, 0});
@@ -104,7 +104,7 @@ TEST(Contacts, of_random_meshes) {
 }
 
 /// Coordinates over the whole range of doubles: any bits of a finite number below 2^1000.
-Mesh extreme_soup(int d, std::size_t nodes, std::size_t cells, Random& random) {
+Mesh extreme_soup(int d, std::size_t nodes, std::size_t cells, base::Random& random) {
     Mesh mesh;
     mesh.dimension = d;
     while (mesh.points.size() < nodes * static_cast<std::size_t>(d)) {
@@ -125,7 +125,7 @@ Mesh extreme_soup(int d, std::size_t nodes, std::size_t cells, Random& random) {
 // Each fraction in lowest terms took a tenth of a second and more, a thousand of them minutes.
 TEST(Contacts, of_extreme_coordinates) {
     for (const int d : {2, 3}) {
-        Random random = Random::stream(33, static_cast<std::uint64_t>(d), 0);
+        base::Random random = base::Random::stream(33, static_cast<std::uint64_t>(d), 0);
         const Mesh mesh = extreme_soup(d, 60, 300, random);
         const CheckReport r = quick(mesh, 300);
         ASSERT_EQ(r.contacts.size(), 300U);
@@ -136,9 +136,9 @@ TEST(Contacts, of_extreme_coordinates) {
         EXPECT_GT(seen.exact, 2U) << d;
         EXPECT_LT(seen.exact, 30U) << d;
         for (const CellContact& c : r.contacts) {
-            for (const std::string& text : c.witness.fraction) {
+            for (const std::string& text : c.common.fraction) {
                 // Of doubles: 2^1074 and more bits, 2 * 650 digits. Others: degree 13 in 2100 bits, 2 * 8300 digits.
-                EXPECT_LT(text.size(), c.witness.exact ? 2500U : 17000U);
+                EXPECT_LT(text.size(), c.common.exact ? 2500U : 17000U);
             }
         }
     }
@@ -156,7 +156,7 @@ TEST(Contacts, no_double_between) {
     Seen seen;
     expect_witness(mesh, r.contacts[0], seen);
     EXPECT_TRUE(r.contacts[0].overlap);
-    EXPECT_FALSE(r.contacts[0].witness.exact);
+    EXPECT_FALSE(r.contacts[0].common.exact);
 }
 
 TEST(Contacts, as_many_as_asked) {

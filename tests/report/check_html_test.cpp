@@ -221,7 +221,7 @@ TEST(CheckHtml, GoodMeshes) {
         expect_complete(mesh);
         const std::string page = page_of(mesh, name);
         EXPECT_TRUE(has(page, "<b>Certified</b>"));
-        EXPECT_FALSE(has(page, "Cells with problems"));
+        EXPECT_FALSE(has(page, "Cells with defects"));
         EXPECT_EQ(count(page, "<figure class=\"half card\">"), 6U);
         EXPECT_FALSE(has(page, "violations</th></tr>\n</table>"));
         EXPECT_EQ(page.find(mesh.dimension == 2 ? "tetrahedr" : "triangles</span>"), std::string::npos);
@@ -233,8 +233,8 @@ TEST(CheckHtml, BrokenMeshes) {
         expect_complete(mesh);
         const std::string page = page_of(mesh);
         EXPECT_TRUE(has(page, "<b>NOT certified</b>"));
-        EXPECT_TRUE(has(page, "Cells with problems"));
-        EXPECT_TRUE(has(page, "What is wrong, and what to do"));
+        EXPECT_TRUE(has(page, "Cells with defects"));
+        EXPECT_TRUE(has(page, "Defects and remedies"));
         EXPECT_TRUE(has(page, "class=\"witness\""));
         for (const Defect& f : checked(mesh).defects)
             EXPECT_TRUE(has(page, report::html_escaped(defect_text(f.kind).text))) << defect_text(f.kind).name;

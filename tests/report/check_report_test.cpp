@@ -9,6 +9,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/report.hpp"
 #include "check_meshes.hpp"
+#include "lines.hpp"
 #include "schema_tables.hpp"
 
 namespace barycert::report_test {
@@ -22,17 +23,6 @@ std::string text(const CheckReport& report, const Mesh& mesh, bool colour = fals
 }
 std::string text(const Mesh& mesh) {
     return text(checked(mesh, true), mesh);
-}
-
-Lines lines_of(const std::string& text) {
-    std::istringstream in(text);
-    Lines lines;
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
-    return lines;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 Json json(const CheckReport& report) {
@@ -59,13 +49,13 @@ TEST(check_terminal, the_first_line_is_the_verdict) {
               "part: certified: 1 cell is a domain of 1 part, 0 cavities, 0 tunnels");
     EXPECT_EQ(lines_of(text(Mesh())).front(), "part: certified, trivially: the mesh has no cells");
     EXPECT_EQ(lines_of(text(overlapping())).front(),
-              "part: NOT certified: 1 pair of cells overlaps, 3 pairs of boundary facets meet, and 1 more problem");
+              "part: NOT certified: 1 pair of cells overlaps, 3 pairs of boundary facets meet, and 1 more defect");
     EXPECT_EQ(lines_of(text(thoroughly_broken()))
                   .front()
                   .find("part: NOT certified: 3 pairs of cells overlap, 1 cell has a node twice, "),
               0U)
         << text(thoroughly_broken());
-    EXPECT_TRUE(contains(lines_of(text(thoroughly_broken())).front(), " more problems"));
+    EXPECT_TRUE(contains(lines_of(text(thoroughly_broken())).front(), " more defects"));
 }
 
 TEST(check_terminal, every_problem_has_words_for_one_and_for_more) {
@@ -92,11 +82,11 @@ TEST(check_terminal, lines_fit_a_terminal) {
     wide.defects[0].places.assign(20, {{big - 1, big}, {big - 2, big - 1, big}, "coplanar"});
     CellContact c;
     c.cells = {big - 1, big};
-    c.witness.point.fill(-1.2345678901234567e-300);
-    c.witness.exact = true;
+    c.common.point.fill(-1.2345678901234567e-300);
+    c.common.exact = true;
     wide.contacts.assign(2, c);
-    wide.contacts[1].witness.exact = false;
-    wide.contacts[1].witness.fraction.fill("-" + std::string(79, '7'));
+    wide.contacts[1].common.exact = false;
+    wide.contacts[1].common.fraction.fill("-" + std::string(79, '7'));
     for (const std::string& line : lines_of(text(wide, {}))) EXPECT_LE(line.size(), 100U) << line;
 }
 
@@ -109,7 +99,7 @@ TEST(check_terminal, conditions_say_how_often_they_fail) {
     };
     const std::string good = text(own_mesh("bracket"));
     for (const std::string name : {"P1 ", "P2 ", "P3 ", "P4 ", "    hence", "P5 "}) EXPECT_EQ(row(good, name), "ok");
-    EXPECT_TRUE(contains(text(own_mesh("torus")), "none came\n")) << "it has neither .neigh nor .face";
+    EXPECT_TRUE(contains(text(own_mesh("torus")), "not provided\n")) << "it has neither .neigh nor .face";
     const std::string bad = text(overlapping());
     EXPECT_EQ(row(bad, "P1 "), "ok");
     EXPECT_EQ(row(bad, "P2 "), "ok");
@@ -123,7 +113,7 @@ TEST(check_terminal, conditions_say_how_often_they_fail) {
     EXPECT_EQ(row(text(no_mesh), "P1 "), "1");
     EXPECT_TRUE(contains(text(no_mesh), "not checked\n"));
     EXPECT_TRUE(contains(text(no_mesh), "(corners without a whole cell)"));
-    EXPECT_TRUE(contains(text(thoroughly_broken()), "take no part in\nP2 to P5.\n"));
+    EXPECT_TRUE(contains(text(thoroughly_broken()), "P2 to P5 leave out cells with an invalid index"));
 }
 
 TEST(check_terminal, long_lists_are_cut_and_say_so) {
@@ -132,10 +122,11 @@ TEST(check_terminal, long_lists_are_cut_and_say_so) {
     mesh.neighbours.clear();
     const std::string shown = text(mesh);
     EXPECT_TRUE(contains(shown, "certified: 1590 cells")) << "the order of corners does not matter";
-    EXPECT_TRUE(contains(shown,
-                         "Notes, harmless to a partition\nmixed_orientation           40  cells of the rarer "
-                         "orientation\n    cells 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, and 30 more\n    -> --fix"));
-    EXPECT_FALSE(contains(shown, "What is wrong"));
+    EXPECT_TRUE(
+        contains(shown,
+                 "Notes: these do not affect the certificate\nmixed_orientation           40  cells of the less "
+                 "frequent orientation\n    cells 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, and 30 more\n    -> --fix"));
+    EXPECT_FALSE(contains(shown, "Defects and remedies"));
     const std::string more = text(with_finding(DefectKind::overlapping_cells, 1000, true), {});
     EXPECT_TRUE(contains(more,
                          "overlapping_cells      >= 1000  pairs of cells whose interiors meet\n    cells 0 and 1; "
@@ -147,7 +138,8 @@ TEST(check_terminal, a_folded_cell_is_not_mended_by_its_orientation) {
     // Cell 1 with its apex pushed through the common facet: the order of its corners is wrong for that reason.
     Mesh mesh = pair_of_cells();
     mesh.points[14] = 0.125;
-    EXPECT_TRUE(contains(text(mesh), "writes a copy with all positive; that mends no folded cell\n")) << text(mesh);
+    EXPECT_TRUE(contains(text(mesh), "writes a copy with all positive; this does not repair folded cells\n"))
+        << text(mesh);
     mesh = pair_of_cells();
     std::swap(mesh.cells[0], mesh.cells[1]);
     EXPECT_TRUE(contains(text(mesh), "writes a copy with all positive\n"));
@@ -163,20 +155,20 @@ TEST(check_terminal, witnesses_are_exact_or_say_that_they_are_rounded) {
     CellContact c;
     c.cells = {0, 1};
     c.dimension = 1;
-    c.witness.point = {1 / 3.0, 0.5, -2};
-    c.witness.fraction = {"1/3", "1/2", "-2"};
+    c.common.point = {1 / 3.0, 0.5, -2};
+    c.common.fraction = {"1/3", "1/2", "-2"};
     r.contacts = {c};
     const std::string thirds = text(r, {});
     EXPECT_TRUE(contains(thirds,
-                         "1 pair of cells that meet where they must not, each with an exact point of both\n"
+                         "1 pair of cells that meet where they must not, each with a common point\n"
                          "cells 0 and 1 touch along a segment: (0.3333333333333333, 0.5, -2), rounded\n"
                          "    x = 1/3\n    y = 1/2\n    z = -2\n"))
         << thirds;
     EXPECT_FALSE(contains(thirds, "--json"));
-    r.contacts[0].witness.fraction[1] = std::string(300, '1') + "/" + std::string(99, '2');
+    r.contacts[0].common.fraction[1] = std::string(300, '1') + "/" + std::string(99, '2');
     const std::string cut = text(r, {});
     EXPECT_TRUE(contains(cut, "    y = 111111111111111111111111...222222222222222222222222 (400 characters)\n"));
-    EXPECT_TRUE(contains(cut, "--json FILE has the fractions whole.\n"));
+    EXPECT_TRUE(contains(cut, "--json FILE writes the fractions in full.\n"));
     r.contacts[0].dimension = 0;
     EXPECT_TRUE(contains(text(r, {}), "touch in a point"));
     r.contacts[0].dimension = 2;
@@ -185,8 +177,8 @@ TEST(check_terminal, witnesses_are_exact_or_say_that_they_are_rounded) {
 
 TEST(check_terminal, places_are_positions_whatever_the_file_counts_from) {
     EXPECT_TRUE(
-        contains(text(own_mesh("bracket")), "counted from 0, in the order of the file (which counts from 1).\n"));
-    EXPECT_TRUE(contains(text(own_mesh("torus")), "counted from 0, in the order of the file.\n"));
+        contains(text(own_mesh("bracket")), "numbered from 0 in file order (the file itself numbers from 1).\n"));
+    EXPECT_TRUE(contains(text(own_mesh("torus")), "numbered from 0 in file order.\n"));
 }
 
 TEST(check_terminal, in_the_plane_there_are_areas_and_holes) {
@@ -201,8 +193,8 @@ TEST(check_terminal, in_the_plane_there_are_areas_and_holes) {
 
 TEST(check_terminal, volumes_tell_whether_they_are_equal) {
     EXPECT_TRUE(contains(text(pair_of_cells()),
-                         "0.3333333333333333 in the cells, 0.3333333333333333 within the boundary: "
-                         "equal, exactly\n"));
+                         "0.3333333333333333 in the cells, 0.3333333333333333 inside the boundary: "
+                         "exactly equal\n"));
     EXPECT_TRUE(contains(text(thoroughly_broken()), "NOT equal\n"));
 }
 
@@ -213,9 +205,10 @@ TEST(check_terminal, delaunay_only_if_asked) {
     ASSERT_TRUE(r.delaunay);
     EXPECT_TRUE(contains(text(r, {}), "Delaunay   1 interior facet tested: all are locally Delaunay"));
     *r.delaunay = {10, 2, 3, 0.25, 7, 11};
-    EXPECT_TRUE(contains(text(r, {}),
-                         "10 interior facets tested: 2 are not locally Delaunay; 3 cospherical\n"
-                         "           worst: node 11 lies in the sphere of cell 7, 0.25 of its radius deep\n"));
+    EXPECT_TRUE(
+        contains(text(r, {}),
+                 "10 interior facets tested: 2 are not locally Delaunay; 3 cospherical\n"
+                 "           worst: node 11 lies inside the circumsphere of cell 7, 0.25 of its radius deep\n"));
 }
 
 TEST(check_terminal, measures_have_their_worst_cell) {
@@ -287,11 +280,11 @@ TEST(check_json, findings_and_contacts_stand_whole) {
     ASSERT_EQ(j["contacts"].size(), r.contacts.size());
     for (std::size_t i = 0; i < r.contacts.size(); ++i) {
         const Json& w = j["contacts"][i]["witness"];
-        EXPECT_EQ(w["exact"], r.contacts[i].witness.exact);
+        EXPECT_EQ(w["exact"], r.contacts[i].common.exact);
         for (std::size_t k = 0; k < 3; ++k) {
-            EXPECT_EQ(parse_double(w["hex"][k].get<std::string>()), r.contacts[i].witness.point[k]);
-            EXPECT_EQ(parse_double(w["decimal"][k].get<std::string>()), r.contacts[i].witness.point[k]);
-            EXPECT_EQ(w["fraction"][k], r.contacts[i].witness.fraction[k]);
+            EXPECT_EQ(base::parse_double(w["hex"][k].get<std::string>()), r.contacts[i].common.point[k]);
+            EXPECT_EQ(base::parse_double(w["decimal"][k].get<std::string>()), r.contacts[i].common.point[k]);
+            EXPECT_EQ(w["fraction"][k], r.contacts[i].common.fraction[k]);
         }
     }
     EXPECT_EQ(json(with_finding(DefectKind::overlapping_cells, 1000, true))["findings"][0]["at_least"], true);

@@ -74,13 +74,13 @@ int scaled_edges(int d, const double* const* p, Real* edges) {
 }
 
 Shape shape_of(int d, const double* const* p, double volume, const Integer& exact, const ExactVolumes& volumes) {
-    double edges[9];
+    double edges[9] = {};
     const int exponent = scaled_edges(d, p, edges);
     const double scaled = std::scalbn(std::fabs(volume), -d * exponent);
     if (exact.sign() == 0 || (std::isnormal(volume) && scaled >= 0x1p-300 && scaled <= 8))
         return shape(d, edges, scaled);
     // Too thin for double, or its edges are too long. The volume, near 1 first: it may be no double.
-    long double wide[9];
+    long double wide[9] = {};
     const int wide_exponent = scaled_edges(d, p, wide);
     const int scale = volumes.exponent(exact) / d;
     const long double near_one = std::fabs(volumes.rounded(exact, scale));
@@ -192,7 +192,7 @@ Cells check_cells(const Mesh& mesh, const std::vector<std::uint8_t>& finite, con
     measures.defects.assign(count, 0);
     for (auto* measure : {&measures.volume, &measures.condition, &measures.radius_edge, &measures.aspect,
                           &measures.min_angle, &measures.max_angle})
-        barycert::detail::resize_large(*measure, shapes ? count : 0);
+        barycert::base::resize_large(*measure, shapes ? count : 0);
     const CellChecker check(mesh, finite, volumes, measures, cells.usable);
     in_blocks(
         count, 8192,

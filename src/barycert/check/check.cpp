@@ -12,6 +12,7 @@
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/check/boundary.hpp"
 #include "barycert/check/cells.hpp"
+#include "barycert/check/common_part.hpp"
 #include "barycert/check/defect_list.hpp"
 #include "barycert/check/exact_volumes.hpp"
 #include "barycert/check/facets.hpp"
@@ -19,7 +20,6 @@
 #include "barycert/check/local_delaunay.hpp"
 #include "barycert/check/nodes.hpp"
 #include "barycert/check/pairs.hpp"
-#include "barycert/check/witness.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/mesh/consistency.hpp"
 
@@ -44,7 +44,7 @@ std::uint64_t count_parts(const Mesh& mesh, const std::vector<std::uint8_t>& usa
     return count;
 }
 
-/// Overlapping pairs first, then those whose boundary facets touch; each with its witness.
+/// Overlapping pairs first, then those whose boundary facets touch; each with a common point.
 std::vector<CellContact> contacts(const Mesh& mesh, const CellMeasures& measures, std::vector<CellPair> overlapping,
                                   std::vector<CellPair> touching, std::size_t limit) {
     std::vector<CellPair> pairs;
@@ -59,8 +59,8 @@ std::vector<CellContact> contacts(const Mesh& mesh, const CellMeasures& measures
     for (const CellPair& p : pairs) {
         const auto a = static_cast<std::size_t>(p[0]), b = static_cast<std::size_t>(p[1]);
         if (a == b || measures.orientation[a] == 0 || measures.orientation[b] == 0) continue;
-        const Common common = common_part(mesh.dimension, corner_points(mesh, a), corner_points(mesh, b));
-        all.push_back({p, common.dimension == mesh.dimension, common.dimension, common.witness});
+        const CommonPart common = common_part(mesh.dimension, corner_points(mesh, a), corner_points(mesh, b));
+        all.push_back({p, common.dimension == mesh.dimension, common.dimension, common.point});
     }
     return all;
 }
@@ -119,7 +119,7 @@ private:
         check_boundary_and_pairs(report, cells, facets, volumes);
         parts.wait();
         // Last, as it says nothing of where cells lie: what is certified is accepted by all who ask for a whole mesh.
-        if (const char* fault = detail::inconsistency_of_extras(mesh_, detail::FieldValues::any); fault != nullptr) {
+        if (const char* fault = mesh::inconsistency_of_extras(mesh_, mesh::FieldValues::any); fault != nullptr) {
             defects_.add(DefectKind::unfit_array, {.detail = fault});
         }
         if (enough()) return;

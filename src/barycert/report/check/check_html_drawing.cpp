@@ -22,13 +22,13 @@ struct Shown {
     double stretch = 1;  ///< of what is drawn upwards
 };
 
-/// What is drawn on a card: normalised corners of one or two cells, and a witness.
+/// What is drawn on a card: normalised vertices of one or two cells, and a common point.
 struct Scene {
     std::size_t corners = 4;
     std::vector<Vector> points;
     std::vector<Mesh::Index> nodes;
-    bool has_witness = false;
-    Vector witness{};
+    bool has_common = false;
+    Vector common{};
 
     std::vector<Vector> cell(std::size_t i) const {
         const auto first = points.begin() + static_cast<std::ptrdiff_t>(i * corners);
@@ -53,9 +53,9 @@ Scene scene_of(const Mesh& mesh, const Exhibit& e) {
     const Normalised normalised(mesh.dimension, at);
     scene.points = normalised.points();
     if (e.contact != nullptr) {
-        const std::array<double, 3>& w = e.contact->witness.point;
-        scene.has_witness = std::all_of(w.begin(), w.end(), [](double x) { return std::isfinite(x); });
-        if (scene.has_witness) scene.witness = normalised.place(w.data());
+        const std::array<double, 3>& w = e.contact->common.point;
+        scene.has_common = std::all_of(w.begin(), w.end(), [](double x) { return std::isfinite(x); });
+        if (scene.has_common) scene.common = normalised.place(w.data());
     }
     return scene;
 }
@@ -162,9 +162,9 @@ std::string draw(const Scene& scene, const Shown& shown, double scale, const std
         svg.dot(p, 2.2, "node");
         labels.push_back({p, std::to_string(scene.nodes[i]), "id"});
     }
-    if (scene.has_witness) {
-        svg.dot(at(scene.witness), 4, "witness", "witness");
-        labels.push_back({at(scene.witness), "witness", "id bad"});
+    if (scene.has_common) {
+        svg.dot(at(scene.common), 4, "witness", "common point");
+        labels.push_back({at(scene.common), "common point", "id bad"});
     }
     place_labels(svg, std::move(labels), top);
     return std::move(svg).finish();

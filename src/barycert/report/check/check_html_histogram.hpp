@@ -40,7 +40,7 @@ struct HistogramText {
     std::string_view axis;      ///< the measure, with its unit
     std::string_view infinite;  ///< what an infinite value is
     std::string_view zero;      ///< what zero is, where bins are logarithmic
-    bool most_is_worst = true;
+    bool max_is_worst = true;
 };
 
 /// A figure: title, least, median, most, the bars, what was counted apart. Counts are on a logarithmic axis if the

@@ -14,9 +14,6 @@ namespace barycert::report {
 /// As xml_escaped, and bytes that are no UTF-8 (a file's name may be anything) become U+FFFD.
 std::string html_escaped(std::string_view text);
 
-/// "1,234,567".
-std::string grouped(std::uint64_t n);
-
 struct Pixel {
     double x = 0, y = 0;
 };

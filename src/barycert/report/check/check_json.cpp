@@ -8,7 +8,7 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/report/check/check_conditions.hpp"
+#include "barycert/report/check/check_words.hpp"
 #include "barycert/report/common/environment_json.hpp"
 
 namespace barycert {
@@ -113,12 +113,12 @@ Json contact_json(const CellContact& c, int d) {
     j["overlap"] = c.overlap;
     j["dimension"] = std::max(c.dimension, 0);
     Json& w = j["witness"];
-    w["exact"] = c.witness.exact;
+    w["exact"] = c.common.exact;
     for (const char* form : {"decimal", "hex", "fraction"}) w[form] = Json::array();
     for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) {
-        w["decimal"].push_back(shortest(c.witness.point[k]));
-        w["hex"].push_back(hexadecimal(c.witness.point[k]));
-        w["fraction"].push_back(c.witness.fraction[k]);
+        w["decimal"].push_back(base::shortest(c.common.point[k]));
+        w["hex"].push_back(base::hexadecimal(c.common.point[k]));
+        w["fraction"].push_back(c.common.fraction[k]);
     }
     return j;
 }
@@ -141,7 +141,7 @@ Json conformity_json(const ConformityReport& c) {
     j["rounded"] = c.rounded;
     j["violated"] = c.violated;
     j["missing_vertices"] = c.missing_vertices;
-    j["largest_distance"] = figure(c.largest_distance);
+    j["largest_distance"] = figure(c.max_distance);
     j["relative_distance"] = figure(c.relative_distance);
     j["examples"] = Json::array();
     for (const ViolatedFacet& f : c.examples)

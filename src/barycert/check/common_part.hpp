@@ -1,4 +1,4 @@
-/// Internal: an exact point that two cells have in common.
+/// An exact point that two cells share.
 #pragma once
 
 #include "barycert/check.hpp"
@@ -6,13 +6,13 @@
 
 namespace barycert::check {
 
-/// What two closed cells have in common: its dimension (-1: nothing), and a point in its relative interior, computed in
+/// The intersection of two closed cells: its dimension (-1: empty) and a point in its relative interior, computed in
 /// integers. If the interiors meet, that point lies in both. Precondition: coordinates finite. Slow: tens of
 /// microseconds, or up to some milliseconds (coordinates over the whole range of doubles, numbers of 30,000 bits).
-struct Common {
+struct CommonPart {
     int dimension = -1;
-    CommonPoint witness;
+    CommonPoint point;
 };
-Common common_part(int d, const Corners& a, const Corners& b);
+CommonPart common_part(int d, const Corners& a, const Corners& b);
 
 }  // namespace barycert::check

@@ -1,4 +1,4 @@
-#include "barycert/check/witness.hpp"
+#include "barycert/check/common_part.hpp"
 
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
@@ -208,7 +208,7 @@ Fraction dyadic(double x) {
     return {mantissa, 1, s.mantissa == 0 ? 0 : s.exponent - 1074};
 }
 
-/// The doubles of the witness themselves lie in both cells; in both interiors if `inside`.
+/// The rounded point itself lies in both cells; in both interiors if `inside`.
 bool lies_in(int d, const Corners& cell, const double* point, bool inside) {
     const Simplex s = d == 2 ? Simplex::triangle : Simplex::tetrahedron;
     double vertices[12];
@@ -221,14 +221,14 @@ bool lies_in(int d, const Corners& cell, const double* point, bool inside) {
 
 }  // namespace
 
-Common common_part(int d, const Corners& a, const Corners& b) {
+CommonPart common_part(int d, const Corners& a, const Corners& b) {
     const Lattice lattice(d, a, b);
     const Cell p(d, a, lattice), q(d, b, lattice);
     std::vector<Point> all;
     add_extreme_points(p, q, all);
     add_extreme_points(q, p, all);
     const std::vector<Point> points = spanning(d, all);
-    Common common;
+    CommonPart common;
     common.dimension = static_cast<int>(points.size()) - 1;
     if (points.empty()) return common;
     // What the two have in common is the convex hull of all points: the mean of some that span it is in its relative
@@ -241,7 +241,7 @@ Common common_part(int d, const Corners& a, const Corners& b) {
             if (i != j) factors[i] *= points[j].weight;
         }
     }
-    CommonPoint& w = common.witness;
+    CommonPoint& w = common.point;
     bool finite = true, short_enough = true;
     std::vector<Fraction> means;
     for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) {
