@@ -72,7 +72,8 @@ public:
         limbs_[whole] = mantissa << part;
         limbs_[whole + 1] = part == 0 ? 0 : mantissa >> (64 - part);
         size_ = whole + 2;
-        trim();
+        // Limbs from size_ on are never read.
+        trim();  // NOLINT(clang-analyzer-optin.cplusplus.UninitializedObject)
     }
 
     /// A magnitude, the least significant limb first.

@@ -6,14 +6,9 @@
 #include <cmath>
 #include <cstring>
 
-// Before Highway's headers.
-#include "barycert/core/simd_targets.hpp"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/sample/grid/fill_lanes.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, as Highway wants it.
-#include <hwy/highway.h>
+#include "barycert/core/foreach_target.hpp"
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/locate/records-inl.hpp"

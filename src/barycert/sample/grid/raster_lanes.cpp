@@ -16,14 +16,9 @@
 #include <algorithm>
 #include <cmath>
 
-// Before Highway's headers.
-#include "barycert/core/simd_targets.hpp"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/sample/grid/raster_lanes.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, as Highway wants it.
-#include <hwy/highway.h>
+#include "barycert/core/foreach_target.hpp"
 
 #include "barycert/base/strict_math.hpp"
 
