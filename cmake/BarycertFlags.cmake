@@ -26,7 +26,10 @@ if(DEFINED barycert_strict_math_${CMAKE_CXX_COMPILER_ID})
 else()
   target_compile_options(barycert_flags INTERFACE ${barycert_strict_math})
 endif()
-target_compile_options(barycert_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
+target_compile_options(barycert_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion)
+# Of joined sources (barycert_join) each sees the others' names: a local name may be one of theirs.
+set(joined $<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>)
+target_compile_options(barycert_flags INTERFACE $<$<NOT:${joined}>:-Wshadow> $<$<AND:${joined},$<CXX_COMPILER_ID:GNU>>:-Wshadow=local>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 warns of overlaps and overflows that are not there in `"text" + std::string` (its bug 105651).
   # At -O3 it also sees std::array::fill of small structures write past their end, which it does not.

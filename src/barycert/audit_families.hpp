@@ -14,7 +14,9 @@
 
 namespace barycert {
 
+namespace base {
 class Random;
+}
 namespace audit {
 struct PreparedMesh;
 }
@@ -47,10 +49,10 @@ struct Family {
     std::vector<Simplex> simplices;
 
     /// Fills `c` (its simplex is set, all else zero). `index` is the case's number.
-    using Recipe = void (*)(Case& c, Random& random, std::uint64_t index);
+    using Recipe = void (*)(Case& c, base::Random& random, std::uint64_t index);
     Recipe recipe = nullptr;
 
-    using MeshRecipe = void (*)(Case& c, Random& random, const MeshSource& meshes);
+    using MeshRecipe = void (*)(Case& c, base::Random& random, const MeshSource& meshes);
     MeshRecipe mesh_recipe = nullptr;
 
     bool applies_to(Simplex s) const;

@@ -1,11 +1,11 @@
-/// The exact core of barycert: the sign of every barycentric weight, weights and values to the last bit, at the speed
-/// of floating point where floating point is enough.
+/// The exact core of barycert: exact signs of barycentric weights, and correctly rounded weights, values and gradients,
+/// at the speed of floating point where floating point suffices.
 ///
-/// Enters: vertices of segments, triangles (in the plane or in 3-space) and tetrahedra, points, nodal values, as
-/// doubles in any unit. Leaves: signs, weights, values, gradients, points. Errors come as Result or Status. Nothing
-/// prints or exits. Two things throw: want of memory, and Result::value() where there is an Error instead of a value.
+/// Input: vertices of segments, triangles (in the plane or in space) and tetrahedra, points and nodal values, as
+/// doubles in any unit. Output: signs, weights, values, gradients, points. Errors are returned as Result or Status.
+/// Nothing prints or exits. Two things throw: a failed allocation (std::bad_alloc), and Result::value() on an Error.
 ///
-/// Laws, each a test by its name (tests/core, tests/laws):
+/// Laws, each a test of that name (tests/core, tests/laws):
 ///   S1  A sign is exact for every finite double, subnormals and 1e308 included.          predicates.hpp
 ///   S2  Even permutations keep a sign, odd ones flip it; powers of two keep it.          predicates.hpp
 ///   W1  A weight has the exact sign; it is zero only if the exact one is, or rounds to it.   weights.hpp
@@ -16,27 +16,27 @@
 ///   G1  A gradient's component is the exact one rounded to nearest, ties to even.        gradient.hpp
 ///   D1  Results depend on the input bits alone: not on threads, SIMD target, compiler,
 ///       optimisation, or the order of cases.
-///   D2  Nor do they depend on the floating-point environment of the caller: rounding mode, flush-to-zero,
-///       denormals-are-zero. Every call sets what it needs and puts back what was there       environment.hpp
-///   Z   A weight, value, gradient, parameter or coordinate that is exactly zero is +0, whatever zeros it was made of.
-///       One that is not zero but rounds to it is the zero with its sign.                                 all headers
-///   A degenerate simplex is told, never weighed. NaN or infinity is an Error, never a sign.
+///   D2  Results do not depend on the caller's floating-point environment: rounding mode, flush-to-zero,
+///       denormals-are-zero. Every call sets what it needs and restores what was there       environment.hpp
+///   Z   A weight, value, gradient, parameter or coordinate that is exactly zero is +0, whatever the signs of the zeros
+///       it was computed from. One that is not zero but rounds to zero keeps its sign.           all headers
+///   A degenerate simplex is reported, never weighed. NaN or infinity in checked input is an Error, never a sign.
 ///
-/// What is not promised:
+/// Not promised:
 ///   - anything about numbers before they were rounded to these doubles;
 ///   - that rounded weights sum to 1, or give back their point: rounding each one is incompatible with both;
-///   - a time. Measured (bench_extremes, NOTES.md): nanoseconds where the filter decides, up to about a microsecond
-///     where integers must and numbers differ by at most 2^72 in magnitude. From there on it grows with the spread, up
-///     to some ten microseconds for orientations and condition numbers, some tens for weights, values and gradients,
-///     and a hundred for insphere, triangles in 3-space and quadratic fields;
+///   - a time. Measured (bench_extremes, NOTES.md): nanoseconds where the filter decides; up to about a microsecond
+///     where integers must decide and numbers differ by at most 2^72 in magnitude. Beyond that it grows with the
+///     spread: up to some ten microseconds for orientations and condition numbers, some tens for weights, values and
+///     gradients, and a hundred for insphere, triangles in space and quadratic fields;
 ///   - which tier decides (TierCounts): it is the same on every machine, but may change with the version;
-///   - checks of indices: those are preconditions;
-///   - signs (predicates.hpp) while floating-point exceptions are trapped; flags are not preserved;
-///   - a stack of less than 128 KiB below the call: integers take no heap. Measured, optimised, on x86-64 (a test): up
-///     to 107 KiB where numbers spread over all exponents, without optimisation up to 142 KiB.
+///   - checks of indices: indices in range are required;
+///   - signs (predicates.hpp) while floating-point exceptions are trapped; exception flags are not preserved;
+///   - a stack of less than 128 KiB below the call, as integers do not use the heap. Measured, optimised, on x86-64 (a
+///     test): up to 107 KiB where numbers spread over all exponents, without optimisation up to 142 KiB.
 ///
-/// How it is done: filter-inl.hpp (signs), refinement-inl.hpp (weights and values) and exact_weights.hpp (what those
-/// leave open) prove their bounds where they use them; NOTES.md has measurements, and what was tried.
+/// How it works: filter-inl.hpp (signs), refinement-inl.hpp (weights and values) and exact_tier.hpp (what these leave
+/// undecided) prove their bounds where they use them; NOTES.md has measurements, and what was tried.
 #pragma once
 
 #include "barycert/batch.hpp"        // IWYU pragma: export

@@ -1,4 +1,4 @@
-/// Many cases at once: how they lie in memory.
+/// How many cases lie in memory for one call.
 #pragma once
 
 #include <array>
@@ -11,7 +11,8 @@
 namespace barycert {
 
 /// `count` independent cases in structure of arrays. With d = space_dimension(simplex), coordinate k of vertex i of
-/// case j is vertices[d * i + k][j] and that of its point is point[k][j]. The caller keeps the arrays.
+/// case j is vertices[d * i + k][j] and that of its point is point[k][j]. The caller owns the arrays; they must live
+/// until the call returns.
 struct CaseArrays {
     Simplex simplex = Simplex::tetrahedron;
     std::size_t count = 0;
@@ -19,9 +20,9 @@ struct CaseArrays {
     std::array<const double*, 3> point{};
 };
 
-/// Points to be tested against cells of a mesh. Case j is cell cells[j] with the point at points[d * j]; its vertex i
-/// is node corners[n * cells[j] + i], with coordinates nodes[d * node ...], n = vertex_count, d = space_dimension.
-/// Precondition: every index in range.
+/// Points against cells of a mesh. Case j is cell cells[j] with the point at points[d * j]; its vertex i is node
+/// corners[n * cells[j] + i], with coordinates nodes[d * node ...], n = vertex_count(simplex),
+/// d = space_dimension(simplex). Requires every index in range: indices are not checked.
 struct MeshQueries {
     Simplex simplex = Simplex::tetrahedron;
     std::span<const double> nodes;
@@ -32,14 +33,15 @@ struct MeshQueries {
     std::size_t count() const { return cells.size(); }
 };
 
-/// Nodal values of `components` numbers for CaseArrays: component c at vertex i of case j is at[i][components * j + c].
+/// Nodal values for CaseArrays, T double or float: component c at vertex i of case j is at[i][components * j + c].
 template <class T>
 struct ValueArrays {
     std::array<const T*, 4> at{};
     int components = 1;
 };
 
-/// Nodal values of a mesh: component c at node k is data[components * k + c]. Float is taken for the double it is.
+/// Nodal values of a mesh, T double or float: component c at node k is data[components * k + c]. A float is converted
+/// to double, which is exact.
 template <class T>
 struct NodalValues {
     std::span<const T> data;

@@ -125,7 +125,7 @@ struct CheckOptions {
     /// Stop at the first defect that breaks the certificate. The verdict is the same; the report then has that defect,
     /// maybe others, the orientations, and nothing else.
     bool verdict_only = false;
-    std::function<void(const char* stage)> progress;  ///< called as each stage begins, from the calling thread
+    std::function<void(const char* stage)> progress = {};  ///< called as each stage begins, from the calling thread
 };
 
 /// The combinatorial boundary.

@@ -37,7 +37,7 @@
 
 namespace barycert {
 
-namespace detail {
+namespace locate {
 struct LocatorData;
 }
 
@@ -77,9 +77,9 @@ struct BuildOptions {
 /// Thread-safe: any number of threads may ask at once.
 class Locator {
 public:
-    /// Proves the mesh while it indexes it (`options.prove`), so that points can be found by walks. The mesh must stay as
-    /// it is and outlive the locator. Returns an Error if the mesh is inconsistent: indices out of range, coordinates
-    /// that are not finite, sizes that do not fit.
+    /// Proves the mesh while it indexes it (`options.prove`), so that points can be found by walks. The mesh must stay
+    /// as it is and outlive the locator. Returns an Error if the mesh is inconsistent: indices out of range,
+    /// coordinates that are not finite, sizes that do not fit.
     static Result<Locator> build(const Mesh& mesh, const BuildOptions& options = {});
     static Result<Locator> build(Mesh&&, const BuildOptions& = {}) = delete;
 
@@ -122,11 +122,11 @@ public:
     Result<Nearest> nearest(const double* point, double limit) const;
 
     /// For the library's own use.
-    const detail::LocatorData& data() const { return *data_; }
+    const locate::LocatorData& data() const { return *data_; }
 
 private:
-    explicit Locator(std::unique_ptr<detail::LocatorData> data);
-    std::unique_ptr<detail::LocatorData> data_;
+    explicit Locator(std::unique_ptr<locate::LocatorData> data);
+    std::unique_ptr<locate::LocatorData> data_;
 };
 
 }  // namespace barycert

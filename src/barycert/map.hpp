@@ -39,16 +39,15 @@
 
 namespace barycert {
 
-namespace detail {
+namespace sample {
 struct MapWriterData;
 struct MapReaderData;
-}  // namespace detail
+}  // namespace sample
 
-/// A hash of coordinates and cells: what a map depends on. Fields, markers, faces, neighbours and nodes at mid-edges may
-/// change; 0.0 and -0.0 are the same coordinate. Reads the whole mesh once.
-/// It is the checksum, from 0, of these words: the dimension; the number of coordinates, then the bits of each as
-/// float64, -0.0 as 0.0; the number of corners of cells, then two of them a word, the first in its low half, 0 after
-/// the last.
+/// A hash of coordinates and cells: what a map depends on. Fields, markers, faces, neighbours and nodes at mid-edges
+/// may change; 0.0 and -0.0 are the same coordinate. Reads the whole mesh once. It is the checksum, from 0, of these
+/// words: the dimension; the number of coordinates, then the bits of each as float64, -0.0 as 0.0; the number of
+/// corners of cells, then two of them a word, the first in its low half, 0 after the last.
 std::uint64_t mesh_fingerprint(const Mesh& mesh);
 
 /// Writes rows block by block: memory does not grow with their number. The file appears whole at commit(), or not at
@@ -63,17 +62,17 @@ public:
     MapWriter& operator=(MapWriter&&) noexcept;
     ~MapWriter();
 
-    /// Appends the points, cells and features of the rows. Errors: sizes that do not fit together; a row that no map can hold (a coordinate that is not
-    /// finite, a cell that the mesh has not, a feature that does not go with it); disk full and the like. After an
-    /// error, and after commit(), nothing can be written, and each call tells so.
+    /// Appends the points, cells and features of the rows. Errors: sizes that do not fit together; a row that no map
+    /// can hold (a coordinate that is not finite, a cell that the mesh has not, a feature that does not go with it);
+    /// disk full and the like. After an error, and after commit(), nothing can be written, and each call tells so.
     Status write(const TableView& rows);
 
     /// Makes the file appear, unless something failed.
     Status commit();
 
 private:
-    explicit MapWriter(std::unique_ptr<detail::MapWriterData> data);
-    std::unique_ptr<detail::MapWriterData> data_;
+    explicit MapWriter(std::unique_ptr<sample::MapWriterData> data);
+    std::unique_ptr<sample::MapWriterData> data_;
 };
 
 /// Reads rows block by block, each checked before it is given.
@@ -97,8 +96,8 @@ public:
     Result<std::size_t> read(std::size_t max_rows, Table& rows);
 
 private:
-    explicit MapReader(std::unique_ptr<detail::MapReaderData> data);
-    std::unique_ptr<detail::MapReaderData> data_;
+    explicit MapReader(std::unique_ptr<sample::MapReaderData> data);
+    std::unique_ptr<sample::MapReaderData> data_;
 };
 
 }  // namespace barycert

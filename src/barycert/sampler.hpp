@@ -33,7 +33,7 @@
 
 namespace barycert {
 
-namespace detail {
+namespace sample {
 struct SamplerData;
 }
 
@@ -88,8 +88,8 @@ public:
     const std::vector<TableField>& fields() const;
     const std::vector<std::string>& columns() const;  ///< column_names(fields())
 
-    /// Row i is for point i: cells, features, values, distances, columns and counts. Returns an Error if a coordinate is
-    /// not finite, or if the policy is `error` and a point is outside.
+    /// Row i is for point i: cells, features, values, distances, columns and counts. Returns an Error if a coordinate
+    /// is not finite, or if the policy is `error` and a point is outside.
     Result<Table> sample(std::span<const double> points, const SampleOptions& options = {}) const;
 
     /// The same into a table that keeps its memory from call to call; its points are left alone, and may be `points`.
@@ -105,11 +105,11 @@ public:
                     std::size_t first_point = 0) const;
 
     /// For the library's own use.
-    const detail::SamplerData& data() const { return *data_; }
+    const sample::SamplerData& data() const { return *data_; }
 
 private:
-    explicit Sampler(std::unique_ptr<detail::SamplerData> data);
-    std::unique_ptr<detail::SamplerData> data_;
+    explicit Sampler(std::unique_ptr<sample::SamplerData> data);
+    std::unique_ptr<sample::SamplerData> data_;
 };
 
 }  // namespace barycert

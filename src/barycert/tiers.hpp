@@ -1,4 +1,4 @@
-/// How answers were decided: which tier of arithmetic was needed.
+/// Which tier of arithmetic decided an answer.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace barycert {
 
-/// From cheap to dear. A tier answers only what its error bound proves, and passes on the rest.
+/// From cheap to expensive. A tier answers only what its error bound proves; what it leaves undecided goes to the next.
 enum class Tier : std::uint8_t {
     filter,         ///< double, with a bound on the error of the determinant
     double_double,  ///< double + correction, with a bound on the error of their sum
@@ -17,13 +17,14 @@ constexpr std::string_view name(Tier t) {
     return t == Tier::filter ? "filter" : t == Tier::double_double ? "double-double" : "exact";
 }
 
-/// Counts of cases, one tier each, and what became of them. Batch functions add to what is there, unless they fail.
+/// How many cases each tier decided. Functions add to the counts they are given; one that returns an Error leaves them
+/// unchanged.
 struct TierCounts {
     std::uint64_t filter = 0;
     std::uint64_t double_double = 0;
     std::uint64_t exact = 0;
-    std::uint64_t degenerate = 0;  ///< of these, cases whose simplex is degenerate
-    std::uint64_t not_finite = 0;  ///< of these, cases with a nodal value that is NaN or infinite
+    std::uint64_t degenerate = 0;  ///< cases, of those above, whose simplex is degenerate
+    std::uint64_t not_finite = 0;  ///< cases, of those above, with a nodal value that is NaN or infinite
 
     std::uint64_t cases() const { return filter + double_double + exact; }
     void add(Tier t, std::uint64_t count = 1) {

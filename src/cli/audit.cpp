@@ -40,18 +40,19 @@ std::function<void(const AuditProgress&)> shown_on(Progress& progress) {
 
 /// What can be known of files before the work.
 Status check_files(const AuditArguments& a, bool table) {
-    std::vector<NamedFile> inputs;
+    std::vector<base::NamedFile> inputs;
     Result<std::vector<std::string>> meshes = a.meshes;
     if (a.meshes.empty()) meshes = own_meshes();
     if (meshes) {
         for (const std::string& mesh : *meshes) {
-            for (NamedFile& file : named_files("the mesh", mesh_files(mesh))) inputs.push_back(std::move(file));
+            for (base::NamedFile& file : base::named_files("the mesh", mesh_files(mesh)))
+                inputs.push_back(std::move(file));
         }
     }
     for (const std::string& library : a.libraries) inputs.push_back({"--kernel-library", library});
-    std::vector<NamedFile> outputs{{"--json", a.json}, {"--witnesses", a.witnesses}, {"--plot", a.plot}};
+    std::vector<base::NamedFile> outputs{{"--json", a.json}, {"--witnesses", a.witnesses}, {"--plot", a.plot}};
     if (table) outputs.push_back({"the table", "-"});
-    return check_outputs(inputs, std::move(outputs));
+    return base::check_outputs(inputs, std::move(outputs));
 }
 
 int run_audit(const AuditArguments& a) {
@@ -103,7 +104,8 @@ int run_audit(const AuditArguments& a) {
     }
     const auto broken = violations(*report, rules);
     for (const Violation& v : broken)
-        tell(fmt::format("fails: {}: {} = {}, limit {}\n", v.kernel, v.figure, shortest(v.value), shortest(v.limit)));
+        tell(fmt::format("fails: {}: {} = {}, limit {}\n", v.kernel, v.figure, base::shortest(v.value),
+                         base::shortest(v.limit)));
     return broken.empty() ? exit_clean : exit_findings;
 }
 

@@ -11,9 +11,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "barycert/io.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/check.hpp"
+#include "barycert/io.hpp"
 #include "command.hpp"
 
 namespace barycert::cli {
@@ -46,7 +46,7 @@ Result<std::vector<Item>> select(const std::vector<std::string>& globs, All all,
     std::vector<Item> chosen;
     for (const Item& item : everything) {
         if (std::any_of(globs.begin(), globs.end(),
-                        [&](const std::string& glob) { return glob_match(glob, item.name); }))
+                        [&](const std::string& glob) { return base::glob_match(glob, item.name); }))
             chosen.push_back(item);
     }
     return chosen;

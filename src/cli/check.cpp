@@ -51,8 +51,8 @@ constexpr std::array<TextOutput, 2> text_outputs{{
      }},
 }};
 
-std::vector<NamedFile> outputs(const CheckArguments& a) {
-    std::vector<NamedFile> files{{"--vtu", a.vtu}};
+std::vector<base::NamedFile> outputs(const CheckArguments& a) {
+    std::vector<base::NamedFile> files{{"--vtu", a.vtu}};
     for (const TextOutput& t : text_outputs) files.push_back({t.option, a.*t.path});
     if (a.fixed.empty()) return files;
     for (std::string& path : tetgen_files(a.fixed)) files.push_back({"--fix-orientation", std::move(path)});
@@ -71,14 +71,14 @@ Status check_files(const CheckArguments& a, bool table) {
                          "install VTK's development package (Debian: libvtk9-dev), then configure and build "
                          "barycert again"};
 #endif
-    std::vector<NamedFile> inputs = named_files("the mesh", mesh_files(a.mesh));
+    std::vector<base::NamedFile> inputs = base::named_files("the mesh", mesh_files(a.mesh));
     if (!a.plc.empty()) {
-        for (NamedFile& file : named_files("the PLC of --conforms-to", plc_files(a.plc)))
+        for (base::NamedFile& file : base::named_files("the PLC of --conforms-to", plc_files(a.plc)))
             inputs.push_back(std::move(file));
     }
-    std::vector<NamedFile> written = outputs(a);
+    std::vector<base::NamedFile> written = outputs(a);
     if (table) written.push_back({"the table", "-"});
-    return check_outputs(inputs, std::move(written));
+    return base::check_outputs(inputs, std::move(written));
 }
 
 /// write_tetgen leaves no file of another mesh beside its own. Told before the work.

@@ -23,7 +23,7 @@ int fail(const Error& error) {
 
 std::string command_name() {
     const char* wrapper = std::getenv("BARYCERT_COMMAND");
-    return wrapper == nullptr || *wrapper == '\0' ? "barycert" : printable(wrapper);
+    return wrapper == nullptr || *wrapper == '\0' ? "barycert" : base::printable(wrapper);
 }
 
 bool colour_on_stdout() {

@@ -32,7 +32,7 @@ Status write_output(const std::string& path, std::string_view bytes) {
             return Error{.what = "cannot write to stdout", .found = std::strerror(errno)};
         return Done{};
     }
-    OutputFile file(path);
+    base::OutputFile file(path);
     file.write(bytes);
     return file.commit();
 }

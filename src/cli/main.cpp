@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
     const ExactEnvironment environment;
     const std::string_view first = argc > 1 ? argv[1] : "";
     if (first == "mesh") return cli::exec_mesh(argc, argv);
-    remove_begun_files_on_signals();
+    base::remove_begun_files_on_signals();
     // What was compiled in cannot be set.
     if (const Status exact = check_environment(measure_environment()); !exact) return cli::fail(exact.error());
 #ifdef BARYCERT_WITH_VTK
@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
         "Exit codes: 0 clean, 1 findings beyond the thresholds given or a mesh that is not certified, 2 usage or input "
         "error.\nTables go to stdout, all else to stderr. `barycert SUBCOMMAND --help` explains each.");
     app.failure_message([](const CLI::App*, const CLI::Error& e) {
-        return "error: " + printable(e.what()) +
+        return "error: " + base::printable(e.what()) +
                "; `barycert --help` and `barycert SUBCOMMAND --help` list what there is\n";
     });
     int exit_code = cli::exit_clean;

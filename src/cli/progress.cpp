@@ -9,7 +9,7 @@ namespace barycert::cli {
 
 void Progress::stage(std::string_view text) {
     if (!on_) return;
-    tell(fmt::format("\r\033[K{}", printable(text)));
+    tell(fmt::format("\r\033[K{}", base::printable(text)));
     shown_ = true;
     last_ = std::chrono::steady_clock::now();
 }

@@ -41,8 +41,8 @@ Result<std::vector<Witness>> made_again(const ReplayArguments& a, const std::vec
                      .expected = "segment, triangle, triangle3d or tetrahedron",
                      .found = '"' + a.simplex + '"'};
     if (!simplex && !a.kernel.empty()) {
-        const auto k =
-            std::find_if(kernels.begin(), kernels.end(), [&](const Kernel& x) { return glob_match(a.kernel, x.name); });
+        const auto k = std::find_if(kernels.begin(), kernels.end(),
+                                    [&](const Kernel& x) { return base::glob_match(a.kernel, x.name); });
         if (k == kernels.end())
             return Error{.what = "no kernel of that name",
                          .found = '"' + a.kernel + '"',
@@ -90,15 +90,16 @@ int run_replay(const ReplayArguments& a) {
                               .mesh_arguments = {},
                               .library_arguments = {}};
     for (const Witness& w : *witnesses) {
-        if (!a.file.empty() && !a.kernel.empty() && !glob_match(a.kernel, w.kernel)) continue;
-        if (!a.file.empty() && !a.reason.empty() && !glob_match(a.reason, w.reason)) continue;
+        if (!a.file.empty() && !a.kernel.empty() && !base::glob_match(a.kernel, w.kernel)) continue;
+        if (!a.file.empty() && !a.reason.empty() && !base::glob_match(a.reason, w.reason)) continue;
         const Replay replay = replay_witness(w, *kernels);
         const std::string above = any ? "\n" : environment_line(environment) + "\n\n";
         const Status written = write_output("-", above + witness_text(replay, style));
         if (!written) return fail(written.error());
         any = true;
         if (!replay.not_reproduced.empty()) {
-            tell(printable(fmt::format("not reproduced: {} of {}: {}", w.reason, w.kernel, replay.not_reproduced)) +
+            tell(base::printable(
+                     fmt::format("not reproduced: {} of {}: {}", w.reason, w.kernel, replay.not_reproduced)) +
                  "\n");
             all_reproduced = false;
         }

@@ -5,8 +5,8 @@
 
 #include <charconv>
 #include <memory>
-#include <string_view>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "barycert/base/text.hpp"
@@ -41,7 +41,7 @@ std::optional<std::int64_t> count_of(std::string_view text) {
 }
 
 std::optional<double> finite(std::string_view text) {
-    const auto x = parse_double(text);
+    const auto x = base::parse_double(text);
     return x && std::isfinite(*x) ? x : std::nullopt;
 }
 

@@ -20,7 +20,7 @@ namespace {
 /// The number after `word=`; nothing if the text is something else.
 std::optional<double> number_after(std::string_view word, std::string_view text) {
     if (!text.starts_with(word) || text.substr(word.size(), 1) != "=") return std::nullopt;
-    return parse_double(text.substr(word.size() + 1));
+    return base::parse_double(text.substr(word.size() + 1));
 }
 
 OutsidePolicy policy_of(const std::string& text) {
@@ -124,7 +124,9 @@ int run_sampling(SamplingJob& job, bool quiet, const std::function<Result<Sample
     // Rows on the same terminal would run into the progress.
     const bool rows_on_terminal = job.output == "-" && isatty(STDOUT_FILENO) == 1;
     Progress progress(!quiet && stderr_is_terminal() && !rows_on_terminal);
-    job.progress = [&](const JobProgress& p) { p.done == 0 ? progress.stage(p.stage) : progress.count(p.stage, p.done); };
+    job.progress = [&](const JobProgress& p) {
+        p.done == 0 ? progress.stage(p.stage) : progress.count(p.stage, p.done);
+    };
     job.program = command_name();
     const Result<SampleSummary> summary = run();
     progress.clear();

@@ -28,7 +28,7 @@ namespace {
 #ifdef __linux__
     // No orphan goes on meshing. Not SIGKILL: what it has begun to write may have to be removed.
     std::signal(SIGTERM, SIG_DFL);
-    remove_begun_files_on_signals();
+    base::remove_begun_files_on_signals();
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) _exit(0);  // it ended before
 #endif

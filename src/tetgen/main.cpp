@@ -34,10 +34,10 @@ int tell(const Error& error) {
 
 /// What can be known before TetGen starts.
 Status check_output(const Options& options, const Plc& plc) {
-    std::vector<NamedFile> inputs{{"the PLC", options.input}}, outputs;
+    std::vector<base::NamedFile> inputs{{"the PLC", options.input}}, outputs;
     if (plc.nodes_apart) inputs.push_back({"the PLC's nodes", plc_files(options.input).back()});
     for (const std::string& path : tetgen_files(options.output + ".node")) outputs.push_back({"--output", path});
-    if (Status distinct = check_distinct(inputs, outputs); !distinct) return distinct;
+    if (Status distinct = base::check_distinct(inputs, outputs); !distinct) return distinct;
     const std::filesystem::path stem(options.output);
     const std::filesystem::path folder = stem.has_parent_path() ? stem.parent_path() : ".";
     std::error_code code;
@@ -79,7 +79,7 @@ std::string last_lines(const std::string& printed) {
     if (lines.empty()) return {};
     std::string text = "TetGen's last words:\n";
     for (std::size_t i = lines.size() - std::min(most, lines.size()); i < lines.size(); ++i) {
-        text += "  " + printable(lines[i]) + "\n";
+        text += "  " + base::printable(lines[i]) + "\n";
     }
     return text;
 }
@@ -154,7 +154,7 @@ int run(const Options& options) {
     std::getline(answer, written);
     if (written != "written") {
         const std::string why = written.starts_with("error ") ? written.substr(6) : "the writer did not end";
-        fmt::print(stderr, "error: {}\n", printable(why));
+        fmt::print(stderr, "error: {}\n", base::printable(why));
         return 2;
     }
     if (options.quiet) return 0;
@@ -164,9 +164,9 @@ int run(const Options& options) {
     std::size_t faces = 0;
     counts >> nodes >> cells >> faces;
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    fmt::print(stderr, "{}: {} nodes, {} cells, {} boundary faces in {:.2f} s\n", printable(options.input), nodes,
+    fmt::print(stderr, "{}: {} nodes, {} cells, {} boundary faces in {:.2f} s\n", base::printable(options.input), nodes,
                cells, faces, seconds);
-    fmt::print(stderr, "written: {}.node .ele{} .neigh\n", printable(options.output), faces > 0 ? " .face" : "");
+    fmt::print(stderr, "written: {}.node .ele{} .neigh\n", base::printable(options.output), faces > 0 ? " .face" : "");
     return 0;
 }
 

@@ -21,7 +21,7 @@ namespace {
 
 /// A number of [lowest, highest]; `range` says so in the error.
 double number_in(const char* option, const std::string& text, double lowest, double highest, const char* range) {
-    const std::optional<double> value = parse_double(text);
+    const std::optional<double> value = base::parse_double(text);
     if (!value || !(*value >= lowest && *value <= highest)) {
         throw std::invalid_argument(fmt::format("{}: expected {}, found {}", option, range, text));
     }
@@ -71,9 +71,9 @@ bool Options::diagnoses() const {
 std::string Options::described() const {
     std::string text = "barycert-tetgen " + std::filesystem::path(input).filename().string();
     if (switches) text += " --switches " + *switches;
-    if (!switches && quality) text += " --quality " + shortest(ratio);
-    if (min_dihedral) text += " --min-dihedral " + shortest(*min_dihedral);
-    if (max_volume) text += " --max-volume " + shortest(*max_volume);
+    if (!switches && quality) text += " --quality " + base::shortest(ratio);
+    if (min_dihedral) text += " --min-dihedral " + base::shortest(*min_dihedral);
+    if (max_volume) text += " --max-volume " + base::shortest(*max_volume);
     if (order != 1) text += fmt::format(" --order {}", order);
     if (keep_boundary) text += " --keep-boundary";
     if (index_base) text += fmt::format(" --index-base {}", *index_base);
@@ -128,7 +128,7 @@ Parsed parse_options(int argc, char** argv) {
     for (auto* option : {quality, dihedral, volume, order, keep}) raw->excludes(option);
     try {
         app.parse(argc, argv);
-        if (options.input.empty() && parse_double(ratio).value_or(0) == 0 && !ratio.empty()) {
+        if (options.input.empty() && base::parse_double(ratio).value_or(0) == 0 && !ratio.empty()) {
             throw std::invalid_argument("--quality: expected a number, found " + ratio + "; put INPUT first");
         }
         if (options.input.empty()) throw std::invalid_argument("expected INPUT, a PLC");
@@ -156,7 +156,7 @@ Parsed parse_options(int argc, char** argv) {
         fmt::print(stderr, "error: cannot write to stdout: found {}\n", std::strerror(errno));
         return {.options = {}, .exit_code = 2};
     } catch (const std::exception& problem) {
-        fmt::print(stderr, "error: {}\nrun barycert-tetgen --help for the usage\n", printable(problem.what()));
+        fmt::print(stderr, "error: {}\nrun barycert-tetgen --help for the usage\n", base::printable(problem.what()));
         return {.options = {}, .exit_code = 2};
     }
     if (options.output.empty()) options.output = default_output(options.input);

@@ -71,9 +71,9 @@ TEST(Families, BitsArePinned) {
         for (const Simplex s : f.simplices) {
             for (std::uint64_t i = 0; i < 64; ++i) {
                 const Case c = make_case(f, s, 1, i, own_meshes());
-                for (const double x : c.vertices) hash = mix64(hash ^ std::bit_cast<std::uint64_t>(x));
-                for (const double x : c.point) hash = mix64(hash ^ std::bit_cast<std::uint64_t>(x));
-                for (const double x : c.values) hash = mix64(hash ^ std::bit_cast<std::uint64_t>(x));
+                for (const double x : c.vertices) hash = base::mix64(hash ^ std::bit_cast<std::uint64_t>(x));
+                for (const double x : c.point) hash = base::mix64(hash ^ std::bit_cast<std::uint64_t>(x));
+                for (const double x : c.values) hash = base::mix64(hash ^ std::bit_cast<std::uint64_t>(x));
             }
         }
     }

@@ -72,7 +72,7 @@ TEST(MeshFamilies, NodalValuesComeFromTheField) {
     ASSERT_FALSE(mesh.point_fields.empty());
     ASSERT_GT(mesh.point_fields.size(), 1U);
     std::set<std::size_t> met;
-    Random random(1);
+    base::Random random(1);
     for (int i = 0; i < 100; ++i) {
         const Draw draw = draw_any(source, Simplex::tetrahedron, random);
         const auto carries = [&](const Field& f) {

@@ -64,7 +64,7 @@ TEST(Prediction, TheMedianIsNeverAboveTheWorst) {
 }
 
 TEST(Prediction, MergeIsAddInAnyOrder) {
-    Random r(3);
+    base::Random r(3);
     Prediction whole;
     std::array<Prediction, 3> parts;
     for (int i = 0; i < 3000; ++i) {
@@ -179,7 +179,7 @@ TEST(Prediction, ShowsKernelsThatLoseMore) {
 /// Opposite edges of length about h, a distance apart along (1, 1, 1): in the middle a kernel loses 1 / h^2, which no
 /// corner's permanent tells.
 TEST(Prediction, HoldsInTheMiddleOfANeedleAlongTheSpaceDiagonal) {
-    Random r(5);
+    base::Random r(5);
     const double h = 0x1p-12;
     Prediction p;
     for (int i = 0; i < 1000; ++i) {

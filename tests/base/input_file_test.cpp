@@ -42,13 +42,13 @@ TEST_F(InputFileTest, whole_files) {
     for (const std::size_t size : {0U, 1U, 65535U, 65536U, 65537U, 3000000U}) {
         std::string text;
         for (std::size_t i = 0; i < size; ++i) text += static_cast<char>(i * 31 % 251);
-        const Result<std::string> read = read_file(put("f", text));
+        const Result<std::string> read = base::read_file(put("f", text));
         ASSERT_TRUE(read) << read.error().message();
         EXPECT_TRUE(*read == text) << size;
-        EXPECT_EQ(InputFile::open(path("f")).value().size(), size);
+        EXPECT_EQ(base::InputFile::open(path("f")).value().size(), size);
     }
     // It tells the size 0.
-    const Result<std::string> status = read_file("/proc/self/status");
+    const Result<std::string> status = base::read_file("/proc/self/status");
     ASSERT_TRUE(status) << status.error().message();
     EXPECT_NE(status->find("VmPeak"), std::string::npos);
 }
@@ -57,20 +57,20 @@ TEST_F(InputFileTest, what_is_no_file) {
     for (const auto& [name, found] :
          {std::pair{path("none"), "No such file or directory"}, std::pair{folder_.string(), "a folder"},
           std::pair{put("f", "") + "/g", "Not a directory"}}) {
-        for (const Error& error : {read_file(name).error(), InputFile::open(name).error()}) {
+        for (const Error& error : {base::read_file(name).error(), base::InputFile::open(name).error()}) {
             EXPECT_EQ(error.what, "cannot read the file");
             EXPECT_EQ(error.file, name);
             EXPECT_EQ(error.found, found);
             EXPECT_FALSE(error.remedy.empty());
         }
     }
-    EXPECT_EQ(read_file("/dev/zero").error().found, "a device");
-    EXPECT_EQ(InputFile::open("/dev/zero").error().found, "a pipe or device");
-    EXPECT_EQ(InputFile::open(pipe("p"), "do this").error().remedy, "do this");
+    EXPECT_EQ(base::read_file("/dev/zero").error().found, "a device");
+    EXPECT_EQ(base::InputFile::open("/dev/zero").error().found, "a pipe or device");
+    EXPECT_EQ(base::InputFile::open(pipe("p"), "do this").error().remedy, "do this");
 }
 
 TEST_F(InputFileTest, a_pipe_without_a_writer_has_ended) {
-    const Result<std::string> read = read_file(pipe("p"));
+    const Result<std::string> read = base::read_file(pipe("p"));
     ASSERT_FALSE(read);
     EXPECT_EQ(read.error().found, "nothing: a pipe that nobody writes to");
 }
@@ -87,7 +87,7 @@ TEST_F(InputFileTest, a_pipe_is_read_to_its_end) {
         }
         ::close(descriptor);
     });
-    const Result<std::string> read = read_file(name);
+    const Result<std::string> read = base::read_file(name);
     writer.join();
     ASSERT_TRUE(read) << read.error().message();
     EXPECT_TRUE(*read == text) << read->size();
@@ -100,15 +100,15 @@ TEST_F(InputFileTest, an_endless_pipe_is_given_up) {
     const std::string text(1000, 'x');
     ASSERT_EQ(::write(writer, text.data(), text.size()), 1000);
     ::close(writer);
-    EXPECT_EQ(read_file(name, 999).error().expected, "at most 999 bytes from a pipe");
+    EXPECT_EQ(base::read_file(name, 999).error().expected, "at most 999 bytes from a pipe");
     ::close(reader);
     // As many are not too many; a regular file may be of any size.
     const int again = ::open(name.c_str(), O_RDONLY | O_NONBLOCK), more = ::open(name.c_str(), O_WRONLY);
     ASSERT_EQ(::write(more, text.data(), text.size()), 1000);
     ::close(more);
-    EXPECT_EQ(read_file(name, 1000).value().size(), 1000U);
+    EXPECT_EQ(base::read_file(name, 1000).value().size(), 1000U);
     ::close(again);
-    EXPECT_EQ(read_file(put("f", text), 999).value().size(), 1000U);
+    EXPECT_EQ(base::read_file(put("f", text), 999).value().size(), 1000U);
 }
 
 // Neither moving nor failing loses a descriptor.
@@ -117,12 +117,12 @@ TEST_F(InputFileTest, descriptors_are_closed) {
     const auto open_now = [] { return std::distance(fs::directory_iterator("/proc/self/fd"), {}); };
     const auto before = open_now();
     for (int i = 0; i < 10; ++i) {
-        InputFile file = InputFile::open(path("f")).value();
-        InputFile other = std::move(file);
+        base::InputFile file = base::InputFile::open(path("f")).value();
+        base::InputFile other = std::move(file);
         file = std::move(other);
-        EXPECT_TRUE(read_file(path("f")));
-        EXPECT_FALSE(read_file(folder_.string()));
-        EXPECT_FALSE(InputFile::open(folder_.string()));
+        EXPECT_TRUE(base::read_file(path("f")));
+        EXPECT_FALSE(base::read_file(folder_.string()));
+        EXPECT_FALSE(base::InputFile::open(folder_.string()));
     }
     EXPECT_EQ(open_now(), before);
 }

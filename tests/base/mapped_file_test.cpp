@@ -7,14 +7,14 @@
 namespace barycert::testing {
 namespace {
 
-using detail::MappedFile;
+using base::MappedFile;
 
-TEST(MappedFile, holds_the_bytes_and_zeros_after_them) {
+TEST(base::MappedFile, holds_the_bytes_and_zeros_after_them) {
     const TemporaryFolder folder;
     for (const std::size_t size : {0U, 1U, 4095U, 4096U, 4097U, 8192U}) {
         const std::string bytes(size, 'x');
         put(folder / "f", bytes);
-        const Result<MappedFile> file = MappedFile::open(folder / "f");
+        const Result<base::MappedFile> file = base::MappedFile::open(folder / "f");
         ASSERT_TRUE(file) << file.error().message();
         EXPECT_EQ(file->bytes(), bytes);
         const char* const end = file->bytes().data() + size;
@@ -22,32 +22,32 @@ TEST(MappedFile, holds_the_bytes_and_zeros_after_them) {
     }
 }
 
-TEST(MappedFile, moves) {
+TEST(base::MappedFile, moves) {
     const TemporaryFolder folder;
     put(folder / "f", "abc");
-    Result<MappedFile> file = MappedFile::open(folder / "f");
+    Result<base::MappedFile> file = base::MappedFile::open(folder / "f");
     ASSERT_TRUE(file);
-    MappedFile other = std::move(*file);
+    base::MappedFile other = std::move(*file);
     EXPECT_EQ(other.bytes(), "abc");
     EXPECT_EQ(file->bytes(), "");
     *file = std::move(other);
     EXPECT_EQ(file->bytes(), "abc");
 }
 
-TEST(MappedFile, errors) {
+TEST(base::MappedFile, errors) {
     const TemporaryFolder folder;
-    const auto missing = MappedFile::open(folder / "none");
+    const auto missing = base::MappedFile::open(folder / "none");
     ASSERT_FALSE(missing);
     EXPECT_EQ(missing.error().found, "No such file or directory");
     EXPECT_EQ(missing.error().remedy, "check the path");
     EXPECT_EQ(missing.error().file, folder / "none");
 
-    const auto directory = MappedFile::open(folder / "");
+    const auto directory = base::MappedFile::open(folder / "");
     ASSERT_FALSE(directory);
     EXPECT_EQ(directory.error().found, "a folder");
 
     ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
-    const auto pipe = MappedFile::open(folder / "pipe");
+    const auto pipe = base::MappedFile::open(folder / "pipe");
     ASSERT_FALSE(pipe);
     EXPECT_EQ(pipe.error().found, "a pipe or device");
 }

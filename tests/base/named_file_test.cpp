@@ -32,27 +32,27 @@ private:
 TEST_F(NamedFiles, one_file_by_all_its_names) {
     const std::string f = path("f");
     for (const std::string other : {"f", "hard", "soft", "./f", "way/f", "way/way/hard"})
-        EXPECT_TRUE(same_file(f, path(other))) << other;
-    EXPECT_TRUE(same_file(path("new"), path("way/./new")));
-    EXPECT_FALSE(same_file(f, path("new")));
-    EXPECT_FALSE(same_file("", ""));
-    EXPECT_FALSE(same_file(f, "-"));
-    EXPECT_TRUE(same_file("-", "-"));
+        EXPECT_TRUE(base::same_file(f, path(other))) << other;
+    EXPECT_TRUE(base::same_file(path("new"), path("way/./new")));
+    EXPECT_FALSE(base::same_file(f, path("new")));
+    EXPECT_FALSE(base::same_file("", ""));
+    EXPECT_FALSE(base::same_file(f, "-"));
+    EXPECT_TRUE(base::same_file("-", "-"));
 }
 
 TEST_F(NamedFiles, outputs_are_no_inputs_and_distinct) {
-    const std::vector<NamedFile> inputs{{"the mesh", path("f")}, {"--points", "-"}};
-    EXPECT_TRUE(check_distinct(inputs, {{"--json", path("new")}, {"--output", "-"}}));
-    const Status over = check_distinct(inputs, {{"--json", path("hard")}});
+    const std::vector<base::NamedFile> inputs{{"the mesh", path("f")}, {"--points", "-"}};
+    EXPECT_TRUE(base::check_distinct(inputs, {{"--json", path("new")}, {"--output", "-"}}));
+    const Status over = base::check_distinct(inputs, {{"--json", path("hard")}});
     ASSERT_FALSE(over);
     EXPECT_EQ(over.error().what, "--json would overwrite the mesh");
     EXPECT_EQ(over.error().file, path("hard"));
-    const Status twice = check_distinct(inputs, {{"--json", path("new")}, {"--plot", path("way/new")}});
+    const Status twice = base::check_distinct(inputs, {{"--json", path("new")}, {"--plot", path("way/new")}});
     ASSERT_FALSE(twice);
     EXPECT_EQ(twice.error().what, "--json and --plot name the same output");
-    EXPECT_FALSE(check_distinct({}, {{"--json", "-"}, {"--plot", "-"}}));
+    EXPECT_FALSE(base::check_distinct({}, {{"--json", "-"}, {"--plot", "-"}}));
     // What is no regular file is not overwritten.
-    EXPECT_TRUE(check_distinct({{"--points", "/dev/null"}}, {{"--output", "/dev/null"}}));
+    EXPECT_TRUE(base::check_distinct({{"--points", "/dev/null"}}, {{"--output", "/dev/null"}}));
 }
 
 }  // namespace

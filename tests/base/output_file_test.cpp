@@ -75,7 +75,7 @@ protected:
 
 TEST_P(OutputFileTest, appears_on_commit_and_not_before) {
     put(path("f"), "old");
-    OutputFile file(path("f"));
+    base::OutputFile file(path("f"));
     file.write("new ");
     file.write("text");
     EXPECT_EQ(get(path("f")), "old");
@@ -91,7 +91,7 @@ TEST_P(OutputFileTest, appears_on_commit_and_not_before) {
 TEST_P(OutputFileTest, leaves_nothing_without_a_commit) {
     put(path("f"), "old");
     {
-        OutputFile file(path("f"));
+        base::OutputFile file(path("f"));
         file.write(std::string(1 << 20, 'x'));
         EXPECT_EQ(file_count(), 1U + begun());
     }
@@ -102,11 +102,11 @@ TEST_P(OutputFileTest, leaves_nothing_without_a_commit) {
 TEST_P(OutputFileTest, large_and_empty) {
     std::string text;
     for (int i = 0; i < 200000; ++i) text += std::to_string(i) + '\n';
-    OutputFile large(path("large"));
+    base::OutputFile large(path("large"));
     for (std::size_t at = 0; at < text.size(); at += 777) large.write(std::string_view(text).substr(at, 777));
     ASSERT_TRUE(large.commit());
     EXPECT_EQ(get(path("large")), text);
-    OutputFile empty(path("empty"));
+    base::OutputFile empty(path("empty"));
     ASSERT_TRUE(empty.commit());
     EXPECT_EQ(get(path("empty")), "");
 }
@@ -115,7 +115,7 @@ TEST_P(OutputFileTest, a_link_is_followed_and_permissions_stay) {
     put(path("real"), "old");
     ASSERT_EQ(::chmod(path("real").c_str(), 0640), 0);
     fs::create_symlink(path("real"), path("link"));
-    OutputFile file(path("link"));
+    base::OutputFile file(path("link"));
     file.write("new");
     ASSERT_TRUE(file.commit());
     EXPECT_TRUE(fs::is_symlink(path("link")));
@@ -127,7 +127,7 @@ TEST_P(OutputFileTest, a_link_is_followed_and_permissions_stay) {
 
 TEST_P(OutputFileTest, bytes_are_replaced) {
     put(path("f"), "old");
-    OutputFile file(path("f"));
+    base::OutputFile file(path("f"));
     ASSERT_TRUE(file.can_replace());
     file.write("count: ....\n");
     file.replace(7, "12  ");  // nothing of it has reached the disk yet
@@ -140,9 +140,9 @@ TEST_P(OutputFileTest, bytes_are_replaced) {
     ASSERT_TRUE(file.commit());
     EXPECT_EQ(get(path("f")), "Count: 1234\n" + rows + "end");
     EXPECT_EQ(file_count(), 1U);
-    EXPECT_FALSE(OutputFile("/dev/null").can_replace());
-    EXPECT_FALSE(OutputFile::standard_output().can_replace());
-    EXPECT_FALSE(OutputFile(path("none/f")).can_replace());
+    EXPECT_FALSE(base::OutputFile("/dev/null").can_replace());
+    EXPECT_FALSE(base::OutputFile::standard_output().can_replace());
+    EXPECT_FALSE(base::OutputFile(path("none/f")).can_replace());
 }
 
 TEST_P(OutputFileTest, the_standard_output_is_written_where_it_stands_and_stays_open) {
@@ -151,7 +151,7 @@ TEST_P(OutputFileTest, the_standard_output_is_written_where_it_stands_and_stays_
     const int real = ::dup(STDOUT_FILENO);
     const int file = ::open(path("f").c_str(), O_WRONLY | O_APPEND);
     ::dup2(file, STDOUT_FILENO);
-    OutputFile output = OutputFile::standard_output();
+    base::OutputFile output = base::OutputFile::standard_output();
     output.write("text ");
     const Status committed = output.commit();
     const ssize_t after = ::write(STDOUT_FILENO, "after", 5);
@@ -168,7 +168,7 @@ TEST_P(OutputFileTest, the_standard_output_may_be_closed) {
     std::fflush(stdout);
     const int real = ::dup(STDOUT_FILENO);
     ::close(STDOUT_FILENO);
-    OutputFile output = OutputFile::standard_output();
+    base::OutputFile output = base::OutputFile::standard_output();
     ::dup2(real, STDOUT_FILENO);
     ::close(real);
     output.write("text");
@@ -179,14 +179,14 @@ TEST_P(OutputFileTest, the_standard_output_may_be_closed) {
 }
 
 TEST_P(OutputFileTest, a_device_is_written_and_stays_a_device) {
-    OutputFile file("/dev/null");
+    base::OutputFile file("/dev/null");
     file.write("text");
     ASSERT_TRUE(file.commit());
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
 TEST_P(OutputFileTest, errors) {
-    OutputFile no_folder(path("none/f"));
+    base::OutputFile no_folder(path("none/f"));
     no_folder.write("text");
     const Status missing = no_folder.commit();
     ASSERT_FALSE(missing);
@@ -196,12 +196,12 @@ TEST_P(OutputFileTest, errors) {
     EXPECT_EQ(missing.error().remedy, "make the folder first, or name another one");
 
     fs::create_directory(path("d"));
-    const Status folder = OutputFile(path("d")).commit();
+    const Status folder = base::OutputFile(path("d")).commit();
     ASSERT_FALSE(folder);
     EXPECT_EQ(folder.error().found, "Is a directory");
     EXPECT_EQ(file_count(), 1U);
 
-    OutputFile turned(path("t"));
+    base::OutputFile turned(path("t"));
     fs::create_directory(path("t"));  // in the meantime
     const Status rename = turned.commit();
     ASSERT_FALSE(rename);
@@ -210,7 +210,7 @@ TEST_P(OutputFileTest, errors) {
 
 TEST_P(OutputFileTest, a_full_device_is_told) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-    OutputFile file("/dev/full");
+    base::OutputFile file("/dev/full");
     EXPECT_TRUE(file.status());
     file.write(std::string(1 << 20, 'x'));
     EXPECT_FALSE(file.status());
@@ -229,7 +229,7 @@ TEST_P(OutputFileTest, a_file_that_may_not_grow_leaves_the_target) {
     const struct rlimit small { 100000, before.rlim_max };
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
     {
-        OutputFile file(path("f"));
+        base::OutputFile file(path("f"));
         file.write(std::string(1 << 20, 'x'));
         const Status status = file.commit();
         EXPECT_FALSE(status);

@@ -11,12 +11,12 @@ namespace {
 
 // SplitMix64's published sequences: the generator is the one it claims to be. For 1234567 as in many test suites of
 // other languages' implementations; for 0 its well-known first word.
-TEST(Random, is_splitmix64) {
-    Random zero(0);
+TEST(base::Random, is_splitmix64) {
+    base::Random zero(0);
     EXPECT_EQ(zero.bits(), 0xe220a8397b1dcdafULL);
     EXPECT_EQ(zero.bits(), 0x6e789e6aa1b965f4ULL);
     EXPECT_EQ(zero.bits(), 0x06c45d188009454fULL);
-    Random r(1234567);
+    base::Random r(1234567);
     for (const std::uint64_t expected : {6457827717110365317ULL, 3203168211198807973ULL, 9817491932198370423ULL,
                                          4593380528125082431ULL, 16408922859458223821ULL}) {
         EXPECT_EQ(r.bits(), expected);
@@ -24,13 +24,13 @@ TEST(Random, is_splitmix64) {
 }
 
 // Frozen on the day of writing: audits are replayed by seed, so these may never change, on any machine.
-TEST(Random, frozen_for_seed_one) {
-    Random words(1);
+TEST(base::Random, frozen_for_seed_one) {
+    base::Random words(1);
     for (const std::uint64_t expected :
          {0x910a2dec89025cc1ULL, 0xbeeb8da1658eec67ULL, 0xf893a2eefb32555eULL, 0x71c18690ee42c90bULL}) {
         EXPECT_EQ(words.bits(), expected);
     }
-    Random r(1);
+    base::Random r(1);
     EXPECT_EQ(r.unit(), 0x1.22145bd91204bp-1);
     EXPECT_EQ(r.unit(), 0x1.7dd71b42cb1ddp-1);
     EXPECT_EQ(r.unit(), 0x1.f12745ddf664ap-1);
@@ -39,16 +39,16 @@ TEST(Random, frozen_for_seed_one) {
     EXPECT_EQ(r.integer(-50, 50), 27);
     EXPECT_EQ(r.scaled(1, 2, -10, 10), 0x1.e099ec6cd7364p+0);
     EXPECT_FALSE(r.coin());
-    EXPECT_EQ(Random::stream(1, 0, 0).bits(), 0x5f47167dab1e6f33ULL);
-    EXPECT_EQ(Random::stream(1, 0, 1).bits(), 0x641ba43f1f938606ULL);
-    EXPECT_EQ(Random::stream(1, 1, 0).bits(), 0x512336713bb0450dULL);
-    EXPECT_EQ(Random::stream(1, 7, 1000000).bits(), 0x6af0530727ccc295ULL);
-    EXPECT_EQ(hash64(""), 0xf52a15e9a9b5e89bULL);
-    EXPECT_EQ(hash64("tetrahedron"), 0xa63eb79f2e5f862bULL);
+    EXPECT_EQ(base::Random::stream(1, 0, 0).bits(), 0x5f47167dab1e6f33ULL);
+    EXPECT_EQ(base::Random::stream(1, 0, 1).bits(), 0x641ba43f1f938606ULL);
+    EXPECT_EQ(base::Random::stream(1, 1, 0).bits(), 0x512336713bb0450dULL);
+    EXPECT_EQ(base::Random::stream(1, 7, 1000000).bits(), 0x6af0530727ccc295ULL);
+    EXPECT_EQ(base::hash64(""), 0xf52a15e9a9b5e89bULL);
+    EXPECT_EQ(base::hash64("tetrahedron"), 0xa63eb79f2e5f862bULL);
 }
 
-TEST(Random, unit_is_in_range_and_on_its_grid) {
-    Random r(1);
+TEST(base::Random, unit_is_in_range_and_on_its_grid) {
+    base::Random r(1);
     double least = 1, greatest = 0;
     for (int k = 0; k < 100000; ++k) {
         const double u = r.unit();
@@ -62,8 +62,8 @@ TEST(Random, unit_is_in_range_and_on_its_grid) {
     EXPECT_GT(greatest, 0.999);
 }
 
-TEST(Random, integers_stay_in_range_and_reach_its_ends) {
-    Random r(1);
+TEST(base::Random, integers_stay_in_range_and_reach_its_ends) {
+    base::Random r(1);
     for (const std::uint64_t n : {1ULL, 2ULL, 3ULL, 7ULL, 1ULL << 63, ~0ULL}) {
         for (int k = 0; k < 1000; ++k) ASSERT_LT(r.below(n), n);
     }
@@ -79,8 +79,8 @@ TEST(Random, integers_stay_in_range_and_reach_its_ends) {
     EXPECT_EQ(r.integer(5, 5), 5);
 }
 
-TEST(Random, ranges_of_doubles) {
-    Random r(1);
+TEST(base::Random, ranges_of_doubles) {
+    base::Random r(1);
     for (int k = 0; k < 10000; ++k) {
         const double u = r.uniform(-3, 5);
         ASSERT_GE(u, -3);
@@ -96,19 +96,19 @@ TEST(Random, ranges_of_doubles) {
 
 // Streams of neighbouring numbers share no word. Catches a stream that is another one, shifted: state (a, b) + golden
 // being state (a, b + 1).
-TEST(Random, streams_are_apart) {
+TEST(base::Random, streams_are_apart) {
     std::set<std::uint64_t> seen;
     std::size_t drawn = 0;
     for (std::uint64_t seed = 0; seed < 4; ++seed) {
         for (std::uint64_t a = 0; a < 8; ++a) {
             for (std::uint64_t b = 0; b < 64; ++b) {
-                Random r = Random::stream(seed, a, b);
+                base::Random r = base::Random::stream(seed, a, b);
                 for (int k = 0; k < 16; ++k, ++drawn) seen.insert(r.bits());
             }
         }
     }
     EXPECT_EQ(seen.size(), drawn);
-    EXPECT_EQ(Random::stream(3, 4, 5).bits(), Random::stream(3, 4, 5).bits());
+    EXPECT_EQ(base::Random::stream(3, 4, 5).bits(), base::Random::stream(3, 4, 5).bits());
 }
 
 }  // namespace

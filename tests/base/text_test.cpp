@@ -11,19 +11,18 @@
 
 #include "barycert/base/random.hpp"
 #include "exact/second_path.hpp"
+#include "limits.hpp"
 
 namespace barycert {
 namespace {
-
-constexpr double largest = std::numeric_limits<double>::max();
 
 std::uint64_t bits(double x) {
     return std::bit_cast<std::uint64_t>(x);
 }
 
 void expect_round_trip(double x) {
-    for (const std::string& text : {shortest(x), hexadecimal(x)}) {
-        const auto back = parse_double(text);
+    for (const std::string& text : {base::shortest(x), base::hexadecimal(x)}) {
+        const auto back = base::parse_double(text);
         ASSERT_TRUE(back) << text;
         if (std::isnan(x)) {
             EXPECT_TRUE(std::isnan(*back)) << text;
@@ -35,15 +34,15 @@ void expect_round_trip(double x) {
 
 RC_GTEST_PROP(Text, every_double_reads_back, (std::uint64_t word)) {
     const auto x = std::bit_cast<double>(word);
-    for (const std::string& text : {shortest(x), hexadecimal(x)}) {
-        const auto back = parse_double(text);
+    for (const std::string& text : {base::shortest(x), base::hexadecimal(x)}) {
+        const auto back = base::parse_double(text);
         RC_ASSERT(back.has_value());
         RC_ASSERT((std::isnan(x) ? std::isnan(*back) : bits(*back) == word));
     }
 }
 
 TEST(Text, doubles_of_every_exponent_read_back) {
-    Random r(1);
+    base::Random r(1);
     for (std::uint64_t exponent = 0; exponent < 2048; ++exponent) {
         for (const std::uint64_t mantissa : {std::uint64_t{0}, std::uint64_t{1}, ~std::uint64_t{0}, r.bits()}) {
             const std::uint64_t word = exponent << 52 | (mantissa & 0xfffffffffffffULL);
@@ -54,20 +53,20 @@ TEST(Text, doubles_of_every_exponent_read_back) {
 }
 
 TEST(Text, forms) {
-    EXPECT_EQ(shortest(0.1), "0.1");
-    EXPECT_EQ(shortest(0.1 + 0.2), "0.30000000000000004");
-    EXPECT_EQ(shortest(1), "1");
-    EXPECT_EQ(shortest(-0.0), "-0");
-    EXPECT_EQ(shortest(1e300), "1e+300");
-    EXPECT_EQ(shortest(0x1p-1074), "5e-324");
-    EXPECT_EQ(shortest(HUGE_VAL), "inf");
-    EXPECT_EQ(shortest(-HUGE_VAL), "-inf");
-    EXPECT_EQ(shortest(std::numeric_limits<double>::quiet_NaN()), "nan");
-    EXPECT_EQ(hexadecimal(3), "0x1.8p+1");
-    EXPECT_EQ(hexadecimal(-3), "-0x1.8p+1");
-    EXPECT_EQ(hexadecimal(0), "0x0p+0");
-    EXPECT_EQ(hexadecimal(-0.0), "-0x0p+0");
-    EXPECT_EQ(hexadecimal(-HUGE_VAL), "-inf");
+    EXPECT_EQ(base::shortest(0.1), "0.1");
+    EXPECT_EQ(base::shortest(0.1 + 0.2), "0.30000000000000004");
+    EXPECT_EQ(base::shortest(1), "1");
+    EXPECT_EQ(base::shortest(-0.0), "-0");
+    EXPECT_EQ(base::shortest(1e300), "1e+300");
+    EXPECT_EQ(base::shortest(0x1p-1074), "5e-324");
+    EXPECT_EQ(base::shortest(HUGE_VAL), "inf");
+    EXPECT_EQ(base::shortest(-HUGE_VAL), "-inf");
+    EXPECT_EQ(base::shortest(std::numeric_limits<double>::quiet_NaN()), "nan");
+    EXPECT_EQ(base::hexadecimal(3), "0x1.8p+1");
+    EXPECT_EQ(base::hexadecimal(-3), "-0x1.8p+1");
+    EXPECT_EQ(base::hexadecimal(0), "0x0p+0");
+    EXPECT_EQ(base::hexadecimal(-0.0), "-0x0p+0");
+    EXPECT_EQ(base::hexadecimal(-HUGE_VAL), "-inf");
 }
 
 TEST(ParseDouble, accepts) {
@@ -85,7 +84,7 @@ TEST(ParseDouble, accepts) {
         {"-0X1P-1", -0.5},
         {"0x10", 16},
         {"0x.8", 0.5},
-        {"1.7976931348623157e308", largest},
+        {"1.7976931348623157e308", testing::max_double},
         {"2.2250738585072011e-308", 0x0.fffffffffffffp-1022},
         {"9007199254740993", 9007199254740992},  // a tie, to even
         {"9007199254740993.0000000000000000000000000000000000000000000000001", 9007199254740994},
@@ -94,15 +93,15 @@ TEST(ParseDouble, accepts) {
         {"INF", HUGE_VAL},
     };
     for (const auto& [text, value] : table) {
-        const auto x = parse_double(text);
+        const auto x = base::parse_double(text);
         ASSERT_TRUE(x) << text;
         EXPECT_EQ(bits(*x), bits(value)) << text;
     }
-    EXPECT_EQ(bits(*parse_double("-0")), bits(-0.0));
-    EXPECT_EQ(bits(*parse_double("-0x0p0")), bits(-0.0));
+    EXPECT_EQ(bits(*base::parse_double("-0")), bits(-0.0));
+    EXPECT_EQ(bits(*base::parse_double("-0x0p0")), bits(-0.0));
     for (const char* text : {"nan", "NaN", "-nan", "+nan"}) {
-        ASSERT_TRUE(parse_double(text)) << text;
-        EXPECT_TRUE(std::isnan(*parse_double(text))) << text;
+        ASSERT_TRUE(base::parse_double(text)) << text;
+        EXPECT_TRUE(std::isnan(*base::parse_double(text))) << text;
     }
 }
 
@@ -114,32 +113,32 @@ TEST(ParseDouble, refuses) {
           "1.2.3", "0x",    "-0x",   "0x.",   "0xg",     "0x1p",      "0x1p+", "0x1.8p1x", "0x-1",    "0x+1",
           "0x 1",  "0x0x1", "0xinf", "0xnan", "0x-inf",  "1f",        "1.5L",  "0b1",      "1/3",     "in",
           "infi",  "na",    "nano",  "one",   "infinit", "inf inity", "0x1e+", "1e5e5",    "0xnan(1)"}) {
-        EXPECT_EQ(parse_double(text), std::nullopt) << '"' << text << '"';
+        EXPECT_EQ(base::parse_double(text), std::nullopt) << '"' << text << '"';
     }
-    EXPECT_EQ(parse_double(std::string_view("1\0", 2)), std::nullopt);
+    EXPECT_EQ(base::parse_double(std::string_view("1\0", 2)), std::nullopt);
 }
 
 // What is finite as written is never turned into infinity; underflow is rounding.
 TEST(ParseDouble, out_of_range) {
     for (const char* text : {"1e309", "-1e309", "1.7976931348623159e308", "1e99999999999999999999", "0x1p1024",
                              "0x1p99999999999", "0x1p-1100", "0x1p-99999999999"}) {
-        EXPECT_EQ(parse_double(text), std::nullopt) << text;
+        EXPECT_EQ(base::parse_double(text), std::nullopt) << text;
     }
-    EXPECT_EQ(parse_double("0e99999"), 0);
-    EXPECT_EQ(parse_double("4.9e-324"), 0x1p-1074);
-    EXPECT_EQ(parse_double("2e-324"), 0);
-    EXPECT_EQ(bits(*parse_double("-1e-400")), bits(-0.0));
+    EXPECT_EQ(base::parse_double("0e99999"), 0);
+    EXPECT_EQ(base::parse_double("4.9e-324"), 0x1p-1074);
+    EXPECT_EQ(base::parse_double("2e-324"), 0);
+    EXPECT_EQ(bits(*base::parse_double("-1e-400")), bits(-0.0));
 }
 
 // More digits than a double has are rounded to nearest, ties to even, in both bases.
 TEST(ParseDouble, rounds_correctly) {
-    const auto hex_digits = [](Random& r, int count) {
+    const auto hex_digits = [](base::Random& r, int count) {
         std::string text;
         for (int k = 0; k < count; ++k) text += "0123456789abcdef"[r.below(16)];
         return text;
     };
     for (int k = 0; k < 4000; ++k) {
-        Random r = Random::stream(1, hash64("parse"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("parse"), static_cast<std::uint64_t>(k));
         std::string digits = hex_digits(r, r.integer(1, 20));
         if (r.coin()) digits += r.coin() ? "8" : "80000000000001";  // ties, and next to them
         const int point = r.integer(0, static_cast<int>(digits.size()));
@@ -152,22 +151,22 @@ TEST(ParseDouble, rounds_correctly) {
         std::string text = "0x" + digits;
         text.insert(2 + static_cast<std::size_t>(point), ".");
         text += "p" + std::to_string(exponent);
-        const auto x = parse_double(text);
+        const auto x = base::parse_double(text);
         if (expected == 0) {
             EXPECT_EQ(x, std::nullopt) << text;
         } else {
             ASSERT_TRUE(x) << text;
-            EXPECT_EQ(bits(*x), bits(expected)) << text << ' ' << hexadecimal(expected);
+            EXPECT_EQ(bits(*x), bits(expected)) << text << ' ' << base::hexadecimal(expected);
         }
     }
     for (int k = 0; k < 2000; ++k) {
-        Random r = Random::stream(1, hash64("decimal"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("decimal"), static_cast<std::uint64_t>(k));
         // The exact decimal digits of a midpoint between two doubles.
         const auto word = static_cast<double>(r.bits() >> 12 | std::uint64_t{1} << 52);
         const mpz_class twice = (mpz_class(word) * 2 + 1) << static_cast<mp_bitcnt_t>(r.integer(0, 900));
         for (const int beside : {-1, 0, 1}) {
             const mpz_class n = twice + beside;
-            EXPECT_EQ(parse_double(n.get_str()), second_path::nearest(second_path::Q(n)));
+            EXPECT_EQ(base::parse_double(n.get_str()), second_path::nearest(second_path::Q(n)));
         }
     }
 }
@@ -212,7 +211,7 @@ TEST(Glob, table) {
                            {"A", "a", false},
                            {"a*b*c*d", "a1b2b3c4c5d", true},
                            {"a*b*c*d", "a1b2b3c4c5", false}}) {
-        EXPECT_EQ(glob_match(row.pattern, row.text), row.matches) << row.pattern << " on " << row.text;
+        EXPECT_EQ(base::glob_match(row.pattern, row.text), row.matches) << row.pattern << " on " << row.text;
     }
 }
 
@@ -226,18 +225,18 @@ TEST(Glob, equals_its_recursive_definition) {
         }
     };
     for (int k = 0; k < 20000; ++k) {
-        Random r = Random::stream(1, hash64("glob"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("glob"), static_cast<std::uint64_t>(k));
         std::string pattern, text;
         for (int n = r.integer(0, 7); n > 0; --n) pattern += "ab*?*"[r.below(5)];
         for (int n = r.integer(0, 8); n > 0; --n) text += "ab"[r.below(2)];
-        ASSERT_EQ(glob_match(pattern, text), Slow::match(pattern, text)) << pattern << " on " << text;
+        ASSERT_EQ(base::glob_match(pattern, text), Slow::match(pattern, text)) << pattern << " on " << text;
     }
 }
 
 TEST(text, what_is_printable_stays_as_it_is) {
     for (const std::string_view text :
          {"", "part.1.node", "a b\\n", "Länge", "点", "\xf0\x9f\x98\x80", "~ !", "\xc2\xa0"})
-        EXPECT_EQ(printable(text), text);
+        EXPECT_EQ(base::printable(text), text);
 }
 
 TEST(text, what_acts_on_a_terminal_is_escaped) {
@@ -259,8 +258,8 @@ TEST(text, what_acts_on_a_terminal_is_escaped) {
         {"\xf4\x90\x80\x80", "\\xf4\\x90\\x80\\x80"},  // past the last
         {"\xc3\x28", "\\xc3("}};
     for (const auto& [text, shown] : cases) {
-        EXPECT_EQ(printable(text), shown);
-        EXPECT_EQ(printable(shown), shown);
+        EXPECT_EQ(base::printable(text), shown);
+        EXPECT_EQ(base::printable(shown), shown);
     }
 }
 

@@ -76,7 +76,7 @@ struct CubeMesh {
     std::size_t cells() const { return corners.size() / 4; }
 
     explicit CubeMesh(int side) {
-        Random random(7);
+        base::Random random(7);
         const double h = 1.0 / side;
         for (int z = 0; z <= side; ++z) {
             for (int y = 0; y <= side; ++y) {
@@ -125,7 +125,7 @@ struct Queries {
 
     /// Points anywhere in the cube, or such with weights of up to half beyond those inside.
     Queries(const CubeMesh& mesh, bool near, bool in_order = false) {
-        Random random(11);
+        base::Random random(11);
         for (std::size_t j = 0; j < queries_of_a_mesh; ++j)
             cells.push_back(static_cast<std::int32_t>(random.below(mesh.cells())));
         if (in_order) std::sort(cells.begin(), cells.end());
@@ -212,7 +212,7 @@ Cases cases_of(const CubeMesh& mesh, const Queries& queries, std::size_t count) 
 /// Points exactly on vertices, edges and faces in turn: coordinates of 20 bits, weights in sixteenths.
 Cases cases_on_features(std::size_t count) {
     std::vector<Case> list(count);
-    Random random(13);
+    base::Random random(13);
     for (std::size_t j = 0; j < count; ++j) {
         Case& c = list[j];
         const int support = 1 + static_cast<int>(j % 3);
@@ -234,7 +234,7 @@ Cases cases_on_features(std::size_t count) {
 /// Points in the middle of edges, where the value lies exactly between two doubles: (f0 + f1)/2 with an odd last bit.
 Cases cases_of_ties(std::size_t count) {
     std::vector<Case> list(count);
-    Random random(17);
+    base::Random random(17);
     for (Case& c : list) {
         for (double& x : c.vertices) x = random.integer(-(1 << 20), 1 << 20) * 0x1p-20;
         for (std::size_t k = 0; k < 3; ++k) c.point[k] = (c.vertices[k] + c.vertices[3 + k]) / 2;

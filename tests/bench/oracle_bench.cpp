@@ -28,7 +28,7 @@ enum Kind { unit_cube, lattice, wide };
 
 std::vector<Case> make_cases(Kind kind) {
     std::vector<Case> cases(count);
-    Random random(1);
+    base::Random random(1);
     for (Case& c : cases) {
         const auto coordinate = [&] {
             return kind == lattice     ? random.integer(-8, 8)

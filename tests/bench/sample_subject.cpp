@@ -54,7 +54,7 @@ Subject::Subject(const std::string& name_, Mesh mesh_, std::size_t point_count, 
         largest_value = std::max(largest_value, std::abs(linear.data.back()));
     }
     const Bounds3 box = bounds_of_cells(mesh);
-    Random random(20);
+    base::Random random(20);
     points.resize(3 * point_count);
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = random.uniform(box.low[i % 3], box.high[i % 3]);
     grid = demand_value(grid_over(3, {grid_side, grid_side, grid_side}, box.low, box.high));

@@ -28,7 +28,7 @@ Item item_of(const Mesh& mesh, std::size_t first, int count) {
 
 /// Simplices of `corners` nodes of which most have node 0, half of these node 1 as well; on a small lattice, where much
 /// is coplanar, or anywhere.
-Mesh star(int d, int corners, bool lattice, double scale, Random& random) {
+Mesh star(int d, int corners, bool lattice, double scale, base::Random& random) {
     Mesh mesh;
     mesh.dimension = d;
     for (int i = 0; i < 120 * d; ++i)
@@ -73,7 +73,7 @@ TEST(Candidates, leave_out_none_that_meets) {
         for (const bool lattice : {false, true}) {
             for (const double scale : {1.0, 1e-300, 1e300, 0x1p-1070}) {
                 if (!lattice && scale < 0x1p-1000) continue;
-                Random random = Random::stream(35, static_cast<std::uint64_t>(d), lattice ? 1 : 0);
+                base::Random random = base::Random::stream(35, static_cast<std::uint64_t>(d), lattice ? 1 : 0);
                 const Mesh facets = star(d, d, lattice, scale, random), cells = star(d, d + 1, lattice, scale, random);
                 std::vector<Item> items;
                 std::vector<check::PlacedFacet> placed;

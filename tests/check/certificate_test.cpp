@@ -51,7 +51,7 @@ TEST(Certificate, order_and_size_matter) {
                 expect_not_covered(c, other);
             }
         }
-        Random random(3);
+        base::Random random(3);
         for (int i = 0; i < 20; ++i) expect_not_covered(c, renumbered(mesh, random));
         Mesh other = mesh;
         other.points.resize(other.points.size() + static_cast<std::size_t>(d), 0.0);

@@ -98,7 +98,7 @@ TEST(Conditions, p4) {
 
 TEST(Conditions, p5) {
     Mesh mesh = box(3, {2, 2, 2});
-    mesh.neighbours = compute_neighbours(mesh);
+    mesh.neighbours = mesh::compute_neighbours(mesh);
     mesh.faces = {mesh.cells[3], mesh.cells[1], mesh.cells[2]};
     EXPECT_TRUE(quick(mesh).certified());
     Mesh bad = mesh;

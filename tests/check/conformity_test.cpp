@@ -171,7 +171,7 @@ TEST(ConformityReport, AtTheEndsOfTheRange) {
 }
 
 TEST(ConformityReport, DoesNotDependOnThreadsOrderOrOrientation) {
-    Random random(2);
+    base::Random random(2);
     const Mesh flange = mesh_of("flange");
     Mesh other = renumbered(flange, random);
     flip_some(other, random);

@@ -90,7 +90,7 @@ TEST(Contacts, of_random_meshes) {
     for (const int d : {2, 3}) {
         Seen seen;
         for (std::uint64_t i = 0; i < 400 && !HasFatalFailure(); ++i) {
-            Random random = Random::stream(31, static_cast<std::uint64_t>(d), i);
+            base::Random random = base::Random::stream(31, static_cast<std::uint64_t>(d), i);
             Mesh mesh = i % 2 == 0 ? random_soup(d, random) : damaged_box(d, random);
             if (judge(mesh).degenerate > 0) continue;  // contacts of such cells have no witness
             if (i % 5 == 0) mesh = mapped(mesh, {0x1p-500, 0x1p400, 3}, {0, 0, 0});
@@ -104,7 +104,7 @@ TEST(Contacts, of_random_meshes) {
 }
 
 /// Coordinates over the whole range of doubles: any bits of a finite number below 2^1000.
-Mesh extreme_soup(int d, std::size_t nodes, std::size_t cells, Random& random) {
+Mesh extreme_soup(int d, std::size_t nodes, std::size_t cells, base::Random& random) {
     Mesh mesh;
     mesh.dimension = d;
     while (mesh.points.size() < nodes * static_cast<std::size_t>(d)) {
@@ -125,7 +125,7 @@ Mesh extreme_soup(int d, std::size_t nodes, std::size_t cells, Random& random) {
 // Each fraction in lowest terms took a tenth of a second and more, a thousand of them minutes.
 TEST(Contacts, of_extreme_coordinates) {
     for (const int d : {2, 3}) {
-        Random random = Random::stream(33, static_cast<std::uint64_t>(d), 0);
+        base::Random random = base::Random::stream(33, static_cast<std::uint64_t>(d), 0);
         const Mesh mesh = extreme_soup(d, 60, 300, random);
         const CheckReport r = quick(mesh, 300);
         ASSERT_EQ(r.contacts.size(), 300U);

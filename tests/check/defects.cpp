@@ -21,7 +21,7 @@ Index& corner(const Site& s, std::size_t cell, std::size_t i) {
     return s.mesh.cells[cell * s.mesh.corners() + i];
 }
 
-std::size_t any_corner(const Site& s, Random& random) {
+std::size_t any_corner(const Site& s, base::Random& random) {
     return random.below(s.mesh.corners());
 }
 
@@ -43,7 +43,7 @@ bool in_range(const Site& s, std::size_t cell) {
 }
 
 /// Another one than those that a defect planted before gave a wild index.
-std::size_t any_cell(const Site& s, Random& random) {
+std::size_t any_cell(const Site& s, base::Random& random) {
     while (true) {
         const std::size_t c = s.first_cell + random.below(s.cells);
         if (in_range(s, c)) return c;
@@ -65,7 +65,7 @@ double& coordinate(const Site& s, Index node, std::size_t axis) {
 }
 
 /// Not on the surface of the box: from 1 to side - 1 along all axes.
-Index inner_node(const Site& s, Random& random) {
+Index inner_node(const Site& s, base::Random& random) {
     std::size_t at = 0, stride = 1;
     for (int k = 0; k < s.mesh.dimension; ++k, stride *= site_side + 1)
         at += stride * static_cast<std::size_t>(random.integer(1, site_side - 1));
@@ -73,29 +73,29 @@ Index inner_node(const Site& s, Random& random) {
 }
 
 template <Index value>
-void wild_index(const Site& s, Random& random) {
+void wild_index(const Site& s, base::Random& random) {
     corner(s, any_cell(s, random), any_corner(s, random)) = value;
 }
 
-void index_past_the_end(const Site& s, Random& random) {  // and past all that may be added
+void index_past_the_end(const Site& s, base::Random& random) {  // and past all that may be added
     corner(s, any_cell(s, random), any_corner(s, random)) = static_cast<Index>(s.mesh.point_count()) + 1000;
 }
 
 template <int which>
-void not_finite(const Site& s, Random& random) {
+void not_finite(const Site& s, base::Random& random) {
     const double values[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                              -std::numeric_limits<double>::infinity()};
     coordinate(s, static_cast<Index>(s.any_node(random)), random.below(static_cast<std::size_t>(s.mesh.dimension))) =
         values[which];
 }
 
-void repeated_node(const Site& s, Random& random) {
+void repeated_node(const Site& s, base::Random& random) {
     const std::size_t c = any_cell(s, random), i = any_corner(s, random);
     corner(s, c, i) = corner(s, c, (i + 1) % s.mesh.corners());
 }
 
 /// A further cell whose new corner lies on the line of two others.
-void flat_cell(const Site& s, Random& random) {
+void flat_cell(const Site& s, base::Random& random) {
     auto nodes = nodes_of(s, any_cell(s, random));
     auto at = node_at(s.mesh, nodes[1]);
     const auto other = node_at(s.mesh, nodes[2]);
@@ -106,7 +106,7 @@ void flat_cell(const Site& s, Random& random) {
 
 /// A further cell, apart from all, along a line; or with all corners in one point.
 template <int step>
-void cell_on_a_line(const Site& s, Random& random) {
+void cell_on_a_line(const Site& s, base::Random& random) {
     std::vector<Index> nodes;
     std::vector<double> at = node_at(s.mesh, static_cast<Index>(s.first_node));
     at[0] -= 5;
@@ -120,7 +120,7 @@ void cell_on_a_line(const Site& s, Random& random) {
 }
 
 template <bool permuted>
-void duplicate(const Site& s, Random& random) {
+void duplicate(const Site& s, base::Random& random) {
     auto nodes = nodes_of(s, any_cell(s, random));
     if (permuted) {
         for (std::size_t i = nodes.size(); i > 1; --i) std::swap(nodes[i - 1], nodes[random.below(i)]);
@@ -128,7 +128,7 @@ void duplicate(const Site& s, Random& random) {
     add_cell(s, nodes);
 }
 
-void third_at_a_facet(const Site& s, Random& random) {
+void third_at_a_facet(const Site& s, base::Random& random) {
     // Of a cell at an inner node: the facet opposite to another of its nodes is an inner one.
     const Index inner = inner_node(s, random);
     const auto star = cells_at(s, inner);
@@ -138,7 +138,7 @@ void third_at_a_facet(const Site& s, Random& random) {
     add_cell(s, nodes);
 }
 
-void node_through_a_facet(const Site& s, Random& random) {
+void node_through_a_facet(const Site& s, base::Random& random) {
     const Index node = inner_node(s, random);
     const auto star = cells_at(s, node);
     const auto nodes = nodes_of(s, star[random.below(star.size())]);
@@ -150,7 +150,7 @@ void node_through_a_facet(const Site& s, Random& random) {
 }
 
 /// Cells of the box on one side of an inner node get a copy of it.
-void crack(const Site& s, Random& random) {
+void crack(const Site& s, base::Random& random) {
     const Index node = inner_node(s, random), copy = add_node(s.mesh, node_at(s.mesh, node));
     const auto axis = random.below(static_cast<std::size_t>(s.mesh.dimension));
     for (const std::size_t c : cells_at(s, node)) {
@@ -177,20 +177,20 @@ void copy_of_all(const Site& s, std::vector<double> shift) {
     }
 }
 
-void overlapping_copy(const Site& s, Random& random) {
+void overlapping_copy(const Site& s, base::Random& random) {
     copy_of_all(s, {random.uniform(-2, 2), random.uniform(0.1, 0.9), random.uniform(0.1, 0.9)});
 }
 
-void same_copy(const Site& s, Random&) {
+void same_copy(const Site& s, base::Random&) {
     copy_of_all(s, {0, 0, 0});
 }
 
-void touching_copy(const Site& s, Random& random) {
+void touching_copy(const Site& s, base::Random& random) {
     copy_of_all(s, {random.coin() ? s.width : -s.width, 0, 0});
 }
 
 /// One cell cut in two through the middle of an edge between inner facets; its neighbours are left as they are.
-void hanging_node(const Site& s, Random& random) {
+void hanging_node(const Site& s, base::Random& random) {
     const Index inner = inner_node(s, random);
     const auto star = cells_at(s, inner);
     const std::size_t c = star[random.below(star.size())];
@@ -207,7 +207,7 @@ void hanging_node(const Site& s, Random& random) {
 }
 
 /// A small cell about a point; `apex` >= 0: with that node for its first corner.
-void small_cell(const Site& s, const std::vector<double>& about, Index apex, Random& random) {
+void small_cell(const Site& s, const std::vector<double>& about, Index apex, base::Random& random) {
     std::vector<Index> nodes;
     for (std::size_t i = 0; i < s.mesh.corners(); ++i) {
         auto at = about;
@@ -217,22 +217,22 @@ void small_cell(const Site& s, const std::vector<double>& about, Index apex, Ran
     add_cell(s, nodes);
 }
 
-void nested_in_one(const Site& s, Random& random) {
+void nested_in_one(const Site& s, base::Random& random) {
     small_cell(s, in_cell(s.mesh, any_cell(s, random), {0.3, 0.3, s.mesh.dimension == 2 ? 0.4 : 0.2, 0.2}), -1, random);
 }
 
-void nested_in_several(const Site& s, Random& random) {
+void nested_in_several(const Site& s, base::Random& random) {
     small_cell(s, node_at(s.mesh, inner_node(s, random)), -1, random);
 }
 
-void nested_at_a_node(const Site& s, Random& random) {
+void nested_at_a_node(const Site& s, base::Random& random) {
     const std::size_t c = any_cell(s, random);
     small_cell(s, in_cell(s.mesh, c, {0.3, 0.3, s.mesh.dimension == 2 ? 0.4 : 0.2, 0.2}), corner(s, c, 0), random);
 }
 
 /// All cells at an inner node a second time, at a node of their own.
 template <bool moved>
-void star_twice(const Site& s, Random& random) {
+void star_twice(const Site& s, base::Random& random) {
     const Index node = inner_node(s, random);
     auto at = node_at(s.mesh, node);
     for (double& x : at) x += moved ? random.uniform(-0.1, 0.1) : 0;
@@ -244,35 +244,35 @@ void star_twice(const Site& s, Random& random) {
     }
 }
 
-void wrong_neighbour(const Site& s, Random& random) {
+void wrong_neighbour(const Site& s, base::Random& random) {
     Index& n = s.mesh.neighbours[any_cell(s, random) * s.mesh.corners() + any_corner(s, random)];
     const Index wild[] = {-1, 0, 5, std::numeric_limits<Index>::max(), std::numeric_limits<Index>::min()};
     const Index before = n;
     while (n == before) n = wild[random.below(std::size(wild))];
 }
 
-void wrong_face(const Site& s, Random& random) {
+void wrong_face(const Site& s, base::Random& random) {
     Index& n = s.mesh.faces[random.below(s.mesh.faces.size())];
     n = random.coin() ? -1 : n + 1000000;
 }
 
-void unused(const Site& s, Random& random) {
+void unused(const Site& s, base::Random& random) {
     std::vector<double> at(static_cast<std::size_t>(s.mesh.dimension), -7);
     at[0] = random.unit();
     add_node(s.mesh, at);
 }
 
-void coincident_unused(const Site& s, Random& random) {
+void coincident_unused(const Site& s, base::Random& random) {
     add_node(s.mesh, node_at(s.mesh, static_cast<Index>(s.any_node(random))));
 }
 
-void flipped(const Site& s, Random& random) {
+void flipped(const Site& s, base::Random& random) {
     const std::size_t c = any_cell(s, random);
     std::swap(corner(s, c, 0), corner(s, c, 1 + random.below(2)));
 }
 
 /// A cell along the diagonal, apart from all, too thin for plain double.
-void thin_cell(const Site& s, Random& random) {
+void thin_cell(const Site& s, base::Random& random) {
     const double x = node_at(s.mesh, static_cast<Index>(s.first_node))[0] - 8;
     Mesh one;
     one.dimension = s.mesh.dimension;
@@ -344,7 +344,7 @@ Mesh mesh_of_sites(int d, int sites) {
     mesh.dimension = d;
     for (int i = 0; i < sites; ++i)
         mesh = joined(std::move(mesh), mapped(box(d, {site_side, site_side, site_side}), {1, 1, 1}, {40.0 * i, 0, 0}));
-    mesh.neighbours = compute_neighbours(mesh);
+    mesh.neighbours = mesh::compute_neighbours(mesh);
     for (std::size_t c = 0; d == 3 && c < mesh.cell_count(); c += 7)
         mesh.faces.insert(mesh.faces.end(), &mesh.cells[c * 4 + 1], &mesh.cells[c * 4 + 1] + 3);
     return mesh;

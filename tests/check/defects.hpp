@@ -15,14 +15,14 @@ struct Site {
     std::size_t first_node, nodes, first_cell, cells;
     double width;  ///< of the box along x
 
-    std::size_t any_node(Random& random) const { return first_node + random.below(nodes); }
+    std::size_t any_node(base::Random& random) const { return first_node + random.below(nodes); }
 };
 
 struct PlantedDefect {
     const char* name;
     DefectSet must;  ///< these are found
     DefectSet may;   ///< these may be found besides
-    void (*plant)(const Site& site, Random& random);
+    void (*plant)(const Site& site, base::Random& random);
     bool only_3d = false;
 };
 

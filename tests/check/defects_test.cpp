@@ -29,7 +29,7 @@ TEST(Defects, alone) {
             if (defect.only_3d && d == 2) continue;
             for (std::uint64_t i = 0; i < 15; ++i) {
                 SCOPED_TRACE(std::string(defect.name) + ", " + std::to_string(d) + "D, " + std::to_string(i));
-                Random random = Random::stream(5, hash64(defect.name), i);
+                base::Random random = base::Random::stream(5, base::hash64(defect.name), i);
                 Mesh mesh = mesh_of_sites(d, 1);
                 const bool p5 = (defect.must & follows) != 0;
                 if (!p5) mesh.neighbours.clear(), mesh.faces.clear();
@@ -47,7 +47,7 @@ TEST(Defects, in_pairs) {
             for (const PlantedDefect& b : defects) {
                 if ((a.only_3d || b.only_3d) && d == 2) continue;
                 SCOPED_TRACE(std::string(a.name) + " and " + b.name + ", " + std::to_string(d) + "D");
-                Random random = Random::stream(6, hash64(a.name), hash64(b.name));
+                base::Random random = base::Random::stream(6, base::hash64(a.name), base::hash64(b.name));
                 Mesh mesh = mesh_of_sites(d, 2);
                 const Site at = site_of(mesh, 2, 0), other = site_of(mesh, 2, 1);
                 if (((a.must | b.must) & follows) == 0) mesh.neighbours.clear(), mesh.faces.clear();
@@ -67,7 +67,7 @@ TEST(Defects, in_pairs_in_one_place) {
         for (const PlantedDefect& b : defects) {
             if (a.only_3d || b.only_3d) continue;
             SCOPED_TRACE(std::string(a.name) + " and " + b.name);
-            Random random = Random::stream(7, hash64(a.name), hash64(b.name));
+            base::Random random = base::Random::stream(7, base::hash64(a.name), base::hash64(b.name));
             Mesh mesh = mesh_of_sites(2, 1);
             const Site site = site_of(mesh, 1, 0);
             if (((a.must | b.must) & follows) == 0) mesh.neighbours.clear();
@@ -89,7 +89,7 @@ TEST(Defects, in_pairs_in_one_place) {
 TEST(Defects, cell_taken_out) {
     for (const int d : {2, 3}) {
         for (std::uint64_t i = 0; i < 15; ++i) {
-            Random random(i);
+            base::Random random(i);
             Mesh mesh = mesh_of_sites(d, 1);
             mesh.neighbours.clear(), mesh.faces.clear();
             std::vector<bool> keep(mesh.cell_count(), true);
@@ -107,7 +107,7 @@ TEST(Defects, places) {
     mesh.neighbours.clear(), mesh.faces.clear();
     const auto cells = static_cast<Mesh::Index>(mesh.cell_count());
     const Site site = site_of(mesh, 1, 0);
-    Random random(1);
+    base::Random random(1);
     for (const PlantedDefect& defect : defects) {
         const std::string name = defect.name;
         if (name == "flat cell" || name == "cell on a line" || name == "cell in a point") defect.plant(site, random);

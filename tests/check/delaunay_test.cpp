@@ -60,7 +60,7 @@ std::optional<Point> circumcentre(const Mesh& mesh, std::size_t cell) {
 
 DelaunayReport slow_delaunay(const Mesh& mesh) {
     DelaunayReport out;
-    const std::vector<Mesh::Index> neighbours = compute_neighbours(mesh);
+    const std::vector<Mesh::Index> neighbours = mesh::compute_neighbours(mesh);
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
         const auto centre = circumcentre(mesh, cell);
         for (std::size_t i = 0; i < mesh.corners(); ++i) {
@@ -104,7 +104,7 @@ void expect_same(const Mesh& mesh, std::uint64_t seed) {
 TEST(Delaunay, LatticesAreCosphericalAndPushedOnesAreNot) {
     std::uint64_t violations = 0, cospherical = 0;
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
-        Random random = Random::stream(5, seed, 0);
+        base::Random random = base::Random::stream(5, seed, 0);
         const int d = random.integer(2, 3);
         Mesh mesh = box(d, {2, 2, d == 2 ? 1 : 2});
         if (seed % 3 != 0) {
@@ -133,7 +133,7 @@ TEST(Delaunay, OfDataAndOnAnyNumberOfThreads) {
 }
 
 TEST(Delaunay, AtTheEndsOfTheRange) {
-    Random random(3);
+    base::Random random(3);
     Mesh mesh = box(3, {2, 2, 2});
     for (double& x : mesh.points) x += 0.25 * random.integer(-1, 1);
     const DelaunayReport plain = delaunay(mesh);

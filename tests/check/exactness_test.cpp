@@ -54,7 +54,7 @@ void expect_exact(const Mesh& mesh) {
     ASSERT_EQ(r.volume.cells, second_path::nearest(sum / (mesh.dimension == 2 ? 2 : 6)));
 }
 
-Mesh cells_of(int d, int count, Random& random, double (*coordinate)(Random&)) {
+Mesh cells_of(int d, int count, base::Random& random, double (*coordinate)(base::Random&)) {
     Mesh mesh;
     mesh.dimension = d;
     for (int i = 0; i < count * (d + 1); ++i) {
@@ -65,22 +65,22 @@ Mesh cells_of(int d, int count, Random& random, double (*coordinate)(Random&)) {
 }
 
 TEST(Exactness, of_cells) {
-    double (*const coordinates[])(Random&) = {
-        [](Random& r) { return r.uniform(-1, 1); },
-        [](Random& r) { return static_cast<double>(r.integer(0, 9)) / 10; },
-        [](Random& r) { return 1 + std::ldexp(r.integer(0, 3), -52); },
-        [](Random& r) { return r.scaled(-1, 1, -20, 20); },
-        [](Random& r) { return r.scaled(-1, 1, -200, 200); },
-        [](Random& r) { return std::ldexp(r.uniform(-1, 1), 1000); },
-        [](Random& r) { return std::ldexp(r.uniform(-1, 1), -500); },
-        [](Random& r) { return std::ldexp(r.integer(-9, 9), -1074); },
-        [](Random& r) { return r.coin() ? 0.0 : r.uniform(1e300, 1.7e308); },
+    double (*const coordinates[])(base::Random&) = {
+        [](base::Random& r) { return r.uniform(-1, 1); },
+        [](base::Random& r) { return static_cast<double>(r.integer(0, 9)) / 10; },
+        [](base::Random& r) { return 1 + std::ldexp(r.integer(0, 3), -52); },
+        [](base::Random& r) { return r.scaled(-1, 1, -20, 20); },
+        [](base::Random& r) { return r.scaled(-1, 1, -200, 200); },
+        [](base::Random& r) { return std::ldexp(r.uniform(-1, 1), 1000); },
+        [](base::Random& r) { return std::ldexp(r.uniform(-1, 1), -500); },
+        [](base::Random& r) { return std::ldexp(r.integer(-9, 9), -1074); },
+        [](base::Random& r) { return r.coin() ? 0.0 : r.uniform(1e300, 1.7e308); },
     };
     for (const int d : {2, 3}) {
         std::uint64_t number = 0;
         for (const auto coordinate : coordinates) {
             SCOPED_TRACE(std::to_string(d) + "D, coordinates " + std::to_string(number));
-            Random random = Random::stream(21, static_cast<std::uint64_t>(d), number++);
+            base::Random random = base::Random::stream(21, static_cast<std::uint64_t>(d), number++);
             for (int i = 0; i < 10; ++i) expect_exact(cells_of(d, 30, random, coordinate));
         }
     }
@@ -90,8 +90,9 @@ TEST(Exactness, of_cells) {
 TEST(Exactness, at_the_widths_of_integers) {
     for (const int d : {2, 3}) {
         for (const int bits : {55, 58, 59, 60, 61, 62, 63, 64, 65, 121, 122, 123, 124, 125, 126, 127, 128, 129}) {
-            Random random = Random::stream(22, static_cast<std::uint64_t>(d), static_cast<std::uint64_t>(bits));
-            Mesh mesh = cells_of(d, 20, random, [](Random& r) { return r.coin() ? -1.0 : 1.0; });
+            base::Random random =
+                base::Random::stream(22, static_cast<std::uint64_t>(d), static_cast<std::uint64_t>(bits));
+            Mesh mesh = cells_of(d, 20, random, [](base::Random& r) { return r.coin() ? -1.0 : 1.0; });
             for (double& x : mesh.points) {
                 x = std::ldexp(random.coin() ? x : x * (2 - 0x1p-52), bits - 1);
                 if (random.below(8) == 0) x = random.coin() ? 1 : -1;
@@ -126,7 +127,7 @@ TEST(Exactness, scaled_by_powers_of_two) {
     std::size_t certified = 0;
     for (const int d : {2, 3}) {
         for (std::uint64_t i = 0; i < 60; ++i) {
-            Random random = Random::stream(23, static_cast<std::uint64_t>(d), i);
+            base::Random random = base::Random::stream(23, static_cast<std::uint64_t>(d), i);
             const Mesh mesh = i % 2 == 0 ? damaged_box(d, random) : grown_complex(d, random);
             certified += quick(mesh).certified() ? 1 : 0;
             for (const auto& factor : factors) expect_same_in(mesh, factor);
@@ -141,7 +142,7 @@ TEST(Exactness, scaled_by_powers_of_ten) {
     std::size_t certified = 0;
     for (const int d : {2, 3}) {
         for (std::uint64_t i = 0; i < 24; ++i) {
-            Random random = Random::stream(24, static_cast<std::uint64_t>(d), i);
+            base::Random random = base::Random::stream(24, static_cast<std::uint64_t>(d), i);
             const Mesh mesh = mapped(damaged_box(d, random), factors[i % 3], {0, 0, 0});
             EXPECT_EQ(quick(mesh).certified(), judge(mesh).complex);
             certified += quick(mesh).certified() ? 1 : 0;

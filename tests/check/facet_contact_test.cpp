@@ -47,7 +47,7 @@ check::PlacedFacet placed(const Coordinates& f, std::array<Mesh::Index, 3> nodes
 TEST(FacetContact, AsCgalsExactKernelHasIt) {
     std::array<std::array<int, 2>, 3> seen{};  // by common nodes: not, in conflict
     for (std::uint64_t seed = 0; seed < 30000; ++seed) {
-        Random random = Random::stream(11, seed, 0);
+        base::Random random = base::Random::stream(11, seed, 0);
         const auto common = static_cast<std::size_t>(random.integer(0, 2));
         // Few lattice points, or those of one slanted plane: most ways to touch occur. Now and then far apart in scale.
         const bool plane = random.coin();

@@ -19,7 +19,7 @@ struct Good {
 };
 
 /// What does not depend on how things are numbered, ordered and turned.
-void expect_same(const CheckReport& r, const CheckReport& s) {
+void expect_same_counts(const CheckReport& r, const CheckReport& s) {
     EXPECT_EQ(r.certified(), s.certified());
     EXPECT_EQ(r.nodes, s.nodes);
     EXPECT_EQ(r.cells, s.cells);
@@ -62,8 +62,8 @@ void expect_good(const std::string& folder, const Good& good, bool positive) {
 
     if (mesh->cell_count() > 60000) return;
     // The boundary that the library's own adjacency has.
-    EXPECT_EQ(r.boundary.facets, hull_facets(*mesh, compute_neighbours(*mesh)).size());
-    Random random(hash64(good.stem));
+    EXPECT_EQ(r.boundary.facets, mesh::hull_facets(*mesh, mesh::compute_neighbours(*mesh)).size());
+    base::Random random(base::hash64(good.stem));
     Mesh other = *mesh;
     other.neighbours.clear(), other.faces.clear();
     const auto flipped = flip_some(other, random);
@@ -73,13 +73,13 @@ void expect_good(const std::string& folder, const Good& good, bool positive) {
         EXPECT_EQ(s.negative, flipped);
     }
     EXPECT_EQ(s.find(DefectKind::mixed_orientation)->count, std::min(s.negative, s.positive));
-    expect_same(s, r);
+    expect_same_counts(s, r);
     const std::size_t unused = r.find(DefectKind::unused_node) != nullptr ? r.find(DefectKind::unused_node)->count : 0;
     if (!mesh->mid_nodes.empty()) return;  // renumbered() leaves nodes at mid-edges out
     const CheckReport t = check_mesh(renumbered(other, random));
     EXPECT_EQ(words(found(t)), words(found(s)));
     EXPECT_EQ(t.find(DefectKind::unused_node) != nullptr ? t.find(DefectKind::unused_node)->count : 0, unused);
-    expect_same(t, r);
+    expect_same_counts(t, r);
 }
 
 TEST(GoodMeshes, own) {

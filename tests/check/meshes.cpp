@@ -4,7 +4,13 @@
 #include <cstddef>
 #include <numeric>
 
+#include "barycert/io.hpp"
+
 namespace barycert::testing {
+
+Mesh own_mesh(const std::string& stem) {
+    return read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
+}
 
 Mesh box(int d, std::array<int, 3> cubes) {
     Mesh mesh;
@@ -67,7 +73,7 @@ Mesh joined(Mesh a, const Mesh& b) {
     return a;
 }
 
-Mesh renumbered(const Mesh& mesh, Random& random) {
+Mesh renumbered(const Mesh& mesh, base::Random& random) {
     const auto shuffled = [&](std::size_t n) {
         std::vector<std::size_t> order(n);
         std::iota(order.begin(), order.end(), std::size_t{0});
@@ -95,7 +101,7 @@ Mesh renumbered(const Mesh& mesh, Random& random) {
     return out;
 }
 
-std::size_t flip_some(Mesh& mesh, Random& random) {
+std::size_t flip_some(Mesh& mesh, base::Random& random) {
     std::size_t flipped = 0;
     for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
         if (random.coin()) continue;

@@ -14,6 +14,9 @@ namespace barycert::testing {
 /// Unit cubes (2D: squares) in d! cells each, all positive; nodes at the lattice points from 0 on.
 Mesh box(int d, std::array<int, 3> cubes);
 
+/// A mesh of the folder data.
+Mesh own_mesh(const std::string& stem);
+
 /// Only the cells that have 1.
 Mesh only(const Mesh& mesh, const std::vector<bool>& keep);
 
@@ -23,10 +26,10 @@ Mesh mapped(Mesh mesh, std::array<double, 3> factor, std::array<double, 3> shift
 Mesh joined(Mesh a, const Mesh& b);
 
 /// The same nodes and cells in another order; corners of each cell turned evenly, so that its orientation stays.
-Mesh renumbered(const Mesh& mesh, Random& random);
+Mesh renumbered(const Mesh& mesh, base::Random& random);
 
 /// Every second cell or so with two corners exchanged. Returns how many.
-std::size_t flip_some(Mesh& mesh, Random& random);
+std::size_t flip_some(Mesh& mesh, base::Random& random);
 
 Mesh::Index add_node(Mesh& mesh, const std::vector<double>& at);
 std::vector<double> node_at(const Mesh& mesh, Mesh::Index node);

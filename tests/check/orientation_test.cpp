@@ -25,7 +25,7 @@ using MidNodes = std::map<std::pair<Mesh::Index, Mesh::Index>, Mesh::Index>;
 MidNodes mid_nodes_of(const Mesh& mesh, std::size_t cell) {
     MidNodes nodes;
     if (mesh.mid_nodes.empty()) return nodes;
-    const auto edges = detail::edges_of(mesh.dimension);
+    const auto edges = mesh::edges_of(mesh.dimension);
     for (std::size_t e = 0; e < edges.size(); ++e) {
         const Mesh::Index* const corners = &mesh.cells[cell * mesh.corners()];
         const auto [low, high] = std::minmax(corners[edges[e][0]], corners[edges[e][1]]);
@@ -36,10 +36,10 @@ MidNodes mid_nodes_of(const Mesh& mesh, std::size_t cell) {
 
 /// The mesh with the corners of a random choice of cells in a random order.
 Mesh shuffled(const Mesh& mesh, std::uint64_t seed) {
-    Random random(seed);
+    base::Random random(seed);
     Mesh out = mesh;
     const std::size_t n = mesh.corners();
-    const auto edges = detail::edges_of(mesh.dimension);
+    const auto edges = mesh::edges_of(mesh.dimension);
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
         if (random.coin()) continue;
         MidNodes mids = mid_nodes_of(mesh, cell);
@@ -85,7 +85,7 @@ void expect_fixed(const Mesh& mixed) {
     for (std::size_t cell = 0; cell < mixed.cell_count(); ++cell)
         ASSERT_EQ(after.measures.volume[cell], std::fabs(before.measures.volume[cell]));
     if (!mixed.neighbours.empty()) {
-        EXPECT_EQ(fixed.neighbours, compute_neighbours(fixed));
+        EXPECT_EQ(fixed.neighbours, mesh::compute_neighbours(fixed));
     }
     const TemporaryFolder folder;
     ASSERT_TRUE(write_tetgen(fixed, folder / "m"));

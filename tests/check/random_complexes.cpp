@@ -9,16 +9,16 @@
 namespace barycert::testing {
 namespace {
 
-void add_lattice_nodes(Mesh& mesh, int count, int side, Random& random) {
+void add_lattice_nodes(Mesh& mesh, int count, int side, base::Random& random) {
     for (int i = 0; i < count * mesh.dimension; ++i) mesh.points.push_back(random.integer(0, side));
 }
 
-Mesh::Index any_node(const Mesh& mesh, Random& random) {
+Mesh::Index any_node(const Mesh& mesh, base::Random& random) {
     return static_cast<Mesh::Index>(random.below(mesh.point_count()));
 }
 
 /// Different nodes: a repeated one says little more than that.
-void add_cell(Mesh& mesh, Random& random) {
+void add_cell(Mesh& mesh, base::Random& random) {
     const auto first = static_cast<std::ptrdiff_t>(mesh.cells.size());
     while (mesh.cells.size() < static_cast<std::size_t>(first) + mesh.corners()) {
         const Mesh::Index n = any_node(mesh, random);
@@ -34,7 +34,7 @@ double& coordinate(Mesh& mesh, Mesh::Index node, std::uint64_t axis) {
 
 }  // namespace
 
-Mesh random_soup(int d, Random& random) {
+Mesh random_soup(int d, base::Random& random) {
     Mesh mesh;
     mesh.dimension = d;
     add_lattice_nodes(mesh, random.integer(d + 1, 9), random.integer(1, 4), random);
@@ -42,7 +42,7 @@ Mesh random_soup(int d, Random& random) {
     return mesh;
 }
 
-Mesh grown_complex(int d, Random& random) {
+Mesh grown_complex(int d, base::Random& random) {
     Mesh mesh;
     mesh.dimension = d;
     add_lattice_nodes(mesh, random.integer(d + 2, 12), random.integer(2, 4), random);
@@ -56,7 +56,7 @@ Mesh grown_complex(int d, Random& random) {
     return mesh;
 }
 
-Mesh damaged_box(int d, Random& random) {
+Mesh damaged_box(int d, base::Random& random) {
     Mesh mesh = box(d, {2, d == 2 ? 2 : 1, 1});
     mesh = mapped(mesh, {3, 3, 3}, {0, 0, 0});
     for (double& x : mesh.points) x += random.below(3) == 0 ? random.integer(-1, 1) : 0;

@@ -19,7 +19,7 @@ void expect_same_bits(const std::vector<T>& x, const std::vector<T>& y) {
     for (std::size_t i = 0; i < x.size(); ++i) ASSERT_TRUE(x[i] == y[i] || (x[i] != x[i] && y[i] != y[i])) << i;
 }
 
-void expect_same(const CheckReport& r, const CheckReport& s) {
+void expect_same_report(const CheckReport& r, const CheckReport& s) {
     ASSERT_EQ(r.certified(), s.certified());
     ASSERT_EQ(words(found(r)), words(found(s)));
     for (std::size_t i = 0; i < r.defects.size(); ++i) {
@@ -84,7 +84,7 @@ TEST(Robustness, any_indices) {
     for (const int d : {2, 3}) {
         std::size_t certified = 0;
         for (std::uint64_t i = 0; i < 1000; ++i) {
-            Random random = Random::stream(41, static_cast<std::uint64_t>(d), i);
+            base::Random random = base::Random::stream(41, static_cast<std::uint64_t>(d), i);
             Mesh mesh = i % 2 == 0 ? damaged_box(d, random) : random_soup(d, random);
             const auto any = [&] { return wild[random.below(std::size(wild))]; };
             for (std::uint64_t k = random.below(3); k > 0 && !mesh.cells.empty(); --k)
@@ -136,7 +136,7 @@ TEST(Robustness, same_from_any_threads) {
     for (const int d : {2, 3}) {
         Mesh mesh = d == 2 ? box(2, {120, 100, 0}) : box(3, {9, 8, 7});
         mesh = joined(mesh, mapped(mesh, {1, 1, 1}, {d == 2 ? 119.5 : 8.5, 0.25, 0.25}));
-        Random random(43);
+        base::Random random(43);
         mesh = renumbered(mesh, random);
         flip_some(mesh, random);
         for (int i = 0; i < 50; ++i) {
@@ -147,15 +147,15 @@ TEST(Robustness, same_from_any_threads) {
         mesh.cells[random.below(mesh.cells.size())] = -1;
         const CheckReport r = with_threads(mesh, 1);
         EXPECT_GE(r.defects.size(), 8U) << words(found(r));
-        for (const int threads : {2, 5}) expect_same(r, with_threads(mesh, threads));
-        expect_same(r, with_threads(mesh, 2));
+        for (const int threads : {2, 5}) expect_same_report(r, with_threads(mesh, threads));
+        expect_same_report(r, with_threads(mesh, 2));
     }
 }
 
 // Every cell overlaps every other: the searches are given up, and say so.
 TEST(Robustness, all_overlap_all) {
     for (const int d : {2, 3}) {
-        Random random(44);
+        base::Random random(44);
         Mesh mesh;
         mesh.dimension = d;
         for (int i = 0; i < 300 * (d + 1); ++i) {

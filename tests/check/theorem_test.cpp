@@ -48,13 +48,13 @@ void compare(const Mesh& mesh, Tally& tally) {
     for (const Defect& f : report.defects) ++tally.problems[std::string(defect_text(f.kind).name)];
 }
 
-using Recipe = Mesh (*)(int, Random&);
+using Recipe = Mesh (*)(int, base::Random&);
 
 Tally compare_many(const char* name, Recipe recipe, std::uint64_t count, bool nudged) {
     Tally tally;
     for (const int d : {2, 3}) {
         for (std::uint64_t i = 0; i < count && !::testing::Test::HasFatalFailure(); ++i) {
-            Random random = Random::stream(11, hash64(name) + static_cast<std::uint64_t>(d), i);
+            base::Random random = base::Random::stream(11, base::hash64(name) + static_cast<std::uint64_t>(d), i);
             Mesh mesh = recipe(d, random);
             for (double& x : mesh.points) {
                 if (!nudged || random.below(3) != 0) continue;

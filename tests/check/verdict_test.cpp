@@ -31,7 +31,7 @@ TEST(VerdictOnly, is_the_verdict) {
     std::size_t certified = 0, broken = 0;
     for (const int d : {2, 3}) {
         for (std::uint64_t i = 0; i < 600; ++i) {
-            Random random = Random::stream(34, static_cast<std::uint64_t>(d), i);
+            base::Random random = base::Random::stream(34, static_cast<std::uint64_t>(d), i);
             Mesh mesh = i % 3 == 0 ? random_soup(d, random) : damaged_box(d, random);
             if (i % 3 == 2) mesh = box(d, {1 + static_cast<int>(random.below(3)), 2, 1});
             const CheckReport whole = quick(mesh), verdict = verdict_of(mesh).report;

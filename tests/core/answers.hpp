@@ -35,7 +35,7 @@ private:
 };
 
 /// Additions, products and ldexp alone, and one draw a statement: the same numbers from every compiler.
-inline double number(Random& r, int kind) {
+inline double number(base::Random& r, int kind) {
     const double x = r.uniform(-1, 1);
     const int small = r.integer(-2, 2);
     const int wide = r.integer(-1074, 1022);
@@ -60,7 +60,7 @@ inline double number(Random& r, int kind) {
 /// Case number k: easy ones, which need no integers; extreme numbers, lattices and coincidences; flat cells; cells of
 /// sizes 2^-180 to 2^180.
 inline Case stream_case(Simplex s, std::uint64_t k) {
-    Random r = Random::stream(12, hash64("answers"), k);
+    base::Random r = base::Random::stream(12, base::hash64("answers"), k);
     const int how = r.integer(0, 3);
     const int kind = r.integer(0, 6);
     Case c{.simplex = s};

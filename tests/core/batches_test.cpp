@@ -24,7 +24,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 std::vector<Case> mixed_cases(Simplex s, std::size_t count) {
     std::vector<Case> cases;
     for (std::size_t j = 0; j < count; ++j) {
-        Random r = Random::stream(6, hash64("batches"), j);
+        base::Random r = base::Random::stream(6, base::hash64("batches"), j);
         cases.push_back(random_case(r, s, all_kinds[j % all_kinds.size()]));
     }
     return cases;
@@ -94,7 +94,7 @@ struct Components {
     int components;
 
     Components(Simplex s, std::size_t count, int components_) : components(components_) {
-        Random r(7);
+        base::Random r(7);
         for (std::size_t j = 0; j < count; ++j) {
             for (int i = 0; i < vertex_count(s); ++i) {
                 for (int c = 0; c < components; ++c) {
@@ -144,7 +144,7 @@ TEST(LawV1, NodalValuesThatAreNoNumbersSpoilTheirComponentAlone) {
     for (const Simplex s : all_simplices) {
         constexpr std::size_t count = 20;
         std::vector<Case> cases(count, Case{.simplex = s});
-        Random r(1);
+        base::Random r(1);
         for (Case& c : cases) {
             for (double& x : c.vertices) x = r.uniform(-1, 1);
             for (double& x : c.point) x = r.uniform(-1, 1);

@@ -28,7 +28,7 @@ TEST(Sign, ProductsAndNegation) {
 }
 
 TEST(Checked, SameSignsAsUnchecked) {
-    testing_spheres::for_hard_points("checked", 60, [](const testing_spheres::Points& p, Random&) {
+    testing_spheres::for_hard_points("checked", 60, [](const testing_spheres::Points& p, base::Random&) {
         const double* at[5];
         for (std::size_t i = 0; i < 5; ++i) at[i] = p.at[i].data();
         EXPECT_EQ(testing_spheres::checked_ask(p).value(), testing_spheres::ask(p));
@@ -43,7 +43,7 @@ TEST(Checked, SameWeightSignsAndCountsAsUnchecked) {
     for (const Simplex s : all_simplices) {
         for (const auto kind : all_kinds) {
             for (std::uint64_t k = 0; k < 100; ++k) {
-                Random r = Random::stream(3, hash64("checked weights"), k);
+                base::Random r = base::Random::stream(3, base::hash64("checked weights"), k);
                 const Case c = random_case(r, s, kind);
                 TierCounts plain, checked;
                 EXPECT_EQ(checked_weight_signs(s, c.vertices.data(), c.point.data(), &checked).value(),

@@ -119,7 +119,7 @@ TEST(Condition, NaNWhereItHasNoMeaning) {
 
 /// A cell of each sort in turn: ordinary, on lattices where many are degenerate, a few ulps from degenerate, with any
 /// exponents.
-Cell make(Random& r, int d, int sort) {
+Cell make(base::Random& r, int d, int sort) {
     Cell c(static_cast<std::size_t>(d * (d + 1)));
     for (double& x : c) {
         switch (sort) {
@@ -151,7 +151,7 @@ Cell make(Random& r, int d, int sort) {
 }
 
 TEST(Condition, AgainstRationalNumbers) {
-    Random r(7);
+    base::Random r(7);
     for (int i = 0; i < 4000; ++i) {
         EXPECT_TRUE(right(make(r, 2, i % 5)));
         EXPECT_TRUE(right(make(r, 3, i % 5)));
@@ -160,7 +160,7 @@ TEST(Condition, AgainstRationalNumbers) {
 
 /// Beside what floating point decides, so that both ways are compared where they meet.
 TEST(Condition, AroundTheLimitOfFloatingPoint) {
-    Random r(8);
+    base::Random r(8);
     for (int i = 0; i < 2000; ++i) {
         Cell c = make(r, 3, 0);
         const double h = std::ldexp(r.uniform(0.5, 1), -r.integer(30, 45));
@@ -170,7 +170,7 @@ TEST(Condition, AroundTheLimitOfFloatingPoint) {
 }
 
 TEST(Condition, ScalingAnAxisByAPowerOfTwoAndPermutingCornersChangeNothingThatMatters) {
-    Random r(9);
+    base::Random r(9);
     for (int i = 0; i < 2000; ++i) {
         for (const int d : {2, 3}) {
             const Cell c = make(r, d, i % 2);

@@ -133,7 +133,7 @@ void on_every_target(Use use) {
 }
 
 /// Exponents that meet, cancel, or miss each other; few bits at times.
-double awkward(Random& r, int low, int high) {
+double awkward(base::Random& r, int low, int high) {
     const double x = r.integer(0, 2) == 0 ? r.integer(-9, 9) : r.uniform(-1, 1);
     const double y =
         x != 0 && r.integer(0, 3) == 0 ? std::bit_cast<double>(bits(x) | 0xfffffffffULL) : x;  // runs of ones
@@ -143,7 +143,7 @@ double awkward(Random& r, int low, int high) {
 TEST(ErrorFree, sums_and_differences_are_exact_down_to_subnormals) {
     on_every_target([] {
         for (std::uint64_t k = 0; k < 4000 && !::testing::Test::HasFailure(); ++k) {
-            Random r = Random::stream(10, hash64("sums"), k);
+            base::Random r = base::Random::stream(10, base::hash64("sums"), k);
             double x = awkward(r, -110, 110), y = awkward(r, -110, 110), out[2];
             const int shift = k % 4 == 0 ? -1060 : k % 4 == 1 ? 900 : 0;  // sums never underflow inexactly
             x = std::ldexp(x, shift);
@@ -151,7 +151,7 @@ TEST(ErrorFree, sums_and_differences_are_exact_down_to_subnormals) {
             for (int which = 0; which < 2; ++which) {
                 HWY_DYNAMIC_DISPATCH(transform)(which, x, y, out);
                 const Q exact = which == 0 ? Q(Q(x) + Q(y)) : Q(Q(x) - Q(y));
-                EXPECT_EQ(Q(out[0]) + Q(out[1]), exact) << hexadecimal(x) << ' ' << hexadecimal(y);
+                EXPECT_EQ(Q(out[0]) + Q(out[1]), exact) << base::hexadecimal(x) << ' ' << base::hexadecimal(y);
                 EXPECT_TRUE(exact == 0 || nearest(out[0], exact));
             }
             if (std::fabs(x) < std::fabs(y)) std::swap(x, y);
@@ -177,7 +177,7 @@ TEST(ErrorFree, products_are_exact_and_both_forms_agree) {
     on_every_target([] {
         int tried = 0;
         for (std::uint64_t k = 0; k < 8000 && !::testing::Test::HasFailure(); ++k) {
-            Random r = Random::stream(10, hash64("products"), k);
+            base::Random r = base::Random::stream(10, base::hash64("products"), k);
             const int of_x = r.integer(-1000, 994), of_y = r.integer(-1000, 994);
             const double x = std::ldexp(awkward(r, 0, 0) / 9, of_x), y = std::ldexp(awkward(r, 0, 0) / 9, of_y);
             if (x != 0 && y != 0) {
@@ -187,15 +187,15 @@ TEST(ErrorFree, products_are_exact_and_both_forms_agree) {
             ++tried;
             double out[2], both[4];
             HWY_DYNAMIC_DISPATCH(transform)(3, x, y, out);
-            EXPECT_EQ(Q(out[0]) + Q(out[1]), Q(x) * Q(y)) << hexadecimal(x) << ' ' << hexadecimal(y);
+            EXPECT_EQ(Q(out[0]) + Q(out[1]), Q(x) * Q(y)) << base::hexadecimal(x) << ' ' << base::hexadecimal(y);
             HWY_DYNAMIC_DISPATCH(dekker)(x, y, both);
             EXPECT_EQ(both[0], out[0]);
-            EXPECT_EQ(both[1], out[1]) << hexadecimal(x) << ' ' << hexadecimal(y);
+            EXPECT_EQ(both[1], out[1]) << base::hexadecimal(x) << ' ' << base::hexadecimal(y);
             EXPECT_EQ(out[1], std::fma(x, y, -out[0]));
             // 26 bits each: every product of halves is exact.
             EXPECT_EQ(both[2] + both[3], x);
-            EXPECT_LE(length(both[2]), 26) << hexadecimal(x);
-            EXPECT_LE(length(both[3]), 26) << hexadecimal(x);
+            EXPECT_LE(length(both[2]), 26) << base::hexadecimal(x);
+            EXPECT_LE(length(both[3]), 26) << base::hexadecimal(x);
         }
         EXPECT_GT(tried, 3000);
     });
@@ -204,7 +204,7 @@ TEST(ErrorFree, products_are_exact_and_both_forms_agree) {
 TEST(DoubleDouble, sums_and_products_are_within_their_bounds) {
     on_every_target([] {
         for (std::uint64_t k = 0; k < 8000 && !::testing::Test::HasFailure(); ++k) {
-            Random r = Random::stream(10, hash64("double-double"), k);
+            base::Random r = base::Random::stream(10, base::hash64("double-double"), k);
             double x[2], y[2], out[2];
             for (double* const z : {x, y}) {
                 z[0] = awkward(r, -60, 60);
@@ -222,7 +222,7 @@ TEST(DoubleDouble, sums_and_products_are_within_their_bounds) {
                 const Q exact = which == 0 ? Q(a + b) : which == 1 ? Q(a - b) : Q(a * b);
                 const Q bound = which == 2 ? Q(9 * u * u * abs(exact)) : Q(4 * u * u * (abs(a) + abs(b)));
                 EXPECT_LE(abs(Q(Q(out[0]) + Q(out[1]) - exact)), bound)
-                    << which << ' ' << hexadecimal(x[0]) << ' ' << hexadecimal(y[0]);
+                    << which << ' ' << base::hexadecimal(x[0]) << ' ' << base::hexadecimal(y[0]);
                 EXPECT_LE(abs(Q(out[1])), u * abs(Q(out[0])));  // normalised
             }
         }
@@ -230,7 +230,7 @@ TEST(DoubleDouble, sums_and_products_are_within_their_bounds) {
 }
 
 /// Cells that are round, flat, anisotropic, far away; the point inside, outside or on a vertex.
-Case cell(Random& r, Simplex s) {
+Case cell(base::Random& r, Simplex s) {
     Case c{.simplex = s};
     const int n = vertex_count(s), d = space_dimension(s), flat = r.coin() ? 0 : r.integer(0, 40);
     const double distance = r.coin() ? 0 : r.scaled(1, 2, 0, 30);
@@ -261,7 +261,7 @@ TEST(Refinement, TheBoundHolds) {
         for (const Simplex s : all_simplices) {
             int valid = 0;
             for (std::uint64_t k = 0; k < 3000 && !::testing::Test::HasFailure(); ++k) {
-                Random r = Random::stream(11, hash64("bounds"), k);
+                base::Random r = base::Random::stream(11, base::hash64("bounds"), k);
                 const Case c =
                     k % 3 == 0 ? testing_cases::random_case(r, s, testing_cases::all_kinds[r.below(8)]) : cell(r, s);
                 double weight[4], correction[4], error;

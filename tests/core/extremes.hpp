@@ -27,7 +27,7 @@ struct Spread {
 inline constexpr Spread full_spread{-1022, 1023}, two_limbs{-36, 36};
 
 /// Beside the smallest numbers, beside the largest, or anywhere between them.
-inline double extreme(Random& r, const Spread& spread) {
+inline double extreme(base::Random& r, const Spread& spread) {
     const double significand = r.uniform(1, 2);
     const int kind = r.integer(0, 2), any = r.integer(spread.low, spread.high);
     const double x = std::ldexp(significand, kind == 0 ? spread.low : kind == 1 ? spread.high : any);
@@ -37,7 +37,7 @@ inline double extreme(Random& r, const Spread& spread) {
 inline std::vector<Extreme> extremes(std::size_t count, const Spread& spread = full_spread) {
     std::vector<Extreme> all(count);
     for (std::size_t i = 0; i < count; ++i) {
-        Random r = Random::stream(9, hash64("extremes"), i);
+        base::Random r = base::Random::stream(9, base::hash64("extremes"), i);
         for (auto& point : all[i].points) {
             for (double& x : point) x = extreme(r, spread);
         }

@@ -19,13 +19,13 @@ namespace barycert::testing_fields {
 inline constexpr std::array<Simplex, 2> full{Simplex::triangle, Simplex::tetrahedron};
 
 /// A number of ordinary size, or of any from 2^-4 to 2^4.
-inline double nodal_value(Random& r) {
+inline double nodal_value(base::Random& r) {
     return r.coin() ? r.uniform(-1, 1) : r.scaled(-1, 1, -4, 4);
 }
 
 /// Cells that are round, flat askew to the axes by up to 2^-flattest, anisotropic, far from the origin; the point
 /// inside, outside, or level with a vertex. Mostly within the ranges of the double-double tier.
-inline Case stretched_cell(Random& r, Simplex s, int flattest = 36) {
+inline Case stretched_cell(base::Random& r, Simplex s, int flattest = 36) {
     Case c{.simplex = s};
     const int n = vertex_count(s), d = space_dimension(s);
     const int flat = r.coin() ? 0 : r.integer(0, flattest);
@@ -53,7 +53,7 @@ inline Case stretched_cell(Random& r, Simplex s, int flattest = 36) {
 }
 
 /// A multiple of 1 of at most 2^bits in magnitude, often the largest that is a double.
-inline double of_width(Random& r, int bits) {
+inline double of_width(base::Random& r, int bits) {
     const int how = r.integer(0, 3);
     const double sign = r.coin() ? 1 : -1;
     if (how < 2) return sign * (std::ldexp(1, bits) - std::ldexp(1, bits > 53 ? bits - 53 : 0));
@@ -61,7 +61,7 @@ inline double of_width(Random& r, int bits) {
 }
 
 /// A cell, point and values whose coordinates and values need about so many bits as integers.
-inline Case case_of_widths(Random& r, Simplex s, int coordinate_bits, int value_bits) {
+inline Case case_of_widths(base::Random& r, Simplex s, int coordinate_bits, int value_bits) {
     Case c{.simplex = s};
     for (double& x : c.vertices) x = of_width(r, coordinate_bits);
     for (double& x : c.point) x = of_width(r, coordinate_bits);
@@ -100,7 +100,7 @@ struct QuadraticCase {
 
 inline std::string describe(const QuadraticCase& q) {
     std::string text = testing_cases::describe(q.linear) + "\n  mids";
-    for (const double f : q.mids) text += ' ' + hexadecimal(f);
+    for (const double f : q.mids) text += ' ' + base::hexadecimal(f);
     return text;
 }
 

@@ -15,7 +15,7 @@ using testing_rational::scaled_by;
 using testing_rational::Z;
 
 template <int N>
-Fixed<N> awkward(Random& r) {
+Fixed<N> awkward(base::Random& r) {
     Fixed<N> x;
     for (auto& limb : x.limbs) limb = awkward_word(r);
     return x;
@@ -68,7 +68,7 @@ TEST(FixedInteger, sums_and_differences) {
     for (const auto& x : corners<3>()) {
         for (const auto& y : corners<3>()) expect_sums(x, y);
     }
-    Random r(1);
+    base::Random r(1);
     for (int k = 0; k < 3000 && !::testing::Test::HasFailure(); ++k) {
         expect_sums(awkward<2>(r), awkward<2>(r));
         expect_sums(awkward<4>(r), awkward<4>(r));
@@ -87,7 +87,7 @@ TEST(FixedInteger, products) {
         for (const auto& y : corners<2>()) expect_product(x, y);
         for (const auto& y : corners<4>()) expect_product(x, y);
     }
-    Random r(1);
+    base::Random r(1);
     for (int k = 0; k < 3000 && !::testing::Test::HasFailure(); ++k) {
         expect_product(awkward<1>(r), awkward<1>(r));
         expect_product(awkward<1>(r), awkward<2>(r));
@@ -99,7 +99,7 @@ TEST(FixedInteger, products) {
 
 /// x = mantissa * 2^(exponent - 1074) with an odd mantissa, or zero.
 TEST(ScaledDouble, is_the_number_with_an_odd_mantissa) {
-    Random r(2);
+    base::Random r(2);
     std::vector<double> numbers{0.0,
                                 -0.0,
                                 1.0,
@@ -119,10 +119,10 @@ TEST(ScaledDouble, is_the_number_with_an_odd_mantissa) {
             EXPECT_GT(s.exponent, 1023 + 1074);  // never the least exponent of several numbers
             continue;
         }
-        EXPECT_EQ(s.mantissa % 2, 1U) << hexadecimal(x);
+        EXPECT_EQ(s.mantissa % 2, 1U) << base::hexadecimal(x);
         EXPECT_EQ(s.negative, x < 0);
         const Q magnitude = scaled_by(Q(Z(std::to_string(s.mantissa))), s.exponent - 1074);
-        EXPECT_EQ(Q(x), s.negative ? Q(-magnitude) : magnitude) << hexadecimal(x);
+        EXPECT_EQ(Q(x), s.negative ? Q(-magnitude) : magnitude) << base::hexadecimal(x);
     }
 }
 
@@ -131,7 +131,7 @@ template <class T>
 void expect_multiples(const Unit& unit, const std::vector<double>& numbers) {
     for (const double x : numbers) {
         const Z got = number(unit.multiple<T>(scaled(x)));
-        EXPECT_EQ(scaled_by(Q(got), unit.exponent - 1074), Q(x)) << hexadecimal(x);
+        EXPECT_EQ(scaled_by(Q(got), unit.exponent - 1074), Q(x)) << base::hexadecimal(x);
     }
 }
 
@@ -143,7 +143,7 @@ void expect_unit(const std::vector<double>& numbers) {
     for (const double x : numbers) {
         if (x == 0) continue;
         const Q multiple = scaled_by(Q(x), 1074 - unit.exponent);
-        ASSERT_EQ(multiple.get_den(), 1) << hexadecimal(x);
+        ASSERT_EQ(multiple.get_den(), 1) << base::hexadecimal(x);
         widest = std::max(widest, Z(abs(multiple.get_num())));
         odd = odd || mpz_odd_p(multiple.get_num().get_mpz_t()) != 0;
     }
@@ -181,7 +181,7 @@ TEST(Unit, subnormals_and_zeros) {
 }
 
 TEST(Unit, any_doubles) {
-    Random r(1);
+    base::Random r(1);
     for (int k = 0; k < 5000 && !::testing::Test::HasFailure(); ++k) {
         std::vector<double> numbers;
         const int count = r.integer(1, 5);

@@ -72,7 +72,7 @@ answers() {
     objects=
     for file in "$base"/result.cpp "$core"/environment.cpp "$base"/exact_environment.cpp "$base"/random.cpp "$core"/exact_weights.cpp \
         "$core"/inverse.cpp "$core"/lanes.cpp "$core"/predicates.cpp "$core"/quotient.cpp "$base"/text.cpp \
-        "$core"/weights.cpp "$source"/tests/core/same_bytes.cpp; do
+        "$core"/weight_signs.cpp "$core"/weights.cpp "$source"/tests/core/same_bytes.cpp; do
         object=$build/$name-$(basename "$file" .cpp).o
         rm -f "$object"
         case $file in *same_bytes.cpp) set -- $own ;; esac

@@ -26,7 +26,7 @@ struct CellMesh {
     std::vector<double> values;
     int components;
 
-    CellMesh(Simplex s, std::vector<Case> all, int count, Random& r)
+    CellMesh(Simplex s, std::vector<Case> all, int count, base::Random& r)
         : cases(std::move(all)), columns(s, cases), components(count) {
         for (const Case& c : cases) {
             for (int i = 0; i < vertex_count(s); ++i) {
@@ -55,7 +55,8 @@ TEST(GradientBatch, is_single_calls_on_every_target) {
         const auto d = static_cast<std::size_t>(space_dimension(s));
         for (const std::size_t count : std::array<std::size_t, 10>{0, 1, 2, 7, 8, 9, 127, 128, 129, 300}) {
             for (const int components : {1, 2, 3}) {
-                Random r = Random::stream(23, hash64("batch"), 10 * count + static_cast<std::size_t>(components));
+                base::Random r =
+                    base::Random::stream(23, base::hash64("batch"), 10 * count + static_cast<std::size_t>(components));
                 std::vector<Case> cases;
                 for (std::size_t j = 0; j < count; ++j) {
                     const Kind kind = all_kinds[r.below(all_kinds.size())];
@@ -98,7 +99,7 @@ TEST(GradientBatch, is_single_calls_on_every_target) {
 TEST(GradientBatch, ends_of_the_ranges) {
     for (const Simplex s : full) {
         const int d = space_dimension(s);
-        Random r = Random::stream(23, hash64("ranges"), 0);
+        base::Random r = base::Random::stream(23, base::hash64("ranges"), 0);
         std::vector<Case> cases;
         for (int j = 0; j < 6000; ++j) {
             Case c = stretched_cell(r, s, 3);
@@ -139,7 +140,7 @@ TEST(GradientBatch, ends_of_the_ranges) {
 
 TEST(GradientTiers, ordinary_cells_need_double_double_alone) {
     for (const Simplex s : full) {
-        Random r = Random::stream(23, hash64("ordinary"), 0);
+        base::Random r = base::Random::stream(23, base::hash64("ordinary"), 0);
         std::vector<Case> cases;
         for (int j = 0; j < 20000; ++j) {
             Case c = random_case(r, s, Kind::ordinary);
@@ -179,7 +180,7 @@ TEST(GradientTiers, exact_zeros_and_wide_exponents_need_integers) {
 TEST(GradientBatch, degenerate_and_not_finite_are_counted) {
     for (const Simplex s : full) {
         const auto d = static_cast<std::size_t>(space_dimension(s));
-        Random r = Random::stream(23, hash64("counted"), 0);
+        base::Random r = base::Random::stream(23, base::hash64("counted"), 0);
         std::vector<Case> cases;
         for (int j = 0; j < 20; ++j) cases.push_back(stretched_cell(r, s, 0));
         CellMesh mesh(s, cases, 2, r);

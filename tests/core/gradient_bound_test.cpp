@@ -61,7 +61,7 @@ namespace {
 using testing_rational::Q;
 
 /// Cells of every kind, and values that are large against their differences.
-Case bound_case(Random& r, Simplex s) {
+Case bound_case(base::Random& r, Simplex s) {
     const int how = r.integer(0, 3);
     if (how == 0) {
         const auto kind = testing_cases::all_kinds[r.below(testing_cases::all_kinds.size())];
@@ -90,7 +90,7 @@ std::array<double, 2> dot_product(const std::array<double, 3>& x, const std::arr
 /// A field whose gradient y is nearly a double: only then may the plain solution be so good that residuals are far
 /// below their own remainders, and the bound is made of the errors of these alone. With the last vertex at the origin,
 /// the first edge takes the low part of its E.y to the last value; others are drawn until theirs is nearly the same.
-std::optional<Case> nearly_solved(Random& r, Simplex s) {
+std::optional<Case> nearly_solved(base::Random& r, Simplex s) {
     const auto d = static_cast<std::size_t>(space_dimension(s));
     std::array<double, 3> y{};
     for (double& x : y) x = r.uniform(1, 2);
@@ -115,7 +115,7 @@ TEST(GradientBound, holds_where_residuals_nearly_vanish) {
         int close = 0;
         double nearest_to_bound = 0;
         for (std::uint64_t k = 0; k < 1500 && !HasFailure(); ++k) {
-            Random r = Random::stream(21, hash64("nearly solved"), k);
+            base::Random r = base::Random::stream(21, base::hash64("nearly solved"), k);
             const auto c = nearly_solved(r, s);
             if (!c) continue;
             double g[3][3];
@@ -142,7 +142,7 @@ TEST(GradientBound, holds_on_every_target) {
             int valid = 0;
             double nearest_to_bound = 0;
             for (std::uint64_t k = 0; k < 6000 && !HasFailure(); ++k) {
-                Random r = Random::stream(21, hash64("gradient bound"), k);
+                base::Random r = base::Random::stream(21, base::hash64("gradient bound"), k);
                 const Case c = bound_case(r, s);
                 double g[3][3];
                 if (!HWY_DYNAMIC_DISPATCH(refined_gradients)(s, c.vertices.data(), c.values.data(), g)) continue;

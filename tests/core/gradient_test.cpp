@@ -41,7 +41,7 @@ TEST(LawG1, every_kind_of_number) {
     for (const Simplex s : full) {
         for (const Kind kind : all_kinds) {
             for (std::uint64_t k = 0; k < 600 && !HasFailure(); ++k) {
-                Random r = Random::stream(22, hash64("gradients"), k);
+                base::Random r = base::Random::stream(22, base::hash64("gradients"), k);
                 expect_gradient_law(random_case(r, s, kind));
             }
         }
@@ -53,7 +53,7 @@ TEST(LawG1, flat_cells_far_from_the_origin) {
     for (const Simplex s : full) {
         std::uint64_t easy = 0;
         for (std::uint64_t k = 0; k < 8000 && !HasFailure(); ++k) {
-            Random r = Random::stream(22, hash64("flat gradients"), k);
+            base::Random r = base::Random::stream(22, base::hash64("flat gradients"), k);
             const Case c = stretched_cell(r, s, 46);
             const Gradient g = gradient_in(c);
             easy += g.tier == Tier::double_double ? 1 : 0;
@@ -98,7 +98,7 @@ TEST(LawG1, integers_of_every_width) {
         for (const int coordinate_bits : {3, 58, 60, 61, 62, 63, 64, 122, 124, 125, 126, 127, 128, 400}) {
             for (const int value_bits : {3, 59, 60, 61, 62, 63, 64, 123, 125, 126, 128, 900}) {
                 for (std::uint64_t k = 0; k < 30 && !HasFailure(); ++k) {
-                    Random r = Random::stream(22, hash64("widths"), k);
+                    base::Random r = base::Random::stream(22, base::hash64("widths"), k);
                     const Case c = testing_fields::case_of_widths(r, s, coordinate_bits, value_bits);
                     Gradient g;
                     g.degenerate = !exact_gradient(s, c.vertices.data(), c.values.data(), g.gradient.data());
@@ -114,7 +114,7 @@ TEST(LawG1, linear_fields_are_given_back) {
     for (const Simplex s : full) {
         const int n = vertex_count(s), d = space_dimension(s);
         for (std::uint64_t k = 0; k < 2000; ++k) {
-            Random r = Random::stream(22, hash64("linear"), k);
+            base::Random r = base::Random::stream(22, base::hash64("linear"), k);
             Case c{.simplex = s};
             std::array<double, 3> a{};
             for (int m = 0; m < d; ++m) a[static_cast<std::size_t>(m)] = r.integer(-1000, 1000) * 0x1p-7;
@@ -137,7 +137,7 @@ TEST(LawG1, the_order_of_vertices_does_not_matter) {
     for (const Simplex s : full) {
         const std::size_t n = static_cast<std::size_t>(vertex_count(s)), d = n - 1;
         for (std::uint64_t k = 0; k < 200; ++k) {
-            Random r = Random::stream(22, hash64("order"), k);
+            base::Random r = base::Random::stream(22, base::hash64("order"), k);
             const Case c = k % 2 == 0 ? stretched_cell(r, s) : random_case(r, s, all_kinds[k / 2 % all_kinds.size()]);
             const Gradient first = gradient_in(c);
             if (first.degenerate) continue;

@@ -22,7 +22,7 @@ using testing_spheres::describe;
 using testing_spheres::for_hard_points;
 using testing_spheres::Points;
 
-Sign negated(Sign s) {
+Sign opposite(Sign s) {
     return static_cast<Sign>(-static_cast<int>(s));
 }
 
@@ -66,7 +66,7 @@ void multiply_by_power(Points& p, int shift) {
 
 TEST(LawS1, SidesOfSpheresAreThoseOfRationals) {
     std::array<int, 3> seen{};
-    for_hard_points("sides", 250, [&](const Points& p, Random&) {
+    for_hard_points("sides", 250, [&](const Points& p, base::Random&) {
         const Sign right = expected(p);
         EXPECT_EQ(ask(p), right) << describe(p);
         ++seen[static_cast<std::size_t>(static_cast<int>(right) + 1)];
@@ -77,7 +77,7 @@ TEST(LawS1, SidesOfSpheresAreThoseOfRationals) {
 // Extents about 2^-180 and 2^200, where the filter stops; 2^-208 to 2^-216, where the polynomial and its bound would be
 // subnormal; and where products leave the doubles. All axes alike or not.
 TEST(LawS1, SidesOfSpheresAboutTheLimitsOfTheFilter) {
-    for_hard_points("limits", 100, [](Points p, Random& r) {
+    for_hard_points("limits", 100, [](Points p, base::Random& r) {
         if (std::any_of(p.at.begin(), p.at.end(), [](const auto& x) {
                 return std::any_of(x.begin(), x.end(), [](double c) { return std::fabs(c) > 0x1p60; });
             }))
@@ -98,7 +98,7 @@ TEST(LawS1, SidesOfSpheresAboutTheLimitsOfTheFilter) {
 TEST(LawS1, SidesOfSpheresWherePolynomialsUnderflow) {
     for (const int d : {2, 3}) {
         for (std::uint64_t k = 0; k < 1000 && !HasFailure(); ++k) {
-            Random r = Random::stream(static_cast<std::uint64_t>(d), hash64("underflow"), k);
+            base::Random r = base::Random::stream(static_cast<std::uint64_t>(d), base::hash64("underflow"), k);
             Points p = testing_spheres::box(r, d, testing_cases::Kind::ordinary);
             multiply_by_power(p, d == 2 ? r.integer(-268, -255) : r.integer(-215, -204));
             EXPECT_EQ(ask(p), Sign::zero) << describe(p);
@@ -108,7 +108,7 @@ TEST(LawS1, SidesOfSpheresWherePolynomialsUnderflow) {
 
 // Catches a filter that counts on rounding to nearest, or on gradual underflow.
 TEST(LawS1, SidesOfSpheresAreTheSameInEveryEnvironment) {
-    for_hard_points("environments", 60, [](const Points& p, Random&) {
+    for_hard_points("environments", 60, [](const Points& p, base::Random&) {
         const Sign right = expected(p);
         for (const auto& environment : all_environments()) {
             Sign got = Sign::zero;
@@ -127,7 +127,7 @@ TEST(LawS1, SidesOfSpheresAboutTheWidthsOfIntegers) {
     for (const int d : {2, 3}) {
         for (const int width : {59, 60, 61, 62, 63, 64, 65, 123, 124, 125, 126, 127, 128, 129}) {
             for (std::uint64_t k = 0; k < 400 && !HasFailure(); ++k) {
-                Random r = Random::stream(static_cast<std::uint64_t>(width), hash64("widths"), k);
+                base::Random r = base::Random::stream(static_cast<std::uint64_t>(width), base::hash64("widths"), k);
                 Points p{d};
                 for (auto& x : p.at) {
                     for (std::size_t axis = 0; axis < p.axes(); ++axis)
@@ -146,7 +146,7 @@ TEST(LawS1, SidesOfSpheresAboutTheWidthsOfIntegers) {
 TEST(LawS1, SidesOfSpheresOfTheWidestNumbers) {
     for (const int d : {2, 3}) {
         for (std::uint64_t k = 0; k < 300 && !HasFailure(); ++k) {
-            Random r = Random::stream(1, hash64("widest"), k);
+            base::Random r = base::Random::stream(1, base::hash64("widest"), k);
             Points p{d};
             const double numbers[] = {largest, -largest, 0x1p-1074, -0x1p-1074, 1e300, -1e-300, 1.7e308, 1};
             for (auto& x : p.at) {
@@ -158,7 +158,7 @@ TEST(LawS1, SidesOfSpheresOfTheWidestNumbers) {
 }
 
 TEST(LawS2, EvenPermutationsKeepASideOddOnesFlip) {
-    for_hard_points("orders", 12, [](const Points& p, Random&) {
+    for_hard_points("orders", 12, [](const Points& p, base::Random&) {
         const Sign original = ask(p);
         std::vector<std::size_t> order(p.count());
         std::iota(order.begin(), order.end(), std::size_t{0});
@@ -169,7 +169,7 @@ TEST(LawS2, EvenPermutationsKeepASideOddOnesFlip) {
                 image.at[i] = p.at[order[i]];
                 for (std::size_t j = 0; j < i; ++j) odd ^= order[j] > order[i];
             }
-            ASSERT_EQ(ask(image), odd ? negated(original) : original) << describe(image);
+            ASSERT_EQ(ask(image), odd ? opposite(original) : original) << describe(image);
         } while (std::next_permutation(order.begin(), order.end()));
     });
 }
@@ -177,7 +177,7 @@ TEST(LawS2, EvenPermutationsKeepASideOddOnesFlip) {
 // To the ends of the range. Numbers of few bits, so that subnormals hold them.
 TEST(LawS2, PowersOfTwoChangeNoSide) {
     int done = 0;
-    for_hard_points("powers", 30, [&](Points p, Random& r) {
+    for_hard_points("powers", 30, [&](Points p, base::Random& r) {
         for (auto& x : p.at) {
             for (double& c : x) c = std::fabs(c) < 0x1p60 && std::fabs(c) > 0x1p-60 ? static_cast<float>(c) : 0;
         }
@@ -238,7 +238,7 @@ TEST(Sides, of_flat_simplices) {
     const double a[2] = {0, 0}, b[2] = {1, 1}, c[2] = {3, 3}, above[2] = {0, 1}, below[2] = {1, 0}, on[2] = {7, 7};
     const Sign side = incircle(a, b, c, above);
     EXPECT_NE(side, Sign::zero);
-    EXPECT_EQ(incircle(a, b, c, below), negated(side));
+    EXPECT_EQ(incircle(a, b, c, below), opposite(side));
     EXPECT_EQ(incircle(a, b, c, on), Sign::zero);
     EXPECT_EQ(incircle(a, b, b, above), Sign::zero);
 
@@ -246,7 +246,7 @@ TEST(Sides, of_flat_simplices) {
                  far[3] = {5, 6, 0}, under[3] = {2, -7, -1}, level[3] = {.5, .25, 0};
     const Sign half = insphere(o, x, y, far, z);
     EXPECT_NE(half, Sign::zero);
-    EXPECT_EQ(insphere(o, x, y, far, under), negated(half));
+    EXPECT_EQ(insphere(o, x, y, far, under), opposite(half));
     EXPECT_EQ(insphere(o, x, y, far, level), Sign::zero);
     EXPECT_EQ(orient3d(o, x, y, far), Sign::zero);
     EXPECT_EQ(insphere(o, x, y, xy, z), Sign::zero);  // on one circle

@@ -81,7 +81,7 @@ TEST(Integer, carries_and_borrows_run_through) {
 
 TEST(Integer, sums_and_differences_equal_gmp) {
     for (int k = 0; k < 20000; ++k) {
-        Random r = Random::stream(1, hash64("integer sums"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("integer sums"), static_cast<std::uint64_t>(k));
         const int size = r.integer(0, k % 10 == 0 ? Integer::capacity - 1 : 5);
         const Integer x = awkward_integer(r, size);
         const Integer y = awkward_integer(r, r.coin() ? size : r.integer(0, Integer::capacity - 1));
@@ -111,7 +111,7 @@ TEST(Integer, products_of_all_ones) {
 // Zero limbs inside, which multiplication skips: catches a skipped row whose place for the carry is left unset.
 TEST(Integer, products_equal_gmp) {
     for (int k = 0; k < 10000; ++k) {
-        Random r = Random::stream(1, hash64("integer products"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("integer products"), static_cast<std::uint64_t>(k));
         const int size = r.integer(0, k % 10 == 0 ? Integer::capacity : 6);
         const Integer x = awkward_integer(r, size), y = awkward_integer(r, r.integer(0, Integer::capacity - size));
         const Integer product = x * y;
@@ -121,7 +121,7 @@ TEST(Integer, products_equal_gmp) {
 }
 
 TEST(Integer, copies) {
-    Random r(1);
+    base::Random r(1);
     for (const int size : {0, 1, 2, 167, Integer::capacity}) {
         const Integer x = awkward_integer(r, size);
         Integer copy(x), assigned = power(5);

@@ -60,7 +60,8 @@ void expect_point(const std::array<double, 3>& a, const std::array<double, 3>& b
     ASSERT_EQ(t.undetermined, f == g);
     if (f == g) return;
     const Q exact = (Q(value) - Q(f)) / (Q(g) - Q(f));
-    EXPECT_TRUE(nearest(t.t, exact)) << hexadecimal(f) << ' ' << hexadecimal(g) << ' ' << hexadecimal(value);
+    EXPECT_TRUE(nearest(t.t, exact)) << base::hexadecimal(f) << ' ' << base::hexadecimal(g) << ' '
+                                     << base::hexadecimal(value);
     EXPECT_TRUE(nearest(back.t, 1 - exact));
     EXPECT_EQ(bits(parameter_of_value(f, g, value).value().t), bits(t.t));
     for (std::size_t k = 0; k < 3; ++k) {
@@ -73,7 +74,7 @@ void expect_point(const std::array<double, 3>& a, const std::array<double, 3>& b
 TEST(PointOfValue, rounded_from_rationals) {
     for (const Kind kind : all_kinds) {
         for (std::uint64_t k = 0; k < 400 && !HasFailure(); ++k) {
-            Random r = Random::stream(9, hash64("inverse"), k);
+            base::Random r = base::Random::stream(9, base::hash64("inverse"), k);
             const Case c = random_case(r, Simplex::tetrahedron, kind);
             const double value = r.integer(0, 3) == 0 ? c.values[0] / 2 + c.values[1] / 2 : c.values[2];
             expect_point({c.vertices[0], c.vertices[1], c.vertices[2]}, {c.vertices[3], c.vertices[4], c.vertices[5]},
@@ -81,7 +82,7 @@ TEST(PointOfValue, rounded_from_rationals) {
         }
     }
     for (std::uint64_t k = 0; k < 400 && !HasFailure(); ++k) {
-        Random r = Random::stream(9, hash64("inverse, values of any kind"), k);
+        base::Random r = base::Random::stream(9, base::hash64("inverse, values of any kind"), k);
         expect_point({any_finite(r), 1, 0x1p-1074}, {any_finite(r), largest, 3 * 0x1p-1074}, any_finite(r),
                      any_finite(r), any_finite(r));
     }
@@ -131,7 +132,7 @@ TEST(PointFromWeights, is_the_dot_product_rounded_once) {
     for (const Simplex s : all_simplices) {
         for (const Kind kind : all_kinds) {
             for (std::uint64_t k = 0; k < 200 && !HasFailure(); ++k) {
-                Random r = Random::stream(9, hash64("dot"), k);
+                base::Random r = base::Random::stream(9, base::hash64("dot"), k);
                 const Case c = random_case(r, s, kind), other = random_case(r, s, all_kinds[r.below(all_kinds.size())]);
                 expect_dot(c, other.values);
                 expect_dot(c, {0.5, -0.5, 0x1p-53, 1 - 0x1p-53});
@@ -167,7 +168,7 @@ TEST(PointFromWeights, what_is_no_number_is_named) {
 // "Whatever the floating-point environment": the same bits in all of them.
 TEST(PointOfValue, is_the_same_in_every_environment) {
     for (std::uint64_t k = 0; k < 200; ++k) {
-        Random r = Random::stream(9, hash64("inverse environments"), k);
+        base::Random r = base::Random::stream(9, base::hash64("inverse environments"), k);
         const Case c = random_case(r, Simplex::tetrahedron, all_kinds[k % all_kinds.size()]);
         const std::span<const double> a(c.vertices.data(), 3), b(c.vertices.data() + 3, 3);
         std::array<double, 3> right{};

@@ -80,7 +80,7 @@ TEST(LawS2, EvenPermutationsKeepOddOnesFlip) {
     for (const Simplex s : all_simplices) {
         for (const Kind kind : all_kinds) {
             for (std::uint64_t k = 0; k < 300 && !HasFailure(); ++k) {
-                Random r = Random::stream(1, hash64("permutations"), k);
+                base::Random r = base::Random::stream(1, base::hash64("permutations"), k);
                 expect_law_of_permutations(random_case(r, s, kind));
             }
         }
@@ -112,7 +112,7 @@ TEST(LawS2, PowersOfTwoOnAnAxisChangeNoSign) {
     for (const Simplex s : all_simplices) {
         for (const Kind kind : {Kind::ordinary, Kind::lattice, Kind::thin, Kind::anisotropic}) {
             for (std::uint64_t k = 0; k < 400 && !HasFailure(); ++k) {
-                Random r = Random::stream(1, hash64("powers of two"), k);
+                base::Random r = base::Random::stream(1, base::hash64("powers of two"), k);
                 Case c = random_case(r, s, kind);
                 if (r.coin()) {  // few bits, so that subnormals hold them
                     const auto shorten = [](double& x) { x = static_cast<float>(x); };
@@ -357,7 +357,7 @@ Sign det3d_by_rationals(const SixPoints& p) {
 std::string describe(const SixPoints& p) {
     std::string text;
     for (const auto& x : p) {
-        for (const double c : x) text += ' ' + hexadecimal(c);
+        for (const double c : x) text += ' ' + base::hexadecimal(c);
         text += '\n';
     }
     return text;
@@ -365,7 +365,7 @@ std::string describe(const SixPoints& p) {
 
 /// Of one kind; for most, the last difference is a combination of the other two but for rounding, or a difference
 /// has one end in common with another.
-SixPoints hard_six(Random& r, Kind kind) {
+SixPoints hard_six(base::Random& r, Kind kind) {
     SixPoints p;
     for (auto& x : p) {
         for (int k = 0; k < 3; ++k) x[static_cast<std::size_t>(k)] = testing_cases::number(r, kind, k);
@@ -385,7 +385,7 @@ TEST(LawS1, DeterminantsOfDifferencesAreThoseOfRationals) {
     int zeros = 0;
     for (const Kind kind : all_kinds) {
         for (std::uint64_t k = 0; k < 1500 && !HasFailure(); ++k) {
-            Random r = Random::stream(1, hash64("det3d"), k);
+            base::Random r = base::Random::stream(1, base::hash64("det3d"), k);
             const SixPoints p = hard_six(r, kind);
             const Sign right = det3d_by_rationals(p);
             EXPECT_EQ(det3d(p), right) << describe(p);
@@ -398,7 +398,7 @@ TEST(LawS1, DeterminantsOfDifferencesAreThoseOfRationals) {
 // Axes beyond the filter's limits at 2^+-300 and within.
 TEST(LawS1, DeterminantsOfDifferencesAboutTheLimitsOfTheFilter) {
     for (std::uint64_t k = 0; k < 3000 && !HasFailure(); ++k) {
-        Random r = Random::stream(1, hash64("det3d limits"), k);
+        base::Random r = base::Random::stream(1, base::hash64("det3d limits"), k);
         SixPoints p = hard_six(r, r.coin() ? Kind::ordinary : Kind::thin);
         const int limits[] = {-540, -301, -300, 0, 299, 300, 340};
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -412,7 +412,7 @@ TEST(LawS1, DeterminantsOfDifferencesAboutTheLimitsOfTheFilter) {
 TEST(LawS1, DeterminantsOfDifferencesAreTheSameInEveryEnvironment) {
     for (const Kind kind : all_kinds) {
         for (std::uint64_t k = 0; k < 300; ++k) {
-            Random r = Random::stream(1, hash64("det3d environments"), k);
+            base::Random r = base::Random::stream(1, base::hash64("det3d environments"), k);
             const SixPoints p = hard_six(r, kind);
             const Sign right = det3d_by_rationals(p);
             for (const auto& environment : testing_environments::all_environments()) {
@@ -430,7 +430,7 @@ TEST(LawS1, DeterminantsOfDifferencesAreTheSameInEveryEnvironment) {
 TEST(LawS2, OrderOfDifferencesAndOfTheirEnds) {
     for (const Kind kind : all_kinds) {
         for (std::uint64_t k = 0; k < 200 && !HasFailure(); ++k) {
-            Random r = Random::stream(1, hash64("det3d order"), k);
+            base::Random r = base::Random::stream(1, base::hash64("det3d order"), k);
             const SixPoints p = hard_six(r, kind);
             const Sign original = det3d(p);
             for_permutations(3, [&](const auto& order, bool odd) {

@@ -26,7 +26,7 @@ struct QuadraticMesh {
     std::vector<std::int32_t> mid_nodes;
     std::vector<double> values;
 
-    QuadraticMesh(Simplex s, const std::vector<QuadraticCase>& cases, int components, Random& r)
+    QuadraticMesh(Simplex s, const std::vector<QuadraticCase>& cases, int components, base::Random& r)
         : columns(s, linear(cases)),
           n(static_cast<std::size_t>(vertex_count(s))),
           m(static_cast<std::size_t>(mid_node_count(s))),
@@ -64,7 +64,8 @@ TEST(QuadraticBatch, is_single_calls_on_every_target) {
     for (const Simplex s : full) {
         for (const std::size_t count : std::array<std::size_t, 10>{0, 1, 2, 7, 8, 9, 127, 128, 129, 300}) {
             for (const int components : {1, 2, 3}) {
-                Random r = Random::stream(35, hash64("batch"), 10 * count + static_cast<std::size_t>(components));
+                base::Random r =
+                    base::Random::stream(35, base::hash64("batch"), 10 * count + static_cast<std::size_t>(components));
                 std::vector<QuadraticCase> cases;
                 for (std::size_t j = 0; j < count; ++j) {
                     const Kind kind = all_kinds[r.below(all_kinds.size())];
@@ -110,7 +111,7 @@ TEST(QuadraticBatch, is_single_calls_on_every_target) {
 // right on every target, and by the same tiers.
 TEST(QuadraticBatch, ends_of_the_ranges) {
     for (const Simplex s : full) {
-        Random r = Random::stream(35, hash64("ranges"), 0);
+        base::Random r = base::Random::stream(35, base::hash64("ranges"), 0);
         std::vector<QuadraticCase> cases;
         for (int j = 0; j < 4000; ++j) {
             QuadraticCase q = stretched_case(r, s, 3);
@@ -141,7 +142,7 @@ TEST(QuadraticBatch, ends_of_the_ranges) {
 
 TEST(QuadraticTiers, ordinary_cells_need_double_double_alone) {
     for (const Simplex s : full) {
-        Random r = Random::stream(35, hash64("ordinary"), 0);
+        base::Random r = base::Random::stream(35, base::hash64("ordinary"), 0);
         std::vector<QuadraticCase> cases;
         for (int j = 0; j < 20000; ++j) {
             QuadraticCase q{Case{.simplex = s}, {}};
@@ -171,7 +172,7 @@ TEST(QuadraticTiers, ordinary_cells_need_double_double_alone) {
 }
 
 TEST(QuadraticTiers, out_of_range_needs_integers) {
-    Random r = Random::stream(35, hash64("range"), 0);
+    base::Random r = base::Random::stream(35, base::hash64("range"), 0);
     for (const Simplex s : full) {
         const QuadraticCase q = stretched_case(r, s, 0);
         ASSERT_EQ(value_of(q).tier, Tier::double_double);
@@ -187,7 +188,7 @@ TEST(QuadraticTiers, out_of_range_needs_integers) {
 
 TEST(QuadraticBatch, degenerate_and_not_finite_are_counted) {
     for (const Simplex s : full) {
-        Random r = Random::stream(35, hash64("counted"), 0);
+        base::Random r = base::Random::stream(35, base::hash64("counted"), 0);
         std::vector<QuadraticCase> cases;
         for (int j = 0; j < 20; ++j) cases.push_back(stretched_case(r, s, 0));
         for (int k = 0; k < space_dimension(s); ++k) cases[3].linear.vertex(0, k) = cases[3].linear.vertex(1, k);

@@ -95,7 +95,7 @@ using testing_rational::Q;
 
 /// Points in round cells, where the arithmetic decides, also far outside, where values cancel; flat ones, where the
 /// weights do; cells of every kind.
-QuadraticCase bound_case(Random& r, Simplex s) {
+QuadraticCase bound_case(base::Random& r, Simplex s) {
     const int how = r.integer(0, 3);
     QuadraticCase q;
     if (how == 0) {
@@ -121,7 +121,7 @@ TEST(QuadraticBound, holds_on_every_target) {
             int valid = 0;
             double nearest_to_bound = 0;
             for (std::uint64_t k = 0; k < 6000 && !HasFailure(); ++k) {
-                Random r = Random::stream(31, hash64("quadratic bound"), k);
+                base::Random r = base::Random::stream(31, base::hash64("quadratic bound"), k);
                 const QuadraticCase q = bound_case(r, s);
                 double v[3];
                 if (!HWY_DYNAMIC_DISPATCH(refined_value)(s, q.linear.vertices.data(), q.linear.point.data(),
@@ -162,7 +162,7 @@ struct Synthetic {
     std::vector<double> weights, corrections, values;
     std::vector<Q> exact;  ///< weights + corrections
 
-    Synthetic(Random& r, Simplex s) {
+    Synthetic(base::Random& r, Simplex s) {
         const int n = vertex_count(s), mids = s == Simplex::triangle ? 3 : 6;
         const double spread = r.coin() ? 1 : r.scaled(1, 2, 0, 12);
         double sum = 0;
@@ -183,7 +183,7 @@ TEST(QuadraticBound, covers_the_arithmetic) {
         for (const Simplex s : {Simplex::triangle, Simplex::tetrahedron}) {
             double nearest_to_bound = 0;
             for (std::uint64_t k = 0; k < 8000 && !HasFailure(); ++k) {
-                Random r = Random::stream(31, hash64("quadratic arithmetic"), k);
+                base::Random r = base::Random::stream(31, base::hash64("quadratic arithmetic"), k);
                 const Synthetic c(r, s);
                 double v[3];
                 ASSERT_TRUE(HWY_DYNAMIC_DISPATCH(value_from_weights)(s, c.weights.data(), c.corrections.data(), 0.0,
@@ -206,7 +206,7 @@ TEST(QuadraticBound, covers_errors_of_weights) {
         for (const Simplex s : {Simplex::triangle, Simplex::tetrahedron}) {
             double nearest_to_bound = 0;
             for (std::uint64_t k = 0; k < 1500 && !HasFailure(); ++k) {
-                Random r = Random::stream(31, hash64("quadratic weights"), k);
+                base::Random r = base::Random::stream(31, base::hash64("quadratic weights"), k);
                 Synthetic c(r, s);
                 const int how = r.integer(0, 3);
                 const std::size_t n = c.exact.size();

@@ -20,7 +20,7 @@ inline void expect_as_oracle(const QuadraticCase& q, const Value& v) {
         EXPECT_TRUE(std::isnan(v.value));
     } else {
         EXPECT_EQ(testing_rational::bits(v.value), testing_rational::bits(exact))
-            << hexadecimal(v.value) << ' ' << hexadecimal(exact) << describe(q);
+            << base::hexadecimal(v.value) << ' ' << base::hexadecimal(exact) << describe(q);
     }
 }
 
@@ -34,14 +34,14 @@ inline void expect_law(const QuadraticCase& q) {
     }
 }
 
-inline QuadraticCase with_mids(Random& r, const Case& c, testing_cases::Kind kind) {
+inline QuadraticCase with_mids(base::Random& r, const Case& c, testing_cases::Kind kind) {
     QuadraticCase q{c, {}};
     const testing_cases::Kind of_mids = r.coin() ? kind : testing_cases::Kind::ordinary;
     for (int e = 0; e < mid_node_count(c.simplex); ++e) q.mids.push_back(testing_cases::number(r, of_mids, 0));
     return q;
 }
 
-inline QuadraticCase stretched_case(Random& r, Simplex s, int flattest) {
+inline QuadraticCase stretched_case(base::Random& r, Simplex s, int flattest) {
     QuadraticCase q{stretched_cell(r, s, flattest), {}};
     for (int e = 0; e < mid_node_count(s); ++e) q.mids.push_back(nodal_value(r));
     return q;

@@ -22,13 +22,13 @@ using testing_rational::bits;
 using testing_rational::infinity;
 using testing_rational::largest;
 
-constexpr double tiny = 0x1p-1074;
+constexpr double min_double = 0x1p-1074;
 
 TEST(LawV1Quadratic, every_kind_of_number) {
     for (const Simplex s : full) {
         for (const Kind kind : all_kinds) {
             for (std::uint64_t k = 0; k < 400 && !HasFailure(); ++k) {
-                Random r = Random::stream(32, hash64("quadratic"), k);
+                base::Random r = base::Random::stream(32, base::hash64("quadratic"), k);
                 const Case c = random_case(r, s, kind);
                 expect_law(with_mids(r, c, kind));
             }
@@ -41,7 +41,7 @@ TEST(LawV1Quadratic, flat_cells_far_from_the_origin) {
     for (const Simplex s : full) {
         std::uint64_t easy = 0;
         for (std::uint64_t k = 0; k < 6000 && !HasFailure(); ++k) {
-            Random r = Random::stream(32, hash64("flat quadratic"), k);
+            base::Random r = base::Random::stream(32, base::hash64("flat quadratic"), k);
             const QuadraticCase q = stretched_case(r, s, 46);
             const Value v = value_of(q);
             easy += v.tier == Tier::double_double ? 1 : 0;
@@ -54,7 +54,7 @@ TEST(LawV1Quadratic, flat_cells_far_from_the_origin) {
 TEST(LawV1Quadratic, far_outside) {
     for (const Simplex s : full) {
         for (std::uint64_t k = 0; k < 1000 && !HasFailure(); ++k) {
-            Random r = Random::stream(32, hash64("far outside"), k);
+            base::Random r = base::Random::stream(32, base::hash64("far outside"), k);
             QuadraticCase q = stretched_case(r, s, 10);
             const double factor = r.scaled(1, 2, 0, 60);
             for (double& x : q.linear.point) x *= factor;
@@ -69,7 +69,7 @@ TEST(LawV1Quadratic, integers_of_every_width) {
         for (const int coordinate_bits : {3, 58, 60, 61, 62, 63, 64, 122, 124, 125, 126, 127, 128, 400}) {
             for (const int value_bits : {3, 59, 60, 61, 62, 63, 64, 122, 123, 124, 125, 126, 128, 900}) {
                 for (std::uint64_t k = 0; k < 30 && !HasFailure(); ++k) {
-                    Random r = Random::stream(33, hash64("widths"), k);
+                    base::Random r = base::Random::stream(33, base::hash64("widths"), k);
                     QuadraticCase q{testing_fields::case_of_widths(r, s, coordinate_bits, value_bits), {}};
                     for (int e = 0; e < mid_node_count(s); ++e)
                         q.mids.push_back(testing_fields::of_width(r, value_bits));
@@ -89,11 +89,11 @@ TEST(LawV1Quadratic, integers_of_every_width) {
 TEST(LawV1Quadratic, the_widest_integers) {
     for (const Simplex s : full) {
         for (std::uint64_t k = 0; k < 60 && !HasFailure(); ++k) {
-            Random r = Random::stream(32, hash64("widest"), k);
+            base::Random r = base::Random::stream(32, base::hash64("widest"), k);
             const auto extreme = [&]() {
                 const int how = r.integer(0, 3);
                 const double sign = r.coin() ? 1 : -1;
-                return how < 2 ? sign * largest : how == 2 ? sign * r.integer(1, 1 << 20) * tiny : any_finite(r);
+                return how < 2 ? sign * largest : how == 2 ? sign * r.integer(1, 1 << 20) * min_double : any_finite(r);
             };
             QuadraticCase q{Case{.simplex = s}, {}};
             for (double& x : q.linear.vertices) x = extreme();
@@ -107,8 +107,8 @@ TEST(LawV1Quadratic, the_widest_integers) {
     QuadraticCase q{Case{.simplex = Simplex::tetrahedron}, {-largest, largest, -largest, largest, -largest, largest}};
     const double x = largest;
     q.linear.vertices = {x, x, -x, x, -x, x, -x, x, x, -x, -x, -x};
-    q.linear.point = {-x, x, -tiny};
-    q.linear.values = {x, -x, x, tiny};
+    q.linear.point = {-x, x, -min_double};
+    q.linear.values = {x, -x, x, min_double};
     expect_law(q);
 }
 
@@ -117,7 +117,7 @@ TEST(LawV1Quadratic, quadratic_polynomials_are_given_back) {
     for (const Simplex s : full) {
         const int n = vertex_count(s), d = space_dimension(s);
         for (std::uint64_t k = 0; k < 2000; ++k) {
-            Random r = Random::stream(33, hash64("polynomial"), k);
+            base::Random r = base::Random::stream(33, base::hash64("polynomial"), k);
             std::array<double, 10> a{};
             for (double& x : a) x = r.integer(-8, 8);
             const auto f = [&](const double* x) {
@@ -148,7 +148,7 @@ TEST(LawV1Quadratic, quadratic_polynomials_are_given_back) {
 TEST(LawV1Quadratic, is_the_linear_value_where_the_field_is_linear) {
     for (const Simplex s : full) {
         for (std::uint64_t k = 0; k < 1000; ++k) {
-            Random r = Random::stream(33, hash64("linear"), k);
+            base::Random r = base::Random::stream(33, base::hash64("linear"), k);
             QuadraticCase q{k % 2 == 0 ? stretched_cell(r, s) : random_case(r, s, Kind::lattice), {}};
             Case& c = q.linear;
             for (double& f : c.values) f = r.integer(-1000000, 1000000) * 0x1p-3;
@@ -167,7 +167,7 @@ TEST(LawV1Quadratic, is_the_linear_value_where_the_field_is_linear) {
 }
 
 /// A lattice cell whose corners and edge middles are doubles, with nodal values of any kind.
-QuadraticCase even_cell(Random& r, Simplex s) {
+QuadraticCase even_cell(base::Random& r, Simplex s) {
     QuadraticCase q{Case{.simplex = s}, {}};
     for (double& x : q.linear.vertices) x = 2 * r.integer(-20, 20);
     const bool wild = r.coin();
@@ -179,7 +179,7 @@ QuadraticCase even_cell(Random& r, Simplex s) {
 TEST(LawV2Quadratic, nodes_have_their_own_values) {
     for (const Simplex s : full) {
         for (std::uint64_t k = 0; k < 400; ++k) {
-            Random r = Random::stream(34, hash64("nodes"), k);
+            base::Random r = base::Random::stream(34, base::hash64("nodes"), k);
             QuadraticCase q = even_cell(r, s);
             Case& c = q.linear;
             for (int i = 0; i < vertex_count(s); ++i) {
@@ -209,7 +209,7 @@ TEST(LawV2Quadratic, both_cells_of_a_facet_agree) {
         const auto n = static_cast<std::size_t>(vertex_count(s)), d = n - 1;
         std::uint64_t compared = 0, easy = 0;
         for (std::uint64_t k = 0; k < 2000; ++k) {
-            Random r = Random::stream(34, hash64("facets"), k);
+            base::Random r = base::Random::stream(34, base::hash64("facets"), k);
             const QuadraticCase q = even_cell(r, s);
             QuadraticCase other = even_cell(r, s);
             // Corner i of the other cell is corner order[i] of this one, but the last of this one is not in it.
@@ -277,9 +277,9 @@ TEST(LawV1Quadratic, ties_and_the_ends_of_the_range) {
     EXPECT_EQ(ask({0, 0, 0}, {1, 0, 1 + odd}).value, 1);  // a tie
     EXPECT_EQ(ask({0, 0, 0}, {1 + odd, 0, 1 + 2 * odd}).value, 1 + 2 * odd);
     EXPECT_EQ(ask({0, 0, 0}, {1 + odd, 0, 1 + 2 * odd}).tier, Tier::exact);
-    EXPECT_EQ(ask({0, 0, 0}, {tiny, 0, 0}).value, 0);
-    EXPECT_TRUE(std::signbit(ask({0, 0, 0}, {-tiny, 0, 0}).value));
-    EXPECT_EQ(ask({0, 0, 0}, {tiny, 2 * tiny, 0}).value, tiny);
+    EXPECT_EQ(ask({0, 0, 0}, {min_double, 0, 0}).value, 0);
+    EXPECT_TRUE(std::signbit(ask({0, 0, 0}, {-min_double, 0, 0}).value));
+    EXPECT_EQ(ask({0, 0, 0}, {min_double, 2 * min_double, 0}).value, min_double);
     EXPECT_EQ(ask({0, -largest, -largest}, {largest, largest, largest}).value, infinity);  // 3/2 of the largest
     EXPECT_EQ(ask({0, largest, largest}, {largest, largest, largest}).value, largest);
     EXPECT_EQ(bits(ask({7, -0.0, -0.0}, {-0.0, -0.0, -0.0}).value), 0U);

@@ -28,7 +28,7 @@ double quotient(const Integer& n, const Integer& d, int exponent) {
     return round_quotient(n.sign() * d.sign() < 0, n.magnitude(), d.magnitude(), exponent);
 }
 
-Z power(int exponent) {
+Z power_of_two(int exponent) {
     return Z(1) << static_cast<unsigned>(exponent);
 }
 
@@ -55,10 +55,10 @@ TEST(RoundQuotient, by_hand) {
     EXPECT_EQ(quotient(integer(1), integer(3), 0), 1.0 / 3.0);
     EXPECT_EQ(quotient(integer(-7), integer(10), 3), -5.6);
     EXPECT_EQ(round_integer(integer(-7), -1), -3.5);
-    EXPECT_EQ(round_integer(integer(power(53) + 1), 0), 0x1p53);                        // tie, to even
-    EXPECT_EQ(round_integer(integer(power(53) + 3), 0), 0x1p53 + 4);                    // tie, to even, upwards
-    EXPECT_EQ(round_integer(integer(power(60) + 1), -60), 1);                           // a rest that is no tie
-    EXPECT_EQ(round_integer(integer(power(200) + power(147) + 1), -200), 1 + 0x1p-52);  // a tie but for the last bit
+    EXPECT_EQ(round_integer(integer(power_of_two(53) + 1), 0), 0x1p53);                        // tie, to even
+    EXPECT_EQ(round_integer(integer(power_of_two(53) + 3), 0), 0x1p53 + 4);                    // tie, to even, upwards
+    EXPECT_EQ(round_integer(integer(power_of_two(60) + 1), -60), 1);                           // a rest that is no tie
+    EXPECT_EQ(round_integer(integer(power_of_two(200) + power_of_two(147) + 1), -200), 1 + 0x1p-52);  // a tie but for the last bit
 }
 
 TEST(RoundQuotient, zero_is_positive_and_underflow_keeps_its_sign) {
@@ -77,7 +77,7 @@ TEST(RoundQuotient, zero_is_positive_and_underflow_keeps_its_sign) {
 // The leading limbs are the same for all three; the rest decides. Catches the rest ignored or of the wrong sign.
 TEST(RoundQuotient, ties_and_their_neighbours) {
     for (int k = 0; k < 1500 && !::testing::Test::HasFailure(); ++k) {
-        Random r = Random::stream(1, hash64("core ties"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("core ties"), static_cast<std::uint64_t>(k));
         const Z d = k % 5 == 0 ? Z(1) : Z(abs(number(awkward_integer(r, r.integer(1, 5)))) + 1);
         const int length = r.integer(1, 54);  // of the tie, its last bit the half
         const std::uint64_t leading = std::uint64_t{1} << (length - 1);
@@ -86,15 +86,15 @@ TEST(RoundQuotient, ties_and_their_neighbours) {
         expect_rounded_about(tie * d, d, -1075);
         const Z full = 2 * Z(static_cast<unsigned long>(r.bits() >> 12 | std::uint64_t{1} << 52)) + 1;
         expect_rounded_about(full * d, d, r.integer(-1074, 970));
-        expect_rounded_about((power(54) - 1) * d, d, r.integer(-1074, 960));  // carries to the next binade
+        expect_rounded_about((power_of_two(54) - 1) * d, d, r.integer(-1074, 960));  // carries to the next binade
     }
 }
 
 TEST(RoundQuotient, ends_of_the_range) {
     for (const int extra : {0, 1, 64, 500, 10000}) {
-        const Z d = power(extra);
+        const Z d = power_of_two(extra);
         // The half-way point from the largest double to 2^1024, a tie to infinity; and twice that.
-        const Z half_way = (power(54) - 1) * d;
+        const Z half_way = (power_of_two(54) - 1) * d;
         EXPECT_EQ(quotient(integer(half_way), integer(d), 970), infinity) << extra;
         if (extra > 0) {
             EXPECT_EQ(quotient(integer(half_way - 1), integer(d), 970), largest) << extra;
@@ -113,7 +113,7 @@ TEST(RoundQuotient, ends_of_the_range) {
         }
         expect_rounded(3 * d, d, -1075);
         expect_rounded(3 * d, d, -1076);
-        expect_rounded_about((power(53) - 1) * d, d, -1075);
+        expect_rounded_about((power_of_two(53) - 1) * d, d, -1075);
         expect_rounded(d, d, -1076);
         expect_rounded(d, d, -1138);
         expect_rounded(d, d, -1139);
@@ -129,7 +129,7 @@ TEST(RoundQuotient, lengths_about_the_limbs) {
         for (const int d : lengths) {
             for (int beside_n = -1; beside_n <= 1; ++beside_n) {
                 for (int beside_d = -1; beside_d <= 1; ++beside_d)
-                    expect_rounded(power(n) + beside_n, power(d) + beside_d, 0);
+                    expect_rounded(power_of_two(n) + beside_n, power_of_two(d) + beside_d, 0);
             }
             ASSERT_FALSE(HasFailure()) << n << ' ' << d;
         }
@@ -139,7 +139,7 @@ TEST(RoundQuotient, lengths_about_the_limbs) {
 // One limb against 160, and back, brought into the range of doubles by the exponent.
 TEST(RoundQuotient, operands_of_very_different_lengths) {
     for (int k = 0; k < 600 && !::testing::Test::HasFailure(); ++k) {
-        Random r = Random::stream(1, hash64("core lengths"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("core lengths"), static_cast<std::uint64_t>(k));
         const int short_length = r.integer(1, 3), long_length = k % 2 == 0 ? 160 : r.integer(1, 164);
         const Z x = abs(number(awkward_integer(r, short_length))) + 1,
                 y = abs(number(awkward_integer(r, long_length))) + 1;
@@ -168,7 +168,7 @@ TEST(RoundQuotient, leading_zero_limbs_do_not_count) {
 // Divisors and digits of all ones or a single one: where the estimate from the leading limbs is off by the most.
 TEST(RoundQuotient, awkward_limbs) {
     for (int k = 0; k < 6000 && !::testing::Test::HasFailure(); ++k) {
-        Random r = Random::stream(1, hash64("core awkward"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("core awkward"), static_cast<std::uint64_t>(k));
         const Z d = abs(number(awkward_integer(r, r.integer(1, 6)))) + r.integer(0, 1);
         const Z n = abs(number(awkward_integer(r, r.integer(1, 6))));
         if (d != 0) expect_rounded(n, d, r.integer(-200, 200));

@@ -69,8 +69,8 @@ inline Q rational(double x) {
 /// is +0, what underflows keeps its sign.
 inline ::testing::AssertionResult nearest(double r, const Q& exact) {
     const auto wrong = [&](const char* what) {
-        return ::testing::AssertionFailure()
-               << hexadecimal(r) << " is not the rounding of about " << hexadecimal(exact.get_d()) << ": " << what;
+        return ::testing::AssertionFailure() << base::hexadecimal(r) << " is not the rounding of about "
+                                             << base::hexadecimal(exact.get_d()) << ": " << what;
     };
     if (std::isnan(r)) return wrong("not a number");
     if (exact == 0) return bits(r) == 0 ? ::testing::AssertionSuccess() : wrong("zero should be +0");
@@ -86,7 +86,7 @@ inline ::testing::AssertionResult nearest(double r, const Q& exact) {
 }
 
 /// A word that long carries, borrows and runs of zeros are made of.
-inline std::uint64_t awkward_word(Random& r) {
+inline std::uint64_t awkward_word(base::Random& r) {
     switch (r.integer(0, 5)) {
         case 0:
             return 0;
@@ -101,7 +101,7 @@ inline std::uint64_t awkward_word(Random& r) {
 }
 
 /// Of at most `size` limbs.
-inline Integer awkward_integer(Random& r, int size) {
+inline Integer awkward_integer(base::Random& r, int size) {
     std::uint64_t words[Integer::capacity];
     const bool ones = r.integer(0, 3) == 0;
     for (int i = 0; i < size; ++i) words[i] = ones ? ~std::uint64_t{0} : awkward_word(r);
@@ -109,7 +109,7 @@ inline Integer awkward_integer(Random& r, int size) {
 }
 
 /// Any finite double, as likely as another.
-inline double any_finite(Random& r) {
+inline double any_finite(base::Random& r) {
     while (true) {
         const auto x = std::bit_cast<double>(r.bits());
         if (std::isfinite(x)) return x;

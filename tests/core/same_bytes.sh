@@ -25,7 +25,7 @@ for compiler in g++ clang++; do
     for level in "$@"; do
         objects=
         for file in "$base"/result.cpp "$core"/environment.cpp "$base"/exact_environment.cpp "$base"/random.cpp "$core"/exact_weights.cpp "$core"/inverse.cpp "$core"/lanes.cpp \
-            "$core"/predicates.cpp "$core"/quotient.cpp "$base"/text.cpp "$core"/weights.cpp \
+            "$core"/predicates.cpp "$core"/quotient.cpp "$base"/text.cpp "$core"/weight_signs.cpp "$core"/weights.cpp \
             "$source"/tests/core/same_bytes.cpp; do
             object=$build/$compiler$level-$(basename "$file" .cpp).o
             rm -f "$object"

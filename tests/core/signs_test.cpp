@@ -33,11 +33,11 @@ Q determinant(const Case& c) {
            e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
-bool solid(Simplex s) {
+bool has_orientation(Simplex s) {
     return s == Simplex::triangle || s == Simplex::tetrahedron;
 }
 
-Sign orient(const Case& c) {
+Sign orientation_of(const Case& c) {
     const double* const v = c.vertices.data();
     return c.simplex == Simplex::triangle ? orient2d(v, v + 2, v + 4) : orient3d(v, v + 3, v + 6, v + 9);
 }
@@ -46,7 +46,7 @@ Sign orient(const Case& c) {
 WeightSigns expected(const Case& c) {
     const auto w = second_path::weights(c);
     if (!w) return WeightSigns::degenerate_simplex();
-    unsigned bits = solid(c.simplex) && determinant(c) < 0 ? 1U << 8 : 0;
+    unsigned bits = has_orientation(c.simplex) && determinant(c) < 0 ? 1U << 8 : 0;
     for (std::size_t i = 0; i < w->size(); ++i) {
         if ((*w)[i] < 0) bits |= 1U << i;
         if ((*w)[i] == 0) bits |= 1U << (4 + i);
@@ -56,7 +56,7 @@ WeightSigns expected(const Case& c) {
 
 /// Random cases, and some that are as near to a boundary as doubles allow: the point is a rounded combination of the
 /// vertices, a vertex moved by an ulp, or the cell flattened into a plane but for rounding.
-Case hard_case(Random& r, Simplex s, Kind kind) {
+Case hard_case(base::Random& r, Simplex s, Kind kind) {
     Case c = random_case(r, s, kind);
     const int d = space_dimension(s), n = vertex_count(s), how = r.integer(0, 4);
     if (how == 0) return c;
@@ -80,11 +80,11 @@ TEST(LawS1, SignsAreThoseOfRationals) {
     for (const Simplex s : all_simplices) {
         for (const Kind kind : all_kinds) {
             for (std::uint64_t k = 0; k < 250 && !HasFailure(); ++k) {
-                Random r = Random::stream(2, hash64("signs"), k);
+                base::Random r = base::Random::stream(2, base::hash64("signs"), k);
                 const Case c = hard_case(r, s, kind);
                 EXPECT_EQ(weight_signs(s, c.vertices.data(), c.point.data()), expected(c)) << describe(c);
-                if (solid(s)) {
-                    EXPECT_EQ(orient(c), as_sign(sgn(determinant(c)))) << describe(c);
+                if (has_orientation(s)) {
+                    EXPECT_EQ(orientation_of(c), as_sign(sgn(determinant(c)))) << describe(c);
                 }
             }
         }
@@ -95,19 +95,19 @@ TEST(LawS1, SignsAreThoseOfRationals) {
 TEST(LawS1, AboutTheLimitsOfTheFilter) {
     for (const Simplex s : all_simplices) {
         for (std::uint64_t k = 0; k < 1500 && !HasFailure(); ++k) {
-            Random r = Random::stream(2, hash64("limits"), k);
+            base::Random r = base::Random::stream(2, base::hash64("limits"), k);
             Case c = hard_case(r, s, r.coin() ? Kind::ordinary : Kind::thin);
             const int limits[] = {-540, -301, -300, -200, -150, -100, 99, 100, 199, 299, 300, 340};
             int shift = limits[r.below(12)];
             for (int axis = 0; axis < space_dimension(s); ++axis) {
-                if (solid(s) || r.integer(0, 3) == 0) shift = limits[r.below(12)];
+                if (has_orientation(s) || r.integer(0, 3) == 0) shift = limits[r.below(12)];
                 for (int i = 0; i < vertex_count(s); ++i) c.vertex(i, axis) = std::ldexp(c.vertex(i, axis), shift);
                 auto& p = c.point[static_cast<std::size_t>(axis)];
                 p = std::ldexp(p, shift);
             }
             EXPECT_EQ(weight_signs(s, c.vertices.data(), c.point.data()), expected(c)) << describe(c);
-            if (solid(s)) {
-                EXPECT_EQ(orient(c), as_sign(sgn(determinant(c)))) << describe(c);
+            if (has_orientation(s)) {
+                EXPECT_EQ(orientation_of(c), as_sign(sgn(determinant(c)))) << describe(c);
             }
         }
     }
@@ -121,7 +121,7 @@ TEST(LawS1, SignsAreTheSameInEveryEnvironmentAndOnEveryTarget) {
             std::vector<Case> cases;
             std::vector<WeightSigns> right;
             for (std::uint64_t k = 0; k < count; ++k) {
-                Random r = Random::stream(3, hash64("environments"), k);
+                base::Random r = base::Random::stream(3, base::hash64("environments"), k);
                 cases.push_back(hard_case(r, s, kind));
                 right.push_back(weight_signs(s, cases.back().vertices.data(), cases.back().point.data()));
             }
@@ -137,7 +137,7 @@ TEST(LawS1, SignsAreTheSameInEveryEnvironmentAndOnEveryTarget) {
                         good = weight_signs(columns.arrays(), got).has_value();
                         for (std::size_t j = 0; j < count; ++j) {
                             single[j] = weight_signs(s, cases[j].vertices.data(), cases[j].point.data());
-                            if (solid(s)) orientations[j] = orient(cases[j]);
+                            if (has_orientation(s)) orientations[j] = orientation_of(cases[j]);
                         }
                     }
                     ASSERT_TRUE(good);
@@ -145,7 +145,7 @@ TEST(LawS1, SignsAreTheSameInEveryEnvironmentAndOnEveryTarget) {
                         ASSERT_EQ(got[j], right[j]) << environment.name << ' ' << target << ' ' << describe(cases[j]);
                         ASSERT_EQ(single[j], right[j])
                             << environment.name << ' ' << target << ' ' << describe(cases[j]);
-                        if (solid(s)) {
+                        if (has_orientation(s)) {
                             ASSERT_EQ(orientations[j], right[j].orientation())
                                 << environment.name << describe(cases[j]);
                         }
@@ -162,7 +162,7 @@ TEST(LawS1, SignsAreTheSameInEveryEnvironmentAndOnEveryTarget) {
 TEST(LawS1, SubnormalsBesideOrdinaryNumbersCountWhereTheyAreFlushed) {
     for (const Simplex s : all_simplices) {
         for (std::uint64_t k = 0; k < 200; ++k) {
-            Random r = Random::stream(3, hash64("few subnormals"), k);
+            base::Random r = base::Random::stream(3, base::hash64("few subnormals"), k);
             Case c = random_case(r, s, r.coin() ? Kind::ordinary : Kind::lattice);
             const int n = vertex_count(s), d = space_dimension(s), axis = r.integer(0, d - 1);
             // On a face's plane but for subnormals, on one axis or on all.
@@ -179,10 +179,10 @@ TEST(LawS1, SubnormalsBesideOrdinaryNumbersCountWhereTheyAreFlushed) {
                 {
                     const Changed changed(environment);
                     got = weight_signs(s, c.vertices.data(), c.point.data());
-                    if (solid(s)) orientation = orient(c);
+                    if (has_orientation(s)) orientation = orientation_of(c);
                 }
                 ASSERT_EQ(got, right) << environment.name << describe(c);
-                if (solid(s)) {
+                if (has_orientation(s)) {
                     ASSERT_EQ(orientation, right.orientation()) << environment.name << describe(c);
                 }
             }

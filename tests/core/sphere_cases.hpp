@@ -40,14 +40,14 @@ inline Result<Sign> checked_ask(const Points& p) {
 inline std::string describe(const Points& p) {
     std::string text;
     for (std::size_t i = 0; i < p.count(); ++i) {
-        for (std::size_t k = 0; k < p.axes(); ++k) text += ' ' + hexadecimal(p.at[i][k]);
+        for (std::size_t k = 0; k < p.axes(); ++k) text += ' ' + base::hexadecimal(p.at[i][k]);
         text += '\n';
     }
     return text;
 }
 
 /// Corners of a box between any two numbers on each axis: exactly on one circle or sphere, whatever the numbers.
-inline Points box(Random& r, int d, Kind kind) {
+inline Points box(base::Random& r, int d, Kind kind) {
     Points p{d};
     for (std::size_t k = 0; k < p.axes(); ++k) {
         const double low = testing_cases::number(r, kind, static_cast<int>(k));
@@ -58,7 +58,7 @@ inline Points box(Random& r, int d, Kind kind) {
 }
 
 /// Integers whose squares add up to 25 or, in space, to 81, off the origin by small integers, in any unit.
-inline Points on_integer_sphere(Random& r, int d) {
+inline Points on_integer_sphere(base::Random& r, int d) {
     static constexpr std::array<std::array<int, 3>, 7> seeds{
         {{3, 4, 0}, {5, 0, 0}, {0, 5, 0}, {1, 4, 8}, {4, 4, 7}, {3, 6, 6}, {0, 0, 9}}};
     Points p{d};
@@ -76,7 +76,7 @@ inline Points on_integer_sphere(Random& r, int d) {
 }
 
 /// Points of a sphere about the origin, or about a centre far away, rounded.
-inline Points rounded_sphere(Random& r, int d) {
+inline Points rounded_sphere(base::Random& r, int d) {
     Points p{d};
     const double offset = r.coin() ? 0 : std::ldexp(r.uniform(-1, 1), r.integer(0, 30));
     for (auto& x : p.at) {
@@ -91,7 +91,7 @@ inline Points rounded_sphere(Random& r, int d) {
 }
 
 /// Axes that differ by powers of two, an ulp more or less in one place, a point twice, or none of these.
-inline void disturb(Random& r, Points& p) {
+inline void disturb(base::Random& r, Points& p) {
     const std::size_t i = r.below(p.count()), j = r.below(p.count()), axis = r.below(p.axes());
     const int shift = r.integer(-20, 20);
     constexpr double largest = std::numeric_limits<double>::max();
@@ -116,7 +116,7 @@ inline void disturb(Random& r, Points& p) {
 
 inline constexpr int recipes = 4;
 
-inline Points hard_points(Random& r, int d, int recipe, Kind kind) {
+inline Points hard_points(base::Random& r, int d, int recipe, Kind kind) {
     Points p{d};
     if (recipe == 0) {
         for (auto& x : p.at) {
@@ -137,7 +137,8 @@ void for_hard_points(const char* stream, std::uint64_t count, Use use) {
         for (int recipe = 0; recipe < recipes; ++recipe) {
             for (const Kind kind : testing_cases::all_kinds) {
                 for (std::uint64_t k = 0; k < count && !::testing::Test::HasFailure(); ++k) {
-                    Random r = Random::stream(static_cast<std::uint64_t>(10 * d + recipe), hash64(stream), k);
+                    base::Random r =
+                        base::Random::stream(static_cast<std::uint64_t>(10 * d + recipe), base::hash64(stream), k);
                     use(hard_points(r, d, recipe, kind), r);
                 }
             }

@@ -153,7 +153,7 @@ TEST(TierCounts, NearlyAllValuesOfGoodCellsComeFromDoubleDouble) {
         constexpr std::uint64_t total = 20000;
         std::vector<Case> cases;
         for (std::uint64_t k = 0; k < total; ++k) {
-            Random r = Random::stream(8, hash64("good"), k);
+            base::Random r = base::Random::stream(8, base::hash64("good"), k);
             Case c = easy(s);
             for (double& x : c.vertices) x += r.uniform(-0.1, 0.1);
             for (double& x : c.point) x += r.uniform(-0.1, 0.1);

@@ -51,7 +51,7 @@ TEST(LawW2V1, RoundedFromRationals) {
     for (const Simplex s : all_simplices) {
         for (const Kind kind : all_kinds) {
             for (std::uint64_t k = 0; k < 250 && !HasFailure(); ++k) {
-                Random r = Random::stream(4, hash64("weights"), k);
+                base::Random r = base::Random::stream(4, base::hash64("weights"), k);
                 expect_laws(random_case(r, s, kind));
             }
         }
@@ -59,7 +59,7 @@ TEST(LawW2V1, RoundedFromRationals) {
 }
 
 /// A cell about `size` at a distance, flattened by 2^-flat, the point within or near it.
-Case flat_case(Random& r, Simplex s, double distance, int flat) {
+Case flat_case(base::Random& r, Simplex s, double distance, int flat) {
     Case c{.simplex = s};
     const int n = vertex_count(s), d = space_dimension(s);
     double w[4], sum = 0;
@@ -88,7 +88,8 @@ TEST(LawW2V1, FlatCellsFarFromTheOrigin) {
         for (int flat = 0; flat <= 44; flat += 2) {
             for (const double distance : {0.0, 3.0, 1e3, 1e6, 1e9}) {
                 for (std::uint64_t k = 0; k < 12 && !HasFailure(); ++k) {
-                    Random r = Random::stream(4, hash64("flat"), 1000 * k + static_cast<std::uint64_t>(flat));
+                    base::Random r =
+                        base::Random::stream(4, base::hash64("flat"), 1000 * k + static_cast<std::uint64_t>(flat));
                     expect_laws(flat_case(r, s, distance, flat));
                 }
             }
@@ -137,7 +138,7 @@ TEST(LawV1, TiesGoToEven) {
 // Every simplex with all nodal values -0, at a point where nothing is special: the exact zero is +0 from lanes too.
 TEST(LawV1, ZerosArePositive) {
     for (const Simplex s : all_simplices) {
-        Random r(1);
+        base::Random r(1);
         Case c = flat_case(r, s, 0, 0);
         for (const double first : {-0.0, 0.0}) {
             c.values = {first, -0.0, -0.0, -0.0};
@@ -179,7 +180,7 @@ struct Pair {
 };
 
 /// Two cells that share vertices 0 ... count-1 (in another order), on dyadic coordinates.
-Pair sharing(Random& r, Simplex s, int count) {
+Pair sharing(base::Random& r, Simplex s, int count) {
     Pair pair{{.simplex = s}, {.simplex = s}};
     const int n = vertex_count(s), d = space_dimension(s);
     const auto number = [&] { return r.integer(-4096, 4096) * 0x1p-4; };
@@ -216,7 +217,8 @@ TEST(LawV2, SharedFacesEdgesAndVertices) {
     for (const Simplex s : all_simplices) {
         for (int count = 1; count < vertex_count(s); ++count) {
             for (std::uint64_t k = 0; k < 400 && !HasFailure(); ++k) {
-                Random r = Random::stream(5, hash64("shared"), 8 * k + static_cast<std::uint64_t>(count));
+                base::Random r =
+                    base::Random::stream(5, base::hash64("shared"), 8 * k + static_cast<std::uint64_t>(count));
                 Pair pair = sharing(r, s, count);
                 for (int component = 0; component < 3; ++component) {
                     const Value a = value_of(pair.first), b = value_of(pair.second);

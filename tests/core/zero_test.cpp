@@ -19,7 +19,7 @@ using testing_rational::Q;
 using testing_rational::rational;
 
 /// Few numbers, so that zeros are frequent; both zeros among them.
-double small_number(Random& r) {
+double small_number(base::Random& r) {
     constexpr std::array numbers{-0.0, 0.0, -0.0, 0.0, 1.0, -1.0, 2.0, -2.0};
     return numbers[r.below(numbers.size())];
 }
@@ -27,7 +27,7 @@ double small_number(Random& r) {
 /// Lattice cells, the point on a lattice point, a vertex or amid an edge; sizes 2^-600 to 2^600, values about 1 or so
 /// small that they round to zero when weighed.
 Case lattice_case(Simplex s, std::uint64_t k) {
-    Random r = Random::stream(3, hash64("zeros"), k);
+    base::Random r = base::Random::stream(3, base::hash64("zeros"), k);
     Case c{.simplex = s};
     for (double& x : c.vertices) x = small_number(r);
     for (double& x : c.point) x = small_number(r);
@@ -107,7 +107,7 @@ TEST(Zeros, OfGradientsAndQuadraticFieldsSingleAndInBatches) {
         for (std::uint64_t k = 0; cases.size() < count; ++k) {
             QuadraticCase q{lattice_case(s, k), {}};
             if (!second_path::weights(q.linear)) continue;
-            Random r(k);
+            base::Random r(k);
             // As the values at the corners, or their sum would not round to zero.
             const bool tiny = std::fabs(q.linear.values[0]) < 0.5;
             for (std::size_t e = 0; e < m; ++e) q.mids.push_back(small_number(r) * (tiny ? 0x1p-1074 : 1));
@@ -160,7 +160,7 @@ TEST(Zeros, OfGradientsAndQuadraticFieldsSingleAndInBatches) {
 TEST(Zeros, OfTheInverse) {
     Zeros parameters, points;
     for (std::uint64_t k = 0; k < 20000; ++k) {
-        Random r(k);
+        base::Random r(k);
         const int size = r.coin() ? 0 : -1074;
         double a[2], b[2], at[2];
         for (double* const p : {a, b}) {
@@ -191,7 +191,7 @@ TEST(Zeros, OfPointsFromWeights) {
     for (const Simplex s : all_simplices) {
         for (std::uint64_t k = 0; k < 5000; ++k) {
             const Case c = lattice_case(s, k);
-            Random r(k);
+            base::Random r(k);
             double weights[4], point[3];
             for (double& w : weights) w = std::ldexp(small_number(r), r.coin() ? 0 : -700);
             ASSERT_TRUE(point_from_weights(s, c.vertices.data(), weights, point));

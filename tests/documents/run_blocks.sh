@@ -5,7 +5,7 @@
 #
 # DOCUMENT   relative to SOURCES, such as doc/audit.md
 # PROGRAMS   the folder with barycert and, if it was built, barycert-tetgen; `./run` in the copy calls them
-# EXAMPLES   the folder with the programs built from doc/examples; "" if there are none
+# EXAMPLES   the folder with the programs built from doc/examples
 # FOLDER     is replaced: holds the copy and what the commands print
 #
 # Rules of a document:
@@ -13,8 +13,8 @@
 # - A ```text block right after a ```sh block is what its commands print, stdout and stderr together. A line `...` stands
 #   for any number of lines, and ` ...` at the end of a line for the rest of it. Seconds, counts of threads and the last
 #   column of the table of kernels (nanoseconds) may be any.
-# - Each paragraph of a ```c or ```cpp block stands in one program of doc/examples, in the same order. A block with a
-#   main() is run, and a ```text block right after it is what it prints.
+# - Each paragraph of a ```c or ```cpp block stands in one program of doc/examples, in the same order. The program must
+#   exit with 0; a ```text block right after the block is what it prints.
 # - Relative links lead to files that exist.
 # - Commands that install packages, build or take long are in `not_run` below, and nowhere else.
 set -eu
@@ -168,7 +168,7 @@ for block in "$folder"/blocks/*; do
             if ! example=$(example_with "$block"); then
                 fails "no program in doc/examples has this block:"
                 cat "$block"
-            elif grep -q 'main(' "$block" && [ -n "$examples" ]; then
+            elif [ -x "$examples/example_$example" ]; then
                 echo "doc/examples/$example.cpp"
                 printed=yes
                 (cd "$folder/copy" && "$examples/example_$example") >"$output" 2>&1 || fails "$example exits with $?"
@@ -185,7 +185,7 @@ for block in "$folder"/blocks/*; do
         *) printed=no ;;
     esac
 done
-for link in $(grep -oE '(\]\(|src=")[^)"#: ]+' "$sources/$document" | sed -E 's/^(\]\(|src=")//'); do
+for link in $(awk '/^```/ { code = !code } !code' "$sources/$document" | grep -oE '(\]\(|src=")[^)"#: ]+' | sed -E 's/^(\]\(|src=")//'); do
     [ -e "$(dirname "$sources/$document")/$link" ] || fails "no such file: $link"
 done
 [ "$failures" = 0 ] || { echo "$failures failures"; exit 1; }

@@ -21,7 +21,7 @@ constexpr double unit = 0x1p-1074;
 std::vector<Case> cases_of(Simplex s) {
     std::vector<Case> cases;
     for (std::uint64_t k = 0; k < 60; ++k) {
-        Random r = Random::stream(77, static_cast<std::uint64_t>(s), k);
+        base::Random r = base::Random::stream(77, static_cast<std::uint64_t>(s), k);
         Case c;
         c.simplex = s;
         const double scale = k % 3 == 0 ? unit : k % 3 == 1 ? 1 : 0x1p-1030;
@@ -151,7 +151,7 @@ TEST(EveryEnvironment, ConditionNumbers) {
 
 TEST(EveryEnvironment, TextUlpsAndRandomNumbers) {
     std::vector<double> numbers{0.0, -0.0, unit, -unit, 0x1p-1022, 1, 0.1, 1.0 / 3, 123456.789, 0x1p1023, -7 * unit};
-    Random r(5);
+    base::Random r(5);
     for (int i = 0; i < 500; ++i) {
         const double x = std::bit_cast<double>(r.bits() >> (i % 60));
         if ((std::bit_cast<std::uint64_t>(x) >> 52 & 0x7ff) != 0x7ff) numbers.push_back(x);
@@ -159,20 +159,20 @@ TEST(EveryEnvironment, TextUlpsAndRandomNumbers) {
     std::vector<std::string> texts{"1e-400",           "4.9e-324", "0.1", "-2.2250738585072011e-308",
                                    "9007199254740993", "1e309"};
     for (const double x : numbers) {
-        texts.push_back(shortest(x));
-        texts.push_back(hexadecimal(x));
+        texts.push_back(base::shortest(x));
+        texts.push_back(base::hexadecimal(x));
     }
     expect_same_everywhere("text", [&](Answers& out) {
         for (const double x : numbers) {
-            out.add(std::string_view(shortest(x)));
-            out.add(std::string_view(hexadecimal(x)));
-            out.add(next_up(x));
-            out.add(next_down(x));
-            out.add(ulp_error(x, numbers[7]));
-            out.add(ulp_error(x, numbers[10]));
+            out.add(std::string_view(base::shortest(x)));
+            out.add(std::string_view(base::hexadecimal(x)));
+            out.add(base::next_up(x));
+            out.add(base::next_down(x));
+            out.add(base::ulp_error(x, numbers[7]));
+            out.add(base::ulp_error(x, numbers[10]));
         }
-        for (const std::string& text : texts) out.add(parse_double(text).value_or(7));
-        Random random(9);
+        for (const std::string& text : texts) out.add(base::parse_double(text).value_or(7));
+        base::Random random(9);
         for (int i = 0; i < 100; ++i) {
             out.add(random.uniform(-0.3, 0.7));
             out.add(random.scaled(1, 2, -1074, 900));

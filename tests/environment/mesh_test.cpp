@@ -48,7 +48,7 @@ std::vector<Subject> subjects() {
     std::vector<Subject> all;
     for (const int d : {2, 3}) {
         for (const double scale : {unit, 0x1p-1026, 1.0}) {
-            Random random(static_cast<std::uint64_t>(d));
+            base::Random random(static_cast<std::uint64_t>(d));
             Mesh mesh = box(d, {4, 3, 3});
             for (double& x : mesh.points) {
                 const double moved = 16 * x + random.integer(-3, 3);
@@ -63,7 +63,7 @@ std::vector<Subject> subjects() {
             for (std::size_t i = 0; i < mesh.cell_count(); ++i) cell.data.push_back(random.integer(-9, 9) * unit);
             mesh.point_fields = {one, two};
             mesh.cell_fields = {cell};
-            const std::string name = std::to_string(d) + "D, " + hexadecimal(scale);
+            const std::string name = std::to_string(d) + "D, " + base::hexadecimal(scale);
             all.push_back({name, mesh, scale});
             mesh.points[0] = 40 * scale;
             all.push_back({name + ", folded", mesh, scale});
@@ -74,7 +74,7 @@ std::vector<Subject> subjects() {
 
 /// Lattice points, in and around the mesh: many on faces, edges and nodes.
 std::vector<double> points_around(const Subject& s, std::size_t count) {
-    Random random(17);
+    base::Random random(17);
     std::vector<double> points;
     for (std::size_t i = 0; i < count * static_cast<std::size_t>(s.mesh.dimension); ++i)
         points.push_back(random.integer(-8, 72) * s.scale);
@@ -282,7 +282,8 @@ TEST(EveryEnvironment, Files) {
         const std::vector<double> points = points_around(s, 300);
         const auto d = static_cast<std::size_t>(s.mesh.dimension);
         std::string csv = d == 2 ? "x,y\n" : "x,y,z\n";
-        for (std::size_t i = 0; i < points.size(); ++i) csv += shortest(points[i]) + ((i + 1) % d == 0 ? '\n' : ',');
+        for (std::size_t i = 0; i < points.size(); ++i)
+            csv += base::shortest(points[i]) + ((i + 1) % d == 0 ? '\n' : ',');
         folder.put("points.csv", csv);
         expect_same_everywhere("files of " + s.name, [&](Answers& out) {
             out.add(write_tetgen(s.mesh, folder.path("mesh")).has_value());
@@ -307,10 +308,10 @@ TEST(EveryEnvironment, Files) {
                 out.add(std::string_view(folder.bytes(name)));
             }
             out.add(mesh_fingerprint(s.mesh));
-            VtiGrid grid;
+            io::VtiGrid grid;
             grid.origin = {-unit, 0.1, 3 * unit};
             grid.spacing = {unit, 0x1p-1024, 0.3};
-            const auto vti = VtiWriter::open(folder.path("grid.vti"), grid, {{"a", 1, VtiType::float64}});
+            const auto vti = io::VtiWriter::open(folder.path("grid.vti"), grid, {{"a", 1, io::VtiType::float64}});
             out.add(vti.has_value());
             if (vti) {
                 const double value[1] = {unit};

@@ -37,14 +37,14 @@ inline void PrintTo(Kind k, std::ostream* out) {
     *out << name(k);
 }
 
-inline double finite_bits(Random& r) {
+inline double finite_bits(base::Random& r) {
     while (true) {
         const auto x = std::bit_cast<double>(r.bits());
         if (std::isfinite(x)) return x;
     }
 }
 
-inline double number(Random& r, Kind kind, int axis) {
+inline double number(base::Random& r, Kind kind, int axis) {
     switch (kind) {
         case Kind::ordinary:
             return r.uniform(-1, 1);
@@ -66,7 +66,7 @@ inline double number(Random& r, Kind kind, int axis) {
     return 0;
 }
 
-inline Case random_case(Random& r, Simplex simplex, Kind kind) {
+inline Case random_case(base::Random& r, Simplex simplex, Kind kind) {
     Case c;
     c.simplex = simplex;
     const int count = vertex_count(simplex), dimension = space_dimension(simplex);
@@ -97,13 +97,15 @@ inline std::string describe(const Case& c) {
     std::string text{name(c.simplex)};
     for (int i = 0; i < vertex_count(c.simplex); ++i) {
         text += "\n  v" + std::to_string(i);
-        for (int axis = 0; axis < space_dimension(c.simplex); ++axis) text += ' ' + hexadecimal(c.vertex(i, axis));
+        for (int axis = 0; axis < space_dimension(c.simplex); ++axis)
+            text += ' ' + base::hexadecimal(c.vertex(i, axis));
     }
     text += "\n  p";
     for (int axis = 0; axis < space_dimension(c.simplex); ++axis)
-        text += ' ' + hexadecimal(c.point[static_cast<std::size_t>(axis)]);
+        text += ' ' + base::hexadecimal(c.point[static_cast<std::size_t>(axis)]);
     text += "\n  f";
-    for (int i = 0; i < vertex_count(c.simplex); ++i) text += ' ' + hexadecimal(c.values[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < vertex_count(c.simplex); ++i)
+        text += ' ' + base::hexadecimal(c.values[static_cast<std::size_t>(i)]);
     return text;
 }
 

@@ -15,7 +15,7 @@ inline void expect_same_bits(double got, double expected, std::string_view what)
         EXPECT_TRUE(std::isnan(got)) << what;
     } else {
         EXPECT_EQ(testing_cases::bits(got), testing_cases::bits(expected))
-            << what << ": " << hexadecimal(got) << " instead of " << hexadecimal(expected);
+            << what << ": " << base::hexadecimal(got) << " instead of " << base::hexadecimal(expected);
     }
 }
 

@@ -47,7 +47,8 @@ TEST(Bilinear, holds_wherever_it_is_defined) {
     for (const Kind kind : all_kinds) {
         int holds = 0;
         for (int k = 0; k < (kind == Kind::bit_patterns ? 60 : 800); ++k) {
-            Random r = Random::stream(1, hash64("bilinear") + hash64(name(kind)), static_cast<std::uint64_t>(k));
+            base::Random r = base::Random::stream(1, base::hash64("bilinear") + base::hash64(name(kind)),
+                                                  static_cast<std::uint64_t>(k));
             const Case c = random_case(r, Simplex::triangle, kind);
             const IdentityVerdict found = bilinear_is_barycentric(c);
             ASSERT_EQ(found, bilinear_must_be_undefined(c) ? IdentityVerdict::undefined : IdentityVerdict::holds)
@@ -75,7 +76,8 @@ TEST(Trilinear, never_fails_and_holds_in_general_position) {
     for (const Kind kind : all_kinds) {
         int holds = 0;
         for (int k = 0; k < (kind == Kind::bit_patterns ? 30 : 250); ++k) {
-            Random r = Random::stream(1, hash64("trilinear") + hash64(name(kind)), static_cast<std::uint64_t>(k));
+            base::Random r = base::Random::stream(1, base::hash64("trilinear") + base::hash64(name(kind)),
+                                                  static_cast<std::uint64_t>(k));
             const Case c = random_case(r, Simplex::tetrahedron, kind);
             const IdentityVerdict found = trilinear_is_barycentric(c);
             ASSERT_NE(found, IdentityVerdict::fails) << describe(c);

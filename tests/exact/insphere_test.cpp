@@ -36,7 +36,7 @@ bool moderate(const Points& p) {
 TEST(SidesAgainstCgal, KernelOfExactPredicates) {
     using Epick = CGAL::Exact_predicates_inexact_constructions_kernel;
     int asked = 0;
-    for_hard_points("cgal", 1000, [&](const Points& p, Random&) {
+    for_hard_points("cgal", 1000, [&](const Points& p, base::Random&) {
         if (!moderate(p)) return;
         EXPECT_EQ(static_cast<int>(ask(p)), side_by<Epick>(p)) << describe(p);
         ++asked;
@@ -45,7 +45,7 @@ TEST(SidesAgainstCgal, KernelOfExactPredicates) {
 }
 
 TEST(SidesAgainstCgal, Rationals) {
-    for_hard_points("rationals", 100, [&](const Points& p, Random&) {
+    for_hard_points("rationals", 100, [&](const Points& p, base::Random&) {
         EXPECT_EQ(static_cast<int>(ask(p)), side_by<CGAL::Simple_cartesian<CGAL::Gmpq>>(p)) << describe(p);
     });
 }

@@ -34,7 +34,7 @@ OracleAnswer permuted(const OracleAnswer& a, const std::array<int, 4>& order, in
 // determinants of the tetrahedron that only some order of vertices shows.
 TEST(Laws, permutations_permute_the_answer) {
     for (int k = 0; k < 300; ++k) {
-        Random r = Random::stream(1, hash64("permutation"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("permutation"), static_cast<std::uint64_t>(k));
         const Kind kind = all_kinds[r.below(all_kinds.size())];
         const Case c = random_case(r, all_simplices[r.below(4)], kind);
         const int count = vertex_count(c.simplex);
@@ -49,7 +49,7 @@ TEST(Laws, permutations_permute_the_answer) {
 
 TEST(Laws, powers_of_two_scale_nothing) {
     for (int k = 0; k < 3000; ++k) {
-        Random r = Random::stream(1, hash64("scaling"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("scaling"), static_cast<std::uint64_t>(k));
         const Kind kind = r.coin() ? Kind::ordinary : Kind::lattice;
         const Case c = random_case(r, all_simplices[r.below(4)], kind);
         Case scaled = c;
@@ -76,7 +76,7 @@ TEST(Laws, powers_of_two_scale_nothing) {
 
 TEST(Laws, exact_translations_move_nothing) {
     for (int k = 0; k < 3000; ++k) {
-        Random r = Random::stream(1, hash64("translation"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("translation"), static_cast<std::uint64_t>(k));
         Case c;
         c.simplex = all_simplices[r.below(4)];
         // Integers below 2^20 moved by integers below 2^50: every sum is exact.
@@ -98,7 +98,7 @@ TEST(Laws, exact_translations_move_nothing) {
 // A constant field is reproduced exactly, inside and far outside; so is a coordinate.
 TEST(Laws, constants_and_coordinates_are_reproduced) {
     for (int k = 0; k < 2000; ++k) {
-        Random r = Random::stream(1, hash64("fields"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("fields"), static_cast<std::uint64_t>(k));
         Case c =
             random_case(r, r.coin() ? Simplex::triangle : Simplex::tetrahedron, all_kinds[r.below(all_kinds.size())]);
         if (ask_oracle(c).region == Region::degenerate) continue;

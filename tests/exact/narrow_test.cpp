@@ -10,7 +10,7 @@ TEST(Narrow, ordinary_meshes_take_it) {
     // Multiples of 2^-53 below 1, as unit-cube meshes have, and single precision over a wide range.
     for (const Simplex simplex : all_simplices) {
         for (int k = 0; k < 500; ++k) {
-            Random r = Random::stream(1, hash64("narrow"), static_cast<std::uint64_t>(k));
+            base::Random r = base::Random::stream(1, base::hash64("narrow"), static_cast<std::uint64_t>(k));
             Case c;
             c.simplex = simplex;
             const bool single = r.coin();
@@ -36,7 +36,7 @@ TEST(Narrow, zeros_cost_nothing) {
 }
 
 /// An integer below 2^span in magnitude; the largest such doubles are drawn often.
-double at_the_bound(Random& r, int span) {
+double at_the_bound(base::Random& r, int span) {
     const double top = std::ldexp(0x1.fffffffffffffp-1, span);
     switch (r.integer(0, 6)) {
         case 0:
@@ -58,7 +58,7 @@ double at_the_bound(Random& r, int span) {
 TEST(Narrow, extremes_at_the_bound) {
     int narrow = 0;
     for (int k = 0; k < 6000; ++k) {
-        Random r = Random::stream(1, hash64("bound"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("bound"), static_cast<std::uint64_t>(k));
         Case c;
         c.simplex = all_simplices[r.below(4)];
         // 61 is the last span that is narrow; a few more must be told and still be right. Coordinates and values apart:

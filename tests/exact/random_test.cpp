@@ -18,8 +18,8 @@ TEST_P(RandomCases, equal_the_second_path) {
     for (const Simplex simplex : all_simplices) {
         std::map<Region, int> regions;
         for (int k = 0; k < count; ++k) {
-            Random r = Random::stream(1, hash64(name(kind)) + static_cast<std::uint64_t>(simplex),
-                                      static_cast<std::uint64_t>(k));
+            base::Random r = base::Random::stream(1, base::hash64(name(kind)) + static_cast<std::uint64_t>(simplex),
+                                                  static_cast<std::uint64_t>(k));
             ++regions[check(random_case(r, simplex, kind)).region];
             ASSERT_FALSE(HasFailure()) << name(kind) << ", case " << k;
         }
@@ -44,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(, RandomCases, ::testing::ValuesIn(all_kinds), [](const
 TEST(Lattice, all_points_about_unit_simplices) {
     std::map<Feature, int> features;
     for (const Simplex simplex : all_simplices) {
-        Random r = Random::stream(1, hash64("lattice"), static_cast<std::uint64_t>(simplex));
+        base::Random r = base::Random::stream(1, base::hash64("lattice"), static_cast<std::uint64_t>(simplex));
         for (int k = 0; k < 5; ++k) {
             Case c;
             c.simplex = simplex;

@@ -43,7 +43,7 @@ TEST(Partition, by_hand) {
 
 TEST(Partition, equals_the_second_path) {
     for (int k = 0; k < 20000; ++k) {
-        Random r = Random::stream(1, hash64("partition"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("partition"), static_cast<std::uint64_t>(k));
         const Kind kind = all_kinds[r.below(all_kinds.size())];
         std::array<double, 4> w{};
         for (double& x : w) x = number(r, kind, r.integer(0, 2));
@@ -78,7 +78,8 @@ TEST(Reproduction, equals_the_second_path) {
     for (const Kind kind : all_kinds) {
         const int count = kind == Kind::bit_patterns ? 100 : 600;
         for (int k = 0; k < count; ++k) {
-            Random r = Random::stream(1, hash64("reproduction") + hash64(name(kind)), static_cast<std::uint64_t>(k));
+            base::Random r = base::Random::stream(1, base::hash64("reproduction") + base::hash64(name(kind)),
+                                                  static_cast<std::uint64_t>(k));
             const Case c = random_case(r, all_simplices[r.below(4)], kind);
             const auto exact = second_path::weights(c);
             if (!exact) continue;

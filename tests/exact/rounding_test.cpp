@@ -31,7 +31,7 @@ Q word(std::uint64_t q) {
 }
 
 /// A word with `length` bits whose low part is often at, or next to, a tie or zero.
-std::uint64_t near_a_tie(Random& r, int length) {
+std::uint64_t near_a_tie(base::Random& r, int length) {
     std::uint64_t q = (r.bits() | (std::uint64_t{1} << 63)) >> (64 - length);
     const int low = r.integer(1, length - 1);
     const std::uint64_t mask = (std::uint64_t{1} << low) - 1;
@@ -91,7 +91,7 @@ TEST(RoundScaled, equals_the_definition_in_every_regime) {
     const Q third(1, 3);
     int open = 0;
     for (int k = 0; k < 20000; ++k) {
-        Random r = Random::stream(1, hash64("scaled"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("scaled"), static_cast<std::uint64_t>(k));
         const int length = r.integer(55, 64);
         const std::uint64_t q = near_a_tie(r, length);
         const std::array<int, 4> regimes{r.integer(-1200, 1100), -1022 - r.integer(-2, 56), 1023 - r.integer(-1, 1),
@@ -134,7 +134,7 @@ void check_quotient(const Q& n, const Q& d, int exponent) {
 // and its rest must. Catches the rest ignored, and a shortcut that trusts its bounds where they differ.
 TEST(RoundQuotient, ties_and_their_neighbours) {
     for (int k = 0; k < 6000; ++k) {
-        Random r = Random::stream(1, hash64("quotient"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("quotient"), static_cast<std::uint64_t>(k));
         std::vector<std::uint64_t> words(static_cast<std::size_t>(r.integer(1, 4)));
         for (auto& w : words) w = r.bits() >> r.integer(0, 30);
         words[0] |= 1;
@@ -180,7 +180,7 @@ void check_root(const Q& n, const Q& d, int exponent) {
 // Squares of ties, and one unit beside them: catches the rest of the root or of the division ignored.
 TEST(RoundRoot, squares_of_ties_and_their_neighbours) {
     for (int k = 0; k < 4000; ++k) {
-        Random r = Random::stream(1, hash64("root"), static_cast<std::uint64_t>(k));
+        base::Random r = base::Random::stream(1, base::hash64("root"), static_cast<std::uint64_t>(k));
         const Q root = word(near_a_tie(r, r.integer(54, 57)));
         const Q d = r.coin() ? Q(1) : word(r.bits() | 1);
         const std::array<int, 3> exponents{0, -1080 - r.integer(0, 50), 968 + r.integer(-2, 4)};

@@ -15,7 +15,7 @@ RowData two_rows(const TableFormat& format) {
             .points = format.dimension == 3 ? std::vector<double>{1, 2.5, -0.0, 1e300, 0.1, 5e-324}
                                             : std::vector<double>{1, 2.5, 1e300, 0.1},
             .values = format.fields.size() == 2 ? std::vector<double>{0.3, std::nan(""), -std::nan(""), 7}
-                                                 : std::vector<double>{},
+                                                : std::vector<double>{},
             .distances = {0, 0.25},
             .cells = {12, -1},
             .features = {Feature::face, Feature::outside}};
@@ -47,8 +47,8 @@ TEST(CsvSink, the_text) {
 }
 
 TEST(CsvSink, names_are_quoted_where_they_must_be) {
-    const RowData data =
-        random_rows(0, {.dimension = 2, .fields = {{"a b"}, {"a,b"}, {"a\"b"}, {"a\nb"}, {"a\rb"}, {""}, {"\xC3\xA4"}}}, 1);
+    const RowData data = random_rows(
+        0, {.dimension = 2, .fields = {{"a b"}, {"a,b"}, {"a\"b"}, {"a\nb"}, {"a\rb"}, {""}, {"\xC3\xA4"}}}, 1);
     EXPECT_EQ(written(data), "x,y,cell,feature,a b,\"a,b\",\"a\"\"b\",\"a\nb\",\"a\rb\",,\xC3\xA4\n");
 }
 
@@ -67,7 +67,7 @@ void expect_round_trip(const std::string& text, const RowData& data) {
         const auto expect_number = [&](double expected) {
             std::getline(fields, field, ',');
             ASSERT_TRUE(same(expected, std::strtod(field.c_str(), nullptr))) << line;
-            ASSERT_EQ(field, shortest(expected));
+            ASSERT_EQ(field, base::shortest(expected));
         };
         const auto d = static_cast<std::size_t>(data.format.dimension);
         const std::size_t c = data.format.fields.size();
@@ -105,7 +105,7 @@ TEST(CsvSink, every_number_reads_back_to_the_same_bits) {
             }
             EXPECT_TRUE(text == first) << "the blocks must not show";
             if (c.format.fields.size() > 2) continue;
-            const Result<std::vector<double>> points = read_file(folder / "r.csv", c.format.dimension, 1000);
+            const Result<std::vector<double>> points = base::read_file(folder / "r.csv", c.format.dimension, 1000);
             ASSERT_TRUE(points) << points.error().message();
             EXPECT_EQ(bits_of(*points), bits_of(data.points));
         }

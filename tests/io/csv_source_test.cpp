@@ -87,7 +87,7 @@ TEST(CsvSource, last_lines_without_line_end) {
 }
 
 TEST(CsvSource, the_same_numbers_as_strtod) {
-    Random random(7);
+    base::Random random(7);
     std::string text = "x,y\n";
     std::vector<double> expected;
     const auto add = [&](const std::string& number) {

@@ -76,7 +76,7 @@ TEST(Damage, changed_bytes) {
     const TemporaryFolder folder;
     int accepted = 0, refused = 0;
     for (std::uint64_t seed = 0; seed < 14000; ++seed) {
-        Random random(seed);
+        base::Random random(seed);
         const Sample& sample = all[random.below(all.size())];
         std::string bytes = sample.bytes;
         for (std::uint64_t i = 1 + random.below(4); i > 0 && !bytes.empty(); --i) {
@@ -90,8 +90,8 @@ TEST(Damage, changed_bytes) {
         }
         SCOPED_TRACE(seed);
         put(folder / sample.name, bytes);
-        const Result<std::vector<double>> one = read_file(folder / sample.name, 3, 1);
-        const Result<std::vector<double>> two = read_file(folder / sample.name, 3, 100);
+        const Result<std::vector<double>> one = base::read_file(folder / sample.name, 3, 1);
+        const Result<std::vector<double>> two = base::read_file(folder / sample.name, 3, 100);
         ASSERT_EQ(one.has_value(), two.has_value());
         ASSERT_EQ(one ? bits_of(*one) : one.error().message(), two ? bits_of(*two) : two.error().message());
         expect_sane(one, bytes);
@@ -104,13 +104,13 @@ TEST(Damage, changed_bytes) {
 TEST(Damage, random_bytes) {
     const TemporaryFolder folder;
     for (std::uint64_t seed = 0; seed < 3000; ++seed) {
-        Random random(seed);
+        base::Random random(seed);
         std::string bytes;
         for (std::uint64_t size = random.below(200); size > 0; --size) bytes += static_cast<char>(random.below(256));
         const char* const name = seed % 3 == 0 ? "p.csv" : seed % 3 == 1 ? "p.npy" : "p.node";
         if (seed % 3 == 1) bytes = std::string("\x93NUMPY\x01\0\x40\0", 10) + bytes;
         put(folder / name, bytes);
-        expect_sane(read_file(folder / name, 3), bytes);
+        expect_sane(base::read_file(folder / name, 3), bytes);
     }
 }
 

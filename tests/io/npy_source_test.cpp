@@ -69,7 +69,7 @@ TEST(NpySource, tells_the_count) {
     EXPECT_EQ(open_points(folder / "p.npy", 3).value()->count(), 3U);
 }
 
-void expect_refused(const std::string& bytes, int dimension, const Expected& expected) {
+void expect_npy_refused(const std::string& bytes, int dimension, const Expected& expected) {
     expect_error(read_bytes("p.npy", bytes, dimension), "/p.npy", expected);
 }
 
@@ -77,50 +77,52 @@ TEST(NpySource, types_that_are_refused) {
     const char* const what = "cannot read points of that type";
     for (const char* type : {"<i8", "<f2", "|O", "<c16", "=f8", "|u1", "<f16", "f8"}) {
         SCOPED_TRACE(type);
-        expect_refused(npy_bytes(npy_dictionary(type, "(3, 3)"), as_bytes(points)), 3,
-                       {0, what, "float64 or float32: '<f8', '>f8', '<f4' or '>f4'",
-                        ("'" + std::string(type) + "'").c_str(), "a.astype('f8')"});
+        expect_npy_refused(npy_bytes(npy_dictionary(type, "(3, 3)"), as_bytes(points)), 3,
+                           {0, what, "float64 or float32: '<f8', '>f8', '<f4' or '>f4'",
+                            ("'" + std::string(type) + "'").c_str(), "a.astype('f8')"});
     }
     const std::string structured =
         "{'descr': [('x', '<f8'), ('a]\\'', '<f8', (2,))], 'fortran_order': False, 'shape': (3,), }";
-    expect_refused(npy_bytes(structured, as_bytes(points)), 3,
-                   {0, what, "float64 or float32", "a structured array", "a['z']"});
-    expect_refused(npy_bytes(structured, as_bytes(points)), 2,
-                   {0, what, "float64 or float32", "a structured array", "[a['x'], a['y']]"});
+    expect_npy_refused(npy_bytes(structured, as_bytes(points)), 3,
+                       {0, what, "float64 or float32", "a structured array", "a['z']"});
+    expect_npy_refused(npy_bytes(structured, as_bytes(points)), 2,
+                       {0, what, "float64 or float32", "a structured array", "[a['x'], a['y']]"});
 }
 
 TEST(NpySource, shapes_that_are_refused) {
     const auto shaped = [](const char* shape) { return npy_bytes(npy_dictionary("<f8", shape), as_bytes(points)); };
     const char* const what = "an array of another shape";
-    expect_refused(shaped("(9,)"), 3, {0, what, "(n, 3), for the mesh is 3-dimensional", "(9,)", "a.reshape(-1, 3)"});
-    expect_refused(shaped("()"), 3, {0, what, nullptr, "()", nullptr});
-    expect_refused(shaped("(3, 3)"), 2, {0, what, "(n, 2), for the mesh is 2-dimensional", "(3, 3)", "a[:, :2]"});
-    expect_refused(shaped("(3, 2)"), 3, {0, what, nullptr, "(3, 2)", "a.T"});
-    expect_refused(shaped("(4, 2)"), 3, {0, what, nullptr, "(4, 2)", "a row of 3 coordinates"});
-    expect_refused(shaped("(3, 3, 1)"), 3, {0, what, nullptr, "(3, 3, 1)", nullptr});
-    expect_refused(
+    expect_npy_refused(shaped("(9,)"), 3,
+                       {0, what, "(n, 3), for the mesh is 3-dimensional", "(9,)", "a.reshape(-1, 3)"});
+    expect_npy_refused(shaped("()"), 3, {0, what, nullptr, "()", nullptr});
+    expect_npy_refused(shaped("(3, 3)"), 2, {0, what, "(n, 2), for the mesh is 2-dimensional", "(3, 3)", "a[:, :2]"});
+    expect_npy_refused(shaped("(3, 2)"), 3, {0, what, nullptr, "(3, 2)", "a.T"});
+    expect_npy_refused(shaped("(4, 2)"), 3, {0, what, nullptr, "(4, 2)", "a row of 3 coordinates"});
+    expect_npy_refused(shaped("(3, 3, 1)"), 3, {0, what, nullptr, "(3, 3, 1)", nullptr});
+    expect_npy_refused(
         shaped("(4, 3)"), 3,
         {0, "the file ends too early", "4 points of 24 bytes, as its header tells", "72 bytes", "cut short"});
-    expect_refused(shaped("(2, 3)"), 3,
-                   {0, "bytes after the array", "48, as the header tells", "72", "one array a file"});
-    expect_refused(shaped("(18446744073709551615, 3)"), 3,
-                   {0, "the file ends too early", nullptr, "72 bytes", nullptr});
-    expect_refused(shaped("(768614336404564653, 3)"), 3,
-                   {0, "the file ends too early", nullptr, "72 bytes", nullptr});  // 24 n wraps round
+    expect_npy_refused(shaped("(2, 3)"), 3,
+                       {0, "bytes after the array", "48, as the header tells", "72", "one array a file"});
+    expect_npy_refused(shaped("(18446744073709551615, 3)"), 3,
+                       {0, "the file ends too early", nullptr, "72 bytes", nullptr});
+    expect_npy_refused(shaped("(768614336404564653, 3)"), 3,
+                       {0, "the file ends too early", nullptr, "72 bytes", nullptr});  // 24 n wraps round
 }
 
 TEST(NpySource, headers_that_are_refused) {
     const char* const what = "cannot read the header of the NPY file";
-    expect_refused("", 3, {0, what, nullptr, "nothing", "numpy.save"});
-    expect_refused("1,2,3\n4,5,6\n", 3, {0, what, "a file that begins with \\x93NUMPY", "'1,2,3\\n'", nullptr});
-    expect_refused(std::string("PK\x03\x04 and more"), 3, {0, what, "one array", nullptr, "the one array of points"});
+    expect_npy_refused("", 3, {0, what, nullptr, "nothing", "numpy.save"});
+    expect_npy_refused("1,2,3\n4,5,6\n", 3, {0, what, "a file that begins with \\x93NUMPY", "'1,2,3\\n'", nullptr});
+    expect_npy_refused(std::string("PK\x03\x04 and more"), 3,
+                       {0, what, "one array", nullptr, "the one array of points"});
     std::string bytes = npy_bytes(npy_dictionary("<f8", "(3, 3)"), as_bytes(points));
     bytes[6] = 4;
-    expect_refused(bytes, 3, {0, what, "version 1, 2 or 3", "version 4.0", nullptr});
+    expect_npy_refused(bytes, 3, {0, what, "version 1, 2 or 3", "version 4.0", nullptr});
     bytes[6] = 0;
-    expect_refused(bytes, 3, {0, what, "version 1, 2 or 3", "version 0.0", nullptr});
+    expect_npy_refused(bytes, 3, {0, what, "version 1, 2 or 3", "version 0.0", nullptr});
     bytes[6] = 2;  // so the first letters of the text become a length
-    expect_refused(bytes, 3, {0, what, "a header of at most 1048576 bytes", nullptr, nullptr});
+    expect_npy_refused(bytes, 3, {0, what, "a header of at most 1048576 bytes", nullptr, nullptr});
     for (const char* text : {"{}", "[]", "{'descr': '<f8', 'fortran_order': False}",
                              "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 3)",
                              "{'descr': '<f8', 'fortran_order': False, 'shape': (3, -3)}",
@@ -133,8 +135,8 @@ TEST(NpySource, headers_that_are_refused) {
                              "{'descr: <f8', 'fortran_order': False, 'shape': (3, 3)}",
                              "{'descr': [('x', '<f8'), 'fortran_order': False}"}) {
         SCOPED_TRACE(text);
-        expect_refused(npy_bytes(text, as_bytes(points)), 3,
-                       {0, what, "a dictionary of descr, fortran_order and shape", nullptr, nullptr});
+        expect_npy_refused(npy_bytes(text, as_bytes(points)), 3,
+                           {0, what, "a dictionary of descr, fortran_order and shape", nullptr, nullptr});
     }
 }
 
@@ -142,22 +144,22 @@ TEST(NpySource, points_that_are_not_finite) {
     std::vector<double> bad = points;
     bad[5] = std::numeric_limits<double>::quiet_NaN();
     const Expected nan{0, "a point that is not finite", "finite coordinates", "nan at [1, 2]", "isfinite"};
-    expect_refused(npy_bytes(npy_dictionary("<f8", "(3, 3)"), as_bytes(bad)), 3, nan);
+    expect_npy_refused(npy_bytes(npy_dictionary("<f8", "(3, 3)"), as_bytes(bad)), 3, nan);
     bad[5] = 0;
     bad[7] = -std::numeric_limits<double>::infinity();
-    expect_refused(npy_bytes(npy_dictionary("<f8", "(3, 3)"), as_bytes(bad)), 3,
-                   {0, "a point that is not finite", nullptr, "-inf at [2, 1]", nullptr});
+    expect_npy_refused(npy_bytes(npy_dictionary("<f8", "(3, 3)"), as_bytes(bad)), 3,
+                       {0, "a point that is not finite", nullptr, "-inf at [2, 1]", nullptr});
 }
 
 TEST(NpySource, files_that_cannot_be_opened) {
     const TemporaryFolder folder;
-    expect_error(read_file(folder / "none.npy", 3), "/none.npy",
+    expect_error(base::read_file(folder / "none.npy", 3), "/none.npy",
                  {0, "cannot read the file", nullptr, "No such file or directory", "check the path"});
     std::filesystem::create_directory(folder / "d.npy");
-    expect_error(read_file(folder / "d.npy", 3), "/d.npy",
+    expect_error(base::read_file(folder / "d.npy", 3), "/d.npy",
                  {0, "cannot read the file", "a regular file", "a folder", nullptr});
     ASSERT_EQ(::mkfifo((folder / "f.npy").c_str(), 0600), 0);
-    expect_error(read_file(folder / "f.npy", 3), "/f.npy",
+    expect_error(base::read_file(folder / "f.npy", 3), "/f.npy",
                  {0, "cannot read the file", "a regular file", "a pipe or device", nullptr});
 }
 

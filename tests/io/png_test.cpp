@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "barycert/base/random.hpp"
-#include "barycert/picture.hpp"
 #include "barycert/io/png/colour_bar.hpp"
 #include "barycert/io/png/colour_map.hpp"
+#include "barycert/picture.hpp"
 #include "io/tetgen/mesh_files.hpp"
 
 namespace barycert::io {
@@ -57,7 +57,7 @@ Picture picture(const std::string& path) {
 }
 
 std::array<int, 4> colour_of(int i) {
-    const Colour c = colour(i);
+    const io::Colour c = io::colour(i);
     return {c[0], c[1], c[2], 255};
 }
 
@@ -87,7 +87,7 @@ std::array<double, 3> oklab(const std::array<double, 3>& c) {
             0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
 }
 
-std::array<double, 3> oklab(const Colour& c) {
+std::array<double, 3> oklab(const io::Colour& c) {
     return oklab(std::array<double, 3>{1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
 }
 
@@ -106,8 +106,8 @@ TEST(ColourMap, is_the_curve_that_it_says) {
     for (int i = 0; i < pieces; ++i) {
         length.push_back(length.back() + distance(curve(1.0 * i / pieces), curve((i + 1.0) / pieces)));
     }
-    for (int k = 0; k < colour_count; ++k) {
-        const auto next = std::lower_bound(length.begin(), length.end(), length.back() * k / (colour_count - 1));
+    for (int k = 0; k < io::colour_count; ++k) {
+        const auto next = std::lower_bound(length.begin(), length.end(), length.back() * k / (io::colour_count - 1));
         const auto [light, a, b] = curve(1.0 * static_cast<double>(next - length.begin()) / pieces);
         const double l = std::pow(light + 0.3963377774 * a + 0.2158037573 * b, 3);
         const double m = std::pow(light - 0.1055613458 * a - 0.0638541728 * b, 3);
@@ -115,7 +115,7 @@ TEST(ColourMap, is_the_curve_that_it_says) {
         const std::array<double, 3> linear{4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
                                            -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
                                            -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s};
-        const Colour c = colour(k);
+        const io::Colour c = io::colour(k);
         for (std::size_t i = 0; i < 3; ++i) {
             ASSERT_GT(linear[i], 0);  // a colour that sRGB has
             ASSERT_LT(linear[i], 1);
@@ -127,7 +127,7 @@ TEST(ColourMap, is_the_curve_that_it_says) {
 }
 
 /// How far the rounding to 8 bits, half a step in each component, may have moved a colour.
-double rounding_of(const Colour& c) {
+double rounding_of(const io::Colour& c) {
     std::array<double, 3> exact{};
     double most = 0;
     for (int corner = 0; corner < 8; ++corner) {
@@ -141,15 +141,15 @@ double rounding_of(const Colour& c) {
 /// the chord being shorter than the curve: its hue turns by 12.4 degrees, which makes at most 0.2 % (angle^2 / 24).
 TEST(ColourMap, equal_steps_and_ever_lighter) {
     double least = 1, most = 0;
-    for (int i = 0; i + 16 < colour_count; ++i) {
-        const double apart = distance(oklab(colour(i)), oklab(colour(i + 16)));
-        const double rounding = rounding_of(colour(i)) + rounding_of(colour(i + 16));
+    for (int i = 0; i + 16 < io::colour_count; ++i) {
+        const double apart = distance(oklab(io::colour(i)), oklab(io::colour(i + 16)));
+        const double rounding = rounding_of(io::colour(i)) + rounding_of(io::colour(i + 16));
         EXPECT_LT(rounding, 0.2 * apart);
         least = std::min(least, 1.002 * (apart + rounding));
         most = std::max(most, apart - rounding);
     }
     EXPECT_LE(most, least);
-    for (int i = 1; i < colour_count; ++i) EXPECT_GT(oklab(colour(i))[0], oklab(colour(i - 1))[0]) << i;
+    for (int i = 1; i < io::colour_count; ++i) EXPECT_GT(oklab(io::colour(i))[0], oklab(io::colour(i - 1))[0]) << i;
 }
 
 TEST(Png, every_pixel_is_the_colour_of_its_value) {
@@ -246,7 +246,7 @@ TEST(Png, sizes) {
              {1, 1}, {1, 1000}, {1000, 1}, {2, 3}, {640, 480}, {4096, 4096}, {1000000, 1}, {1, 1000000}}) {
         SCOPED_TRACE(std::to_string(width) + " by " + std::to_string(height));
         std::vector<double> values(width * height);
-        Random random(width + height);
+        base::Random random(width + height);
         for (double& x : values) x = static_cast<double>(random.below(257));
         values[0] = 0;  // so that the range is known, where there are two values
         values.back() = 256;
@@ -256,7 +256,7 @@ TEST(Png, sizes) {
         if (values.size() == 1) continue;
         std::size_t wrong = 0;
         for (std::size_t i = 0; i < values.size(); ++i) {
-            const Colour c = colour(std::min(255, static_cast<int>(values[i])));
+            const io::Colour c = io::colour(std::min(255, static_cast<int>(values[i])));
             const std::uint8_t* const pixel = &p.bytes[4 * ((height - 1 - i / width) * width + i % width)];
             wrong += pixel[0] != c[0] || pixel[1] != c[1] || pixel[2] != c[2] || pixel[3] != 255;
         }
@@ -293,7 +293,7 @@ TEST(Png, the_bar_stands_beside_the_slice) {
         const Slice slice{.width = 40, .height = height, .values = std::span(values).first(40 * height)};
         ASSERT_TRUE(write_png(folder / "bar.png", slice));
         const Picture plain = drawn(slice), p = picture(folder / "bar.png");
-        ASSERT_EQ(p.height, std::max<std::size_t>(height, least_bar_height));
+        ASSERT_EQ(p.height, std::max<std::size_t>(height, io::least_bar_height));
         for (std::size_t y = 0; y < p.height; ++y) {
             for (std::size_t x = 0; x < 40; ++x) EXPECT_EQ(p.at(x, y), y < height ? plain.at(x, y) : transparent);
             for (std::size_t x = 40; x < p.width; ++x) EXPECT_EQ(p.at(x, y)[3], 255);
@@ -311,7 +311,7 @@ TEST(Png, the_bar_stands_beside_the_slice) {
 
 /// What stands in the panel of a bar, dark dots as #.
 std::vector<std::string> panel(double low, double high, std::size_t height) {
-    const ColourBar bar(low, high, height);
+    const io::ColourBar bar(low, high, height);
     std::vector<std::string> rows;
     std::vector<std::uint8_t> pixels(4 * bar.width());
     for (std::size_t r = 0; r < height; ++r) {
@@ -398,7 +398,7 @@ TEST(Png, a_full_disk_leaves_the_target) {
     const TemporaryFolder folder;
     testing::put(folder / "s.png", "old");
     std::vector<double> values(1000000);
-    Random random(1);
+    base::Random random(1);
     for (double& x : values) x = random.uniform(0, 1);
     std::vector<Status> failures;
     std::size_t asked = 0;

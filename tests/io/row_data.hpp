@@ -38,7 +38,7 @@ struct RowData {
 };
 
 /// Any finite double, every exponent as likely as the next; at times one at the ends of the range.
-inline double any_finite(Random& random) {
+inline double any_finite(base::Random& random) {
     constexpr double limits[] = {
         0.0, -0.0, 5e-324, -5e-324, 0x1p-1022, 0x0.fffffffffffffp-1022, 1.7976931348623157e308, 1, 1e22, 123456789};
     if (random.below(8) == 0) return limits[random.below(std::size(limits))];
@@ -51,7 +51,7 @@ inline double any_finite(Random& random) {
 inline RowData random_rows(std::size_t count, const TableFormat& format, std::uint64_t seed) {
     constexpr Feature all[] = {Feature::interior, Feature::face, Feature::edge, Feature::vertex, Feature::outside};
     constexpr double inf = std::numeric_limits<double>::infinity();
-    Random random(seed);
+    base::Random random(seed);
     RowData data{.format = format, .points = {}, .values = {}, .distances = {}, .cells = {}, .features = {}};
     for (std::size_t row = 0; row < count; ++row) {
         for (int axis = 0; axis < format.dimension; ++axis) data.points.push_back(any_finite(random));

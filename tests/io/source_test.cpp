@@ -6,25 +6,26 @@ namespace barycert::io::testing {
 namespace {
 
 TEST(Formats, by_suffix) {
-    EXPECT_EQ(format_of("-").value(), FileFormat::csv);
-    EXPECT_EQ(format_of("a/b.c.csv").value(), FileFormat::csv);
-    EXPECT_EQ(format_of("B.NPY").value(), FileFormat::npy);
-    EXPECT_EQ(format_of("b.Node").value(), FileFormat::node);
-    EXPECT_EQ(format_of("b.vtu").value(), FileFormat::vtu);
-    const Result<FileFormat> other = format_of("a/b.vtk");
+    EXPECT_EQ(io::format_of("-").value(), io::FileFormat::csv);
+    EXPECT_EQ(io::format_of("a/b.c.csv").value(), io::FileFormat::csv);
+    EXPECT_EQ(io::format_of("B.NPY").value(), io::FileFormat::npy);
+    EXPECT_EQ(io::format_of("b.Node").value(), io::FileFormat::node);
+    EXPECT_EQ(io::format_of("b.vtu").value(), io::FileFormat::vtu);
+    const Result<io::FileFormat> other = io::format_of("a/b.vtk");
     expect_error(
         other, "a/b.vtk",
         {0, "a format that is not known by its suffix",
          ".csv, .npy, .node or .vtu, or - for CSV from standard input or on standard output", "\".vtk\"", "convert"});
-    expect_error(format_of("a.csv/b"), "b",
+    expect_error(io::format_of("a.csv/b"), "b",
                  {0, "a format that is not known by its suffix", nullptr, "no suffix", nullptr});
-    EXPECT_FALSE(format_of(""));
-    EXPECT_FALSE(format_of("csv"));
+    EXPECT_FALSE(io::format_of(""));
+    EXPECT_FALSE(io::format_of("csv"));
 }
 
 TEST(Formats, sources) {
-    expect_error(open_points("p.vtu", 3), "p.vtu",
-                 {0, "this build has no VTK, which reads and writes .vtu, .vtk and .vtp files", nullptr, nullptr, "VTK"});
+    expect_error(
+        open_points("p.vtu", 3), "p.vtu",
+        {0, "this build has no VTK, which reads and writes .vtu, .vtk and .vtp files", nullptr, nullptr, "VTK"});
     expect_error(open_points("p.txt", 3), "p.txt",
                  {0, "a format that is not known by its suffix", nullptr, "\".txt\"", nullptr});
     expect_error(open_points("p.csv", 4), "p.csv", {0, "points of an impossible dimension", "2 or 3", "4", nullptr});
@@ -53,4 +54,4 @@ TEST(MemorySource, gives_the_points) {
 }
 
 }  // namespace
-}  // namespace barycert::testing
+}  // namespace barycert::io::testing

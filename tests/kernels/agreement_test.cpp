@@ -18,7 +18,7 @@ constexpr double u = 0x1p-53;
 
 /// Vertices in [-1,1]^3, a point in [-2,2]^3.
 Case random_case(std::uint64_t seed) {
-    Random random(seed);
+    base::Random random(seed);
     Case c;
     for (double& x : c.vertices) x = random.uniform(-1, 1);
     for (double& x : c.point) x = random.uniform(-2, 2);

@@ -74,7 +74,7 @@ TEST(Breaking, OneMinusSumHidesTheError) {
     const Kernel& k = *find("tetrahedron.one-minus-sum");
     int hidden = 0;
     for (std::uint64_t i = 0; i < 100; ++i) {
-        Random random = Random::stream(1, 1, i);
+        base::Random random = base::Random::stream(1, 1, i);
         Case c;
         for (double& x : c.vertices) x = random.uniform(-1, 1);
         for (double& x : c.point) x = random.uniform(-1, 1);
@@ -95,7 +95,7 @@ TEST(Breaking, OneMinusSumHidesTheError) {
 
 /// Relative to a point 2^30 away the vertices coincide to 23 bits: no digit of any weight is right.
 TEST(Breaking, FarPointsLoseEveryDigitOfVolumes) {
-    Random random(1);
+    base::Random random(1);
     for (const char* formula : {"tetrahedron.two-cross-products", "tetrahedron.signed-volume"}) {
         int lost = 0;
         for (int i = 0; i < 100; ++i) {
@@ -116,7 +116,7 @@ int different(const std::string& base, const std::string& variant) {
     const Kernel &k = *find(base), &l = *find(base + variant);
     int count = 0;
     for (std::uint64_t i = 0; i < 1000; ++i) {
-        Random random = Random::stream(1, 0, i);
+        base::Random random = base::Random::stream(1, 0, i);
         Case c;
         for (double& x : c.vertices) x = random.uniform(-1, 1);
         for (double& x : c.point) x = random.uniform(-1, 1);

@@ -39,7 +39,7 @@ void in_every_environment(const std::function<void(const char*)>& work) {
 }
 
 /// Zeros, subnormals, small integers and powers of two from end to end of the range.
-double any_number(Random& random) {
+double any_number(base::Random& random) {
     switch (random.below(4)) {
         case 0:
             return 0;
@@ -72,7 +72,7 @@ TEST(Environment, ASubnormalBesideOrdinaryNumbers) {
 
 TEST(Environment, SignsOfMixedNumbers) {
     for (const Simplex s : all_simplices) {
-        Random random = Random::stream(5, static_cast<std::uint64_t>(s), 0);
+        base::Random random = base::Random::stream(5, static_cast<std::uint64_t>(s), 0);
         int failures = 0;
         for (int i = 0; i < 5000 && failures < 3; ++i) {
             Case c;
@@ -86,9 +86,9 @@ TEST(Environment, SignsOfMixedNumbers) {
                 if (v.text(vertex_count(s)) == expected) return;
                 ++failures;
                 std::string numbers;
-                for (const double x : c.vertices) numbers += " " + hexadecimal(x);
+                for (const double x : c.vertices) numbers += " " + base::hexadecimal(x);
                 numbers += " point";
-                for (const double x : c.point) numbers += " " + hexadecimal(x);
+                for (const double x : c.point) numbers += " " + base::hexadecimal(x);
                 ADD_FAILURE() << environment << ": " << name(s) << numbers << "\n  oracle " << expected
                               << "\n  barycert " << v.text(vertex_count(s));
             });
@@ -110,7 +110,7 @@ TEST(Environment, SignsOfEveryFamily) {
 }
 
 TEST(Environment, Orientations) {
-    Random random(11);
+    base::Random random(11);
     for (int i = 0; i < 5000 && !HasFailure(); ++i) {
         double p[4][3];
         for (auto& q : p) {
@@ -125,7 +125,7 @@ TEST(Environment, Orientations) {
 }
 
 TEST(Environment, PointsOfValuesAndFromWeights) {
-    Random random(12);
+    base::Random random(12);
     for (int i = 0; i < 5000 && !HasFailure(); ++i) {
         double x[12], w[4], expected[3], point[3];
         for (double& y : x) y = any_number(random);

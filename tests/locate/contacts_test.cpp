@@ -29,7 +29,7 @@ Mesh cubes(int d, std::array<int, 3> size, Keep keep) {
 
 void expect_right_renumbered(const Mesh& mesh, const std::string& what) {
     for (std::uint64_t n = 0; n < 4; ++n) {
-        Random random = Random::stream(1, n, 0);
+        base::Random random = base::Random::stream(1, n, 0);
         Mesh other = n == 0 ? mesh : renumbered(mesh, random);
         if (n == 3) flip_some(other, random);
         EXPECT_TRUE(expect_right(other, awkward_points(other, 30, random), random, what, {.targets = n == 0}))
@@ -76,7 +76,7 @@ TEST(LocateContacts, L1_PartsApartAndCavities) {
 // What shares no nodes but touches is no complex: it must be asked cell by cell.
 TEST(LocateContacts, L1_PartsThatShareNoNodes) {
     for (const int d : {2, 3}) {
-        Random random(1);
+        base::Random random(1);
         const Mesh one = box(d, {2, 2, 2});
         for (const std::array<double, 3> shift : {std::array<double, 3>{2, 0, 0}, {2, 2, 0}, {2, 2, 2}, {1, 0, 0}}) {
             const Mesh two = joined(one, mapped(one, {1, 1, 1}, shift));

@@ -6,13 +6,13 @@
 
 #include "barycert/locator.hpp"
 #include "check/meshes.hpp"
+#include "limits.hpp"
 #include "locate/points.hpp"
 #include "locate/ways.hpp"
 
 namespace barycert::testing {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(LocateErrors, TheFirstPointThatIsNotFiniteIsNamed) {
@@ -162,7 +162,7 @@ TEST(LocateErrors, ACertificateOfAnotherMeshIsNone) {
         ASSERT_TRUE(other);
         EXPECT_EQ(other->method(), Method::candidates);
         const PointJudge judge(folded);
-        Random random(1);
+        base::Random random(1);
         const std::vector<double> points = awkward_points(folded, 40, random);
         for (std::size_t i = 0; i < points.size(); i += static_cast<std::size_t>(d)) {
             const std::vector<Held> all = judge.holders(&points[i]);

@@ -9,6 +9,7 @@
 #include "barycert/locate/nearest.hpp"
 #include "check/meshes.hpp"
 #include "check/random_complexes.hpp"
+#include "limits.hpp"
 #include "locate/judge.hpp"
 #include "locate/nearest_judge.hpp"
 #include "locate/points.hpp"
@@ -16,10 +17,8 @@
 namespace barycert::testing {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Directions along axes, along diagonals, and any; each in turn one ulp off.
-std::array<double, 3> direction(std::size_t i, Random& random) {
+std::array<double, 3> direction(std::size_t i, base::Random& random) {
     std::array<double, 3> v{};
     for (double& x : v) {
         const double any = random.uniform(-1, 1), sign = random.below(2) == 0 ? -1 : 1;
@@ -31,7 +30,7 @@ std::array<double, 3> direction(std::size_t i, Random& random) {
 }
 
 /// From a place in or near the box of the mesh (a lattice point of it, or any), so many sizes away; never overflowing.
-std::vector<double> far_points(const Mesh& mesh, double size, const std::vector<double>& sizes, Random& random) {
+std::vector<double> far_points(const Mesh& mesh, double size, const std::vector<double>& sizes, base::Random& random) {
     std::vector<double> points;
     const auto d = static_cast<std::size_t>(mesh.dimension);
     for (const double away : sizes) {
@@ -84,13 +83,13 @@ std::size_t expect_exact(const Mesh& mesh, const std::vector<double>& points, co
 TEST(LocateNearest, N1_ExactlyFromAnywhere) {
     for (const int d : {2, 3}) {
         for (const double size : {1.0, 0.1, 1e-300, 1e-150, 0x1p-1060, 1e290}) {
-            Random random = Random::stream(71, static_cast<std::uint64_t>(d), 0);
+            base::Random random = base::Random::stream(71, static_cast<std::uint64_t>(d), 0);
             const Mesh lattice = mapped(box(d, {2, 2, 1}), {size, size, size}, {size, -size, 0});
             Mesh askew = lattice;
             for (double& x : askew.points) x += size * random.uniform(-0.2, 0.2);
             for (const Mesh& mesh : {lattice, askew}) {
                 const std::vector<double> points = far_points(mesh, size, all_sizes(), random);
-                EXPECT_GT(expect_exact(mesh, points, "size " + hexadecimal(size)), 50U);
+                EXPECT_GT(expect_exact(mesh, points, "size " + base::hexadecimal(size)), 50U);
             }
         }
     }
@@ -101,7 +100,7 @@ TEST(LocateNearest, N1_ExactlyOnAnyMesh) {
     std::size_t asked = 0;
     for (const int d : {2, 3}) {
         for (std::uint64_t i = 0; i < 25 && !HasFailure(); ++i) {
-            Random random = Random::stream(72, static_cast<std::uint64_t>(d), i);
+            base::Random random = base::Random::stream(72, static_cast<std::uint64_t>(d), i);
             Mesh mesh = i % 2 == 0 ? random_soup(d, random) : damaged_box(d, random);
             if (i % 5 == 0) mesh = joined(mesh, mesh);
             asked += expect_exact(mesh, far_points(mesh, 1, {0.1, 1, 1e5, 1e15, 1e40, 1e300}, random), "soup");
@@ -114,11 +113,11 @@ TEST(LocateNearest, N1_ExactlyOnAnyMesh) {
 TEST(LocateNearest, N1_ExactlyOnThinCells) {
     for (const int d : {2, 3}) {
         for (const double thin : {1e-8, 1e-16, 1e-150, 1e-300}) {
-            Random random = Random::stream(73, static_cast<std::uint64_t>(d), 0);
+            base::Random random = base::Random::stream(73, static_cast<std::uint64_t>(d), 0);
             const std::array<double, 3> factor{1, d == 2 ? thin : 1, thin};
             const Mesh flat = mapped(box(d, {2, d == 2 ? 1 : 2, 1}), factor, {});
-            expect_exact(flat, far_points(flat, 1, all_sizes(), random), "flat " + hexadecimal(thin));
-            expect_exact(flat, far_points(flat, thin, {0.5, 3, 1e4}, random), "near flat " + hexadecimal(thin));
+            expect_exact(flat, far_points(flat, 1, all_sizes(), random), "flat " + base::hexadecimal(thin));
+            expect_exact(flat, far_points(flat, thin, {0.5, 3, 1e4}, random), "near flat " + base::hexadecimal(thin));
         }
     }
 }
@@ -137,15 +136,15 @@ TEST(LocateNearest, N1_InsideACellIsThatPoint) {
 
 /// Boxes and cells looked at for the dearest of some points in one direction, so many sizes away.
 std::uint64_t work_at(const Locator& locator, double away, std::size_t kind) {
-    Random random = Random::stream(74, kind, 0);
+    base::Random random = base::Random::stream(74, kind, 0);
     const auto d = static_cast<std::size_t>(locator.mesh().dimension);
     std::uint64_t most = 0;
     for (int i = 0; i < 20; ++i) {
         const std::array<double, 3> v = direction(kind, random);
         std::array<double, 3> p{};
         for (std::size_t k = 0; k < d; ++k) p[k] = 16 * (random.unit() + v[k] * away);
-        detail::NearestWork work;
-        const Nearest found = detail::find_nearest(locator.data(), p.data(), infinity, &work);
+        locate::NearestWork work;
+        const Nearest found = locate::find_nearest(locator.data(), p.data(), infinity, &work);
         EXPECT_GE(found.cell, 0);
         most = std::max(most, work.boxes + work.cells + 10 * work.exact);
         EXPECT_LE(work.comparisons, 64U) << away;  // where the lattice ties exactly
@@ -160,7 +159,7 @@ TEST(LocateNearest, N2_FarPointsCostNoMore) {
         const double factor = d == 2 ? 0.25 : 1;
         mesh = mapped(mesh, {factor, factor, factor}, {});
         Mesh askew = mesh;
-        Random random(75);
+        base::Random random(75);
         for (double& x : askew.points) x += factor * random.uniform(-0.1, 0.1);
         for (const Mesh& m : {mesh, askew}) {
             const auto locator = Locator::build(m, {.prove = false});
@@ -180,22 +179,21 @@ TEST(LocateNearest, N2_BeyondTheLimit) {
     const auto locator = Locator::build(mesh, {.prove = false});
     for (const double away : {1e2, 1e15, 1e300}) {
         const std::array<double, 3> p{away, 4, -away};
-        detail::NearestWork work;
-        EXPECT_EQ(detail::find_nearest(locator->data(), p.data(), away / 2, &work).cell, -1);
+        locate::NearestWork work;
+        EXPECT_EQ(locate::find_nearest(locator->data(), p.data(), away / 2, &work).cell, -1);
         EXPECT_LE(work.boxes, 1U);
     }
 }
 
 // A distance that no double holds is infinite: beyond every finite limit, within an infinite one.
 TEST(LocateNearest, DistancesThatOverflow) {
-    constexpr double largest = std::numeric_limits<double>::max();
-    const Mesh mesh = mapped(box(2, {1, 1, 0}), {1e300, 1e300, 1}, {-largest, -largest, 0});
+    const Mesh mesh = mapped(box(2, {1, 1, 0}), {1e300, 1e300, 1}, {-max_double, -max_double, 0});
     const auto locator = Locator::build(mesh, {.prove = false});
-    const std::array<double, 2> p{largest, largest};
+    const std::array<double, 2> p{max_double, max_double};
     const Nearest found = *locator->nearest(p.data(), infinity);
     EXPECT_GE(found.cell, 0);
     EXPECT_EQ(found.distance, infinity);
-    EXPECT_EQ(locator->nearest(p.data(), largest)->cell, -1);
+    EXPECT_EQ(locator->nearest(p.data(), max_double)->cell, -1);
 }
 
 }  // namespace

@@ -9,19 +9,13 @@
 #include "barycert/io.hpp"
 #include "barycert/locator.hpp"
 #include "check/meshes.hpp"
+#include "limits.hpp"
 #include "locate/judge.hpp"
 #include "locate/nearest_judge.hpp"
 #include "locate/points.hpp"
 
 namespace barycert::testing {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double largest = std::numeric_limits<double>::max();
-
-Mesh own(const std::string& stem) {
-    return read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
-}
 
 double root(const mpq_class& square) {
     return mpf_class(sqrt(mpf_class(square, 4000))).get_d();
@@ -106,8 +100,8 @@ std::vector<double> moderate(std::vector<double> points, double instead) {
 
 TEST(LocateNearest, OwnMeshes) {
     for (const char* stem : {"cube-hole", "bracket", "needle-slit", "plate", "torus"}) {
-        Random random(hash64(stem));
-        const Mesh mesh = own(stem);
+        base::Random random(base::hash64(stem));
+        const Mesh mesh = own_mesh(stem);
         expect_nearest(mesh, moderate(awkward_points(mesh, 12, random), 7.3), stem);
     }
 }
@@ -115,11 +109,11 @@ TEST(LocateNearest, OwnMeshes) {
 TEST(LocateNearest, AnyMagnitude) {
     for (const int d : {2, 3}) {
         for (const double factor : {1e-300, 1e300, 0x1p-1060, 1e6}) {
-            Random random(3);
+            base::Random random(3);
             const Mesh mesh = mapped(box(d, {3, 2, 2}), {factor, factor, factor}, {factor, -factor, 0});
             std::vector<double> points = awkward_points(mesh, 10, random);
             for (double& x : points) x = std::abs(x) < 10 * factor ? x : 7.3 * factor;
-            expect_nearest(mesh, points, "factor " + hexadecimal(factor));
+            expect_nearest(mesh, points, "factor " + base::hexadecimal(factor));
         }
     }
 }
@@ -130,7 +124,7 @@ TEST(LocateNearest, InsideACavity) {
         const std::size_t middle = d == 2 ? 4 : 13, each = d == 2 ? 2 : 6;
         for (std::size_t c = each * middle; c < each * (middle + 1); ++c) keep[c] = false;
         const Mesh mesh = only(box(d, {3, 3, 3}), keep);
-        Random random(4);
+        base::Random random(4);
         std::vector<double> points;
         for (int i = 0; i < 60 * d; ++i) points.push_back(random.uniform(1, 2));
         // The middle is as far from all sides: of those, the lowest cell's.
@@ -146,28 +140,28 @@ TEST(LocateNearest, ThinCells) {
             Mesh mesh = mapped(box(d, {4, d == 2 ? 1 : 3, 1}), {0.1, d == 2 ? thin : 0.1, thin}, {0.1, 0.3, 0.7});
             const auto n = static_cast<std::size_t>(d);
             for (std::size_t i = 0; i < mesh.points.size(); i += n) mesh.points[i + n - 1] += 0.3 * mesh.points[i];
-            Random random(5);
-            expect_nearest(mesh, moderate(awkward_points(mesh, 12, random), 7.3), "thin " + hexadecimal(thin));
+            base::Random random(5);
+            expect_nearest(mesh, moderate(awkward_points(mesh, 12, random), 7.3), "thin " + base::hexadecimal(thin));
         }
     }
 }
 
 TEST(LocateNearest, FarPoints) {
     for (const int d : {2, 3}) {
-        Random random(6);
+        base::Random random(6);
         const Mesh mesh = mapped(box(d, {2, 2, 2}), {0.1, 0.1, 0.1}, {0.3, -0.1, 0.2});
         std::vector<double> points;
         for (int i = 0; i < 12 * d; ++i) {
-            static constexpr double some[]{1e15, -1e9, 0.35, 1e300, -1e300, 0.25 * largest};
+            static constexpr double some[]{1e15, -1e9, 0.35, 1e300, -1e300, 0.25 * max_double};
             points.push_back(some[random.below(std::size(some))]);
         }
         expect_nearest(mesh, points, "far points");
         const auto locator = Locator::build(mesh, {.prove = false});
-        const std::array<double, 3> corner{largest, -largest, largest};
+        const std::array<double, 3> corner{max_double, -max_double, max_double};
         const auto found = locator->nearest(corner.data(), infinity);
         ASSERT_TRUE(found);
         EXPECT_GE(found->cell, 0);
-        EXPECT_GE(found->distance, largest);  // more than that, or infinity
+        EXPECT_GE(found->distance, max_double);  // more than that, or infinity
     }
 }
 
@@ -180,7 +174,7 @@ TEST(LocateNearest, L3_DegenerateCellsAreNeverChosen) {
         flat[0] = 0;
         if (d == 3) flat[1] = 1;
         mesh.cells.insert(mesh.cells.begin(), flat.begin(), flat.end());
-        Random random(7);
+        base::Random random(7);
         std::vector<double> points = moderate(awkward_points(mesh, 15, random), 9);
         const std::vector<double> at = node_at(mesh, far);
         points.insert(points.end(), at.begin(), at.end());
@@ -207,7 +201,7 @@ TEST(LocateNearest, NoCell) {
 }
 
 /// Points outside a mesh, some of them very near.
-std::vector<double> outside_of(const Mesh& mesh, Random& random) {
+std::vector<double> outside_of(const Mesh& mesh, base::Random& random) {
     std::vector<double> points;
     const PointJudge holders(mesh);
     const auto d = static_cast<std::size_t>(mesh.dimension);
@@ -222,8 +216,8 @@ std::vector<double> outside_of(const Mesh& mesh, Random& random) {
 // What is as near as the limit counts: so a point is found again with the distance that was reported as its limit.
 TEST(LocateNearest, TheLimitIncludesItself) {
     for (const char* stem : {"cube-hole", "plate"}) {
-        Random random(8);
-        const Mesh mesh = own(stem);
+        base::Random random(8);
+        const Mesh mesh = own_mesh(stem);
         const auto locator = Locator::build(mesh, {.prove = false});
         const std::vector<double> points = outside_of(mesh, random);
         std::size_t lost = 0, beyond = 0;

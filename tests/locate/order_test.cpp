@@ -30,23 +30,19 @@ Answers ask(const Locator& locator, const std::vector<double>& points, int threa
     return a;
 }
 
-std::vector<std::size_t> shuffled(std::size_t n, Random& random) {
+std::vector<std::size_t> shuffled(std::size_t n, base::Random& random) {
     std::vector<std::size_t> order(n);
     std::iota(order.begin(), order.end(), std::size_t{0});
     for (std::size_t i = n; i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
     return order;
 }
 
-Mesh own(const std::string& stem) {
-    return read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
-}
-
 // More points than fit in a block, of all kinds: threads, targets, methods and the order of points change nothing.
 TEST(LocateOrder, D1_ManyPoints) {
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
     for (const char* stem : {"cube-hole", "lattice-eighths", "plate"}) {
-        Random random(hash64(stem));
-        const Mesh mesh = own(stem);
+        base::Random random(base::hash64(stem));
+        const Mesh mesh = own_mesh(stem);
         std::vector<double> points = awkward_points(mesh, 1200, random);
         const std::vector<double> inner = inner_points(mesh, 30000, random);
         points.insert(points.end(), inner.begin(), inner.end());
@@ -78,8 +74,8 @@ TEST(LocateOrder, D1_ManyPoints) {
 // Cells in another order: owners are those of lowest index in the new order among the same cells.
 TEST(LocateOrder, L1_CellsPermuted) {
     for (const char* stem : {"cube-hole", "lattice-box", "plate"}) {
-        Random random(hash64(stem));
-        const Mesh mesh = own(stem);
+        base::Random random(base::hash64(stem));
+        const Mesh mesh = own_mesh(stem);
         Mesh other = mesh;
         other.neighbours.clear();
         other.faces.clear();
@@ -115,8 +111,8 @@ TEST(LocateOrder, L1_CellsPermuted) {
 // A walk from any cell to any point.
 TEST(LocateOrder, D1_Hints) {
     for (const char* stem : {"bracket", "torus", "plate"}) {
-        Random random(hash64(stem));
-        const Mesh mesh = own(stem);
+        base::Random random(base::hash64(stem));
+        const Mesh mesh = own_mesh(stem);
         const std::vector<double> points = awkward_points(mesh, 400, random);
         const auto locator = Locator::build(mesh, quick(mesh).certificate);
         const Answers right = ask(*locator, points, 1);
@@ -131,8 +127,8 @@ TEST(LocateOrder, D1_Hints) {
 }
 
 TEST(LocateOrder, CountsAreAddedTo) {
-    Random random(9);
-    const Mesh mesh = own("lattice-eighths");
+    base::Random random(9);
+    const Mesh mesh = own_mesh("lattice-eighths");
     const std::vector<double> points = awkward_points(mesh, 50, random);
     const auto locator = Locator::build(mesh, {.prove = false});
     std::vector<Mesh::Index> cells(points.size() / 3);

@@ -1,4 +1,5 @@
 #include "locate/points.hpp"
+#include "limits.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,12 +12,9 @@
 namespace barycert::testing {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double largest = std::numeric_limits<double>::max();
-
 class Maker {
 public:
-    Maker(const Mesh& mesh, Random& random)
+    Maker(const Mesh& mesh, base::Random& random)
         : mesh_(mesh), random_(random), d_(static_cast<std::size_t>(mesh.dimension)) {
         low_.fill(infinity);
         high_.fill(-infinity);
@@ -50,7 +48,7 @@ public:
             double x = 0;
             for (std::size_t i = 0; i <= d_; ++i)
                 if (weight[i] != 0) x += weight[i] / sum * at(mesh_.cells[cell * (d_ + 1) + i], k);
-            points.push_back(std::clamp(x, -largest, largest));
+            points.push_back(std::clamp(x, -max_double, max_double));
         }
     }
     void any_node() {
@@ -68,12 +66,13 @@ public:
                 points.push_back(random_.coin() ? low_[k] : high_[k]);
             } else {
                 const double x = low_[k] + 2 * side * random_.uniform(-beyond, 1 + beyond);
-                points.push_back(std::clamp(x, -largest, largest));
+                points.push_back(std::clamp(x, -max_double, max_double));
             }
         }
     }
     void far() {
-        static constexpr std::array<double, 9> some{largest, -largest, 1e300, -1e200, 1e30, -1e9, 0, 5e-324, -0.0};
+        static constexpr std::array<double, 9> some{max_double, -max_double, 1e300,  -1e200, 1e30,
+                                                    -1e9,       0,           5e-324, -0.0};
         for (std::size_t k = 0; k < d_; ++k)
             points.push_back(random_.below(4) == 0 ? at(mesh_.cells[0], k) : some[random_.below(some.size())]);
     }
@@ -89,14 +88,14 @@ private:
     double at(Mesh::Index node, std::size_t k) const { return mesh_.points[d_ * static_cast<std::size_t>(node) + k]; }
 
     const Mesh& mesh_;
-    Random& random_;
+    base::Random& random_;
     std::size_t d_;
     std::array<double, 3> low_{}, high_{};
 };
 
 }  // namespace
 
-void nudge(double* point, std::size_t d, Random& random) {
+void nudge(double* point, std::size_t d, base::Random& random) {
     for (std::size_t k = 0; k < d; ++k) {
         const int way = random.integer(-1, 1);
         const double x = way == 0 ? point[k] : std::nextafter(point[k], way < 0 ? -infinity : infinity);
@@ -104,7 +103,7 @@ void nudge(double* point, std::size_t d, Random& random) {
     }
 }
 
-std::vector<double> awkward_points(const Mesh& mesh, std::size_t of_each, Random& random) {
+std::vector<double> awkward_points(const Mesh& mesh, std::size_t of_each, base::Random& random) {
     if (mesh.cells.empty()) return std::vector<double>(static_cast<std::size_t>(2 * mesh.dimension), 0.0);
     Maker maker(mesh, random);
     const auto corners = static_cast<std::size_t>(mesh.dimension) + 1;
@@ -122,7 +121,7 @@ std::vector<double> awkward_points(const Mesh& mesh, std::size_t of_each, Random
     return maker.points;
 }
 
-std::vector<double> inner_points(const Mesh& mesh, std::size_t count, Random& random) {
+std::vector<double> inner_points(const Mesh& mesh, std::size_t count, base::Random& random) {
     Maker maker(mesh, random);
     for (std::size_t i = 0; i < count; ++i) maker.on_cell(static_cast<std::size_t>(mesh.dimension) + 1);
     return maker.points;
@@ -130,7 +129,7 @@ std::vector<double> inner_points(const Mesh& mesh, std::size_t count, Random& ra
 
 std::string text_of(const double* point, int d) {
     std::string text = "(";
-    for (int k = 0; k < d; ++k) text += (k == 0 ? "" : ", ") + hexadecimal(point[k]);
+    for (int k = 0; k < d; ++k) text += (k == 0 ? "" : ", ") + base::hexadecimal(point[k]);
     return text + ")";
 }
 

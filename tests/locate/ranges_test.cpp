@@ -5,13 +5,12 @@
 #include <limits>
 
 #include "check/meshes.hpp"
+#include "limits.hpp"
 #include "locate/points.hpp"
 #include "locate/ways.hpp"
 
 namespace barycert::testing {
 namespace {
-
-constexpr double largest = std::numeric_limits<double>::max();
 
 std::string text_of(const std::array<double, 3>& x) {
     return testing::text_of(x.data(), 3);
@@ -29,22 +28,22 @@ TEST(LocateRanges, L1_L2_AnyMagnitude) {
                                                    {5e-324, 4e307, 1},
                                                    {1e-9, 1, 1e9},
                                                    {0x1p-1022, 1, 0x1p1000}}) {
-            Random random(7);
+            base::Random random(7);
             const Mesh mesh = mapped(lattice, factor, {});
             expect_right(mesh, awkward_points(mesh, 30, random), random, "factor " + text_of(factor));
         }
     }
 }
 
-// From the lowest double to the largest: differences of coordinates overflow.
+// From the lowest double to the max_double: differences of coordinates overflow.
 TEST(LocateRanges, L1_L2_AllOfTheDoubles) {
     for (const int d : {2, 3}) {
-        Random random(8);
+        base::Random random(8);
         Mesh mesh = box(d, {2, 2, 2});
-        for (double& x : mesh.points) x = x == 0 ? -largest : x == 1 ? 0 : largest;
+        for (double& x : mesh.points) x = x == 0 ? -max_double : x == 1 ? 0 : max_double;
         expect_right(mesh, awkward_points(mesh, 60, random), random, "all of the doubles");
         Mesh one = box(d, {1, 1, 1});
-        for (double& x : one.points) x = x == 0 ? -largest : largest;
+        for (double& x : one.points) x = x == 0 ? -max_double : max_double;
         expect_right(one, awkward_points(one, 60, random), random, "one cube of all doubles");
     }
 }
@@ -57,7 +56,7 @@ TEST(LocateRanges, L1_L2_FarFromTheOrigin) {
                                                   {0, 1e14, 0},
                                                   {1e15, 1e15, 1e15},
                                                   {1e300, 0, 0}}) {
-            Random random(9);
+            base::Random random(9);
             // At 1e15 nodes fall together, and cells are flat or folded.
             const Mesh mesh = mapped(lattice, {1, 1, 1}, shift);
             expect_right(mesh, awkward_points(mesh, 30, random), random, "shift " + text_of(shift));
@@ -69,12 +68,12 @@ TEST(LocateRanges, L1_L2_FarFromTheOrigin) {
 TEST(LocateRanges, L1_L2_AFewUlpsWide) {
     for (const int d : {2, 3}) {
         for (const double at : {1.0, 0.1, -1e300, 1e-310, 0x1p-1022}) {
-            Random random(10);
+            base::Random random(10);
             Mesh mesh = box(d, {3, 3, 3});
             for (double& x : mesh.points) {
                 const int steps = static_cast<int>(x);
                 x = at;
-                for (int i = 0; i < steps; ++i) x = std::nextafter(x, largest);
+                for (int i = 0; i < steps; ++i) x = std::nextafter(x, max_double);
             }
             EXPECT_TRUE(
                 expect_right(mesh, awkward_points(mesh, 30, random), random, "ulps from " + std::to_string(at)));
@@ -87,7 +86,7 @@ TEST(LocateRanges, L1_L2_ThinDomains) {
     for (const int d : {2, 3}) {
         for (const double thin : {1e-8, 1e-16, 1e-200, 5e-324}) {
             for (const double shift : {0.0, 1.0}) {
-                Random random(11);
+                base::Random random(11);
                 const Mesh plane = mapped(box(d, {5, 5, 1}), {1, d == 2 ? thin : 1, thin}, {0.1, shift, shift});
                 expect_right(plane, awkward_points(plane, 25, random), random, "plane " + std::to_string(thin));
                 const Mesh line = mapped(box(d, {30, 1, 1}), {1, thin, thin}, {0.1, shift, shift});
@@ -106,7 +105,7 @@ TEST(LocateRanges, L1_L2_ThinDomains) {
 TEST(LocateRanges, L1_L2_Graded) {
     for (const int d : {2, 3}) {
         for (const double steepness : {8.0, 20.0, 100.0}) {
-            Random random(12);
+            base::Random random(12);
             Mesh mesh = box(d, {12, 12, d == 2 ? 0 : 6});
             std::vector<double> corner;
             for (double& x : mesh.points) x = x == 0 ? 0 : std::exp2(steepness * (x / 12 - 1));
@@ -118,16 +117,17 @@ TEST(LocateRanges, L1_L2_Graded) {
     }
 }
 
-// Far outside, on the box but outside the mesh, and at the largest doubles, whatever the mesh.
+// Far outside, on the box but outside the mesh, and at the max_double doubles, whatever the mesh.
 TEST(LocateRanges, L1_PointsOutside) {
     for (const int d : {2, 3}) {
-        Random random(13);
+        base::Random random(13);
         std::vector<bool> keep(static_cast<std::size_t>(d == 2 ? 18 : 162), true);
         for (std::size_t c = 0; c < 6; ++c) keep[c] = false;
         const Mesh mesh = only(box(d, {3, 3, 3}), keep);
         std::vector<double> points;
         for (int i = 0; i < 200 * d; ++i) {
-            static constexpr double some[]{largest, -largest, 0, 3, 1.5, 5e-324, -5e-324, 0x1.8000000000001p+1, 0.25};
+            static constexpr double some[]{max_double, -max_double,          0,   3, 1.5, 5e-324,
+                                           -5e-324,    0x1.8000000000001p+1, 0.25};
             points.push_back(some[random.below(std::size(some))]);
         }
         EXPECT_TRUE(expect_right(mesh, points, random, "outside"));

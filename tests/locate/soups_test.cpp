@@ -30,7 +30,7 @@ std::vector<double> half_lattice(int d, int from, int to) {
 TEST(LocateSoups, L1_L2_L3_SmallSoups) {
     for (const int d : {2, 3}) {
         for (std::uint64_t n = 0; n < 250 && !::testing::Test::HasFailure(); ++n) {
-            Random random = Random::stream(1, n, static_cast<std::uint64_t>(d));
+            base::Random random = base::Random::stream(1, n, static_cast<std::uint64_t>(d));
             const Mesh mesh = random_soup(d, random);
             std::vector<double> points = half_lattice(d, -1, d == 2 ? 5 : 2);
             const std::vector<double> more = awkward_points(mesh, 6, random);
@@ -45,7 +45,7 @@ TEST(LocateSoups, L1_L2_SmallComplexes) {
     int certified = 0;
     for (const int d : {2, 3}) {
         for (std::uint64_t n = 0; n < 250 && !::testing::Test::HasFailure(); ++n) {
-            Random random = Random::stream(2, n, static_cast<std::uint64_t>(d));
+            base::Random random = base::Random::stream(2, n, static_cast<std::uint64_t>(d));
             Mesh mesh = n % 2 == 0 ? grown_complex(d, random) : damaged_box(d, random);
             if (random.coin()) flip_some(mesh, random);
             certified +=
@@ -61,7 +61,7 @@ TEST(LocateSoups, L1_L2_SmallComplexes) {
 TEST(LocateSoups, L1_L2_L3_DenseSoups) {
     for (const int d : {2, 3}) {
         for (const bool lattice : {false, true}) {
-            Random random(static_cast<std::uint64_t>(3 + d));
+            base::Random random(static_cast<std::uint64_t>(3 + d));
             Mesh mesh;
             mesh.dimension = d;
             for (int i = 0; i < 60 * d; ++i)
@@ -78,7 +78,7 @@ TEST(LocateSoups, L1_L2_L3_DenseSoups) {
 TEST(LocateSoups, L1_L2_NestedCells) {
     for (const int d : {2, 3}) {
         for (const bool outermost_first : {true, false}) {
-            Random random(4);
+            base::Random random(4);
             Mesh one = only(box(d, {1, 1, 1}), d == 2 ? std::vector<bool>{true, false}
                                                       : std::vector<bool>{true, false, false, false, false, false});
             Mesh mesh = mapped(one, {1, 1, 1}, {});
@@ -96,7 +96,7 @@ TEST(LocateSoups, L1_L2_NestedCells) {
 // A proper mesh with every cell twice, with flat cells between, and with nodes of no cell far away.
 TEST(LocateSoups, L1_L2_L3_CellsTwiceFlatOnesAndLonelyNodes) {
     for (const int d : {2, 3}) {
-        Random random(5);
+        base::Random random(5);
         const Mesh good = box(d, {3, 3, 2});
         Mesh twice = good;
         twice.cells.insert(twice.cells.end(), good.cells.begin(), good.cells.end());
@@ -127,7 +127,7 @@ TEST(LocateSoups, L1_L2_L3_CellsTwiceFlatOnesAndLonelyNodes) {
 
 TEST(LocateSoups, L1_L3_NoCellOneCellOnlyFlatCells) {
     for (const int d : {2, 3}) {
-        Random random(6);
+        base::Random random(6);
         Mesh none;
         none.dimension = d;
         expect_right(none, {0, 0, 0, 1, 1, 1}, random, "nothing");

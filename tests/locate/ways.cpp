@@ -61,7 +61,7 @@ public:
         expect_counts(found->counts.locations, how);
     }
 
-    void single(const Locator& locator, Random& random, const std::string& how) {
+    void single(const Locator& locator, base::Random& random, const std::string& how) {
         for (std::size_t i = 0; i < count(); ++i) {
             const auto cells = static_cast<Mesh::Index>(mesh_.cell_count());
             const Mesh::Index any = cells == 0 ? 0 : static_cast<Mesh::Index>(random.below(mesh_.cell_count()));
@@ -107,7 +107,7 @@ private:
 
 }  // namespace
 
-bool expect_right(const Mesh& mesh, const std::vector<double>& points, Random& random, const std::string& what,
+bool expect_right(const Mesh& mesh, const std::vector<double>& points, base::Random& random, const std::string& what,
                   const Ways& ways) {
     CheckOptions options;
     options.threads = 1;

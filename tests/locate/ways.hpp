@@ -19,7 +19,7 @@ struct Ways {
 
 /// Batch, single and locate_all, with the certificate of check_mesh and without, against the judge; counts too. Returns
 /// whether the mesh was certified.
-bool expect_right(const Mesh& mesh, const std::vector<double>& points, Random& random, const std::string& what,
+bool expect_right(const Mesh& mesh, const std::vector<double>& points, base::Random& random, const std::string& what,
                   const Ways& ways = {});
 
 }  // namespace barycert::testing

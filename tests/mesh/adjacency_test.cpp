@@ -46,41 +46,41 @@ Mesh mesh_of(int dimension, std::size_t nodes, Indices cells) {
 
 TEST(Adjacency, two_tetrahedra) {
     const Mesh mesh = mesh_of(3, 5, {0, 1, 2, 3, 4, 3, 2, 1});
-    const Indices neighbours = compute_neighbours(mesh);
+    const Indices neighbours = mesh::compute_neighbours(mesh);
     EXPECT_EQ(neighbours, (Indices{1, -1, -1, -1, 0, -1, -1, -1}));
-    EXPECT_EQ(hull_facets(mesh, neighbours), (std::vector<std::int64_t>{1, 2, 3, 5, 6, 7}));
+    EXPECT_EQ(mesh::hull_facets(mesh, neighbours), (std::vector<std::int64_t>{1, 2, 3, 5, 6, 7}));
 }
 
 TEST(Adjacency, two_triangles) {
     const Mesh mesh = mesh_of(2, 4, {0, 1, 2, 3, 2, 1});
-    EXPECT_EQ(compute_neighbours(mesh), (Indices{1, -1, -1, 0, -1, -1}));
+    EXPECT_EQ(mesh::compute_neighbours(mesh), (Indices{1, -1, -1, 0, -1, -1}));
 }
 
 TEST(Adjacency, of_three_cells_at_a_facet_the_lowest_two_are_neighbours) {
     const Mesh mesh = mesh_of(3, 6, {3, 0, 1, 2, 0, 1, 2, 4, 2, 1, 0, 5});
-    EXPECT_EQ(compute_neighbours(mesh), (Indices{1, -1, -1, -1, -1, -1, -1, 0, -1, -1, -1, -1}));
+    EXPECT_EQ(mesh::compute_neighbours(mesh), (Indices{1, -1, -1, -1, -1, -1, -1, 0, -1, -1, -1, -1}));
 }
 
 TEST(Adjacency, a_cell_is_not_its_own_neighbour) {
     const Mesh mesh = mesh_of(3, 4, {0, 0, 1, 2});  // the facets opposite to both corners 0 are 0 1 2
-    EXPECT_EQ(compute_neighbours(mesh), Indices(4, -1));
+    EXPECT_EQ(mesh::compute_neighbours(mesh), Indices(4, -1));
 }
 
 TEST(Adjacency, empty) {
     const Mesh mesh = mesh_of(3, 0, {});
-    EXPECT_TRUE(compute_neighbours(mesh).empty());
-    EXPECT_TRUE(hull_facets(mesh, {}).empty());
+    EXPECT_TRUE(mesh::compute_neighbours(mesh).empty());
+    EXPECT_TRUE(mesh::hull_facets(mesh, {}).empty());
 }
 
 TEST(Adjacency, as_the_definition_says) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
-        Random random = Random::stream(1, seed, 0);
+        base::Random random = base::Random::stream(1, seed, 0);
         const int dimension = random.integer(2, 3);
         const auto nodes = static_cast<std::size_t>(random.integer(dimension + 1, 8));  // few: facets are often shared
         Indices cells(static_cast<std::size_t>(random.integer(1, 12) * (dimension + 1)));
         for (Mesh::Index& corner : cells) corner = static_cast<Mesh::Index>(random.below(nodes));
         const Mesh mesh = mesh_of(dimension, nodes, std::move(cells));
-        EXPECT_EQ(compute_neighbours(mesh), slow_neighbours(mesh)) << "seed " << seed;
+        EXPECT_EQ(mesh::compute_neighbours(mesh), slow_neighbours(mesh)) << "seed " << seed;
     }
 }
 

@@ -71,12 +71,12 @@ TEST(MidEdges, found_at_any_scale_and_for_curved_cells) {
                 Mesh mesh = second_order_mesh(dimension, order, 50, 3, scale, 0.05);
                 const Indices wanted = mesh.mid_nodes;
                 // The nodes as a file of that order would list them.
-                const auto sequence = detail::edge_sequence(order, dimension);
+                const auto sequence = mesh::edge_sequence(order, dimension);
                 for (std::size_t i = 0; i < wanted.size(); ++i) {
                     mesh.mid_nodes[i] = wanted[i / sequence.size() * sequence.size() + sequence[i % sequence.size()]];
                 }
-                EXPECT_EQ(detail::detect_mid_edge_order(mesh), order) << scale;
-                detail::normalise_mid_nodes(mesh);
+                EXPECT_EQ(mesh::detect_mid_edge_order(mesh), order) << scale;
+                mesh::normalise_mid_nodes(mesh);
                 EXPECT_EQ(mesh.mid_nodes, wanted);
             }
         }

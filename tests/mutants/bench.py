@@ -11,14 +11,16 @@ TARGETS = {"fma": "-march=haswell -maes -DHWY_COMPILE_ONLY_STATIC".split(), "spl
 TARGET_CHECK = {"fma": "HWY_NATIVE_FMA == 1 && HWY_TARGET == HWY_AVX2", "split": "HWY_NATIVE_FMA == 0"}
 PREPARE_LIBRARIES = "-lhwy -ltbb -lfmt -lmpfr -lgmpxx -lgmp -ldl -pthread".split()
 
-SOURCES = ["quotient.cpp", "exact_weights.cpp", "lanes.cpp", "predicates.cpp", "weights.cpp", "inverse.cpp"]
+SOURCES = ["quotient.cpp", "exact_weights.cpp", "lanes.cpp", "predicates.cpp", "weight_signs.cpp", "weights.cpp",
+           "inverse.cpp"]
 # Which sources to compile anew. The integers' inline functions are called from these two alone.
 INTEGERS = ["exact_weights.cpp", "quotient.cpp"]
 USERS = {
     "integer.hpp": INTEGERS, "fixed_integer.hpp": INTEGERS, "scaled_double.hpp": INTEGERS,
-    "numerators-inl.hpp": ["exact_weights.cpp", "lanes.cpp"],
+    "numerators-inl.hpp": ["exact_weights.cpp", "lanes.cpp", "predicates.cpp"],
     "filter-inl.hpp": ["lanes.cpp"], "refinement-inl.hpp": ["lanes.cpp"], "double_double-inl.hpp": ["lanes.cpp"],
-    "error_free-inl.hpp": ["lanes.cpp"], "blocks.hpp": ["predicates.cpp", "weights.cpp"],
+    "error_free-inl.hpp": ["lanes.cpp"], "lane_loop-inl.hpp": ["lanes.cpp"],
+    "blocks.hpp": ["weight_signs.cpp", "weights.cpp"], "input_checks.hpp": ["weight_signs.cpp", "weights.cpp"],
 }
 # Compiled ahead, once for each target: half the time of a mutant is theirs otherwise. The lanes include Highway in a
 # way of their own, so that only what it includes itself can be had before.

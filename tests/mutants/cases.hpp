@@ -41,7 +41,7 @@ struct Orientation {
 
 /// Adds cases in which a determinant in double is wrong by as much as climbing in this rounding mode can find.
 enum class Quantity : std::uint8_t { numerator, denominator };
-void climb(Simplex s, Quantity q, int mode, Random& random, std::vector<Record>& records);
+void climb(Simplex s, Quantity q, int mode, base::Random& random, std::vector<Record>& records);
 
 /// Adds cases of which a weight or the value lies within 2^-30 to 2^-112 of a midpoint between doubles (relatively).
 void add_near_ties(Simplex s, std::vector<Record>& records);

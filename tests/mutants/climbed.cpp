@@ -9,7 +9,7 @@
 namespace barycert::mutants {
 namespace {
 
-void move_by(double& x, Random& random) {
+void move_by(double& x, base::Random& random) {
     const int ulps = random.integer(-3, 3);
     for (int i = 0; i < std::abs(ulps); ++i) x = std::nextafter(x, ulps < 0 ? -HUGE_VAL : HUGE_VAL);
 }
@@ -86,7 +86,7 @@ double badness(const Case& c, Quantity q) {
 }  // namespace
 
 /// Climbs from a simplex whose determinant vanishes but for the point's (or origin's) last bits.
-void climb(Simplex s, Quantity q, int mode, Random& random, std::vector<Record>& records) {
+void climb(Simplex s, Quantity q, int mode, base::Random& random, std::vector<Record>& records) {
     const int n = vertex_count(s), d = space_dimension(s);
     double best_of_all = 0;
     for (int start = 0; start < 6; ++start) {

@@ -79,7 +79,7 @@ struct Arrays {
 
 std::uint64_t tier_hash = 0;
 void note(const TierCounts& t) {
-    for (const std::uint64_t x : {t.filter, t.double_double, t.exact}) tier_hash = mix64(tier_hash ^ x) + 1;
+    for (const std::uint64_t x : {t.filter, t.double_double, t.exact}) tier_hash = base::mix64(tier_hash ^ x) + 1;
 }
 
 void check_batches(Simplex s, Group g, const std::vector<const Record*>& records) {

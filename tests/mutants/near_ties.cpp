@@ -61,7 +61,7 @@ void steer(const Case& c, double& x, int which, const mpq_class& target) {
 }
 
 /// A simplex with volume of the order 2^-flat, its point within or far away.
-Case shape(Simplex s, int flat, Random& random) {
+Case shape(Simplex s, int flat, base::Random& random) {
     Case c;
     c.simplex = s;
     const int n = vertex_count(s), d = space_dimension(s);
@@ -92,7 +92,7 @@ Case shape(Simplex s, int flat, Random& random) {
 
 /// Moves the point of a simplex in 3-space far off, nearly normal to the simplex and to an axis: its weights stay, the
 /// terms of which they are made cancel.
-void lift(Case& c, int axis, Random& random) {
+void lift(Case& c, int axis, base::Random& random) {
     const int x = (axis + 1) % 3, y = (axis + 2) % 3;
     const double o[2] = {c.vertex(0, x), c.vertex(0, y)};
     const double e[2] = {c.vertex(1, x) - o[0], c.vertex(1, y) - o[1]};
@@ -107,7 +107,7 @@ void lift(Case& c, int axis, Random& random) {
 }
 
 /// To where ranges end: a power of two for each axis, or one for all where only that leaves the weights as they are.
-void scale(Case& c, Random& random) {
+void scale(Case& c, base::Random& random) {
     const int n = vertex_count(c.simplex), d = space_dimension(c.simplex);
     const bool projected = c.simplex == Simplex::segment || c.simplex == Simplex::triangle3d;
     static constexpr int ends[] = {-200, -300, 300, 330, -340, 500, 890};
@@ -129,7 +129,7 @@ void scale(Case& c, Random& random) {
 }  // namespace
 
 void add_near_ties(Simplex s, std::vector<Record>& records) {
-    Random random = Random::stream(11, static_cast<std::uint64_t>(s), 7);
+    base::Random random = base::Random::stream(11, static_cast<std::uint64_t>(s), 7);
     const int n = vertex_count(s), d = space_dimension(s);
     for (int i = 0; i < 12000; ++i) {
         const int flat = s == Simplex::segment || random.below(3) == 0 ? 0 : random.integer(1, 22);

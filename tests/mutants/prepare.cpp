@@ -61,7 +61,7 @@ int exact_orientation(const double* p, int d) {
 }
 
 /// A simplex of small integers with volume (squared: for those projected on) 2^k, where weights are short sums.
-Case unimodular(Simplex s, Random& random) {
+Case unimodular(Simplex s, base::Random& random) {
     Case c;
     c.simplex = s;
     const int n = vertex_count(s), d = space_dimension(s), m = n - 1;
@@ -122,7 +122,7 @@ Case unimodular(Simplex s, Random& random) {
 }
 
 /// Weight 1 is (p_x + p_y + p_z) / 3: a tie, or one but for the last coordinate, too small for a double-double.
-Case projected_tie(Simplex s, Random& random) {
+Case projected_tie(Simplex s, base::Random& random) {
     Case c;
     c.simplex = s;
     const std::uint64_t m = (random.bits() >> 11) | 1;  // 53 bits and odd: m 2^-53 is no tie, m 2^-54 + 1/2 is one
@@ -144,13 +144,13 @@ Case projected_tie(Simplex s, Random& random) {
     return c;
 }
 
-double integer_of(Random& random, int bits) {
+double integer_of(base::Random& random, int bits) {
     return static_cast<double>((random.bits() >> (64 - bits)) | 1);
 }
 
 /// A segment of length 2^-500 with a numerator of three products, of which two are below 2^-1022 and outweigh the
 /// third.
-Case underflowing(Random& random) {
+Case underflowing(base::Random& random) {
     Case c;
     c.simplex = Simplex::segment;
     const int turn = random.integer(0, 2);
@@ -165,7 +165,7 @@ Case underflowing(Random& random) {
 }
 
 /// A triangle with two numerators of different sign that overflow, the one of the denominator's sign by more.
-Case overflowing(Random& random) {
+Case overflowing(base::Random& random) {
     Case c;
     c.simplex = Simplex::triangle;
     const int up = random.integer(520, 900), across = 1040 - up;
@@ -196,7 +196,7 @@ std::vector<Record> make_records(const std::string& data) {
         }
     }
     for (const Simplex s : all_simplices) {
-        Random random = Random::stream(4, static_cast<std::uint64_t>(s), 1);
+        base::Random random = base::Random::stream(4, static_cast<std::uint64_t>(s), 1);
         const int n = vertex_count(s), d = space_dimension(s);
         const bool projected = s == Simplex::segment || s == Simplex::triangle3d;
         for (int mode : {FE_TONEAREST, FE_UPWARD, FE_TOWARDZERO}) {
@@ -257,13 +257,13 @@ std::vector<Record> make_records(const std::string& data) {
             if (projected || s == Simplex::triangle || s == Simplex::tetrahedron) add(c, Group::ends);
         }
     }
-    Random ends(12);
+    base::Random ends(12);
     for (int i = 0; i < 400; ++i) {
         add(underflowing(ends), Group::scaled);
         add(overflowing(ends), Group::scaled);
     }
     // divisors whose leading limb is just above 2^63 and whose next is large
-    Random random(99);
+    base::Random random(99);
     for (int i = 0; i < 40000; ++i) {
         Case c;
         c.simplex = i % 4 == 0 ? Simplex::triangle : Simplex::segment;
@@ -311,7 +311,7 @@ std::vector<Record> make_records(const std::string& data) {
 
 std::vector<Inverse> make_inverses() {
     std::vector<Inverse> all;
-    Random random(3);
+    base::Random random(3);
     for (int i = 0; i < 4000; ++i) {
         const auto number = [&]() -> double {
             const int kind = i % 4;
@@ -344,7 +344,7 @@ std::vector<Inverse> make_inverses() {
 
 std::vector<Orientation> make_orientations(const std::vector<Record>& records) {
     std::vector<Orientation> all;
-    Random random(8);
+    base::Random random(8);
     for (const Record& r : records) {
         if (r.c.simplex != Simplex::tetrahedron && r.c.simplex != Simplex::triangle) continue;
         if (r.group != Group::climbed && r.group != Group::environment && random.below(12) != 0) continue;

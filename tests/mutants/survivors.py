@@ -37,16 +37,16 @@ LISTED = [
     (R, "constant(50))", "", "Slack: k = G / |d| is at least 1/4, so that 100 k, of which a tenth suffices in the runs, is at "
      "least 25."),
     (R, "constant(4 * 172 * u * u)", "", down_to("0.1")),
-    (R, "hn::Le(largest, constant(0x1p900))", "", TO_INFINITY),
+    (R, "hn::Le(max_size, constant(0x1p900))", "", TO_INFINITY),
     (R, "hn::Le(g, constant(", "", TO_INFINITY),
     (R, "hn::Ge(k, constant(0.125))", "", "Equivalent: |d| <= 4.01 G unless d overflows, which the limit on G excludes."),
     (R, "hn::Le(out.magnitude, constant(0x1p100))", "", "Slack: the bound grows with the weights; " + TO_INFINITY[7:]),
     (R, "18 * u * u / (5.5", "", down_to("0.25")),
     (R, "44 * u * u / (11.5", "", down_to("0.5")),
     (R, "constant(18 * u * u) * f.denominator.high", "", COVERED + "P is of the order of the largest weight times N.N."),
-    (R, "largest * denominator_error", "hn::Zero(tag)", COVERED + "P is of the order of the largest weight times N.N."),
+    (R, "max_weight * denominator_error", "hn::Zero(tag)", COVERED + "P is of the order of the largest weight times N.N."),
     (R, "constant(1.02)", "", down_to("0.03")),
-    (R, "constant(26 * u * u) * largest", "", COVERED + "The numerator's part alone is at least 18 u^2 P / |d|."),
+    (R, "constant(26 * u * u) * max_weight", "", COVERED + "The numerator's part alone is at least 18 u^2 P / |d|."),
     (R, "hn::Le(denominator_error, constant", "hn::Le(denominator_error, constant(0x1p200) * f.denominator.high)",
      "Slack: where N.N is lost in its error the weights' bound is as large as they are, and their two ends round differently."),
     (R, "hn::Set(tag, 0x1p-52) * hn::Abs(r.correction[i])", "hn::Zero(tag)", COVERED + "|c| is of the order of u, this part of "
@@ -64,12 +64,12 @@ LISTED = [
     (I, "if (order == 0) return {};", "", "Equivalent: the difference of equal magnitudes is trimmed to zero, whose sign "
      "means nothing."),
     (I, "if (a.limbs_[i] == 0) continue;", "", "Performance only: a row of zeros adds nothing."),
-    (X, "bits <= 64 - 3", "bits <= 64 - 2) return as", "Slack for triangles and tetrahedra (a 3x3 "
+    (S, "bits <= 64 - room", "bits <= 64 - (room - 1)) return f", "Slack for triangles and tetrahedra (a 3x3 "
      "determinant of entries below M is below 4 M^3, and a sum in two's complement is right if its result fits); not "
      "covered for segments and triangles in space."),
-    (X, "bits <= 64 - 3", "", "Performance only, where it is stricter; slack where not: the bound has room for a sum of all terms "
+    (S, "bits <= 64 - room", "", "Performance only, where it is stricter; slack where not: the bound has room for a sum of all terms "
      "at their largest."),
-    (X, "bits <= 128 - 3", "", "As with one limb."),
+    (S, "bits <= 128 - room", "", "As with one limb."),
     (X, "unit.bits()", "", "Performance only, where it is stricter; else not covered."),
     (S, "m == 0 ? ScaledDouble::none", "", "Performance only: zeros then count for the unit, which gets smaller than it need be."),
     (S, "x.mantissa == 0 ? 0 : above", "", "Performance only: the width then is taken for larger than it is."),
@@ -95,7 +95,7 @@ GENERATED = [
     ("blocks.hpp", "first < case_count", "", "Equivalent: one block of no cases more."),
     (P, "std::fabs(det) > ", ">=", STRICT),
     (P, "extent >= 0x1p-300", "", BOTH_SIDES),
-    (P, "det < 0 ? -1 : 1", "<=", "Equivalent: det is not zero there."),
+    (P, "det < 0 ?", "<=", "Equivalent: det is not zero there."),
     (F, "hn::G", "", STRICT),
     (F, "hn::L", "", BOTH_SIDES),
     (R, "hn::L", "", BOTH_SIDES),

@@ -9,6 +9,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/report.hpp"
 #include "check_meshes.hpp"
+#include "lines.hpp"
 #include "schema_tables.hpp"
 
 namespace barycert::report_test {
@@ -22,17 +23,6 @@ std::string text(const CheckReport& report, const Mesh& mesh, bool colour = fals
 }
 std::string text(const Mesh& mesh) {
     return text(checked(mesh, true), mesh);
-}
-
-Lines lines_of(const std::string& text) {
-    std::istringstream in(text);
-    Lines lines;
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
-    return lines;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 Json json(const CheckReport& report) {
@@ -292,8 +282,8 @@ TEST(check_json, findings_and_contacts_stand_whole) {
         const Json& w = j["contacts"][i]["witness"];
         EXPECT_EQ(w["exact"], r.contacts[i].common.exact);
         for (std::size_t k = 0; k < 3; ++k) {
-            EXPECT_EQ(parse_double(w["hex"][k].get<std::string>()), r.contacts[i].common.point[k]);
-            EXPECT_EQ(parse_double(w["decimal"][k].get<std::string>()), r.contacts[i].common.point[k]);
+            EXPECT_EQ(base::parse_double(w["hex"][k].get<std::string>()), r.contacts[i].common.point[k]);
+            EXPECT_EQ(base::parse_double(w["decimal"][k].get<std::string>()), r.contacts[i].common.point[k]);
             EXPECT_EQ(w["fraction"][k], r.contacts[i].common.fraction[k]);
         }
     }

@@ -15,11 +15,6 @@
 namespace barycert::report_test {
 namespace {
 
-const AuditReport& audited() {
-    static const AuditReport report = small_audit();
-    return report;
-}
-
 AuditReport only(const std::string& glob) {
     AuditReport report = audited();
     const std::vector<Kernel> wanted = kernels_matching(glob);

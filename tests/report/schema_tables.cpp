@@ -19,8 +19,8 @@ bool ends_with(std::string& text, const std::string& ending) {
 bool is_double(const nlohmann::json& value, bool hex) {
     if (!value.is_string()) return false;
     const std::string text = value.get<std::string>();
-    const auto x = parse_double(text);
-    return x && text == (hex ? hexadecimal(*x) : shortest(*x));
+    const auto x = base::parse_double(text);
+    return x && text == (hex ? base::hexadecimal(*x) : base::shortest(*x));
 }
 
 }  // namespace

@@ -47,4 +47,10 @@ inline AuditReport small_audit() {
     return run_audit(options, meshes).value();
 }
 
+/// The same report for all tests of a process.
+inline const AuditReport& audited() {
+    static const AuditReport report = small_audit();
+    return report;
+}
+
 }  // namespace barycert::report_test

@@ -6,26 +6,11 @@
 #include <gtest/gtest.h>
 
 #include "barycert/audit_report.hpp"
+#include "lines.hpp"
 #include "small_audit.hpp"
 
 namespace barycert::report_test {
 namespace {
-
-const AuditReport& audited() {
-    static const AuditReport report = small_audit();
-    return report;
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-    std::istringstream in(text);
-    std::vector<std::string> lines;
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
-    return lines;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 std::string text_of(const TerminalStyle& style = {}) {
     return audit_text(audited(), style);

@@ -14,7 +14,7 @@ namespace barycert::audit {
 
 /// n weights >= 0 that sum to about 1, evenly spread over the simplex: the gaps between n - 1 sorted random cuts of [0,
 /// 1].
-inline std::array<double, 4> random_weights(Random& random, int n) {
+inline std::array<double, 4> random_weights(base::Random& random, int n) {
     std::array<double, 5> cuts{0, 1, 1, 1, 1};
     for (int i = 1; i < n; ++i) cuts[static_cast<std::size_t>(i)] = random.unit();
     for (int i = 1; i < n; ++i) {  // insertion sort of at most three cuts
@@ -40,7 +40,7 @@ inline std::array<double, 3> combination(const Case& c, const std::array<double,
 }
 
 /// A rounded point in the whole simplex, or in the face of its first n vertices.
-inline std::array<double, 3> random_point(const Case& c, Random& random, int n) {
+inline std::array<double, 3> random_point(const Case& c, base::Random& random, int n) {
     return combination(c, random_weights(random, n), n);
 }
 
@@ -50,25 +50,25 @@ inline void set_vertex(Case& c, int i, const std::array<double, 3>& p) {
 
 /// Moves a coordinate by one ulp, up or down. The neighbour of zero would be a subnormal, a test of underflow and not
 /// of sides: zero moves by an ulp of the largest coordinate on its axis, or of 1 if all are zero.
-inline void move_by_ulp(const Case& c, double& x, int axis, Random& random) {
+inline void move_by_ulp(const Case& c, double& x, int axis, base::Random& random) {
     const bool up = random.coin();
     if (x != 0) {
-        x = up ? next_up(x) : next_down(x);
+        x = up ? base::next_up(x) : base::next_down(x);
         return;
     }
     double largest = 0;
     for (int i = 0; i < vertex_count(c.simplex); ++i) largest = std::max(largest, std::fabs(c.vertex(i, axis)));
-    const double ulp = std::ldexp(1, ulp_exponent(largest == 0 ? 1.0 : largest));
+    const double ulp = std::ldexp(1, base::ulp_exponent(largest == 0 ? 1.0 : largest));
     x = up ? ulp : -ulp;
 }
 
-inline void random_values(Case& c, Random& random) {
+inline void random_values(Case& c, base::Random& random) {
     for (int i = 0; i < vertex_count(c.simplex); ++i) c.values[static_cast<std::size_t>(i)] = random.uniform(-1, 1);
 }
 
 /// A unit vector, up to rounding, along which the last vertex leaves the facet of the others: normal to that edge of a
 /// triangle or face of a tetrahedron; where there are many (an edge in 3-space, a point), a random one.
-inline std::array<double, 3> facet_normal(const Case& c, Random& random) {
+inline std::array<double, 3> facet_normal(const Case& c, base::Random& random) {
     const auto difference = [&](int i) {
         std::array<double, 3> e{};
         for (int axis = 0; axis < space_dimension(c.simplex); ++axis)

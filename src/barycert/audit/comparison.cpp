@@ -45,7 +45,7 @@ void compare_weight(Comparison& r, std::size_t i, double w, double exact, int si
         count(r, Finding::opposite_sign);
     }
     r.weight_error = std::max(r.weight_error, std::fabs(w - exact));
-    if (exact != 0) r.weight_ulps[i] = ulp_error(w, exact);
+    if (exact != 0) r.weight_ulps[i] = base::ulp_error(w, exact);
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answ
                              ? kernel.interpolate(c.vertices.data(), c.point.data(), c.values.data())
                              : kernel.value(weights.data(), c.values.data());
     if (std::isfinite(value) && std::isfinite(answer.value) && answer.value != 0)
-        r.value_ulp = ulp_error(value, answer.value);
+        r.value_ulp = base::ulp_error(value, answer.value);
     const bool wrong_value = kernel.interpolate != nullptr && value != answer.value;
     if (kernel.certifies && (!perfect || wrong_value || r.wrong())) count(r, Finding::false_certificate);
     return r;

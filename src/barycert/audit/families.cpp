@@ -29,15 +29,15 @@ const std::vector<Family>& all_families() {
 std::vector<Family> families_matching(std::string_view glob) {
     std::vector<Family> matching;
     for (const Family& f : all_families()) {
-        if (glob_match(glob, f.name)) matching.push_back(f);
+        if (base::glob_match(glob, f.name)) matching.push_back(f);
     }
     return matching;
 }
 
 Case make_case(const Family& family, Simplex s, std::uint64_t seed, std::uint64_t index, const MeshSource& meshes) {
     const ExactEnvironment environment;
-    const std::uint64_t stream = hash64(family.name) + static_cast<std::uint64_t>(s);
-    Random random = Random::stream(seed, stream, index);
+    const std::uint64_t stream = base::hash64(family.name) + static_cast<std::uint64_t>(s);
+    base::Random random = base::Random::stream(seed, stream, index);
     Case c;
     c.simplex = s;
     if (family.needs_mesh) {

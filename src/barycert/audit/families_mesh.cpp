@@ -11,7 +11,7 @@ namespace barycert::audit {
 namespace {
 
 // Faces of dimension n - 1: the first n vertices after a random one has been put last, and so on.
-void shuffle_vertices(Draw& draw, Random& random) {
+void shuffle_vertices(Draw& draw, base::Random& random) {
     const int n = vertex_count(draw.simplex.simplex);
     for (int i = n - 1; i > 0; --i) {
         std::swap(draw.nodes[random.below(static_cast<std::uint64_t>(i) + 1)], draw.nodes[static_cast<std::size_t>(i)]);
@@ -19,61 +19,61 @@ void shuffle_vertices(Draw& draw, Random& random) {
     draw = draw_of_nodes(*draw.from, draw.cell, draw.nodes, draw.simplex.simplex, random);
 }
 
-Draw shuffled(const Case& c, Random& random, const MeshSource& meshes) {
+Draw shuffled(const Case& c, base::Random& random, const MeshSource& meshes) {
     Draw draw = draw_any(meshes, c.simplex, random);
     shuffle_vertices(draw, random);
     return draw;
 }
 
-void nudge(Case& c, Random& random) {
+void nudge(Case& c, base::Random& random) {
     const auto axis = static_cast<std::size_t>(random.below(static_cast<std::uint64_t>(space_dimension(c.simplex))));
     move_by_ulp(c, c.point[axis], static_cast<int>(axis), random);
 }
 
-void inside(Case& c, Random& random, const MeshSource& meshes) {
+void inside(Case& c, base::Random& random, const MeshSource& meshes) {
     c = draw_any(meshes, c.simplex, random).simplex;
     c.point = random_point(c, random, vertex_count(c.simplex));
 }
 
-void centroids(Case& c, Random& random, const MeshSource& meshes) {
+void centroids(Case& c, base::Random& random, const MeshSource& meshes) {
     c = draw_any(meshes, c.simplex, random).simplex;
     const int n = vertex_count(c.simplex);
     c.point = combination(c, {1, 1, 1, 1}, n);
     for (double& x : c.point) x /= n;
 }
 
-void facets(Case& c, Random& random, const MeshSource& meshes) {
+void facets(Case& c, base::Random& random, const MeshSource& meshes) {
     c = shuffled(c, random, meshes).simplex;
     c.point = random_point(c, random, vertex_count(c.simplex) - 1);
 }
 
-void edges(Case& c, Random& random, const MeshSource& meshes) {
+void edges(Case& c, base::Random& random, const MeshSource& meshes) {
     c = shuffled(c, random, meshes).simplex;
     c.point = random_point(c, random, 2);
 }
 
-void vertices(Case& c, Random& random, const MeshSource& meshes) {
+void vertices(Case& c, base::Random& random, const MeshSource& meshes) {
     c = shuffled(c, random, meshes).simplex;
     c.point = combination(c, {1, 0, 0, 0}, 1);
 }
 
-void facets_nudged(Case& c, Random& random, const MeshSource& meshes) {
+void facets_nudged(Case& c, base::Random& random, const MeshSource& meshes) {
     facets(c, random, meshes);
     nudge(c, random);
 }
 
-void edges_nudged(Case& c, Random& random, const MeshSource& meshes) {
+void edges_nudged(Case& c, base::Random& random, const MeshSource& meshes) {
     edges(c, random, meshes);
     nudge(c, random);
 }
 
-void vertices_nudged(Case& c, Random& random, const MeshSource& meshes) {
+void vertices_nudged(Case& c, base::Random& random, const MeshSource& meshes) {
     vertices(c, random, meshes);
     nudge(c, random);
 }
 
 // From a point of the hull's facet outwards, away from the vertex that the facet leaves out.
-void hull_near(Case& c, Random& random, const MeshSource& meshes) {
+void hull_near(Case& c, base::Random& random, const MeshSource& meshes) {
     c = draw_at_hull(meshes, c.simplex, random).simplex;
     const int n = vertex_count(c.simplex);
     c.point = random_point(c, random, n - 1);
@@ -84,7 +84,7 @@ void hull_near(Case& c, Random& random, const MeshSource& meshes) {
     }
 }
 
-void hull_far(Case& c, Random& random, const MeshSource& meshes) {
+void hull_far(Case& c, base::Random& random, const MeshSource& meshes) {
     const Draw draw = draw_at_hull(meshes, c.simplex, random);
     c = draw.simplex;
     const double reach = std::ldexp(1, random.integer(1, 20));
@@ -95,7 +95,7 @@ void hull_far(Case& c, Random& random, const MeshSource& meshes) {
 }
 
 // A point of the cell across a random facet; the cell's own where there is no neighbour.
-Draw neighbour_cell(Draw& draw, Random& random) {
+Draw neighbour_cell(Draw& draw, base::Random& random) {
     const auto corners = draw.from->mesh.corners();
     const auto cell = static_cast<std::size_t>(draw.cell);
     const auto other = draw.from->neighbours[cell * corners + random.below(corners)];
@@ -106,14 +106,14 @@ Draw neighbour_cell(Draw& draw, Random& random) {
     return draw_of_nodes(*draw.from, static_cast<Mesh::Index>(chosen), nodes, whole, random);
 }
 
-void neighbour_points(Case& c, Random& random, const MeshSource& meshes) {
+void neighbour_points(Case& c, base::Random& random, const MeshSource& meshes) {
     Draw draw = draw_any(meshes, c.simplex, random);
     const Case other = neighbour_cell(draw, random).simplex;
     c = draw.simplex;
     c.point = random_point(other, random, vertex_count(other.simplex));
 }
 
-void neighbour_vertices(Case& c, Random& random, const MeshSource& meshes) {
+void neighbour_vertices(Case& c, base::Random& random, const MeshSource& meshes) {
     Draw draw = draw_any(meshes, c.simplex, random);
     const Case other = neighbour_cell(draw, random).simplex;
     c = draw.simplex;

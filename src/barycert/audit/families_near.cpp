@@ -9,7 +9,7 @@
 namespace barycert::audit {
 namespace {
 
-void ordinary_inside(Case& c, Random& random, std::uint64_t = 0) {
+void ordinary_inside(Case& c, base::Random& random, std::uint64_t = 0) {
     ordinary(c, random);
     c.point = random_point(c, random, vertex_count(c.simplex));
 }
@@ -20,7 +20,7 @@ struct Grid {
     std::array<double, 2> p, q, r, apex;
 };
 
-void ulp_grid(Case& c, Random& random, std::uint64_t index, const Grid& g) {
+void ulp_grid(Case& c, base::Random& random, std::uint64_t index, const Grid& g) {
     const auto cell = index * 40503 % 65536;  // 256 x 256 points; an odd factor visits each once, well spread
     set_vertex(c, 0, {g.q[0], g.q[1], 0});
     set_vertex(c, 1, {g.r[0], g.r[1], 0});
@@ -30,11 +30,11 @@ void ulp_grid(Case& c, Random& random, std::uint64_t index, const Grid& g) {
     random_values(c, random);
 }
 
-void ulp_grid_1(Case& c, Random& random, std::uint64_t index) {
+void ulp_grid_1(Case& c, base::Random& random, std::uint64_t index) {
     ulp_grid(c, random, index, {{0.5, 0.5}, {12, 12}, {24, 24}, {24, 12}});
 }
 
-void ulp_grid_2(Case& c, Random& random, std::uint64_t index) {
+void ulp_grid_2(Case& c, base::Random& random, std::uint64_t index) {
     ulp_grid(c, random, index,
              {{0.50000000000002531, 0.5000000000000171},
               {17.300000000000001, 17.300000000000001},
@@ -42,12 +42,12 @@ void ulp_grid_2(Case& c, Random& random, std::uint64_t index) {
               {24, 17.3}});
 }
 
-void ulp_grid_3(Case& c, Random& random, std::uint64_t index) {
+void ulp_grid_3(Case& c, base::Random& random, std::uint64_t index) {
     ulp_grid(c, random, index, {{0.5, 0.5}, {8.8000000000000007, 8.8000000000000007}, {12.1, 12.1}, {12.1, 8.8}});
 }
 
 // The diagonal x = y = z carries an edge and the point: the other weights are exactly zero.
-void diagonal(Case& c, Random& random, std::uint64_t) {
+void diagonal(Case& c, base::Random& random, std::uint64_t) {
     ordinary(c, random);
     const int n = vertex_count(c.simplex);
     const double t = 0.5 + 5e-14 * random.unit();
@@ -58,7 +58,7 @@ void diagonal(Case& c, Random& random, std::uint64_t) {
 }
 
 // In the plane (on the line) of the first n - 1 vertices, not only between them.
-void coplanar(Case& c, Random& random, std::uint64_t) {
+void coplanar(Case& c, base::Random& random, std::uint64_t) {
     ordinary(c, random);
     const int n = vertex_count(c.simplex);
     const double s = random.uniform(-1, 2), t = n == 4 ? random.uniform(-1, 2) : 0;
@@ -72,7 +72,7 @@ void coplanar(Case& c, Random& random, std::uint64_t) {
 
 // Four points of a plane (three of a line) through the origin whose coordinates span 40 binary orders of magnitude:
 // each product has a different size, so the sums cancel completely. The last vertex is anywhere.
-void anisotropic_plane(Case& c, Random& random, std::uint64_t) {
+void anisotropic_plane(Case& c, base::Random& random, std::uint64_t) {
     const std::array<double, 3> normal{random.uniform(0.5, 1), random.uniform(0.5, 1), random.uniform(0.5, 1)};
     const auto scale = [&](int sign) { return sign > 0 ? random.scaled(-1, 1, 0, 19) : random.scaled(-1, 1, -19, 0); };
     const auto point = [&] {
@@ -89,24 +89,24 @@ void anisotropic_plane(Case& c, Random& random, std::uint64_t) {
 }
 
 template <int Exponent>
-void offset(Case& c, Random& random, std::uint64_t) {
+void offset(Case& c, base::Random& random, std::uint64_t) {
     const double o = std::ldexp(1, Exponent);
     fill(c, random, [&](int) { return o + random.unit(); });
 }
 
-void on_facet(Case& c, Random& random, std::uint64_t) {
+void on_facet(Case& c, base::Random& random, std::uint64_t) {
     fill(c, random, [&](int) { return random.unit(); });
     c.point = random_point(c, random, vertex_count(c.simplex) - 1);
 }
 
-void on_facet_offset(Case& c, Random& random, std::uint64_t) {
+void on_facet_offset(Case& c, base::Random& random, std::uint64_t) {
     fill(c, random, [&](int) { return 1000 + random.unit(); });
     c.point = random_point(c, random, vertex_count(c.simplex) - 1);
 }
 
 // A good simplex and a point at height h over one of its facets.
 template <int Decimal>
-void near_facet(Case& c, Random& random, std::uint64_t) {
+void near_facet(Case& c, base::Random& random, std::uint64_t) {
     constexpr double h = Decimal == 13 ? 1e-13 : Decimal == 14 ? 1e-14 : 1e-15;
     ordinary(c, random);
     const int n = vertex_count(c.simplex) - 1;

@@ -9,27 +9,27 @@
 namespace barycert::audit {
 namespace {
 
-void subnormal(Case& c, Random& random, std::uint64_t) {
+void subnormal(Case& c, base::Random& random, std::uint64_t) {
     fill(c, random, [&](int) { return random.integer(-4096, 4096) * 0x1p-1074; });
 }
 
-void tiny(Case& c, Random& random, std::uint64_t) {
+void tiny(Case& c, base::Random& random, std::uint64_t) {
     fill(c, random, [&](int) { return std::ldexp(random.uniform(-1, 1), -540); });
 }
 
-void small(Case& c, Random& random, std::uint64_t) {
+void small(Case& c, base::Random& random, std::uint64_t) {
     fill(c, random, [&](int) { return std::ldexp(random.uniform(-1, 1), -400); });
 }
 
-void large(Case& c, Random& random, std::uint64_t) {
+void large(Case& c, base::Random& random, std::uint64_t) {
     fill(c, random, [&](int) { return std::ldexp(random.uniform(-1, 1), 600); });
 }
 
-void huge(Case& c, Random& random, std::uint64_t) {
+void huge(Case& c, base::Random& random, std::uint64_t) {
     fill(c, random, [&](int) { return random.uniform(-1, 1) * 0.999 * 0x1p1023 * 2; });
 }
 
-void mixed_scale(Case& c, Random& random, std::uint64_t) {
+void mixed_scale(Case& c, base::Random& random, std::uint64_t) {
     fill(c, random, [&](int axis) {
         return std::ldexp(random.uniform(-1, 1), axis == 0 ? 512 : axis == 1 ? -512 : 0);
     });
@@ -37,7 +37,7 @@ void mixed_scale(Case& c, Random& random, std::uint64_t) {
 
 // Products that underflow to zero in one term and are large in another: a filter whose bound ignores underflow
 // certifies a wrong sign here.
-void filter_underflow(Case& c, Random& random, std::uint64_t) {
+void filter_underflow(Case& c, base::Random& random, std::uint64_t) {
     const auto m = [&] { return random.uniform(0.5, 2); };
     set_vertex(c, 0, {std::ldexp(m(), -537), 0, std::ldexp(m(), 600)});
     set_vertex(c, 1, {std::ldexp(m(), -537), 0, std::ldexp(m(), 600)});

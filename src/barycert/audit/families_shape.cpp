@@ -11,7 +11,7 @@ namespace {
 
 // A simplex of height h; the point is a rounded combination of its vertices.
 template <int Decimal>
-void sliver(Case& c, Random& random, std::uint64_t) {
+void sliver(Case& c, base::Random& random, std::uint64_t) {
     constexpr double h = Decimal == 12 ? 1e-12 : Decimal == 13 ? 1e-13 : Decimal == 14 ? 1e-14 : 1e-15;
     ordinary(c, random);
     const int n = vertex_count(c.simplex);
@@ -20,7 +20,7 @@ void sliver(Case& c, Random& random, std::uint64_t) {
 }
 
 // Two vertices closer to each other than to the rest by 2^-10 to 2^-40.
-void needle(Case& c, Random& random, std::uint64_t) {
+void needle(Case& c, base::Random& random, std::uint64_t) {
     ordinary(c, random);
     const double gap = std::ldexp(1, -random.integer(10, 40));
     for (int axis = 0; axis < space_dimension(c.simplex); ++axis)
@@ -29,7 +29,7 @@ void needle(Case& c, Random& random, std::uint64_t) {
 }
 
 // The last vertex over the middle of the opposite facet, at 2^-10 to 2^-40 of its size.
-void cap(Case& c, Random& random, std::uint64_t) {
+void cap(Case& c, base::Random& random, std::uint64_t) {
     ordinary(c, random);
     const int n = vertex_count(c.simplex);
     const double third = 1.0 / (n - 1);
@@ -38,16 +38,16 @@ void cap(Case& c, Random& random, std::uint64_t) {
     c.point = random_point(c, random, n);
 }
 
-void lattice_tenths(Case& c, Random& random, std::uint64_t) {
+void lattice_tenths(Case& c, base::Random& random, std::uint64_t) {
     fill(c, random, [&](int) { return 0.1 * random.integer(0, 4); });
 }
 
-void lattice_integers(Case& c, Random& random, std::uint64_t) {
+void lattice_integers(Case& c, base::Random& random, std::uint64_t) {
     fill(c, random, [&](int) { return static_cast<double>(random.integer(0, 4)); });
 }
 
 /// Small integer vectors times small integers: sums are exact, so that the vertices span exactly `dimension` or less.
-void flat(Case& c, Random& random, int dimension) {
+void flat(Case& c, base::Random& random, int dimension) {
     const auto integer_vector = [&] {
         return std::array<double, 3>{static_cast<double>(random.integer(-9, 9)),
                                      static_cast<double>(random.integer(-9, 9)),
@@ -67,20 +67,20 @@ void flat(Case& c, Random& random, int dimension) {
     random_values(c, random);
 }
 
-void degenerate_point(Case& c, Random& random, std::uint64_t) {
+void degenerate_point(Case& c, base::Random& random, std::uint64_t) {
     flat(c, random, 0);
 }
 
-void degenerate_line(Case& c, Random& random, std::uint64_t) {
+void degenerate_line(Case& c, base::Random& random, std::uint64_t) {
     flat(c, random, 1);
 }
 
-void degenerate_plane(Case& c, Random& random, std::uint64_t) {
+void degenerate_plane(Case& c, base::Random& random, std::uint64_t) {
     flat(c, random, 2);
 }
 
 // Flat, then scaled by 1/10 (rounded) and one coordinate moved by an ulp (of the largest on its axis if it is zero).
-void nearly_degenerate(Case& c, Random& random, std::uint64_t) {
+void nearly_degenerate(Case& c, base::Random& random, std::uint64_t) {
     flat(c, random, vertex_count(c.simplex) - 2);
     for (double& x : c.vertices) x *= 0.1;
     for (double& x : c.point) x *= 0.1;

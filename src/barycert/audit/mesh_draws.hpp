@@ -34,13 +34,13 @@ struct Draw {
 
 /// A random cell, or a random face or edge of one. Nodal values are a component of one of the mesh's point fields,
 /// drawn as well, or random in [-1, 1) if it has none. Precondition: meshes.supplies(s).
-Draw draw_any(const MeshSource& meshes, Simplex s, Random& random);
+Draw draw_any(const MeshSource& meshes, Simplex s, base::Random& random);
 
 /// A random cell at the hull, its vertices ordered so that the hull's facet is the one opposite to the last.
-Draw draw_at_hull(const MeshSource& meshes, Simplex s, Random& random);
+Draw draw_at_hull(const MeshSource& meshes, Simplex s, base::Random& random);
 
 /// The simplex that given nodes make.
 Draw draw_of_nodes(const PreparedMesh& from, Mesh::Index cell, std::array<Mesh::Index, 4> nodes, Simplex s,
-                   Random& random);
+                   base::Random& random);
 
 }  // namespace barycert::audit

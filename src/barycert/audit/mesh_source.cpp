@@ -14,7 +14,7 @@ bool serves(const PreparedMesh& m, Simplex s) {
 }
 
 /// A mesh that serves; each has the same chance, however large: small ones are the nasty ones.
-const PreparedMesh& pick(const MeshSource& source, Simplex s, Random& random) {
+const PreparedMesh& pick(const MeshSource& source, Simplex s, base::Random& random) {
     const auto& meshes = source.meshes();
     const auto count = std::count_if(meshes.begin(), meshes.end(), [s](const auto& m) { return serves(*m, s); });
     auto skip = random.below(static_cast<std::uint64_t>(count));
@@ -27,7 +27,7 @@ const PreparedMesh& pick(const MeshSource& source, Simplex s, Random& random) {
 }  // namespace
 
 Draw draw_of_nodes(const PreparedMesh& from, Mesh::Index cell, std::array<Mesh::Index, 4> nodes, Simplex s,
-                   Random& random) {
+                   base::Random& random) {
     Draw draw;
     draw.from = &from;
     draw.cell = cell;
@@ -50,7 +50,7 @@ Draw draw_of_nodes(const PreparedMesh& from, Mesh::Index cell, std::array<Mesh::
     return draw;
 }
 
-Draw draw_any(const MeshSource& meshes, Simplex s, Random& random) {
+Draw draw_any(const MeshSource& meshes, Simplex s, base::Random& random) {
     const PreparedMesh& from = pick(meshes, s, random);
     const auto corners = from.mesh.corners();
     const auto cell = random.below(from.mesh.cell_count());
@@ -62,7 +62,7 @@ Draw draw_any(const MeshSource& meshes, Simplex s, Random& random) {
     return draw_of_nodes(from, static_cast<Mesh::Index>(cell), nodes, s, random);
 }
 
-Draw draw_at_hull(const MeshSource& meshes, Simplex s, Random& random) {
+Draw draw_at_hull(const MeshSource& meshes, Simplex s, base::Random& random) {
     const PreparedMesh& from = pick(meshes, s, random);
     const auto corners = from.mesh.corners();
     if (from.hull_facets.empty()) return draw_any(meshes, s, random);
@@ -84,8 +84,8 @@ void MeshSource::add(std::string name, Mesh mesh, const Certificate& certificate
     p.name = std::move(name);
     p.mesh = std::move(mesh);
     p.certificate = certificate;
-    p.neighbours = compute_neighbours(p.mesh);
-    const auto hull = hull_facets(p.mesh, p.neighbours);
+    p.neighbours = mesh::compute_neighbours(p.mesh);
+    const auto hull = mesh::hull_facets(p.mesh, p.neighbours);
     p.hull_facets.assign(hull.begin(), hull.end());
     const auto d = static_cast<std::size_t>(p.mesh.dimension);
     p.low.fill(std::numeric_limits<double>::infinity());

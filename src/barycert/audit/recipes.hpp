@@ -18,7 +18,7 @@ std::vector<Family> range_families();
 
 /// Every coordinate of every vertex, and of the point, from `make(axis)`.
 template <class Make>
-void fill(Case& c, Random& random, Make make) {
+void fill(Case& c, base::Random& random, Make make) {
     for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
         for (int i = 0; i < vertex_count(c.simplex); ++i) c.vertex(i, axis) = make(axis);
         c.point[static_cast<std::size_t>(axis)] = make(axis);
@@ -26,12 +26,12 @@ void fill(Case& c, Random& random, Make make) {
     random_values(c, random);
 }
 
-inline void ordinary(Case& c, Random& random, std::uint64_t = 0) {
+inline void ordinary(Case& c, base::Random& random, std::uint64_t = 0) {
     fill(c, random, [&](int) { return random.uniform(-1, 1); });
 }
 
 /// `from` moved by `h` along the normal of the first n - 1 vertices.
-inline std::array<double, 3> lifted(const Case& c, Random& random, std::array<double, 3> from, double h) {
+inline std::array<double, 3> lifted(const Case& c, base::Random& random, std::array<double, 3> from, double h) {
     const auto normal = facet_normal(c, random);
     for (std::size_t k = 0; k < 3; ++k) from[k] += h * normal[k];
     return from;

@@ -41,7 +41,8 @@ std::string not_reproduced(const Replay& r, const std::vector<Kernel>& kernels) 
     }
     // Errors in ulps come out the same wherever the kernel was compiled to the same arithmetic.
     const double ulps = w.reason == "worst_value_ulp" ? a->comparison.value_ulp : a->worst_weight_ulp;
-    return ulps == w.magnitude ? "" : "the error is " + shortest(ulps) + " ulps, not " + shortest(w.magnitude);
+    return ulps == w.magnitude ? ""
+                               : "the error is " + base::shortest(ulps) + " ulps, not " + base::shortest(w.magnitude);
 }
 
 }  // namespace

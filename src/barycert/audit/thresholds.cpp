@@ -64,7 +64,7 @@ Result<Threshold> parse_threshold(std::string_view text) {
                      .found = '"' + std::string(text) + '"'};
     }
     if (sign != std::string_view::npos) {
-        const auto limit = parse_double(text.substr(sign + 1));
+        const auto limit = base::parse_double(text.substr(sign + 1));
         if (!limit || !(*limit >= 0))
             return Error{.what = "bad limit in a rule",
                          .expected = "a number >= 0 after '>'",

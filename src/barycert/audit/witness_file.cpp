@@ -23,7 +23,7 @@ Json vector_of(int n, Write write) {
 
 /// A number in the wording of the file, with its place for the error message.
 double number(const Json& at, const std::string& where) {
-    const std::optional<double> x = at.is_string()   ? parse_double(at.get<std::string>())
+    const std::optional<double> x = at.is_string()   ? base::parse_double(at.get<std::string>())
                                     : at.is_number() ? std::optional<double>(at.get<double>())
                                                      : std::nullopt;
     if (!x || !std::isfinite(*x)) {
@@ -101,7 +101,7 @@ Witness witness_from(const Json& j, const std::string& where) {
 
 Json audit::witness_json(const Witness& w) {
     const int n = vertex_count(w.c.simplex), d = space_dimension(w.c.simplex);
-    const auto hex = [](double x) { return Json(hexadecimal(x)); };
+    const auto hex = [](double x) { return Json(base::hexadecimal(x)); };
     Json j;
     j["kernel"] = w.kernel;
     j["reason"] = w.reason;
@@ -113,9 +113,10 @@ Json audit::witness_json(const Witness& w) {
     j["vertices"] = vector_of(n, [&](int i) { return vector_of(d, [&](int k) { return hex(w.c.vertex(i, k)); }); });
     j["point"] = vector_of(d, [&](int k) { return hex(w.c.point[static_cast<std::size_t>(k)]); });
     j["values"] = vector_of(n, [&](int i) { return hex(w.c.values[static_cast<std::size_t>(i)]); });
-    j["decimal"]["vertices"] =
-        vector_of(n, [&](int i) { return vector_of(d, [&](int k) { return Json(shortest(w.c.vertex(i, k))); }); });
-    j["decimal"]["point"] = vector_of(d, [&](int k) { return Json(shortest(w.c.point[static_cast<std::size_t>(k)])); });
+    j["decimal"]["vertices"] = vector_of(
+        n, [&](int i) { return vector_of(d, [&](int k) { return Json(base::shortest(w.c.vertex(i, k))); }); });
+    j["decimal"]["point"] =
+        vector_of(d, [&](int k) { return Json(base::shortest(w.c.point[static_cast<std::size_t>(k)])); });
     return j;
 }
 
@@ -132,7 +133,7 @@ std::string witnesses_json(const AuditReport& report) {
 
 Result<std::vector<Witness>> read_witnesses(const std::string& path) {
     const ExactEnvironment environment;
-    const Result<std::string> text = read_file(path);
+    const Result<std::string> text = base::read_file(path);
     if (!text) {
         Error error = text.error();
         error.what = "cannot read the witnesses";

@@ -7,9 +7,7 @@
 #include <cerrno>
 #include <utility>
 
-namespace barycert {
-namespace detail {
-
+namespace barycert::base {
 /// A list that only grows: a signal handler may walk it at any moment, in any thread, without a lock. A record is some
 /// tens of bytes for each file that needed a name.
 struct BegunFile::Record {
@@ -40,14 +38,12 @@ void BegunFile::forget() {
     record_->live = false;
 }
 
-}  // namespace detail
-
 namespace {
 
 /// Only calls that POSIX allows in a handler: unlink, sigaction, raise.
 extern "C" void remove_and_end(int signal) {
     const int error_number = errno;
-    for (const detail::BegunFile::Record* r = detail::records.load(); r != nullptr; r = r->next) {
+    for (const BegunFile::Record* r = records.load(); r != nullptr; r = r->next) {
         if (r->live) ::unlink(r->path.c_str());
     }
     struct sigaction usual {};
@@ -70,4 +66,4 @@ void remove_begun_files_on_signals() {
     }
 }
 
-}  // namespace barycert
+}  // namespace barycert::base

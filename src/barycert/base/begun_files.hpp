@@ -7,14 +7,12 @@
 #include <atomic>
 #include <string>
 
-namespace barycert {
+namespace barycert::base {
 
 /// For the main function of a program: from now on SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE and SIGXCPU first remove
 /// the unfinished files of this process and then end it as they would have. A signal that is ignored stays ignored.
 /// A library must not decide about signals, so nothing else calls this.
 void remove_begun_files_on_signals();
-
-namespace detail {
 
 /// One name, on record from before the file exists until it is renamed or removed. Safe to use from any thread.
 class BegunFile {
@@ -34,5 +32,4 @@ private:
     Record* record_;
 };
 
-}  // namespace detail
-}  // namespace barycert
+}  // namespace barycert::base

@@ -2,10 +2,9 @@
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
-#else
-#include <cfloat>
 #endif
 
+#include "barycert/base/measured_environment.hpp"
 #include "barycert/base/strict_math.hpp"
 
 namespace barycert {
@@ -54,24 +53,10 @@ void ExactEnvironment::leave() const {
 }
 
 #else
-namespace {
 
-double volatile_value(double x) {
-    volatile double v = x;
-    return v;
-}
-
-}  // namespace
-
-/// Measured, as there is no register to ask that all targets have: 1 + 2^-54 and 1 + 3 * 2^-54 lie on either side of
-/// the middle between 1 and its upper neighbour, and only to nearest go apart, on both sides of zero.
+/// Measured, as there is no register to ask that all targets have.
 bool rounds_correctly() {
-    const double one = volatile_value(1), under = volatile_value(0x1p-54), over = volatile_value(0x3p-54);
-    const bool nearest = volatile_value(one + under) == 1 && volatile_value(one + over) > 1 &&
-                         volatile_value(-one - under) == -1 && volatile_value(-one - over) < -1;
-    const bool results = volatile_value(volatile_value(DBL_MIN) * 0.5) != 0;
-    const bool operands = volatile_value(volatile_value(0x1p-1074) * 0x1p+200) != 0;
-    return nearest && results && operands;
+    return base::measured_rounding() == "nearest" && !base::measured_flush_to_zero();
 }
 
 /// FE_DFL_ENV is the environment in which a process starts; by IEC 60559 (Annex F of the C standard) it rounds to

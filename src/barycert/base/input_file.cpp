@@ -9,7 +9,7 @@
 #include <cstring>
 #include <utility>
 
-namespace barycert {
+namespace barycert::base {
 namespace {
 
 Error unfit(const std::string& path, std::string expected, const char* found, const char* remedy) {
@@ -113,4 +113,4 @@ Result<std::string> read_file(const std::string& path, std::size_t longest) {
     return bytes;
 }
 
-}  // namespace barycert
+}  // namespace barycert::base

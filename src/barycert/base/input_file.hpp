@@ -11,7 +11,7 @@
 
 #include "barycert/result.hpp"
 
-namespace barycert {
+namespace barycert::base {
 
 /// A regular file open for reading; closed at the end.
 class InputFile {
@@ -49,4 +49,4 @@ Error read_failure(const std::string& path, int error_number);
 /// That a text ends in a number and not in a line end: what is there may be cut, and 0.2 the beginning of 0.25.
 Error unended_number(std::string path, std::size_t line);
 
-}  // namespace barycert
+}  // namespace barycert::base

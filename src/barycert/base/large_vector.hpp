@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-namespace barycert::detail {
+namespace barycert::base {
 
 /// values.resize(count) of an empty vector, asking for large pages first: half the time of a large read would else go
 /// into page faults.
@@ -25,4 +25,4 @@ void resize_large(std::vector<T>& values, std::size_t count) {
     values.resize(count);
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::base

@@ -8,7 +8,7 @@
 
 #include "barycert/base/input_file.hpp"
 
-namespace barycert::detail {
+namespace barycert::base {
 
 Result<MappedFile> MappedFile::open(const std::string& path) {
     const Result<InputFile> file = InputFile::open(path);
@@ -45,4 +45,4 @@ MappedFile::~MappedFile() {
     if (mapped_ != 0) ::munmap(const_cast<char*>(begin_), mapped_);
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::base

@@ -7,7 +7,7 @@
 
 #include "barycert/result.hpp"
 
-namespace barycert::detail {
+namespace barycert::base {
 
 /// A regular file, mapped for reading. At least one page of zero bytes follows the last byte, so that a scanner may
 /// look ahead, and stops at a NUL instead of comparing with the end at every step.
@@ -31,4 +31,4 @@ private:
     std::size_t mapped_ = 0;  // the size of the whole mapping; 0: none
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::base

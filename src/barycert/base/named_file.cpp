@@ -13,7 +13,7 @@
 
 #include "barycert/base/output_file.hpp"
 
-namespace barycert {
+namespace barycert::base {
 
 namespace fs = std::filesystem;
 
@@ -106,4 +106,4 @@ Status check_inputs(const std::vector<NamedFile>& inputs) {
     return Done{};
 }
 
-}  // namespace barycert
+}  // namespace barycert::base

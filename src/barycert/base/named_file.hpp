@@ -6,7 +6,7 @@
 
 #include "barycert/result.hpp"
 
-namespace barycert {
+namespace barycert::base {
 
 /// A file on the command line: `what` as in "--json" or "the mesh".
 struct NamedFile {
@@ -30,4 +30,4 @@ Status check_outputs(const std::vector<NamedFile>& inputs, std::vector<NamedFile
 /// Error: one of these cannot be read. "-" is stdin.
 Status check_inputs(const std::vector<NamedFile>& inputs);
 
-}  // namespace barycert
+}  // namespace barycert::base

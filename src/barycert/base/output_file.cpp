@@ -12,7 +12,7 @@
 #include <cstring>
 #include <utility>
 
-namespace barycert {
+namespace barycert::base {
 namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 18;
@@ -113,7 +113,7 @@ bool OutputFile::open_nameless() {
 void OutputFile::open_beside() {
     // O_EXCL: a name left over by a killed run, or planted as a link, is passed over.
     do {
-        begun_ = std::make_unique<detail::BegunFile>(name_beside(real_path_));
+        begun_ = std::make_unique<base::BegunFile>(name_beside(real_path_));
         descriptor_ = ::open(begun_->path().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (descriptor_ < 0 && errno == EEXIST);
     if (descriptor_ >= 0) return;
@@ -187,7 +187,7 @@ bool OutputFile::give_name() {
     if (link(real_path_)) return true;
     // A link never replaces a file: an existing target takes a second name and a rename.
     while (errno == EEXIST) {
-        begun_ = std::make_unique<detail::BegunFile>(name_beside(real_path_));
+        begun_ = std::make_unique<base::BegunFile>(name_beside(real_path_));
         if (link(begun_->path())) return false;
     }
     const int error_number = errno;
@@ -221,4 +221,4 @@ void OutputFile::fail(const char* what, int error_number) {
     error_.remedy = remedy_for(error_number);
 }
 
-}  // namespace barycert
+}  // namespace barycert::base

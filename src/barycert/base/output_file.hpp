@@ -9,7 +9,7 @@
 #include "barycert/base/begun_files.hpp"
 #include "barycert/result.hpp"
 
-namespace barycert {
+namespace barycert::base {
 
 /// Writes to a file without a name in the target's folder, which commit() puts in the target's place: a process that is
 /// ended by whatever means, SIGKILL included, leaves the target as it was and nothing else. Without a commit() the
@@ -61,13 +61,13 @@ private:
     bool give_name();
     void flush();
 
-    std::string target_;                        // as the caller named it: for messages
-    std::string real_path_;                     // with links resolved
-    std::unique_ptr<detail::BegunFile> begun_;  // the name of the unfinished file, while it has one
+    std::string target_;                      // as the caller named it: for messages
+    std::string real_path_;                   // with links resolved
+    std::unique_ptr<base::BegunFile> begun_;  // the name of the unfinished file, while it has one
     std::string buffer_;
     int descriptor_ = -1;
     bool nameless_ = false;  // the unfinished file has no name, and lives while its descriptor is open
     Error error_;
 };
 
-}  // namespace barycert
+}  // namespace barycert::base

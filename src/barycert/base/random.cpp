@@ -5,7 +5,7 @@
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 
-namespace barycert {
+namespace barycert::base {
 
 double Random::uniform(double lo, double hi) {
     const ExactEnvironment environment;
@@ -19,4 +19,4 @@ double Random::scaled(double lo, double hi, int low, int high) {
     return held(std::ldexp(mantissa, integer(low, high)));
 }
 
-}  // namespace barycert
+}  // namespace barycert::base

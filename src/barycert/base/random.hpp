@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace barycert {
+namespace barycert::base {
 
 /// The finaliser of SplitMix64: a bijection of 64-bit words whose output bits all depend on all input bits.
 constexpr std::uint64_t mix64(std::uint64_t z) {
@@ -65,4 +65,4 @@ private:
     std::uint64_t state_;
 };
 
-}  // namespace barycert
+}  // namespace barycert::base

@@ -11,7 +11,7 @@ std::string Error::message() const {
     if (!expected.empty()) text += ": expected " + expected;
     if (!found.empty()) text += (expected.empty() ? ": found " : ", found ") + found;
     if (!remedy.empty()) text += "; " + remedy;
-    return printable(text);
+    return base::printable(text);
 }
 
 }  // namespace barycert

@@ -9,7 +9,7 @@
 
 #include "barycert/environment.hpp"
 
-namespace barycert {
+namespace barycert::base {
 
 std::string shortest(double x) {
     const ExactEnvironment environment;
@@ -129,4 +129,4 @@ bool glob_match(std::string_view pattern, std::string_view text) {
     return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
-}  // namespace barycert
+}  // namespace barycert::base

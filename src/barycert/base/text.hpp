@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace barycert {
+namespace barycert::base {
 
 /// The shortest decimal form that reads back to x; "nan", "inf", "-inf" where x is not finite.
 std::string shortest(double x);
@@ -31,4 +31,4 @@ std::string quoted(std::string_view word);
 /// True if `text` matches the shell-style pattern: `*` any run, `?` any one character.
 bool glob_match(std::string_view pattern, std::string_view text);
 
-}  // namespace barycert
+}  // namespace barycert::base

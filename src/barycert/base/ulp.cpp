@@ -6,7 +6,7 @@
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 
-namespace barycert {
+namespace barycert::base {
 
 double ulp_error(double computed, double reference) {
     const ExactEnvironment environment;
@@ -31,4 +31,4 @@ double next_down(double x) {
     return held(std::nextafter(held(x), -HUGE_VAL));
 }
 
-}  // namespace barycert
+}  // namespace barycert::base

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace barycert {
+namespace barycert::base {
 
 /// Exponent of ulp(x): ulp(x) = 2^ulp_exponent(x). Precondition: x finite.
 constexpr int ulp_exponent(double x) {
@@ -28,4 +28,4 @@ double ulp_error(double computed, double reference);
 double next_up(double x);
 double next_down(double x);
 
-}  // namespace barycert
+}  // namespace barycert::base

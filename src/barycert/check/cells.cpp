@@ -192,7 +192,7 @@ Cells check_cells(const Mesh& mesh, const std::vector<std::uint8_t>& finite, con
     measures.defects.assign(count, 0);
     for (auto* measure : {&measures.volume, &measures.condition, &measures.radius_edge, &measures.aspect,
                           &measures.min_angle, &measures.max_angle})
-        barycert::detail::resize_large(*measure, shapes ? count : 0);
+        barycert::base::resize_large(*measure, shapes ? count : 0);
     const CellChecker check(mesh, finite, volumes, measures, cells.usable);
     in_blocks(
         count, 8192,

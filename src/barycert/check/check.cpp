@@ -119,7 +119,7 @@ private:
         check_boundary_and_pairs(report, cells, facets, volumes);
         parts.wait();
         // Last, as it says nothing of where cells lie: what is certified is accepted by all who ask for a whole mesh.
-        if (const char* fault = detail::inconsistency_of_extras(mesh_, detail::FieldValues::any); fault != nullptr) {
+        if (const char* fault = mesh::inconsistency_of_extras(mesh_, mesh::FieldValues::any); fault != nullptr) {
             defects_.add(DefectKind::unfit_array, {.detail = fault});
         }
         if (enough()) return;

@@ -124,12 +124,12 @@ private:
             numbers.push_back(static_cast<std::uint32_t>(i));
         }
         const BoxTree tree(std::move(boxes));
-        const detail::FacetTable table(mesh_, use_);
+        const mesh::FacetTable table(mesh_, use_);
         std::vector<Candidate> all;
         in_blocks(
             table.node_count(), 4096, [] { return std::vector<Candidate>(); },
             [&](std::size_t first, std::size_t last, std::vector<Candidate>& part) {
-                table.for_each_group(first, last, [&](std::span<const detail::CellFacet> equal) {
+                table.for_each_group(first, last, [&](std::span<const mesh::CellFacet> equal) {
                     const auto nodes = nodes_of(equal.front());
                     tree.for_each(box_of(3, nodes.data(), 3), [&](std::uint32_t i) {
                         if (close(regions_[numbers[i]], nodes)) part.push_back({numbers[i], nodes});
@@ -143,7 +143,7 @@ private:
         return all;
     }
 
-    std::array<const double*, 3> nodes_of(const detail::CellFacet& f) const {
+    std::array<const double*, 3> nodes_of(const mesh::CellFacet& f) const {
         std::array<const double*, 3> nodes{};
         std::size_t n = 0;
         for (std::size_t i = 0; i < 4; ++i) {

@@ -37,9 +37,7 @@ void load(const core::Unit (&units)[3], const double* p, T (&out)[d]) {
 /// within the ranges 2^(64 N - 1), 2^(128 N - 1), 2^(192 N - 1) of N, 2 N and 3 N limbs.
 template <class F>
 Integer with_width(int bits, F f) {
-    if (bits <= 64 - 3) return f.template operator()<core::Fixed<1>>();
-    if (bits <= 128 - 3) return f.template operator()<core::Fixed<2>>();
-    return f.template operator()<Integer>();
+    return core::with_integers<3>(bits, f);
 }
 
 }  // namespace

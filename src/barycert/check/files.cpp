@@ -83,7 +83,7 @@ private:
 void check_faces(const Mesh& mesh, const std::vector<std::uint8_t>& usable, DefectList& defects) {
     if (mesh.faces.empty()) return;
     if (mesh.dimension == 2) {
-        defects.add(DefectKind::wrong_face, {.detail = barycert::detail::faces_of_triangles});
+        defects.add(DefectKind::wrong_face, {.detail = barycert::mesh::faces_of_triangles});
         return;
     }
     if (mesh.faces.size() % 3 != 0) defects.add(DefectKind::wrong_face, {.detail = "the last one is not whole"});

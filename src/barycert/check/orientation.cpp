@@ -15,7 +15,7 @@ Mesh with_positive_cells(const Mesh& mesh, const std::vector<std::int8_t>& orien
         return corner == last ? last - 1 : corner == last - 1 ? last : corner;
     };
     // Which edge lies, after the swap, where edge e lay.
-    const auto edges = detail::edges_of(mesh.dimension);
+    const auto edges = mesh::edges_of(mesh.dimension);
     std::array<std::size_t, 6> edge_from{};
     for (std::size_t e = 0; e < edges.size(); ++e) {
         const std::size_t a = swapped(edges[e][0]), b = swapped(edges[e][1]);

@@ -42,9 +42,9 @@ template <class T>
 
 /// A triangle fills at most half of its box, a tetrahedron a third.
 template <int d>
-constexpr double least = d == 2 ? 2 : 3;
+constexpr double min_condition = d == 2 ? 2 : 3;
 
-/// The cell's vertices with the least and the largest coordinate on each axis.
+/// The cell's vertices with the min and the max coordinate on each axis.
 template <int d>
 struct Extremes {
     int low[d]{}, high[d]{};
@@ -72,7 +72,7 @@ double quotient(const Unit (&units)[d], const ScaledDouble (&parts)[d + 1][d], c
     const Integer det = as_integer(determinant(edges)), box = as_integer(product(extents));
     if (det.sign() == 0) return std::numeric_limits<double>::infinity();
     const double factor = d == 2 ? 2 : 6;
-    return std::clamp(factor * round_quotient(false, box.magnitude(), det.magnitude(), 0), least<d>,
+    return std::clamp(factor * round_quotient(false, box.magnitude(), det.magnitude(), 0), min_condition<d>,
                       std::numeric_limits<double>::max());
 }
 
@@ -90,11 +90,7 @@ template <int d>
         }
     }
     const Extremes<d> extremes(vertices);
-    int bits = 0;
-    for (const Unit& u : units) bits = std::max(bits, u.bits());
-    if (bits <= 64 - 3) return quotient<Fixed<1>, d>(units, parts, extremes);
-    if (bits <= 128 - 3) return quotient<Fixed<2>, d>(units, parts, extremes);
-    return quotient<Integer, d>(units, parts, extremes);
+    return with_integers<3>(max_bits(units), [&]<class T>() { return quotient<T, d>(units, parts, extremes); });
 }
 
 /// In floating point where that is certain to be right, else in integers.
@@ -107,7 +103,7 @@ template <int d>
 /// is NaN, a comparison fails; maxima and minima may forget a NaN, but then it is in det.
 template <int d>
 [[gnu::always_inline]] inline double condition(const double* vertices) {
-    double edges[d][d], extents[d], longest = 0;
+    double edges[d][d], extents[d], max_extent = 0;
     for (int k = 0; k < d; ++k) {
         double low = vertices[k], high = vertices[k];
         for (int i = 0; i < d; ++i) {
@@ -117,10 +113,10 @@ template <int d>
             high = std::max(high, x);
         }
         extents[k] = high - low;
-        longest = std::max(longest, extents[k]);
+        max_extent = std::max(max_extent, extents[k]);
     }
     const double det = std::fabs(determinant(edges)), box = (d == 2 ? 2 : 6) * product(extents);
-    if (longest <= 0x1p149 && det >= 0x1p-650 && box <= 0x1p38 * det) return std::max(box / det, least<d>);
+    if (max_extent <= 0x1p149 && det >= 0x1p-650 && box <= 0x1p38 * det) return std::max(box / det, min_condition<d>);
     return exact_condition<d>(vertices);
 }
 

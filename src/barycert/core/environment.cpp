@@ -1,41 +1,14 @@
 #include "barycert/environment.hpp"
 
-#include <cfloat>
 #include <thread>
 
-#include "barycert/base/strict_math.hpp"
+#include "barycert/base/measured_environment.hpp"
 #include "barycert/core/lanes.hpp"
 
 namespace barycert::core {
 namespace {
 
-// Volatile operands keep the compiler from folding what is to be measured.
-double volatile_value(double x) {
-    volatile double v = x;
-    return v;
-}
-
-// 1 + 2^-54 lies below the middle of 1 and its upper neighbour, 1 + 3*2^-54 above it; with the first one mirrored they
-// tell the four modes apart. The mode register is not asked, because it may lie about the unit that computes (x87
-// against SSE).
-std::string measured_rounding() {
-    const double one = volatile_value(1);
-    const double over = volatile_value(0x3p-54);
-    const double under = volatile_value(0x1p-54);
-    const double up = volatile_value(one + under);
-    const double down = volatile_value(one + over);
-    const double negative = volatile_value(-one - under);
-    if (up > 1) return "upward";
-    if (negative < -1) return "downward";
-    return down > 1 ? "nearest" : "toward-zero";
-}
-
-bool measured_flush_to_zero() {
-    const double smallest_normal = volatile_value(DBL_MIN);
-    const double result = volatile_value(smallest_normal * 0.5);                  // flush-to-zero shows here
-    const double operand = volatile_value(volatile_value(0x1p-1074) * 0x1p+200);  // denormals-are-zero here
-    return result == 0 || operand == 0;
-}
+using base::volatile_value;
 
 bool measured_contraction() {
     // (1 + 2^-30)^2 = 1 + 2^-29 + 2^-60: rounded on its own, in any mode, the product loses 2^-60; fused it does not.
@@ -65,8 +38,8 @@ namespace barycert {
 
 Environment measure_environment() {
     Environment e;
-    e.rounding = core::measured_rounding();
-    e.flush_to_zero = core::measured_flush_to_zero();
+    e.rounding = base::measured_rounding();
+    e.flush_to_zero = base::measured_flush_to_zero();
     e.contraction = core::measured_contraction() || core::lanes_contract();
     e.excess_precision = core::measured_excess_precision();
     e.simd = simd_target();

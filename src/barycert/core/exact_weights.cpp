@@ -37,7 +37,7 @@ struct Lattice {
 ///   four of one and a numerator of degree 3 below 36 * 2^(320 N - 9)            in 5 N limbs,
 /// so that no sum overflows.
 template <int count, int d, class Decide>
-auto with_integers(const double* const (&points)[count], bool common, Decide decide) {
+auto with_lattice(const double* const (&points)[count], bool common, Decide decide) {
     ScaledDouble parts[count][d];
     Unit units[d];
     for (int k = 0; k < d; ++k) {
@@ -50,18 +50,13 @@ auto with_integers(const double* const (&points)[count], bool common, Decide dec
         for (int k = 1; k < d; ++k) units[0].add(units[k]);
         std::fill_n(units, d, units[0]);
     }
-    const auto as = [&]<class T>() {
+    return with_integers<3>(max_bits(units), [&]<class T>() {
         Lattice<count, d, T> lattice;
         for (int k = 0; k < d; ++k) {
             for (int i = 0; i < count; ++i) lattice.at[i][k] = units[k].template multiple<T>(parts[i][k]);
         }
         return decide(lattice);
-    };
-    int bits = 0;
-    for (const Unit& u : units) bits = std::max(bits, u.bits());
-    if (bits <= 64 - 3) return as.template operator()<Fixed<1>>();
-    if (bits <= 128 - 3) return as.template operator()<Fixed<2>>();
-    return as.template operator()<Integer>();
+    });
 }
 
 /// The magnitude of a number in two's complement.
@@ -106,7 +101,7 @@ void add_product(std::uint64_t* sum, const std::uint64_t* x, int count, std::uin
 /// Sign of the determinant of three differences, each from one point to another.
 template <int count>
 Sign sign_of_determinant(const double* const (&points)[count], const int (&ends)[3][2]) {
-    return with_integers<count, 3>(points, false, [&]<class T>(const Lattice<count, 3, T>& lattice) {
+    return with_lattice<count, 3>(points, false, [&]<class T>(const Lattice<count, 3, T>& lattice) {
         T u[3], v[3], w[3];
         formulas::Product<T> m[3];
         lattice.difference(ends[0][1], ends[0][0], u);
@@ -126,7 +121,7 @@ static_assert(64 * (Integer::capacity - 2) >= 5 * 2099 + 7);
 template <Simplex s>
 Sign sign_of_lifted(const double* const (&points)[vertex_count(s) + 1]) {
     constexpr int n = vertex_count(s), d = space_dimension(s);
-    return with_integers<n + 1, d>(points, true, []<class T>(const Lattice<n + 1, d, T>& lattice) {
+    return with_lattice<n + 1, d>(points, true, []<class T>(const Lattice<n + 1, d, T>& lattice) {
         formulas::Relative<s, T> c;
         formulas::Lifted<s, T> lifted;
         for (int i = 0; i < n; ++i) lattice.difference(i, n, c.r[i]);
@@ -149,7 +144,7 @@ void ExactWeights::solve(const double* vertices, const double* point) {
     const double* points[n + 1];
     for (int i = 0; i < n; ++i) points[i] = vertices + d * i;
     points[n] = point;
-    with_integers<n + 1, d>(points, projected, [&]<class T>(const Lattice<n + 1, d, T>& lattice) {
+    with_lattice<n + 1, d>(points, projected, [&]<class T>(const Lattice<n + 1, d, T>& lattice) {
         formulas::Relative<s, T> c;
         for (int i = 0; i < n; ++i) lattice.difference(i, n, c.r[i]);
         if constexpr (projected) {
@@ -210,7 +205,7 @@ double ExactWeights::interpolate(std::span<const double> values) const {
 }
 
 Sign exact_orient2d(const double* a, const double* b, const double* c) {
-    return with_integers<3, 2>({a, b, c}, false, []<class T>(const Lattice<3, 2, T>& lattice) {
+    return with_lattice<3, 2>({a, b, c}, false, []<class T>(const Lattice<3, 2, T>& lattice) {
         T ab[2], ac[2];
         lattice.difference(1, 0, ab);
         lattice.difference(2, 0, ac);

@@ -21,7 +21,7 @@
 //   triangle3d  P = 4 (E_y E_z R_y R_z + E_x E_z R_x R_z + E_x E_y R_x R_y), and Q likewise of E alone for N.N
 //
 // Underflow and overflow. A product or difference that underflows is off by up to 2^-1021 (operands
-// and result flushed to zero). Outside these ranges the filter says "don't know":
+// and result flushed to zero). Outside these ranges the filter says "undecided":
 //   tetrahedron, triangle   every extent in [2^-300, 2^300]. A lost difference counts 2^-1022 Y Z against e X Y Z with
 //                           X >= 2^-300; a lost product of two 2^-1022 Z against e X Y Z; of three 2^-1022 against
 //                           2^-52-900. All far below the 2 %. Largest value: 24 * 2^900. (It does not do to look for
@@ -32,7 +32,7 @@
 //                           2^-1022 * 2^300 in a difference, less elsewhere, against e P >= 2^-654.
 // Comparisons are false for NaN. A NaN or infinite coordinate of the point is in every difference of its axis, hence in
 // the extent (an infinite one) or in the numerators (NaN, all of them); one of a vertex is in the denominator. So all
-// of them give "don't know", though maxima and minima may forget a NaN.
+// of them give "undecided", though maxima and minima may forget a NaN.
 //
 // Included once per SIMD target.
 #if defined(BARYCERT_CORE_FILTER_INL_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -52,33 +52,33 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 inline constexpr double filter_epsilon = 0x1p-52;
 
-/// The larger of |x| and |y|, the smaller one: in one instruction where there is one (AVX-512DQ). A NaN may be
+/// The max of |x| and |y|, and the min: in one instruction where there is one (AVX-512DQ). A NaN may be
 /// forgotten.
 template <class V>
-HWY_INLINE V larger_magnitude(V x, V y) {
+HWY_INLINE V max_magnitude(V x, V y) {
 #if HWY_TARGET == HWY_AVX3
     if constexpr (sizeof(V) == 64) return V{_mm512_range_pd(x.raw, y.raw, 0xb)};
 #endif
     return hn::Max(hn::Abs(x), hn::Abs(y));
 }
 template <class V>
-HWY_INLINE V smaller_magnitude(V x, V y) {
+HWY_INLINE V min_magnitude(V x, V y) {
 #if HWY_TARGET == HWY_AVX3
     if constexpr (sizeof(V) == 64) return V{_mm512_range_pd(x.raw, y.raw, 0xa)};
 #endif
     return hn::Min(hn::Abs(x), hn::Abs(y));
 }
 
-/// Largest |component| on each axis over `count` vectors.
+/// Max |component| on each axis over `count` vectors.
 template <int count, int d, class V>
 HWY_INLINE void extents(const V (&vectors)[count][d], V (&out)[d]) {
     for (int k = 0; k < d; ++k) {
         if constexpr (count == 1) {
             out[k] = hn::Abs(vectors[0][k]);
         } else {
-            out[k] = larger_magnitude(vectors[0][k], vectors[1][k]);
+            out[k] = max_magnitude(vectors[0][k], vectors[1][k]);
             if constexpr (count == 3) out[k] = hn::Max(out[k], hn::Abs(vectors[2][k]));
-            if constexpr (count == 4) out[k] = hn::Max(out[k], larger_magnitude(vectors[2][k], vectors[3][k]));
+            if constexpr (count == 4) out[k] = hn::Max(out[k], max_magnitude(vectors[2][k], vectors[3][k]));
         }
     }
 }
@@ -86,12 +86,12 @@ HWY_INLINE void extents(const V (&vectors)[count][d], V (&out)[d]) {
 /// Every x[k] in [low, high].
 template <class D, int d, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> all_within(D tag, const V (&x)[d], double low, double high) {
-    V least = x[0], most = x[0];
+    V min_x = x[0], max_x = x[0];
     for (int k = 1; k < d; ++k) {
-        least = hn::Min(least, x[k]);
-        most = hn::Max(most, x[k]);
+        min_x = hn::Min(min_x, x[k]);
+        max_x = hn::Max(max_x, x[k]);
     }
-    return hn::And(hn::Ge(least, hn::Set(tag, low)), hn::Le(most, hn::Set(tag, high)));
+    return hn::And(hn::Ge(min_x, hn::Set(tag, low)), hn::Le(max_x, hn::Set(tag, high)));
 }
 
 /// E_y E_z R_y R_z + E_x E_z R_x R_z + E_x E_y R_x R_y.
@@ -122,15 +122,15 @@ HWY_INLINE Bounds<D> filter_bounds(D tag, const Relative<s, V>& c) {
     } else {
         V e[d];
         extents(c.e, e);
-        const V largest[] = {hn::Max(hn::Max(r[0], r[1]), r[2]), hn::Max(hn::Max(e[0], e[1]), e[2])};
+        const V maxima[] = {hn::Max(hn::Max(r[0], r[1]), r[2]), hn::Max(hn::Max(e[0], e[1]), e[2])};
         if constexpr (s == Simplex::segment) {
             const V p = r[0] * e[0] + r[1] * e[1] + r[2] * e[2];
             const V square = e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
-            const auto valid = hn::And(all_within(tag, largest, 0, 0x1p300), hn::Ge(square, hn::Set(tag, 0x1p-400)));
+            const auto valid = hn::And(all_within(tag, maxima, 0, 0x1p300), hn::Ge(square, hn::Set(tag, 0x1p-400)));
             return {times(5.5, p), hn::Zero(tag), valid};
         } else {
             const V p = product_of_minors(e, r), q = product_of_minors(e, e);
-            const auto valid = hn::And(all_within(tag, largest, 0, 0x1p100), hn::Ge(q, hn::Set(tag, 0x1p-602)));
+            const auto valid = hn::And(all_within(tag, maxima, 0, 0x1p100), hn::Ge(q, hn::Set(tag, 0x1p-602)));
             return {times(4 * 11.5, p), times(4 * 11.5, q), valid};
         }
     }
@@ -162,15 +162,15 @@ HWY_INLINE hn::Mask<D> filter(D tag, const Relative<s, V>& c, hn::Vec<hn::Rebind
     Fractions<s, V> f;
     solve(c, hn::Zero(tag), f);
     const Bounds<D> bound = filter_bounds<s>(tag, c);
-    V smallest;
+    V min_numerator;
     if constexpr (vertex_count(s) == 4) {
-        smallest = hn::Min(smaller_magnitude(f.numerator[0], f.numerator[1]),
-                           smaller_magnitude(f.numerator[2], f.numerator[3]));
+        min_numerator =
+            hn::Min(min_magnitude(f.numerator[0], f.numerator[1]), min_magnitude(f.numerator[2], f.numerator[3]));
     } else {
-        smallest = smaller_magnitude(f.numerator[0], f.numerator[1]);
-        if constexpr (vertex_count(s) == 3) smallest = hn::Min(smallest, hn::Abs(f.numerator[2]));
+        min_numerator = min_magnitude(f.numerator[0], f.numerator[1]);
+        if constexpr (vertex_count(s) == 3) min_numerator = hn::Min(min_numerator, hn::Abs(f.numerator[2]));
     }
-    const auto certain = hn::And(hn::And(bound.valid, hn::Gt(smallest, bound.numerator)),
+    const auto certain = hn::And(hn::And(bound.valid, hn::Gt(min_numerator, bound.numerator)),
                                  hn::Gt(hn::Abs(f.denominator), bound.denominator));
     // Sign bits of the numerators to bits 0 to 3; if the denominator is negative all of them flip, and bit 8 is set.
     const auto sign_to_bit = [&](int i) HWY_ATTR {

@@ -80,24 +80,24 @@ HWY_INLINE CellMatrix<d, D> cell_matrix(D tag, const V (&v)[d + 1][d]) {
     normals(m.edge, m.normal);
     m.inverse = constant(1) / dot(m.edge[0], m.normal[0]);
     const V scale = hn::Abs(m.inverse);
-    V x[d], volume, least;
+    V x[d], volume, min_extent;
     extents(m.edge, x);
     if constexpr (d == 3) {
         m.reach[0] = x[1] * x[2];
         m.reach[1] = x[0] * x[2];
         m.reach[2] = x[0] * x[1];
         volume = x[0] * m.reach[0];
-        least = hn::Min(hn::Min(x[0], x[1]), x[2]);
+        min_extent = hn::Min(hn::Min(x[0], x[1]), x[2]);
     } else {
         m.reach[0] = x[1];
         m.reach[1] = x[0];
         volume = x[0] * x[1];
-        least = hn::Min(x[0], x[1]);
+        min_extent = hn::Min(x[0], x[1]);
     }
     for (int k = 0; k < d; ++k) m.reach[k] = m.reach[k] * scale;
     const V condition = volume * scale;
     m.residual_factor = constant(100 * u) * condition + constant(30 * u);
-    m.valid = hn::And(hn::And(hn::Ge(least, constant(0x1p-200)), hn::Le(volume, constant(0x1p500))),
+    m.valid = hn::And(hn::And(hn::Ge(min_extent, constant(0x1p-200)), hn::Le(volume, constant(0x1p500))),
                       hn::Le(condition, constant(0x1p36)));
     return m;
 }

@@ -68,11 +68,7 @@ bool exact_gradient(const double* vertices, const double* values, double* out) {
             units[k].add(parts[i][k]);
         }
     }
-    int bits = 0;
-    for (const Unit& u : units) bits = std::max(bits, u.bits());
-    if (bits <= 64 - 3) return solve<Fixed<1>, d>(parts, units, out);
-    if (bits <= 128 - 3) return solve<Fixed<2>, d>(parts, units, out);
-    return solve<Integer, d>(parts, units, out);
+    return with_integers<3>(max_bits(units), [&]<class T>() { return solve<T, d>(parts, units, out); });
 }
 
 }  // namespace

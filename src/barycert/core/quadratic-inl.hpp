@@ -80,24 +80,24 @@ template <Simplex s, class D, class V = hn::Vec<D>>
 HWY_INLINE QuadraticValue<D> refined_quadratic(D tag, const QuadraticWeights<s, D>& w,
                                                const V (&f)[quadratic_nodes<s>]) {
     constexpr int n = vertex_count(s);
-    V largest = hn::Abs(f[0]);  // M
+    V max_b = hn::Abs(f[0]);  // M
     DoubleDouble<V> outer{};
     for (int i = n - 1; i >= 0; --i) {
         DoubleDouble<V> inner = w.weight[i] * DoubleDouble<V>{f[i], hn::Zero(tag)};
-        largest = hn::Max(largest, hn::Abs(f[i]));
+        max_b = hn::Max(max_b, hn::Abs(f[i]));
         for (int j = i + 1; j < n; ++j) {
             const TwoTerms<V> corners = two_sum(f[i], f[j]);
             const V mid = f[n + quadratic_edge(i, j)];
             const TwoTerms<V> rest = two_difference(hn::Set(tag, 4) * mid, corners.high);
             const TwoTerms<V> b = two_sum(rest.high, rest.low - corners.low);
             inner = inner + w.weight[j] * DoubleDouble<V>{b.high, b.low};
-            largest = hn::Max(largest, hn::Abs(b.high));
+            max_b = hn::Max(max_b, hn::Abs(b.high));
         }
         const DoubleDouble<V> term = w.weight[i] * inner;
         outer = i == n - 1 ? term : outer + term;
     }
-    const auto in_range = hn::And(hn::Ge(largest, hn::Set(tag, 0x1p-800)), hn::Le(largest, hn::Set(tag, 0x1p700)));
-    return {outer, largest * w.error, hn::Or(hn::Eq(largest, hn::Zero(tag)), in_range)};
+    const auto in_range = hn::And(hn::Ge(max_b, hn::Set(tag, 0x1p-800)), hn::Le(max_b, hn::Set(tag, 0x1p700)));
+    return {outer, max_b * w.error, hn::Or(hn::Eq(max_b, hn::Zero(tag)), in_range)};
 }
 
 /// The value correctly rounded; `certain` is cleared where it may not be.

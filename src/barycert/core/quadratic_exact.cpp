@@ -85,15 +85,13 @@ bool exact_quadratic(const double* vertices, const double* point, const double* 
     constexpr int n = vertex_count(s), d = space_dimension(s);
     ScaledDouble parts[n + 1][d];
     Unit units[d];
-    int bits = 0;
     for (int k = 0; k < d; ++k) {
         for (int i = 0; i <= n; ++i) {
             parts[i][k] = scaled(i < n ? vertices[d * i + k] : point[k]);
             units[k].add(parts[i][k]);
         }
-        bits = std::max(bits, units[k].bits());
     }
-    const auto as = [&]<class T>() {
+    return with_integers<3>(max_bits(units), [&]<class T>() {
         formulas::Relative<s, T> c;
         for (int k = 0; k < d; ++k) {
             const T p = units[k].template multiple<T>(parts[n][k]);
@@ -102,10 +100,7 @@ bool exact_quadratic(const double* vertices, const double* point, const double* 
         formulas::Fractions<s, T> w;
         formulas::solve(c, formulas::Numerator<s, T>{}, w);
         return values_of<s>(w, values, components, out);
-    };
-    if (bits <= 64 - 3) return as.template operator()<Fixed<1>>();
-    if (bits <= 128 - 3) return as.template operator()<Fixed<2>>();
-    return as.template operator()<Integer>();
+    });
 }
 
 }  // namespace

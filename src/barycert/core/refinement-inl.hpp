@@ -172,7 +172,7 @@ HWY_INLINE Refined<s, D> refine(D tag, const Absolute<s, V>& c) {
     }
     g = x[0] * a[0];
     for (int k = 0; k < d; ++k) {
-        magnitude[k] = larger_magnitude(c.v[last][k], q[k]);
+        magnitude[k] = max_magnitude(c.v[last][k], q[k]);
         residual[k] = hn::Abs(residual[k]);
     }
     out.magnitude = constant(1);
@@ -183,11 +183,11 @@ HWY_INLINE Refined<s, D> refine(D tag, const Absolute<s, V>& c) {
     const V size = constant(2) * dot(magnitude, a) + constant(3) * g;
     const V from_rounding = constant(4 * 172 * u * u) * out.magnitude * size;
     out.error = scale * (from_residual + from_rounding);
-    V largest = magnitude[0];
-    for (int j = 1; j < d; ++j) largest = hn::Max(largest, magnitude[j]);
-    V least = x[0];
-    for (int j = 1; j < d; ++j) least = hn::Min(least, x[j]);
-    const auto sizes = hn::And(hn::Ge(least, constant(0x1p-200)), hn::Le(largest, constant(0x1p900)));
+    V max_size = magnitude[0];
+    for (int j = 1; j < d; ++j) max_size = hn::Max(max_size, magnitude[j]);
+    V min_extent = x[0];
+    for (int j = 1; j < d; ++j) min_extent = hn::Min(min_extent, x[j]);
+    const auto sizes = hn::And(hn::Ge(min_extent, constant(0x1p-200)), hn::Le(max_size, constant(0x1p900)));
     const auto condition = hn::And(hn::Ge(k, constant(0.125)), hn::Le(k, constant(0x1p36)));
     const auto values = hn::And(hn::Le(g, constant(0x1p500)), hn::Le(out.magnitude, constant(0x1p100)));
     out.valid = hn::And(sizes, hn::And(condition, values));
@@ -219,7 +219,7 @@ HWY_INLINE Refined<s, D> refine_projected(D tag, const Absolute<s, V>& c) {
     solve(exact, Number{hn::Zero(tag), hn::Zero(tag)}, f);
     const V inverse = constant(1) / f.denominator.high;
     out.magnitude = constant(1);
-    V largest = hn::Zero(tag);
+    V max_weight = hn::Zero(tag);
     for (int i = 0; i < n; ++i) {
         const V w = f.numerator[i].high / f.denominator.high;
         const TwoTerms<V> p = two_product(w, f.denominator.high);
@@ -227,7 +227,7 @@ HWY_INLINE Refined<s, D> refine_projected(D tag, const Absolute<s, V>& c) {
         out.weight[i] = w;
         out.correction[i] = rest * inverse;
         out.magnitude = out.magnitude + hn::Abs(w);
-        largest = hn::Max(largest, hn::Abs(w));
+        max_weight = hn::Max(max_weight, hn::Abs(w));
     }
     // The filter's bounds are (terms) * e * P: its factors 5.5 e and 46 e are replaced by 18 u^2 and 44 u^2.
     const Bounds<D> bound = filter_bounds<s>(tag, rounded);
@@ -236,8 +236,8 @@ HWY_INLINE Refined<s, D> refine_projected(D tag, const Absolute<s, V>& c) {
     const V numerator_error = constant(from_filter) * bound.numerator;
     const V denominator_error =
         s == Simplex::segment ? constant(18 * u * u) * f.denominator.high : constant(from_filter) * bound.denominator;
-    out.error = constant(1.02) * (numerator_error + largest * denominator_error) * hn::Abs(inverse) +
-                constant(26 * u * u) * largest;
+    out.error = constant(1.02) * (numerator_error + max_weight * denominator_error) * hn::Abs(inverse) +
+                constant(26 * u * u) * max_weight;
     out.valid = hn::And(hn::And(bound.valid, hn::Le(out.magnitude, constant(0x1p100))),
                         hn::Le(denominator_error, constant(0x1p-10) * f.denominator.high));
     return out;
@@ -278,12 +278,12 @@ HWY_INLINE V value(D tag, const Refined<s, D>& r, const V (&f)[vertex_count(s)],
         sum.add_product(r.weight[i], f[i]);
         corrections = corrections + r.correction[i] * f[i];
     }
-    V largest = larger_magnitude(f[0], f[1]);
-    if constexpr (n == 3) largest = hn::Max(largest, hn::Abs(f[2]));
-    if constexpr (n == 4) largest = hn::Max(largest, larger_magnitude(f[2], f[3]));
-    const V error = largest * (hn::Set(tag, n) * r.error + hn::Set(tag, 0x1p-98) * r.magnitude);
-    const auto in_range = hn::Or(hn::Eq(largest, hn::Zero(tag)), hn::And(hn::Ge(largest, hn::Set(tag, 0x1p-800)),
-                                                                         hn::Le(largest, hn::Set(tag, 0x1p900))));
+    V max_value = max_magnitude(f[0], f[1]);
+    if constexpr (n == 3) max_value = hn::Max(max_value, hn::Abs(f[2]));
+    if constexpr (n == 4) max_value = hn::Max(max_value, max_magnitude(f[2], f[3]));
+    const V error = max_value * (hn::Set(tag, n) * r.error + hn::Set(tag, 0x1p-98) * r.magnitude);
+    const auto in_range = hn::Or(hn::Eq(max_value, hn::Zero(tag)), hn::And(hn::Ge(max_value, hn::Set(tag, 0x1p-800)),
+                                                                           hn::Le(max_value, hn::Set(tag, 0x1p900))));
     certain = hn::And(certain, in_range);
     // + 0: an exact zero is positive, whatever the signs of the nodal values
     return rounded_if_certain<D>(sum.sum, (sum.sum_rest + sum.product_rest) + corrections, error, certain) +

@@ -13,7 +13,7 @@ namespace barycert::core {
 
 /// x = (-1)^negative * mantissa * 2^(exponent - 1074), the mantissa odd, or zero with an exponent of `none`.
 struct ScaledDouble {
-    static constexpr int none = 1 << 14;  ///< above all exponents, so that zeros do not count for the least one
+    static constexpr int none = 1 << 14;  ///< above all exponents, so that zeros do not count for the min
 
     std::uint64_t mantissa;
     int exponent;
@@ -63,5 +63,21 @@ struct Unit {
         }
     }
 };
+
+/// The width that the widest axis needs.
+template <int count>
+int max_bits(const Unit (&units)[count]) {
+    int bits = 0;
+    for (const Unit& u : units) bits = std::max(bits, u.bits());
+    return bits;
+}
+
+/// f.operator()<T>() with the narrowest T of Fixed<1>, Fixed<2> and Integer that has `room` bits more than `bits`.
+template <int room, class F>
+decltype(auto) with_integers(int bits, F f) {
+    if (bits <= 64 - room) return f.template operator()<Fixed<1>>();
+    if (bits <= 128 - room) return f.template operator()<Fixed<2>>();
+    return f.template operator()<Integer>();
+}
 
 }  // namespace barycert::core

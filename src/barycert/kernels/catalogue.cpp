@@ -90,7 +90,7 @@ const std::vector<Kernel>& catalogue() {
 std::vector<Kernel> kernels_matching(std::string_view glob) {
     std::vector<Kernel> list;
     for (const Kernel& k : catalogue()) {
-        if (glob_match(glob, k.name)) list.push_back(k);
+        if (base::glob_match(glob, k.name)) list.push_back(k);
     }
     return list;
 }

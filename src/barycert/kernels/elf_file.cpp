@@ -34,7 +34,7 @@ constexpr std::uint16_t own_machine = EM_NONE;  // left to dlopen, which tells i
 
 class ElfFile {
 public:
-    ElfFile(const std::string& path, InputFile file) : path_(path), file_(std::move(file)) {}
+    ElfFile(const std::string& path, base::InputFile file) : path_(path), file_(std::move(file)) {}
 
     Status check() {
         if (Status good = read_header(); !good) return good;
@@ -85,7 +85,7 @@ private:
             const ssize_t got = ::pread(file_.descriptor(), static_cast<char*>(to) + done, size - done,
                                         static_cast<off_t>(offset + done));
             if (got < 0 && errno == EINTR) continue;
-            if (got < 0) return read_failure(path_, errno);
+            if (got < 0) return base::read_failure(path_, errno);
             if (got == 0) return cut();
             done += static_cast<std::size_t>(got);
         }
@@ -108,14 +108,14 @@ private:
     }
 
     const std::string& path_;
-    InputFile file_;
+    base::InputFile file_;
     FileHeader header_{};
 };
 
 }  // namespace
 
 Status check_shared_library(const std::string& path) {
-    Result<InputFile> file = InputFile::open(path, "copy the library to a regular file first");
+    Result<base::InputFile> file = base::InputFile::open(path, "copy the library to a regular file first");
     if (!file) {
         Error error = file.error();
         error.what = "cannot load the kernel library";

@@ -17,7 +17,7 @@
 #include "barycert/locate/finder.hpp"
 #include "barycert/locate/sorted_points.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 /// Work on `threads` threads, 0 for as many as the machine has, and never on more.
 template <class F>
@@ -75,4 +75,4 @@ void for_chunks(const LocatorData& data, std::span<const double> points, Locatio
     for (const LocationCounts& part : parts) counts.add(part);
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 Bins::Bins(std::size_t d, const double* low, const double* high, std::size_t bins) : quantizer_(d, low, high), d_(d) {
     constexpr std::size_t most = std::size_t{1} << 27;
@@ -38,4 +38,4 @@ Bins::Bins(std::size_t d, const double* low, const double* high, std::size_t bin
     }
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -8,7 +8,7 @@
 
 #include "barycert/locate/quantizer.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 /// A box cut into 2^bits bins, in the order of Morton's curve: the longest side of a bin is halved until there are
 /// enough, so bins are as near to cubes as can be.
@@ -47,4 +47,4 @@ private:
     std::array<std::vector<std::uint32_t>, 3> curve_;  ///< by place on the axis: its bits where they stand in a bin
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -9,7 +9,7 @@
 #include <new>
 #include <span>
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 /// `size` objects of a plain type that hold anything until they are written. Cache lines are not shared with other
 /// objects, and large arrays ask for large pages: indexes are read at random.
@@ -72,4 +72,4 @@ private:
     std::size_t size_ = 0;
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -7,7 +7,7 @@
 #include "barycert/locate/open_facets.hpp"
 #include "barycert/locate/radix_sort.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 namespace {
 
 /// The box of the nodes that cells have: others may lie anywhere.
@@ -158,4 +158,4 @@ CellIndex make_cell_index(const Mesh& mesh, bool link) {
     return index;
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

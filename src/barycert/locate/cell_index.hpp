@@ -12,7 +12,7 @@
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 /// A cell or node as it is numbered here: what lies near in space mostly has near numbers, so that points in the same
 /// order find what they need in cache.
@@ -72,4 +72,4 @@ std::array<double, 12> vertices_of(const CellIndex& index, Place cell);
 /// consistent. Time O(cells).
 CellIndex make_cell_index(const Mesh& mesh, bool link);
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

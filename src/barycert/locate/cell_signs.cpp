@@ -8,7 +8,7 @@
 #include "barycert/base/strict_math.hpp"
 #include "barycert/predicates.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 namespace {
 
 /// Vertices relative to the point, and for each weight whether all other vertices share a coordinate with the point.
@@ -103,4 +103,4 @@ WeightSigns cell_signs(const CellIndex& index, Place cell, const double* point, 
                                               : signs<3>(index, cell, point, tiers);
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -5,7 +5,7 @@
 #include "barycert/predicates.hpp"
 #include "barycert/tiers.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 /// weight_signs of predicates.hpp, with one more shortcut: where the vertices of a facet and the point agree in a
 /// coordinate to the bit, that weight is zero, and nothing needs to be multiplied. On the sides of a box, and in meshes
@@ -29,4 +29,4 @@ inline bool box_holds(const CellIndex& index, Place cell, const double* point) {
     return holds;
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

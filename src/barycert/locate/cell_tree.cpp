@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace barycert::detail {
+namespace barycert::locate {
 namespace {
 
 struct QuantizedBox {
@@ -66,4 +66,4 @@ CellTree::CellTree(const CellIndex& index) {
     }
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -9,7 +9,7 @@
 #include "barycert/locate/buffer.hpp"
 #include "barycert/locate/cell_index.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 /// Eight boxes in the whole numbers of the quantizer; in 2D the third axis is zero. A box that is none has low > high.
 struct alignas(64) BoxGroup {
@@ -43,4 +43,4 @@ struct Candidate {
 void find_candidates(const CellIndex& index, const CellTree& tree, const PointRecord* points,
                      const std::uint32_t* which, std::size_t count, std::vector<Candidate>& out);
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace barycert::detail {
+namespace barycert::locate {
 namespace {
 
 /// A walk in floating point can go round in circles, in cells that are almost flat or not Delaunay.
@@ -96,4 +96,4 @@ void Finder::ask_candidates(const PointRecord* points, Place* owner, Feature* fe
     });
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -9,7 +9,7 @@
 #include "barycert/locate/locator_data.hpp"
 #include "barycert/locate/walk_lanes.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 /// Points that are found together: enough for full lanes in every round of the walks, few enough for the first cache.
 inline constexpr std::size_t chunk_size = 512;
@@ -76,4 +76,4 @@ private:
     std::vector<Candidate> candidates_;
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

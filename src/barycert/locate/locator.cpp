@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "barycert/environment.hpp"
 #include "barycert/check.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/locator_data.hpp"
 #include "barycert/mesh/consistency.hpp"
@@ -18,12 +18,12 @@ Status check_points(const Locator& locator, std::span<const double> points) {
         return Error{.what = "size of the points",
                      .expected = std::to_string(d) + " coordinates a point",
                      .found = std::to_string(points.size()) + " numbers"};
-    return detail::check_finite(points, d);
+    return locate::check_finite(points, d);
 }
 
 }  // namespace
 
-Locator::Locator(std::unique_ptr<detail::LocatorData> data) : data_(std::move(data)) {}
+Locator::Locator(std::unique_ptr<locate::LocatorData> data) : data_(std::move(data)) {}
 Locator::Locator(Locator&&) noexcept = default;
 Locator& Locator::operator=(Locator&&) noexcept = default;
 Locator::~Locator() = default;
@@ -41,13 +41,13 @@ Result<Locator> Locator::build(const Mesh& mesh, const BuildOptions& options) {
 
 Result<Locator> Locator::build(const Mesh& mesh, const Certificate& certificate) {
     const ExactEnvironment environment;
-    if (const char* const wrong = detail::inconsistency_of_cells(mesh, detail::FieldValues::any))
+    if (const char* const wrong = mesh::inconsistency_of_cells(mesh, mesh::FieldValues::any))
         return Error{.what = std::string("the mesh is inconsistent: ") + wrong};
-    auto data = std::make_unique<detail::LocatorData>();
+    auto data = std::make_unique<locate::LocatorData>();
     data->mesh = &mesh;
     const bool certified = certificate.covers(mesh);
     data->method = certified ? Method::walk : Method::candidates;
-    data->index = detail::make_cell_index(mesh, certified);
+    data->index = locate::make_cell_index(mesh, certified);
     return Locator(std::move(data));
 }
 
@@ -74,11 +74,11 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
                      .found = std::to_string(cells.size()) + " and " + std::to_string(features.size())};
     LocationCounts all;
     struct Worker {
-        const detail::CellIndex& index;
+        const locate::CellIndex& index;
         std::vector<Mesh::Index> cells;
         std::vector<Feature> features;
 
-        void operator()(const detail::PointRecord* records, std::size_t n, const detail::Place* owner,
+        void operator()(const locate::PointRecord* records, std::size_t n, const locate::Place* owner,
                         const Feature* feature) {
             for (std::size_t i = 0; i < n; ++i) {
                 cells[records[i].number] = owner[i] < 0 ? -1 : index.original[static_cast<std::size_t>(owner[i])];
@@ -89,14 +89,14 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
     const auto make = [&](std::size_t, std::size_t size) {
         return Worker{data_->index, std::vector<Mesh::Index>(size), std::vector<Feature>(size)};
     };
-    const auto write = [&](std::size_t first, const detail::SortedPoints& sorted, const Worker& worker) {
+    const auto write = [&](std::size_t first, const locate::SortedPoints& sorted, const Worker& worker) {
         sorted.for_each_in_callers_order([&](std::size_t place) { __builtin_prefetch(&worker.cells[place]); },
                                          [&](std::size_t i, std::size_t place) {
                                              cells[first + i] = worker.cells[place];
                                              features[first + i] = worker.features[place];
                                          });
     };
-    detail::in_arena(threads, [&] { detail::for_chunks(*data_, points, all, make, write); });
+    locate::in_arena(threads, [&] { locate::for_chunks(*data_, points, all, make, write); });
     if (counts != nullptr) counts->add(all);
     return Done{};
 }
@@ -125,17 +125,17 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads) c
     const std::size_t blocks = (count + block - 1) / block;
     std::vector<std::vector<Found>> found(blocks);
     std::vector<LocationCounts> parts(blocks);
-    detail::in_arena(threads, [&] {
+    locate::in_arena(threads, [&] {
         tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
             const std::size_t first = b * block, size = std::min(block, count - first);
-            detail::SortedPoints sorted;
+            locate::SortedPoints sorted;
             sorted.sort(d, data_->index.bins, points.subspan(d * first, d * size));
-            detail::Finder finder(*data_);
+            locate::Finder finder(*data_);
             std::vector<std::size_t> number(size);
             sorted.for_each_in_callers_order([](std::size_t) {},
                                              [&](std::size_t i, std::size_t place) { number[place] = first + i; });
-            for (std::size_t at = 0; at < size; at += detail::chunk_size) {
-                finder.find_all(sorted.data() + at, std::min(detail::chunk_size, size - at), parts[b],
+            for (std::size_t at = 0; at < size; at += locate::chunk_size) {
+                finder.find_all(sorted.data() + at, std::min(locate::chunk_size, size - at), parts[b],
                                 [&](std::uint32_t point, Mesh::Index cell, Feature feature) {
                                     found[b].push_back({number[at + point], cell, feature});
                                 });
@@ -172,14 +172,14 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads) c
 
 Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
     const ExactEnvironment environment;
-    const detail::CellIndex& index = data_->index;
+    const locate::CellIndex& index = data_->index;
     const std::size_t d = index.dimension();
-    if (Status status = detail::check_finite({point, d}, d); !status) return status.error();
-    detail::PointRecord record{};
+    if (Status status = locate::check_finite({point, d}, d); !status) return status.error();
+    locate::PointRecord record{};
     for (std::size_t k = 0; k < d; ++k) record.at[k] = point[k];
     record.bin = index.bins.of(point);
-    detail::Finder finder(*data_);
-    detail::Place owner = -1;
+    locate::Finder finder(*data_);
+    locate::Place owner = -1;
     Feature feature = Feature::outside;
     LocationCounts ignored;
     if (hint >= 0 && static_cast<std::size_t>(hint) < index.cell_count()) {

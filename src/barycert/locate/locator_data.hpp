@@ -13,7 +13,7 @@
 #include "barycert/locate/sorted_points.hpp"
 #include "barycert/locator.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 /// Made on first need, by one thread while others wait.
 template <class T>
@@ -103,4 +103,4 @@ private:
     Lazy<std::vector<Place>> places_;
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

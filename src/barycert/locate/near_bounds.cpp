@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace barycert::detail {
+namespace barycert::locate {
 namespace {
 
 Real3 minus(const Point3& x, const Point3& y) {
@@ -113,4 +113,4 @@ NearBest::NearBest(const Point3& p, const NearFeature& f) {
     }
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

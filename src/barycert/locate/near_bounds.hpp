@@ -20,7 +20,7 @@
 
 #include "barycert/locate/near_feature.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 using Real = long double;
 using Real3 = std::array<Real, 3>;
@@ -101,4 +101,4 @@ struct NearGuess {
 };
 NearGuess guess_nearest(const NearCell& cell, const Point3& p);
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

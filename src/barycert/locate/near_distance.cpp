@@ -9,7 +9,7 @@
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/locate/near_feature.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 namespace {
 
 // Not core's Integer, which has room for degree 7 in differences of any doubles: comparisons have degree 10. Up to 512
@@ -125,4 +125,4 @@ double distance_to(const Point3& p, const NearFeature& f) {
     return core::round_integer(core::Integer(false, root << 1 | (inexact ? 1 : 0), 0), lattice.exponent() - shift - 1);
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -8,7 +8,7 @@
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 namespace {
 
 // Which feature? Let x be the point of a proper cell nearest to p, p not inside, and F the open face of the cell in
@@ -108,4 +108,4 @@ std::array<double, 3> weights_of(const Point3& p, const NearFeature& f) {
     return weights;
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -9,7 +9,7 @@
 
 #include "barycert/mesh.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 using Point3 = std::array<double, 3>;  ///< in 2D z = 0
 
@@ -44,4 +44,4 @@ double distance_to(const Point3& p, const NearFeature& f);
 /// The weights of the projection of p on f, each correctly rounded.
 std::array<double, 3> weights_of(const Point3& p, const NearFeature& f);
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -17,7 +17,7 @@
 #include "barycert/predicates.hpp"
 
 namespace barycert {
-namespace detail {
+namespace locate {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -161,14 +161,14 @@ Nearest find_nearest(const LocatorData& data, const double* point, double limit,
     return found.distance <= limit ? found : none;
 }
 
-}  // namespace detail
+}  // namespace locate
 
 Result<Nearest> Locator::nearest(const double* point, double limit) const {
     const ExactEnvironment environment;
     limit = held(limit);
     const std::size_t d = data_->index.dimension();
-    if (Status status = detail::check_finite({point, d}, d); !status) return status.error();
-    return detail::find_nearest(*data_, point, limit);
+    if (Status status = locate::check_finite({point, d}, d); !status) return status.error();
+    return locate::find_nearest(*data_, point, limit);
 }
 
 }  // namespace barycert

@@ -6,7 +6,7 @@
 #include "barycert/locate/locator_data.hpp"
 #include "barycert/locator.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 /// How much a search looked at, for tests of its cost.
 struct NearestWork {
@@ -19,4 +19,4 @@ struct NearestWork {
 /// As Locator::nearest. Precondition: coordinates are finite.
 Nearest find_nearest(const LocatorData& data, const double* point, double limit, NearestWork* work = nullptr);
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace barycert::detail {
+namespace barycert::locate {
 namespace {
 
 ExactBox empty_box() {
@@ -54,4 +54,4 @@ NearestTree::NearestTree(const CellIndex& index) {
     begin_.push_back(boxes_.size());
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -7,7 +7,7 @@
 
 #include "barycert/locate/cell_index.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 /// Closed; its numbers are coordinates of nodes, unrounded. So the point of a box that is nearest to a point has exact
 /// coordinates, those of one or the other. In 2D the third axis is 0.
@@ -42,4 +42,4 @@ private:
 
 ExactBox box_of_cell(const CellIndex& index, std::size_t cell);
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -1,6 +1,6 @@
 #include "barycert/locate/node_cells.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 NodeCells::NodeCells(const CellIndex& index)
     : begin_(index.original_node.size() + 1, 0), cells_(index.cell_count() * index.corners()) {
@@ -18,4 +18,4 @@ NodeCells::NodeCells(const CellIndex& index)
     }
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

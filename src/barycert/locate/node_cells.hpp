@@ -8,7 +8,7 @@
 #include "barycert/locate/cell_index.hpp"
 #include "barycert/predicates.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 class NodeCells {
 public:
@@ -50,4 +50,4 @@ private:
     std::vector<Place> cells_;
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -10,7 +10,7 @@
 
 #include "barycert/locate/cell_index.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 /// The facets that have been seen once. Cells come in the order of space, so the open facets are about the surface of
 /// what has been seen: they stay in cache, where a table of all facets would not.
@@ -83,4 +83,4 @@ private:
     std::uint32_t free_ = none;
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

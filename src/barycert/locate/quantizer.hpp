@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 /// Maps each axis of a box onto integers of 31 bits. The map is monotone: x <= y gives at(k, x) <= at(k, y), whatever
 /// is rounded, because halving, subtracting, multiplying by a positive number, cutting off and clamping all are. So
@@ -50,4 +50,4 @@ private:
     std::array<double, 3> half_low_{}, scale_{};
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -8,7 +8,7 @@
 
 #include "barycert/locate/buffer.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 struct KeyedPlace {
     std::uint32_t key;
@@ -32,4 +32,4 @@ inline void sort_by_key(Buffer<KeyedPlace>& items, int bits) {
     }
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -16,7 +16,7 @@
 #include <cstring>
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::locate {
 namespace HWY_NAMESPACE {
 
 /// out[k], lane l = address(l)[k]. Addresses are multiples of 32. A transpose: on most processors faster than gathers.
@@ -60,6 +60,6 @@ HWY_INLINE void load_records(D tag, Address address, V (&out)[4]) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::locate
 HWY_AFTER_NAMESPACE();
 #endif

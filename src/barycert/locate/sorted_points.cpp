@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace barycert::detail {
+namespace barycert::locate {
 namespace {
 
 constexpr int most_bits = 10;
@@ -40,4 +40,4 @@ void SortedPoints::sort(std::size_t d, const Bins& bins, std::span<const double>
            : place<3>(points, bin_, shift, next_, records_.data(), place_.data());
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -10,7 +10,7 @@
 #include "barycert/locate/buffer.hpp"
 #include "barycert/locate/walk_lanes.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 /// A block of points, near ones side by side. Keeps its memory from block to block.
 class SortedPoints {
@@ -41,4 +41,4 @@ private:
     std::vector<std::uint32_t> place_;  ///< of each point, in the order of the caller
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

@@ -11,14 +11,14 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::locate {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using detail::BoxGroup;
-using detail::Candidate;
-using detail::Place;
+using locate::BoxGroup;
+using locate::Candidate;
+using locate::Place;
 
 /// A bit for each of the eight boxes that hold q.
 HWY_INLINE std::uint32_t boxes_holding(const BoxGroup& group, const std::int32_t (&q)[3]) {
@@ -39,7 +39,7 @@ HWY_INLINE std::uint32_t boxes_holding(const BoxGroup& group, const std::int32_t
     return found;
 }
 
-void find_candidates(const detail::CellIndex& index, const detail::CellTree& tree, const detail::PointRecord* points,
+void find_candidates(const locate::CellIndex& index, const locate::CellTree& tree, const locate::PointRecord* points,
                      const std::uint32_t* which, std::size_t count, std::vector<Candidate>& out) {
     struct Open {
         std::uint32_t level, group;
@@ -67,18 +67,18 @@ void find_candidates(const detail::CellIndex& index, const detail::CellTree& tre
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::locate
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace barycert {
+namespace barycert::locate {
 
 HWY_EXPORT(find_candidates);
 
-void detail::find_candidates(const CellIndex& index, const CellTree& tree, const PointRecord* points,
-                             const std::uint32_t* which, std::size_t count, std::vector<Candidate>& out) {
+void find_candidates(const CellIndex& index, const CellTree& tree, const PointRecord* points,
+                     const std::uint32_t* which, std::size_t count, std::vector<Candidate>& out) {
     HWY_DYNAMIC_DISPATCH(find_candidates)(index, tree, points, which, count, out);
 }
 
-}  // namespace barycert
+}  // namespace barycert::locate
 #endif

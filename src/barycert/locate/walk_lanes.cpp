@@ -13,16 +13,16 @@
 #include "barycert/locate/records-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::locate {
 namespace HWY_NAMESPACE {
 
 using namespace core::HWY_NAMESPACE;
 
-using detail::CellRecord;
-using detail::NodeRecord;
-using detail::Place;
-using detail::PointRecord;
-using detail::Walk;
+using locate::CellRecord;
+using locate::NodeRecord;
+using locate::Place;
+using locate::PointRecord;
+using locate::Walk;
 
 struct StepTargets {
     Place* inside;
@@ -95,7 +95,7 @@ HWY_INLINE void step(D tag, const CellRecord* cells, const NodeRecord* nodes, co
 constexpr std::size_t vectors_ahead = 4;
 
 template <Simplex s, std::size_t width>
-HWY_INLINE void fetch_nodes(const detail::CellIndex& index, const Walk* walks) {
+HWY_INLINE void fetch_nodes(const locate::CellIndex& index, const Walk* walks) {
     for (std::size_t l = 0; l < width; ++l) {
         const auto& node = index.cells[static_cast<std::size_t>(walks[l].cell)].node;
         for (std::size_t i = 0; i < vertex_count(s); ++i)
@@ -104,7 +104,7 @@ HWY_INLINE void fetch_nodes(const detail::CellIndex& index, const Walk* walks) {
 }
 
 template <Simplex s>
-std::size_t step_all(const detail::CellIndex& index, const PointRecord* points, Walk* walks, std::size_t count,
+std::size_t step_all(const locate::CellIndex& index, const PointRecord* points, Walk* walks, std::size_t count,
                      Place* inside, Walk* stuck, std::size_t& stuck_count) {
     StepTargets to{inside, walks, stuck, 0, stuck_count};
     std::size_t at = 0;
@@ -125,7 +125,7 @@ std::size_t step_all(const detail::CellIndex& index, const PointRecord* points, 
     return to.going_count;
 }
 
-std::size_t step_walks(const detail::CellIndex& index, const PointRecord* points, Walk* walks, std::size_t count,
+std::size_t step_walks(const locate::CellIndex& index, const PointRecord* points, Walk* walks, std::size_t count,
                        Place* inside, Walk* stuck, std::size_t& stuck_count) {
     return index.simplex == Simplex::triangle
                ? step_all<Simplex::triangle>(index, points, walks, count, inside, stuck, stuck_count)
@@ -133,18 +133,18 @@ std::size_t step_walks(const detail::CellIndex& index, const PointRecord* points
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::locate
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace barycert {
+namespace barycert::locate {
 
 HWY_EXPORT(step_walks);
 
-std::size_t detail::step_walks(const CellIndex& index, const PointRecord* points, Walk* walks, std::size_t count,
-                               Place* inside, Walk* stuck, std::size_t& stuck_count) {
+std::size_t step_walks(const CellIndex& index, const PointRecord* points, Walk* walks, std::size_t count, Place* inside,
+                       Walk* stuck, std::size_t& stuck_count) {
     return HWY_DYNAMIC_DISPATCH(step_walks)(index, points, walks, count, inside, stuck, stuck_count);
 }
 
-}  // namespace barycert
+}  // namespace barycert::locate
 #endif

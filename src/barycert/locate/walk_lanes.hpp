@@ -6,7 +6,7 @@
 
 #include "barycert/locate/cell_index.hpp"
 
-namespace barycert::detail {
+namespace barycert::locate {
 
 /// A point among others in the order of the bins. 2D: z = 0.
 struct alignas(32) PointRecord {
@@ -29,4 +29,4 @@ struct Walk {
 std::size_t step_walks(const CellIndex& index, const PointRecord* points, Walk* walks, std::size_t count, Place* inside,
                        Walk* stuck, std::size_t& stuck_count);
 
-}  // namespace barycert::detail
+}  // namespace barycert::locate

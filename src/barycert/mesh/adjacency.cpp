@@ -8,9 +8,9 @@
 
 #include "barycert/mesh/facets.hpp"
 
-namespace barycert {
+namespace barycert::mesh {
 
-void detail::pair_facets(std::span<const CellFacet> equal, std::size_t corners, std::vector<Mesh::Index>& neighbours) {
+void pair_facets(std::span<const CellFacet> equal, std::size_t corners, std::vector<Mesh::Index>& neighbours) {
     // A cell with a repeated corner holds a facet twice and is not its own neighbour.
     const CellFacet& first = equal.front();
     const auto second =
@@ -25,10 +25,10 @@ void detail::pair_facets(std::span<const CellFacet> equal, std::size_t corners, 
 
 std::vector<Mesh::Index> compute_neighbours(const Mesh& mesh) {
     std::vector<Mesh::Index> neighbours(mesh.cells.size(), -1);
-    const detail::FacetTable table(mesh);
+    const mesh::FacetTable table(mesh);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, table.node_count(), 1024), [&](const auto& range) {
-        table.for_each_group(range.begin(), range.end(), [&](std::span<const detail::CellFacet> equal) {
-            detail::pair_facets(equal, mesh.corners(), neighbours);
+        table.for_each_group(range.begin(), range.end(), [&](std::span<const mesh::CellFacet> equal) {
+            mesh::pair_facets(equal, mesh.corners(), neighbours);
         });
     });
     return neighbours;
@@ -42,4 +42,4 @@ std::vector<std::int64_t> hull_facets(const Mesh& mesh, const std::vector<Mesh::
     return hull;
 }
 
-}  // namespace barycert
+}  // namespace barycert::mesh

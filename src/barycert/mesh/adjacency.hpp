@@ -6,7 +6,7 @@
 
 #include "barycert/mesh.hpp"
 
-namespace barycert {
+namespace barycert::mesh {
 
 /// The cell across the facet opposite to each corner, dimension + 1 a cell; -1 where there is none. Facets are the same
 /// if they have the same nodes; positions do not matter. Where more than two cells hold a facet, the two lowest are
@@ -18,4 +18,4 @@ std::vector<Mesh::Index> compute_neighbours(const Mesh& mesh);
 /// The facets without a neighbour, each as cell * (dimension + 1) + corner, ascending. `neighbours` as above.
 std::vector<std::int64_t> hull_facets(const Mesh& mesh, const std::vector<Mesh::Index>& neighbours);
 
-}  // namespace barycert
+}  // namespace barycert::mesh

@@ -8,7 +8,7 @@
 
 #include "barycert/mesh/mid_edges.hpp"
 
-namespace barycert::detail {
+namespace barycert::mesh {
 namespace {
 
 bool all_finite(const std::vector<double>& values) {
@@ -96,4 +96,4 @@ const char* inconsistency(const Mesh& mesh, FieldValues values) {
     return nullptr;
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::mesh

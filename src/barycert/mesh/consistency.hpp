@@ -3,7 +3,7 @@
 
 #include "barycert/mesh.hpp"
 
-namespace barycert::detail {
+namespace barycert::mesh {
 
 /// What the values of fields may be. Coordinates are always finite.
 enum class FieldValues : bool { finite, any };
@@ -21,4 +21,4 @@ const char* inconsistency_of_extras(const Mesh& mesh, FieldValues values);
 
 inline constexpr const char* faces_of_triangles = "a mesh of triangles has no faces";
 
-}  // namespace barycert::detail
+}  // namespace barycert::mesh

@@ -10,7 +10,7 @@
 
 #include "barycert/base/large_vector.hpp"
 
-namespace barycert::detail {
+namespace barycert::mesh {
 namespace {
 
 /// The corners of a cell by ascending node. Fixed comparisons: this is done twice for each cell.
@@ -63,7 +63,7 @@ FacetTable::FacetTable(const Mesh& mesh, std::span<const std::uint8_t> use) {
     });
     for (std::size_t node = 0; node + 1 < next.size(); ++node) next[node + 1] += next[node];
     begin_ = next;
-    resize_large(facets_, begin_.back());
+    base::resize_large(facets_, begin_.back());
     for_each_cell(mesh, use, [&](std::size_t cell, const SortedCell& c) {
         const auto [n, corner] = c;
         const auto index = static_cast<Mesh::Index>(cell);
@@ -90,4 +90,4 @@ FacetTable::FacetTable(const Mesh& mesh, std::span<const std::uint8_t> use) {
     });
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::mesh

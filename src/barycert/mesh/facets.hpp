@@ -8,7 +8,7 @@
 
 #include "barycert/mesh.hpp"
 
-namespace barycert::detail {
+namespace barycert::mesh {
 
 /// A facet as one cell has it, without its lowest node, by which facets are gathered. In 2D that one stands for the
 /// middle node again.
@@ -56,4 +56,4 @@ private:
 /// Makes the cells of the two lowest of equal facets neighbours. Precondition: one entry a corner of a cell.
 void pair_facets(std::span<const CellFacet> equal, std::size_t corners, std::vector<Mesh::Index>& neighbours);
 
-}  // namespace barycert::detail
+}  // namespace barycert::mesh

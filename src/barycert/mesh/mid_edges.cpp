@@ -4,7 +4,7 @@
 
 #include "barycert/environment.hpp"
 
-namespace barycert::detail {
+namespace barycert::mesh {
 namespace {
 
 using Edge = std::array<std::size_t, 2>;
@@ -115,4 +115,4 @@ void normalise_mid_nodes(Mesh& mesh) {
     }
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::mesh

@@ -8,7 +8,7 @@
 
 #include "barycert/mesh.hpp"
 
-namespace barycert::detail {
+namespace barycert::mesh {
 
 /// The corners of each edge, in the order `vtk`: 6 edges of a tetrahedron or 3 of a triangle.
 std::span<const std::array<std::size_t, 2>> edges_of(int dimension);
@@ -25,4 +25,4 @@ std::optional<MidEdgeOrder> detect_mid_edge_order(const Mesh& mesh);
 /// Brings mesh.mid_nodes from mesh.mid_edge_order into the order `vtk`.
 void normalise_mid_nodes(Mesh& mesh);
 
-}  // namespace barycert::detail
+}  // namespace barycert::mesh

@@ -34,16 +34,16 @@ public:
     static Result<std::unique_ptr<TableSink>> open(const std::string& path, const TableFormat& format,
                                                    const Grid& grid) {
         std::unique_ptr<VtiSink> out(new VtiSink);
-        std::vector<VtiArray> arrays;
+        std::vector<io::VtiArray> arrays;
         for (const TableField& f : format.fields) {
-            arrays.push_back({f.name, f.components, VtiType::float64});
+            arrays.push_back({f.name, f.components, io::VtiType::float64});
             out->components_.push_back(static_cast<std::size_t>(f.components));
             out->columns_ += out->components_.back();
         }
-        if (format.distances) arrays.push_back({"distance", 1, VtiType::float64});
-        arrays.push_back({"vtkValidPointMask", 1, VtiType::int8});
-        arrays.push_back({"cell", 1, VtiType::int32});
-        auto file = VtiWriter::open(path, {grid.counts, grid.origin, grid.spacing}, arrays);
+        if (format.distances) arrays.push_back({"distance", 1, io::VtiType::float64});
+        arrays.push_back({"vtkValidPointMask", 1, io::VtiType::int8});
+        arrays.push_back({"cell", 1, io::VtiType::int32});
+        auto file = io::VtiWriter::open(path, {grid.counts, grid.origin, grid.spacing}, arrays);
         if (!file) return file.error();
         out->file_ = std::move(*file);
         return std::unique_ptr<TableSink>(std::move(out));
@@ -72,7 +72,7 @@ public:
 
 private:
     VtiSink() = default;
-    std::unique_ptr<VtiWriter> file_;
+    std::unique_ptr<io::VtiWriter> file_;
     std::vector<std::size_t> components_;
     std::size_t columns_ = 0;
     std::vector<double> numbers_;
@@ -105,7 +105,7 @@ public:
     Status commit() override { return file_.commit(); }
 
 private:
-    OutputFile file_;
+    base::OutputFile file_;
 };
 
 /// Rows as those of points from a file.
@@ -118,8 +118,7 @@ public:
         points_.resize(d * rows.cells.size());
         std::array<std::uint64_t, 3> size{}, at{};
         for (std::size_t k = 0; k < 3; ++k) size[k] = static_cast<std::uint64_t>(grid_.counts[k]);
-        at = {rows.first_row % size[0], rows.first_row / size[0] % size[1],
-              rows.first_row / grid_.layer_size()};
+        at = {rows.first_row % size[0], rows.first_row / size[0] % size[1], rows.first_row / grid_.layer_size()};
         for (std::size_t i = 0; i < rows.cells.size(); ++i) {
             for (std::size_t k = 0; k < d; ++k)
                 points_[d * i + k] = grid_.coordinate(k, static_cast<std::int64_t>(at[k]));
@@ -228,8 +227,7 @@ Result<GridOutput> open_grid_sink(const ResampleJob& job, const TableFormat& for
                      .remedy = "add one by --field NAME=FILE; .vti and .csv have cells without fields, too"};
     if (array) return GridOutput{std::make_unique<NpyArraySink>(job.output, grid, columns.size())};
     const bool vti = io::has_suffix(job.output, ".vti");
-    Result<std::unique_ptr<TableSink>> sink =
-        vti ? VtiSink::open(job.output, format, grid) : open_rows(job, format);
+    Result<std::unique_ptr<TableSink>> sink = vti ? VtiSink::open(job.output, format, grid) : open_rows(job, format);
     if (!sink) return sink.error();
     if (vti) return GridOutput{std::move(*sink)};
     return GridOutput{std::make_unique<GridRowsSink>(std::move(*sink), grid)};

@@ -10,19 +10,20 @@
 
 namespace barycert::pipeline {
 
-Status check_files(const SamplingJob& job, const std::vector<NamedFile>& more_inputs, std::vector<NamedFile> outputs) {
-    std::vector<NamedFile> to_read = more_inputs;
+Status check_files(const SamplingJob& job, const std::vector<base::NamedFile>& more_inputs,
+                   std::vector<base::NamedFile> outputs) {
+    std::vector<base::NamedFile> to_read = more_inputs;
     // The reader of meshes has hints at what may be meant.
-    std::erase_if(to_read, [](const NamedFile& f) { return f.what.starts_with("the mesh"); });
-    std::vector<NamedFile> inputs = named_files("the mesh", mesh_files(job.mesh));
+    std::erase_if(to_read, [](const base::NamedFile& f) { return f.what.starts_with("the mesh"); });
+    std::vector<base::NamedFile> inputs = base::named_files("the mesh", mesh_files(job.mesh));
     for (const FieldFile& f : job.field_files) {
         inputs.push_back({"field " + f.name, f.path});
         to_read.push_back(inputs.back());
     }
     inputs.insert(inputs.end(), more_inputs.begin(), more_inputs.end());
     outputs.push_back({"--json", job.report});
-    if (Status readable = check_inputs(to_read); !readable) return readable;
-    return check_outputs(inputs, std::move(outputs));
+    if (Status readable = base::check_inputs(to_read); !readable) return readable;
+    return base::check_outputs(inputs, std::move(outputs));
 }
 
 Error unknown_output(const std::string& path, const std::string& expected) {
@@ -45,7 +46,7 @@ Status check_rows_format(const std::string& path) {
 Result<std::unique_ptr<TableSink>> open_rows(const SamplingJob& job, const TableFormat& format) {
     if (job.output != "-" || isatty(STDOUT_FILENO) != 1) return open_table(job.output, format);
     TableFormat shown = format;
-    for (TableField& field : shown.fields) field.name = printable(field.name);
+    for (TableField& field : shown.fields) field.name = base::printable(field.name);
     return open_table(job.output, shown);
 }
 

@@ -14,7 +14,8 @@ namespace barycert::pipeline {
 
 /// What can be known of files before the work: of a job with those outputs and, besides the common ones, those inputs.
 /// Errors: an output is an input or another output, or cannot be written; an input cannot be read.
-Status check_files(const SamplingJob& job, const std::vector<NamedFile>& more_inputs, std::vector<NamedFile> outputs);
+Status check_files(const SamplingJob& job, const std::vector<base::NamedFile>& more_inputs,
+                   std::vector<base::NamedFile> outputs);
 
 /// That the suffix of the output is none of those `expected`.
 Error unknown_output(const std::string& path, const std::string& expected);

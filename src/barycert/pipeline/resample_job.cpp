@@ -76,8 +76,8 @@ Status check_job(const ResampleJob& job) {
         return pipeline::check_files(job, {}, {{"--output", job.output}});
     }
     if (Status known = pipeline::check_mesh_output(job); !known) return known;
-    return pipeline::check_files(job, named_files("the mesh of --onto", mesh_files(job.onto)),
-                                 named_files("--output", pipeline::files_of_mesh_output(job)));
+    return pipeline::check_files(job, base::named_files("the mesh of --onto", mesh_files(job.onto)),
+                                 base::named_files("--output", pipeline::files_of_mesh_output(job)));
 }
 
 Status onto_grid(Run& run, const ResampleJob& job, Engine& engine) {

@@ -23,8 +23,9 @@ Status check_job(const SampleJob& job) {
     if (job.map == "-" || job.save_map == "-")
         return Error{.what = "a map cannot come from stdin or go to stdout", .remedy = "name a file"};
     if (Status known = pipeline::check_rows_format(job.output); !known) return known;
-    return pipeline::check_files(job, {job.map.empty() ? NamedFile{"--points", job.points} : NamedFile{"--map", job.map}},
-                       {{"--output", job.output}, {"--save-map", job.save_map}});
+    return pipeline::check_files(
+        job, {job.map.empty() ? base::NamedFile{"--points", job.points} : base::NamedFile{"--map", job.map}},
+        {{"--output", job.output}, {"--save-map", job.save_map}});
 }
 
 /// Opens the output of the job.

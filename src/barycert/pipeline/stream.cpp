@@ -117,7 +117,7 @@ SampleOptions without_refusal(SampleOptions options) {
 
 Error outside_error(const std::string& what, std::span<const double> where, const std::string& file) {
     std::string at;
-    for (const double x : where) at += (at.empty() ? "(" : ", ") + shortest(x);
+    for (const double x : where) at += (at.empty() ? "(" : ", ") + base::shortest(x);
     return {.what = what + ", counted from 0, is outside the mesh",
             .file = file,
             .found = at + ")",

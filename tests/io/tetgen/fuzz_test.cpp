@@ -53,7 +53,7 @@ TEST(Damage, random_bytes) {
     for (const char* suffix : suffixes) texts.push_back(get(folder / ("m" + std::string(suffix))));
     int accepted = 0;
     for (std::uint64_t seed = 0; seed < 6000; ++seed) {
-        Random random(seed);
+        base::Random random(seed);
         const std::size_t which = random.below(4);
         const std::string file = folder / ("m" + std::string(suffixes[which]));
         std::string text = texts[which];

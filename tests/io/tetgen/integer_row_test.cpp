@@ -12,7 +12,7 @@ namespace {
 
 /// What the general scanner makes of a row of five integers: the place after it, or nullptr.
 const char* scan_generally(const char* at, const char* end, std::array<std::int64_t, 5>& values) {
-    Scanner scanner{at, end};
+    io::Scanner scanner{at, end};
     scanner.skip_blanks();
     for (std::size_t i = 0; i < 5; ++i) {
         if (i != 0 && !scanner.separator()) return nullptr;
@@ -26,7 +26,7 @@ int agree(const std::string& row) {
     const std::string text = row + std::string(128, '\0');
     std::array<std::uint32_t, 5> fast{};
     std::array<std::int64_t, 5> general{};
-    const char* const after = scan_plain_row(text.data(), fast);
+    const char* const after = io::scan_plain_row(text.data(), fast);
     if (after == nullptr) return 0;
     EXPECT_EQ(after, scan_generally(text.data(), text.data() + row.size(), general)) << row;
     for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(fast[i], general[i]) << row;
@@ -57,7 +57,7 @@ TEST(IntegerRow, never_differs_from_the_scanner) {
     constexpr std::string_view alphabet = "0000123456789999      \n\t,+-.#;:/a\r";
     int read = 0;
     for (std::uint64_t seed = 0; seed < 200000; ++seed) {
-        Random random = Random::stream(2, seed, 0);
+        base::Random random = base::Random::stream(2, seed, 0);
         std::string row;
         for (int i = 0; i < 5; ++i) {
             row.append(random.below(3) + (i == 0 ? 0 : 1), ' ');
@@ -74,25 +74,25 @@ TEST(IntegerRow, never_differs_from_the_scanner) {
 #endif
 }
 
-TEST(Scanner, integers_of_every_length) {
+TEST(io::Scanner, integers_of_every_length) {
     std::string digits;
     for (int length = 1; length <= 19; ++length) {
         digits += static_cast<char>('0' + length % 10);
         for (const char* after : {" ", "\n", ",", "\t9", "x", "/", ":", "\xff"}) {
             const std::string text = digits + after + std::string(16, '\0');
             std::int64_t value = 0;
-            const char* const end = scan_integer(text.data(), value);
+            const char* const end = io::scan_integer(text.data(), value);
             ASSERT_EQ(end, text.data() + length);
             EXPECT_EQ(value, std::stoll(digits));
         }
     }
 }
 
-TEST(Scanner, limits_of_64_bits) {
+TEST(io::Scanner, limits_of_64_bits) {
     const auto read = [](std::string text) {
         text.append(16, '\0');
         std::int64_t value = 1;
-        return scan_integer(text.data(), value) == nullptr ? 1 : value;
+        return io::scan_integer(text.data(), value) == nullptr ? 1 : value;
     };
     EXPECT_EQ(read("9223372036854775807"), INT64_MAX);
     EXPECT_EQ(read("9223372036854775808"), 1);

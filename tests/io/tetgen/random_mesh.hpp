@@ -13,7 +13,7 @@
 namespace barycert::testing {
 
 /// Any finite double, each bit pattern equally likely, and now and then one of the ends of the range.
-inline double any_double(Random& random) {
+inline double any_double(base::Random& random) {
     constexpr double special[] = {0.0,
                                   -0.0,
                                   5e-324,
@@ -34,26 +34,26 @@ inline double any_double(Random& random) {
     }
 }
 
-inline std::vector<double> any_doubles(Random& random, std::size_t count) {
+inline std::vector<double> any_doubles(base::Random& random, std::size_t count) {
     std::vector<double> values(count);
     for (double& value : values) value = any_double(random);
     return values;
 }
 
-inline std::vector<Mesh::Index> any_indices(Random& random, std::size_t count, std::size_t limit) {
+inline std::vector<Mesh::Index> any_indices(base::Random& random, std::size_t count, std::size_t limit) {
     std::vector<Mesh::Index> values(count);
     for (Mesh::Index& value : values) value = static_cast<Mesh::Index>(random.below(limit));
     return values;
 }
 
-inline std::vector<std::int64_t> any_markers(Random& random, std::size_t count) {
+inline std::vector<std::int64_t> any_markers(base::Random& random, std::size_t count) {
     std::vector<std::int64_t> values(count);
     for (std::int64_t& value : values) value = static_cast<std::int64_t>(random.bits() >> random.below(64));
     return values;
 }
 
 /// A linear mesh with everything a set of files can hold, each part there or not by chance.
-inline Mesh any_mesh(Random& random) {
+inline Mesh any_mesh(base::Random& random) {
     Mesh mesh;
     mesh.dimension = random.integer(2, 3);
     mesh.index_base = random.integer(0, 1);
@@ -89,7 +89,7 @@ inline std::vector<MidEdgeOrder> orders_in(int dimension) {
 /// Cells apart from each other with nodes at their mid-edges, moved by up to `bend` of the cell's size.
 inline Mesh second_order_mesh(int dimension, MidEdgeOrder order, std::size_t cells, std::uint64_t seed,
                               double scale = 1, double bend = 0) {
-    Random random(seed);
+    base::Random random(seed);
     Mesh mesh;
     mesh.dimension = dimension;
     mesh.mid_edge_order = order;
@@ -111,7 +111,7 @@ inline Mesh second_order_mesh(int dimension, MidEdgeOrder order, std::size_t cel
             }
         };
         for (std::size_t i = 0; i <= size; ++i) add(mesh.cells, i, i, 0);
-        for (const auto& [a, b] : detail::edges_of(dimension)) add(mesh.mid_nodes, a, b, bend);
+        for (const auto& [a, b] : mesh::edges_of(dimension)) add(mesh.mid_nodes, a, b, bend);
     }
     return mesh;
 }

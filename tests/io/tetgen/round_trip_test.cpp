@@ -19,14 +19,14 @@ void expect_round_trip(const Mesh& mesh, const WriteOptions& options = {}) {
 }
 
 RC_GTEST_PROP(RoundTrip, any_mesh, (std::uint64_t seed)) {
-    Random random(seed);
+    base::Random random(seed);
     expect_round_trip(any_mesh(random), {.comment = random.coin() ? "a comment\n1 2 3\r4" : ""});
     RC_ASSERT(!::testing::Test::HasFailure());
 }
 
 TEST(RoundTrip, many_doubles) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
-        Random random(seed);
+        base::Random random(seed);
         Mesh mesh;
         mesh.points = any_doubles(random, 30000);
         expect_round_trip(mesh);
@@ -41,7 +41,7 @@ TEST(RoundTrip, second_order_cells_in_every_order) {
 }
 
 TEST(RoundTrip, the_number_of_threads_changes_nothing) {
-    Random random(7);
+    base::Random random(7);
     Mesh mesh;
     const std::size_t nodes = 60000, cells = 100000;  // several blocks in each file
     mesh.points = any_doubles(random, nodes * 3);

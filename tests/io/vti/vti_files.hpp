@@ -12,7 +12,7 @@ namespace barycert::testing {
 
 using Bytes = std::vector<std::byte>;
 
-inline Bytes any_bytes(Random& random, std::size_t count) {
+inline Bytes any_bytes(base::Random& random, std::size_t count) {
     Bytes bytes(count);
     for (std::byte& byte : bytes) byte = static_cast<std::byte>(random.below(256));
     return bytes;
@@ -25,11 +25,11 @@ Bytes bytes_of(const std::vector<T>& values) {
 }
 
 /// Blocks of any length, arrays taking turns by chance (or one after the other).
-inline Status write_in_blocks(const std::string& path, const VtiGrid& grid, const std::vector<VtiArray>& arrays,
+inline Status write_in_blocks(const std::string& path, const io::VtiGrid& grid, const std::vector<io::VtiArray>& arrays,
                               const std::vector<Bytes>& data, std::uint64_t seed, bool take_turns) {
-    Result<std::unique_ptr<VtiWriter>> writer = VtiWriter::open(path, grid, arrays);
+    Result<std::unique_ptr<io::VtiWriter>> writer = io::VtiWriter::open(path, grid, arrays);
     if (!writer) return writer.error();
-    Random random(seed);
+    base::Random random(seed);
     std::vector<std::size_t> done(data.size());
     while (true) {
         std::vector<std::size_t> left;

@@ -18,25 +18,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<VtiArray> four{{"vtkValidPointMask", 1, VtiType::int8},
-                                 {"cell", 1, VtiType::int32},
-                                 {"u <v>", 3, VtiType::float64},
-                                 {"T", 1, VtiType::float64}};
+const std::vector<io::VtiArray> four{{"vtkValidPointMask", 1, io::VtiType::int8},
+                                     {"cell", 1, io::VtiType::int32},
+                                     {"u <v>", 3, io::VtiType::float64},
+                                     {"T", 1, io::VtiType::float64}};
 
-std::vector<Bytes> data_of(Random& random, const std::vector<VtiArray>& arrays, std::size_t points) {
+std::vector<Bytes> data_of(base::Random& random, const std::vector<io::VtiArray>& arrays, std::size_t points) {
     std::vector<Bytes> data;
-    for (const VtiArray& array : arrays) {
-        const std::size_t size = array.type == VtiType::int8 || array.type == VtiType::uint8      ? 1
-                                 : array.type == VtiType::int32 || array.type == VtiType::float32 ? 4
-                                                                                                  : 8;
+    for (const io::VtiArray& array : arrays) {
+        const std::size_t size = array.type == io::VtiType::int8 || array.type == io::VtiType::uint8      ? 1
+                                 : array.type == io::VtiType::int32 || array.type == io::VtiType::float32 ? 4
+                                                                                                          : 8;
         data.push_back(any_bytes(random, points * size * static_cast<std::size_t>(array.components)));
     }
     return data;
 }
 
-TEST(VtiWriter, the_file_holds_what_was_written_whatever_the_blocks) {
-    Random random(1);
-    const VtiGrid grid{{7, 11, 5}, {0.1, -1e300, 5e-324}, {0.1, 2, 1e-10}};
+TEST(io::VtiWriter, the_file_holds_what_was_written_whatever_the_blocks) {
+    base::Random random(1);
+    const io::VtiGrid grid{{7, 11, 5}, {0.1, -1e300, 5e-324}, {0.1, 2, 1e-10}};
     const std::vector<Bytes> data = data_of(random, four, 7 * 11 * 5);
     const TemporaryFolder folder;
     ASSERT_TRUE(write_in_blocks(folder / "a.vti", grid, four, data, 1, false));
@@ -66,11 +66,12 @@ TEST(VtiWriter, the_file_holds_what_was_written_whatever_the_blocks) {
     EXPECT_EQ(folder.file_count(), 2U);
 }
 
-TEST(VtiWriter, nothing_appears_before_the_commit) {
+TEST(io::VtiWriter, nothing_appears_before_the_commit) {
     const TemporaryFolder folder;
     put(folder / "a.vti", "old");
     {
-        auto writer = VtiWriter::open(folder / "a.vti", {{2, 2, 1}, {}, {1, 1, 0}}, {{"T", 1, VtiType::float64}});
+        auto writer =
+            io::VtiWriter::open(folder / "a.vti", {{2, 2, 1}, {}, {1, 1, 0}}, {{"T", 1, io::VtiType::float64}});
         ASSERT_TRUE(writer);
         const std::vector<double> values{1, 2, 3};
         ASSERT_TRUE((*writer)->write(0, std::as_bytes(std::span(values))));
@@ -85,45 +86,45 @@ TEST(VtiWriter, nothing_appears_before_the_commit) {
     EXPECT_EQ(get(folder / "a.vti"), "old");
 }
 
-TEST(VtiWriter, no_arrays) {
+TEST(io::VtiWriter, no_arrays) {
     const TemporaryFolder folder;
-    auto writer = VtiWriter::open(folder / "a.vti", {}, {});
+    auto writer = io::VtiWriter::open(folder / "a.vti", {}, {});
     ASSERT_TRUE(writer);
     EXPECT_FALSE((*writer)->write(0, {}));
     ASSERT_TRUE((*writer)->commit());
     EXPECT_NE(get(folder / "a.vti").find("WholeExtent=\"0 0 0 0 0 0\""), std::string::npos);
 }
 
-TEST(VtiWriter, what_is_refused) {
+TEST(io::VtiWriter, what_is_refused) {
     const TemporaryFolder folder;
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    const auto refused = [&](const VtiGrid& grid, const std::vector<VtiArray>& arrays, const std::string& what,
+    const auto refused = [&](const io::VtiGrid& grid, const std::vector<io::VtiArray>& arrays, const std::string& what,
                              const std::string& found) {
-        const auto writer = VtiWriter::open(folder / "a.vti", grid, arrays);
+        const auto writer = io::VtiWriter::open(folder / "a.vti", grid, arrays);
         ASSERT_FALSE(writer) << what;
         EXPECT_EQ(writer.error().what, what);
         EXPECT_EQ(writer.error().found, found);
         EXPECT_EQ(writer.error().file, folder / "a.vti");
         EXPECT_EQ(folder.file_count(), 0U);
     };
-    const VtiGrid good{{2, 2, 2}, {0, 0, 0}, {1, 1, 1}};
+    const io::VtiGrid good{{2, 2, 2}, {0, 0, 0}, {1, 1, 1}};
     refused({{2, 0, 2}, {}, {1, 1, 1}}, {}, "the points along axis 1", "0");
     refused({{2, 2, 2147483648}, {}, {1, 1, 1}}, {}, "the points along axis 2", "2147483648");
     refused({{2, 2, 2}, {nan, 0, 0}, {1, 1, 1}}, {}, "the origin along axis 0", "nan");
     refused({{2, 2, 2}, {}, {1, 0, 1}}, {}, "the spacing along axis 1", "0");
     refused({{2, 2, 2}, {}, {1, 1, -1}}, {}, "the spacing along axis 2", "-1");
     refused({{1, 1, 1}, {}, {nan, 1, 1}}, {}, "the spacing along axis 0", "nan");
-    refused(good, {{"", 1, VtiType::int8}}, "the name of an array", "none");
-    refused(good, {{"a\x01", 1, VtiType::int8}}, "the name of an array", "'a\x01'");
-    refused(good, {{"a", 0, VtiType::int8}}, "the components of array 'a'", "0");
-    refused(good, {{"a", 1, VtiType::int8}, {"b", 1, VtiType::int8}, {"a", 1, VtiType::int8}}, "the names of arrays",
-            "'a' twice");
-    refused({{2147483647, 2147483647, 2}, {}, {1, 1, 1}}, {{"a", 1, VtiType::float64}}, "the size of the arrays",
+    refused(good, {{"", 1, io::VtiType::int8}}, "the name of an array", "none");
+    refused(good, {{"a\x01", 1, io::VtiType::int8}}, "the name of an array", "'a\x01'");
+    refused(good, {{"a", 0, io::VtiType::int8}}, "the components of array 'a'", "0");
+    refused(good, {{"a", 1, io::VtiType::int8}, {"b", 1, io::VtiType::int8}, {"a", 1, io::VtiType::int8}},
+            "the names of arrays", "'a' twice");
+    refused({{2147483647, 2147483647, 2}, {}, {1, 1, 1}}, {{"a", 1, io::VtiType::float64}}, "the size of the arrays",
             "more");
-    refused({{2147483647, 2147483647, 1}, {}, {1, 1, 1}}, {{"a", 2147483647, VtiType::float64}},
+    refused({{2147483647, 2147483647, 1}, {}, {1, 1, 1}}, {{"a", 2147483647, io::VtiType::float64}},
             "the size of the arrays", "more");
-    EXPECT_FALSE(VtiWriter::open(folder / "none/a.vti", good, {}));
-    auto writer = VtiWriter::open(folder / "a.vti", good, {{"a", 1, VtiType::int8}});
+    EXPECT_FALSE(io::VtiWriter::open(folder / "none/a.vti", good, {}));
+    auto writer = io::VtiWriter::open(folder / "a.vti", good, {{"a", 1, io::VtiType::int8}});
     ASSERT_TRUE(writer);
     const Bytes bytes(9);
     EXPECT_FALSE((*writer)->write(1, bytes));
@@ -136,10 +137,10 @@ TEST(VtiWriter, what_is_refused) {
 }
 
 /// On a pipe arrays come one after the other.
-TEST(VtiWriter, pipes) {
+TEST(io::VtiWriter, pipes) {
     const TemporaryFolder folder;
-    Random random(2);
-    const VtiGrid grid{{20, 20, 1}, {0, 0, 0}, {1, 1, 0}};
+    base::Random random(2);
+    const io::VtiGrid grid{{20, 20, 1}, {0, 0, 0}, {1, 1, 0}};
     const std::vector<Bytes> data = data_of(random, four, 400);
     ASSERT_TRUE(write_in_blocks(folder / "a.vti", grid, four, data, 1, true));
     const std::string pipe = folder / "pipe";
@@ -159,10 +160,10 @@ TEST(VtiWriter, pipes) {
 }
 
 /// More than 2^32 bytes, of which the file system keeps those that are not zero.
-TEST(VtiWriter, sizes_beyond_32_bits) {
+TEST(io::VtiWriter, sizes_beyond_32_bits) {
     const TemporaryFolder folder;
-    const std::vector<VtiArray> arrays{{"a", 1, VtiType::int8}, {"b", 1, VtiType::float64}};
-    auto writer = VtiWriter::open(folder / "a.vti", {{65536, 65537, 1}, {}, {1, 1, 1}}, arrays);
+    const std::vector<io::VtiArray> arrays{{"a", 1, io::VtiType::int8}, {"b", 1, io::VtiType::float64}};
+    auto writer = io::VtiWriter::open(folder / "a.vti", {{65536, 65537, 1}, {}, {1, 1, 1}}, arrays);
     ASSERT_TRUE(writer);
     const std::string head_of_b = "offset=\"4295032840\"";  // 65536 * 65537 + 8
     const Bytes block(1 << 20);

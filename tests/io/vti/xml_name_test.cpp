@@ -6,19 +6,19 @@ namespace barycert::detail {
 namespace {
 
 TEST(XmlName, what_needs_an_escape_gets_one) {
-    EXPECT_EQ(xml_attribute(""), "");
-    EXPECT_EQ(xml_attribute(" von Mises stress [MPa] "), " von Mises stress [MPa] ");
-    EXPECT_EQ(xml_attribute("a<b>&\"'"), "a&#60;b&#62;&#38;&#34;&#39;");
-    EXPECT_EQ(xml_attribute("\t\n\r"), "&#9;&#10;&#13;");
-    EXPECT_EQ(xml_attribute("&lt;"), "&#38;lt;");
-    EXPECT_EQ(xml_attribute("\x7f"), "\x7f");
+    EXPECT_EQ(io::xml_attribute(""), "");
+    EXPECT_EQ(io::xml_attribute(" von Mises stress [MPa] "), " von Mises stress [MPa] ");
+    EXPECT_EQ(io::xml_attribute("a<b>&\"'"), "a&#60;b&#62;&#38;&#34;&#39;");
+    EXPECT_EQ(io::xml_attribute("\t\n\r"), "&#9;&#10;&#13;");
+    EXPECT_EQ(io::xml_attribute("&lt;"), "&#38;lt;");
+    EXPECT_EQ(io::xml_attribute("\x7f"), "\x7f");
 }
 
 TEST(XmlName, characters_at_the_ends_of_their_ranges) {
     for (const char* text : {"\xC2\x80", "\xDF\xBF", "\xE0\xA0\x80", "\xED\x9F\xBF", "\xEE\x80\x80", "\xEF\xBF\xBD",
                              "\xF0\x90\x80\x80", "\xF4\x8F\xBF\xBF"}) {
-        EXPECT_EQ(xml_attribute(text), text);
-        EXPECT_EQ(xml_attribute(std::string("a") + text + "b"), std::string("a") + text + "b");
+        EXPECT_EQ(io::xml_attribute(text), text);
+        EXPECT_EQ(io::xml_attribute(std::string("a") + text + "b"), std::string("a") + text + "b");
     }
 }
 
@@ -50,8 +50,8 @@ TEST(XmlName, what_is_no_text_is_refused) {
              "\xF8\x88\x80\x80\x80"s,
              "\xFF"s  // beyond Unicode
          }) {
-        EXPECT_FALSE(xml_attribute(text)) << ::testing::PrintToString(text);
-        EXPECT_FALSE(xml_attribute("a" + text)) << ::testing::PrintToString(text);
+        EXPECT_FALSE(io::xml_attribute(text)) << ::testing::PrintToString(text);
+        EXPECT_FALSE(io::xml_attribute("a" + text)) << ::testing::PrintToString(text);
     }
 }
 

@@ -293,7 +293,7 @@ TEST(BadVtkFiles, no_damage_crashes) {
         ASSERT_TRUE(write_vtk(mesh_of_data("plate"), folder / name));
         files.push_back(get(folder / name));
     }
-    Random random(4);
+    base::Random random(4);
     std::size_t refused = 0, tried = 0;
     Printed printed;
     for (const std::string& file : files) {

@@ -20,7 +20,7 @@
 namespace barycert::testing {
 namespace {
 
-vtkSmartPointer<vtkUnstructuredGrid> read_by_vtk(const std::string& path) {
+vtkSmartPointer<vtkUnstructuredGrid> read_legacy_by_vtk(const std::string& path) {
     vtkNew<vtkUnstructuredGridReader> reader;
     reader->SetFileName(path.c_str());
     reader->Update();
@@ -28,15 +28,8 @@ vtkSmartPointer<vtkUnstructuredGrid> read_by_vtk(const std::string& path) {
     return reader->GetOutput();
 }
 
-std::string bits_of(vtkDataArray* array) {
-    return {static_cast<const char*>(array->GetVoidPointer(0)),
-            static_cast<std::size_t>(array->GetNumberOfValues()) * sizeof(double)};
-}
-
-using testing::bits_of;
-
 /// What VTK reads is what the mesh holds.
-void expect_grid(vtkUnstructuredGrid* grid, const Mesh& mesh) {
+void expect_legacy_grid(vtkUnstructuredGrid* grid, const Mesh& mesh) {
     ASSERT_EQ(static_cast<std::size_t>(grid->GetNumberOfPoints()), mesh.point_count());
     ASSERT_EQ(static_cast<std::size_t>(grid->GetNumberOfCells()), mesh.cell_count());
     if (mesh.dimension == 3) {
@@ -56,7 +49,7 @@ void expect_grid(vtkUnstructuredGrid* grid, const Mesh& mesh) {
     }
 }
 
-void expect_round_trip(const Mesh& mesh) {
+void expect_legacy_round_trip(const Mesh& mesh) {
     const TemporaryFolder folder;
     Printed printed;
     const Status written = write_vtk(mesh, folder / "m.vtk");
@@ -68,28 +61,28 @@ void expect_round_trip(const Mesh& mesh) {
     ASSERT_TRUE(read) << read.error().message();
     expect_same(*read, as_in_vtk(mesh));
     EXPECT_TRUE(left_out.point_arrays.empty());
-    expect_grid(read_by_vtk(folder / "m.vtk"), mesh);
+    expect_legacy_grid(read_legacy_by_vtk(folder / "m.vtk"), mesh);
 }
 
 TEST(Legacy, meshes_of_the_data_folder) {
     for (const char* name : {"cube-hole", "cube-hole-o2", "plate", "bracket", "torus"}) {
         SCOPED_TRACE(name);
-        expect_round_trip(mesh_of_data(name));
+        expect_legacy_round_trip(mesh_of_data(name));
     }
 }
 
 TEST(Legacy, random_meshes) {
-    Random random(3);
+    base::Random random(3);
     int tried = 0;
     for (int i = 0; i < 200; ++i) {
         SCOPED_TRACE(i);
         const Mesh mesh = any_mesh(random);
         if (mesh.cell_count() == 0) continue;
         ++tried;
-        expect_round_trip(mesh);
+        expect_legacy_round_trip(mesh);
     }
     EXPECT_GT(tried, 100);
-    for (const int dimension : {2, 3}) expect_round_trip(second_order_mesh(dimension, MidEdgeOrder::vtk, 20, 5));
+    for (const int dimension : {2, 3}) expect_legacy_round_trip(second_order_mesh(dimension, MidEdgeOrder::vtk, 20, 5));
 }
 
 TEST(Legacy, values_and_names_of_fields) {
@@ -106,7 +99,7 @@ TEST(Legacy, values_and_names_of_fields) {
         mesh.point_fields.push_back({name, 9, values});
         mesh.cell_fields.push_back({name, 1, std::vector<double>(mesh.cell_count(), 0.1)});
     }
-    expect_round_trip(mesh);
+    expect_legacy_round_trip(mesh);
     for (const std::string& name : {std::string(201, 'x'), std::string(67, ' '), std::string("METADATA"),
                                     std::string("NULL_ARRAY"), std::string()}) {
         Mesh bad = mesh;

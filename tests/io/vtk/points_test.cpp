@@ -55,7 +55,7 @@ TEST(VtkPoints, rows_are_read_by_vtk) {
     const std::vector<std::uint8_t> inside{1, 1, 0};
     for (const int dimension : {3, 2}) {
         const std::size_t count = points.size() / static_cast<std::size_t>(dimension);
-        PointRows rows;
+        io::PointRows rows;
         rows.dimension = dimension;
         rows.points = points;
         rows.fields = {{"u <v>", 2, {1, 2, 3, 4, nan, nan}}};
@@ -66,7 +66,7 @@ TEST(VtkPoints, rows_are_read_by_vtk) {
         rows.distances = std::span(distances).first(count);
         const TemporaryFolder folder;
         Printed printed;
-        const Status status = write_vtk_points(folder / "p.vtu", rows);
+        const Status status = io::write_vtk_points(folder / "p.vtu", rows);
         EXPECT_EQ(printed.text(), "");
         ASSERT_TRUE(status) << status.error().message();
         vtkNew<vtkXMLUnstructuredGridReader> reader;
@@ -106,18 +106,18 @@ TEST(VtkPoints, rows_are_read_by_vtk) {
         EXPECT_EQ(bits_of({data->GetArray("u <v>")->GetTuple(0), data->GetArray("u <v>")->GetTuple(0) + 2}),
                   bits_of({1, 2}));
         // The rest of the arrays is not there where there is nothing for it.
-        ASSERT_TRUE(write_vtk_points(folder / "q.vtu", {.dimension = dimension,
-                                                        .points = points,
-                                                        .cells = {},
-                                                        .features = {},
-                                                        .inside = {},
-                                                        .fields = {},
-                                                        .distances = {}}));
+        ASSERT_TRUE(io::write_vtk_points(folder / "q.vtu", {.dimension = dimension,
+                                                            .points = points,
+                                                            .cells = {},
+                                                            .features = {},
+                                                            .inside = {},
+                                                            .fields = {},
+                                                            .distances = {}}));
         EXPECT_EQ(bits_of(read_vtk_points(folder / "q.vtu", dimension).value()), bits_of(points));
         EXPECT_EQ(get(folder / "q.vtu").find("vtkValidPointMask"), std::string::npos);
     }
     const TemporaryFolder folder;
-    ASSERT_TRUE(write_vtk_points(folder / "none.vtu", {}));
+    ASSERT_TRUE(io::write_vtk_points(folder / "none.vtu", {}));
     EXPECT_TRUE(read_vtk_points(folder / "none.vtu", 3).value().empty());
 }
 
@@ -133,31 +133,34 @@ TEST(VtkPoints, codes_of_features) {
 TEST(VtkPoints, rows_that_do_not_fit) {
     const std::vector<double> points{0, 0, 0, 1, 1, 1}, bad{0, 0, std::numeric_limits<double>::infinity()};
     const std::vector<Mesh::Index> cells{1};
-    const auto refused = [&](const PointRows& rows, const std::string& what) {
+    const auto refused = [&](const io::PointRows& rows, const std::string& what) {
         const TemporaryFolder folder;
-        const Status status = write_vtk_points(folder / "p.vtu", rows);
+        const Status status = io::write_vtk_points(folder / "p.vtu", rows);
         ASSERT_FALSE(status) << what;
         EXPECT_EQ(status.error().what, "cannot write the points: " + what);
         EXPECT_EQ(status.error().file, folder / "p.vtu");
         EXPECT_EQ(folder.file_count(), 0U);
     };
-    PointRows rows;
+    io::PointRows rows;
     rows.points = points;
     const auto with = [&](auto change) {
-        PointRows other = rows;
+        io::PointRows other = rows;
         change(other);
         return other;
     };
-    refused(with([](PointRows& r) { r.dimension = 1; }), "the dimension is neither 2 nor 3");
-    refused(with([](PointRows& r) { r.points = r.points.first(5); }), "the coordinates do not make whole points");
-    refused(with([&](PointRows& r) { r.points = bad; }), "a coordinate is not finite");
-    refused(with([&](PointRows& r) { r.cells = cells; }), "an array has not one row a point");
-    refused(with([&](PointRows& r) { r.distances = r.points.first(1); }), "an array has not one row a point");
-    refused(with([](PointRows& r) { r.fields = {{"f", 1, {1}}}; }), "an array has not one row a point");
-    refused(with([](PointRows& r) { r.fields = {{"f", 0, {}}}; }), "a field has no components");
-    refused(with([](PointRows& r) { r.fields = {{"", 1, {1, 2}}}; }), "a field has no name");
-    refused(with([](PointRows& r) { r.fields = {{"f", 1, {1, 2}}, {"f", 1, {1, 2}}}; }), "two fields are named 'f'");
-    refused(with([](PointRows& r) {
+    refused(with([](io::PointRows& r) { r.dimension = 1; }), "the dimension is neither 2 nor 3");
+    refused(with([](io::PointRows& r) { r.points = r.points.first(5); }), "the coordinates do not make whole points");
+    refused(with([&](io::PointRows& r) { r.points = bad; }), "a coordinate is not finite");
+    refused(with([&](io::PointRows& r) { r.cells = cells; }), "an array has not one row a point");
+    refused(with([&](io::PointRows& r) { r.distances = r.points.first(1); }), "an array has not one row a point");
+    refused(with([](io::PointRows& r) { r.fields = {{"f", 1, {1}}}; }), "an array has not one row a point");
+    refused(with([](io::PointRows& r) { r.fields = {{"f", 0, {}}}; }), "a field has no components");
+    refused(with([](io::PointRows& r) { r.fields = {{"", 1, {1, 2}}}; }), "a field has no name");
+    refused(with([](io::PointRows& r) {
+                r.fields = {{"f", 1, {1, 2}}, {"f", 1, {1, 2}}};
+            }),
+            "two fields are named 'f'");
+    refused(with([](io::PointRows& r) {
                 r.fields = {{"distance", 1, {1, 2}}};
                 r.distances = r.points.first(2);
             }),

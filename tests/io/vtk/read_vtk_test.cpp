@@ -38,7 +38,7 @@ TEST(ReadVtk, meshes_of_the_data_folder) {
 }
 
 TEST(ReadVtk, random_meshes) {
-    Random random(2);
+    base::Random random(2);
     int tried = 0;
     for (int i = 0; i < 200; ++i) {
         SCOPED_TRACE(i);

@@ -27,17 +27,17 @@ void expect_array(vtkImageData* image, const char* name, int type, int component
     EXPECT_EQ(std::memcmp(array->GetVoidPointer(0), bytes.data(), bytes.size()), 0);
 }
 
-void expect_image(const VtiGrid& grid) {
+void expect_image(const io::VtiGrid& grid) {
     std::size_t points = 1;
     for (const std::int64_t count : grid.counts) points *= static_cast<std::size_t>(count);
-    Random random(points);
-    const std::vector<VtiArray> arrays{{"vtkValidPointMask", 1, VtiType::int8},
-                                       {"feature", 1, VtiType::uint8},
-                                       {"cell", 1, VtiType::int32},
-                                       {"id", 1, VtiType::int64},
-                                       {"single", 2, VtiType::float32},
-                                       {"u <&\"'> Größe\t", 3, VtiType::float64},
-                                       {"T", 1, VtiType::float64}};
+    base::Random random(points);
+    const std::vector<io::VtiArray> arrays{{"vtkValidPointMask", 1, io::VtiType::int8},
+                                           {"feature", 1, io::VtiType::uint8},
+                                           {"cell", 1, io::VtiType::int32},
+                                           {"id", 1, io::VtiType::int64},
+                                           {"single", 2, io::VtiType::float32},
+                                           {"u <&\"'> Größe\t", 3, io::VtiType::float64},
+                                           {"T", 1, io::VtiType::float64}};
     const std::vector<Bytes> data{any_bytes(random, points),     any_bytes(random, points),
                                   any_bytes(random, 4 * points), any_bytes(random, 8 * points),
                                   any_bytes(random, 8 * points), any_bytes(random, 24 * points),

@@ -48,6 +48,11 @@ inline Mesh as_in_vtk(Mesh mesh) {
     return mesh;
 }
 
+inline std::string bits_of(vtkDataArray* array) {
+    return {static_cast<const char*>(array->GetVoidPointer(0)),
+            static_cast<std::size_t>(array->GetNumberOfValues()) * sizeof(double)};
+}
+
 inline Mesh mesh_of_data(const char* name) {
     return read_tetgen(std::string(BARYCERT_DATA_DIR) + "/meshes/" + name, {.threads = 1}).value();
 }

@@ -43,20 +43,13 @@ Mesh tetrahedron() {
     return mesh;
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> read_by_vtk(const std::string& path) {
+vtkSmartPointer<vtkUnstructuredGrid> read_vtu_by_vtk(const std::string& path) {
     vtkNew<vtkXMLUnstructuredGridReader> reader;
     reader->SetFileName(path.c_str());
     reader->Update();
     EXPECT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
     return reader->GetOutput();
 }
-
-std::string bits_of(vtkDataArray* array) {
-    return {static_cast<const char*>(array->GetVoidPointer(0)),
-            static_cast<std::size_t>(array->GetNumberOfValues()) * sizeof(double)};
-}
-
-using testing::bits_of;
 
 void expect_fields(vtkFieldData* data, const std::vector<Field>& fields, std::size_t others) {
     ASSERT_EQ(static_cast<std::size_t>(data->GetNumberOfArrays()), fields.size() + others);
@@ -72,7 +65,7 @@ void expect_fields(vtkFieldData* data, const std::vector<Field>& fields, std::si
 
 void expect_cells(vtkUnstructuredGrid* grid, const Mesh& mesh) {
     const std::size_t corners = mesh.corners();
-    const std::size_t mids = mesh.mid_nodes.empty() ? 0 : detail::edges_of(mesh.dimension).size();
+    const std::size_t mids = mesh.mid_nodes.empty() ? 0 : mesh::edges_of(mesh.dimension).size();
     int type = mesh.dimension == 3 ? VTK_TETRA : VTK_TRIANGLE;
     if (mids != 0) type = mesh.dimension == 3 ? VTK_QUADRATIC_TETRA : VTK_QUADRATIC_TRIANGLE;
     ASSERT_EQ(static_cast<std::size_t>(grid->GetNumberOfCells()), mesh.cell_count());
@@ -90,7 +83,7 @@ void expect_cells(vtkUnstructuredGrid* grid, const Mesh& mesh) {
 }
 
 /// Everything that VTK reads is what the mesh holds, doubles by their bits.
-void expect_grid(vtkUnstructuredGrid* grid, const Mesh& mesh) {
+void expect_vtu_grid(vtkUnstructuredGrid* grid, const Mesh& mesh) {
     ASSERT_EQ(static_cast<std::size_t>(grid->GetNumberOfPoints()), mesh.point_count());
     if (mesh.point_count() != 0) {
         ASSERT_EQ(grid->GetPoints()->GetDataType(), VTK_DOUBLE);
@@ -115,12 +108,12 @@ void expect_grid(vtkUnstructuredGrid* grid, const Mesh& mesh) {
     EXPECT_EQ(std::memcmp(markers->GetVoidPointer(0), mesh.point_markers.data(), mesh.point_markers.size() * 8), 0);
 }
 
-void expect_round_trip(const Mesh& mesh) {
+void expect_vtu_round_trip(const Mesh& mesh) {
     const TemporaryFolder folder;
     const Status status = write_vtu(mesh, folder / "m.vtu");
     ASSERT_TRUE(status) << status.error().message();
     EXPECT_EQ(folder.file_count(), 1U);
-    expect_grid(read_by_vtk(folder / "m.vtu"), mesh);
+    expect_vtu_grid(read_vtu_by_vtk(folder / "m.vtu"), mesh);
 }
 
 TEST(Vtu, meshes_of_the_data_folder) {
@@ -128,17 +121,17 @@ TEST(Vtu, meshes_of_the_data_folder) {
         SCOPED_TRACE(name);
         Mesh mesh = mesh_of_data(name);
         ASSERT_GT(mesh.cell_count(), 0U);
-        expect_round_trip(mesh);
+        expect_vtu_round_trip(mesh);
         mesh.point_markers.clear();
-        expect_round_trip(mesh);
+        expect_vtu_round_trip(mesh);
     }
 }
 
 TEST(Vtu, random_meshes) {
-    Random random(1);
+    base::Random random(1);
     for (int i = 0; i < 200; ++i) {
         SCOPED_TRACE(i);
-        expect_round_trip(any_mesh(random));
+        expect_vtu_round_trip(any_mesh(random));
     }
 }
 
@@ -146,7 +139,7 @@ TEST(Vtu, random_meshes) {
 void expect_mid_nodes(const Mesh& mesh, double bend) {
     const TemporaryFolder folder;
     ASSERT_TRUE(write_vtu(mesh, folder / "m.vtu"));
-    const auto grid = read_by_vtk(folder / "m.vtu");
+    const auto grid = read_vtu_by_vtk(folder / "m.vtu");
     ASSERT_GT(grid->GetNumberOfCells(), 0);
     for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i) {
         vtkCell* const cell = grid->GetCell(i);
@@ -175,7 +168,7 @@ TEST(Vtu, mid_edge_nodes_stand_on_the_edges_vtk_has_them_on) {
     for (const int dimension : {2, 3}) {
         for (const MidEdgeOrder order : orders_in(dimension)) {
             const Mesh mesh = second_order_mesh(dimension, order, 20, 5);
-            expect_round_trip(mesh);
+            expect_vtu_round_trip(mesh);
             expect_mid_nodes(mesh, 1e-15);  // a midpoint is rounded once, by an ulp of coordinates below 2
         }
     }
@@ -191,7 +184,7 @@ TEST(Vtu, values_that_are_no_numbers_keep_their_bits) {
                          {"nine", 9, std::vector<double>(36, nan)},
                          {"ends", 2, {5e-324, -0.0, 0.0, 1e308, -1e308, 0.1, nan, infinity}}};
     mesh.cell_fields = {{"NaN", 3, {nan, -infinity, 0}}};
-    expect_round_trip(mesh);
+    expect_vtu_round_trip(mesh);
 }
 
 TEST(Vtu, names_of_fields) {
@@ -203,18 +196,18 @@ TEST(Vtu, names_of_fields) {
         mesh.cell_fields.push_back({name, 2, {0.5, static_cast<double>(mesh.point_fields.size())}});
     }
     mesh.point_fields.push_back({std::string(100000, 'x'), 1, {1, 2, 3, 4}});
-    expect_round_trip(mesh);
+    expect_vtu_round_trip(mesh);
 }
 
 TEST(Vtu, empty_meshes) {
     Mesh mesh;
-    expect_round_trip(mesh);
+    expect_vtu_round_trip(mesh);
     mesh.dimension = 2;
-    expect_round_trip(mesh);
+    expect_vtu_round_trip(mesh);
     mesh = tetrahedron();
     mesh.cells.clear();  // nodes alone
     mesh.point_fields = {{"f", 1, {1, 2, 3, 4}}};
-    expect_round_trip(mesh);
+    expect_vtu_round_trip(mesh);
 }
 
 TEST(Vtu, the_same_mesh_gives_the_same_bytes) {
@@ -296,7 +289,7 @@ TEST(Vtu, names_that_the_format_cannot_hold) {
     both.point_fields = {point};
     both.cell_fields = {cell, {"marker", 1, {1}}};
     both.point_markers = {1, 2, 3, 4};
-    expect_round_trip(both);
+    expect_vtu_round_trip(both);
 }
 
 TEST(Vtu, a_file_that_cannot_be_written) {

@@ -19,7 +19,7 @@ Mesh one_cell(int d, const std::vector<double>& points) {
 }
 
 /// Random nodes of a lattice, cells of any of them.
-Mesh soup(int d, int side, std::size_t cells, Random& random) {
+Mesh soup(int d, int side, std::size_t cells, base::Random& random) {
     Mesh mesh;
     mesh.dimension = d;
     for (int i = 0; i < 40 * d; ++i) mesh.points.push_back(random.integer(0, side));
@@ -31,7 +31,7 @@ Mesh soup(int d, int side, std::size_t cells, Random& random) {
 TEST(ResampleCells, Soups) {
     for (const int d : {2, 3}) {
         for (std::uint64_t seed = 0; seed < 12; ++seed) {
-            Random random(seed);
+            base::Random random(seed);
             Mesh mesh = soup(d, 4, 3 + seed * seed, random);
             set_simple_fields(mesh, random);
             for (const std::int64_t n : {5, 9, 8, 33}) {
@@ -51,7 +51,7 @@ TEST(ResampleCells, Soups) {
 // The lower one of two has each point, whichever comes first in the order of the locator.
 TEST(ResampleCells, DuplicatesAndCopies) {
     for (const int d : {2, 3}) {
-        Random random(1);
+        base::Random random(1);
         const Mesh once = box(d, {3, 2, 2});
         Mesh mesh = once;
         mesh.cells.insert(mesh.cells.end(), once.cells.begin(), once.cells.end());  // the same nodes
@@ -69,7 +69,7 @@ TEST(ResampleCells, DuplicatesAndCopies) {
 
 TEST(ResampleCells, Nested) {
     for (const int d : {2, 3}) {
-        Random random(2);
+        base::Random random(2);
         Mesh mesh = d == 2 ? one_cell(2, {0, 0, 8, 0, 0, 8}) : one_cell(3, {0, 0, 0, 8, 0, 0, 0, 8, 0, 0, 0, 8});
         const Mesh largest = mesh;
         for (int i = 1; i < 30; ++i) {
@@ -89,7 +89,7 @@ TEST(ResampleCells, Nested) {
 // A height from 1e-5 of the width down to what is lost in rounding, across and askew.
 TEST(ResampleCells, Slivers) {
     for (const int d : {2, 3}) {
-        Random random(3);
+        base::Random random(3);
         for (const double height : {1e-3, 1e-5, 1e-6, 1e-7, 1e-9, 1e-12, 1e-15, 1e-16, 1e-30}) {
             for (int i = 0; i < 6; ++i) {
                 std::vector<double> at;
@@ -112,7 +112,7 @@ TEST(ResampleCells, Slivers) {
 
 TEST(ResampleCells, DegenerateOnesOwnNothing) {
     for (const int d : {2, 3}) {
-        Random random(4);
+        base::Random random(4);
         Mesh mesh = box(d, {2, 2, 2});
         for (int i = 0; i < 200; ++i) {  // in a plane or line of the lattice, askew, or a point
             const std::vector<double> a = node_at(mesh, static_cast<Mesh::Index>(random.below(9)));
@@ -136,7 +136,7 @@ TEST(ResampleCells, DegenerateOnesOwnNothing) {
 // One cell about a grid whose rows are longer than any vector: inner points have no test at all.
 TEST(ResampleCells, ThousandsOfPointsInACell) {
     for (const int d : {2, 3}) {
-        Random random(5);
+        base::Random random(5);
         Mesh mesh = d == 2 ? one_cell(2, {-3, -5.5, 7.25, -1, 0.3, 9})
                            : one_cell(3, {-3, -5.5, -4, 7.25, -1, -5, 0.3, 9, -2, 0.1, 0.2, 11});
         set_simple_fields(mesh, random);

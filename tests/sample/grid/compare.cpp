@@ -88,8 +88,8 @@ void expect_same_rows(const Table& expected, const Table& found, const Grid& gri
         std::string text;
         const auto tell = [&](const Table& s) {
             text += " cell " + std::to_string(s.cells[i]) + " " + std::string(name(s.features[i]));
-            for (std::size_t c = columns * i; c < columns * (i + 1); ++c) text += " " + hexadecimal(s.values[c]);
-            if (!s.distances.empty()) text += " distance " + hexadecimal(s.distances[i]);
+            for (std::size_t c = columns * i; c < columns * (i + 1); ++c) text += " " + base::hexadecimal(s.values[c]);
+            if (!s.distances.empty()) text += " distance " + base::hexadecimal(s.distances[i]);
         };
         tell(expected);
         text += "\nfound";
@@ -170,7 +170,7 @@ Mesh own_mesh(const std::string& stem) {
     return read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
 }
 
-void set_simple_fields(Mesh& mesh, Random& random) {
+void set_simple_fields(Mesh& mesh, base::Random& random) {
     mesh.point_fields = random_fields(mesh.point_count(), {1}, false, random);
     mesh.cell_fields = random_fields(mesh.cell_count(), {1}, false, random);
 }

@@ -50,13 +50,13 @@ Grid over(int dimension, const std::array<std::int64_t, 3>& counts, const std::a
 Mesh own_mesh(const std::string& stem);
 
 /// Fields of 1 component at nodes, of ordinary values, and of 1 at cells.
-void set_simple_fields(Mesh& mesh, Random& random);
+void set_simple_fields(Mesh& mesh, base::Random& random);
 
 /// Grids that are awkward for this mesh, of at most about `points` points each: see the names they come with.
 struct NamedGrid {
     std::string name;
     Grid grid;
 };
-std::vector<NamedGrid> awkward_grids(const Mesh& mesh, std::int64_t points, Random& random);
+std::vector<NamedGrid> awkward_grids(const Mesh& mesh, std::int64_t points, base::Random& random);
 
 }  // namespace barycert::testing

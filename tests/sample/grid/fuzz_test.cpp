@@ -15,11 +15,11 @@ namespace barycert::testing {
 namespace {
 
 template <class T>
-T one_of(std::initializer_list<T> all, Random& random) {
+T one_of(std::initializer_list<T> all, base::Random& random) {
     return all.begin()[random.below(all.size())];
 }
 
-Mesh random_cells(int d, Random& random) {
+Mesh random_cells(int d, base::Random& random) {
     Mesh mesh;
     mesh.dimension = d;
     const bool lattice = random.coin();
@@ -38,7 +38,7 @@ Mesh random_cells(int d, Random& random) {
 }
 
 /// Nodes of a box that move, little or so far that cells fold over.
-Mesh shaken_box(int d, Random& random) {
+Mesh shaken_box(int d, base::Random& random) {
     Mesh mesh = box(d, {random.integer(1, 4), random.integer(1, 3), random.integer(1, 3)});
     const double by = one_of({0.0, 0x1p-52, 1e-6, 0.1, 0.6}, random);
     for (double& x : mesh.points) x += by * random.uniform(-1, 1);
@@ -46,13 +46,13 @@ Mesh shaken_box(int d, Random& random) {
 }
 
 /// Read once.
-const Mesh& any_own_mesh(Random& random) {
+const Mesh& any_own_mesh(base::Random& random) {
     static const std::vector<Mesh> meshes{own_mesh("cube-hole"), own_mesh("needle-slit"), own_mesh("plate"),
                                           own_mesh("lattice-box"), own_mesh("cube-hole-o2")};
     return meshes[random.below(meshes.size())];
 }
 
-Mesh any_mesh(Random& random) {
+Mesh any_mesh(base::Random& random) {
     const int d = random.integer(2, 3);
     const std::uint64_t kind = random.below(8);
     Mesh mesh = kind == 0 ? any_own_mesh(random) : kind < 4 ? random_cells(d, random) : shaken_box(d, random);
@@ -74,7 +74,7 @@ Mesh any_mesh(Random& random) {
     return mesh;
 }
 
-void any_fields(Mesh& mesh, Random& random) {
+void any_fields(Mesh& mesh, base::Random& random) {
     const auto components = [&] {
         return one_of<std::vector<int>>({{}, {1}, {1}, {1}, {2}, {3}, {4}, {5}, {9}, {1, 3}, {2, 1, 6}}, random);
     };
@@ -95,7 +95,7 @@ void any_fields(Mesh& mesh, Random& random) {
 }
 
 /// Ends at nodes, near them, or anywhere around; now and then a last point that is not where the spacing has it.
-Grid any_grid(const Mesh& mesh, Random& random) {
+Grid any_grid(const Mesh& mesh, base::Random& random) {
     if (random.below(3) == 0) {
         const auto grids = awkward_grids(mesh, 200, random);
         if (!grids.empty()) return grids[random.below(grids.size())].grid;
@@ -129,7 +129,7 @@ Grid any_grid(const Mesh& mesh, Random& random) {
     return grid;
 }
 
-SampleOptions any_options(std::uint64_t points, Random& random) {
+SampleOptions any_options(std::uint64_t points, base::Random& random) {
     SampleOptions options;
     options.rounding = random.below(6) == 0 ? Rounding::plain : Rounding::correct;
     options.threads = random.integer(0, 3);
@@ -153,12 +153,12 @@ TEST(ResampleFuzz, AnythingGoes) {
     const std::vector<std::string> targets = simd_targets();
     std::uint64_t interior = 0, boundary = 0, outside = 0, certified = 0;
     for (std::uint64_t round = first; round < first + rounds && !HasFailure(); ++round) {
-        Random random = Random::stream(20, 5, round);
+        base::Random random = base::Random::stream(20, 5, round);
         Mesh mesh = any_mesh(random);
         any_fields(mesh, random);
         const std::string what = "round " + std::to_string(round);
-        const auto locator =
-            random.below(3) != 0 ? Locator::build(mesh, quick(mesh).certificate) : Locator::build(mesh, {.prove = false});
+        const auto locator = random.below(3) != 0 ? Locator::build(mesh, quick(mesh).certificate)
+                                                  : Locator::build(mesh, {.prove = false});
         ASSERT_TRUE(locator) << what << locator.error().message();
         certified += locator->method() == Method::walk ? 1 : 0;
         const auto sampler = Sampler::build(*locator, all_fields(mesh));

@@ -61,7 +61,7 @@ void expect_refused_or_right(const Mesh& mesh, const Grid& grid) {
 // Several points at one place: raster_of would take their places to be 2^-16 of the mesh apart.
 TEST(GridLimits, SpacingOfZero) {
     Mesh mesh = mapped(box(2, {1, 1, 0}), {1, 1, 1}, {-1, 0, 0});
-    Random random(1);
+    base::Random random(1);
     set_simple_fields(mesh, random);
     const Grid grid{.dimension = 2, .counts = {5, 1, 1}, .origin = {0, 0.25, 0}, .spacing = {}, .last = {0, 0.25, 0}};
     expect_refused_or_right(mesh, grid);
@@ -70,7 +70,7 @@ TEST(GridLimits, SpacingOfZero) {
 // In 2D there is one layer.
 TEST(GridLimits, LayersIn2D) {
     Mesh mesh = box(2, {1, 1, 0});
-    Random random(1);
+    base::Random random(1);
     set_simple_fields(mesh, random);
     Grid grid = over(2, {4, 4, 1}, {0, 0, 0}, {1, 1, 1});
     grid.counts[2] = 3;

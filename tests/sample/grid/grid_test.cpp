@@ -7,17 +7,15 @@
 #include <limits>
 
 #include "check/meshes.hpp"
+#include "limits.hpp"
 #include "sample/grid/compare.hpp"
 #include "sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double largest = std::numeric_limits<double>::max();
-
 TEST(Grids, OverABoxEndsOnIt) {
-    Random random(1);
+    base::Random random(1);
     for (int i = 0; i < 20000; ++i) {
         const double a = random.scaled(-1, 1, -60, 60), b = random.scaled(-1, 1, -60, 60);
         const double low = std::min(a, b), high = std::max(a, b);
@@ -60,7 +58,7 @@ TEST(Grids, SpacedGoAsFarAsTheyCan) {
         EXPECT_EQ(grid->counts[1], 1);
         EXPECT_EQ(grid->counts[2], 1);
     }
-    Random random(2);
+    base::Random random(2);
     for (int i = 0; i < 20000; ++i) {
         const double step = random.scaled(0.5, 1, -20, 20), low = random.scaled(-1, 1, -20, 20);
         const double high = low + step * random.uniform(0, 3000);
@@ -102,10 +100,10 @@ TEST(Grids, Refused) {
             EXPECT_EQ(bounds_refused(n, bad, bad), both);
         }
         EXPECT_EQ(bounds_refused(n, 1, 0), both);
-        EXPECT_EQ(bounds_refused(n, -largest, largest), both);  // the difference overflows
+        EXPECT_EQ(bounds_refused(n, -max_double, max_double), both);  // the difference overflows
         EXPECT_EQ(bounds_refused(n, 2, 2), n == 1 ? none : over_alone);
         EXPECT_EQ(bounds_refused(n, 2, std::nextafter(2, 3)), none);
-        EXPECT_EQ(bounds_refused(n, 0, largest), none);
+        EXPECT_EQ(bounds_refused(n, 0, max_double), none);
     }
     EXPECT_TRUE(!grid_over(2, {3, 1, 1}, {0, 0, 0}, {5e-324, 0, 0}));  // a spacing of zero
     for (const double step : {0.0, -0.0, -1.0, infinity, -infinity, std::nan("")})
@@ -133,7 +131,7 @@ TEST(Grids, BoundsOfCells) {
 // Made by hand: refused with an error, or sampled rightly.
 TEST(Grids, MadeByHand) {
     for (const int d : {2, 3}) {
-        Random random(3);
+        base::Random random(3);
         Mesh mesh = box(d, {2, 2, 2});
         set_simple_fields(mesh, random);
         const auto locator = Locator::build(mesh, {.prove = false});
@@ -177,7 +175,7 @@ TEST(Grids, MadeByHand) {
             }
             Grid grid = good;
             grid.counts[k] = 1;
-            for (const double spacing : {0.0, 5e-324, 1.0, largest}) {
+            for (const double spacing : {0.0, 5e-324, 1.0, max_double}) {
                 grid.spacing[k] = spacing;
                 expect_law(mesh, grid, "a spacing of one point");
             }
@@ -190,13 +188,12 @@ TEST(Grids, MadeByHand) {
 TEST(Grids, OfAnotherDimension) {
     for (const int d : {2, 3}) {
         Mesh mesh = box(d, {1, 1, 1});
-        Random random(4);
+        base::Random random(4);
         set_simple_fields(mesh, random);
         const auto locator = Locator::build(mesh, {.prove = false});
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
-        const auto status = resample(
-            *sampler, over(5 - d, {2, 2, 2}, {0, 0, 0}, {1, 1, 1}), {},
-            [](const TableView&) -> Status { return Done{}; });
+        const auto status = resample(*sampler, over(5 - d, {2, 2, 2}, {0, 0, 0}, {1, 1, 1}), {},
+                                     [](const TableView&) -> Status { return Done{}; });
         ASSERT_FALSE(status);
         EXPECT_EQ(status.error().message(), "dimension of the grid: expected " + std::to_string(d) +
                                                 ", that of the mesh, found " + std::to_string(5 - d));

@@ -11,7 +11,7 @@ using Counts = std::array<std::int64_t, 3>;
 
 class Maker {
 public:
-    Maker(const Mesh& mesh, std::int64_t points, Random& random)
+    Maker(const Mesh& mesh, std::int64_t points, base::Random& random)
         : mesh_(mesh), random_(random), d_(static_cast<std::size_t>(mesh.dimension)), box_(bounds_of_cells(mesh)) {
         side_ = static_cast<std::int64_t>(std::pow(static_cast<double>(points), 1.0 / static_cast<double>(d_)));
     }
@@ -136,7 +136,7 @@ private:
     }
 
     const Mesh& mesh_;
-    Random& random_;
+    base::Random& random_;
     std::size_t d_;
     Bounds3 box_;
     std::int64_t side_ = 1;
@@ -144,7 +144,7 @@ private:
 
 }  // namespace
 
-std::vector<NamedGrid> awkward_grids(const Mesh& mesh, std::int64_t points, Random& random) {
+std::vector<NamedGrid> awkward_grids(const Mesh& mesh, std::int64_t points, base::Random& random) {
     Maker maker(mesh, points, random);
     maker.whole();
     maker.single_points();

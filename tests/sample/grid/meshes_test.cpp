@@ -14,7 +14,7 @@ const std::vector<std::string> own_stems{"bracket",         "cube-hole",   "cube
                                          "lattice-eighths", "needle-slit", "plate",        "torus"};
 
 /// On every grid that is awkward for the mesh.
-void expect_law_on_grids(const Mesh& mesh, std::int64_t points, Random& random, const std::string& what) {
+void expect_law_on_grids(const Mesh& mesh, std::int64_t points, base::Random& random, const std::string& what) {
     const auto certificate = quick(mesh).certificate;
     const auto walks = Locator::build(mesh, certificate), asks = Locator::build(mesh, {.prove = false});
     ASSERT_TRUE(walks && asks) << what;
@@ -31,7 +31,7 @@ void expect_law_on_grids(const Mesh& mesh, std::int64_t points, Random& random, 
 // One field of one component, as most meshes have: the loop without branches is for this alone.
 TEST(ResampleMeshes, OwnMeshesOneField) {
     for (const std::string& stem : own_stems) {
-        Random random(hash64(stem));
+        base::Random random(base::hash64(stem));
         Mesh mesh = own_mesh(stem);
         mesh.point_fields = random_fields(mesh.point_count(), {1}, false, random);
         expect_law_on_grids(mesh, 5000, random, stem);
@@ -40,7 +40,7 @@ TEST(ResampleMeshes, OwnMeshesOneField) {
 
 TEST(ResampleMeshes, OwnMeshesAndTheirFields) {
     for (const std::string& stem : own_stems) {
-        Random random(hash64(stem) + 1);
+        base::Random random(base::hash64(stem) + 1);
         const Mesh mesh = own_mesh(stem);
         ASSERT_FALSE(mesh.point_fields.empty());
         expect_law_on_grids(mesh, 1000, random, stem);
@@ -49,7 +49,7 @@ TEST(ResampleMeshes, OwnMeshesAndTheirFields) {
 
 TEST(ResampleMeshes, BoxesHaveTheGridOnFacesEdgesAndVertices) {
     for (const int d : {2, 3}) {
-        Random random(7);
+        base::Random random(7);
         Mesh mesh = renumbered(box(d, {4, 3, 2}), random);
         flip_some(mesh, random);
         set_simple_fields(mesh, random);
@@ -66,7 +66,7 @@ TEST(ResampleMeshes, BoxesHaveTheGridOnFacesEdgesAndVertices) {
 
 TEST(ResampleMeshes, TheOracleAgrees) {
     for (const char* stem : {"cube-hole", "cube-hole-o2", "lattice-eighths", "needle-slit", "plate"}) {
-        Random random(hash64(stem) + 2);
+        base::Random random(base::hash64(stem) + 2);
         Mesh mesh = own_mesh(stem);
         mesh.point_fields = random_fields(mesh.point_count(), {1}, false, random);
         for (const NamedGrid& g : awkward_grids(mesh, 60, random)) expect_truth(mesh, g.grid, stem + (" " + g.name));
@@ -76,7 +76,7 @@ TEST(ResampleMeshes, TheOracleAgrees) {
 TEST(ResampleMeshes, FarFromTheOrigin) {
     for (const char* stem : {"cube-hole", "lattice-eighths", "needle-slit", "plate"}) {
         for (const double by : {1e6, -1e6, 1e12, -3e15}) {
-            Random random(hash64(stem) + 3);
+            base::Random random(base::hash64(stem) + 3);
             Mesh mesh = mapped(own_mesh(stem), {1, 1, 1}, {by, -by, by});
             set_simple_fields(mesh, random);
             expect_law_on_grids(mesh, 600, random, stem + std::string(" moved by ") + std::to_string(by));
@@ -87,7 +87,7 @@ TEST(ResampleMeshes, FarFromTheOrigin) {
 TEST(ResampleMeshes, AnyScale) {
     for (const char* stem : {"cube-hole", "lattice-eighths", "plate"}) {
         for (const double by : {1e150, 1e-150, 1e300, 1e-300, 0x1p-1060, 0x1p-200, 0x1p-60, 0x1p90, 1e-90}) {
-            Random random(hash64(stem) + 4);
+            base::Random random(base::hash64(stem) + 4);
             Mesh mesh = mapped(own_mesh(stem), {by, by, by}, {0, 0, 0});
             set_simple_fields(mesh, random);
             expect_law_on_grids(mesh, 120, random, stem + std::string(" times 2^") + std::to_string(std::ilogb(by)));
@@ -99,7 +99,7 @@ TEST(ResampleMeshes, AnyScale) {
 TEST(ResampleMeshes, ScalesThatDiffer) {
     const double scales[] = {1, 0x1p-40, 0x1p-210, 0x1p-310, 0x1p180, 0x1p310};
     for (const int d : {2, 3}) {
-        Random random(8);
+        base::Random random(8);
         for (int i = 0; i < 20; ++i) {
             const auto any = [&] { return scales[random.below(6)]; };
             const double x = any(), y = any(), z = any();
@@ -113,7 +113,7 @@ TEST(ResampleMeshes, ScalesThatDiffer) {
 // A grid that is vast beside the mesh, or that has the mesh between two of its points.
 TEST(ResampleMeshes, GridsFarLarger) {
     for (const int d : {2, 3}) {
-        Random random(9);
+        base::Random random(9);
         Mesh mesh = renumbered(box(d, {2, 2, 2}), random);
         set_simple_fields(mesh, random);
         for (const double extent : {1e3, 1e9, 1e15, 1e17, 1e200, 8e307}) {
@@ -131,7 +131,7 @@ TEST(ResampleMeshes, NoCells) {
         Mesh mesh;
         mesh.dimension = d;
         mesh.points.assign(static_cast<std::size_t>(3 * d), 1.0);
-        Random random(10);
+        base::Random random(10);
         set_simple_fields(mesh, random);
         const SampleCounts counts = expect_law(mesh, over(d, {3, 4, d == 3 ? 2 : 1}, {0, 0, 0}, {2, 2, 2}), "no cells");
         EXPECT_EQ(counts.locations.outside, d == 3 ? 24U : 12U);

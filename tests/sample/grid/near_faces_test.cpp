@@ -58,14 +58,14 @@ void judge(const Mesh& mesh, const Grid& grid, Far far, Tally& tally) {
     }
 }
 
-double some_ulps(double x, Random& random) {
+double some_ulps(double x, base::Random& random) {
     const int steps = random.integer(-3, 3);
     for (int i = 0; i < std::abs(steps); ++i) x = std::nextafter(x, steps < 0 ? -1e9 : 1e9);
     return x;
 }
 
 void expect_right_near_faces(int d, int flat, int rounds, Tally& tally) {
-    Random random(static_cast<std::uint64_t>(1000 * d + flat));
+    base::Random random(static_cast<std::uint64_t>(1000 * d + flat));
     const auto n = static_cast<std::size_t>(d);
     const double h = std::ldexp(1.0, -flat);
     for (int round = 0; round < rounds; ++round) {
@@ -140,7 +140,7 @@ TEST(ResampleBounds, NearFacesOfSlivers) {
 /// A cell with a face (2D: a side) that holds the direction of x but for some ulps, and rows of points that lie in it
 /// but for some ulps: what tells them is the bound E alone, not the slack along the row.
 void expect_right_along_faces(int d, int flat, int rounds, Tally& tally) {
-    Random random(static_cast<std::uint64_t>(5000 * d + flat));
+    base::Random random(static_cast<std::uint64_t>(5000 * d + flat));
     const auto n = static_cast<std::size_t>(d);
     const double h = std::ldexp(1.0, -flat);
     for (int round = 0; round < rounds; ++round) {

@@ -27,14 +27,15 @@ TEST(ResampleOrder, ThreadsAndTargets) {
     const Restored restored;
     ASSERT_FALSE(simd_targets().empty());
     for (const char* stem : {"lattice-eighths", "cube-hole", "cube-hole-o2", "needle-slit", "plate"}) {
-        Random random(hash64(stem));
+        base::Random random(base::hash64(stem));
         Mesh mesh = own_mesh(stem);
         for (const std::vector<int>& components : {std::vector<int>{1}, {5, 1}}) {
             mesh.point_fields = random_fields(mesh.point_count(), components, components.size() > 1, random);
             mesh.cell_fields =
                 random_fields(mesh.cell_count(), std::vector<int>(components.size() - 1, 1), false, random);
             for (const bool certified : {true, false}) {
-                const auto locator = certified ? Locator::build(mesh, quick(mesh).certificate) : Locator::build(mesh, {.prove = false});
+                const auto locator =
+                    certified ? Locator::build(mesh, quick(mesh).certificate) : Locator::build(mesh, {.prove = false});
                 const auto sampler = Sampler::build(*locator, all_fields(mesh));
                 for (const NamedGrid& g : awkward_grids(mesh, 700, random)) {
                     use_simd_target("");
@@ -70,7 +71,7 @@ void expect_slabs(const Mesh& mesh, const Grid& grid, std::size_t slabs) {
 }
 
 Mesh wide_mesh(int d, const std::vector<int>& of_nodes, const std::vector<int>& of_cells, bool certified) {
-    Random random(static_cast<std::uint64_t>(d));
+    base::Random random(static_cast<std::uint64_t>(d));
     Mesh mesh = mapped(box(d, {3, 3, 3}), {1, 1.5, 1.5}, {0, 0, 0});
     if (!certified) mesh = joined(mesh, mapped(mesh, {1, 1, 1}, {0.25, 0.25, 0.25}));
     mesh = renumbered(mesh, random);
@@ -100,7 +101,7 @@ TEST(ResampleOrder, SlabsOfOneColumn) {
 }
 
 TEST(ResampleOrder, TheSinkStopsIt) {
-    Random random(3);
+    base::Random random(3);
     Mesh mesh = box(3, {2, 2, 2});
     mesh.cell_fields = random_fields(mesh.cell_count(), {2000}, false, random);
     mesh.point_fields = random_fields(mesh.point_count(), {1}, false, random);
@@ -125,7 +126,7 @@ TEST(ResampleOrder, TheSinkStopsIt) {
 // In another rounding mode of the caller's: the same rows, of the same points.
 TEST(ResampleOrder, RoundingModes) {
     for (const char* stem : {"lattice-eighths", "needle-slit", "plate"}) {
-        Random random(hash64(stem));
+        base::Random random(base::hash64(stem));
         Mesh mesh = own_mesh(stem);
         set_simple_fields(mesh, random);
         const auto locator = Locator::build(mesh, {.prove = false});

@@ -5,13 +5,12 @@
 #include <limits>
 
 #include "check/meshes.hpp"
+#include "limits.hpp"
 #include "sample/grid/compare.hpp"
 #include "sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Grid beyond(const Mesh& mesh, std::int64_t n) {
     const Bounds3 box = bounds_of_cells(mesh);
@@ -25,7 +24,7 @@ Grid beyond(const Mesh& mesh, std::int64_t n) {
 
 TEST(ResampleOutside, EveryPolicy) {
     for (const char* stem : {"cube-hole", "cube-hole-o2", "plate", "lattice-eighths"}) {
-        Random random(hash64(stem));
+        base::Random random(base::hash64(stem));
         Mesh mesh = own_mesh(stem);
         mesh.point_fields = random_fields(mesh.point_count(), {1, 3}, false, random);
         mesh.cell_fields = random_fields(mesh.cell_count(), {2}, false, random);
@@ -59,7 +58,7 @@ TEST(ResampleOutside, EveryPolicy) {
 
 TEST(ResampleOutside, ErrorNamesTheFirstPoint) {
     for (const int d : {2, 3}) {
-        Random random(1);
+        base::Random random(1);
         // A hole in the middle, so that the first point outside is not the first point.
         Mesh mesh = box(d, {4, 4, 4});
         std::vector<bool> keep(mesh.cell_count());
@@ -99,7 +98,7 @@ TEST(ResampleOutside, ErrorNamesTheFirstPoint) {
 }
 
 TEST(ResampleOutside, CountsAddToWhatIsThere) {
-    Random random(2);
+    base::Random random(2);
     Mesh mesh = box(3, {2, 2, 2});
     set_simple_fields(mesh, random);
     const auto locator = Locator::build(mesh, {.prove = false});

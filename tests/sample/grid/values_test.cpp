@@ -5,13 +5,12 @@
 #include <limits>
 
 #include "check/meshes.hpp"
+#include "limits.hpp"
 #include "sample/grid/compare.hpp"
 #include "sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Over the whole mesh, and around a node of it.
 std::vector<Grid> some_grids(const Mesh& mesh) {
@@ -28,7 +27,7 @@ std::vector<Grid> some_grids(const Mesh& mesh) {
 
 TEST(ResampleValues, AnyNumberOfComponents) {
     for (const char* stem : {"lattice-eighths", "cube-hole-o2", "plate"}) {
-        Random random(hash64(stem));
+        base::Random random(base::hash64(stem));
         Mesh mesh = own_mesh(stem);
         for (const std::vector<int>& of_nodes :
              {std::vector<int>{1}, {2}, {3}, {4}, {5}, {6}, {9}, {1, 1}, {3, 1, 5}, {9, 4, 2, 1}, {17}, {}}) {
@@ -46,7 +45,7 @@ TEST(ResampleValues, AnyNumberOfComponents) {
 
 /// The field whose every node has value(i), and one of 3 components with it in the middle.
 void expect_law_for(Mesh mesh, const std::string& what, const std::function<double(std::size_t)>& value) {
-    Random random(1);
+    base::Random random(1);
     mesh.cell_fields.clear();
     for (const int components : {1, 3}) {
         mesh.point_fields = random_fields(mesh.point_count(), {components}, false, random);
@@ -66,7 +65,7 @@ TEST(ResampleValues, AwkwardValues) {
     for (const char* stem : {"lattice-eighths", "cube-hole-o2", "plate", "cube-hole"}) {
         const Mesh mesh = own_mesh(stem);
         const std::string name = stem + std::string(": ");
-        Random random(hash64(stem));
+        base::Random random(base::hash64(stem));
         for (const double x : {0.0, -0.0, 1.0, -0.1, 5e-324, -5e-324, 1e-310, 0x1p-1022, 1e300, 0x1p900, 0x1p901,
                                -1e308, 1.7976931348623157e308})
             expect_law_for(mesh, name + "constant", [&](std::size_t) { return x; });
@@ -103,7 +102,7 @@ TEST(ResampleValues, LinearFields) {
 
 TEST(ResampleValues, Plain) {
     for (const char* stem : {"lattice-eighths", "cube-hole-o2", "plate", "needle-slit"}) {
-        Random random(hash64(stem));
+        base::Random random(base::hash64(stem));
         Mesh mesh = own_mesh(stem);
         for (const bool awkward : {false, true}) {
             mesh.point_fields = random_fields(mesh.point_count(), {1, 6}, awkward, random);

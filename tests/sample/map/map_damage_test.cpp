@@ -5,7 +5,7 @@ namespace barycert::testing {
 namespace {
 
 Mesh small_mesh(int dimension) {
-    Random random(dimension == 2 ? 21 : 31);
+    base::Random random(dimension == 2 ? 21 : 31);
     Mesh mesh;
     mesh.dimension = dimension;
     mesh.points = any_doubles(random, 9 * static_cast<std::size_t>(dimension));
@@ -46,7 +46,7 @@ bool accepted(const std::string& path, const Mesh& mesh, const Table& rows, std:
 
 TEST(MapDamage, every_bit_counts) {
     const TemporaryFolder folder;
-    Random random(7);
+    base::Random random(7);
     for (const int dimension : {2, 3}) {
         for (const std::size_t count : {0U, 1U, 6U}) {
             const Mesh mesh = small_mesh(dimension);
@@ -66,7 +66,7 @@ TEST(MapDamage, every_bit_counts) {
 
 TEST(MapDamage, every_bit_near_the_ends_of_blocks) {
     const TemporaryFolder folder;
-    Random random(8);
+    base::Random random(8);
     const Mesh mesh = small_mesh(3);
     const Table rows = any_rows(random, 3, 5, 2 * block_rows + 1);
     ASSERT_TRUE(write_map(folder / "map", mesh, false, rows));
@@ -85,7 +85,7 @@ TEST(MapDamage, every_bit_near_the_ends_of_blocks) {
 
 TEST(MapDamage, a_map_cut_off_or_with_more) {
     const TemporaryFolder folder;
-    Random random(9);
+    base::Random random(9);
     for (const std::size_t count : {std::size_t{0}, std::size_t{6}, block_rows + 2}) {
         const Mesh mesh = small_mesh(3);
         const Table rows = any_rows(random, 3, 5, count);
@@ -109,7 +109,7 @@ TEST(MapDamage, a_map_cut_off_or_with_more) {
 
 TEST(MapDamage, cut_off_or_changed_while_it_is_read) {
     const TemporaryFolder folder;
-    Random random(10);
+    base::Random random(10);
     const Mesh mesh = small_mesh(3);
     ASSERT_TRUE(write_map(folder / "map", mesh, false, any_rows(random, 3, 5, 3 * block_rows)));
     Result<MapReader> reader = MapReader::open(folder / "map", mesh);
@@ -126,7 +126,7 @@ TEST(MapDamage, cut_off_or_changed_while_it_is_read) {
 /// Blocks carry their place: with each other's content, or with that of another map of the same mesh, they are refused.
 TEST(MapDamage, blocks_out_of_place) {
     const TemporaryFolder folder;
-    Random random(11);
+    base::Random random(11);
     const Mesh mesh = small_mesh(2);
     const Table rows = any_rows(random, 2, 5, 3 * block_rows), others = any_rows(random, 2, 5, 3 * block_rows);
     ASSERT_TRUE(write_map(folder / "map", mesh, false, rows));
@@ -149,7 +149,7 @@ TEST(MapDamage, blocks_out_of_place) {
 
 TEST(MapDamage, headers_that_lie) {
     const TemporaryFolder folder;
-    Random random(12);
+    base::Random random(12);
     const Mesh mesh = small_mesh(3);
     const Table rows = any_rows(random, 3, 5, 6);
     const PlainMap good(mesh, rows);
@@ -206,7 +206,7 @@ TEST(MapDamage, random_changes) {
     const TemporaryFolder folder;
     int changed = 0;
     for (std::uint64_t seed = 0; seed < 4000; ++seed) {
-        Random random(seed);
+        base::Random random(seed);
         const int dimension = random.integer(2, 3);
         const Mesh mesh = small_mesh(dimension);
         const Table rows = any_rows(random, dimension, 5, random.below(40));
@@ -246,7 +246,7 @@ TEST(MapDamage, random_content_with_checksums_that_fit) {
     const Mesh mesh = small_mesh(3);
     int good = 0, bad = 0;
     for (std::uint64_t seed = 0; seed < 2000; ++seed) {
-        Random random(seed);
+        base::Random random(seed);
         const Table rows = any_rows(random, 3, 5, 4);
         PlainMap map(mesh, rows);
         const std::size_t at = random.below(4);

@@ -27,7 +27,7 @@ Mesh two_triangles() {
 
 TEST(MapFile, round_trip_in_any_pieces) {
     const TemporaryFolder folder;
-    Random random(1);
+    base::Random random(1);
     for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{7}, block_rows - 1, block_rows,
                                     block_rows + 1, 3 * block_rows, 3 * block_rows + 4321}) {
         for (const int dimension : {2, 3}) {
@@ -38,9 +38,8 @@ TEST(MapFile, round_trip_in_any_pieces) {
             Result<MapWriter> writer = MapWriter::open(folder / "map", mesh, all);
             ASSERT_TRUE(writer);
             while (rows.cells.size() < count) {
-                const Table piece =
-                    any_rows(random, dimension, mesh.cell_count(),
-                             std::min<std::size_t>(count - rows.cells.size(), random.below(9999)));
+                const Table piece = any_rows(random, dimension, mesh.cell_count(),
+                                             std::min<std::size_t>(count - rows.cells.size(), random.below(9999)));
                 ASSERT_TRUE(writer->write(piece.view()));
                 append(rows, piece);
             }
@@ -64,7 +63,7 @@ TEST(MapFile, round_trip_in_any_pieces) {
 
 TEST(MapFile, blocks_are_full_until_the_end) {
     const TemporaryFolder folder;
-    Random random(2);
+    base::Random random(2);
     const std::size_t count = 2 * block_rows + 5;
     ASSERT_TRUE(write_map(folder / "map", two_cells(), false, any_rows(random, 3, 2, count)));
     Result<MapReader> reader = MapReader::open(folder / "map", two_cells());
@@ -87,7 +86,7 @@ TEST(MapFile, blocks_are_full_until_the_end) {
 /// The bytes are those that the description in map_file.hpp asks for: files of today can be read tomorrow.
 TEST(MapFile, bytes_are_as_described) {
     const TemporaryFolder folder;
-    Random random(3);
+    base::Random random(3);
     for (const std::size_t count : {std::size_t{0}, std::size_t{5}, block_rows, 2 * block_rows + 3}) {
         for (const int dimension : {2, 3}) {
             for (const bool all : {false, true}) {
@@ -110,7 +109,7 @@ TEST(MapFile, bytes_are_as_described) {
 
 TEST(MapFile, fields_of_the_mesh_may_change) {
     const TemporaryFolder folder;
-    Random random(4);
+    base::Random random(4);
     const Mesh mesh = two_cells();
     const Table rows = any_rows(random, 3, 2, 20);
     ASSERT_TRUE(write_map(folder / "map", mesh, false, rows));
@@ -129,7 +128,7 @@ TEST(MapFile, fields_of_the_mesh_may_change) {
 
 TEST(MapFile, another_mesh_is_refused) {
     const TemporaryFolder folder;
-    Random random(5);
+    base::Random random(5);
     const Mesh mesh = two_cells();
     ASSERT_TRUE(write_map(folder / "map", mesh, false, any_rows(random, 3, 2, 20)));
     const auto refused = [&](const Mesh& other) {
@@ -263,7 +262,7 @@ TEST(MapFile, paths_that_cannot_be) {
 TEST(MapFile, a_full_disk_leaves_the_target) {
     const TemporaryFolder folder;
     put(folder / "map", "old");
-    Random random(6);
+    base::Random random(6);
     const Table rows = any_rows(random, 3, 2, 20000);  // 580 kB
     struct rlimit before {};
     ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);

@@ -23,7 +23,7 @@ TEST(MapScale, memory_does_not_grow_with_rows) {
     constexpr std::size_t pieces = 500, piece_rows = 10000;
     constexpr double row_count = 1.0 * pieces * piece_rows;
     const TemporaryFolder folder;
-    Random random(13);
+    base::Random random(13);
     Mesh mesh;
     mesh.points = any_doubles(random, 3000);
     mesh.cells = any_indices(random, 4000, 1000);

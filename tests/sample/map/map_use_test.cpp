@@ -10,7 +10,7 @@ namespace {
 
 /// Points in and around the mesh, every third one on a node, an edge or a face.
 std::vector<double> points_for(const Mesh& mesh, std::size_t count) {
-    Random random(14);
+    base::Random random(14);
     const auto dimension = static_cast<std::size_t>(mesh.dimension);
     std::vector<double> points;
     for (std::size_t i = 0; i < count; ++i) {
@@ -39,7 +39,7 @@ TEST(MapUse, rows_from_a_saved_map_have_the_same_bits) {
         const TemporaryFolder folder;
         Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR) + "/meshes/" + name).value();
         mesh.point_fields = {{"f", 1, {}}};
-        Random random(15);
+        base::Random random(15);
         for (std::size_t i = 0; i < mesh.point_count(); ++i) {
             mesh.point_fields[0].data.push_back(random.uniform(-1, 1));
         }

@@ -17,7 +17,7 @@ namespace barycert::testing {
 
 inline constexpr std::size_t block_rows = 8192;
 
-inline Table any_rows(Random& random, int dimension, std::size_t cells, std::size_t count) {
+inline Table any_rows(base::Random& random, int dimension, std::size_t cells, std::size_t count) {
     Table rows;
     for (std::size_t i = 0; i < count; ++i) {
         for (int axis = 0; axis < dimension; ++axis) rows.points.push_back(any_double(random));
@@ -127,7 +127,7 @@ private:
         for (std::size_t i = 0; i < text.size(); i += 8) {
             std::uint64_t word;
             std::memcpy(&word, text.data() + i, 8);
-            h = mix64((h ^ word) + 0x9e3779b97f4a7c15ULL);
+            h = base::mix64((h ^ word) + 0x9e3779b97f4a7c15ULL);
         }
         return h;
     }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double largest = std::numeric_limits<double>::max();
 
-std::vector<double> far_points(int d, double size, Random& random) {
+std::vector<double> far_points(int d, double size, base::Random& random) {
     std::vector<double> points;
     for (const double away : {1.5, 1e3, 1e9, 1e14, 1e16, 1e18, 1e50, 1e200, 1e300, largest}) {
         for (int i = 0; i < 40; ++i) {
@@ -59,7 +59,7 @@ Range range_in(const Mesh& mesh, const Field& field, std::size_t c, Mesh::Index 
 }
 
 void expect_in_range(Mesh mesh, double size, const std::string& what) {
-    Random random(hash64(what));
+    base::Random random(base::hash64(what));
     mesh.point_fields = {{"T", 3, {}}};
     for (std::size_t i = 0; i < 3 * mesh.point_count(); ++i)
         mesh.point_fields[0].data.push_back(random.uniform(-0.5, 1.9));
@@ -70,8 +70,7 @@ void expect_in_range(Mesh mesh, double size, const std::string& what) {
     for (const Rounding rounding : {Rounding::correct, Rounding::plain}) {
         Table samples;
         const SampleCounts& counts = samples.counts;
-        ASSERT_TRUE(
-            sampler->sample(points, {.rounding = rounding, .outside = {.kind = Outside::nearest}}, samples));
+        ASSERT_TRUE(sampler->sample(points, {.rounding = rounding, .outside = {.kind = Outside::nearest}}, samples));
         EXPECT_GT(counts.snapped, 300U) << what;
         const auto d = static_cast<std::size_t>(mesh.dimension);
         for (std::size_t i = 0; i < samples.cells.size(); ++i) {
@@ -92,10 +91,10 @@ TEST(SampleNearest, N3_ValuesOfTheCellFromAnywhere) {
     for (const int d : {2, 3}) {
         for (const double size : {1.0, 1e-300, 0x1p-1060, 1e300}) {
             Mesh mesh = mapped(box(d, {3, 3, 2}), {size, size, size}, {});
-            expect_in_range(mesh, size, "lattice " + hexadecimal(size));
-            Random random(5);
+            expect_in_range(mesh, size, "lattice " + base::hexadecimal(size));
+            base::Random random(5);
             for (double& x : mesh.points) x += size * random.uniform(-0.2, 0.2);
-            expect_in_range(mesh, size, "askew " + hexadecimal(size));
+            expect_in_range(mesh, size, "askew " + base::hexadecimal(size));
         }
     }
 }

@@ -15,15 +15,15 @@
 namespace barycert::testing {
 namespace {
 
-Mesh own(const std::string& stem) {
-    Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
-    Random random(1);
+Mesh own_with_fields(const std::string& stem) {
+    Mesh mesh = own_mesh(stem);
+    base::Random random(1);
     mesh.cell_fields = random_fields(mesh.cell_count(), {2}, true, random);
     return mesh;
 }
 
 Table sampled(const Sampler& sampler, const std::vector<double>& points, const SampleOptions& options,
-                SampleCounts* counts = nullptr) {
+              SampleCounts* counts = nullptr) {
     Table samples;
     const Status status = sampler.sample(points, options, samples);
     EXPECT_TRUE(status) << status.error().message();
@@ -32,7 +32,7 @@ Table sampled(const Sampler& sampler, const std::vector<double>& points, const S
 }
 
 Table evaluated(const Sampler& sampler, const std::vector<double>& points, const Table& from,
-                  const SampleOptions& options, SampleCounts& counts) {
+                const SampleOptions& options, SampleCounts& counts) {
     Table samples;
     samples.cells = from.cells;
     samples.features = from.features;
@@ -61,8 +61,8 @@ std::vector<SampleOptions> all_options() {
 TEST(SampleOrder, D1_ThreadsTargetsMethodsAndEvaluate) {
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
     for (const char* stem : {"lattice-eighths", "cube-hole-o2", "plate", "bracket"}) {
-        Random random(hash64(stem));
-        const Mesh mesh = own(stem);
+        base::Random random(base::hash64(stem));
+        const Mesh mesh = own_with_fields(stem);
         const std::vector<double> points = awkward_points(mesh, 40, random);
         const auto walks = Locator::build(mesh, quick(mesh).certificate), asks = Locator::build(mesh, {.prove = false});
         const auto one = Sampler::build(*walks, all_fields(mesh)), other = Sampler::build(*asks, all_fields(mesh));
@@ -95,8 +95,8 @@ TEST(SampleOrder, D1_ThreadsTargetsMethodsAndEvaluate) {
 TEST(SampleOrder, D1_AHundredThousandPointsInAnyOrder) {
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
     for (const char* stem : {"cube-hole", "cube-hole-o2", "plate"}) {
-        Random random(hash64(stem));
-        const Mesh mesh = own(stem);
+        base::Random random(base::hash64(stem));
+        const Mesh mesh = own_with_fields(stem);
         std::vector<double> points = inner_points(mesh, 95000, random);
         const std::vector<double> more = awkward_points(mesh, 600, random);
         points.insert(points.end(), more.begin(), more.end());
@@ -107,8 +107,7 @@ TEST(SampleOrder, D1_AHundredThousandPointsInAnyOrder) {
         ASSERT_GE(count, 100000U);
         for (const Rounding rounding : {Rounding::correct, Rounding::plain}) {
             SampleCounts counts, others;
-            const Table right =
-                sampled(*sampler, points, {.rounding = rounding, .outside = {}, .threads = 2}, &counts);
+            const Table right = sampled(*sampler, points, {.rounding = rounding, .outside = {}, .threads = 2}, &counts);
             EXPECT_EQ(counts.locations.points(), count);
             std::vector<std::size_t> order(count);
             std::iota(order.begin(), order.end(), std::size_t{0});
@@ -135,7 +134,7 @@ TEST(SampleOrder, D1_AHundredThousandPointsInAnyOrder) {
 }
 
 TEST(SampleOrder, NoPointAndOnePoint) {
-    const Mesh mesh = own("plate");
+    const Mesh mesh = own_with_fields("plate");
     const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     for (const SampleOptions& options : all_options()) {
@@ -154,8 +153,8 @@ TEST(SampleOrder, NoPointAndOnePoint) {
 }
 
 TEST(SampleOrder, NoFieldAndNoCell) {
-    Random random(2);
-    const Mesh mesh = own("plate");
+    base::Random random(2);
+    const Mesh mesh = own_with_fields("plate");
     const std::vector<double> points = awkward_points(mesh, 20, random);
     const auto locator = Locator::build(mesh, {.prove = false});
     const auto none = Sampler::build(*locator, {});
@@ -183,15 +182,15 @@ TEST(SampleOrder, NoFieldAndNoCell) {
 // In plain double values are near, and owners are what they are.
 TEST(SampleOrder, PlainRounding) {
     for (const char* stem : {"lattice-eighths", "cube-hole-o2", "plate"}) {
-        Random random(hash64(stem));
-        Mesh mesh = own(stem);
+        base::Random random(base::hash64(stem));
+        Mesh mesh = own_with_fields(stem);
         mesh.cell_fields.clear();
         const std::vector<double> points = awkward_points(mesh, 150, random);
         const auto locator = Locator::build(mesh, quick(mesh).certificate);
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         SampleCounts counts;
         const Table right = sampled(*sampler, points, {}),
-                      plain = sampled(*sampler, points, {Rounding::plain, {}, 0}, &counts);
+                    plain = sampled(*sampler, points, {Rounding::plain, {}, 0}, &counts);
         EXPECT_EQ(plain.cells, right.cells);
         EXPECT_EQ(plain.features, right.features);
         EXPECT_EQ(counts.values.cases(), 0U) << "nothing is promised, nothing is counted";

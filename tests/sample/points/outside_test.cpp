@@ -9,23 +9,22 @@
 #include "barycert/io.hpp"
 #include "barycert/oracle.hpp"
 #include "check/meshes.hpp"
+#include "limits.hpp"
 #include "locate/points.hpp"
 #include "sample/points/rows.hpp"
 
 namespace barycert::testing {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Mesh own(const std::string& stem) {
-    Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
-    Random random(1);
+Mesh own_with_field(const std::string& stem) {
+    Mesh mesh = own_mesh(stem);
+    base::Random random(1);
     mesh.cell_fields = random_fields(mesh.cell_count(), {2}, false, random);
     return mesh;
 }
 
 /// Some inside, some outside, none at the ends of the doubles.
-std::vector<double> points_around(const Mesh& mesh, Random& random) {
+std::vector<double> points_around(const Mesh& mesh, base::Random& random) {
     std::vector<double> points = awkward_points(mesh, 60, random);
     for (double& x : points) x = std::abs(x) < 1e20 ? x : 7.3;
     return points;
@@ -92,8 +91,8 @@ void expect_outside(const Mesh& mesh, const std::vector<double>& points, const O
                                          ? true_projected(mesh, *f.field, c, nearest, point)
                                          : true_value(mesh, *f.field, c, nearest.cell, point);
                 if (same(*found, right) || told++ >= 3) continue;
-                ADD_FAILURE() << where << ": " << f.field->name << "." << c << " is " << hexadecimal(right)
-                              << ", found " << hexadecimal(*found);
+                ADD_FAILURE() << where << ": " << f.field->name << "." << c << " is " << base::hexadecimal(right)
+                              << ", found " << base::hexadecimal(*found);
             }
         }
     }
@@ -109,31 +108,31 @@ void expect_outside(const Mesh& mesh, const std::vector<double>& points, const O
 
 TEST(SampleOutside, E1_Nearest) {
     for (const char* stem : {"cube-hole", "bracket", "plate"}) {
-        Random random(hash64(stem));
-        const Mesh mesh = own(stem);
+        base::Random random(base::hash64(stem));
+        const Mesh mesh = own_with_field(stem);
         expect_outside(mesh, points_around(mesh, random), {.kind = Outside::nearest}, stem);
     }
 }
 
 TEST(SampleOutside, E1_NearestWithinALimit) {
     for (const char* stem : {"cube-hole", "plate"}) {
-        Random random(hash64(stem));
-        const Mesh mesh = own(stem);
+        base::Random random(base::hash64(stem));
+        const Mesh mesh = own_with_field(stem);
         expect_outside(mesh, points_around(mesh, random), {.kind = Outside::nearest, .limit = 0.1}, stem);
     }
 }
 
 TEST(SampleOutside, E1_Extrapolate) {
     for (const char* stem : {"cube-hole", "cube-hole-o2", "bracket", "plate"}) {
-        Random random(hash64(stem));
-        const Mesh mesh = own(stem);
+        base::Random random(base::hash64(stem));
+        const Mesh mesh = own_with_field(stem);
         expect_outside(mesh, points_around(mesh, random), {.kind = Outside::extrapolate}, stem);
     }
 }
 
 // The limit is one of `nearest`.
 TEST(SampleOutside, E1_ExtrapolationKnowsNoLimit) {
-    const Mesh mesh = own("plate");
+    const Mesh mesh = own_with_field("plate");
     const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     const std::vector<double> point{1000, 1000};
@@ -164,7 +163,7 @@ TEST(SampleOutside, E1_NearestValuesThatAreNotFinite) {
 
 // The nearest vertex gives the value that a point on it has.
 TEST(SampleOutside, E1_NearestVertexIsAsThePointOnIt) {
-    Random random(3);
+    base::Random random(3);
     Mesh mesh = box(2, {1, 1, 1});
     mesh.point_fields = {{"f", 5, {}}};
     mesh.point_fields[0].data.assign(20, -0.0);
@@ -172,8 +171,7 @@ TEST(SampleOutside, E1_NearestVertexIsAsThePointOnIt) {
     const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     Table samples;
-    ASSERT_TRUE(
-        sampler->sample(std::vector<double>{0, 0, -1, -2}, {.outside = {.kind = Outside::nearest}}, samples));
+    ASSERT_TRUE(sampler->sample(std::vector<double>{0, 0, -1, -2}, {.outside = {.kind = Outside::nearest}}, samples));
     for (std::size_t c = 0; c < 5; ++c)
         EXPECT_TRUE(same(samples.values[c], samples.values[5 + c]))
             << c << ": " << samples.values[c] << " and " << samples.values[5 + c];
@@ -181,8 +179,8 @@ TEST(SampleOutside, E1_NearestVertexIsAsThePointOnIt) {
 
 // Second order: the projection is rounded, so the value is near that of the quadratic there.
 TEST(SampleOutside, E1_NearestOnSecondOrderCells) {
-    Random random(2);
-    const Mesh mesh = own("cube-hole-o2");
+    base::Random random(2);
+    const Mesh mesh = own_with_field("cube-hole-o2");
     const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, {{&mesh.point_fields[0], false}});
     const std::vector<double> points = points_around(mesh, random);
@@ -203,8 +201,8 @@ TEST(SampleOutside, E1_NearestOnSecondOrderCells) {
 }
 
 TEST(SampleOutside, E1_NanAndFill) {
-    Random random(4);
-    const Mesh mesh = own("bracket");
+    base::Random random(4);
+    const Mesh mesh = own_with_field("bracket");
     const std::vector<double> points = points_around(mesh, random);
     const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
@@ -230,8 +228,8 @@ TEST(SampleOutside, E1_NanAndFill) {
 
 // The first one in the caller's order, counted from where the caller says, whatever the order they were found in.
 TEST(SampleOutside, E1_ErrorNamesTheFirst) {
-    Random random(5);
-    const Mesh mesh = own("cube-hole");
+    base::Random random(5);
+    const Mesh mesh = own_with_field("cube-hole");
     const auto locator = Locator::build(mesh, quick(mesh).certificate);
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     const SampleOptions options{.outside = {.kind = Outside::error}, .threads = 2};

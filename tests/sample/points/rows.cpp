@@ -53,7 +53,7 @@ double true_value(const Mesh& mesh, const Field& field, std::size_t c, Mesh::Ind
 }
 
 std::vector<Field> random_fields(std::size_t entities, const std::vector<int>& components, bool awkward,
-                                 Random& random) {
+                                 base::Random& random) {
     std::vector<Field> fields;
     static constexpr std::array<double, 9> some{
         0.0, -0.0, 5e-324, -1e-310, 1.7976931348623157e308, -1.7976931348623157e308, 1.0, -1.0, 1e-300};
@@ -97,8 +97,8 @@ std::size_t expect_true_values(const Mesh& mesh, const std::vector<double>& poin
                                                 : true_value(mesh, *f.field, c, cell, point);
                 if (same(*found, right) || told++ >= 3) continue;
                 ADD_FAILURE() << what << ": " << f.field->name << "." << c << " at " << text_of(point, mesh.dimension)
-                              << " in cell " << cell << " is " << hexadecimal(right) << ", found "
-                              << hexadecimal(*found);
+                              << " in cell " << cell << " is " << base::hexadecimal(right) << ", found "
+                              << base::hexadecimal(*found);
             }
         }
     }

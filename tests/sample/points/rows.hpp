@@ -25,7 +25,7 @@ double true_value(const Mesh& mesh, const Field& field, std::size_t c, Mesh::Ind
 /// Fields of these numbers of components at every node or cell: ordinary values, or some that are awkward: zeros of
 /// both signs, subnormal, the largest ones, values that cancel.
 std::vector<Field> random_fields(std::size_t entities, const std::vector<int>& components, bool awkward,
-                                 Random& random);
+                                 base::Random& random);
 
 /// All point fields, then all cell fields of the mesh.
 std::vector<FieldChoice> all_fields(const Mesh& mesh);

@@ -19,7 +19,7 @@ std::vector<std::size_t> point_of_rows(const Table& rows) {
 
 TEST(SampleShared, V2_SameBitsFromEverySide) {
     for (const char* stem : {"lattice-eighths", "lattice-box", "cube-hole-o2", "plate", "torus"}) {
-        Random random(hash64(stem));
+        base::Random random(base::hash64(stem));
         Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
         flip_some(mesh, random);
         if (!mesh.mid_nodes.empty()) mesh = read_tetgen(BARYCERT_DATA_DIR "/meshes/cube-hole-o2").value();
@@ -53,7 +53,7 @@ TEST(SampleShared, V2_SameBitsFromEverySide) {
 // At a node the value is the node's.
 TEST(SampleShared, V1_AtNodes) {
     for (const char* stem : {"cube-hole", "cube-hole-o2", "plate"}) {
-        Random random(hash64(stem));
+        base::Random random(base::hash64(stem));
         Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
         const auto locator = Locator::build(mesh, quick(mesh).certificate);
         const auto sampler = Sampler::build(*locator, {{&mesh.point_fields[1], false}});

@@ -12,13 +12,10 @@
 namespace barycert::testing {
 namespace {
 
-Mesh own(const std::string& stem) {
-    return read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
-}
-
 void expect_right(const Mesh& mesh, const std::vector<double>& points, const std::string& what) {
     for (const bool certified : {true, false}) {
-        const auto locator = certified ? Locator::build(mesh, quick(mesh).certificate) : Locator::build(mesh, {.prove = false});
+        const auto locator =
+            certified ? Locator::build(mesh, quick(mesh).certificate) : Locator::build(mesh, {.prove = false});
         ASSERT_TRUE(locator) << what;
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         ASSERT_TRUE(sampler) << what << sampler.error().message();
@@ -45,8 +42,8 @@ void expect_right(const Mesh& mesh, const std::vector<double>& points, const std
 TEST(SampleValues, V1_OwnMeshesAndTheirFields) {
     for (const char* stem :
          {"bracket", "cube-hole", "cube-hole-o2", "lattice-box", "lattice-eighths", "needle-slit", "plate", "torus"}) {
-        Random random(hash64(stem));
-        const Mesh mesh = own(stem);
+        base::Random random(base::hash64(stem));
+        const Mesh mesh = own_mesh(stem);
         ASSERT_FALSE(mesh.point_fields.empty());
         expect_right(mesh, awkward_points(mesh, 60, random), stem);
     }
@@ -55,8 +52,8 @@ TEST(SampleValues, V1_OwnMeshesAndTheirFields) {
 // Records of values hold one and then four: every number of components around that, in one field and in several.
 TEST(SampleValues, V1_AnyNumberOfComponents) {
     for (const char* stem : {"cube-hole", "cube-hole-o2", "plate"}) {
-        Random random(hash64(stem));
-        Mesh mesh = own(stem);
+        base::Random random(base::hash64(stem));
+        Mesh mesh = own_mesh(stem);
         const std::vector<double> points = awkward_points(mesh, 3, random);
         for (const std::vector<int>& of_nodes :
              {std::vector<int>{1}, {2}, {3}, {4}, {5}, {6}, {8}, {9}, {1, 1}, {3, 1, 5}, {9, 4, 2, 1}, {17}, {}}) {
@@ -72,8 +69,8 @@ TEST(SampleValues, V1_AnyNumberOfComponents) {
 
 TEST(SampleValues, V1_AwkwardValues) {
     for (const char* stem : {"lattice-eighths", "cube-hole-o2", "plate"}) {
-        Random random(hash64(stem));
-        Mesh mesh = own(stem);
+        base::Random random(base::hash64(stem));
+        Mesh mesh = own_mesh(stem);
         mesh.point_fields = random_fields(mesh.point_count(), {3, 2}, true, random);
         expect_right(mesh, awkward_points(mesh, 60, random), stem);
     }
@@ -82,8 +79,8 @@ TEST(SampleValues, V1_AwkwardValues) {
 // Component by component: one that is not finite leaves the others alone.
 TEST(SampleValues, V1_ValuesThatAreNotFinite) {
     for (const char* stem : {"lattice-eighths", "cube-hole-o2", "plate"}) {
-        Random random(hash64(stem));
-        Mesh mesh = own(stem);
+        base::Random random(base::hash64(stem));
+        Mesh mesh = own_mesh(stem);
         mesh.point_fields = random_fields(mesh.point_count(), {3, 2}, false, random);
         mesh.cell_fields = random_fields(mesh.cell_count(), {2}, false, random);
         for (Field* field : {&mesh.point_fields[0], &mesh.point_fields[1], &mesh.cell_fields[0]}) {
@@ -117,13 +114,13 @@ TEST(SampleValues, V1_ValuesThatAreNotFinite) {
 TEST(SampleValues, V1_AnyMagnitude) {
     for (const int d : {2, 3}) {
         for (const double factor : {1e-300, 1e300, 5e-324, 0x1p-1040, 1e6}) {
-            Random random(3);
+            base::Random random(3);
             Mesh mesh = mapped(box(d, {3, 3, 2}), {factor, factor, factor}, {0, -factor, 0});
             flip_some(mesh, random);
             mesh.point_fields = random_fields(mesh.point_count(), {1, 5}, true, random);
             expect_right(mesh, awkward_points(mesh, 30, random), "factor " + std::to_string(std::ilogb(factor)));
         }
-        Random random(4);
+        base::Random random(4);
         Mesh mesh = box(d, {2, 2, 2});
         constexpr double largest = std::numeric_limits<double>::max();
         for (double& x : mesh.points) x = x == 0 ? -largest : x == 1 ? 0.1 : largest;
@@ -135,7 +132,7 @@ TEST(SampleValues, V1_AnyMagnitude) {
 // Cells that overlap, flat ones, nodes of no cell with values that are not to be seen.
 TEST(SampleValues, V1_Soups) {
     for (const int d : {2, 3}) {
-        Random random(5);
+        base::Random random(5);
         Mesh mesh;
         mesh.dimension = d;
         for (int i = 0; i < 40 * d; ++i) mesh.points.push_back(random.integer(0, 4));
@@ -149,7 +146,7 @@ TEST(SampleValues, V1_Soups) {
 }
 
 TEST(SampleValues, ColumnsHaveNames) {
-    Random random(6);
+    base::Random random(6);
     Mesh mesh = box(2, {1, 1, 1});
     mesh.point_fields = random_fields(mesh.point_count(), {1, 3}, false, random);
     mesh.cell_fields = random_fields(mesh.cell_count(), {2, 1}, false, random);

@@ -32,9 +32,9 @@ struct Complaint {
 
 /// Digits, and nothing but digits and `also`.
 bool only_digits_and(std::string_view text, std::string_view also) {
-    return std::any_of(text.begin(), text.end(), barycert::detail::is_digit) &&
+    return std::any_of(text.begin(), text.end(), barycert::io::is_digit) &&
            std::all_of(text.begin(), text.end(),
-                       [&](char c) { return barycert::detail::is_digit(c) || also.find(c) != std::string_view::npos; });
+                       [&](char c) { return barycert::io::is_digit(c) || also.find(c) != std::string_view::npos; });
 }
 
 Complaint about_coordinate(std::string_view field, char separator) {
@@ -72,18 +72,18 @@ Error csv_row_error(std::string_view line, const CsvLayout& layout, const LinePl
         const int axis = layout.axis_of[count];
         double value = 0;
         const char* const end = field.data() + field.size();
-        if (axis < 0 || barycert::detail::scan_real(field.data(), end, value) == end) continue;
+        if (axis < 0 || barycert::io::scan_real(field.data(), end, value) == end) continue;
         Complaint complaint = about_coordinate(field, layout.separator);
         error.what = std::string("bad coordinate ") + "xyz"[axis];
         error.expected = std::move(complaint.expected);
-        error.found = field.empty() ? "nothing" : quoted(field);
+        error.found = field.empty() ? "nothing" : base::quoted(field);
         error.remedy = std::move(complaint.remedy);
         return error;
     }
     if (cutter.malformed()) {
         error.what = "a quoted field without an end";
         error.expected = "a closing quote, and then a separator or the end of the line";
-        error.found = quoted(line);
+        error.found = base::quoted(line);
         error.remedy = "close the quote on the same line; double the quotes inside";
         return error;
     }

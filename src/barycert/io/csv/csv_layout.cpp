@@ -30,10 +30,10 @@ char separator_of(std::string_view line) {
 
 /// Begins as numbers do, or is a word for one. What is meant as a number must not make its line a header.
 bool looks_numeric(std::string_view field) {
-    if (parse_double(field)) return true;
+    if (base::parse_double(field)) return true;
     if (field.starts_with('+') || field.starts_with('-')) field.remove_prefix(1);
     if (field.starts_with('.')) field.remove_prefix(1);
-    return !field.empty() && barycert::detail::is_digit(field.front());
+    return !field.empty() && barycert::io::is_digit(field.front());
 }
 
 bool same_but_for_case(std::string_view field, std::string_view lower) {
@@ -50,7 +50,8 @@ std::string listed_names(int dimension) {
 std::string listed(const std::vector<std::string_view>& fields) {
     constexpr std::size_t most = 8;
     std::string text;
-    for (std::size_t i = 0; i < std::min(most, fields.size()); ++i) text += (i != 0 ? ", " : "") + quoted(fields[i]);
+    for (std::size_t i = 0; i < std::min(most, fields.size()); ++i)
+        text += (i != 0 ? ", " : "") + base::quoted(fields[i]);
     return text + (fields.size() > most ? ", ..." : "");
 }
 
@@ -91,7 +92,7 @@ Result<CsvLayout> settle_csv_layout(std::string_view line, int dimension, const 
                                  .file = place.file,
                                  .line = place.line,
                                  .expected = "one column " + std::string(names[axis]),
-                                 .found = quoted(fields[*at]) + " and " + quoted(fields[i]),
+                                 .found = base::quoted(fields[*at]) + " and " + base::quoted(fields[i]),
                                  .remedy = "rename the one that is no coordinate"};
                 }
                 at = i;

@@ -46,7 +46,7 @@ public:
         : path_(path == "-" ? "standard output" : path),
           format_(std::move(format)),
           columns_(format_.columns().size()),
-          file_(path == "-" ? OutputFile::standard_output() : OutputFile(path)) {
+          file_(path == "-" ? base::OutputFile::standard_output() : base::OutputFile(path)) {
         const std::size_t numbers =
             static_cast<std::size_t>(format_.dimension) + columns_ + (format_.distances ? 1 : 0);
         longest_row_ = numbers * longest_double + longest_cell + longest_feature + 1;
@@ -64,7 +64,7 @@ private:
     std::string path_;
     TableFormat format_;
     std::size_t columns_;
-    OutputFile file_;
+    base::OutputFile file_;
     std::size_t longest_row_ = 0;
     std::size_t rows_a_piece_ = 0;
     std::vector<std::vector<char>> pieces_;

@@ -69,7 +69,7 @@ bool CsvSource::parse(std::string_view line, std::array<double, 3>& point) {
         if (axis < 0) continue;
         const char* const end = field.data() + field.size();
         double value = 0;
-        if (barycert::detail::scan_real(field.data(), end, value) != end) return false;
+        if (barycert::io::scan_real(field.data(), end, value) != end) return false;
         point[static_cast<std::size_t>(axis)] = value;
         at_cut = end == cut;
     }
@@ -79,7 +79,7 @@ bool CsvSource::parse(std::string_view line, std::array<double, 3>& point) {
 }
 
 Error CsvSource::row_error(std::string_view line) const {
-    return cut_ ? unended_number(lines_.name(), lines_.number()) : csv_row_error(line, layout_, place());
+    return cut_ ? base::unended_number(lines_.name(), lines_.number()) : csv_row_error(line, layout_, place());
 }
 
 void CsvSource::append(const std::array<double, 3>& point, std::vector<double>& out) const {

@@ -16,10 +16,10 @@ Result<LineReader> LineReader::open(const std::string& path) {
     reader.owned_ = path != "-";
     // A named pipe waits for its writer, as every reader of streams does: `gen > p.csv & barycert ... p.csv`.
     reader.descriptor_ = reader.owned_ ? ::open(path.c_str(), O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
-    if (reader.descriptor_ < 0) return read_failure(reader.name_, errno);
+    if (reader.descriptor_ < 0) return base::read_failure(reader.name_, errno);
     struct stat status {};
-    if (::fstat(reader.descriptor_, &status) != 0) return read_failure(reader.name_, errno);
-    if (S_ISDIR(status.st_mode)) return read_failure(reader.name_, EISDIR);
+    if (::fstat(reader.descriptor_, &status) != 0) return base::read_failure(reader.name_, errno);
+    if (S_ISDIR(status.st_mode)) return base::read_failure(reader.name_, EISDIR);
     reader.buffer_.resize(longest_line + 1);  // the last byte stays zero: a scanner may look at it
     if (!reader.skip_mark()) return reader.error_;
     return reader;
@@ -80,7 +80,7 @@ bool LineReader::refill() {
         got = ::read(descriptor_, buffer_.data() + end_, longest_line - end_);
     } while (got < 0 && errno == EINTR);
     if (got < 0) {
-        error_ = read_failure(name_, errno);
+        error_ = base::read_failure(name_, errno);
         return false;
     }
     end_ += static_cast<std::size_t>(got);

@@ -61,15 +61,15 @@ Result<Field> read_text(Field field, const std::string& path, std::string_view b
         const std::size_t before = field.data.size();
         do {
             const std::string_view word = words.next();
-            const auto x = parse_double(word);
+            const auto x = base::parse_double(word);
             if (!x)
                 return Error{.what = "a row of field \"" + field.name + '"',
                              .file = path,
                              .line = line_number,
                              .expected = "numbers",
-                             .found = quoted(word),
+                             .found = base::quoted(word),
                              .remedy = "one row of numbers for each node or cell; put # before lines that are none"};
-            if (word.data() + word.size() == file_end) return unended_number(path, line_number);
+            if (word.data() + word.size() == file_end) return base::unended_number(path, line_number);
             field.data.push_back(*x);
         } while (!words.at_end() || words.separated());
         const std::size_t found = field.data.size() - before;
@@ -156,7 +156,7 @@ Result<Field> read_npy(Field field, const std::string& path, std::string_view by
         return Error{.what = "the type of field \"" + field.name + '"',
                      .file = path,
                      .expected = "floats of 4 or 8 bytes, or integers",
-                     .found = header->structured ? "a structured array" : quoted(header->descr),
+                     .found = header->structured ? "a structured array" : base::quoted(header->descr),
                      .remedy = "save a.astype('f8')"};
     const auto& shape = header->shape;
     constexpr std::uint64_t most_components = 1U << 20;
@@ -196,7 +196,7 @@ Result<Field> read_npy(Field field, const std::string& path, std::string_view by
 }  // namespace
 
 Result<Field> read_field_file(const std::string& name, const std::string& path) {
-    const auto file = detail::MappedFile::open(path);
+    const auto file = base::MappedFile::open(path);
     if (!file) return file.error();
     std::string lower = path;
     for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

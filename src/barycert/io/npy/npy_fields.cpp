@@ -76,7 +76,7 @@ Result<NpyFields> npy_fields(const TableFormat& format, const std::string& path)
             return Error{.what = "a column name that an NPY file cannot hold",
                          .file = path,
                          .expected = expected,
-                         .found = quoted(field.name),
+                         .found = base::quoted(field.name),
                          .remedy = "rename the field, leave it out, or write CSV"};
         }
         if (result.descr.size() > 1) result.descr += ", ";

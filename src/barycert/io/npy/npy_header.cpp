@@ -131,7 +131,7 @@ Result<NpyText> find_npy_text(std::string_view head, const std::string& file) {
     }
     if (!head.starts_with(npy_magic)) {
         return not_npy(file, "a file that begins with \\x93NUMPY",
-                       head.empty() ? "nothing" : quoted(head.substr(0, npy_magic.size())), save_again);
+                       head.empty() ? "nothing" : base::quoted(head.substr(0, npy_magic.size())), save_again);
     }
     if (head.size() < 10) return not_npy(file, "a whole header", "the end of the file", save_again);
     const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(head[i])); };
@@ -166,7 +166,7 @@ Result<NpyHeader> parse_npy_text(std::string_view text, const std::string& file)
         }
     }
     if (good && seen == 7U && literals.at_end()) return header;
-    return not_npy(file, "a dictionary of descr, fortran_order and shape", quoted(text), save_again);
+    return not_npy(file, "a dictionary of descr, fortran_order and shape", base::quoted(text), save_again);
 }
 
 }  // namespace barycert::io

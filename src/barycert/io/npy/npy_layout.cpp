@@ -38,7 +38,7 @@ Error type_error(const NpyHeader& header, std::size_t dimension, const std::stri
                                              : "save numpy.stack([a['x'], a['y'], a['z']], axis=1)"});
     }
     return failure(file, {"cannot read points of that type", "float64 or float32: '<f8', '>f8', '<f4' or '>f4'",
-                          quoted(header.descr), "save a.astype('f8')"});
+                          base::quoted(header.descr), "save a.astype('f8')"});
 }
 
 Error shape_error(const std::vector<std::uint64_t>& shape, std::size_t dimension, const std::string& file) {

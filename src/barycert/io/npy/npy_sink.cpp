@@ -28,7 +28,8 @@ char* put(char* at, std::uint64_t bits) {
 
 class NpySink final : public TableSink {
 public:
-    NpySink(const std::string& path, TableFormat format) : path_(path), format_(std::move(format)), columns_(format_.columns().size()), file_(path) {}
+    NpySink(const std::string& path, TableFormat format)
+        : path_(path), format_(std::move(format)), columns_(format_.columns().size()), file_(path) {}
 
     Status begin();
     Status write(const TableView& rows) override;
@@ -41,7 +42,7 @@ private:
     std::string path_;
     TableFormat format_;
     std::size_t columns_;
-    OutputFile file_;
+    base::OutputFile file_;
     std::string types_;          // the descr of the header
     std::size_t text_size_ = 0;  // of the header, with room for any count
     std::size_t head_size_ = 0;

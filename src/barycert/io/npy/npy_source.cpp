@@ -57,7 +57,7 @@ private:
 
     std::string path_;
     std::size_t dimension_;
-    InputFile file_;
+    base::InputFile file_;
     std::uint64_t file_size_ = 0;
     std::uint64_t data_ = 0;  // where the numbers begin
     NpyLayout layout_;
@@ -72,7 +72,7 @@ Status NpySource::read_bytes(std::uint64_t offset, std::size_t size) {
         const ssize_t got =
             ::pread(file_.descriptor(), bytes_.data() + done, size - done, static_cast<off_t>(offset + done));
         if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return read_failure(path_, errno);
+        if (got < 0) return base::read_failure(path_, errno);
         if (got == 0) {
             return failure("the file ends too early", "byte " + std::to_string(offset + size - 1),
                            "the end of the file", "do not change the file while it is read");
@@ -83,8 +83,8 @@ Status NpySource::read_bytes(std::uint64_t offset, std::size_t size) {
 }
 
 Status NpySource::begin() {
-    Result<InputFile> opened =
-        InputFile::open(path_, "save the array to a regular file first; CSV can be read from a pipe");
+    Result<base::InputFile> opened =
+        base::InputFile::open(path_, "save the array to a regular file first; CSV can be read from a pipe");
     if (!opened) return opened.error();
     file_ = std::move(*opened);
     file_size_ = file_.size();
@@ -139,7 +139,7 @@ Result<std::size_t> NpySource::read(std::size_t most, std::vector<double>& out) 
     for (std::size_t i = 0; i < taken * dimension_ && read; ++i) {
         if (std::isfinite(points[i])) continue;
         read = failure("a point that is not finite", "finite coordinates",
-                       shortest(points[i]) + " at [" + std::to_string(next_ + i / dimension_) + ", " +
+                       base::shortest(points[i]) + " at [" + std::to_string(next_ + i / dimension_) + ", " +
                            std::to_string(i % dimension_) + "]",
                        "remove the point, or give it coordinates: a[numpy.isfinite(a).all(axis=1)]");
     }

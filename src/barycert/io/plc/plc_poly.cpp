@@ -3,7 +3,7 @@
 
 #include "barycert/io/plc/plc_text.hpp"
 
-namespace barycert {
+namespace barycert::io {
 namespace {
 
 struct NodeHeader {
@@ -130,4 +130,4 @@ Plc read_poly(const std::string& path, std::string_view text, bool one_polygon_a
     return plc;
 }
 
-}  // namespace barycert
+}  // namespace barycert::io

@@ -7,7 +7,7 @@
 
 #include "barycert/io/plc/plc_text.hpp"
 
-namespace barycert {
+namespace barycert::io {
 namespace {
 
 std::vector<std::int32_t> read_ring(PlcText& in, std::size_t nodes) {
@@ -208,4 +208,4 @@ Plc read_ply(const std::string& path, std::string_view text) {
     return plc;
 }
 
-}  // namespace barycert
+}  // namespace barycert::io

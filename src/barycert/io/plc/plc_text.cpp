@@ -10,7 +10,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 
-namespace barycert {
+namespace barycert::io {
 
 std::string read_whole_file(const std::string& path) {
     std::error_code code;
@@ -19,7 +19,7 @@ std::string read_whole_file(const std::string& path) {
     if (std::filesystem::is_directory(status)) {
         throw Exception(file_error(path, "cannot read", "a file", "a directory"));
     }
-    Result<std::string> text = read_file(path);
+    Result<std::string> text = base::read_file(path);
     if (!text) throw Exception(text.error());
     if (text->empty()) throw Exception(file_error(path, "cannot read", "a PLC", "an empty file"));
     return std::move(*text);
@@ -55,7 +55,7 @@ std::string_view PlcText::take(std::string_view expected) {
 
 std::string_view PlcText::take_whole(std::string_view expected) {
     const std::string_view text = take(expected);
-    if (text.data() + text.size() == end_) throw Exception(unended_number(path_, line_number_));
+    if (text.data() + text.size() == end_) throw Exception(base::unended_number(path_, line_number_));
     return text;
 }
 
@@ -71,7 +71,7 @@ std::int32_t PlcText::take_integer(std::string_view expected) {
 
 double PlcText::take_number(std::string_view expected) {
     const std::string_view text = take_whole(expected);
-    const std::optional<double> value = parse_double(text);
+    const std::optional<double> value = base::parse_double(text);
     if (!value || !std::isfinite(*value)) fail("cannot read", std::string(expected) + ", a finite number", text);
     return *value;
 }
@@ -101,6 +101,12 @@ void PlcText::fail(std::string_view what, std::string_view expected, std::string
 std::string node_path_of(const std::string& path) {
     return std::filesystem::path(path).replace_extension(".node").string();
 }
+
+}  // namespace barycert::io
+
+namespace barycert {
+
+using namespace io;
 
 std::vector<std::string> plc_files(const std::string& path) {
     const std::filesystem::path p(path);

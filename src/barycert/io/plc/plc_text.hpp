@@ -10,7 +10,7 @@
 
 #include "barycert/plc.hpp"
 
-namespace barycert {
+namespace barycert::io {
 
 /// STEM.node, where the nodes of STEM.poly and STEM.smesh may be.
 std::string node_path_of(const std::string& path);
@@ -64,4 +64,4 @@ Plc read_off(const std::string& path, std::string_view text);
 Plc read_stl(const std::string& path, std::string_view text);
 Plc read_ply(const std::string& path, std::string_view text);
 
-}  // namespace barycert
+}  // namespace barycert::io

@@ -43,8 +43,8 @@ void put(std::uint8_t* pixel, const Colour& colour) {
 }  // namespace
 
 ColourBar::ColourBar(double low, double high, std::size_t height)
-    : low_(shortest(low)),
-      high_(shortest(high)),
+    : low_(base::shortest(low)),
+      high_(base::shortest(high)),
       one_number_(low == high),
       height_(height),
       scale_(std::max<std::size_t>(1, height / height_of_scale)),

@@ -42,13 +42,14 @@ Status check(const std::string& path, const Slice& s) {
                        "give one value, and one mark or none, for each point");
     }
     if (!(s.aspect > 0) || !std::isfinite(s.aspect)) {
-        return refusal(path, "the aspect of a slice is none", "a positive number", shortest(s.aspect),
+        return refusal(path, "the aspect of a slice is none", "a positive number", base::shortest(s.aspect),
                        "divide the spacing along a line by the spacing of lines");
     }
     if (s.range &&
         (!std::isfinite(s.range->first) || !std::isfinite(s.range->second) || s.range->first > s.range->second)) {
         return refusal(path, "the range of colours is none", "two finite numbers, the lower one first",
-                       shortest(s.range->first) + " and " + shortest(s.range->second), "choose another range");
+                       base::shortest(s.range->first) + " and " + base::shortest(s.range->second),
+                       "choose another range");
     }
     return Done{};
 }
@@ -106,8 +107,8 @@ Status write_png(const std::string& path, const Slice& s, SliceCounts* counts) {
     const auto limit = static_cast<double>(longest_png_side);
     if (wide > limit || tall > limit) {
         return refusal(path, "a slice of that aspect cannot be a picture",
-                       "at most " + std::to_string(longest_png_side) + " pixels a side", shortest(std::max(wide, tall)),
-                       "choose spacings that differ less");
+                       "at most " + std::to_string(longest_png_side) + " pixels a side",
+                       base::shortest(std::max(wide, tall)), "choose spacings that differ less");
     }
     const std::size_t columns = wide != 0 ? static_cast<std::size_t>(wide) : s.width;
     const std::size_t lines = tall != 0 ? static_cast<std::size_t>(tall) : s.height;

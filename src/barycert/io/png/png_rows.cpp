@@ -16,7 +16,7 @@ namespace {
 
 /// All that outlives a jump: libpng leaves by longjmp, past which no object with a destructor may be.
 struct Encoder {
-    OutputFile& file;
+    base::OutputFile& file;
     const std::function<void(std::size_t, std::uint8_t*)>& row;
     std::vector<std::uint8_t> pixels;
     png_uint_32 width = 0, height = 0;
@@ -25,7 +25,7 @@ struct Encoder {
     std::array<char, 200> message{};
     bool no_memory = false;
 
-    Encoder(OutputFile& f, const std::function<void(std::size_t, std::uint8_t*)>& r) : file(f), row(r) {}
+    Encoder(base::OutputFile& f, const std::function<void(std::size_t, std::uint8_t*)>& r) : file(f), row(r) {}
     ~Encoder() { png_destroy_write_struct(&png, &info); }
     Encoder(const Encoder&) = delete;
     Encoder& operator=(const Encoder&) = delete;
@@ -77,7 +77,7 @@ bool encode(Encoder& e) {
 
 Status write_png_rows(const std::string& path, std::size_t width, std::size_t height,
                       const std::function<void(std::size_t, std::uint8_t*)>& row) {
-    OutputFile file(path);
+    base::OutputFile file(path);
     if (Status opened = file.status(); !opened) return opened;
     Encoder encoder(file, row);
     encoder.pixels.resize(4 * width);

@@ -16,7 +16,7 @@
 #include <emmintrin.h>
 #endif
 
-namespace barycert::detail {
+namespace barycert::io {
 
 #ifdef __SSE2__
 
@@ -82,4 +82,4 @@ const char* scan_plain_row(const char*, std::array<std::uint32_t, Count>&) {
 
 #endif
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

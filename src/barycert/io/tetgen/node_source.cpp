@@ -16,11 +16,11 @@
 namespace barycert::io {
 namespace {
 
-using barycert::detail::ColumnKind;
-using barycert::detail::header_error;
-using barycert::detail::header_field;
-using barycert::detail::Scanner;
-using barycert::detail::TextTable;
+using barycert::io::ColumnKind;
+using barycert::io::header_error;
+using barycert::io::header_field;
+using barycert::io::Scanner;
+using barycert::io::TextTable;
 
 /// Large against a page, small against memory.
 constexpr std::ptrdiff_t kept_behind = std::ptrdiff_t{1} << 22;
@@ -73,8 +73,7 @@ Status NodeSource::begin() {
     table_.surplus_remedy = "mend the header: nodes, dimension, attributes, markers";
     const std::vector<std::string_view> first = table_.first_row();
     std::int64_t id = 0;
-    table_.base =
-        !first.empty() && barycert::detail::scan_integer(first.front().data(), id) != nullptr && id == 1 ? 1 : 0;
+    table_.base = !first.empty() && barycert::io::scan_integer(first.front().data(), id) != nullptr && id == 1 ? 1 : 0;
     if (Status room = check_room(table_); !room) return room;
     at_ = table_.body;
     kept_ = table_.begin();
@@ -137,7 +136,7 @@ Result<std::size_t> NodeSource::read(std::size_t most, std::vector<double>& out)
 
 Result<std::unique_ptr<PointSource>> open_node_source(const std::string& path, int dimension) {
     constexpr std::array names{"nodes", "dimensions", "attributes", "markers"};
-    Result<TextTable> table = barycert::detail::open_table(path, names);
+    Result<TextTable> table = barycert::io::open_table(path, names);
     if (!table) return table.error();
     auto source = std::make_unique<NodeSource>(std::move(*table), dimension);
     if (Status begun = source->begin(); !begun) return begun.error();

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
-namespace barycert::detail {
+namespace barycert::io {
 namespace {
 
 constexpr const char* separators_remedy = "separate the columns by spaces, tabs or commas";
@@ -94,14 +94,14 @@ Error id_error(const TextTable& table, std::string_view field, std::size_t row) 
     const std::string remedy =
         "number the rows without gaps: TetGen ignores the numbers and would silently take the rows as they come";
     if (row != 0)
-        return error_at(table, field.data(), "a row out of sequence", "row " + expected, quoted(field), remedy);
+        return error_at(table, field.data(), "a row out of sequence", "row " + expected, base::quoted(field), remedy);
     if (table.base_is_given && (field == "0" || field == "1")) {
         return error_at(table, field.data(), "the files of this mesh count from different bases",
-                        "row " + expected + " first, as in the .node file", quoted(field),
+                        "row " + expected + " first, as in the .node file", base::quoted(field),
                         "number all files from 0 or all from 1");
     }
     return error_at(table, field.data(), "a bad first row number", table.base_is_given ? expected : "0 or 1",
-                    quoted(field), remedy);
+                    base::quoted(field), remedy);
 }
 
 Error index_error(const TextTable& table, const Columns& columns, std::string_view field) {
@@ -110,7 +110,7 @@ Error index_error(const TextTable& table, const Columns& columns, std::string_vi
                                ? "none, for there are no " + columns.refers_to
                                : std::to_string(table.base) + " to " + last + " (" + columns.refers_to + ")";
     if (columns.kind == ColumnKind::neighbour) expected += ", or -1 for none";
-    return error_at(table, field.data(), columns.name + " out of range", expected, quoted(field),
+    return error_at(table, field.data(), columns.name + " out of range", expected, base::quoted(field),
                     "check that the files belong together and count from the same base");
 }
 
@@ -126,13 +126,13 @@ bool good_field(const TextTable& table, const Columns& columns, std::string_view
         double value = 0;
         if (scan_real(field.data(), end, value) == end) return true;
         Complaint complaint = about_real(field);
-        error = error_at(table, end, "bad " + columns.name, complaint.expected, quoted(field), complaint.remedy);
+        error = error_at(table, end, "bad " + columns.name, complaint.expected, base::quoted(field), complaint.remedy);
         return false;
     }
     std::int64_t value = 0;
     if (scan_integer(field.data(), value) != end) {
         Complaint complaint = about_integer(field);
-        error = error_at(table, end, "bad " + columns.name, complaint.expected, quoted(field), complaint.remedy);
+        error = error_at(table, end, "bad " + columns.name, complaint.expected, base::quoted(field), complaint.remedy);
         return false;
     }
     switch (columns.kind) {
@@ -158,8 +158,9 @@ Error column_count_error(const TextTable& table, const std::vector<std::string_v
         return error_at(table, at, "too few columns in a row", described_columns(table), std::to_string(fields.size()),
                         "complete the row, or mend the header: it tells how many columns there are");
     }
-    const std::string found = std::to_string(fields.size()) + ", the first too many being " +
-                              (fields[expected].empty() ? "an empty one after a comma" : quoted(fields[expected]));
+    const std::string found =
+        std::to_string(fields.size()) + ", the first too many being " +
+        (fields[expected].empty() ? "an empty one after a comma" : base::quoted(fields[expected]));
     return error_at(table, at, "too many columns in a row", described_columns(table), found, table.surplus_remedy);
 }
 
@@ -214,7 +215,7 @@ Error count_error(const TextTable& table, std::string_view field, const char* na
                                      ? complaint.expected
                                      : "an integer from 0 to " + std::to_string(max_count);
     return header_error(table, std::string("bad number of ") + name + " in the header", expected,
-                        field.empty() ? "nothing" : quoted(field), remedy);
+                        field.empty() ? "nothing" : base::quoted(field), remedy);
 }
 
 Error row_error(const TextTable& table, const char* at, std::size_t row) {
@@ -244,10 +245,10 @@ Error surplus_text(const TextTable& table, const char* at) {
                              value == table.base + static_cast<std::int64_t>(table.rows);
     if (another_row) {
         return error_at(table, at, "more rows than the header tells", plural(table.rows, "row"),
-                        "a row " + quoted(field), "mend the header or remove the row");
+                        "a row " + base::quoted(field), "mend the header or remove the row");
     }
-    return error_at(table, at, "text after the last row", "the end of the file or a comment", quoted(field),
+    return error_at(table, at, "text after the last row", "the end of the file or a comment", base::quoted(field),
                     "remove the text, put # before it, or mend the number of rows in the header");
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

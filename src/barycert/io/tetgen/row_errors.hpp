@@ -9,7 +9,7 @@
 #include "barycert/io/tetgen/text_table.hpp"
 #include "barycert/result.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 
 /// The fields of the line that holds `at`, without its comment; an empty field where a comma has no neighbour.
 std::vector<std::string_view> fields_of_line(const TextTable& table, const char* at);
@@ -30,4 +30,4 @@ Error too_few_rows(const TextTable& table, std::size_t found);
 /// At `at` there is text after the last row.
 Error surplus_text(const TextTable& table, const char* at);
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

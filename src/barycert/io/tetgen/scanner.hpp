@@ -19,7 +19,7 @@
 
 #include <fast_float/fast_float.h>
 
-namespace barycert::detail {
+namespace barycert::io {
 
 inline bool is_blank(char c) {
     return c == ' ' || c == '\t';
@@ -155,4 +155,4 @@ struct Scanner {
     }
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

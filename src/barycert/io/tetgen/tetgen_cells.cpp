@@ -6,7 +6,7 @@
 #include "barycert/io/tetgen/integer_row.hpp"
 #include "barycert/io/tetgen/tetgen_reader.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 namespace {
 
 std::vector<double*> make_attributes(std::vector<Field>& fields, std::size_t count, std::size_t rows) {
@@ -15,7 +15,7 @@ std::vector<double*> make_attributes(std::vector<Field>& fields, std::size_t cou
     fields.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
         fields[i].name = "attribute" + std::to_string(i);
-        resize_large(fields[i].data, rows);
+        base::resize_large(fields[i].data, rows);
         columns.push_back(fields[i].data.data());
     }
     return columns;
@@ -77,9 +77,9 @@ Status TetgenReader::prepare_nodes() {
 
     mesh_.index_base = table.base;
     mesh_.dimension = static_cast<int>(dimension);
-    resize_large(mesh_.points, table.rows * static_cast<std::size_t>(dimension));
+    base::resize_large(mesh_.points, table.rows * static_cast<std::size_t>(dimension));
     point_attributes_ = make_attributes(mesh_.point_fields, static_cast<std::size_t>(attributes), table.rows);
-    if (markers != 0) resize_large(mesh_.point_markers, table.rows);
+    if (markers != 0) base::resize_large(mesh_.point_markers, table.rows);
 
     table.parse = parse_block_by([base = static_cast<std::size_t>(table.base),
                                   size = static_cast<std::size_t>(dimension), points = mesh_.points.data(),
@@ -146,8 +146,8 @@ Status TetgenReader::prepare_cells() {
         "if there is one attribute more, make the header " + header_text({table.header[0], corners, attributes + 1});
     if (Status room = check_room(table); !room) return room;
 
-    resize_large(mesh_.cells, table.rows * mesh_.corners());
-    resize_large(mesh_.mid_nodes, table.rows * (static_cast<std::size_t>(corners) - mesh_.corners()));
+    base::resize_large(mesh_.cells, table.rows * mesh_.corners());
+    base::resize_large(mesh_.mid_nodes, table.rows * (static_cast<std::size_t>(corners) - mesh_.corners()));
     cell_attributes_ = make_attributes(mesh_.cell_fields, static_cast<std::size_t>(attributes), table.rows);
     switch (corners) {
         case 3:
@@ -165,4 +165,4 @@ Status TetgenReader::prepare_cells() {
     return Done{};
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

@@ -5,7 +5,7 @@
 #include "barycert/base/large_vector.hpp"
 #include "barycert/io/tetgen/tetgen_reader.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 
 template <int Corners>
 void TetgenReader::set_face_parser(bool markers, bool adjacent) {
@@ -56,9 +56,9 @@ Status TetgenReader::prepare_faces() {
                                : "let all rows have as many columns as the first";
     if (Status room = check_room(table); !room) return room;
 
-    resize_large(mesh_.faces, table.rows * 3);
-    if (mids) resize_large(mesh_.face_mid_nodes, table.rows * 3);
-    if (markers != 0) resize_large(mesh_.face_markers, table.rows);
+    base::resize_large(mesh_.faces, table.rows * 3);
+    if (mids) base::resize_large(mesh_.face_mid_nodes, table.rows * 3);
+    if (markers != 0) base::resize_large(mesh_.face_markers, table.rows);
     mids ? set_face_parser<6>(markers != 0, adjacent) : set_face_parser<3>(markers != 0, adjacent);
     return Done{};
 }
@@ -86,7 +86,7 @@ Status TetgenReader::prepare_neighbours() {
     table.surplus_remedy = "let each row have an id and " + std::to_string(sides) + " neighbours";
     if (Status room = check_room(table); !room) return room;
 
-    resize_large(mesh_.neighbours, table.rows * sides);
+    base::resize_large(mesh_.neighbours, table.rows * sides);
     table.parse = parse_block_by([base = mesh_.index_base, sides, count = limit_of(table),
                                   neighbours = mesh_.neighbours.data()](Scanner& scanner, std::size_t row) {
         if (!scan_id(scanner, row + static_cast<std::size_t>(base))) return false;
@@ -99,4 +99,4 @@ Status TetgenReader::prepare_neighbours() {
     return Done{};
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

@@ -25,7 +25,7 @@
 #include "barycert/mesh/mid_edges.hpp"
 
 namespace barycert {
-namespace detail {
+namespace io {
 
 Result<Mesh> TetgenReader::read() {
     Status status = prepare_nodes();
@@ -50,7 +50,7 @@ bool TetgenReader::exists(const char* suffix) const {
 
 Status TetgenReader::settle_mid_edge_order() {
     if (mesh_.mid_nodes.empty()) return Done{};
-    const std::optional<MidEdgeOrder> order = detect_mid_edge_order(mesh_);
+    const std::optional<MidEdgeOrder> order = mesh::detect_mid_edge_order(mesh_);
     if (!order) {
         return header_error(cells_, "the mid-edge nodes of the cells stand in no known order",
                             "each near the middle of its edge, in the order of TetGen, Triangle, VTK or Gmsh",
@@ -59,7 +59,7 @@ Status TetgenReader::settle_mid_edge_order() {
                                 std::to_string(mesh_.corners()) + "-node cells");
     }
     mesh_.mid_edge_order = *order;
-    normalise_mid_nodes(mesh_);
+    mesh::normalise_mid_nodes(mesh_);
     return Done{};
 }
 
@@ -73,7 +73,7 @@ std::string header_text(std::initializer_list<std::int64_t> numbers) {
     return text;
 }
 
-}  // namespace detail
+}  // namespace io
 
 namespace {
 
@@ -96,7 +96,7 @@ std::vector<std::string> tetgen_files(const std::string& path) {
 
 Result<Mesh> read_tetgen(const std::string& path, const ReadOptions& options) {
     const ExactEnvironment environment;
-    return detail::TetgenReader(tetgen_stem(path), options).read();
+    return io::TetgenReader(tetgen_stem(path), options).read();
 }
 
 }  // namespace barycert

@@ -14,7 +14,7 @@
 #include "barycert/io/tetgen/text_table.hpp"
 #include "barycert/mesh.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 
 /// An index of 0 to limit - 1 after the base is taken off.
 inline bool scan_index(Scanner& scanner, std::int64_t base, std::int64_t limit, Mesh::Index& index) {
@@ -94,4 +94,4 @@ private:
     std::vector<double*> point_attributes_, cell_attributes_;
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

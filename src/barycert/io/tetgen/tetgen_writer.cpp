@@ -61,7 +61,7 @@ private:
     }
 
     static constexpr std::size_t longest = 32;  // a space and a number: at most 24 characters of a double
-    OutputFile file_;
+    base::OutputFile file_;
     std::array<char, 4096> buffer_{};
     std::size_t size_ = 0;
     bool at_line_start_ = true;
@@ -99,8 +99,8 @@ void write_nodes(RowWriter& out, const Mesh& mesh) {
 
 void write_cells(RowWriter& out, const Mesh& mesh) {
     const std::size_t corners = mesh.corners();
-    const std::size_t mids = mesh.mid_nodes.empty() ? 0 : detail::edges_of(mesh.dimension).size();
-    const std::span<const std::size_t> sequence = detail::edge_sequence(mesh.mid_edge_order, mesh.dimension);
+    const std::size_t mids = mesh.mid_nodes.empty() ? 0 : mesh::edges_of(mesh.dimension).size();
+    const std::span<const std::size_t> sequence = mesh::edge_sequence(mesh.mid_edge_order, mesh.dimension);
     out.number(mesh.cell_count());
     out.number(corners + mids);
     out.number(component_count(mesh.cell_fields));
@@ -152,7 +152,7 @@ void write_neighbours(RowWriter& out, const Mesh& mesh) {
 
 Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOptions& options) {
     const ExactEnvironment environment;
-    if (const char* const fault = detail::inconsistency(mesh); fault != nullptr) {
+    if (const char* const fault = mesh::inconsistency(mesh); fault != nullptr) {
         return Error{.what = std::string("cannot write the mesh: ") + fault,
                      .file = stem,
                      .line = 0,

@@ -8,7 +8,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/io/tetgen/row_errors.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 namespace {
 
 /// Whole lines of a table and the rows that should stand in them.
@@ -98,7 +98,7 @@ std::vector<std::string_view> TextTable::first_row() const {
 }
 
 Result<TextTable> open_table(const std::string& path, std::span<const char* const> header_names) {
-    Result<MappedFile> mapped = MappedFile::open(path);
+    Result<base::MappedFile> mapped = base::MappedFile::open(path);
     if (!mapped) return mapped.error();
     TextTable table;
     table.file = path;
@@ -120,7 +120,7 @@ Result<TextTable> open_table(const std::string& path, std::span<const char* cons
         const bool integer = scan_integer(field.data(), value) == field.data() + field.size();
         if (i == header_names.size() && field != "BIN") {
             return header_error(table, "too many numbers in the header",
-                                "at most " + std::to_string(header_names.size()), quoted(field),
+                                "at most " + std::to_string(header_names.size()), base::quoted(field),
                                 "remove it or put # before it");
         }
         if (!integer || value < 0 || value > max_count) {
@@ -159,4 +159,4 @@ Status parse_tables(std::span<TextTable* const> tables, int threads) {
     return Done{};
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

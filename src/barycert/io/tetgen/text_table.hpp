@@ -18,7 +18,7 @@
 #include "barycert/io/tetgen/scanner.hpp"
 #include "barycert/result.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 
 /// The largest count or index.
 inline constexpr std::int64_t max_count = INT32_MAX;
@@ -45,7 +45,7 @@ using ParseBlock = std::function<bool(Scanner& scanner, const char* stop, std::s
 
 struct TextTable {
     std::string file;
-    MappedFile data;
+    base::MappedFile data;
     const char* header_at = nullptr;   ///< the first field of the header
     const char* body = nullptr;        ///< the line after the header
     std::vector<std::int64_t> header;  ///< the numbers of the header, at least the count of rows
@@ -92,4 +92,4 @@ ParseBlock parse_block_by(ParseRow parse_row) {
     };
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

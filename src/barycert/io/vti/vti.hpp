@@ -14,7 +14,7 @@
 #include "barycert/base/output_file.hpp"
 #include "barycert/result.hpp"
 
-namespace barycert {
+namespace barycert::io {
 
 /// The points origin + (i, j, k) * spacing, i running fastest. A grid in the plane has counts[2] = 1.
 struct VtiGrid {
@@ -72,7 +72,7 @@ private:
     std::vector<Place> places_;
     std::uint64_t tail_ = 0;  // where the end of the XML goes
     std::uint64_t end_ = 0;   // of what was written in order
-    OutputFile file_;
+    base::OutputFile file_;
 };
 
-}  // namespace barycert
+}  // namespace barycert::io

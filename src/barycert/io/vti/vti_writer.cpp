@@ -11,7 +11,7 @@
 #include "barycert/io/vti/vti.hpp"
 #include "barycert/io/vti/xml_name.hpp"
 
-namespace barycert {
+namespace barycert::io {
 namespace {
 
 constexpr std::string_view tail = "\n  </AppendedData>\n</VTKFile>\n";
@@ -44,12 +44,12 @@ Status check_grid(const std::string& path, const VtiGrid& grid) {
             return wrong(path, "the points" + of_axis, "1 to 2147483647", std::to_string(grid.counts[axis]));
         }
         if (!std::isfinite(grid.origin[axis])) {
-            return wrong(path, "the origin" + of_axis, "a finite number", shortest(grid.origin[axis]));
+            return wrong(path, "the origin" + of_axis, "a finite number", base::shortest(grid.origin[axis]));
         }
         const double spacing = grid.spacing[axis];
         const bool none = grid.counts[axis] == 1 && spacing == 0;
         if (!none && !(spacing > 0 && std::isfinite(spacing))) {
-            return wrong(path, "the spacing" + of_axis, "a finite number above 0", shortest(spacing));
+            return wrong(path, "the spacing" + of_axis, "a finite number above 0", base::shortest(spacing));
         }
     }
     return Done{};
@@ -59,7 +59,7 @@ Status check_arrays(const std::string& path, const std::vector<VtiArray>& arrays
     std::vector<std::string> names;
     for (const VtiArray& array : arrays) {
         if (array.name.empty()) return wrong(path, "the name of an array", "one", "none");
-        if (!detail::xml_attribute(array.name)) {
+        if (!io::xml_attribute(array.name)) {
             return wrong(path, "the name of an array", "text in UTF-8 without control characters",
                          "'" + array.name + "'");
         }
@@ -86,7 +86,7 @@ std::optional<std::uint64_t> size_of(const VtiGrid& grid, const VtiArray& array)
 }
 
 std::string three(const std::array<double, 3>& values) {
-    return shortest(values[0]) + " " + shortest(values[1]) + " " + shortest(values[2]);
+    return base::shortest(values[0]) + " " + base::shortest(values[1]) + " " + base::shortest(values[2]);
 }
 
 /// All up to the underscore, behind which the arrays stand one after the other: their offsets count from there.
@@ -105,7 +105,7 @@ std::string head_of(const VtiGrid& grid, const std::vector<VtiArray>& arrays,
             "\" Spacing=\"" + three(own.spacing) + "\">\n    <Piece Extent=\"" + extent + "\">\n      <PointData>\n";
     for (std::size_t i = 0; i < arrays.size(); ++i) {
         text += "        <DataArray type=\"" + std::string(type_name(arrays[i].type).name) + "\" Name=\"" +
-                *detail::xml_attribute(arrays[i].name) + "\"";
+                *io::xml_attribute(arrays[i].name) + "\"";
         if (arrays[i].components != 1) text += " NumberOfComponents=\"" + std::to_string(arrays[i].components) + "\"";
         text += " format=\"appended\" offset=\"" + std::to_string(offsets[i]) + "\"/>\n";
     }
@@ -200,4 +200,4 @@ Status VtiWriter::commit() {
     return file_.commit();
 }
 
-}  // namespace barycert
+}  // namespace barycert::io

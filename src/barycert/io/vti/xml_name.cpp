@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace barycert::detail {
+namespace barycert::io {
 namespace {
 
 struct Character {
@@ -55,4 +55,4 @@ std::optional<std::string> xml_attribute(std::string_view name) {
     return text;
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

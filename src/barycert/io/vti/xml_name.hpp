@@ -5,10 +5,10 @@
 #include <string>
 #include <string_view>
 
-namespace barycert::detail {
+namespace barycert::io {
 
 /// `name` such that between double quotes in an XML 1.0 file it reads back as `name`; nothing if no escape can do that:
 /// where it is not UTF-8, or has a character that XML excludes.
 std::optional<std::string> xml_attribute(std::string_view name);
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

@@ -12,7 +12,7 @@
 #include "barycert/io/vtk/messages.hpp"
 #include "barycert/io/vtk/xml_arrays.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 namespace {
 
 vtkSmartPointer<vtkDataCompressor> make(Compressor compressor) {
@@ -96,4 +96,4 @@ std::size_t BlockStream::read(char* to, std::size_t count) {
     return done;
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

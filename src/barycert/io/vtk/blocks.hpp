@@ -8,7 +8,7 @@
 
 #include "barycert/io/vtk/byte_stream.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 
 struct XmlLayout;
 
@@ -42,4 +42,4 @@ private:
     std::size_t first_ = 0, held_ = 0;  // of bytes_, not yet given
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

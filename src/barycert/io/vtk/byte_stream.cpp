@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace barycert::detail {
+namespace barycert::io {
 namespace {
 
 constexpr int space = -1, padding = -2, other = -3;
@@ -61,4 +61,4 @@ std::size_t Base64Stream::read(char* to, std::size_t count) {
     return done;
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

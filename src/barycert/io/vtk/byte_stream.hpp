@@ -7,7 +7,7 @@
 #include <cstring>
 #include <string_view>
 
-namespace barycert::detail {
+namespace barycert::io {
 
 class ByteStream {
 public:
@@ -57,4 +57,4 @@ private:
     std::size_t held_ = 0;   // how many they are
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

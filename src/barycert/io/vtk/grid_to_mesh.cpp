@@ -9,7 +9,7 @@
 
 #include "barycert/base/text.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 namespace {
 
 enum class Kind : std::uint8_t { tetrahedron, triangle, lower, other };
@@ -157,7 +157,7 @@ Error coordinate_error(const std::string& path, std::size_t point, const char* w
             .file = path,
             .line = 0,
             .expected = std::move(expected),
-            .found = shortest(found),
+            .found = base::shortest(found),
             .remedy = std::move(remedy)};
 }
 
@@ -207,4 +207,4 @@ Result<Mesh> to_mesh(RawGrid grid, const std::string& path, VtkLeftOut* left_out
     return mesh;
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

@@ -6,7 +6,7 @@
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/vtk.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 
 /// What read_vtk promises of cells, points and fields, whatever the format. `path` is for messages.
 Result<Mesh> to_mesh(RawGrid grid, const std::string& path, VtkLeftOut* left_out);
@@ -14,4 +14,4 @@ Result<Mesh> to_mesh(RawGrid grid, const std::string& path, VtkLeftOut* left_out
 /// The coordinates in that dimension, all finite. Error: one is not; or z is not 0 in dimension 2.
 Result<std::vector<double>> to_points(std::vector<double> points, int dimension, const std::string& path);
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

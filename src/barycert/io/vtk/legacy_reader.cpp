@@ -5,7 +5,7 @@
 #include "barycert/io/vtk/legacy_text.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 namespace {
 
 /// Cells of polygon data: VTK numbers the cells of all sections in this order, whatever the order in the file.
@@ -369,4 +369,4 @@ Result<RawGrid> read_legacy(std::string_view bytes, const std::string& path, Par
     return LegacyReader(LegacyText(bytes, path), part).read();
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

@@ -9,7 +9,7 @@
 
 #include "barycert/base/input_file.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 namespace {
 
 constexpr const char* cut_off = "write the file again: it may be cut off";
@@ -167,7 +167,7 @@ Status LegacyText::numbers(const std::string& what, NumberType type, std::uint64
         found = read_text(rest_, type, static_cast<std::size_t>(count), values);
         constexpr std::string_view white = " \t\n\v\f\r";
         if (!found && count != 0 && rest_.empty() && white.find(bytes_.back()) == std::string_view::npos) {
-            return unended_number(*path_, line());
+            return base::unended_number(*path_, line());
         }
     } else {
         rest_of_line();
@@ -232,4 +232,4 @@ template Status LegacyText::numbers(const std::string&, NumberType, std::uint64_
 template Status LegacyText::numbers(const std::string&, NumberType, std::uint64_t, std::vector<std::uint8_t>&,
                                     NumberFault*);
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

@@ -8,7 +8,7 @@
 
 #include "barycert/io/vtk/raw_grid.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 
 /// A place in a legacy file. Words are separated by white space; in a binary file the numbers of an array stand in
 /// big-endian order behind the end of the line that announces it. A copy remembers the place.
@@ -63,4 +63,4 @@ private:
     bool binary_ = false;
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

@@ -23,7 +23,7 @@ namespace {
 /// Hands bytes on to a file, which keeps its errors to itself until the commit.
 class FileBuffer : public std::streambuf {
 public:
-    explicit FileBuffer(OutputFile& file) : file_(file) {}
+    explicit FileBuffer(base::OutputFile& file) : file_(file) {}
 
 protected:
     int_type overflow(int_type c) override {
@@ -38,12 +38,12 @@ protected:
     }
 
 private:
-    OutputFile& file_;
+    base::OutputFile& file_;
 };
 
 class FileStream : private FileBuffer, public std::ostream {
 public:
-    explicit FileStream(OutputFile& file) : FileBuffer(file), std::ostream(static_cast<FileBuffer*>(this)) {}
+    explicit FileStream(base::OutputFile& file) : FileBuffer(file), std::ostream(static_cast<FileBuffer*>(this)) {}
 };
 
 /// VTK's writer onto a file of ours.
@@ -53,7 +53,7 @@ public:
     LegacyWriter(const LegacyWriter&) = delete;
     LegacyWriter& operator=(const LegacyWriter&) = delete;
 
-    void set_file(OutputFile& file) { file_ = &file; }
+    void set_file(base::OutputFile& file) { file_ = &file; }
     ostream* OpenVTKFile() override { return new FileStream(*file_); }  // VTK deletes it
 
 protected:
@@ -61,7 +61,7 @@ protected:
     ~LegacyWriter() override = default;
 
 private:
-    OutputFile* file_ = nullptr;
+    base::OutputFile* file_ = nullptr;
 };
 
 LegacyWriter* LegacyWriter::New() {
@@ -77,10 +77,9 @@ std::string fault_of_legacy_names(const Mesh& mesh) {
                 const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
                 length += plain ? 1 : 3;
             }
-            if (length > 200)
-                return "the name of field " + detail::in_quotes(field.name) + " is too long for the format";
+            if (length > 200) return "the name of field " + io::in_quotes(field.name) + " is too long for the format";
             if (field.name == "METADATA" || field.name == "NULL_ARRAY") {
-                return "the name of field " + detail::in_quotes(field.name) + " means something else in the format";
+                return "the name of field " + io::in_quotes(field.name) + " means something else in the format";
             }
         }
     }
@@ -88,7 +87,7 @@ std::string fault_of_legacy_names(const Mesh& mesh) {
 }
 
 Status write_legacy(const Mesh& mesh, const std::string& path) {
-    std::string fault = detail::fault_of_mesh(mesh, detail::Names::any);
+    std::string fault = io::fault_of_mesh(mesh, io::Names::any);
     if (fault.empty()) fault = fault_of_legacy_names(mesh);
     if (!fault.empty()) {
         return Error{.what = "cannot write the mesh: " + fault,
@@ -98,8 +97,8 @@ Status write_legacy(const Mesh& mesh, const std::string& path) {
                      .found = {},
                      .remedy = "correct the mesh in memory"};
     }
-    OutputFile file(path);
-    detail::Messages messages;
+    base::OutputFile file(path);
+    io::Messages messages;
     {
         vtkNew<LegacyWriter> writer;
         messages.listen_to(writer);
@@ -107,13 +106,13 @@ Status write_legacy(const Mesh& mesh, const std::string& path) {
         writer->SetFileTypeToBinary();
         // Version 4.2 counts all numbers of the cells, the lengths among them, with 32 bits.
         const std::size_t numbers = mesh.cell_count() + mesh.cells.size() + mesh.mid_nodes.size();
-        writer->SetFileVersion(numbers > detail::most_entities ? vtkDataWriter::VTK_LEGACY_READER_VERSION_5_1
-                                                               : vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2);
+        writer->SetFileVersion(numbers > io::most_entities ? vtkDataWriter::VTK_LEGACY_READER_VERSION_5_1
+                                                           : vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2);
         writer->SetHeader("mesh");
-        writer->SetInputData(detail::grid_of(mesh, detail::Names::any));
+        writer->SetInputData(io::grid_of(mesh, io::Names::any));
         writer->set_file(file);
         const bool written = writer->Write() == 1 && writer->GetErrorCode() == vtkErrorCode::NoError;
-        if (!written || !messages.first().empty()) return detail::vtk_failure(path, messages.first());
+        if (!written || !messages.first().empty()) return io::vtk_failure(path, messages.first());
     }
     return file.commit();
 }
@@ -134,7 +133,7 @@ Status write_vtk(const Mesh& mesh, const std::string& path) {
     try {
         return write_legacy(mesh, path);
     } catch (const std::bad_alloc&) {
-        return detail::vtk_failure(path, "too little memory");
+        return io::vtk_failure(path, "too little memory");
     }
 }
 

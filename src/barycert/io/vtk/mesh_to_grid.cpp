@@ -18,7 +18,7 @@
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 namespace {
 
 int cell_type(const Mesh& mesh) {
@@ -30,7 +30,7 @@ int cell_type(const Mesh& mesh) {
 template <class Array>
 void set_cells(vtkUnstructuredGrid* grid, const Mesh& mesh) {
     const std::size_t corners = mesh.corners();
-    const std::size_t mids = mesh.mid_nodes.empty() ? 0 : edges_of(mesh.dimension).size();
+    const std::size_t mids = mesh.mid_nodes.empty() ? 0 : mesh::edges_of(mesh.dimension).size();
     vtkNew<Array> nodes;
     nodes->SetNumberOfValues(static_cast<vtkIdType>(mesh.cells.size() + mesh.mid_nodes.size()));
     auto* to = nodes->GetPointer(0);
@@ -84,7 +84,7 @@ std::string fault_of_names(const std::vector<Field>& fields, std::vector<std::st
 }
 
 std::string fault_of_mesh(const Mesh& mesh, Names names) {
-    if (const char* const found = inconsistency(mesh, FieldValues::any); found != nullptr) return found;
+    if (const char* const found = mesh::inconsistency(mesh, mesh::FieldValues::any); found != nullptr) return found;
     std::vector<std::string> markers;
     if (!mesh.point_markers.empty()) markers.emplace_back(marker_name);
     const std::string fault = fault_of_names(mesh.point_fields, std::move(markers), names);
@@ -118,4 +118,4 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const Mesh& mesh, Names names) {
     return grid;
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

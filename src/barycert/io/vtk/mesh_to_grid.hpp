@@ -13,7 +13,7 @@
 
 #include "barycert/mesh.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 
 /// Whether names are to stand in XML attributes.
 enum class Names : bool { any, xml };
@@ -40,4 +40,4 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const Mesh& mesh, Names names);
 /// True if offsets into the list of nodes do not fit in 32 bits.
 bool needs_wide_indices(const Mesh& mesh);
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace barycert::detail {
+namespace barycert::io {
 
 /// Takes the errors and warnings of VTK objects, which else would be printed.
 class Messages {
@@ -33,4 +33,4 @@ private:
     std::string first_;
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

@@ -11,7 +11,7 @@
 
 #include "barycert/base/text.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 namespace {
 
 /// f.operator()<T>() for the C++ type of a number type other than bit.
@@ -66,7 +66,7 @@ bool convert(From from, To& to) {
 template <class T>
 std::string text_of(T value) {
     if constexpr (std::is_floating_point_v<T>) {
-        return shortest(static_cast<double>(value));
+        return base::shortest(static_cast<double>(value));
     } else {
         return std::to_string(value);
     }
@@ -114,7 +114,7 @@ NumberFault read_words(ByteStream& stream, bool swap_bytes, std::size_t count, s
 template <class T>
 bool parse(std::string_view word, T& value) {
     if constexpr (std::is_same_v<T, double>) {
-        const std::optional<double> number = parse_double(word);
+        const std::optional<double> number = base::parse_double(word);
         value = number.value_or(0);
         return number.has_value();
     } else {
@@ -123,7 +123,7 @@ bool parse(std::string_view word, T& value) {
         if constexpr (std::is_same_v<T, float>) {
             // Too small for a float: zero or the least of them, which the double rounds to.
             if (error == std::errc::result_out_of_range) {
-                const std::optional<double> wide = parse_double(word);
+                const std::optional<double> wide = base::parse_double(word);
                 if (!wide || std::abs(*wide) > 1) return false;
                 value = static_cast<float>(*wide);
                 return true;
@@ -218,4 +218,4 @@ template NumberFault read_text(std::string_view&, NumberType, std::size_t, std::
 template NumberFault read_text(std::string_view&, NumberType, std::size_t, std::vector<std::int32_t>&);
 template NumberFault read_text(std::string_view&, NumberType, std::size_t, std::vector<std::uint8_t>&);
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

@@ -10,7 +10,7 @@
 
 #include "barycert/io/vtk/byte_stream.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 
 enum class NumberType : std::uint8_t {
     bit,  ///< 8 a byte, the first in the highest bit
@@ -62,4 +62,4 @@ std::string_view next_word(std::string_view& text);
 /// A count as XML attributes and headers give it: blanks around it, a plus before it. Nothing if it is none.
 std::optional<std::uint64_t> parse_count(std::string_view text);
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

@@ -29,7 +29,7 @@ std::string fault_of(const PointRows& rows) {
     const auto dimension = static_cast<std::size_t>(rows.dimension);
     if (rows.points.size() % dimension != 0) return "the coordinates do not make whole points";
     const std::size_t count = rows.points.size() / dimension;
-    if (count > detail::most_entities) return "there are more than 2147483647 points";
+    if (count > io::most_entities) return "there are more than 2147483647 points";
     for (const double x : rows.points) {
         if (!std::isfinite(x)) return "a coordinate is not finite";
     }
@@ -48,7 +48,7 @@ std::string fault_of(const PointRows& rows) {
         fits = fits && field.data.size() == count * static_cast<std::size_t>(field.components);
     }
     if (!fits) return "an array has not one row a point";
-    return detail::fault_of_names(rows.fields, std::move(names), detail::Names::xml);
+    return io::fault_of_names(rows.fields, std::move(names), io::Names::xml);
 }
 
 /// Adds a copy of the values, if there are any.
@@ -65,7 +65,7 @@ void add(vtkUnstructuredGrid* grid, const char* name, const Values& values) {
 
 Status write(const std::string& path, const PointRows& rows) {
     vtkNew<vtkUnstructuredGrid> grid;
-    grid->SetPoints(detail::points_of(rows.points, rows.dimension));
+    grid->SetPoints(io::points_of(rows.points, rows.dimension));
     const std::size_t count = rows.points.size() / static_cast<std::size_t>(rows.dimension);
     vtkNew<vtkTypeInt32Array> nodes;
     nodes->SetNumberOfValues(static_cast<vtkIdType>(count));
@@ -77,15 +77,15 @@ Status write(const std::string& path, const PointRows& rows) {
     add<vtkUnsignedCharArray>(grid, feature_name, rows.features);
     add<vtkSignedCharArray>(grid, mask_name, rows.inside);
     if (!rows.distances.empty()) {
-        const auto distances = detail::view_of(rows.distances, 1);
+        const auto distances = io::view_of(rows.distances, 1);
         distances->SetName(distance_name);
         grid->GetPointData()->AddArray(distances);
     }
-    detail::add_fields(grid->GetPointData(), rows.fields, detail::Names::xml);
+    io::add_fields(grid->GetPointData(), rows.fields, io::Names::xml);
     // Coordinates, three arrays of cells, and one array of each kind.
     std::size_t size = 4096 + count * (24 + 9 + 8 + 1 + 1 + 8);
     for (const Field& field : rows.fields) size += field.data.size() * sizeof(double) + field.name.size() * 6 + 512;
-    return detail::write_vtu_grid(grid, path, size);
+    return io::write_vtu_grid(grid, path, size);
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ Status write_vtk_points(const std::string& path, const PointRows& rows) {
     try {
         return write(path, rows);
     } catch (const std::bad_alloc&) {
-        return detail::vtk_failure(path, "too little memory");
+        return io::vtk_failure(path, "too little memory");
     }
 }
 

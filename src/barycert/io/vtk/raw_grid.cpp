@@ -1,6 +1,6 @@
 #include "barycert/io/vtk/raw_grid.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 
 Error number_error(const std::string& path, std::size_t line, const std::string& what, std::uint64_t count,
                    const NumberFault& fault) {
@@ -29,4 +29,4 @@ std::string inexact(const NumberFault& fault) {
     return "it holds " + fault.text + ", which is no double";
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

@@ -9,7 +9,7 @@
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 
 struct RawArray {
     Field field;
@@ -50,4 +50,4 @@ std::string inexact(const NumberFault& fault);
 Result<RawGrid> read_legacy(std::string_view bytes, const std::string& path, Part part);
 Result<RawGrid> read_xml(std::string_view bytes, const std::string& path, Part part);
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

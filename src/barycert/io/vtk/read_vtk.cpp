@@ -11,14 +11,14 @@
 namespace barycert {
 namespace {
 
-Result<detail::RawGrid> read_grid(const std::string& path, detail::Part part) {
-    const Result<detail::MappedFile> file = detail::MappedFile::open(path);
+Result<io::RawGrid> read_grid(const std::string& path, io::Part part) {
+    const Result<base::MappedFile> file = base::MappedFile::open(path);
     if (!file) return file.error();
     const std::string_view bytes = file->bytes();
-    if (bytes.starts_with("# vtk")) return detail::read_legacy(bytes, path, part);
+    if (bytes.starts_with("# vtk")) return io::read_legacy(bytes, path, part);
     std::string_view text = bytes.substr(0, 4096);
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // byte order mark
-    if (detail::next_word(text).starts_with('<')) return detail::read_xml(bytes, path, part);
+    if (io::next_word(text).starts_with('<')) return io::read_xml(bytes, path, part);
     return Error{.what = bytes.empty() ? "the file is empty" : "not a file of VTK",
                  .file = path,
                  .line = 0,
@@ -41,9 +41,9 @@ Error out_of_memory(const std::string& path) {
 Result<Mesh> read_vtk(const std::string& path, VtkLeftOut* left_out) {
     const ExactEnvironment environment;
     try {
-        Result<detail::RawGrid> grid = read_grid(path, detail::Part::all);
+        Result<io::RawGrid> grid = read_grid(path, io::Part::all);
         if (!grid) return grid.error();
-        return detail::to_mesh(std::move(*grid), path, left_out);
+        return io::to_mesh(std::move(*grid), path, left_out);
     } catch (const std::bad_alloc&) {
         return out_of_memory(path);
     }
@@ -59,9 +59,9 @@ Result<std::vector<double>> read_vtk_points(const std::string& path, int dimensi
                      .found = std::to_string(dimension)};
     }
     try {
-        Result<detail::RawGrid> grid = read_grid(path, detail::Part::points);
+        Result<io::RawGrid> grid = read_grid(path, io::Part::points);
         if (!grid) return grid.error();
-        return detail::to_points(std::move(grid->points), dimension, path);
+        return io::to_points(std::move(grid->points), dimension, path);
     } catch (const std::bad_alloc&) {
         return out_of_memory(path);
     }

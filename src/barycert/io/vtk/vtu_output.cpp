@@ -12,7 +12,7 @@
 #include "barycert/base/output_file.hpp"
 #include "barycert/io/vtk/messages.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 namespace {
 
 /// VTK's writer on a stream of ours: what it makes of a string would be copied twice on the way out.
@@ -62,9 +62,9 @@ Status write_vtu_grid(vtkUnstructuredGrid* grid, const std::string& path, std::s
         const bool written = writer->Write() == 1 && writer->GetErrorCode() == vtkErrorCode::NoError;
         if (!written || !stream || !messages.first().empty()) return vtk_failure(path, messages.first());
     }
-    OutputFile file(path);
+    base::OutputFile file(path);
     file.write(stream.view());
     return file.commit();
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

@@ -8,7 +8,7 @@
 
 #include "barycert/result.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 
 /// Writes the grid, raw appended and uncompressed, in memory first: `size` is about that of the file, so that the
 /// stream takes no more than it does. Error: VTK's words; the file cannot be written.
@@ -17,4 +17,4 @@ Status write_vtu_grid(vtkUnstructuredGrid* grid, const std::string& path, std::s
 /// VTK could not do it, for that reason.
 Error vtk_failure(const std::string& path, std::string found);
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

@@ -24,7 +24,7 @@ std::size_t file_size(const Mesh& mesh, std::size_t index_size) {
 
 Status write_vtu(const Mesh& mesh, const std::string& path) {
     const ExactEnvironment environment;
-    if (const std::string fault = detail::fault_of_mesh(mesh, detail::Names::xml); !fault.empty()) {
+    if (const std::string fault = io::fault_of_mesh(mesh, io::Names::xml); !fault.empty()) {
         return Error{.what = "cannot write the mesh: " + fault,
                      .file = path,
                      .line = 0,
@@ -33,10 +33,10 @@ Status write_vtu(const Mesh& mesh, const std::string& path) {
                      .remedy = "correct the mesh in memory"};
     }
     try {
-        const std::size_t size = file_size(mesh, detail::needs_wide_indices(mesh) ? 8 : 4);
-        return detail::write_vtu_grid(detail::grid_of(mesh, detail::Names::xml), path, size);
+        const std::size_t size = file_size(mesh, io::needs_wide_indices(mesh) ? 8 : 4);
+        return io::write_vtu_grid(io::grid_of(mesh, io::Names::xml), path, size);
     } catch (const std::bad_alloc&) {
-        return detail::vtk_failure(path, "too little memory");
+        return io::vtk_failure(path, "too little memory");
     }
 }
 

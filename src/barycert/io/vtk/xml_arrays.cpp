@@ -5,7 +5,7 @@
 
 #include "barycert/io/vtk/blocks.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 
 Result<XmlLayout> layout_of(const XmlTree& tree, std::string_view bytes, const std::string& path) {
     XmlLayout layout;
@@ -158,4 +158,4 @@ template Status XmlArrays::read(const XmlElement&, const std::string&, std::uint
 template Status XmlArrays::read(const XmlElement&, const std::string&, std::uint64_t, std::vector<std::uint8_t>&,
                                 NumberFault*) const;
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

@@ -9,7 +9,7 @@
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/io/vtk/xml_tree.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 
 enum class Compressor : std::uint8_t { none, zlib, lz4, lzma };
 
@@ -52,4 +52,4 @@ private:
     const std::string& path_;
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

@@ -6,7 +6,7 @@
 #include "barycert/io/vtk/xml_arrays.hpp"
 #include "barycert/io/vtk/xml_tree.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 namespace {
 
 constexpr const char* missing = "it is missing in a piece of the file";
@@ -237,4 +237,4 @@ Result<RawGrid> read_xml(std::string_view bytes, const std::string& path, Part p
     return XmlReader(bytes, *tree, *layout, path, part).read();
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

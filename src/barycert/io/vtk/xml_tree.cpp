@@ -8,7 +8,7 @@
 
 #include "barycert/io/vtk/messages.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 namespace {
 
 constexpr std::string_view appended_tag = "<AppendedData";
@@ -151,4 +151,4 @@ Result<XmlTree> parse_xml(std::string_view bytes, const std::string& path) {
     return tree;
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

@@ -10,7 +10,7 @@
 
 #include "barycert/result.hpp"
 
-namespace barycert::detail {
+namespace barycert::io {
 
 struct XmlElement {
     std::string name;
@@ -43,4 +43,4 @@ std::string_view text_of(std::string_view bytes, const XmlTree& tree, const XmlE
 /// Which line of the file that byte is in, from 1.
 std::size_t line_of(std::string_view bytes, std::size_t at);
 
-}  // namespace barycert::detail
+}  // namespace barycert::io

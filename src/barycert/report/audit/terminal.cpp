@@ -166,7 +166,7 @@ std::string mesh_lines(const AuditReport& report, const TerminalStyle& style, co
     const auto line = [&](Verdict verdict, std::string_view text, std::string_view hint) {
         std::string names;
         for (std::size_t i = 0; i < report.meshes.size(); ++i) {
-            if (report.verdicts[i] == verdict) names += (names.empty() ? "" : ", ") + printable(report.meshes[i]);
+            if (report.verdicts[i] == verdict) names += (names.empty() ? "" : ", ") + base::printable(report.meshes[i]);
         }
         if (names.empty()) return;
         const std::string whole = fmt::format("meshes, {}: {}{}", text, names, hint);

@@ -25,8 +25,8 @@ std::string findings(const Comparison& r) {
 std::string coordinates(const Case& c, auto at) {
     std::string decimal, hex;
     for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
-        decimal += (axis == 0 ? "" : ", ") + shortest(at(axis));
-        hex += (axis == 0 ? "" : ", ") + hexadecimal(at(axis));
+        decimal += (axis == 0 ? "" : ", ") + base::shortest(at(axis));
+        hex += (axis == 0 ? "" : ", ") + base::hexadecimal(at(axis));
     }
     return fmt::format("({})\n        ({})\n", decimal, hex);
 }
@@ -59,9 +59,10 @@ std::string witness_text(const Replay& replay, const TerminalStyle& style) {
     std::string title(name(c.simplex));
     if (!witness.kernel.empty())
         title += ", " + (witness.reason.empty() ? "" : witness.reason + " of ") + witness.kernel;
-    std::string out = paint.bold(printable(title)) + "\n";
+    std::string out = paint.bold(base::printable(title)) + "\n";
     if (!witness.family.empty()) {
-        out += fmt::format("    family {}, case {}, seed {}\n", printable(witness.family), witness.index, witness.seed);
+        out += fmt::format("    family {}, case {}, seed {}\n", base::printable(witness.family), witness.index,
+                           witness.seed);
     }
     for (int i = 0; i < n; ++i)
         out += fmt::format("    v{}  ", i) + coordinates(c, [&](int axis) { return c.vertex(i, axis); });
@@ -85,11 +86,11 @@ std::string witness_text(const Replay& replay, const TerminalStyle& style) {
     for (int i = 0; i < n; ++i) cells[static_cast<std::size_t>(i)] = fmt::format("weight {}", i);
     out += paint.bold(row("", "", "region", cells, "ulps", "value ulps", "findings"));
     for (int i = 0; i < n; ++i)
-        cells[static_cast<std::size_t>(i)] = shortest(answer.weights[static_cast<std::size_t>(i)]);
-    out += paint.good(
-        row("=", "exact, correctly rounded", name(answer.region), cells, "", "", "value " + shortest(answer.value)));
+        cells[static_cast<std::size_t>(i)] = base::shortest(answer.weights[static_cast<std::size_t>(i)]);
+    out += paint.good(row("=", "exact, correctly rounded", name(answer.region), cells, "", "",
+                          "value " + base::shortest(answer.value)));
     for (const KernelAnswer& a : replay.answers) {
-        for (std::size_t i = 0; i < 4; ++i) cells[i] = a.status != 0 ? "declared" : shortest(a.weights[i]);
+        for (std::size_t i = 0; i < 4; ++i) cells[i] = a.status != 0 ? "declared" : base::shortest(a.weights[i]);
         const Comparison& r = a.comparison;
         const std::string line = row(a.kernel == witness.kernel ? ">" : "", a.kernel, name(r.claimed), cells,
                                      brief(a.worst_weight_ulp), brief(r.value_ulp), findings(r));
@@ -101,8 +102,8 @@ std::string witness_text(const Replay& replay, const TerminalStyle& style) {
 std::string kernels_text(const std::vector<Kernel>& kernels) {
     std::string out;
     for (const Kernel& k : kernels) {
-        out += fmt::format("{}\n    formula  {}\n    source   {}\n    fails    {}\n", k.name, printable(k.formula),
-                           printable(k.source), k.fails);
+        out += fmt::format("{}\n    formula  {}\n    source   {}\n    fails    {}\n", k.name,
+                           base::printable(k.formula), base::printable(k.source), k.fails);
         std::string promises = k.certifies ? "certifies every answer" : "no certificate";
         promises += k.declares_degenerate ? "; declares degenerate simplices" : "; never declares a simplex degenerate";
         if (k.rule == RegionRule::tolerant) promises += fmt::format("; inside if every weight >= -{}", k.tolerance);

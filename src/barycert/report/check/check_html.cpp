@@ -151,9 +151,9 @@ std::string contacts(const CheckReport& r) {
         std::vector<std::string> decimal, exact;
         for (std::size_t k = 0; k < static_cast<std::size_t>(r.dimension); ++k) {
             const double x = c.common.point[k];
-            decimal.push_back(shortest(x));
+            decimal.push_back(base::shortest(x));
             exact.push_back(c.common.exact
-                                ? hexadecimal(x)
+                                ? base::hexadecimal(x)
                                 : fmt::format("{} = {}", "xyz"[k], shortened_fraction(c.common.fraction[k], 120)));
         }
         out += fmt::format(

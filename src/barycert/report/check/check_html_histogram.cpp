@@ -110,7 +110,7 @@ CountAxis count_axis(const Histogram& h, double height) {
     return {.logarithmic = least < most / 100, .top = static_cast<double>(most), .height = height};
 }
 
-constexpr double width = 520, height = 262, left = 58, right = 498, base = 214, ceiling = 40;
+constexpr double chart_width = 520, chart_height = 262, left = 58, right = 498, base = 214, ceiling = 40;
 
 void draw(Picture& svg, const Histogram& h, const HistogramText& text) {
     const CountAxis y = count_axis(h, base - ceiling);
@@ -202,7 +202,7 @@ std::string histogram_figure(const std::vector<double>& values, const BinRule& r
         out += fmt::format("<p class=\"small\">least {} · median {} · most {} · worst in cell <b>{}</b></p>\n",
                            figure(d.min), figure(d.median), figure(d.max), text.max_is_worst ? d.max_cell : d.min_cell);
     }
-    Picture svg(width, height, std::string(text.title) + ": number of cells");
+    Picture svg(chart_width, chart_height, std::string(text.title) + ": number of cells");
     draw(svg, h, text);
     return out + std::move(svg).finish() +
            fmt::format("<p class=\"small\">{}</p></figure>\n", html_escaped(counted_apart(h, text)));

@@ -19,7 +19,7 @@
 namespace barycert::report {
 namespace {
 
-constexpr double width = 640, tallest = 440, margin = 40;
+constexpr double map_width = 640, tallest = 440, map_margin = 40;
 constexpr std::size_t most_marks = 3000;
 
 /// The cells that have a boundary: others could not be asked for their facets.
@@ -87,7 +87,7 @@ Box box_of(const Mesh& mesh) {
 std::vector<HullFacet> hull_of(const Mesh& mesh, const Normalised& normalised) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
     std::vector<HullFacet> hull;
-    for (const std::int64_t at : hull_facets(mesh, compute_neighbours(mesh))) {
+    for (const std::int64_t at : mesh::hull_facets(mesh, mesh::compute_neighbours(mesh))) {
         const auto cell = static_cast<std::size_t>(at) / (d + 1), corner = static_cast<std::size_t>(at) % (d + 1);
         HullFacet f;
         std::size_t n = 0;
@@ -153,9 +153,9 @@ public:
             x = std::max(x, std::fabs(view_(p)[0]));
             y = std::max(y, std::fabs(view_(p)[1]));
         }
-        if (x > 0) scale_ = (width / 2 - margin) / x;
-        if (y > 0) scale_ = std::min(scale_, (tallest / 2 - margin) / y);
-        height_ = 2 * (scale_ * y + margin);
+        if (x > 0) scale_ = (map_width / 2 - map_margin) / x;
+        if (y > 0) scale_ = std::min(scale_, (tallest / 2 - map_margin) / y);
+        height_ = 2 * (scale_ * y + map_margin);
     }
 
     double height() const { return height_; }
@@ -175,7 +175,7 @@ public:
 
     Pixel at(const Vector& v) const {
         const Vector q = view_(v);
-        return {width / 2 + scale_ * q[0], height_ / 2 - scale_ * q[1]};
+        return {map_width / 2 + scale_ * q[0], height_ / 2 - scale_ * q[1]};
     }
     Pixel node(Mesh::Index i) const { return at(normalised_.place(node_at(mesh_, i))); }
 
@@ -284,7 +284,8 @@ std::string legend(const Mesh& mesh, const std::vector<Exhibit>& exhibits) {
 std::string extent(const Box& box, int d) {
     std::vector<std::string> axes;
     for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k)
-        axes.push_back(fmt::format("{} from {} to {}", "xyz"[k], shortest(box.low[k]), shortest(box.high[k])));
+        axes.push_back(
+            fmt::format("{} from {} to {}", "xyz"[k], base::shortest(box.low[k]), base::shortest(box.high[k])));
     return fmt::format("{}", fmt::join(axes, ", "));
 }
 
@@ -302,7 +303,7 @@ std::string exhibit_map(const CheckReport& r, const Mesh& mesh, const std::vecto
     tbb::task_arena arena(r.threads > 0 ? r.threads : tbb::task_arena::automatic);
     arena.execute([&] { outline = outline_of(proper ? mesh : proper_cells(mesh), map.normalised(), map.view()); });
 
-    Picture svg(width, map.height(), "the boundary of the mesh, and where the cells below are");
+    Picture svg(map_width, map.height(), "the boundary of the mesh, and where the cells below are");
     draw_box(svg, map, mesh.dimension);
     draw_outline(svg, map, outline, mesh.dimension);
     const std::vector<Pixel> problems = problem_marks(r, mesh, map);

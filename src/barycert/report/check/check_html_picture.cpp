@@ -38,11 +38,11 @@ struct Rectangle {
 };
 
 /// A label's text takes so much, in the fonts of the page.
-constexpr double letter = 6.6, height = 12;
+constexpr double letter = 6.6, letter_height = 12;
 
 Rectangle room(Pixel centre, const std::string& text) {
     const double half = (letter * static_cast<double>(text.size()) + 3) / 2;
-    return {centre.x - half, centre.y - height / 2, centre.x + half, centre.y + height / 2};
+    return {centre.x - half, centre.y - letter_height / 2, centre.x + half, centre.y + letter_height / 2};
 }
 
 void join_close_ones(std::vector<Label>& labels) {
@@ -146,7 +146,7 @@ void place_labels(Picture& picture, std::vector<Label> labels, double top) {
             // The text's box touches a small circle around the point.
             const double c = std::cos(a), s = std::sin(a);
             const double reach =
-                std::min(half / std::max(std::fabs(c), 1e-9), height / 2 / std::max(std::fabs(s), 1e-9));
+                std::min(half / std::max(std::fabs(c), 1e-9), letter_height / 2 / std::max(std::fabs(s), 1e-9));
             best = {l.at.x + c * (reach + distance), l.at.y + s * (reach + distance)};
             const Rectangle r = room(best, l.text);
             return r.left >= 0 && r.right <= picture.width() && r.top >= top && r.bottom <= picture.height() &&

@@ -116,8 +116,8 @@ Json contact_json(const CellContact& c, int d) {
     w["exact"] = c.common.exact;
     for (const char* form : {"decimal", "hex", "fraction"}) w[form] = Json::array();
     for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) {
-        w["decimal"].push_back(shortest(c.common.point[k]));
-        w["hex"].push_back(hexadecimal(c.common.point[k]));
+        w["decimal"].push_back(base::shortest(c.common.point[k]));
+        w["hex"].push_back(base::hexadecimal(c.common.point[k]));
         w["fraction"].push_back(c.common.fraction[k]);
     }
     return j;

@@ -159,8 +159,8 @@ constexpr std::size_t max_fraction = 80;
 std::string contact(const CellContact& c, int d, bool& cut) {
     std::vector<std::string> decimal, hex;
     for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) {
-        decimal.push_back(shortest(c.common.point[k]));
-        hex.push_back(hexadecimal(c.common.point[k]));
+        decimal.push_back(base::shortest(c.common.point[k]));
+        hex.push_back(base::hexadecimal(c.common.point[k]));
     }
     std::string out = fmt::format("cells {} and {} {}:", c.cells[0], c.cells[1], meeting_text(c));
     const std::string point = fmt::format("({}){}", fmt::join(decimal, ", "), c.common.exact ? "" : ", rounded");
@@ -186,14 +186,14 @@ std::string contact_list(const CheckReport& r, const Colours& paint) {
     return out;
 }
 
-std::string figure(double x) {
+std::string rounded(double x) {
     return fmt::format("{:.4g}", x == 0 ? 0.0 : x);
 }
 
 std::string measure_row(std::string_view name, const std::vector<double>& values, bool max_is_worst) {
     const Distribution d = distribution(values);
     if (d.min_cell < 0) return fmt::format("{:<31}{:>12}{:>12}{:>12}{:>12}", name, "-", "-", "-", "-");
-    return fmt::format("{:<31}{:>12}{:>12}{:>12}{:>12}", name, figure(d.min), figure(d.median), figure(d.max),
+    return fmt::format("{:<31}{:>12}{:>12}{:>12}{:>12}", name, rounded(d.min), rounded(d.median), rounded(d.max),
                        max_is_worst ? d.max_cell : d.min_cell);
 }
 
@@ -245,7 +245,7 @@ std::string whole_mesh(const CheckReport& r) {
 std::string check_text(const CheckReport& r, const Mesh& mesh, const std::string& path, const TerminalStyle& style) {
     const ExactEnvironment environment;
     const Colours paint(style.colour);
-    const std::string name = printable(path);
+    const std::string name = base::printable(path);
     std::string out = r.certified() ? certified(r, name, paint) : not_certified(r, name, paint);
     if (!r.defects.empty() || r.cells != 0) {
         out += fmt::format("Cells and nodes are numbered from 0 in file order{}.\n",

@@ -134,8 +134,8 @@ std::string CheckWords::orientations() const {
 }
 
 std::string CheckWords::volumes() const {
-    return fmt::format("{} in the cells, {} inside the boundary", shortest(r_.volume.cells),
-                       shortest(r_.volume.boundary));
+    return fmt::format("{} in the cells, {} inside the boundary", base::shortest(r_.volume.cells),
+                       base::shortest(r_.volume.boundary));
 }
 
 std::string CheckWords::uncounted() const {

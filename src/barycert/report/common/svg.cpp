@@ -124,12 +124,12 @@ void draw_frame(Svg& svg, const Axis& x, const Axis& y) {
     for (const double t : round_ticks(x.low, x.high, 12)) {
         svg.line({x.at(t), y.from}, {x.at(t), y.to}, grid);
         svg.line({x.at(t), y.from}, {x.at(t), y.from + 5}, rule);
-        svg.text({x.at(t), y.from + 20}, shortest(t), {.anchor = Anchor::middle});
+        svg.text({x.at(t), y.from + 20}, base::shortest(t), {.anchor = Anchor::middle});
     }
     for (const double t : round_ticks(y.low, y.high, 12)) {
         svg.line({x.from, y.at(t)}, {x.to, y.at(t)}, grid);
         svg.line({x.from - 5, y.at(t)}, {x.from, y.at(t)}, rule);
-        svg.text({x.from - 9, y.at(t) + 4.5}, shortest(t), {.anchor = Anchor::end});
+        svg.text({x.from - 9, y.at(t) + 4.5}, base::shortest(t), {.anchor = Anchor::end});
     }
     svg.polyline({{x.from, y.from}, {x.to, y.from}, {x.to, y.to}, {x.from, y.to}, {x.from, y.from}}, rule);
     svg.text({(x.from + x.to) / 2, y.from + 44}, x.title, {.size = 14, .anchor = Anchor::middle});

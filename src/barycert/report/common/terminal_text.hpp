@@ -81,7 +81,7 @@ inline std::string shell_bytes(std::string_view s) {
 
 /// Quoted for a POSIX shell where needed.
 inline std::string shell_word(std::string_view s) {
-    if (printable(s) != s) return shell_bytes(s);
+    if (base::printable(s) != s) return shell_bytes(s);
     if (!s.empty() &&
         s.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-^=:,@%") ==
             std::string_view::npos) {

@@ -42,9 +42,10 @@ std::string outside(const SampleSummary& summary, const Colours& paint) {
         fates.push_back(fmt::format("{} extrapolated from the nearest cell, {}", n.extrapolated, far()));
     if (n.without_value != 0) {
         const bool limited = summary.outside.kind == Outside::nearest;
-        const std::string what = summary.outside.kind == Outside::fill ? "got " + shortest(summary.outside.fill) : "got NaN";
+        const std::string what =
+            summary.outside.kind == Outside::fill ? "got " + base::shortest(summary.outside.fill) : "got NaN";
         fates.push_back(fmt::format("{} {}{}", n.without_value, what,
-                                    limited ? ", farther than " + shortest(summary.outside.limit) : ""));
+                                    limited ? ", farther than " + base::shortest(summary.outside.limit) : ""));
     }
     return paint.bold(fmt::format("{}: {}", count, fmt::join(fates, "; ")));
 }
@@ -62,7 +63,7 @@ std::string values(const SampleSummary& summary) {
 
 std::string picture(const SliceCounts& n) {
     if (std::isnan(n.low)) return "nothing is drawn: no point of it has a finite value";
-    std::string text = fmt::format("colours from {} to {}", shortest(n.low), shortest(n.high));
+    std::string text = fmt::format("colours from {} to {}", base::shortest(n.low), base::shortest(n.high));
     if (n.below != 0) text += fmt::format("; {} below, drawn as the first", plural(n.below, "point", "points"));
     if (n.above != 0) text += fmt::format("; {} above, drawn as the last", plural(n.above, "point", "points"));
     const std::uint64_t clear = n.outside + n.not_finite;
@@ -92,9 +93,9 @@ std::string policy_text(const OutsidePolicy& policy) {
         case Outside::error:
             return "error";
         case Outside::fill:
-            return "fill=" + shortest(policy.fill);
+            return "fill=" + base::shortest(policy.fill);
         case Outside::nearest:
-            return std::isinf(policy.limit) ? std::string("nearest") : "nearest=" + shortest(policy.limit);
+            return std::isinf(policy.limit) ? std::string("nearest") : "nearest=" + base::shortest(policy.limit);
         default:
             return "extrapolate";
     }

@@ -20,21 +20,22 @@
 #include "barycert/sample/grid/fill_values-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::sample {
 namespace HWY_NAMESPACE {
 
 using namespace core::HWY_NAMESPACE;
+using namespace locate::HWY_NAMESPACE;
 
-using detail::FillTarget;
-using detail::interior_without_value;
-using detail::NodeValues;
-using detail::Place;
-using detail::Span;
+using locate::Place;
+using sample::FillTarget;
+using sample::interior_without_value;
+using sample::NodeValues;
+using sample::Span;
 
 /// Cells [0, MaxLanes).
 template <Simplex s, class D>
-HWY_INLINE void set_block(D tag, const detail::CellIndex& index, const NodeValues& nodes, const Raster& raster,
-                          const Place* cells, CellBlock<space_dimension(s)>& out, ValueBlock* values) {
+HWY_INLINE void set_block(D tag, const locate::CellIndex& index, const NodeValues& nodes, const Raster& raster,
+                          const locate::Place* cells, CellBlock<space_dimension(s)>& out, ValueBlock* values) {
     using V = hn::Vec<D>;
     constexpr int d = space_dimension(s), n = d + 1;
     constexpr double u = 0x1p-53;
@@ -86,7 +87,7 @@ HWY_INLINE void set_block(D tag, const detail::CellIndex& index, const NodeValue
 
     set_values<d>(tag, m, extent, f, values[0]);
     for (std::size_t c = 1; c < nodes.components; ++c) {
-        const detail::ValueRecord* const more = nodes.more + (c - 1) / 4 * nodes.node_count;
+        const sample::ValueRecord* const more = nodes.more + (c - 1) / 4 * nodes.node_count;
         for (int i = 0; i < n; ++i) {
             HWY_ALIGN double lanes[most_lanes];
             for (std::size_t l = 0; l < hn::MaxLanes(D()); ++l) lanes[l] = more[node(l, i)].value[(c - 1) % 4];
@@ -174,8 +175,8 @@ HWY_INLINE void fill_short_row(D tag, const CellFill<d, V>& fill, std::size_t r,
 
 template <Simplex s, class D>
 HWY_INLINE void fill_cell(D tag, const Raster& raster, const CellBlock<space_dimension(s)>& cell,
-                          const ValueBlock* values, std::size_t components, std::size_t l, Place place, Mesh::Index id,
-                          const FillTarget& target, std::vector<Span>& unsure, RowTerms* terms) {
+                          const ValueBlock* values, std::size_t components, std::size_t l, locate::Place place,
+                          Mesh::Index id, const FillTarget& target, std::vector<Span>& unsure, RowTerms* terms) {
     using V = hn::Vec<D>;
     constexpr int d = space_dimension(s);
     constexpr std::size_t width = hn::MaxLanes(D());
@@ -255,15 +256,16 @@ HWY_INLINE void fill_cell(D tag, const Raster& raster, const CellBlock<space_dim
 }
 
 template <Simplex s>
-void fill_all(const detail::CellIndex& index, const NodeValues& nodes, const Raster& raster, const Place* cells,
-              std::size_t count, const FillTarget& target, std::vector<Span>& unsure, std::vector<Place>& hard) {
+void fill_all(const locate::CellIndex& index, const NodeValues& nodes, const Raster& raster, const locate::Place* cells,
+              std::size_t count, const FillTarget& target, std::vector<Span>& unsure,
+              std::vector<locate::Place>& hard) {
     const hn::ScalableTag<double> tag;
     constexpr std::size_t width = hn::MaxLanes(hn::ScalableTag<double>());
     CellBlock<space_dimension(s)> block;
     std::vector<ValueBlock> values(nodes.components);
     std::vector<RowTerms> terms(nodes.components);
     for (std::size_t at = 0; at < count; at += width) {
-        Place some[width];
+        locate::Place some[width];
         for (std::size_t l = 0; l < width; ++l) some[l] = cells[std::min(at + l, count - 1)];
         set_block<s>(tag, index, nodes, raster, some, block, values.data());
         for (std::size_t l = 0; l < std::min(width, count - at); ++l) {
@@ -277,27 +279,28 @@ void fill_all(const detail::CellIndex& index, const NodeValues& nodes, const Ras
     }
 }
 
-void fill_cells(const detail::CellIndex& index, const NodeValues& nodes, const Raster& raster, const Place* cells,
-                std::size_t count, const FillTarget& target, std::vector<Span>& unsure, std::vector<Place>& hard) {
+void fill_cells(const locate::CellIndex& index, const NodeValues& nodes, const Raster& raster,
+                const locate::Place* cells, std::size_t count, const FillTarget& target, std::vector<Span>& unsure,
+                std::vector<locate::Place>& hard) {
     index.simplex == Simplex::triangle
         ? fill_all<Simplex::triangle>(index, nodes, raster, cells, count, target, unsure, hard)
         : fill_all<Simplex::tetrahedron>(index, nodes, raster, cells, count, target, unsure, hard);
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::sample
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace barycert {
+namespace barycert::sample {
 
 HWY_EXPORT(fill_cells);
 
-void detail::fill_cells(const CellIndex& index, const NodeValues& nodes, const Raster& raster, const Place* cells,
-                        std::size_t count, const FillTarget& target, std::vector<Span>& unsure,
-                        std::vector<Place>& hard) {
+void fill_cells(const locate::CellIndex& index, const NodeValues& nodes, const Raster& raster,
+                const locate::Place* cells, std::size_t count, const FillTarget& target, std::vector<Span>& unsure,
+                std::vector<locate::Place>& hard) {
     HWY_DYNAMIC_DISPATCH(fill_cells)(index, nodes, raster, cells, count, target, unsure, hard);
 }
 
-}  // namespace barycert
+}  // namespace barycert::sample
 #endif

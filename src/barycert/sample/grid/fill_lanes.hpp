@@ -8,7 +8,7 @@
 #include "barycert/sample/grid/raster_lanes.hpp"
 #include "barycert/sample/points/value_lanes.hpp"
 
-namespace barycert::detail {
+namespace barycert::sample {
 
 /// In FillTarget::feature: in the interior of the owner, the value still to be found.
 inline constexpr Feature interior_without_value = Feature::degenerate;
@@ -27,7 +27,8 @@ struct FillTarget {
 /// For points that are certainly in the interior of one of the cells: sets owner, feature, and values where their
 /// rounding is certain. Spans with points of which that is not certain go to `unsure`, without the cells in `hard`, of
 /// which nothing is known. Components: those of `nodes`, at least 1; cells are linear. Precondition: raster.precise.
-void fill_cells(const CellIndex& index, const NodeValues& nodes, const Raster& raster, const Place* cells,
-                std::size_t count, const FillTarget& target, std::vector<Span>& unsure, std::vector<Place>& hard);
+void fill_cells(const locate::CellIndex& index, const NodeValues& nodes, const Raster& raster,
+                const locate::Place* cells, std::size_t count, const FillTarget& target, std::vector<Span>& unsure,
+                std::vector<locate::Place>& hard);
 
-}  // namespace barycert::detail
+}  // namespace barycert::sample

@@ -31,12 +31,12 @@
 #include "barycert/sample/grid/raster_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::sample {
 namespace HWY_NAMESPACE {
 
 using namespace core::HWY_NAMESPACE;
 
-using detail::Raster;
+using sample::Raster;
 
 constexpr std::size_t most_lanes = 8;
 
@@ -155,6 +155,6 @@ HWY_INLINE void find_intervals(D tag, const CellBlock<d>& cell, std::size_t l, P
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::sample
 HWY_AFTER_NAMESPACE();
 #endif

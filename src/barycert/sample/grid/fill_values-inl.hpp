@@ -22,7 +22,7 @@
 #include "barycert/sample/grid/fill_rows-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::sample {
 namespace HWY_NAMESPACE {
 
 using namespace core::HWY_NAMESPACE;
@@ -116,6 +116,6 @@ HWY_INLINE V value_of(D tag, const ValueBlock& value, std::size_t l, const RowTe
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::sample
 HWY_AFTER_NAMESPACE();
 #endif

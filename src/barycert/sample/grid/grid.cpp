@@ -18,7 +18,7 @@ Status check_bounds(std::size_t axis, double low, double high) {
     if (std::isfinite(low) && std::isfinite(high) && low <= high && std::isfinite(high - low)) return Done{};
     return Error{.what = std::string("bounds of the grid along ") + axis_names[axis],
                  .expected = "finite numbers, the lower one first, with a finite difference",
-                 .found = shortest(low) + ", " + shortest(high)};
+                 .found = base::shortest(low) + ", " + base::shortest(high)};
 }
 
 Status check_dimension(int dimension) {
@@ -30,14 +30,14 @@ Status check_count(std::size_t axis, double count) {
     if (count >= 1 && count <= static_cast<double>(Grid::most_on_axis)) return Done{};
     return Error{.what = std::string("points of the grid along ") + axis_names[axis],
                  .expected = "1 to " + std::to_string(Grid::most_on_axis),
-                 .found = shortest(count)};
+                 .found = base::shortest(count)};
 }
 
 Result<Grid> checked(const Grid& grid) {
     const double points =
         static_cast<double>(grid.counts[0]) * static_cast<double>(grid.counts[1]) * static_cast<double>(grid.counts[2]);
     if (!(points <= 0x1p62))
-        return Error{.what = "points of the grid", .expected = "at most 2^62", .found = shortest(points)};
+        return Error{.what = "points of the grid", .expected = "at most 2^62", .found = base::shortest(points)};
     for (std::size_t k = 0; k < 3; ++k) {
         // The spacing is rounded: among subnormal numbers, or far from zero, by more than it may.
         if (grid.counts[k] > 1 && grid.coordinate(k, grid.counts[k] - 2) > grid.last[k])
@@ -77,7 +77,7 @@ Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts,
         if (!(grid.spacing[k] > 0))
             return Error{.what = std::string("bounds of the grid along ") + axis_names[k],
                          .expected = "some distance between the ends of " + std::to_string(counts[k]) + " points",
-                         .found = shortest(low[k]) + ", " + shortest(high[k])};
+                         .found = base::shortest(low[k]) + ", " + base::shortest(high[k])};
     }
     return checked(grid);
 }
@@ -93,7 +93,7 @@ Result<Grid> grid_spaced(int dimension, const std::array<double, 3>& spacing, co
         if (!(spacing[k] > 0) || !std::isfinite(spacing[k]))
             return Error{.what = std::string("spacing of the grid along ") + axis_names[k],
                          .expected = "a positive number",
-                         .found = shortest(spacing[k])};
+                         .found = base::shortest(spacing[k])};
         // A quotient rounded down by an ulp must not lose the last point.
         double steps = std::floor((high[k] - low[k]) / spacing[k]);
         if (Status status = check_count(k, steps + 1); !status) return status.error();

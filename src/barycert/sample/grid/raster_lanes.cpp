@@ -28,14 +28,14 @@
 #include "barycert/base/strict_math.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::sample {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using detail::Place;
-using detail::Raster;
-using detail::Span;
+using locate::Place;
+using sample::Raster;
+using sample::Span;
 
 /// A facet's plane: its normal and a vertex on it.
 struct Plane {
@@ -58,7 +58,7 @@ HWY_INLINE void cross_edges(const double* a, const double* b, const double* c, d
 }
 
 template <Simplex s>
-HWY_INLINE void find_planes(const detail::CellIndex& index, Place cell, CellPlanes& out) {
+HWY_INLINE void find_planes(const locate::CellIndex& index, locate::Place cell, CellPlanes& out) {
     constexpr std::size_t n = vertex_count(s), d = space_dimension(s);
     const auto& node = index.cells[static_cast<std::size_t>(cell)].node;
     const double* v[4];
@@ -130,7 +130,7 @@ HWY_INLINE Range places_within(const std::vector<double>& at, double low, double
 /// The spans of up to MaxLanes rows at once: row r + l, all in one layer.
 template <std::size_t n, std::size_t d, class D>
 HWY_INLINE void row_spans(D tag, const Raster& raster, const CellPlanes& planes, Range columns, std::int32_t row,
-                          std::int32_t last_row, std::int32_t layer, Place cell, std::vector<Span>& out) {
+                          std::int32_t last_row, std::int32_t layer, locate::Place cell, std::vector<Span>& out) {
     using V = hn::Vec<D>;
     constexpr std::size_t width = hn::MaxLanes(D());
     HWY_ALIGN double y[width];
@@ -184,7 +184,7 @@ HWY_INLINE void row_spans(D tag, const Raster& raster, const CellPlanes& planes,
 }
 
 template <Simplex s>
-void spans_of(const detail::CellIndex& index, const Raster& raster, const Place* which, std::size_t count,
+void spans_of(const locate::CellIndex& index, const Raster& raster, const locate::Place* which, std::size_t count,
               std::int32_t first_layer, std::int32_t last_layer, std::vector<Span>& out) {
     constexpr std::size_t n = vertex_count(s), d = space_dimension(s);
     const hn::ScalableTag<double> tag;
@@ -211,7 +211,7 @@ void spans_of(const detail::CellIndex& index, const Raster& raster, const Place*
     }
 }
 
-void find_spans(const detail::CellIndex& index, const Raster& raster, const Place* which, std::size_t count,
+void find_spans(const locate::CellIndex& index, const Raster& raster, const locate::Place* which, std::size_t count,
                 std::int32_t first_layer, std::int32_t last_layer, std::vector<Span>& out) {
     index.simplex == Simplex::triangle
         ? spans_of<Simplex::triangle>(index, raster, which, count, first_layer, last_layer, out)
@@ -219,18 +219,18 @@ void find_spans(const detail::CellIndex& index, const Raster& raster, const Plac
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::sample
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace barycert {
+namespace barycert::sample {
 
 HWY_EXPORT(find_spans);
 
-void detail::find_spans(const CellIndex& index, const Raster& raster, const Place* which, std::size_t count,
-                        std::int32_t first_layer, std::int32_t last_layer, std::vector<Span>& out) {
+void find_spans(const locate::CellIndex& index, const Raster& raster, const locate::Place* which, std::size_t count,
+                std::int32_t first_layer, std::int32_t last_layer, std::vector<Span>& out) {
     HWY_DYNAMIC_DISPATCH(find_spans)(index, raster, which, count, first_layer, last_layer, out);
 }
 
-}  // namespace barycert
+}  // namespace barycert::sample
 #endif

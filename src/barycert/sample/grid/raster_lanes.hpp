@@ -8,7 +8,7 @@
 
 #include "barycert/locate/cell_index.hpp"
 
-namespace barycert::detail {
+namespace barycert::sample {
 
 /// The points of a grid as a raster: columns along x, rows along y (and z). 2D: z has one entry.
 struct Raster {
@@ -25,13 +25,13 @@ struct Raster {
 /// Points first to last - 1 of a row may be in the cell; those from inner_first to inner_last - 1 are certainly in its
 /// interior. All others of the row are certainly outside.
 struct Span {
-    Place cell;
+    locate::Place cell;
     std::int32_t row, layer;  ///< along y and z
     std::int32_t first, inner_first, inner_last, last;
 };
 
 /// Appends the spans of the cells in `which`, rows in the layers [first_layer, last_layer) of z (2D: rows of y in it).
-void find_spans(const CellIndex& index, const Raster& raster, const Place* which, std::size_t count,
+void find_spans(const locate::CellIndex& index, const Raster& raster, const locate::Place* which, std::size_t count,
                 std::int32_t first_layer, std::int32_t last_layer, std::vector<Span>& out);
 
-}  // namespace barycert::detail
+}  // namespace barycert::sample

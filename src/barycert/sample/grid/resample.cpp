@@ -14,14 +14,14 @@
 namespace barycert {
 namespace {
 
-using detail::Place;
+using locate::Place;
 
 std::size_t layer_axis(const Grid& grid) {
     return grid.dimension == 3 ? 2 : 1;
 }
 
-detail::Raster raster_of(const Grid& grid, const detail::CellIndex& index) {
-    detail::Raster raster;
+sample::Raster raster_of(const Grid& grid, const locate::CellIndex& index) {
+    sample::Raster raster;
     raster.slack = 0x1p-8;
     raster.precise = true;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -52,10 +52,10 @@ detail::Raster raster_of(const Grid& grid, const detail::CellIndex& index) {
 /// For each slab of `depth` layers the cells that may hold some of its points, in the order of the index.
 struct SlabCells {
     std::vector<std::size_t> begin;
-    std::vector<Place> cells;
+    std::vector<locate::Place> cells;
 };
 
-SlabCells cells_of_slabs(const detail::CellIndex& index, const std::vector<double>& layers, std::size_t depth) {
+SlabCells cells_of_slabs(const locate::CellIndex& index, const std::vector<double>& layers, std::size_t depth) {
     const std::size_t slabs = (layers.size() + depth - 1) / depth, axis = index.dimension() - 1;
     struct Range {
         std::uint32_t first = 1, last = 0;  ///< slabs, both included
@@ -86,12 +86,12 @@ SlabCells cells_of_slabs(const detail::CellIndex& index, const std::vector<doubl
     std::vector<std::size_t> next(out.begin.begin(), out.begin.end() - 1);
     for (std::size_t c = 0; c < ranges.size(); ++c) {
         for (std::size_t s = ranges[c].first; s <= ranges[c].last && ranges[c].first <= ranges[c].last; ++s)
-            out.cells[next[s]++] = static_cast<Place>(c);
+            out.cells[next[s]++] = static_cast<locate::Place>(c);
     }
     return out;
 }
 
-Status check_grid(const detail::SamplerData& data, const Grid& grid) {
+Status check_grid(const sample::SamplerData& data, const Grid& grid) {
     const int dimension = data.located().mesh->dimension;
     if (grid.dimension != dimension)
         return Error{.what = "dimension of the grid",
@@ -120,9 +120,9 @@ Status check_grid(const detail::SamplerData& data, const Grid& grid) {
 Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const SampleOptions& options,
                               const GridSink& sink) {
     const ExactEnvironment environment;
-    const detail::SamplerData& data = sampler.data();
+    const sample::SamplerData& data = sampler.data();
     if (Status status = check_grid(data, grid); !status) return status.error();
-    const detail::Raster raster = raster_of(grid, data.index());
+    const sample::Raster raster = raster_of(grid, data.index());
     const std::vector<double>& layers = raster.at[layer_axis(grid)];
     const std::size_t layer = static_cast<std::size_t>(grid.point_count()) / layers.size();
     // Many layers, for a cell that lies in two slabs is looked at twice; few enough for 64 MiB or so.
@@ -130,14 +130,14 @@ Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const Sa
 
     Status status = Done{};
     SampleCounts all;
-    detail::in_arena(options.threads, [&] {
+    locate::in_arena(options.threads, [&] {
         const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
         const std::size_t share = (layers.size() + threads - 1) / threads;
         const std::size_t depth = std::clamp<std::size_t>(room / layer, 1, share);
         const std::size_t slabs = (layers.size() + depth - 1) / depth;
         const SlabCells cells = cells_of_slabs(data.index(), layers, depth);
         const std::size_t width = std::min(slabs, threads);
-        std::vector<detail::SlabSampler> samplers(width, detail::SlabSampler(data, grid, raster, options));
+        std::vector<sample::SlabSampler> samplers(width, sample::SlabSampler(data, grid, raster, options));
         for (std::size_t wave = 0; wave < slabs && status; wave += width) {
             const std::size_t count = std::min(width, slabs - wave);
             tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {

@@ -5,7 +5,7 @@
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/sample/grid/fill_lanes.hpp"
 
-namespace barycert::detail {
+namespace barycert::sample {
 namespace {
 
 constexpr std::size_t cells_at_once = 256;
@@ -17,7 +17,7 @@ bool can_fill(const SamplerData& data, const Raster& raster, const SampleOptions
 
 }  // namespace
 
-void SlabSampler::run(std::int32_t first, std::int32_t last, std::span<const Place> cells) {
+void SlabSampler::run(std::int32_t first, std::int32_t last, std::span<const locate::Place> cells) {
     first_ = first;
     last_ = last;
     const std::size_t layer = grid_.dimension == 3 ? grid_.layer_size() : static_cast<std::size_t>(grid_.counts[0]);
@@ -38,7 +38,7 @@ void SlabSampler::run(std::int32_t first, std::int32_t last, std::span<const Pla
     counts_.add(sampler_->counts());
 }
 
-void SlabSampler::fill(std::span<const Place> cells) {
+void SlabSampler::fill(std::span<const locate::Place> cells) {
     const FillTarget target{rows_.cells.data(),
                             rows_.features.data(),
                             rows_.values.data(),
@@ -58,7 +58,7 @@ void SlabSampler::fill(std::span<const Place> cells) {
     }
 }
 
-void SlabSampler::raster(std::span<const Place> cells) {
+void SlabSampler::raster(std::span<const locate::Place> cells) {
     for (std::size_t c = 0; c < cells.size(); c += cells_at_once) {
         spans_.clear();
         find_spans(data_.index(), raster_, cells.data() + c, std::min(cells_at_once, cells.size() - c), first_, last_,
@@ -88,13 +88,13 @@ void SlabSampler::take(const Span& span) {
 }
 
 void SlabSampler::test(const Span& span, std::int32_t column, std::size_t point) {
-    const CellIndex& index = data_.index();
+    const locate::CellIndex& index = data_.index();
     const Mesh::Index cell = index.original[static_cast<std::size_t>(span.cell)];
     if (rows_.cells[point] >= 0 && rows_.cells[point] < cell) return;
     const std::array<double, 3> at{raster_.at[0][static_cast<std::size_t>(column)],
                                    raster_.at[1][static_cast<std::size_t>(span.row)],
                                    raster_.at[2][static_cast<std::size_t>(span.layer)]};
-    const WeightSigns signs = cell_signs(index, span.cell, at.data(), counts_.locations.tests);
+    const WeightSigns signs = locate::cell_signs(index, span.cell, at.data(), counts_.locations.tests);
     if (!signs.contains()) return;
     const Feature feature = signs.feature(index.simplex);
     own(point, cell, feature == Feature::interior ? interior_without_value : feature);
@@ -132,7 +132,7 @@ void SlabSampler::push(std::size_t point) {
     cells_[pending_] = cell < 0 ? -1 : data_.located().places()[static_cast<std::size_t>(cell)];
     const Feature feature = rows_.features[point];
     features_[pending_] = feature == interior_without_value ? Feature::interior : feature;
-    if (++pending_ == chunk_size) flush();
+    if (++pending_ == locate::chunk_size) flush();
 }
 
 void SlabSampler::flush() {
@@ -155,4 +155,4 @@ std::optional<std::uint64_t> SlabSampler::refused() const {
     return block().first_row + *sampler_->refused();
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::sample

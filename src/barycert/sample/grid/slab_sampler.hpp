@@ -10,7 +10,7 @@
 #include "barycert/sample/grid/raster_lanes.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"
 
-namespace barycert::detail {
+namespace barycert::sample {
 
 /// Layers [first, last) of the third axis (2D: of the second), and the rows of their points. Keeps its memory from slab
 /// to slab.
@@ -20,7 +20,7 @@ public:
         : data_(data), grid_(grid), raster_(raster), options_(options) {}
 
     /// `cells`: all that can hold a point of these layers.
-    void run(std::int32_t first, std::int32_t last, std::span<const Place> cells);
+    void run(std::int32_t first, std::int32_t last, std::span<const locate::Place> cells);
 
     TableView block() const;
     const SampleCounts& counts() const { return counts_; }
@@ -28,8 +28,8 @@ public:
     std::optional<std::uint64_t> refused() const;
 
 private:
-    void raster(std::span<const Place> cells);
-    void fill(std::span<const Place> cells);
+    void raster(std::span<const locate::Place> cells);
+    void fill(std::span<const locate::Place> cells);
     void take(const Span& span);
     void test(const Span& span, std::int32_t column, std::size_t point);
     void own(std::size_t point, Mesh::Index cell, Feature feature);
@@ -48,11 +48,11 @@ private:
     SampleCounts counts_;
     std::optional<ChunkSampler> sampler_;
     std::vector<Span> spans_;
-    std::vector<Place> hard_;
-    std::array<PointRecord, chunk_size> records_{};
-    std::array<Place, chunk_size> cells_{};
-    std::array<Feature, chunk_size> features_{};
+    std::vector<locate::Place> hard_;
+    std::array<locate::PointRecord, locate::chunk_size> records_{};
+    std::array<locate::Place, locate::chunk_size> cells_{};
+    std::array<Feature, locate::chunk_size> features_{};
     std::size_t pending_ = 0;
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::sample

@@ -14,21 +14,21 @@ namespace barycert {
 
 std::uint64_t mesh_fingerprint(const Mesh& mesh) {
     const ExactEnvironment environment;
-    std::uint64_t h = detail::map_step(0, static_cast<std::uint64_t>(mesh.dimension));
-    h = detail::map_step(h, mesh.points.size());
+    std::uint64_t h = sample::map_step(0, static_cast<std::uint64_t>(mesh.dimension));
+    h = sample::map_step(h, mesh.points.size());
     for (const double x : mesh.points) {
-        h = detail::map_step(h, std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x));  // -0.0 is the same place
+        h = sample::map_step(h, std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x));  // -0.0 is the same place
     }
-    h = detail::map_step(h, mesh.cells.size());
+    h = sample::map_step(h, mesh.cells.size());
     for (std::size_t i = 0; i < mesh.cells.size(); i += 2) {
         const std::uint64_t low = static_cast<std::uint32_t>(mesh.cells[i]);
         const std::uint64_t high = i + 1 < mesh.cells.size() ? static_cast<std::uint32_t>(mesh.cells[i + 1]) : 0;
-        h = detail::map_step(h, high << 32 | low);
+        h = sample::map_step(h, high << 32 | low);
     }
     return h;
 }
 
-namespace detail {
+namespace sample {
 
 struct MapWriterData {
     MapWriterData(std::string path, const MapHeader& header) : name(std::move(path)), head(header), file(name) {}
@@ -39,9 +39,9 @@ struct MapWriterData {
 
     std::string name;
     MapHeader head;  // head.rows: those written so far, without those pending
-    OutputFile file;
+    base::OutputFile file;
     std::uint64_t checksum = 0;  // of the last block
-    Table pending;         // fewer rows than a block has
+    Table pending;               // fewer rows than a block has
     std::vector<char> bytes;
     Error error;  // what every further call tells
     bool done = false;
@@ -106,7 +106,7 @@ Status MapWriterData::check(const TableView& rows) {
         const char* const fault = map_row_fault(point, head.dimension, cells[i], feature, head.cells);
         if (fault == nullptr) continue;
         std::string found = "coordinates";
-        for (std::size_t axis = 0; axis < dimension; ++axis) found += ' ' + shortest(point[axis]);
+        for (std::size_t axis = 0; axis < dimension; ++axis) found += ' ' + base::shortest(point[axis]);
         return fail({.what = "row " + std::to_string(head.rows + pending.cells.size() + i) + " is none of a map",
                      .file = name,
                      .expected = fault,
@@ -171,12 +171,12 @@ Status MapWriterData::commit() {
     return Done{};
 }
 
-}  // namespace detail
+}  // namespace sample
 
 Result<MapWriter> MapWriter::open(const std::string& path, const Mesh& mesh, bool all) {
     const ExactEnvironment environment;
-    const detail::MapHeader head{mesh.dimension, all, 0, mesh.point_count(), mesh.cell_count(), mesh_fingerprint(mesh)};
-    auto data = std::make_unique<detail::MapWriterData>(path, head);
+    const sample::MapHeader head{mesh.dimension, all, 0, mesh.point_count(), mesh.cell_count(), mesh_fingerprint(mesh)};
+    auto data = std::make_unique<sample::MapWriterData>(path, head);
     if (Status begun = data->begin(); !begun) return begun.error();
     return MapWriter(std::move(data));
 }
@@ -190,7 +190,7 @@ Status MapWriter::commit() {
     return data_->commit();
 }
 
-MapWriter::MapWriter(std::unique_ptr<detail::MapWriterData> data) : data_(std::move(data)) {}
+MapWriter::MapWriter(std::unique_ptr<sample::MapWriterData> data) : data_(std::move(data)) {}
 MapWriter::MapWriter(MapWriter&&) noexcept = default;
 MapWriter& MapWriter::operator=(MapWriter&&) noexcept = default;
 MapWriter::~MapWriter() = default;

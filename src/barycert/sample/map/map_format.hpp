@@ -10,7 +10,7 @@
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"
 
-namespace barycert::detail {
+namespace barycert::sample {
 
 inline constexpr std::string_view map_magic = "\x89\x42\x43\x4D\r\n\x1A\n";
 inline constexpr std::uint32_t map_version = 1;
@@ -33,7 +33,7 @@ T get_little(const char* at) {
 }
 
 constexpr std::uint64_t map_step(std::uint64_t h, std::uint64_t word) {
-    return mix64((h ^ word) + 0x9e3779b97f4a7c15ULL);
+    return base::mix64((h ^ word) + 0x9e3779b97f4a7c15ULL);
 }
 
 /// Precondition: the size is a multiple of 8.
@@ -72,4 +72,4 @@ inline const char* map_row_fault(const double* point, int dimension, Mesh::Index
     return nullptr;
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::sample

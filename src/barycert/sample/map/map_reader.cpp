@@ -12,7 +12,7 @@
 #include "barycert/sample/map/map_format.hpp"
 
 namespace barycert {
-namespace detail {
+namespace sample {
 
 // Read, not mapped: a file that is cut off meanwhile is then an error and not the end of the process.
 struct MapReaderData {
@@ -38,13 +38,13 @@ private:
     Status next_block();
     Status decode(std::size_t count);
 
-    InputFile file;
+    base::InputFile file;
     std::uint64_t size = 0;      // of the file
     std::uint64_t offset = 0;    // of the next block
     std::uint64_t row = 0;       // the first of the next block
     std::uint64_t checksum = 0;  // of the last block
     std::vector<char> bytes;
-    Table block;      // the last one read
+    Table block;            // the last one read
     std::size_t given = 0;  // rows of it
     Error error;            // what every further call tells
 };
@@ -59,7 +59,7 @@ std::string size_of_mesh(int dimension, std::uint64_t nodes, std::uint64_t cells
 }  // namespace
 
 Status MapReaderData::open(const Mesh& mesh) {
-    Result<InputFile> opened = InputFile::open(name, "save the map to a regular file first");
+    Result<base::InputFile> opened = base::InputFile::open(name, "save the map to a regular file first");
     if (!opened) return opened.error();
     file = std::move(*opened);
     size = file.size();
@@ -74,7 +74,7 @@ Status MapReaderData::fill(std::uint64_t from, std::size_t count) {
         const ssize_t got =
             ::pread(file.descriptor(), bytes.data() + have, count - have, static_cast<off_t>(from + have));
         if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return read_failure(name, errno);
+        if (got < 0) return base::read_failure(name, errno);
         if (got == 0) {
             return damage("the map is cut off", std::to_string(size) + " bytes", std::to_string(from + have));
         }
@@ -217,11 +217,11 @@ Result<std::size_t> MapReaderData::read(std::size_t max_rows, Table& out) {
     return out.cells.size();
 }
 
-}  // namespace detail
+}  // namespace sample
 
 Result<MapReader> MapReader::open(const std::string& path, const Mesh& mesh) {
     const ExactEnvironment environment;
-    auto data = std::make_unique<detail::MapReaderData>(path);
+    auto data = std::make_unique<sample::MapReaderData>(path);
     if (Status opened = data->open(mesh); !opened) return opened.error();
     return MapReader(std::move(data));
 }
@@ -240,7 +240,7 @@ Result<std::size_t> MapReader::read(std::size_t max_rows, Table& rows) {
     return data_->read(max_rows, rows);
 }
 
-MapReader::MapReader(std::unique_ptr<detail::MapReaderData> data) : data_(std::move(data)) {}
+MapReader::MapReader(std::unique_ptr<sample::MapReaderData> data) : data_(std::move(data)) {}
 MapReader::MapReader(MapReader&&) noexcept = default;
 MapReader& MapReader::operator=(MapReader&&) noexcept = default;
 MapReader::~MapReader() = default;

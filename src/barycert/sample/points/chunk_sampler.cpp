@@ -7,11 +7,11 @@
 #include "barycert/quadratic.hpp"
 #include "barycert/sample/points/outside.hpp"
 
-namespace barycert::detail {
+namespace barycert::sample {
 
-void ChunkSampler::operator()(const PointRecord* points, std::size_t count, const Place* owner,
+void ChunkSampler::operator()(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
                               const Feature* feature) {
-    const CellIndex& index = data_.index();
+    const locate::CellIndex& index = data_.index();
     std::size_t inside = 0;
     for (std::size_t i = 0; i < count; ++i) {
         inside_[inside] = {static_cast<std::uint32_t>(i), owner[i]};
@@ -28,24 +28,24 @@ void ChunkSampler::operator()(const PointRecord* points, std::size_t count, cons
                          row(points[inside_[i].point]));
 }
 
-void ChunkSampler::interpolate_linear(const PointRecord* points, std::size_t count) {
-    const CellIndex& index = data_.index();
+void ChunkSampler::interpolate_linear(const locate::PointRecord* points, std::size_t count) {
+    const locate::CellIndex& index = data_.index();
     const std::size_t left =
         interpolate_lanes(index.simplex, index.cells.data(), data_.node_values(), points, inside_.data(), count,
                           options_.rounding, rows_.values, data_.columns.size(), undecided_.data());
     if (options_.rounding == Rounding::plain) return;
     counts_.values.add(Tier::double_double, count - left);
     for (std::size_t i = 0; i < left; ++i) {
-        const Walk& item = inside_[undecided_[i]];
+        const locate::Walk& item = inside_[undecided_[i]];
         interpolate_exactly(points[item.point], item.cell);
     }
 }
 
-void ChunkSampler::interpolate_exactly(const PointRecord& point, Place cell) {
-    const CellIndex& index = data_.index();
+void ChunkSampler::interpolate_exactly(const locate::PointRecord& point, locate::Place cell) {
+    const locate::CellIndex& index = data_.index();
     const std::size_t corners = index.corners();
     const auto& node = index.cells[static_cast<std::size_t>(cell)].node;
-    const std::array<double, 12> vertices = vertices_of(index, cell);
+    const std::array<double, 12> vertices = locate::vertices_of(index, cell);
     const core::ExactWeights weights(index.simplex, vertices.data(), point.at.data());
     counts_.values.add(Tier::exact);
     if (weights.degenerate()) {  // an owner never is, but a caller of evaluate() may name any cell
@@ -64,8 +64,8 @@ void ChunkSampler::interpolate_exactly(const PointRecord& point, Place cell) {
     counts_.values.not_finite += finite ? 0 : 1;
 }
 
-void ChunkSampler::interpolate_second_order(const PointRecord* points, std::size_t count) {
-    const CellIndex& index = data_.index();
+void ChunkSampler::interpolate_second_order(const locate::PointRecord* points, std::size_t count) {
+    const locate::CellIndex& index = data_.index();
     const Mesh& mesh = *data_.located().mesh;
     const std::size_t d = index.dimension();
     cells_.resize(count);
@@ -96,7 +96,7 @@ void copy_cell_values(const SamplerData& data, Mesh::Index cell, double* row) {
     }
 }
 
-void ChunkSampler::outside(const PointRecord& point) {
+void ChunkSampler::outside(const locate::PointRecord& point) {
     double* const values = row(point);
     double* const end = values + data_.columns.size();
     if (rows_.distances != nullptr) rows_.distances[point.number] = std::numeric_limits<double>::quiet_NaN();
@@ -122,4 +122,4 @@ void ChunkSampler::outside(const PointRecord& point) {
     ++counts_.without_value;
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::sample

@@ -9,7 +9,7 @@
 #include "barycert/locate/finder.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
 
-namespace barycert::detail {
+namespace barycert::sample {
 
 /// Where the rows of a block go; row r of the block is for the point of number r.
 struct BlockRows {
@@ -29,28 +29,29 @@ public:
         : data_(data), options_(options), rows_(rows) {}
 
     /// Precondition: finite points; owners are places of cells, or -1 outside.
-    void operator()(const PointRecord* points, std::size_t count, const Place* owner, const Feature* feature);
+    void operator()(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
+                    const Feature* feature);
 
     const SampleCounts& counts() const { return counts_; }
     /// The lowest number of a point outside, if the policy is `error` and there is one.
     std::optional<std::uint32_t> refused() const { return refused_; }
 
 private:
-    void interpolate_linear(const PointRecord* points, std::size_t count);
-    void interpolate_exactly(const PointRecord& point, Place cell);
-    void interpolate_second_order(const PointRecord* points, std::size_t count);
-    void outside(const PointRecord& point);
-    double* row(const PointRecord& point) { return rows_.values + data_.columns.size() * point.number; }
+    void interpolate_linear(const locate::PointRecord* points, std::size_t count);
+    void interpolate_exactly(const locate::PointRecord& point, locate::Place cell);
+    void interpolate_second_order(const locate::PointRecord* points, std::size_t count);
+    void outside(const locate::PointRecord& point);
+    double* row(const locate::PointRecord& point) { return rows_.values + data_.columns.size() * point.number; }
 
     const SamplerData& data_;
     const SampleOptions& options_;
     BlockRows rows_;
     SampleCounts counts_;
     std::optional<std::uint32_t> refused_;
-    std::array<Walk, chunk_size> inside_;
-    std::array<std::uint32_t, chunk_size> undecided_;
+    std::array<locate::Walk, locate::chunk_size> inside_;
+    std::array<std::uint32_t, locate::chunk_size> undecided_;
     std::vector<Mesh::Index> cells_;
     std::vector<double> points_, values_;
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::sample

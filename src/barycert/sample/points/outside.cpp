@@ -13,7 +13,7 @@
 #include "barycert/quadratic.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"
 
-namespace barycert::detail {
+namespace barycert::sample {
 namespace {
 
 /// Component c of the point fields at a node of the mesh.
@@ -42,8 +42,8 @@ struct Piece {
     }
 };
 
-NearFeature feature_of(const Mesh& mesh, const std::vector<Mesh::Index>& nodes) {
-    NearFeature f{.count = static_cast<int>(nodes.size())};
+locate::NearFeature feature_of(const Mesh& mesh, const std::vector<Mesh::Index>& nodes) {
+    locate::NearFeature f{.count = static_cast<int>(nodes.size())};
     const auto d = static_cast<std::size_t>(mesh.dimension);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         f.nodes[i] = nodes[i];
@@ -78,7 +78,7 @@ double linear(const SamplerData& data, Rounding rounding, const Piece& piece, co
 
 /// All components in plain double, of a point projected: with weights that are not negative, and rounded once each,
 /// what is beyond the nodal values is rounding alone.
-void plain_projected(const SamplerData& data, const NearFeature& feature, const std::array<double, 3>& weights,
+void plain_projected(const SamplerData& data, const locate::NearFeature& feature, const std::array<double, 3>& weights,
                      double* out) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < data.point_components; ++c) {
@@ -112,8 +112,9 @@ void quadratic(const SamplerData& data, Rounding rounding, std::size_t cell, con
 /// which is 1 less the others, exactly: these are at most 1/2, and 2/3 together. A value depends on weights alone, so
 /// it is that of the point with these others as coordinates in the cell with the unit vectors as corners, the corner of
 /// the largest weight at the origin.
-void quadratic_projected(const SamplerData& data, Rounding rounding, std::size_t cell, const NearFeature& feature,
-                         const std::array<double, 3>& weights, double* out, TierCounts& tiers) {
+void quadratic_projected(const SamplerData& data, Rounding rounding, std::size_t cell,
+                         const locate::NearFeature& feature, const std::array<double, 3>& weights, double* out,
+                         TierCounts& tiers) {
     const Mesh& mesh = *data.located().mesh;
     const std::size_t d = static_cast<std::size_t>(mesh.dimension), corners = d + 1;
     const auto mids = static_cast<std::size_t>(mid_node_count(data.index().simplex));
@@ -182,13 +183,13 @@ std::optional<double> value_outside(const SamplerData& data, const SampleOptions
     } else if (data.point_components != 0) {
         const Piece piece = snap ? Piece(mesh, nodes.size() == 3 ? Simplex::triangle3d : Simplex::segment, nodes)
                                  : cell_piece(data, cell);
-        const NearFeature feature = snap ? feature_of(mesh, nodes) : NearFeature{};
+        const locate::NearFeature feature = snap ? feature_of(mesh, nodes) : locate::NearFeature{};
         if (data.quadratic && snap) {
-            quadratic_projected(data, options.rounding, cell, feature, weights_of(at, feature), values, used);
+            quadratic_projected(data, options.rounding, cell, feature, locate::weights_of(at, feature), values, used);
         } else if (data.quadratic) {
             quadratic(data, options.rounding, cell, at.data(), values, used);
         } else if (snap && options.rounding == Rounding::plain) {
-            plain_projected(data, feature, weights_of(at, feature), values);
+            plain_projected(data, feature, locate::weights_of(at, feature), values);
         } else {
             for (std::size_t c = 0; c < data.point_components; ++c)
                 values[c] = linear(data, options.rounding, piece, at.data(), c, used);
@@ -202,4 +203,4 @@ std::optional<double> value_outside(const SamplerData& data, const SampleOptions
     return nearest.distance;
 }
 
-}  // namespace barycert::detail
+}  // namespace barycert::sample

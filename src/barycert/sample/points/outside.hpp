@@ -5,7 +5,7 @@
 
 #include "barycert/sample/points/sampler_data.hpp"
 
-namespace barycert::detail {
+namespace barycert::sample {
 
 /// Under the policies nearest and extrapolate: sets one value a column and returns the distance to the mesh; nothing if
 /// no point of the mesh is within the limit. Point fields get, correctly rounded or plain as asked for, the value at
@@ -15,4 +15,4 @@ namespace barycert::detail {
 std::optional<double> value_outside(const SamplerData& data, const SampleOptions& options, const double* point,
                                     double* values, TierCounts& tiers);
 
-}  // namespace barycert::detail
+}  // namespace barycert::sample

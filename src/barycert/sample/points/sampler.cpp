@@ -13,8 +13,8 @@
 namespace barycert {
 namespace {
 
-using detail::Place;
-using detail::SamplerData;
+using locate::Place;
+using sample::SamplerData;
 
 Status check_field(const Mesh& mesh, const FieldChoice& choice) {
     if (choice.field == nullptr) return Error{.what = "a field is missing"};
@@ -44,13 +44,13 @@ void for_values(const SamplerData& data, Visit visit) {
 }
 
 void arrange_by_place(SamplerData& data) {
-    const detail::CellIndex& index = data.index();
+    const locate::CellIndex& index = data.index();
     const std::size_t nodes = index.original_node.size();
-    data.nodes = detail::Buffer<detail::NodeRecord>(nodes);
+    data.nodes = locate::Buffer<locate::NodeRecord>(nodes);
     std::copy_n(index.nodes.begin(), nodes, data.nodes.begin());
     const std::size_t groups = (data.point_components + 2) / 4;
-    data.more = detail::Buffer<detail::ValueRecord>(groups * nodes);
-    std::fill(data.more.begin(), data.more.end(), detail::ValueRecord{});
+    data.more = locate::Buffer<sample::ValueRecord>(groups * nodes);
+    std::fill(data.more.begin(), data.more.end(), sample::ValueRecord{});
     for_values(data, [&](std::size_t first, std::size_t components, const std::vector<double>& values) {
         for (std::size_t place = 0; place < nodes; ++place) {
             const double* const from =
@@ -82,7 +82,7 @@ Status check_call(const SamplerData& data, std::span<const double> points, std::
         return Error{.what = "size of the points",
                      .expected = std::to_string(d) + " coordinates a point",
                      .found = std::to_string(points.size()) + " numbers"};
-    return detail::check_finite(points, d, first_point);
+    return locate::check_finite(points, d, first_point);
 }
 
 bool gives_distances(const OutsidePolicy& policy) {
@@ -99,7 +99,7 @@ void resize(const SamplerData& data, const SampleOptions& options, std::size_t r
     if (gives_distances(options.outside)) out.distances.assign(rows, 0);
 }
 
-detail::BlockRows rows_from(const SamplerData& data, std::size_t first, Table& out) {
+sample::BlockRows rows_from(const SamplerData& data, std::size_t first, Table& out) {
     return {out.cells.data() + first, out.features.data() + first, out.values.data() + first * data.columns.size(),
             out.distances.empty() ? nullptr : out.distances.data() + first};
 }
@@ -117,12 +117,13 @@ public:
         if (rows_) data_.rows.put(std::move(rows_));
     }
 
-    void operator()(const detail::PointRecord* points, std::size_t count, const Place* owner, const Feature* feature) {
+    void operator()(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
+                    const Feature* feature) {
         (*sampler_)(points, count, owner, feature);
     }
-    const detail::ChunkSampler& sampler() const { return *sampler_; }
+    const sample::ChunkSampler& sampler() const { return *sampler_; }
 
-    void write(const detail::SortedPoints& sorted, std::size_t first, Table& out) const {
+    void write(const locate::SortedPoints& sorted, std::size_t first, Table& out) const {
         const std::size_t columns = data_.columns.size();
         const Table& rows = *rows_;
         sorted.for_each_in_callers_order(
@@ -142,7 +143,7 @@ public:
 private:
     const SamplerData& data_;
     std::unique_ptr<Table> rows_;
-    std::optional<detail::ChunkSampler> sampler_;
+    std::optional<sample::ChunkSampler> sampler_;
 };
 
 /// What becomes of the blocks of a call: their counts, and the first point that the policy refuses.
@@ -151,7 +152,7 @@ public:
     explicit Outcome(std::size_t blocks) : counts_(blocks), refused_(blocks) {}
 
     /// `first`: where the rows of the block begin in `out`.
-    void set(std::size_t block, std::size_t first, const detail::ChunkSampler& sampler, const Table& out) {
+    void set(std::size_t block, std::size_t first, const sample::ChunkSampler& sampler, const Table& out) {
         counts_[block] = sampler.counts();
         if (!sampler.refused()) return;
         const auto begin = out.cells.begin() + static_cast<std::ptrdiff_t>(first);
@@ -237,15 +238,15 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
     out.point_begin.clear();
     LocationCounts locations;
     Status status = Done{};
-    detail::in_arena(options.threads, [&] {
-        const std::size_t count = out.cells.size(), block = detail::block_of(count);
+    locate::in_arena(options.threads, [&] {
+        const std::size_t count = out.cells.size(), block = locate::block_of(count);
         Outcome outcome((count + block - 1) / block);
         const auto make = [&](std::size_t, std::size_t size) { return SortedRows(*data_, options, size); };
-        const auto keep = [&](std::size_t first, const detail::SortedPoints& sorted, SortedRows& rows) {
+        const auto keep = [&](std::size_t first, const locate::SortedPoints& sorted, SortedRows& rows) {
             rows.write(sorted, first, out);
             outcome.set(first / block, first, rows.sampler(), out);
         };
-        detail::for_chunks(data_->located(), points, locations, make, keep);
+        locate::for_chunks(data_->located(), points, locations, make, keep);
         status = outcome.status(first_point);
         outcome.add_to(out.counts);
     });
@@ -273,17 +274,17 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
                          .found = std::to_string(cell)};
     }
     resize(*data_, options, count, out);
-    const std::vector<Place>& places = data_->located().places();
+    const std::vector<locate::Place>& places = data_->located().places();
     constexpr std::size_t block = std::size_t{1} << 13;
     Outcome outcome((count + block - 1) / block);
-    detail::in_arena(options.threads, [&] {
+    locate::in_arena(options.threads, [&] {
         tbb::parallel_for(std::size_t{0}, (count + block - 1) / block, [&](std::size_t b) {
             const std::size_t first = b * block, last = std::min(count, first + block);
-            detail::ChunkSampler sampler(*data_, options, rows_from(*data_, first, out));
-            std::array<detail::PointRecord, detail::chunk_size> records{};
-            std::array<Place, detail::chunk_size> owner;
-            for (std::size_t at = first; at < last; at += detail::chunk_size) {
-                const std::size_t n = std::min(detail::chunk_size, last - at);
+            sample::ChunkSampler sampler(*data_, options, rows_from(*data_, first, out));
+            std::array<locate::PointRecord, locate::chunk_size> records{};
+            std::array<locate::Place, locate::chunk_size> owner;
+            for (std::size_t at = first; at < last; at += locate::chunk_size) {
+                const std::size_t n = std::min(locate::chunk_size, last - at);
                 for (std::size_t i = 0; i < n; ++i) {
                     for (std::size_t k = 0; k < d; ++k) records[i].at[k] = points[d * (at + i) + k];
                     records[i].number = static_cast<std::uint32_t>(at + i - first);

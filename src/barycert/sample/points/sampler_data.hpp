@@ -9,7 +9,7 @@
 #include "barycert/sample/points/value_lanes.hpp"
 #include "barycert/sampler.hpp"
 
-namespace barycert::detail {
+namespace barycert::sample {
 
 struct SamplerData {
     std::unique_ptr<const Locator> own_locator;  ///< unless it is somebody else's
@@ -21,15 +21,15 @@ struct SamplerData {
     bool quadratic = false;
 
     // Linear cells: values of point fields in the order of the locator's nodes.
-    Buffer<NodeRecord> nodes;
-    Buffer<ValueRecord> more;
+    locate::Buffer<locate::NodeRecord> nodes;
+    locate::Buffer<ValueRecord> more;
     // Quadratic ones: component c of node i of the mesh at values[point_components * i + c].
     std::vector<double> values;
 
-    Pool<Table> rows;  ///< room for blocks of them, in the order in which they are found
+    locate::Pool<Table> rows;  ///< room for blocks of them, in the order in which they are found
 
-    const LocatorData& located() const { return locator->data(); }
-    const CellIndex& index() const { return locator->data().index; }
+    const locate::LocatorData& located() const { return locator->data(); }
+    const locate::CellIndex& index() const { return locator->data().index; }
     NodeValues node_values() const {
         return {nodes.data(), more.data(), index().original_node.size(), point_components};
     }
@@ -40,4 +40,4 @@ struct SamplerData {
     }
 };
 
-}  // namespace barycert::detail
+}  // namespace barycert::sample

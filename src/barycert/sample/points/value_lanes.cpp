@@ -13,16 +13,16 @@
 #include "barycert/locate/records-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert {
+namespace barycert::sample {
 namespace HWY_NAMESPACE {
 
 using namespace core::HWY_NAMESPACE;
+using namespace locate::HWY_NAMESPACE;
 
-using detail::CellRecord;
-using detail::NodeRecord;
-using detail::NodeValues;
-using detail::PointRecord;
-using detail::Walk;
+using locate::CellRecord;
+using locate::NodeRecord;
+using locate::PointRecord;
+using locate::Walk;
 
 /// Values of refined weights, or plain ones: value(f) for the nodal values f of a component, clearing `certain` where
 /// it is not.
@@ -67,8 +67,9 @@ HWY_INLINE void scatter(D tag, hn::Vec<D> v, double* const* to, std::size_t offs
 
 /// Items [0, width). Returns the mask of those decided.
 template <Simplex s, template <Simplex, class, class> class Values, class D>
-HWY_INLINE hn::Mask<D> evaluate(D tag, const CellRecord* cells, const NodeValues& nodes, const PointRecord* points,
-                                const Walk* items, double* out, std::size_t stride) {
+HWY_INLINE hn::Mask<D> evaluate(D tag, const locate::CellRecord* cells, const NodeValues& nodes,
+                                const locate::PointRecord* points, const locate::Walk* items, double* out,
+                                std::size_t stride) {
     using V = hn::Vec<D>;
     constexpr std::size_t width = hn::MaxLanes(D());
     constexpr int n = vertex_count(s), d = space_dimension(s);
@@ -93,7 +94,7 @@ HWY_INLINE hn::Mask<D> evaluate(D tag, const CellRecord* cells, const NodeValues
     hn::Mask<D> certain = values.certain();
     scatter(tag, values.at(tag, f, certain), to, 0);
     for (std::size_t first = 1; first < nodes.components; first += 4) {
-        const detail::ValueRecord* const more = nodes.more + (first - 1) / 4 * nodes.node_count;
+        const sample::ValueRecord* const more = nodes.more + (first - 1) / 4 * nodes.node_count;
         V g[4][n];
         for (int i = 0; i < n; ++i) {
             V v[4];
@@ -108,8 +109,9 @@ HWY_INLINE hn::Mask<D> evaluate(D tag, const CellRecord* cells, const NodeValues
 }
 
 template <Simplex s, template <Simplex, class, class> class Values>
-std::size_t evaluate_all(const CellRecord* cells, const NodeValues& nodes, const PointRecord* points, const Walk* items,
-                         std::size_t count, double* out, std::size_t stride, std::uint32_t* undecided) {
+std::size_t evaluate_all(const locate::CellRecord* cells, const NodeValues& nodes, const locate::PointRecord* points,
+                         const locate::Walk* items, std::size_t count, double* out, std::size_t stride,
+                         std::uint32_t* undecided) {
     std::size_t found = 0, at = 0;
     const auto run = [&](auto tag) HWY_ATTR {
         using D = decltype(tag);
@@ -131,17 +133,17 @@ std::size_t evaluate_all(const CellRecord* cells, const NodeValues& nodes, const
 }
 
 template <Simplex s>
-std::size_t evaluate_rounded(const CellRecord* cells, const NodeValues& nodes, const PointRecord* points,
-                             const Walk* items, std::size_t count, Rounding rounding, double* out, std::size_t stride,
-                             std::uint32_t* undecided) {
+std::size_t evaluate_rounded(const locate::CellRecord* cells, const NodeValues& nodes,
+                             const locate::PointRecord* points, const locate::Walk* items, std::size_t count,
+                             Rounding rounding, double* out, std::size_t stride, std::uint32_t* undecided) {
     return rounding == Rounding::plain
                ? evaluate_all<s, PlainValues>(cells, nodes, points, items, count, out, stride, undecided)
                : evaluate_all<s, RefinedValues>(cells, nodes, points, items, count, out, stride, undecided);
 }
 
-std::size_t interpolate_lanes(Simplex s, const CellRecord* cells, const NodeValues& nodes, const PointRecord* points,
-                              const Walk* items, std::size_t count, Rounding rounding, double* out, std::size_t stride,
-                              std::uint32_t* undecided) {
+std::size_t interpolate_lanes(Simplex s, const locate::CellRecord* cells, const NodeValues& nodes,
+                              const locate::PointRecord* points, const locate::Walk* items, std::size_t count,
+                              Rounding rounding, double* out, std::size_t stride, std::uint32_t* undecided) {
     return s == Simplex::triangle ? evaluate_rounded<Simplex::triangle>(cells, nodes, points, items, count, rounding,
                                                                         out, stride, undecided)
                                   : evaluate_rounded<Simplex::tetrahedron>(cells, nodes, points, items, count, rounding,
@@ -149,20 +151,20 @@ std::size_t interpolate_lanes(Simplex s, const CellRecord* cells, const NodeValu
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace barycert
+}  // namespace barycert::sample
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace barycert {
+namespace barycert::sample {
 
 HWY_EXPORT(interpolate_lanes);
 
-std::size_t detail::interpolate_lanes(Simplex s, const CellRecord* cells, const NodeValues& nodes,
-                                      const PointRecord* points, const Walk* items, std::size_t count,
-                                      Rounding rounding, double* out, std::size_t stride, std::uint32_t* undecided) {
+std::size_t interpolate_lanes(Simplex s, const locate::CellRecord* cells, const NodeValues& nodes,
+                              const locate::PointRecord* points, const locate::Walk* items, std::size_t count,
+                              Rounding rounding, double* out, std::size_t stride, std::uint32_t* undecided) {
     return HWY_DYNAMIC_DISPATCH(interpolate_lanes)(s, cells, nodes, points, items, count, rounding, out, stride,
                                                    undecided);
 }
 
-}  // namespace barycert
+}  // namespace barycert::sample
 #endif

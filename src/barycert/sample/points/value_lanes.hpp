@@ -9,7 +9,7 @@
 #include "barycert/locate/walk_lanes.hpp"
 #include "barycert/weights.hpp"
 
-namespace barycert::detail {
+namespace barycert::sample {
 
 /// Four further components of the values of a node: one aligned load, as a NodeRecord.
 struct alignas(32) ValueRecord {
@@ -18,7 +18,7 @@ struct alignas(32) ValueRecord {
 
 /// What is read of a node: its coordinates and component 0 side by side, then components in fours.
 struct NodeValues {
-    const NodeRecord* first = nullptr;
+    const locate::NodeRecord* first = nullptr;
     const ValueRecord* more =
         nullptr;  ///< component c >= 1 of a node: more[(c - 1) / 4 * node_count + node], (c - 1) % 4
     std::size_t node_count = 0;
@@ -28,8 +28,8 @@ struct NodeValues {
 /// Component c of the value of points[items[j].point] in cell items[j].cell, linear, goes to out[stride * number + c],
 /// with the number that stands in the record of the point. Returns how many j are undecided, these in undecided[0 ...],
 /// ascending, with nothing said of their values. Rounding::plain decides all.
-std::size_t interpolate_lanes(Simplex simplex, const CellRecord* cells, const NodeValues& nodes,
-                              const PointRecord* points, const Walk* items, std::size_t count, Rounding rounding,
-                              double* out, std::size_t stride, std::uint32_t* undecided);
+std::size_t interpolate_lanes(Simplex simplex, const locate::CellRecord* cells, const NodeValues& nodes,
+                              const locate::PointRecord* points, const locate::Walk* items, std::size_t count,
+                              Rounding rounding, double* out, std::size_t stride, std::uint32_t* undecided);
 
-}  // namespace barycert::detail
+}  // namespace barycert::sample

@@ -1,0 +1,30 @@
+# Joined sources: a compiler run takes several sources of a folder at once, for most of the time of a run goes into the
+# headers that they share. -DBARYCERT_UNITY=OFF compiles each alone; `./run lint` reads each alone in any case.
+if(PROJECT_IS_TOP_LEVEL)
+  option(BARYCERT_UNITY "Compile several sources of a folder in one compiler run" ON)
+endif()
+
+# barycert_join(TARGET [FOLDERS REGEX]): joins the sources of the target in its folders, or in those that match, by up to
+# eight. Sources with options of their own stay alone: the options would be lost. Call it from the folder of the target.
+function(barycert_join target)
+  if(NOT PROJECT_IS_TOP_LEVEL OR NOT BARYCERT_UNITY)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "FOLDERS" "" ${ARGN})
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    get_filename_component(path ${source} ABSOLUTE)
+    get_filename_component(folder ${path} DIRECTORY)
+    file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
+    get_source_file_property(options ${source} COMPILE_OPTIONS)
+    get_source_file_property(definitions ${source} COMPILE_DEFINITIONS)
+    if(options OR definitions OR (ARG_FOLDERS AND NOT folder MATCHES "${ARG_FOLDERS}"))
+      continue()
+    endif()
+    string(MAKE_C_IDENTIFIER ${folder} group)
+    math(EXPR count_${group} "0${count_${group}} + 1")
+    math(EXPR part "(${count_${group}} - 1) / 8")
+    set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${group}_${part})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()
