@@ -47,7 +47,7 @@ TEST(Families, NamesAreUniqueAndExplained) {
     std::set<std::string> names;
     for (const Family& f : all_families()) {
         EXPECT_TRUE(names.insert(f.name).second) << f.name;
-        EXPECT_FALSE(f.after.empty()) << f.name;
+        EXPECT_FALSE(f.tests.empty()) << f.name;
         EXPECT_FALSE(f.parameters.empty()) << f.name;
         EXPECT_FALSE(f.simplices.empty()) << f.name;
     }

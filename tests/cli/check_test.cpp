@@ -243,7 +243,7 @@ TEST(check, the_copy_does_not_mix_with_another_mesh) {
     EXPECT_EQ(r.out, "");
     EXPECT_EQ(r.err,
               "error: " + scratch.path("other.face") +
-                  ": a file of another mesh stands in the way; remove it, or give --fix-orientation another name\n");
+                  ": a file of another mesh would be left beside the copy; remove it, or give --fix-orientation another name\n");
     EXPECT_EQ(scratch.names(), (Words{"m.ele", "m.node", "other.face"}));
 }
 

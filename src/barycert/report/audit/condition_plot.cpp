@@ -144,12 +144,13 @@ std::string condition_plot(const AuditReport& report) {
             error = std::max(error, std::ceil(error_bits(bin.worst)) + 1);
         }
     }
-    const Axis x{.low = 0, .high = bits, .from = 70, .to = 710, .title = "log2 κ: bits that the cell may cost"};
+    const Axis x{
+        .low = 0, .high = bits, .from = 70, .to = 710, .title = "log2 κ: accuracy at risk from the cell's shape, bits"};
     const Axis y{.low = least_bits - 1,
                  .high = error,
                  .from = 500,
                  .to = 60,
-                 .title = "log2 (error / 2⁻⁵³): bits that are lost"};
+                 .title = "log2 (error / 2⁻⁵³): accuracy lost, bits"};
     draw_frame(svg, x, y);
     draw_line_through(svg, x, y, {0, 53}, {1, 53}, {.colour = "#888", .width = 1.2, .dashes = "8 4"});
     draw_line_through(svg, x, y, {0, 0}, {1, 1}, {.colour = "#000", .width = 2});
