@@ -1,4 +1,4 @@
-/// Internal: what recipes share.
+/// What recipes share.
 #pragma once
 
 #include <utility>

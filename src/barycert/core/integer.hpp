@@ -1,4 +1,4 @@
-/// Internal: exact integers without heap, for what floating point cannot decide.
+/// Exact integers without heap, for what floating point cannot decide.
 ///
 /// Sign and magnitude in limbs of 64 bits, as many as the number needs, in a fixed place on the stack. Why integers and
 /// not floating-point expansions: a finite double is a small integer times a power of two, so after one shift per
