@@ -100,7 +100,8 @@ Error tetgen_error(const Options& options, const ChildOutcome& outcome, const st
         error.what = fmt::format("TetGen did not end within {} s", options.timeout);
         error.remedy = "raise --timeout, or ask for larger cells";
     } else if (verdict == "memory" || (outcome.signal && *outcome.signal == SIGKILL)) {
-        error.what = verdict == "memory" ? "TetGen ran out of memory" : "TetGen was killed, likely for want of memory";
+        error.what =
+            verdict == "memory" ? "TetGen ran out of memory" : "TetGen was killed, probably because memory ran out";
         error.remedy = "ask for larger cells";
     } else if (outcome.signal) {
         error.what = fmt::format("TetGen crashed by signal {} ({})", *outcome.signal, strsignal(*outcome.signal));
@@ -113,7 +114,7 @@ Error tetgen_error(const Options& options, const ChildOutcome& outcome, const st
         error.what = fmt::format("{} (its code {})", meaning_of(code).what, code);
         error.remedy = meaning_of(code).remedy;
     } else {
-        error.what = fmt::format("TetGen left by exit({})", outcome.exit_code);
+        error.what = fmt::format("TetGen exited with code {}", outcome.exit_code);
         error.remedy = "repair the PLC, or try other options";
     }
     return error;
