@@ -62,7 +62,7 @@ Result<std::vector<std::string>> own_meshes() {
         if (entry.path().extension() == ".node") paths.push_back(entry.path().string());
     }
     if (paths.empty()) {
-        return Error{.what = "barycert's own meshes are not there",
+        return Error{.what = "barycert's own meshes are missing",
                      .file = (folder / "meshes").string(),
                      .remedy = "name a mesh, or set BARYCERT_DATA_DIR to the folder `data` of barycert's sources"};
     }
@@ -103,7 +103,7 @@ Result<std::vector<Kernel>> select_kernels(const std::vector<std::string>& globs
         Result<Kernel> kernel = load_kernel_library(path);
         if (!kernel) return kernel.error();
         if (std::any_of(chosen->begin(), chosen->end(), [&](const Kernel& k) { return k.name == kernel->name; })) {
-            return Error{.what = "two kernel libraries give the same name",
+            return Error{.what = "two kernel libraries have the same name",
                          .file = path,
                          .found = kernel->name,
                          .remedy = "set another info->name in one of them"};

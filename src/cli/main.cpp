@@ -38,11 +38,11 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", "barycert " BARYCERT_VERSION);
     app.require_subcommand(1);
     app.footer(
-        "Exit codes: 0 clean, 1 findings beyond the thresholds given or a mesh that is not certified, 2 usage or input "
-        "error.\nTables go to stdout, all else to stderr. `barycert SUBCOMMAND --help` explains each.");
+        "Exit codes: 0 success; 1 threshold exceeded, mesh not certified or witness not reproduced; 2 usage or input "
+        "error.\nTables go to stdout, everything else to stderr. `barycert SUBCOMMAND --help` explains each.");
     app.failure_message([](const CLI::App*, const CLI::Error& e) {
         return "error: " + base::printable(e.what()) +
-               "; `barycert --help` and `barycert SUBCOMMAND --help` list what there is\n";
+               "; `barycert --help` and `barycert SUBCOMMAND --help` list subcommands and options\n";
     });
     int exit_code = cli::exit_clean;
 #ifdef BARYCERT_WITH_AUDIT

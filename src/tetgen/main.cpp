@@ -100,7 +100,8 @@ Error tetgen_error(const Options& options, const ChildOutcome& outcome, const st
         error.what = fmt::format("TetGen did not end within {} s", options.timeout);
         error.remedy = "raise --timeout, or ask for larger cells";
     } else if (verdict == "memory" || (outcome.signal && *outcome.signal == SIGKILL)) {
-        error.what = verdict == "memory" ? "TetGen ran out of memory" : "TetGen was killed, likely for want of memory";
+        error.what =
+            verdict == "memory" ? "TetGen ran out of memory" : "TetGen was killed, probably because memory ran out";
         error.remedy = "ask for larger cells";
     } else if (outcome.signal) {
         error.what = fmt::format("TetGen crashed by signal {} ({})", *outcome.signal, strsignal(*outcome.signal));
@@ -113,7 +114,7 @@ Error tetgen_error(const Options& options, const ChildOutcome& outcome, const st
         error.what = fmt::format("{} (its code {})", meaning_of(code).what, code);
         error.remedy = meaning_of(code).remedy;
     } else {
-        error.what = fmt::format("TetGen left by exit({})", outcome.exit_code);
+        error.what = fmt::format("TetGen exited with code {}", outcome.exit_code);
         error.remedy = "repair the PLC, or try other options";
     }
     return error;
@@ -174,7 +175,7 @@ int run(const Options& options) {
 }  // namespace barycert
 
 int main(int argc, char** argv) {
-    barycert::remove_begun_files_on_signals();
+    barycert::base::remove_begun_files_on_signals();
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, like a full disk
     // The child that runs TetGen has it too.
     const barycert::ExactEnvironment environment;
@@ -182,7 +183,7 @@ int main(int argc, char** argv) {
         const barycert::Parsed parsed = barycert::parse_options(argc, argv);
         return parsed.exit_code ? *parsed.exit_code : barycert::run(parsed.options);
     } catch (const std::exception& problem) {
-        fmt::print(stderr, "error: {}\n", barycert::printable(problem.what()));
+        fmt::print(stderr, "error: {}\n", barycert::base::printable(problem.what()));
         return 2;
     }
 }

@@ -109,22 +109,23 @@ Parsed parse_options(int argc, char** argv) {
     app.name("barycert-tetgen");
     app.set_version_flag("--version", "barycert-tetgen " BARYCERT_VERSION " (TetGen 1.5)");
     app.add_option("INPUT", options.input, "the PLC: .poly, .smesh, .off, .stl or .ply");
-    app.add_option("--output", options.output, "stem of the files written (default: INPUT's stem and .1)");
-    auto* quality = app.add_option("--quality", ratio, "bound the radius-edge ratio, by 2 unless given (TetGen -q)")
+    app.add_option("--output", options.output, "stem of the output files (default: stem of INPUT plus .1)");
+    auto* quality = app.add_option("--quality", ratio, "max radius-edge ratio, default 2 (TetGen -q)")
                         ->expected(0, 1)
                         ->type_name("[RATIO]");
     auto* dihedral =
-        app.add_option("--min-dihedral", min_dihedral, "smallest dihedral angle wished, in degrees")->type_name("DEG");
-    auto* volume = app.add_option("--max-volume", max_volume, "largest volume of a cell (TetGen -a)")->type_name("V");
+        app.add_option("--min-dihedral", min_dihedral, "min dihedral angle to aim for, in degrees")->type_name("DEG");
+    auto* volume = app.add_option("--max-volume", max_volume, "max volume of a cell (TetGen -a)")->type_name("V");
     auto* order = app.add_option("--order", options.order, "2: second-order cells of ten nodes (TetGen -o2)")
                       ->check(CLI::IsMember({1, 2}));
     auto* keep = app.add_flag("--keep-boundary", options.keep_boundary, "add no nodes on the boundary (TetGen -Y)");
     auto* raw =
-        app.add_option("--switches", switches, "TetGen's own switches instead, such as pq1.4a0.1")->type_name("STRING");
+        app.add_option("--switches", switches, "TetGen's own switches instead of these options, such as pq1.4a0.1")
+            ->type_name("STRING");
     auto* base = app.add_option("--index-base", index_base, "number from 0 or 1 (default: as INPUT does)")
                      ->check(CLI::IsMember({0, 1}));
     app.add_flag("--quiet", options.quiet, "no summary");
-    auto* limit = app.add_option("--timeout", timeout, "give up after this time")->type_name("SECONDS");
+    auto* limit = app.add_option("--timeout", timeout, "stop after this time")->type_name("SECONDS");
     for (auto* option : {quality, dihedral, volume, order, keep}) raw->excludes(option);
     try {
         app.parse(argc, argv);

@@ -49,7 +49,7 @@ std::set<std::string> failed_kernels(const std::string& err, const std::string& 
     std::set<std::string> kernels;
     for (const std::string& line : lines_of(err)) {
         EXPECT_EQ(line.rfind("fails: ", 0), 0U) << line;
-        EXPECT_TRUE(contains(line, ": " + rule + " is ")) << line;
+        EXPECT_TRUE(contains(line, ": " + rule + " = ")) << line;
         kernels.insert(line.substr(7, line.find(':', 7) - 7));
     }
     return kernels;
@@ -113,7 +113,7 @@ TEST(fail_on, several_rules_each_tell_and_the_files_are_written_all_the_same) {
                                  "--json", scratch.path("r.json")}));
     EXPECT_EQ(r.code, 1);
     EXPECT_TRUE(contains(r.err, ": opposite_sign is "));
-    EXPECT_TRUE(contains(r.err, "fails: tetrahedron.user-swapped: false_certificate is "));
+    EXPECT_TRUE(contains(r.err, "fails: tetrahedron.user-swapped: false_certificate = "));
     EXPECT_FALSE(contains(r.err, ": any is "));
     EXPECT_TRUE(contains(r.out, "tetrahedron.homogeneous"));
     EXPECT_EQ(parse(base::read_file(scratch.path("r.json")))["kernels"].size(), 3U);

@@ -66,7 +66,7 @@ TEST(usage, what_is_not_understood_is_refused) {
         {{"audit", "--fail-on", "any>"}, "bad limit in a rule"},
         {{"kernels", "zzz"}, "found \"zzz\""},
         {{"families", "zzz"}, "found \"zzz\""},
-        {{"replay"}, "name a witness file, or a case by --family and --case"},
+        {{"replay"}, "no case to replay: give a witness file, or --family and --case"},
         {{"replay", "w.json", "--family", "huge", "--case", "1"}, "name a witness file, or a case"},
         {{"replay", "--family", "huge"}, "--family needs --case"},
         {{"replay", "--family", "hu*", "--case", "1"}, "--family must name one family"},

@@ -37,7 +37,7 @@ TEST(user_kernel, a_right_formula_is_clean_where_cases_are_easy_and_a_swapped_on
         run({"audit", "--count", "50", "--kernel-library", BARYCERT_SWAPPED_KERNEL, "--fail-on", "false_certificate"});
     EXPECT_EQ(table.code, 1);
     EXPECT_TRUE(contains(table.out, "certifies its answers, and "));
-    EXPECT_TRUE(contains(table.err, "fails: tetrahedron.user-swapped: false_certificate is "));
+    EXPECT_TRUE(contains(table.err, "fails: tetrahedron.user-swapped: false_certificate = "));
 }
 
 TEST(user_kernel, what_is_no_kernel_library_is_refused) {
