@@ -242,8 +242,7 @@ TEST(check, the_copy_does_not_mix_with_another_mesh) {
     EXPECT_EQ(r.code, 2);
     EXPECT_EQ(r.out, "");
     EXPECT_EQ(r.err, "error: " + scratch.path("other.face") +
-                         ": a file of another mesh would be left beside the copy; remove it, or give --fix-orientation "
-                         "another name\n");
+                         ": a file of another mesh exists; remove it, or give --fix-orientation another name\n");
     EXPECT_EQ(scratch.names(), (Words{"m.ele", "m.node", "other.face"}));
 }
 
@@ -354,8 +353,7 @@ TEST(check, help_tells_options_and_exit_codes) {
           "--quiet", "Exit codes: 0 certified, 1 not certified, 2 "})
         EXPECT_TRUE(contains(r.out, word)) << word;
     EXPECT_TRUE(contains(run({"--help"}).out, "\n  check "));
-    EXPECT_TRUE(
-        contains(run({"--help"}).out, "1 findings beyond the thresholds given or a mesh that is not certified"));
+    EXPECT_TRUE(contains(run({"--help"}).out, "1 threshold exceeded, mesh not certified or witness not reproduced"));
 }
 
 }  // namespace

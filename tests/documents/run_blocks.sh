@@ -16,6 +16,8 @@
 # - Each paragraph of a ```c or ```cpp block stands in one program of doc/examples, in the same order. The program must
 #   exit with 0; a ```text block right after the block is what it prints.
 # - Relative links lead to files that exist.
+#
+# With UPDATE=1 in the environment a ```text block that differs, and leaves nothing out, is replaced by what is printed.
 # - Commands that install packages, build or take long are in `not_run` below, and nowhere else.
 set -eu
 document=$1 sources=$2 programs=$3 examples=$4 folder=$5
@@ -177,15 +179,26 @@ for block in "$folder"/blocks/*; do
         *.text)
             if [ -e "$folder/blocks/$number.follows" ] && [ "$printed" = yes ]; then
                 cp "$output" "$folder/blocks/$number.printed"
-                compare "$block" "$output" || fails "not what the block above it prints (block $number)"
+                if ! compare "$block" "$output"; then
+                    fails "not what the block above it prints (block $number)"
+                    grep -q '\.\.\.$' "$block" || : >"$folder/blocks/$number.update"
+                fi
             fi
             printed=no
             ;;
-        *.follows | *.printed) ;;
+        *.follows | *.printed | *.update) ;;
         *) printed=no ;;
     esac
 done
 for link in $(awk '/^```/ { code = !code } !code' "$sources/$document" | grep -oE '(\]\(|src=")[^)"#: ]+' | sed -E 's/^(\]\(|src=")//'); do
     [ -e "$(dirname "$sources/$document")/$link" ] || fails "no such file: $link"
 done
+if [ "${UPDATE:-0}" = 1 ]; then
+    awk -v folder="$folder/blocks" '
+        /^```/ && !inside { inside = 1; file = sprintf("%s/%03d", folder, ++count); updated = (getline line < (file ".update")) >= 0
+                            print; if (updated) while ((getline line < (file ".printed")) > 0) print line; next }
+        /^```/ { inside = 0 }
+        !(inside && updated)
+    ' "$sources/$document" >"$folder/updated" && cp "$folder/updated" "$sources/$document"
+fi
 [ "$failures" = 0 ] || { echo "$failures failures"; exit 1; }
