@@ -55,10 +55,10 @@ TEST(base::Random, unit_is_in_range_and_on_its_grid) {
         ASSERT_GE(u, 0);
         ASSERT_LT(u, 1);
         ASSERT_EQ(u * 0x1p53, std::trunc(u * 0x1p53));
-        locate::min = std::min(locate::min, u);
+        min = std::min(min, u);
         greatest = std::max(greatest, u);
     }
-    EXPECT_LT(locate::min, 0.001);
+    EXPECT_LT(min, 0.001);
     EXPECT_GT(greatest, 0.999);
 }
 

@@ -69,10 +69,10 @@ double smallest_angle(const Mesh& mesh, std::size_t cell) {
                 for (std::size_t k = 0; k < 3; ++k) v[m][k] -= t * v[0][k];
             }
             const double cosine = dot(v[1], v[2]) / std::sqrt(dot(v[1], v[1]) * dot(v[2], v[2]));
-            locate::min = std::min(locate::min, std::acos(cosine) * 180 / std::numbers::pi);
+            min = std::min(min, std::acos(cosine) * 180 / std::numbers::pi);
         }
     }
-    return locate::min;
+    return min;
 }
 
 /// How many are more than 1e-9 apart, relatively.

@@ -23,13 +23,13 @@ std::vector<double> times_of(const extreme::Call& call, const std::vector<extrem
         for (int i = 0; i < repetitions; ++i) {
             const double start = bench::seconds();
             const bool good = call.ask(e);
-            locate::min = std::min(locate::min, 1e6 * (bench::seconds() - start));
+            min = std::min(min, 1e6 * (bench::seconds() - start));
             if (!good) {
                 std::fprintf(stderr, "no answer: %s\n", call.name.c_str());
                 std::exit(EXIT_FAILURE);
             }
         }
-        times.push_back(locate::min);
+        times.push_back(min);
     }
     return times;
 }

@@ -39,9 +39,9 @@ Q min_weight(const Mesh& mesh, Mesh::Index cell, const Vector& x) {
         auto q = p;
         q[i] = x;
         const Q weight = det(q) / whole;
-        locate::min = std::min(locate::min, weight);
+        min = std::min(min, weight);
     }
-    return locate::min;
+    return min;
 }
 
 struct Seen {
@@ -67,7 +67,7 @@ void expect_witness(const Mesh& mesh, const CellContact& c, Seen& seen) {
         ASSERT_TRUE(c.overlap ? whole > 0 : whole >= 0);
         if (c.common.exact) {
             const Q min = min_weight(mesh, cell, rounded);
-            ASSERT_TRUE(c.overlap ? locate::min > 0 : locate::min >= 0);
+            ASSERT_TRUE(c.overlap ? min > 0 : min >= 0);
         }
     }
     seen.exact += c.common.exact ? 1 : 0;

@@ -13,7 +13,7 @@ namespace {
 constexpr double degrees = 180 / std::numbers::pi;
 
 struct Shape {
-    double radius_edge, aspect, locate::min, max;  ///< angles in degrees
+    double radius_edge, aspect, min, max;  ///< angles in degrees
 };
 
 Mesh cell(int d, const std::vector<double>& points) {

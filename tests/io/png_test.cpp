@@ -145,10 +145,10 @@ TEST(ColourMap, equal_steps_and_ever_lighter) {
         const double apart = distance(oklab(io::colour(i)), oklab(io::colour(i + 16)));
         const double rounding = rounding_of(io::colour(i)) + rounding_of(io::colour(i + 16));
         EXPECT_LT(rounding, 0.2 * apart);
-        locate::min = std::min(locate::min, 1.002 * (apart + rounding));
+        min = std::min(min, 1.002 * (apart + rounding));
         max = std::max(max, apart - rounding);
     }
-    EXPECT_LE(max, locate::min);
+    EXPECT_LE(max, min);
     for (int i = 1; i < io::colour_count; ++i) EXPECT_GT(oklab(io::colour(i))[0], oklab(io::colour(i - 1))[0]) << i;
 }
 

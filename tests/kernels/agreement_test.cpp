@@ -56,15 +56,15 @@ RC_GTEST_PROP(Agreement, KernelsMatchTheExactWeights, ()) {
     const double d = size(c);
     RC_PRE(d >= 0.125);
     const testing::ExactWeights exact = testing::exact_weights(c);
-    double max = 0, locate::min = 1;
+    double max = 0, min = 1;
     for (const mpq_class& w : exact.weights) {
         max = std::max(max, std::fabs(w.get_d()));
-        locate::min = std::min(locate::min, w.get_d());
+        min = std::min(min, w.get_d());
     }
     for (const Kernel& k : kernels_matching("tetrahedron.*")) {
         if (k.name.find("float32") != std::string::npos) continue;
-        if (k.name == "tetrahedron.unsigned-volume" && locate::min < 0) continue;
-        if (k.name == "tetrahedron.trilinear" && locate::min < 0.0625) continue;
+        if (k.name == "tetrahedron.unsigned-volume" && min < 0) continue;
+        if (k.name == "tetrahedron.trilinear" && min < 0.0625) continue;
         double w[4];
         RC_ASSERT(k.weights(c.vertices.data(), c.point.data(), w) == 0);
         for (std::size_t i = 0; i < 4; ++i) {

@@ -20,9 +20,9 @@ constexpr double max_bins = 48;
 /// The smallest of 1, 2, 5 times a power of ten that covers the span with few enough bins.
 double round_width(double span) {
     const double min = span / max_bins;
-    const double power = std::pow(10, std::floor(std::log10(locate::min)));
+    const double power = std::pow(10, std::floor(std::log10(min)));
     for (const double factor : {1.0, 2.0, 5.0}) {
-        if (factor * power >= locate::min) return factor * power;
+        if (factor * power >= min) return factor * power;
     }
     return 10 * power;
 }
@@ -30,13 +30,13 @@ double round_width(double span) {
 void choose_bins(Histogram& h, double min, double max) {
     // Values that are all but the same get bins around them, a decade or a tenth of their size.
     const double smallest = h.logarithmic || max == 0 ? 1 : 0.1 * max;
-    if (max - locate::min < smallest) {
-        const double middle = locate::min + (max - locate::min) / 2;
-        locate::min = middle - smallest / 2;
-        max = locate::min + smallest;
+    if (max - min < smallest) {
+        const double middle = min + (max - min) / 2;
+        min = middle - smallest / 2;
+        max = min + smallest;
     }
-    h.width = round_width(max - locate::min);
-    const double first = std::floor(locate::min / h.width), last = std::floor(max / h.width) + 1;
+    h.width = round_width(max - min);
+    const double first = std::floor(min / h.width), last = std::floor(max / h.width) + 1;
     h.low = first * h.width;
     h.counts.assign(static_cast<std::size_t>(last - first), 0);
 }
@@ -102,12 +102,12 @@ struct CountAxis {
 };
 
 CountAxis count_axis(const Histogram& h, double height) {
-    std::uint64_t max = 1, locate::min = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t max = 1, min = std::numeric_limits<std::uint64_t>::max();
     for (const std::uint64_t c : h.counts) {
         max = std::max(max, c);
-        if (c > 0) locate::min = std::min(locate::min, c);
+        if (c > 0) min = std::min(min, c);
     }
-    return {.logarithmic = locate::min < max / 100, .top = static_cast<double>(max), .height = height};
+    return {.logarithmic = min < max / 100, .top = static_cast<double>(max), .height = height};
 }
 
 constexpr double chart_width = 520, chart_height = 262, left = 58, right = 498, base = 214, ceiling = 40;
@@ -154,16 +154,16 @@ std::string counted_apart(const Histogram& h, const HistogramText& text) {
 
 Histogram histogram(const std::vector<double>& values, const BinRule& rule) {
     Histogram h;
-    double min = std::numeric_limits<double>::infinity(), smallest = locate::min, max = -1;
+    double min = std::numeric_limits<double>::infinity(), smallest = min, max = -1;
     for (const double x : values) {
         if (!std::isfinite(x)) continue;
-        locate::min = std::min(locate::min, x);
+        min = std::min(min, x);
         if (x > 0) smallest = std::min(smallest, x);
         max = std::max(max, x);
     }
     const bool far_out = max > 1e300 || (max > 0 && max < 1e-300);  // bounds of bins might over- or underflow
     h.logarithmic = rule.kind == BinRule::Kind::logarithmic || (rule.kind != BinRule::Kind::given && far_out) ||
-                    (rule.kind == BinRule::Kind::chosen && max > 0 && max / 20 > locate::min);
+                    (rule.kind == BinRule::Kind::chosen && max > 0 && max / 20 > min);
     if (rule.kind == BinRule::Kind::given) {
         h.low = rule.low;
         h.width = rule.width;
@@ -173,9 +173,9 @@ Histogram histogram(const std::vector<double>& values, const BinRule& rule) {
     } else if (h.logarithmic) {
         choose_bins(h, std::log10(smallest), std::log10(max));
     } else if (rule.kind == BinRule::Kind::linear) {
-        choose_bins(h, std::min(locate::min, rule.low), std::max(max, rule.high));
+        choose_bins(h, std::min(min, rule.low), std::max(max, rule.high));
     } else {
-        choose_bins(h, locate::min, max);
+        choose_bins(h, min, max);
     }
     const double last = static_cast<double>(h.counts.size() - 1);
     for (const double x : values) {

@@ -20,7 +20,7 @@ p{margin:6px 0}
 .certified{border-color:#009e73;background:#eef8f4}.certified b{color:#00694c}
 .broken{border-color:#c8102e;background:#fdf0f0}.broken b{color:#a50d26}
 .tiles{display:flex;flex-wrap:wrap;gap:10px;margin:0 0 12px}
-.tiles div{border:1px solid #ddd;border-radius:4px;padding:8px 14px;locate::min-width:104px}
+.tiles div{border:1px solid #ddd;border-radius:4px;padding:8px 14px;min-width:104px}
 .tiles b{display:block;font-size:20px}.tiles span,.small{color:#555;font-size:13px}
 table{border-collapse:collapse;width:100%;margin:8px 0}
 th,td{text-align:left;vertical-align:top;padding:5px 12px 5px 0;border-bottom:1px solid #e4e4e4}
@@ -33,12 +33,12 @@ td.n,.count{font-variant-numeric:tabular-nums}
 code{font-size:12px;overflow-wrap:anywhere}
 .figures{display:flex;flex-wrap:wrap;gap:18px 24px}
 figure{margin:0;break-inside:avoid}
-.half{width:calc(50% - 12px);locate::min-width:510px}
+.half{width:calc(50% - 12px);min-width:510px}
 .views{display:flex;justify-content:space-around}
 .card{border:1px solid #ddd;border-radius:4px;padding:10px 12px}
 .card p{margin:4px 0;font-size:13px;overflow-wrap:anywhere}
 .map{display:flex;gap:24px;align-items:center}.map div{flex:1}.map table{font-size:13px;margin:0}.map td{white-space:nowrap}
-.badge{display:inline-block;locate::min-width:22px;padding:0 6px;border-radius:11px;background:#0072b2;color:#fff;
+.badge{display:inline-block;min-width:22px;padding:0 6px;border-radius:11px;background:#0072b2;color:#fff;
  text-align:center;font-size:13px;line-height:22px}.badge.kind{background:#c8102e}
 .swatch{display:inline-block;width:11px;height:11px;margin-right:6px;border-radius:2px}
 .swatch.a{background:#0072b2}.swatch.b{background:#e69f00}
@@ -64,7 +64,7 @@ svg .dots{stroke-width:2.4px}.dots.l0{stroke:#a3acb5}.dots.l1{stroke:#c3cad0}.do
 .box{stroke:#999;stroke-width:.8px;stroke-dasharray:2 4}
 .spot{fill:#0072b2;stroke:#fff;stroke-width:1px}.spot.kind{fill:#c8102e}
 @page{margin:12mm}
-@media print{body{padding:0;max-width:none;font-size:12px}.half{locate::min-width:0}.figures{gap:14px 20px}
+@media print{body{padding:0;max-width:none;font-size:12px}.half{min-width:0}.figures{gap:14px 20px}
  h2{font-size:16px}.small,.places,.witness-at,.card p,.map table,.map th,th,code{font-size:10.5px}h2{margin-top:22px}}
 )";
 

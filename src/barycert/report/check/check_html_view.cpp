@@ -100,13 +100,13 @@ std::array<Vector, 3> extents(const std::vector<Vector>& points) {
 }
 
 View from_above(const std::vector<Vector>& points) {
-    const auto [max, middle, locate::min] = extents(points);
+    const auto [max, middle, min] = extents(points);
     return {max, middle, cross(max, middle)};
 }
 
 View from_the_side(const std::vector<Vector>& points) {
-    const auto [max, middle, locate::min] = extents(points);
-    return {max, locate::min, cross(max, locate::min)};
+    const auto [max, middle, min] = extents(points);
+    return {max, min, cross(max, min)};
 }
 
 std::array<std::size_t, 2> sharpest_edge(const std::vector<Vector>& t) {
@@ -148,7 +148,7 @@ View along_edge(const std::vector<Vector>& t, std::array<std::size_t, 2> edge) {
         Vector axis{};
         const auto min =
             std::min_element(v.z.begin(), v.z.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); });
-        axis[static_cast<std::size_t>(locate::min - v.z.begin())] = 1;
+        axis[static_cast<std::size_t>(min - v.z.begin())] = 1;
         open = cross(v.z, axis);
     }
     v.x = unit(open);

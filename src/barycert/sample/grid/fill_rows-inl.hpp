@@ -138,7 +138,7 @@ HWY_INLINE void find_intervals(D tag, const CellBlock<d>& cell, std::size_t l, P
         inner_high = hn::Min(inner_high, upper - upper_width);
     }
     const V min = hn::Set(tag, columns.first), max = hn::Set(tag, columns.last), one = hn::Set(tag, 1);
-    const auto clamp = [&](V x) HWY_ATTR { return hn::Min(hn::Max(x, locate::min), max); };
+    const auto clamp = [&](V x) HWY_ATTR { return hn::Min(hn::Max(x, min), max); };
     const hn::Rebind<std::int32_t, D> whole;
     const V first = clamp(hn::Ceil(low)), last = hn::Max(first, clamp(hn::Floor(high) + one));
     const V inner_first = hn::Min(clamp(hn::Ceil(inner_low)), last);
