@@ -179,7 +179,7 @@ TEST(usage, lists_agree_as_text_and_as_json) {
         EXPECT_EQ(names_in_text(text.out), names);
         const Scratch scratch;
         EXPECT_EQ(run({what, "--json", scratch.path("list.json")}).out, text.out);
-        EXPECT_EQ(base::read_file(scratch.path("list.json")), json.out);
+        EXPECT_EQ(read_file(scratch.path("list.json")), json.out);
     }
     EXPECT_EQ(names_in_text(run({"kernels", "segment.*", "triangle.inverse"}).out).back(), "triangle.inverse");
     EXPECT_EQ(names_in_text(run({"families", "mesh.faces"}).out), Words{"mesh.faces"});
