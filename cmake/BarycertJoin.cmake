@@ -7,7 +7,7 @@ endif()
 # barycert_join(TARGET [FOLDERS REGEX]): joins the sources of the target in its folders, or in those that match, by up to
 # eight. Sources with options of their own stay alone: the options would be lost. Call it from the folder of the target.
 function(barycert_join target)
-  if(NOT PROJECT_IS_TOP_LEVEL OR NOT BARYCERT_UNITY)
+  if(NOT BARYCERT_UNITY)
     return()
   endif()
   cmake_parse_arguments(ARG "" "FOLDERS" "" ${ARGN})

@@ -16,7 +16,7 @@ namespace barycert::data {
 namespace {
 
 std::string row(const Point& p) {
-    return shortest(p[0]) + " " + shortest(p[1]) + " " + shortest(p[2]) + "\n";
+    return base::shortest(p[0]) + " " + base::shortest(p[1]) + " " + base::shortest(p[2]) + "\n";
 }
 
 std::string row(const Ring& ring) {
@@ -60,7 +60,7 @@ std::string poly(const Shape& shape, bool smesh) {
 
 void write_plcs(const std::string& folder) {
     for (const Shape& shape : all_shapes()) {
-        OutputFile file(folder + "/" + shape.name);
+        base::OutputFile file(folder + "/" + shape.name);
         file.write(shape.name.ends_with(".off") ? off(shape) : poly(shape, shape.name.ends_with(".smesh")));
         file.commit().value();
     }

@@ -1,7 +1,6 @@
-/// The audit: kernels x families x cases, each case asked of the oracle once.
+/// The audit: runs kernels over families of cases and compares each answer with the oracle's.
 ///
-/// Cases are made, asked and compared in blocks, on all threads. Memory does not grow with their number, and the
-/// result (times aside) does not depend on the number of threads.
+/// Memory does not grow with the number of cases; the result, times aside, does not depend on the number of threads.
 #pragma once
 
 #include <array>
@@ -33,8 +32,8 @@ struct AuditOptions {
     std::vector<Family> families;
     std::uint64_t count = 10000;  ///< cases per family and simplex
     std::uint64_t seed = 1;
-    int threads = 0;                                ///< 0: as many as the machine has
-    std::function<void(const AuditProgress&)> progress;  ///< called now and then, from one thread at a time
+    int threads = 0;                                     ///< 0: one per core
+    std::function<void(const AuditProgress&)> progress;  ///< called from one thread at a time
 };
 
 /// One family's part of a kernel's result.
@@ -45,10 +44,10 @@ struct FamilyResult {
 
 struct KernelResult {
     Kernel kernel;
-    KernelStatistics total;  ///< indices in it are meaningless: ask the families
+    KernelStatistics total;  ///< over all families; case indices are valid in `families` only
     std::vector<FamilyResult> families;
     Prediction prediction;           ///< over all families
-    double ns = 0;                   ///< median over blocks of the time per evaluation, call through a pointer included
+    double ns = 0;                   ///< time per evaluation, median over blocks, with the call through a pointer
     std::vector<Witness> witnesses;  ///< the worst of each reason, in the order of Finding, worst_weight_ulp last
 };
 
@@ -58,18 +57,18 @@ struct AuditReport {
     std::uint64_t count = 0;
     int threads = 0;
     std::vector<std::string> meshes;
-    std::vector<Verdict> verdicts;  ///< one a mesh: whether it is certified to be a partition, or was not checked
+    std::vector<Verdict> verdicts;  ///< one per mesh
     std::vector<Family> families;
     std::uint64_t cases = 0;                 ///< asked of the oracle
-    std::array<std::uint64_t, 4> regions{};  ///< how many of them were what, exactly; by Region
+    std::array<std::uint64_t, 4> regions{};  ///< number of cases per exact Region
     double seconds = 0;
     std::vector<KernelResult> kernels;  ///< worst first
 };
 
-/// Errors: an environment in which results could not be exact; nothing to audit (no kernel, no family that applies).
+/// Errors: a floating-point environment in which results cannot be exact; no kernel; no family that applies.
 Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& meshes);
 
-/// The most telling witness of a kernel, or null if it has none.
+/// The witness of the kernel's worst class of finding; null if it has none.
 const Witness* worst_witness(const KernelResult& result);
 
 /// A kernel fails if its figure `name` exceeds `limit`.
@@ -78,7 +77,7 @@ struct Threshold {
     double limit = 0;
 };
 
-/// A figure of a kernel that a rule refused.
+/// A figure of a kernel that exceeds its threshold.
 struct Violation {
     std::string kernel;
     std::string figure;
@@ -88,13 +87,13 @@ struct Violation {
 
 /// NAME is a class of finding (counts), `wrong_cases` or `any` (cases with any finding), `worst_weight_ulp`,
 /// `p999_weight_ulp`, `worst_value_ulp`, `p999_value_ulp`, `worst_partition_residual` or `worst_reproduction_residual`.
-/// NUMBER is 0 if left out. Sizes of errors are taken over what could be measured; where that is nothing because
-/// weights were not finite or the simplex was falsely declared degenerate, they are infinite. Pair them with `any`.
+/// NUMBER defaults to 0. Error sizes are taken over the cases that have one; if there are none because weights were not
+/// finite or the simplex was wrongly declared degenerate, they are infinite. Use them together with `any`.
 Result<Threshold> parse_threshold(std::string_view text);
 
 std::vector<Violation> violations(const AuditReport& report, const std::vector<Threshold>& rules);
 
-/// The names that parse_threshold() knows, for help texts.
+/// The names that parse_threshold() accepts.
 std::vector<std::string> threshold_names();
 
 }  // namespace barycert

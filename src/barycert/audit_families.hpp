@@ -36,14 +36,14 @@ private:
     std::vector<std::shared_ptr<const audit::PreparedMesh>> meshes_;
 };
 
-/// A recipe for cases, each family after a particular way of going wrong.
+/// A recipe for cases; each family tests a particular way in which formulas fail.
 ///
 /// Case number i of a family depends on (seed, family, simplex, i) and, for mesh families, on the meshes; on nothing
 /// else. Only correctly rounded operations are used (+ - * / sqrt and powers of two), so the same seed gives the same
 /// bits on every machine.
 struct Family {
     std::string name;
-    std::string after;       ///< what it is after, one line
+    std::string tests;       ///< what it tests, one line
     std::string parameters;  ///< the recipe with its numbers
     bool needs_mesh = false;
     std::vector<Simplex> simplices;

@@ -56,16 +56,14 @@ constexpr std::optional<Finding> finding_named(std::string_view text) {
     return std::nullopt;
 }
 
-// One kernel's answer held against the oracle's.
-
 /// One answer of a kernel, compared with the oracle's.
 struct Comparison {
     Region claimed = Region::outside;
     std::array<std::uint8_t, finding_count> counts{};  ///< weights, or 1 for a case, per class of finding
-    std::array<double, 4> weight_ulps{};               ///< error of each weight in ulps; -1 where there is no measure
-    double value_ulp = -1;                             ///< error of the value in ulps; -1 where there is no measure
-    /// Largest |weight - exact weight|, infinite if a weight is not finite or none was given; for a missed degenerate
-    /// simplex the largest weight.
+    std::array<double, 4> weight_ulps{};               ///< error of each weight in ulps; -1 if undefined
+    double value_ulp = -1;                             ///< error of the value in ulps; -1 if undefined
+    /// Max |weight - exact weight|, infinite if a weight is not finite or none was given; for a missed degenerate
+    /// simplex the max |weight|.
     double weight_error = 0;
 
     bool wrong() const {
@@ -84,7 +82,7 @@ public:
     void merge(const LogHistogram& other);
     std::uint64_t total() const;
 
-    /// The least bin edge that at least the given fraction of the numbers do not exceed; -1 if there are none.
+    /// The min bin edge that at least the given fraction of the numbers do not exceed; -1 if there are no numbers.
     double quantile(double fraction) const;
 
 private:
@@ -94,7 +92,8 @@ private:
     std::array<std::uint64_t, bin_count> bins_{};
 };
 
-/// The largest value seen and the case it came from; of equal ones the first case, so that order does not matter.
+/// The max value and the case it came from; among equal values the first case, so the order of insertion does not
+/// matter.
 struct WorstCase {
     double value = -1;
     std::uint64_t index = 0;  ///< of the case in its family
@@ -104,7 +103,7 @@ struct WorstCase {
     }
 };
 
-/// What there is a witness of: every class of finding, then the error of a weight and of the value in ulps.
+/// The reasons for a witness: each class of finding, then the error of a weight and of the value in ulps.
 inline constexpr std::size_t witness_reasons = finding_count + 2;
 
 /// "opposite_sign", ... "worst_weight_ulp", "worst_value_ulp".
@@ -122,17 +121,17 @@ struct KernelStatistics {
     LogHistogram value_ulps;
     WorstCase weight_ulp;
     WorstCase value_ulp;
-    WorstCase partition_residual;                          ///< |sum of weights - 1|, exact, rounded once
-    WorstCase reproduction_residual;                       ///< |sum of weight * vertex - point|, exact, rounded once
+    WorstCase partition_residual;                      ///< |sum of weights - 1|, exact, rounded once
+    WorstCase reproduction_residual;                   ///< |sum of weight * vertex - point|, exact, rounded once
     std::array<WorstCase, witness_reasons> witnesses;  ///< by Comparison::weight_error, the last two by ulps
 
-    /// 99.9th percentiles: edges of bins, never above the worst; -1 if there is no measure.
+    /// 99.9th percentiles: edges of bins, at most the worst; -1 if there are no errors to measure.
     double p999_weight_ulp() const { return std::min(weight_ulps.quantile(0.999), weight_ulp.value); }
     double p999_value_ulp() const { return std::min(value_ulps.quantile(0.999), value_ulp.value); }
 
     void add(const Comparison& comparison, Region exact, std::uint64_t index);
 
-    /// `index` of the result is the other's where the other is worse: merging different families needs care of that.
+    /// Case indices are kept from either side: they mean nothing after merging different families.
     void merge(const KernelStatistics& other);
 };
 
@@ -158,11 +157,11 @@ public:
 
     std::uint64_t cases() const;
 
-    /// The largest error / (2^-53 kappa) where kappa < 2^47, up to which the prediction is one of first order: the
+    /// The max error / (2^-53 kappa) over cases with kappa < 2^47, where the first-order prediction applies: the
     /// constant C that would have held. -1 without such cases.
     double worst_factor() const { return worst_factor_; }
 
-    /// Those that hold cases, ascending.
+    /// The non-empty bins, ascending.
     std::vector<Bin> bins() const;
 
 private:

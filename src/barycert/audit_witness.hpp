@@ -38,12 +38,12 @@ struct Replay {
     OracleAnswer exact;
     int affine_dimension = 0;  ///< of the simplex
 
-    /// Interpolation along auxiliary lines against ratios of areas or volumes, in rational numbers; `undefined` for
+    /// Whether interpolation along auxiliary lines gives the barycentric weights, in rational numbers; `undefined` for
     /// segments and triangle3d.
     IdentityVerdict identity = IdentityVerdict::undefined;
     std::vector<KernelAnswer> answers;  ///< of the kernels on this simplex
 
-    /// Why the witness no longer shows what it says of its kernel; empty if it does, or says nothing.
+    /// Why the witness no longer shows its finding; empty if it does, or if it names no kernel or reason.
     std::string not_reproduced;
 };
 
@@ -56,8 +56,8 @@ inline constexpr int witness_schema = 1;
 /// {"schema": 1, "witnesses": [...]} of all kernels of a report, one witness a line of finding.
 std::string witnesses_json(const AuditReport& report);
 
-/// Reads what witness_file() wrote, or the "witnesses" of an audit's JSON report: from a regular file, or a pipe that
-/// is being written to. Errors: the file cannot be read, is not JSON or of another schema; a witness is malformed.
+/// Reads the output of witnesses_json(), or the "witnesses" of an audit's JSON report, from a regular file or a pipe.
+/// Errors: the file cannot be read, is not JSON or of another schema; a witness is malformed.
 Result<std::vector<Witness>> read_witnesses(const std::string& path);
 
 }  // namespace barycert

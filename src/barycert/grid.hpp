@@ -16,7 +16,7 @@ namespace barycert {
 /// Points on lines parallel to the axes, the first coordinate running fastest. In 2D there is one layer and no third
 /// coordinate.
 struct Grid {
-    static constexpr std::int64_t most_on_axis = 0x7fffffff - 64;
+    static constexpr std::int64_t max_on_axis = 0x7fffffff - 64;
 
     int dimension = 3;
     std::array<std::int64_t, 3> counts{1, 1, 1};

@@ -39,12 +39,12 @@ struct TextOutput {
     std::string (*text)(const CheckReport&, const Mesh&, const CheckArguments&);
 };
 constexpr std::array<TextOutput, 2> text_outputs{{
-    {"--json", "Write the report as JSON; - is stdout and suppresses the table", &CheckArguments::json,
+    {"--json", "Write the full report as JSON; - is stdout, in place of the table", &CheckArguments::json,
      [](const CheckReport& report, const Mesh&, const CheckArguments& a) {
          return check_json(report, a.mesh, measure_environment());
      }},
     {"--html",
-     "Write the report as an HTML page with histograms and pictures of cells; - is stdout and suppresses the table",
+     "Write the report as one HTML page with histograms and pictures of cells; - is stdout, in place of the table",
      &CheckArguments::html,
      [](const CheckReport& report, const Mesh& mesh, const CheckArguments& a) {
          return check_html(report, mesh, tetgen_stem(a.mesh));
@@ -59,7 +59,7 @@ std::vector<base::NamedFile> outputs(const CheckArguments& a) {
     return files;
 }
 
-/// Everything that can be known of the outputs before the work.
+/// What can be checked of the outputs before the work.
 Status check_files(const CheckArguments& a, bool table) {
     if (a.vtu == "-")
         return Error{.what = "--vtu cannot write to stdout", .remedy = "name a file: its data are binary"};
@@ -87,7 +87,7 @@ Status check_nothing_in_the_way(const Mesh& mesh, const std::string& stem) {
          {std::pair(".face", !mesh.faces.empty()), {".neigh", !mesh.neighbours.empty()}}) {
         std::error_code ignored;
         if (!written && std::filesystem::exists(stem + suffix, ignored))
-            return Error{.what = "a file of another mesh exists",
+            return Error{.what = "a file of another mesh would be left beside the copy",
                          .file = stem + suffix,
                          .remedy = "remove it, or give --fix-orientation another name"};
     }
@@ -171,13 +171,14 @@ int run_check(const CheckArguments& a) {
 
 void add_check(CLI::App& app, int& exit_code) {
     auto* sub = app.add_subcommand(
-        "check", "Prove in exact arithmetic that a mesh is a partition of its domain, or report why it is not");
+        "check", "Prove in exact arithmetic that the cells of a mesh partition their domain, or report why not");
     sub->footer(
         "Exit codes: 0 certified, 1 not certified, 2 usage or input error.\nCertified: any two cells meet in a common "
-        "face or not at all, and the files .neigh and .face, if present, agree with\nthe cells. Second-order cells are "
-        "checked with straight sides.");
+        "face or not at all, and .neigh and .face, if present, agree with\nthe cells. Second-order cells are taken "
+        "with straight sides.");
     const auto a = std::make_shared<CheckArguments>();
-    file_option(*sub, "MESH", a->mesh, "A TetGen mesh (.node/.ele, .face and .neigh if there; Triangle's for 2D)")
+    file_option(*sub, "MESH", a->mesh,
+                "A TetGen mesh (.node/.ele, .face and .neigh if present) or a mesh of Triangle (2D)")
         ->required();
     sub->add_flag("--delaunay", a->delaunay, "Also test exactly whether every interior facet is locally Delaunay");
     file_option(*sub, "--conforms-to", a->plc,
@@ -187,16 +188,17 @@ void add_check(CLI::App& app, int& exit_code) {
         ->capture_default_str()
         ->check(CLI::Range(0, 1000000))
         ->type_name("N");
-    sub->add_option("--contacts", a->contacts, "Max number of overlapping or touching pairs listed with a witness")
+    sub->add_option("--contacts", a->contacts,
+                    "Max number of pairs of overlapping or touching cells listed with a common point")
         ->capture_default_str()
         ->check(CLI::Range(0, 1000000))
         ->type_name("N");
-    sub->add_option("--threads", a->threads, "Number of threads; 0: all")
+    sub->add_option("--threads", a->threads, "Number of threads; 0: one per core")
         ->capture_default_str()
         ->check(CLI::Range(0, 4096))
         ->type_name("N");
     for (const TextOutput& t : text_outputs) file_option(*sub, t.option, (*a).*t.path, t.help);
-    file_option(*sub, "--vtu", a->vtu, "Write the mesh with measures and defects of each cell as VTU, for ParaView");
+    file_option(*sub, "--vtu", a->vtu, "Write the mesh with the measures and defects of its cells, for ParaView");
     file_option(*sub, "--fix-orientation", a->fixed,
                 "Write a copy in which no cell has negative volume: STEM.node, STEM.ele (.face, .neigh)")
         ->type_name("STEM");

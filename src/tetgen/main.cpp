@@ -67,7 +67,7 @@ void mesh_and_write(const Options& options, const Plc& plc, const Answer& answer
 
 /// TetGen's last lines without its progress and statistics, indented.
 std::string last_lines(const std::string& printed) {
-    constexpr std::size_t most = 8;
+    constexpr std::size_t max = 8;
     std::vector<std::string> lines;
     std::istringstream in(printed);
     for (std::string line; std::getline(in, line) && !line.starts_with("Statistics:");) {
@@ -78,7 +78,7 @@ std::string last_lines(const std::string& printed) {
     }
     if (lines.empty()) return {};
     std::string text = "TetGen's last words:\n";
-    for (std::size_t i = lines.size() - std::min(most, lines.size()); i < lines.size(); ++i) {
+    for (std::size_t i = lines.size() - std::min(max, lines.size()); i < lines.size(); ++i) {
         text += "  " + base::printable(lines[i]) + "\n";
     }
     return text;

@@ -49,16 +49,16 @@ TEST(base::Random, frozen_for_seed_one) {
 
 TEST(base::Random, unit_is_in_range_and_on_its_grid) {
     base::Random r(1);
-    double least = 1, greatest = 0;
+    double min = 1, greatest = 0;
     for (int k = 0; k < 100000; ++k) {
         const double u = r.unit();
         ASSERT_GE(u, 0);
         ASSERT_LT(u, 1);
         ASSERT_EQ(u * 0x1p53, std::trunc(u * 0x1p53));
-        least = std::min(least, u);
+        min = std::min(min, u);
         greatest = std::max(greatest, u);
     }
-    EXPECT_LT(least, 0.001);
+    EXPECT_LT(min, 0.001);
     EXPECT_GT(greatest, 0.999);
 }
 

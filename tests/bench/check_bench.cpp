@@ -54,7 +54,7 @@ double smallest_angle(const Mesh& mesh, std::size_t cell) {
         for (std::size_t k = 0; k < 3; ++k)
             p[i][k] = mesh.points[static_cast<std::size_t>(mesh.cells[4 * cell + i]) * 3 + k];
     }
-    double smallest = 180;
+    double min = 180;
     for (std::size_t i = 0; i < 4; ++i) {
         for (std::size_t j = 0; j < i; ++j) {
             std::array<Vector, 3> v{};  // the edge, and from its end to the other two corners
@@ -69,10 +69,10 @@ double smallest_angle(const Mesh& mesh, std::size_t cell) {
                 for (std::size_t k = 0; k < 3; ++k) v[m][k] -= t * v[0][k];
             }
             const double cosine = dot(v[1], v[2]) / std::sqrt(dot(v[1], v[1]) * dot(v[2], v[2]));
-            smallest = std::min(smallest, std::acos(cosine) * 180 / std::numbers::pi);
+            min = std::min(min, std::acos(cosine) * 180 / std::numbers::pi);
         }
     }
-    return smallest;
+    return min;
 }
 
 /// How many are more than 1e-9 apart, relatively.

@@ -19,17 +19,17 @@ constexpr int cases = 5000, repetitions = 5;
 std::vector<double> times_of(const extreme::Call& call, const std::vector<extreme::Extreme>& all) {
     std::vector<double> times;
     for (const extreme::Extreme& e : all) {
-        double least = std::numeric_limits<double>::infinity();
+        double min = std::numeric_limits<double>::infinity();
         for (int i = 0; i < repetitions; ++i) {
             const double start = bench::seconds();
             const bool good = call.ask(e);
-            least = std::min(least, 1e6 * (bench::seconds() - start));
+            min = std::min(min, 1e6 * (bench::seconds() - start));
             if (!good) {
                 std::fprintf(stderr, "no answer: %s\n", call.name.c_str());
                 std::exit(EXIT_FAILURE);
             }
         }
-        times.push_back(least);
+        times.push_back(min);
     }
     return times;
 }

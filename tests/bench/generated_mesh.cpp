@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/base/large_vector.hpp"
+#include "barycert/base/large_pages.hpp"
 #include "barycert/base/random.hpp"
 
 namespace barycert::bench {

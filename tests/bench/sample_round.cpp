@@ -24,10 +24,10 @@ void require_same_question(const Subject& subject, const std::string& who, std::
                            std::span<const double> theirs) {
     std::size_t far = 0;
     for (std::size_t i = 0; i < right.size(); ++i)
-        far += std::isnan(right[i]) != std::isnan(theirs[i]) ||
-                       std::abs(right[i] - theirs[i]) > 1e-6 * subject.largest_value
-                   ? 1
-                   : 0;
+        far +=
+            std::isnan(right[i]) != std::isnan(theirs[i]) || std::abs(right[i] - theirs[i]) > 1e-6 * subject.max_value
+                ? 1
+                : 0;
     require(100 * far <= right.size(), who + " answers something else at " + std::to_string(far) + " points");
 }
 

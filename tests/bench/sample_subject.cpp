@@ -51,7 +51,7 @@ Subject::Subject(const std::string& name_, Mesh mesh_, std::size_t point_count, 
         const double x = mesh.points[3 * i], y = mesh.points[3 * i + 1], z = mesh.points[3 * i + 2];
         linear.data.push_back(x * 1.5 + y * 2.5 - z);
         three.data.insert(three.data.end(), {linear.data.back(), x * y + z * z, std::sin(5 * x) + std::cos(3 * y) * z});
-        largest_value = std::max(largest_value, std::abs(linear.data.back()));
+        max_value = std::max(max_value, std::abs(linear.data.back()));
     }
     const Bounds3 box = bounds_of_cells(mesh);
     base::Random random(20);

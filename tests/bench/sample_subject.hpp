@@ -39,7 +39,7 @@ struct Subject {
     Certificate certificate;
     Field linear;                ///< 1.5 x + 2.5 y - z at the nodes, rounded
     Field three;                 ///< the same, and two that are not linear
-    double largest_value = 0;    ///< of `linear`
+    double max_value = 0;        ///< of `linear`
     std::vector<double> points;  ///< uniform in the box of the cells
     Grid grid;                   ///< over that box
 };

@@ -115,7 +115,7 @@ std::size_t verify_plain(const Subject& subject, const Table& rows, const Table&
         ++differing;
         const Case c = case_of(subject, static_cast<std::size_t>(rows.cells[i]), subject.points.data() + 3 * i);
         const double kappa = condition_number(Simplex::tetrahedron, c.vertices.data());
-        require(std::abs(plain.values[i] - rows.values[i]) <= 200 * kappa * 0x1p-53 * subject.largest_value,
+        require(std::abs(plain.values[i] - rows.values[i]) <= 200 * kappa * 0x1p-53 * subject.max_value,
                 "plain value at point " + std::to_string(i));
     }
     return differing;
@@ -195,7 +195,7 @@ Comparison compare(const Subject& subject, std::span<const double> right, std::s
         out.missed += inside && !found ? 1 : 0;
         out.found_outside += !inside && found ? 1 : 0;
         if (!inside || !found) continue;
-        const double apart = std::abs(right[i] - theirs[i]) / subject.largest_value;
+        const double apart = std::abs(right[i] - theirs[i]) / subject.max_value;
         out.off += apart > 1e-12 ? 1 : 0;
         out.worst = std::max(out.worst, apart);
     }

@@ -17,7 +17,7 @@ using Q = second_path::Q;
 using Vector = std::array<Q, 3>;
 
 /// Weights of the point in the cell times its determinant: the least of them, taken so that inside is positive.
-Q least_weight(const Mesh& mesh, Mesh::Index cell, const Vector& x) {
+Q min_weight(const Mesh& mesh, Mesh::Index cell, const Vector& x) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
     std::array<Vector, 4> p;
     for (std::size_t i = 0; i <= d; ++i) {
@@ -34,14 +34,14 @@ Q least_weight(const Mesh& mesh, Mesh::Index cell, const Vector& x) {
                  e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]));
     };
     const Q whole = det(p);
-    Q least(1);
+    Q min(1);
     for (std::size_t i = 0; i <= d; ++i) {
         auto q = p;
         q[i] = x;
         const Q weight = det(q) / whole;
-        least = std::min(least, weight);
+        min = std::min(min, weight);
     }
-    return least;
+    return min;
 }
 
 struct Seen {
@@ -63,11 +63,11 @@ void expect_witness(const Mesh& mesh, const CellContact& c, Seen& seen) {
         ASSERT_EQ(c.common.point[k], second_path::nearest(x[k]));
     }
     for (const Mesh::Index cell : c.cells) {
-        const Q whole = least_weight(mesh, cell, x);
+        const Q whole = min_weight(mesh, cell, x);
         ASSERT_TRUE(c.overlap ? whole > 0 : whole >= 0);
         if (c.common.exact) {
-            const Q least = least_weight(mesh, cell, rounded);
-            ASSERT_TRUE(c.overlap ? least > 0 : least >= 0);
+            const Q min = min_weight(mesh, cell, rounded);
+            ASSERT_TRUE(c.overlap ? min > 0 : min >= 0);
         }
     }
     seen.exact += c.common.exact ? 1 : 0;

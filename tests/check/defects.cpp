@@ -154,9 +154,9 @@ void crack(const Site& s, base::Random& random) {
     const Index node = inner_node(s, random), copy = add_node(s.mesh, node_at(s.mesh, node));
     const auto axis = random.below(static_cast<std::size_t>(s.mesh.dimension));
     for (const std::size_t c : cells_at(s, node)) {
-        double most = -std::numeric_limits<double>::infinity();
-        for (const Index n : nodes_of(s, c)) most = std::max(most, coordinate(s, n, axis));
-        if (most <= coordinate(s, node, axis)) continue;
+        double max = -std::numeric_limits<double>::infinity();
+        for (const Index n : nodes_of(s, c)) max = std::max(max, coordinate(s, n, axis));
+        if (max <= coordinate(s, node, axis)) continue;
         for (std::size_t i = 0; i < s.mesh.corners(); ++i) {
             if (corner(s, c, i) == node) corner(s, c, i) = copy;
         }

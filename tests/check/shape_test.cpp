@@ -13,7 +13,7 @@ namespace {
 constexpr double degrees = 180 / std::numbers::pi;
 
 struct Shape {
-    double radius_edge, aspect, least, most;  ///< angles in degrees
+    double radius_edge, aspect, min, max;  ///< angles in degrees
 };
 
 Mesh cell(int d, const std::vector<double>& points) {
@@ -39,8 +39,8 @@ void expect_shape(int d, std::vector<double> points, const Shape& wanted, bool s
             const CellMeasures m = quick(other).measures;
             expect_near(m.radius_edge[0], wanted.radius_edge);
             expect_near(m.aspect[0], wanted.aspect);
-            expect_near(m.min_angle[0], wanted.least);
-            expect_near(m.max_angle[0], wanted.most);
+            expect_near(m.min_angle[0], wanted.min);
+            expect_near(m.max_angle[0], wanted.max);
         } while (std::next_permutation(order.begin(), order.end()));
     }
 }

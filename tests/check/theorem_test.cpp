@@ -69,10 +69,10 @@ Tally compare_many(const char* name, Recipe recipe, std::uint64_t count, bool nu
 }
 
 /// The share is asserted so that the comparison cannot become one of bad meshes, or good ones, alone.
-void expect_share(const Tally& tally, double least, double most) {
+void expect_share(const Tally& tally, double min, double max) {
     const double share = static_cast<double>(tally.certified) / static_cast<double>(tally.meshes);
-    EXPECT_GT(share, least);
-    EXPECT_LT(share, most);
+    EXPECT_GT(share, min);
+    EXPECT_LT(share, max);
 }
 
 TEST(Theorem, soups) {

@@ -49,9 +49,9 @@ TEST(VerdictOnly, is_the_verdict) {
 // A mesh with nodes snapped to a coarse lattice has degenerate cells: they are proof enough.
 TEST(VerdictOnly, stops_at_the_first_proof) {
     Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/torus")).value();
-    double most = 0;
-    for (const double x : mesh.points) most = std::max(most, std::abs(x));
-    for (double& x : mesh.points) x = std::round(x * 8 / most);
+    double max = 0;
+    for (const double x : mesh.points) max = std::max(max, std::abs(x));
+    for (double& x : mesh.points) x = std::round(x * 8 / max);
     const Asked degenerate = verdict_of(mesh);
     EXPECT_NE(degenerate.report.find(DefectKind::degenerate_cell), nullptr);
     EXPECT_EQ(degenerate.stages.back(), "cells");

@@ -118,8 +118,8 @@ TEST(audit, the_same_seed_gives_the_same_bytes_on_any_number_of_threads) {
     EXPECT_EQ(timeless(one), timeless(with({"--threads", "2"})));
     EXPECT_EQ(timeless(one), timeless(with({"--threads", "2", "--seed", "1"})));
     EXPECT_NE(timeless(one), timeless(with({"--threads", "1", "--seed", "2"})));
-    const std::string largest = with({"--seed", "18446744073709551615"});
-    EXPECT_EQ(parse(largest)["seed"], 18446744073709551615U);
+    const std::string max = with({"--seed", "18446744073709551615"});
+    EXPECT_EQ(parse(max)["seed"], 18446744073709551615U);
 }
 
 TEST(audit, the_table_is_the_report) {

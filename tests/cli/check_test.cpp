@@ -242,7 +242,8 @@ TEST(check, the_copy_does_not_mix_with_another_mesh) {
     EXPECT_EQ(r.code, 2);
     EXPECT_EQ(r.out, "");
     EXPECT_EQ(r.err, "error: " + scratch.path("other.face") +
-                         ": a file of another mesh exists; remove it, or give --fix-orientation another name\n");
+                         ": a file of another mesh would be left beside the copy; remove it, or give --fix-orientation "
+                         "another name\n");
     EXPECT_EQ(scratch.names(), (Words{"m.ele", "m.node", "other.face"}));
 }
 
@@ -310,11 +311,11 @@ TEST(check, a_place_that_cannot_be_written_does_not_cost_the_table) {
     EXPECT_TRUE(contains(full.err, "error: /dev/full: cannot write the file: found No space left on device"));
     EXPECT_TRUE(contains(full.out, ": certified"));
     const std::string old = scratch.put("r.json", "old");
-    const Ended small = run(check(m, {"--json", old}), {.largest_file = 512});
+    const Ended small = run(check(m, {"--json", old}), {.max_file = 512});
     EXPECT_EQ(small.code, 2);
     EXPECT_EQ(base::read_file(old), "old");
     const Ended copy =
-        run(check(mesh("bracket"), {"--fix-orientation", scratch.path("c"), "--quiet"}), {.largest_file = 60000});
+        run(check(mesh("bracket"), {"--fix-orientation", scratch.path("c"), "--quiet"}), {.max_file = 60000});
     EXPECT_EQ(copy.code, 2) << "the .node file is larger, the others are not";
     EXPECT_EQ(scratch.names(), (Words{"m.ele", "m.node", "r.json"}));
     EXPECT_EQ(run(check(m), {.stdout_path = "/dev/full"}).code, 2);

@@ -60,7 +60,7 @@ std::string put_smallest_cells(const Scratch& scratch) {
     return scratch.path("tiny");
 }
 
-const std::string smallest_points =
+const std::string min_points =
     "x,y,z\n1e-323,1e-323,1e-323\n2e-323,2e-323,2e-323\n4e-323,0,0\n5e-324,5e-324,0\n"
     "9e-323,9e-323,9e-323\n0.1,0.2,0.3\n";
 
@@ -80,7 +80,7 @@ TEST(environment, of_check) {
 
 TEST(environment, of_sample) {
     const Scratch scratch;
-    const std::string tiny = put_smallest_cells(scratch), points = scratch.put("p.csv", smallest_points);
+    const std::string tiny = put_smallest_cells(scratch), points = scratch.put("p.csv", min_points);
     for (const std::string rounding : {"correct", "plain"}) {
         for (const std::string outside : {"nan", "nearest", "fill=4.9e-324"}) {
             expect_same_bytes({"sample", tiny, "--points", points, "--rounding", rounding, "--outside", outside,

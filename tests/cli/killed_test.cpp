@@ -116,7 +116,7 @@ TEST(killed, where_files_need_names_all_works_as_elsewhere) {
     }
     EXPECT_EQ(scratch.names(), (Words{"c.ele", "c.face", "c.neigh", "c.node", "g.vti"}));
     const Ended full = run({"check", mesh("bracket"), "--quiet", "--fix-orientation", scratch.path("d")},
-                           {.environment = named.environment, .largest_file = 60000});
+                           {.environment = named.environment, .max_file = 60000});
     EXPECT_EQ(full.code, 2);
     EXPECT_EQ(scratch.names(), (Words{"c.ele", "c.face", "c.neigh", "c.node", "g.vti"}));
 }

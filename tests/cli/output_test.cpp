@@ -117,7 +117,7 @@ TEST(output, the_picture_appears_whole_and_alone_on_stdout) {
     EXPECT_TRUE(contains(picture, ">cramer</text>"));
     EXPECT_EQ(scratch.names(), Words{"plot.svg"});
     for (const std::string threads : {"1", "2"}) EXPECT_EQ(with({"--plot", "-", "--threads", threads}).out, picture);
-    const Ended cut = with({"--quiet", "--plot", file}, {.largest_file = 4096});
+    const Ended cut = with({"--quiet", "--plot", file}, {.max_file = 4096});
     EXPECT_EQ(cut.code, 2);
     EXPECT_EQ(base::read_file(file), picture);
     EXPECT_EQ(scratch.names(), Words{"plot.svg"});
@@ -126,7 +126,7 @@ TEST(output, the_picture_appears_whole_and_alone_on_stdout) {
 TEST(output, a_file_that_may_not_grow_leaves_the_old_one) {
     const Scratch scratch;
     const std::string file = scratch.put("r.json", "old");
-    const Ended r = run({"audit", "--quiet", "--count", "5", "--json", file}, {.largest_file = 4096});
+    const Ended r = run({"audit", "--quiet", "--count", "5", "--json", file}, {.max_file = 4096});
     EXPECT_EQ(r.code, 2) << "signal " << r.signal;
     EXPECT_TRUE(contains(r.err, "cannot write the file: found File too large")) << r.err;
     EXPECT_EQ(base::read_file(file), "old");
@@ -137,7 +137,7 @@ TEST(output, a_file_that_may_not_grow_leaves_the_old_one) {
 TEST(output, a_mesh_that_may_not_grow_is_no_crash_of_the_mesher) {
     const Scratch scratch;
     const Ended r = run({std::string(BARYCERT_DATA_DIR) + "/plc/cube-hole.poly", "--output", scratch.path("m")},
-                        {.largest_file = 600, .program = BARYCERT_TETGEN_PROGRAM});
+                        {.max_file = 600, .program = BARYCERT_TETGEN_PROGRAM});
     EXPECT_EQ(r.code, 2) << "signal " << r.signal;
     EXPECT_TRUE(contains(r.err, "cannot write the file: found File too large")) << r.err;
     EXPECT_FALSE(contains(r.err, "crashed")) << r.err;

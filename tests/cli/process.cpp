@@ -46,8 +46,8 @@ void redirect(int descriptor, const std::string& path, bool close_it, int otherw
         }
     }
     if (!how.folder.empty() && ::chdir(how.folder.c_str()) != 0) ::_exit(126);
-    if (how.largest_file != 0) {
-        const struct rlimit limit { how.largest_file, how.largest_file };
+    if (how.max_file != 0) {
+        const struct rlimit limit { how.max_file, how.max_file };
         ::setrlimit(RLIMIT_FSIZE, &limit);
     }
     constexpr uid_t nobody = 65534;

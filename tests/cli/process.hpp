@@ -22,7 +22,7 @@ struct How {
     bool close_stderr = false;     ///< as `2>&-`
     bool terminal = false;         ///< stdout and stderr are one terminal; what it shows is Ended::out
     bool as_nobody = false;        ///< with no more rights than the user nobody, where the test runs as root
-    std::size_t largest_file = 0;  ///< in bytes, as `ulimit -f`; 0 is no limit
+    std::size_t max_file = 0;      ///< in bytes, as `ulimit -f`; 0 is no limit
     std::string kill_on = {};      ///< once this has been read from the process ...
     int kill_with = 0;             ///< ... it gets this signal
     std::string program = BARYCERT_PROGRAM;

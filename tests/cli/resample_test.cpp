@@ -187,7 +187,7 @@ TEST(resample, files_appear_whole_or_not_at_all) {
         const std::string file = scratch.put(name, "old");
         const Words line{"resample", mesh("cube-hole"), "--grid",   "400x300x1",
                          "--fields", "attribute0",      "--output", file};
-        const Ended r = run(plus(line, {"--quiet"}), {.largest_file = 2000});
+        const Ended r = run(plus(line, {"--quiet"}), {.max_file = 2000});
         EXPECT_EQ(r.code, 2) << name << ' ' << r.signal;
         EXPECT_TRUE(contains(r.err, "File too large")) << r.err;
         EXPECT_EQ(base::read_file(file), "old");

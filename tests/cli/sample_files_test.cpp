@@ -126,7 +126,7 @@ TEST(sample_files, appear_whole_or_not_at_all) {
     ASSERT_EQ(run_shell(lattice(20000) + " > p.csv", {.folder = scratch.folder()}).code, 0);
     const Words line{"sample", mesh("bracket"), "--points", scratch.path("p.csv"), "--save-map", map, "--output"};
     for (const std::string& target : {out, scratch.path("r.npy")})
-        expect_error(plus(line, {target}), "File too large", {.largest_file = 100000});
+        expect_error(plus(line, {target}), "File too large", {.max_file = 100000});
     EXPECT_EQ(base::read_file(out), "old");
     EXPECT_EQ(base::read_file(map), "old");
     EXPECT_EQ(scratch.names(), (Words{"p.csv", "r.csv", "r.map"}));

@@ -12,7 +12,7 @@ namespace {
 
 using testing_rational::any_finite;
 using testing_rational::infinity;
-using testing_rational::largest;
+using testing_rational::max;
 using testing_rational::Q;
 
 using Cell = std::vector<double>;
@@ -51,10 +51,10 @@ Q exact_kappa(const Cell& c) {
 ::testing::AssertionResult right(const Cell& c) {
     const double k = kappa(c);
     const Q exact = exact_kappa(c);
-    const bool good = exact < 0                                         ? k == infinity
-                      : exact > Q(largest)                              ? k == largest
-                      : !(k >= (c.size() == 6 ? 2 : 3) && k <= largest) ? false
-                                                                        : abs(Q(Q(k) - exact)) <= exact / 1024;
+    const bool good = exact < 0                                     ? k == infinity
+                      : exact > Q(max)                              ? k == max
+                      : !(k >= (c.size() == 6 ? 2 : 3) && k <= max) ? false
+                                                                    : abs(Q(Q(k) - exact)) <= exact / 1024;
     if (good) return ::testing::AssertionSuccess();
     return ::testing::AssertionFailure() << k << " for " << exact.get_d() << " in " << ::testing::PrintToString(c);
 }
@@ -96,17 +96,16 @@ TEST(Condition, InfiniteExactlyIfDegenerate) {
     EXPECT_EQ(kappa({0, 0, 0, 0, 0, 0}), infinity);
     EXPECT_EQ(kappa({0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3}), infinity);
     EXPECT_EQ(kappa({0.1, 0.1, 0.2, 0.2, 0.7, 0.7}), infinity);
-    EXPECT_EQ(kappa({-largest, -largest, largest, largest, 0, 0}), infinity);
+    EXPECT_EQ(kappa({-max, -max, max, max, 0, 0}), infinity);
     EXPECT_TRUE(right({0, 0, 1, 1, 2, std::nextafter(2, 3)}));
-    EXPECT_TRUE(right({0, 0, largest, largest, largest / 2, std::nextafter(largest / 2, 0)}));
+    EXPECT_TRUE(right({0, 0, max, max, max / 2, std::nextafter(max / 2, 0)}));
     EXPECT_TRUE(right({0, 0, 0, 0.1, 0.1, 0.1, 0.2, 0.2, 0.2, 0.3, std::nextafter(0.3, 1), std::nextafter(0.3, 0)}));
 }
 
 /// Not degenerate, and thin by thousands of bits: more than a double holds.
 TEST(Condition, IsFiniteIfNotDegenerate) {
-    EXPECT_EQ(kappa({0, 0, largest, largest, 0x1p-1074, 0}), largest);
-    EXPECT_EQ(kappa({0, 0, 0, largest, largest, largest, 0x1p-1074, 0x1p-1074, 0, 1, std::nextafter(1, 2), 1}),
-              largest);
+    EXPECT_EQ(kappa({0, 0, max, max, 0x1p-1074, 0}), max);
+    EXPECT_EQ(kappa({0, 0, 0, max, max, max, 0x1p-1074, 0x1p-1074, 0, 1, std::nextafter(1, 2), 1}), max);
 }
 
 TEST(Condition, NaNWhereItHasNoMeaning) {

@@ -15,7 +15,7 @@ namespace {
 using testing_environments::all_environments;
 using testing_environments::Changed;
 using testing_rational::infinity;
-using testing_rational::largest;
+using testing_rational::max;
 using testing_rational::Q;
 using testing_spheres::ask;
 using testing_spheres::describe;
@@ -148,7 +148,7 @@ TEST(LawS1, SidesOfSpheresOfTheWidestNumbers) {
         for (std::uint64_t k = 0; k < 300 && !HasFailure(); ++k) {
             base::Random r = base::Random::stream(1, base::hash64("widest"), k);
             Points p{d};
-            const double numbers[] = {largest, -largest, 0x1p-1074, -0x1p-1074, 1e300, -1e-300, 1.7e308, 1};
+            const double numbers[] = {max, -max, 0x1p-1074, -0x1p-1074, 1e300, -1e-300, 1.7e308, 1};
             for (auto& x : p.at) {
                 for (double& c : x) c = numbers[r.below(r.coin() ? 8 : 3)];
             }

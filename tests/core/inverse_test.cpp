@@ -14,7 +14,7 @@ using testing_cases::random_case;
 using testing_rational::any_finite;
 using testing_rational::bits;
 using testing_rational::infinity;
-using testing_rational::largest;
+using testing_rational::max;
 using testing_rational::nearest;
 using testing_rational::Q;
 
@@ -83,20 +83,20 @@ TEST(PointOfValue, rounded_from_rationals) {
     }
     for (std::uint64_t k = 0; k < 400 && !HasFailure(); ++k) {
         base::Random r = base::Random::stream(9, base::hash64("inverse, values of any kind"), k);
-        expect_point({any_finite(r), 1, 0x1p-1074}, {any_finite(r), largest, 3 * 0x1p-1074}, any_finite(r),
-                     any_finite(r), any_finite(r));
+        expect_point({any_finite(r), 1, 0x1p-1074}, {any_finite(r), max, 3 * 0x1p-1074}, any_finite(r), any_finite(r),
+                     any_finite(r));
     }
 }
 
 TEST(PointOfValue, ends_of_the_range) {
     const double tiny = 0x1p-1074;
-    expect_point({0, -largest, tiny}, {1, largest, 0}, -largest, largest, 0);
-    expect_point({0, 0, 0}, {1, largest, tiny}, 0, tiny, largest);
+    expect_point({0, -max, tiny}, {1, max, 0}, -max, max, 0);
+    expect_point({0, 0, 0}, {1, max, tiny}, 0, tiny, max);
     expect_point({0, 0, 0}, {1, tiny, -tiny}, 0, 2, 1);  // ties at half of the smallest subnormal
-    expect_point({0, 0, 0}, {1, 1, 1}, 0, largest, tiny);
+    expect_point({0, 0, 0}, {1, 1, 1}, 0, max, tiny);
     EXPECT_EQ(parameter_of_value(0, tiny, 1).value().t, infinity);
-    EXPECT_EQ(parameter_of_value(0, largest, -tiny).value().t, 0);
-    EXPECT_TRUE(std::signbit(parameter_of_value(0, largest, -tiny).value().t));
+    EXPECT_EQ(parameter_of_value(0, max, -tiny).value().t, 0);
+    EXPECT_TRUE(std::signbit(parameter_of_value(0, max, -tiny).value().t));
 }
 
 TEST(PointOfValue, what_is_no_number_is_named) {

@@ -20,7 +20,7 @@ using testing_fields::with_mids;
 using testing_rational::any_finite;
 using testing_rational::bits;
 using testing_rational::infinity;
-using testing_rational::largest;
+using testing_rational::max;
 
 constexpr double min_double = 0x1p-1074;
 
@@ -93,7 +93,7 @@ TEST(LawV1Quadratic, the_widest_integers) {
             const auto extreme = [&]() {
                 const int how = r.integer(0, 3);
                 const double sign = r.coin() ? 1 : -1;
-                return how < 2 ? sign * largest : how == 2 ? sign * r.integer(1, 1 << 20) * min_double : any_finite(r);
+                return how < 2 ? sign * max : how == 2 ? sign * r.integer(1, 1 << 20) * min_double : any_finite(r);
             };
             QuadraticCase q{Case{.simplex = s}, {}};
             for (double& x : q.linear.vertices) x = extreme();
@@ -104,8 +104,8 @@ TEST(LawV1Quadratic, the_widest_integers) {
         }
     }
     // The largest numerators that there are, by their signs.
-    QuadraticCase q{Case{.simplex = Simplex::tetrahedron}, {-largest, largest, -largest, largest, -largest, largest}};
-    const double x = largest;
+    QuadraticCase q{Case{.simplex = Simplex::tetrahedron}, {-max, max, -max, max, -max, max}};
+    const double x = max;
     q.linear.vertices = {x, x, -x, x, -x, x, -x, x, x, -x, -x, -x};
     q.linear.point = {-x, x, -min_double};
     q.linear.values = {x, -x, x, min_double};
@@ -280,8 +280,8 @@ TEST(LawV1Quadratic, ties_and_the_ends_of_the_range) {
     EXPECT_EQ(ask({0, 0, 0}, {min_double, 0, 0}).value, 0);
     EXPECT_TRUE(std::signbit(ask({0, 0, 0}, {-min_double, 0, 0}).value));
     EXPECT_EQ(ask({0, 0, 0}, {min_double, 2 * min_double, 0}).value, min_double);
-    EXPECT_EQ(ask({0, -largest, -largest}, {largest, largest, largest}).value, infinity);  // 3/2 of the largest
-    EXPECT_EQ(ask({0, largest, largest}, {largest, largest, largest}).value, largest);
+    EXPECT_EQ(ask({0, -max, -max}, {max, max, max}).value, infinity);  // 3/2 of the largest
+    EXPECT_EQ(ask({0, max, max}, {max, max, max}).value, max);
     EXPECT_EQ(bits(ask({7, -0.0, -0.0}, {-0.0, -0.0, -0.0}).value), 0U);
     EXPECT_EQ(bits(ask({-0.0, -0.0, -0.0}, {-0.0, -0.0, -0.0}).value), 0U);
     EXPECT_EQ(value_of(q).tier, Tier::double_double);

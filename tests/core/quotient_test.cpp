@@ -8,7 +8,7 @@ namespace {
 
 using testing_rational::awkward_integer;
 using testing_rational::infinity;
-using testing_rational::largest;
+using testing_rational::max;
 using testing_rational::nearest;
 using testing_rational::number;
 using testing_rational::Q;
@@ -55,10 +55,11 @@ TEST(RoundQuotient, by_hand) {
     EXPECT_EQ(quotient(integer(1), integer(3), 0), 1.0 / 3.0);
     EXPECT_EQ(quotient(integer(-7), integer(10), 3), -5.6);
     EXPECT_EQ(round_integer(integer(-7), -1), -3.5);
-    EXPECT_EQ(round_integer(integer(power_of_two(53) + 1), 0), 0x1p53);                        // tie, to even
-    EXPECT_EQ(round_integer(integer(power_of_two(53) + 3), 0), 0x1p53 + 4);                    // tie, to even, upwards
-    EXPECT_EQ(round_integer(integer(power_of_two(60) + 1), -60), 1);                           // a rest that is no tie
-    EXPECT_EQ(round_integer(integer(power_of_two(200) + power_of_two(147) + 1), -200), 1 + 0x1p-52);  // a tie but for the last bit
+    EXPECT_EQ(round_integer(integer(power_of_two(53) + 1), 0), 0x1p53);      // tie, to even
+    EXPECT_EQ(round_integer(integer(power_of_two(53) + 3), 0), 0x1p53 + 4);  // tie, to even, upwards
+    EXPECT_EQ(round_integer(integer(power_of_two(60) + 1), -60), 1);         // a rest that is no tie
+    EXPECT_EQ(round_integer(integer(power_of_two(200) + power_of_two(147) + 1), -200),
+              1 + 0x1p-52);  // a tie but for the last bit
 }
 
 TEST(RoundQuotient, zero_is_positive_and_underflow_keeps_its_sign) {
@@ -97,8 +98,8 @@ TEST(RoundQuotient, ends_of_the_range) {
         const Z half_way = (power_of_two(54) - 1) * d;
         EXPECT_EQ(quotient(integer(half_way), integer(d), 970), infinity) << extra;
         if (extra > 0) {
-            EXPECT_EQ(quotient(integer(half_way - 1), integer(d), 970), largest) << extra;
-            EXPECT_EQ(round_integer(integer(1 - half_way), 970 - extra), -largest);
+            EXPECT_EQ(quotient(integer(half_way - 1), integer(d), 970), max) << extra;
+            EXPECT_EQ(round_integer(integer(1 - half_way), 970 - extra), -max);
         }
         EXPECT_EQ(round_integer(integer(half_way), 970 - extra), infinity);
         expect_rounded_about(half_way, d, 970);

@@ -26,7 +26,7 @@ using Q = mpq_class;
 using Z = mpz_class;
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
-inline constexpr double largest = std::numeric_limits<double>::max();
+inline constexpr double max = std::numeric_limits<double>::max();
 
 inline std::uint64_t bits(double x) {
     return std::bit_cast<std::uint64_t>(x);
@@ -77,7 +77,7 @@ inline ::testing::AssertionResult nearest(double r, const Q& exact) {
     if (std::signbit(r) != (exact < 0)) return wrong("sign");
     const Q distance = abs(Q(rational(r) - exact));
     for (const double direction : {-infinity, infinity}) {
-        const double neighbour = std::isinf(r) ? std::copysign(largest, r) : std::nextafter(r, direction);
+        const double neighbour = std::isinf(r) ? std::copysign(max, r) : std::nextafter(r, direction);
         const int order = cmp(distance, abs(Q(rational(neighbour) - exact)));
         if (order > 0 && (!std::isinf(r) || abs(exact) < rational(infinity))) return wrong("a neighbour is nearer");
         if (order == 0 && bits(r) % 2 != 0) return wrong("tie to odd");

@@ -94,11 +94,11 @@ inline Points rounded_sphere(base::Random& r, int d) {
 inline void disturb(base::Random& r, Points& p) {
     const std::size_t i = r.below(p.count()), j = r.below(p.count()), axis = r.below(p.axes());
     const int shift = r.integer(-20, 20);
-    constexpr double largest = std::numeric_limits<double>::max();
+    constexpr double max = std::numeric_limits<double>::max();
     switch (r.integer(0, 5)) {
         case 0:
         case 1:
-            p.at[i][axis] = std::nextafter(p.at[i][axis], r.coin() ? largest : -largest);
+            p.at[i][axis] = std::nextafter(p.at[i][axis], r.coin() ? max : -max);
             break;
         case 2:
             for (auto& x : p.at) {

@@ -65,18 +65,18 @@ TEST(Stack, EveryCallStaysWithinTheBoundOfTheContract) {
     const std::size_t thread_alone = stack_of(run_nothing, nullptr);
     std::vector<Call> calls = single_calls();
     for (Call& call : batch_calls()) calls.push_back(std::move(call));
-    std::size_t most = 0;
+    std::size_t max = 0;
     for (const Call& call : calls) {
         Job job{&call, &cases};
         const std::size_t bytes = stack_of(run, &job) - thread_alone;
         EXPECT_TRUE(job.good) << call.name;
         EXPECT_LE(bytes, max_stack) << call.name;
         std::printf("    %7zu bytes  %s\n", bytes, call.name.c_str());
-        most = std::max(most, bytes);
+        max = std::max(max, bytes);
     }
     // The bound is not idle, and the measurement measures: the widest integers alone take half of it.
-    EXPECT_GT(most, max_stack / 2);
-    RecordProperty("bytes", std::to_string(most));
+    EXPECT_GT(max, max_stack / 2);
+    RecordProperty("bytes", std::to_string(max));
 }
 
 }  // namespace

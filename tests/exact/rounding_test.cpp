@@ -12,7 +12,7 @@ using second_path::power_of_two;
 using second_path::Q;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double largest = std::numeric_limits<double>::max();
+constexpr double max = std::numeric_limits<double>::max();
 
 Q rational(const std::vector<std::uint64_t>& words) {
     mpz_class z;
@@ -67,9 +67,9 @@ TEST(RoundScaled, ends_of_the_range) {
     const auto round = [](std::uint64_t q, Tail tail, int exponent) { return *round_scaled(q, tail, exponent); };
     // The largest double and half an ulp: a tie that goes to infinity.
     const std::uint64_t ones = ~std::uint64_t{0};
-    EXPECT_EQ(round(ones << 11, Tail::zero, 960), largest);
+    EXPECT_EQ(round(ones << 11, Tail::zero, 960), max);
     EXPECT_EQ(round(ones << 10, Tail::zero, 960), infinity);
-    EXPECT_EQ(round((ones << 10) - 1, Tail::positive, 960), largest);
+    EXPECT_EQ(round((ones << 10) - 1, Tail::positive, 960), max);
     EXPECT_EQ(round_scaled(ones << 10, Tail::unknown, 960), std::nullopt);
     EXPECT_EQ(round(one, Tail::zero, 961), infinity);
     EXPECT_EQ(round(one, Tail::zero, 100000), infinity);

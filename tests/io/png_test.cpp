@@ -129,26 +129,26 @@ TEST(ColourMap, is_the_curve_that_it_says) {
 /// How far the rounding to 8 bits, half a step in each component, may have moved a colour.
 double rounding_of(const io::Colour& c) {
     std::array<double, 3> exact{};
-    double most = 0;
+    double max = 0;
     for (int corner = 0; corner < 8; ++corner) {
         for (std::size_t i = 0; i < 3; ++i) exact[i] = c[i] + ((corner >> i & 1) != 0 ? 0.5 : -0.5);
-        most = std::max(most, distance(oklab(exact), oklab(c)));
+        max = std::max(max, distance(oklab(exact), oklab(c)));
     }
-    return most;
+    return max;
 }
 
 /// What the map is for. The distance of colours 16 steps apart is the same everywhere, but for their rounding and for
 /// the chord being shorter than the curve: its hue turns by 12.4 degrees, which makes at most 0.2 % (angle^2 / 24).
 TEST(ColourMap, equal_steps_and_ever_lighter) {
-    double least = 1, most = 0;
+    double min = 1, max = 0;
     for (int i = 0; i + 16 < io::colour_count; ++i) {
         const double apart = distance(oklab(io::colour(i)), oklab(io::colour(i + 16)));
         const double rounding = rounding_of(io::colour(i)) + rounding_of(io::colour(i + 16));
         EXPECT_LT(rounding, 0.2 * apart);
-        least = std::min(least, 1.002 * (apart + rounding));
-        most = std::max(most, apart - rounding);
+        min = std::min(min, 1.002 * (apart + rounding));
+        max = std::max(max, apart - rounding);
     }
-    EXPECT_LE(most, least);
+    EXPECT_LE(max, min);
     for (int i = 1; i < io::colour_count; ++i) EXPECT_GT(oklab(io::colour(i))[0], oklab(io::colour(i - 1))[0]) << i;
 }
 
@@ -214,8 +214,8 @@ TEST(Png, one_value_has_the_colour_in_the_middle) {
 }
 
 TEST(Png, any_magnitude) {
-    constexpr double most = std::numeric_limits<double>::max();
-    const std::vector<double> large{-most, 0, most, -most / 2};
+    constexpr double max = std::numeric_limits<double>::max();
+    const std::vector<double> large{-max, 0, max, -max / 2};
     Picture p = drawn({.width = 4, .height = 1, .values = large});
     EXPECT_EQ(p.at(0, 0), colour_of(0));
     EXPECT_EQ(p.at(1, 0), colour_of(128));
@@ -293,7 +293,7 @@ TEST(Png, the_bar_stands_beside_the_slice) {
         const Slice slice{.width = 40, .height = height, .values = std::span(values).first(40 * height)};
         ASSERT_TRUE(write_png(folder / "bar.png", slice));
         const Picture plain = drawn(slice), p = picture(folder / "bar.png");
-        ASSERT_EQ(p.height, std::max<std::size_t>(height, io::least_bar_height));
+        ASSERT_EQ(p.height, std::max<std::size_t>(height, io::min_bar_height));
         for (std::size_t y = 0; y < p.height; ++y) {
             for (std::size_t x = 0; x < 40; ++x) EXPECT_EQ(p.at(x, y), y < height ? plain.at(x, y) : transparent);
             for (std::size_t x = 40; x < p.width; ++x) EXPECT_EQ(p.at(x, y)[3], 255);

@@ -45,8 +45,8 @@ double size(const Case& c) {
 /// inverse's entries are cofactors below 24 over D; that is within the same bound.
 /// Auxiliary lines divide by extents of the section, of which each may be as short as 1/16 of the height where
 /// all weights are at least 1/16: three divisions, each amplifying by at most 64 M^2/D with M = 2: (256/D)^3 u more.
-double bound(const Kernel& k, double d, double largest_weight) {
-    const double plain = 0x1p16 * u * (1 + largest_weight) / d;
+double bound(const Kernel& k, double d, double max_weight) {
+    const double plain = 0x1p16 * u * (1 + max_weight) / d;
     const double amplified = k.name == "tetrahedron.trilinear" ? std::pow(256 / d, 3) * u : 0;
     return plain + amplified;
 }
@@ -56,20 +56,20 @@ RC_GTEST_PROP(Agreement, KernelsMatchTheExactWeights, ()) {
     const double d = size(c);
     RC_PRE(d >= 0.125);
     const testing::ExactWeights exact = testing::exact_weights(c);
-    double largest = 0, smallest = 1;
+    double max = 0, min = 1;
     for (const mpq_class& w : exact.weights) {
-        largest = std::max(largest, std::fabs(w.get_d()));
-        smallest = std::min(smallest, w.get_d());
+        max = std::max(max, std::fabs(w.get_d()));
+        min = std::min(min, w.get_d());
     }
     for (const Kernel& k : kernels_matching("tetrahedron.*")) {
         if (k.name.find("float32") != std::string::npos) continue;
-        if (k.name == "tetrahedron.unsigned-volume" && smallest < 0) continue;
-        if (k.name == "tetrahedron.trilinear" && smallest < 0.0625) continue;
+        if (k.name == "tetrahedron.unsigned-volume" && min < 0) continue;
+        if (k.name == "tetrahedron.trilinear" && min < 0.0625) continue;
         double w[4];
         RC_ASSERT(k.weights(c.vertices.data(), c.point.data(), w) == 0);
         for (std::size_t i = 0; i < 4; ++i) {
             const double error = std::fabs(mpq_class(mpq_class(w[i]) - exact.weights[i]).get_d());
-            if (!(error <= bound(k, d, largest))) RC_FAIL(k.name + " is off by " + std::to_string(error));
+            if (!(error <= bound(k, d, max))) RC_FAIL(k.name + " is off by " + std::to_string(error));
         }
     }
 }

@@ -155,7 +155,8 @@ TEST(Variants, ContractionBreaksVerticesThatTheBaseGetsRight) {
     constexpr std::string_view contracted = "triangle.signed-area.contracted";
     if (find(std::string(contracted)) == nullptr) GTEST_SKIP() << "no FMA on this CPU";
     for (const BreakingCase& b : breaking_cases) {
-        if (std::none_of(b.kernels.begin(), b.kernels.end(), [](std::string_view k) { return k == contracted; })) continue;
+        if (std::none_of(b.kernels.begin(), b.kernels.end(), [](std::string_view k) { return k == contracted; }))
+            continue;
         double w[3];
         ASSERT_EQ(find("triangle.signed-area")->weights(b.vertices.data(), b.point.data(), w), 0);
         EXPECT_EQ(claimed_region(*find("triangle.signed-area"), 0, w), Region::boundary);
@@ -164,9 +165,9 @@ TEST(Variants, ContractionBreaksVerticesThatTheBaseGetsRight) {
 
 /// A library linked with -ffast-math would have switched subnormals off for the whole process.
 TEST(Variants, FastMathDoesNotLeak) {
-    volatile double smallest = 0x1p-1074;
-    EXPECT_GT(smallest * 2, 0.0);
-    EXPECT_EQ(smallest / 0x1p-1073, 0.5);
+    volatile double min = 0x1p-1074;
+    EXPECT_GT(min * 2, 0.0);
+    EXPECT_EQ(min / 0x1p-1073, 0.5);
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ TEST(LocateNearest, N1_InsideACellIsThatPoint) {
 std::uint64_t work_at(const Locator& locator, double away, std::size_t kind) {
     base::Random random = base::Random::stream(74, kind, 0);
     const auto d = static_cast<std::size_t>(locator.mesh().dimension);
-    std::uint64_t most = 0;
+    std::uint64_t max = 0;
     for (int i = 0; i < 20; ++i) {
         const std::array<double, 3> v = direction(kind, random);
         std::array<double, 3> p{};
@@ -146,10 +146,10 @@ std::uint64_t work_at(const Locator& locator, double away, std::size_t kind) {
         locate::NearestWork work;
         const Nearest found = locate::find_nearest(locator.data(), p.data(), infinity, &work);
         EXPECT_GE(found.cell, 0);
-        most = std::max(most, work.boxes + work.cells + 10 * work.exact);
+        max = std::max(max, work.boxes + work.cells + 10 * work.exact);
         EXPECT_LE(work.comparisons, 64U) << away;  // where the lattice ties exactly
     }
-    return most;
+    return max;
 }
 
 // N2: the number of boxes and cells does not grow with the distance.

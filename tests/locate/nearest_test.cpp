@@ -48,15 +48,15 @@ void expect_sound(const Mesh& mesh, const NearestJudge& judge, const Nearest& fo
 /// Distances in double come from differences of coordinates, so their errors are relative to the size of these: the
 /// distance to the farthest corner of the cell.
 double reach(const Mesh& mesh, Mesh::Index cell, const double* point) {
-    double most = 0;
+    double max = 0;
     const auto d = static_cast<std::size_t>(mesh.dimension);
     for (std::size_t i = 0; i <= d; ++i) {
         const auto node = static_cast<std::size_t>(mesh.cells[static_cast<std::size_t>(cell) * (d + 1) + i]);
         double sum = 0;
         for (std::size_t k = 0; k < d; ++k) sum = std::hypot(sum, mesh.points[d * node + k] - point[k]);
-        most = std::max(most, sum);
+        max = std::max(max, sum);
     }
-    return most;
+    return max;
 }
 
 /// Of points outside. Distances, and how much farther the chosen cell and feature are than the nearest, are right to

@@ -51,7 +51,7 @@ public:
                 ASSERT_TRUE(std::equal(at(i), at(i) + d_, &found->points[d_ * j])) << what_ << how;
             }
             if (held == std::vector<Held>{{-1, Feature::outside}}) held.clear();
-            if (held == truth_[i] || told_++ >= ways_.most) continue;
+            if (held == truth_[i] || told_++ >= ways_.max) continue;
             std::string text;
             for (const Held h : truth_[i]) text += " " + text_of(h);
             text += "; found";
@@ -80,7 +80,7 @@ private:
     Held owner(std::size_t i) const { return truth_[i].empty() ? Held{} : truth_[i].front(); }
 
     void expect(std::size_t i, Held found, const std::string& how) {
-        if (found == owner(i) || told_++ >= ways_.most) return;
+        if (found == owner(i) || told_++ >= ways_.max) return;
         ADD_FAILURE() << what_ << how << ": point " << testing::text_of(at(i), mesh_.dimension) << " is "
                       << text_of(owner(i)) << ", found " << text_of(found);
     }

@@ -11,10 +11,10 @@
 namespace barycert::testing {
 
 struct Ways {
-    bool targets = true;   ///< every SIMD target, not the one in use alone
-    bool threads = true;   ///< 1, 2 and 8 threads, not 1 alone
-    bool single = true;    ///< one point at a time, with hints
-    std::size_t most = 3;  ///< failures told
+    bool targets = true;  ///< every SIMD target, not the one in use alone
+    bool threads = true;  ///< 1, 2 and 8 threads, not 1 alone
+    bool single = true;   ///< one point at a time, with hints
+    std::size_t max = 3;  ///< failures told
 };
 
 /// Batch, single and locate_all, with the certificate of check_mesh and without, against the judge; counts too. Returns

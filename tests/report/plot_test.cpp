@@ -86,10 +86,10 @@ TEST(Svg, TicksAreRoundAndFew) {
     EXPECT_EQ(report::round_ticks(0, 10, 12), (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
     EXPECT_EQ(report::round_ticks(-2, 58, 12), (std::vector<double>{0, 5, 10, 15, 20, 25, 30, 35, 40, 45, 50, 55}));
     EXPECT_EQ(report::round_ticks(0, 1100, 6), (std::vector<double>{0, 200, 400, 600, 800, 1000}));
-    for (int most = 2; most < 15; ++most) {
+    for (int max = 2; max < 15; ++max) {
         for (double high = 0.37; high < 2000; high *= 1.7) {
-            const auto ticks = report::round_ticks(-high / 3, high, most);
-            EXPECT_LE(ticks.size(), static_cast<std::size_t>(most)) << high;
+            const auto ticks = report::round_ticks(-high / 3, high, max);
+            EXPECT_LE(ticks.size(), static_cast<std::size_t>(max)) << high;
             EXPECT_GE(ticks.size(), 1U) << high;
         }
     }

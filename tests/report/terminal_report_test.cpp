@@ -65,20 +65,20 @@ TEST(terminal_report, every_family_and_simplex_has_a_row_with_its_worst_kernel) 
                                     [&](const auto& x) { return x.name == family; });
         if (f == audited().families.end() || !simplex_named(simplex)) continue;
         ++rows;
-        std::uint64_t most = 0, all = 0, without = 0;
+        std::uint64_t max = 0, all = 0, without = 0;
         for (const auto& k : audited().kernels) {
             for (const auto& part : k.families) {
                 if (&audited().families[part.family] != &*f || name(k.kernel.simplex) != simplex) continue;
-                most = std::max(most, part.statistics.wrong_cases);
+                max = std::max(max, part.statistics.wrong_cases);
                 ++all;
                 without += part.statistics.wrong_cases == 0 ? 1U : 0U;
             }
         }
         EXPECT_EQ(cases, "30") << line;
         EXPECT_EQ(clean, std::to_string(without) + "/" + std::to_string(all)) << line;
-        EXPECT_EQ(kernel == "-", most == 0) << line;
-        EXPECT_EQ(worst == "0", most == 0) << line;
-        EXPECT_EQ(worst == "100", most == 30) << line;
+        EXPECT_EQ(kernel == "-", max == 0) << line;
+        EXPECT_EQ(worst == "0", max == 0) << line;
+        EXPECT_EQ(worst == "100", max == 30) << line;
     }
     std::size_t expected = 0;
     for (const auto& f : audited().families) expected += f.simplices.size();

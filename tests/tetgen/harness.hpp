@@ -95,12 +95,12 @@ inline double six_volumes(const Mesh& mesh, std::size_t i) {
            e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
-inline double largest_volume(const Mesh& mesh) {
-    double largest = 0;
+inline double max_volume(const Mesh& mesh) {
+    double max = 0;
     for (std::size_t i = 0; i < mesh.cell_count(); ++i) {
-        largest = std::max(largest, std::abs(six_volumes(mesh, i)) / 6);
+        max = std::max(max, std::abs(six_volumes(mesh, i)) / 6);
     }
-    return largest;
+    return max;
 }
 
 inline double total_volume(const Mesh& mesh) {

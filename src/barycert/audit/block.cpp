@@ -37,7 +37,7 @@ struct ResidualBound {
         }
         partition = (std::fabs(sum) + error) * (1 + 16 * u);
         std::array<double, 3> bound{};
-        double largest = 0;
+        double max = 0;
         for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
             double r = 0, slack = tiny;
             for (std::size_t i = 0; i < n; ++i) {
@@ -46,11 +46,11 @@ struct ResidualBound {
                 slack += e[i] * std::fabs(x);
             }
             bound[static_cast<std::size_t>(axis)] = std::fabs(r) + slack;
-            largest = std::max(largest, std::fabs(r) + slack);
+            max = std::max(max, std::fabs(r) + slack);
         }
         double squares = 0;  // scaled by the largest: neither overflow nor underflow
-        for (const double x : bound) squares += (x / largest) * (x / largest);
-        reproduction = largest * std::sqrt(squares) * (1 + 32 * u) + tiny;
+        for (const double x : bound) squares += (x / max) * (x / max);
+        reproduction = max * std::sqrt(squares) * (1 + 32 * u) + tiny;
     }
 };
 

@@ -56,9 +56,9 @@ inline void move_by_ulp(const Case& c, double& x, int axis, base::Random& random
         x = up ? base::next_up(x) : base::next_down(x);
         return;
     }
-    double largest = 0;
-    for (int i = 0; i < vertex_count(c.simplex); ++i) largest = std::max(largest, std::fabs(c.vertex(i, axis)));
-    const double ulp = std::ldexp(1, base::ulp_exponent(largest == 0 ? 1.0 : largest));
+    double max = 0;
+    for (int i = 0; i < vertex_count(c.simplex); ++i) max = std::max(max, std::fabs(c.vertex(i, axis)));
+    const double ulp = std::ldexp(1, base::ulp_exponent(max == 0 ? 1.0 : max));
     x = up ? ulp : -ulp;
 }
 

@@ -122,11 +122,11 @@ void neighbour_vertices(Case& c, base::Random& random, const MeshSource& meshes)
         c.point[static_cast<std::size_t>(axis)] = other.vertex(i, axis);
 }
 
-Family family(const char* name, const char* after, const char* parameters, Family::MeshRecipe recipe,
+Family family(const char* name, const char* tests, const char* parameters, Family::MeshRecipe recipe,
               std::vector<Simplex> simplices) {
     Family f;
     f.name = std::string("mesh.") + name;
-    f.after = after;
+    f.tests = tests;
     f.parameters = parameters;
     f.needs_mesh = true;
     f.simplices = std::move(simplices);
@@ -141,27 +141,26 @@ std::vector<Family> mesh_families() {
     const std::vector<Simplex> faced{Simplex::tetrahedron};
     const std::vector<Simplex> edged{Simplex::triangle, Simplex::triangle3d, Simplex::tetrahedron};
     return {
-        family("inside", "the ordinary case: every error here is paid by every user",
+        family("inside", "ordinary points inside a cell: what most users compute",
                "fl(sum w_i v_i), w even over the simplex", inside, all),
-        family("centroids", "weights that should all be equal, and are not", "fl(fl(sum v_i) / n)", centroids, all),
-        family("faces", "points that mean to lie on a face and, rounded, mostly do not",
+        family("centroids", "points whose exact weights are almost equal", "fl(fl(sum v_i) / n)", centroids, all),
+        family("faces", "points computed on a face: after rounding most are beside it",
                "fl(sum w_i v_i) over three vertices", facets, faced),
-        family("edges", "points that mean to lie on an edge", "fl(w_0 v_0 + w_1 v_1)", edges, edged),
-        family("vertices", "exact zeros: all weights but one", "the vertex itself", vertices, all),
-        family("faces.ulp", "the side of a face, one ulp from it", "mesh.faces, one coordinate moved by one ulp",
-               facets_nudged, faced),
-        family("edges.ulp", "the side of an edge, one ulp from it", "mesh.edges, one coordinate moved by one ulp",
-               edges_nudged, edged),
-        family("vertices.ulp", "one ulp from a vertex", "mesh.vertices, one coordinate moved by one ulp",
+        family("edges", "points computed on an edge", "fl(w_0 v_0 + w_1 v_1)", edges, edged),
+        family("vertices", "vertices: all weights but one are exactly zero", "the vertex itself", vertices, all),
+        family("faces.ulp", "points one ulp off a face", "mesh.faces, one coordinate moved by one ulp", facets_nudged,
+               faced),
+        family("edges.ulp", "points one ulp off an edge", "mesh.edges, one coordinate moved by one ulp", edges_nudged,
+               edged),
+        family("vertices.ulp", "points one ulp off a vertex", "mesh.vertices, one coordinate moved by one ulp",
                vertices_nudged, all),
-        family("hull.near", "just outside: must not be called inside",
-               "from the hull outwards by 2^-50 to 2^-4 of the height", hull_near,
+        family("hull.near", "points just outside the mesh", "from the hull outwards by 2^-50 to 2^-4 of the height",
+               hull_near, {Simplex::triangle, Simplex::tetrahedron}),
+        family("hull.far", "points far outside: large weights that cancel", "up to 2^20 bounding boxes away", hull_far,
                {Simplex::triangle, Simplex::tetrahedron}),
-        family("hull.far", "far outside: large weights that cancel", "up to 2^20 bounding boxes away", hull_far,
-               {Simplex::triangle, Simplex::tetrahedron}),
-        family("neighbours", "points of the next cell: who owns them", "fl(sum w_i v_i) of a neighbouring cell",
+        family("neighbours", "points of a neighbouring cell", "fl(sum w_i v_i) of a neighbouring cell",
                neighbour_points, all),
-        family("neighbours.vertices", "vertices of the next cell: zeros and clear outsides",
+        family("neighbours.vertices", "vertices of a neighbouring cell: exact zeros, and points clearly outside",
                "a vertex of a neighbouring cell", neighbour_vertices, all),
     };
 }

@@ -50,14 +50,13 @@ void filter_underflow(Case& c, base::Random& random, std::uint64_t) {
 
 std::vector<Family> range_families() {
     return {
-        built("subnormal", "no product is anything but zero, and few bits are left", "k 2^-1074, |k| <= 4096",
-              subnormal, every),
-        built("small", "products of three underflow, of two do not", "U[-1,1) 2^-400", small, every),
-        built("tiny", "products of two underflow", "U[-1,1) 2^-540", tiny, every),
+        built("subnormal", "subnormal coordinates: every product is zero", "k 2^-1074, |k| <= 4096", subnormal, every),
+        built("small", "products of three coordinates underflow", "U[-1,1) 2^-400", small, every),
+        built("tiny", "products of two coordinates underflow", "U[-1,1) 2^-540", tiny, every),
         built("large", "products overflow, differences do not", "U[-1,1) 2^600", large, every),
         built("huge", "differences and products overflow", "U[-1,1) 0.999 2^1024", huge, every),
-        built("mixed-scale", "axes of very different scale", "axes times 2^512, 2^-512, 1", mixed_scale, every),
-        built("filter-underflow", "static and dynamic filters that ignore underflow",
+        built("mixed-scale", "axes of very different scales", "axes times 2^512, 2^-512, 1", mixed_scale, every),
+        built("filter-underflow", "filters whose error bound ignores underflow",
               "face at 2^-537 and 2^600, point at its plane's origin", filter_underflow, tetrahedron_only),
     };
 }

@@ -1,4 +1,4 @@
-/// Internal: what recipes share.
+/// What recipes share.
 #pragma once
 
 #include <utility>
@@ -37,11 +37,11 @@ inline std::array<double, 3> lifted(const Case& c, base::Random& random, std::ar
     return from;
 }
 
-inline Family built(const char* name, const char* after, const char* parameters, Family::Recipe recipe,
+inline Family built(const char* name, const char* tests, const char* parameters, Family::Recipe recipe,
                     std::vector<Simplex> simplices) {
     Family f;
     f.name = name;
-    f.after = after;
+    f.tests = tests;
     f.parameters = parameters;
     f.simplices = std::move(simplices);
     f.recipe = recipe;

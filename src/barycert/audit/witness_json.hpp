@@ -1,4 +1,4 @@
-/// Internal: one witness as JSON, for the witness file and the report. Public headers stand on the standard library
+/// One witness as JSON, for the witness file and the report. Public headers stand on the standard library
 /// alone.
 #pragma once
 

@@ -1,4 +1,4 @@
-/// Internal: names that a process has given to unfinished files, removed when a signal ends it.
+/// Names that a process has given to unfinished files, removed when a signal ends it.
 ///
 /// Most unfinished files have no name at all (see output_file.hpp). A name exists where the file system knows no
 /// nameless files, and for the moment in which a finished file replaces an older one.

@@ -1,4 +1,4 @@
-/// Internal: disjoint sets of numbers, joined two at a time.
+/// Disjoint sets of numbers, joined two at a time.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-/// Internal: files that are read, opened without waiting, and told apart from folders, pipes and devices in one place.
+/// Files that are read, opened without waiting, and told apart from folders, pipes and devices in one place.
 ///
 /// The rule. A file that is mapped or read by places (meshes, NPY, maps, kernel libraries) is a regular file. One that
 /// is read whole and once (PLCs, witnesses) may be a pipe, too, such as a shell makes for <(...). Neither waits for

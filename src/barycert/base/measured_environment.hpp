@@ -1,4 +1,4 @@
-/// Internal: the floating-point environment of the calling thread, measured by what arithmetic does.
+/// The floating-point environment of the calling thread, measured by what arithmetic does.
 #pragma once
 
 #include <cfloat>

@@ -1,4 +1,4 @@
-/// Internal: refuses to compile where the compiler may change what is computed, or forbids it to. Included by all exact
+/// Refuses to compile where the compiler may change what is computed, or forbids it to. Included by all exact
 /// code, before what computes. The build takes such flags back itself (cmake/BarycertFlags.cmake): this is for those
 /// who compile the sources in another way.
 ///

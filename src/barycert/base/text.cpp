@@ -68,8 +68,8 @@ Character first_character(std::string_view text) {
         if ((byte(i) & 0xC0U) != 0x80) return {};
         code = code << 6U | (byte(i) & 0x3FU);
     }
-    constexpr std::array<char32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
-    if (code < least[size] || code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF)) return {};
+    constexpr std::array<char32_t, 5> min{0, 0, 0x80, 0x800, 0x10000};
+    if (code < min[size] || code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF)) return {};
     return {code, size};
 }
 

@@ -1,4 +1,4 @@
-/// Internal: the boundary as a complex: ridges, pieces, cavities, tunnels.
+/// The boundary as a complex: ridges, pieces, cavities, tunnels.
 #pragma once
 
 #include <cstdint>

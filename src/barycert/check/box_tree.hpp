@@ -1,4 +1,4 @@
-/// Internal: a tree of boxes, to find those that meet a box.
+/// A tree of boxes, to find those that meet a box.
 ///
 /// A binary tree over boxes in an order that halves them, at each node, along the longer axis of their centres. Nodes
 /// lie in preorder: the left child follows its parent. Boxes are closed, their numbers doubles as given, compared

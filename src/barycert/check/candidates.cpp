@@ -117,12 +117,12 @@ void Candidates::split(Mesh::Index node, const std::vector<std::uint32_t>& membe
     users.erase(node);
     std::map<Mesh::Index, std::vector<std::uint32_t>> groups;  // ascending, that all depends on the items alone
     for (const std::uint32_t m : members) {
-        std::pair<std::size_t, Mesh::Index> most{crowd_, -1};
+        std::pair<std::size_t, Mesh::Index> max{crowd_, -1};
         for (std::size_t i = 0; i < static_cast<std::size_t>(items[m].count); ++i) {
             const auto found = users.find(items[m].nodes[i]);
-            if (found != users.end() && found->second > most.first) most = {found->second, found->first};
+            if (found != users.end() && found->second > max.first) max = {found->second, found->first};
         }
-        groups[most.second].push_back(m);
+        groups[max.second].push_back(m);
     }
     for (auto& [second, part] : groups) {
         if (node >= 0 || second < 0) {

@@ -1,4 +1,4 @@
-/// Internal: pairs of facets or cells that may meet where they must not, without asking all that meet in a common node.
+/// Pairs of facets or cells that may meet where they must not, without asking all that meet in a common node.
 ///
 /// Boxes alone would name every pair of a pinwheel: thousands of blades around one node have boxes that all meet there.
 /// But two that have node v in common, and a point beside their common face, have the direction from v to that point in

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "barycert/base/large_vector.hpp"
+#include "barycert/base/large_pages.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/check/shape.hpp"
 #include "barycert/condition.hpp"
@@ -58,16 +58,16 @@ const char* kind(int d, const double* const* p) {
 /// difference overflows, some are infinite, and the exponent is above those of all doubles.
 template <class Real>
 int scaled_edges(int d, const double* const* p, Real* edges) {
-    Real largest = 0;
+    Real max = 0;
     for (int i = 0; i < d; ++i) {
         for (int k = 0; k < d; ++k) {
             edges[i * d + k] = static_cast<Real>(p[i + 1][k]) - static_cast<Real>(p[0][k]);
-            largest = std::max(largest, std::fabs(edges[i * d + k]));
+            max = std::max(max, std::fabs(edges[i * d + k]));
         }
     }
-    if (largest == 0) return 0;
-    if (!std::isfinite(largest)) return 1024;
-    const int exponent = std::ilogb(largest);
+    if (max == 0) return 0;
+    if (!std::isfinite(max)) return 1024;
+    const int exponent = std::ilogb(max);
     const Real factor = std::scalbn(Real(1), -exponent);  // exact to multiply by unless it is infinite
     for (int i = 0; i < d * d; ++i) edges[i] *= factor;
     return exponent;

@@ -1,4 +1,4 @@
-/// Internal: what each cell is by itself: exact orientation and volume, shape, condition.
+/// What each cell is by itself: exact orientation and volume, shape, condition.
 #pragma once
 
 #include <array>

@@ -150,7 +150,7 @@ std::vector<Point> spanning(int d, const std::vector<Point>& points) {
 
 /// Longer fractions are not put in lowest terms, but for powers of two, and are not written where doubles do as well:
 /// either takes time quadratic in their length. Those of coordinates within 2^60 of each other have a few hundred bits.
-constexpr std::size_t most_bits = 4096;
+constexpr std::size_t max_bits = 4096;
 
 /// numerator / denominator * 2^exponent as it is written, and rounded.
 class Fraction {
@@ -166,7 +166,7 @@ public:
         const auto twos = static_cast<unsigned>(std::min(lsb(abs(numerator_)), lsb(denominator_)));
         numerator_ >>= twos;
         denominator_ >>= twos;
-        if (size() > most_bits) return;
+        if (size() > max_bits) return;
         const Number common = gcd(numerator_, denominator_);
         numerator_ /= common;
         denominator_ /= common;
@@ -250,7 +250,7 @@ CommonPart common_part(int d, const Corners& a, const Corners& b) {
         const Fraction& mean = means.emplace_back(sum, denominator, lattice.exponent(k));
         w.point[k] = mean.rounded();
         finite = finite && std::isfinite(w.point[k]);
-        short_enough = short_enough && mean.size() <= most_bits;
+        short_enough = short_enough && mean.size() <= max_bits;
     }
     const bool inside = common.dimension == d;
     w.exact = finite && lies_in(d, a, w.point.data(), inside) && lies_in(d, b, w.point.data(), inside);

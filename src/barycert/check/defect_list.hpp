@@ -1,4 +1,4 @@
-/// Internal: gathering defects from several threads, in an order that does not depend on them.
+/// Gathering defects from several threads, in an order that does not depend on them.
 #pragma once
 
 #include <tbb/blocked_range.h>

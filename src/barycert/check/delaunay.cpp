@@ -19,16 +19,16 @@ namespace {
 double depth(int d, const double* const* p, const double* apex) {
     std::array<double, 9> e{};
     std::array<double, 3> x{};
-    double largest = 0;
+    double max = 0;
     for (int k = 0; k < d; ++k) {
         for (int i = 0; i < d; ++i) {
             e[static_cast<std::size_t>(3 * i + k)] = p[i + 1][k] / 2 - p[0][k] / 2;
-            largest = std::max(largest, std::fabs(e[static_cast<std::size_t>(3 * i + k)]));
+            max = std::max(max, std::fabs(e[static_cast<std::size_t>(3 * i + k)]));
         }
         x[static_cast<std::size_t>(k)] = apex[k] / 2 - p[0][k] / 2;
     }
-    if (d == 2) e[8] = largest;  // a third edge, normal to the plane: the centre's foot is the circle's
-    const int exponent = largest > 0 ? std::ilogb(largest) : 0;
+    if (d == 2) e[8] = max;  // a third edge, normal to the plane: the centre's foot is the circle's
+    const int exponent = max > 0 ? std::ilogb(max) : 0;
     for (double& v : e) v = std::scalbn(v, -exponent);
     for (double& v : x) v = std::scalbn(v, -exponent);
     const auto cross = [&](std::size_t i, std::size_t j, std::size_t k) {

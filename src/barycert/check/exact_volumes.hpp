@@ -1,4 +1,4 @@
-/// Internal: signed volumes (areas in 2D) of the simplices of one mesh, as exact integers in one unit.
+/// Signed volumes (areas in 2D) of the simplices of one mesh, as exact integers in one unit.
 ///
 /// All coordinates of an axis become multiples of the largest power of two that divides them all, so volumes of
 /// different cells can be added up and compared exactly. As narrow integers as the whole mesh needs are used: one limb

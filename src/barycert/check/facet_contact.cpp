@@ -44,8 +44,8 @@ bool segments_meet(Point a, Point b, Point c, Point d) {
 /// p is in the closed triangle, which has an area.
 bool in_triangle(const std::array<Point, 3>& t, Point p) {
     const int s[] = {orient(t[0], t[1], p), orient(t[1], t[2], p), orient(t[2], t[0], p)};
-    const auto [least, most] = std::minmax({s[0], s[1], s[2]});
-    return least * most >= 0;  // not both signs
+    const auto [min, max] = std::minmax({s[0], s[1], s[2]});
+    return min * max >= 0;  // not both signs
 }
 
 bool segment_meets_triangle_in_plane(Point p, Point q, const std::array<Point, 3>& t) {
@@ -100,8 +100,8 @@ bool segment_meets_triangle(Point p, Point q, const std::array<Point, 3>& t) {
     if (sp == 0 && sq == 0) return coplanar_segment_meets_triangle(p, q, t);
     // The line meets the plane in one point of the segment; it is in the triangle if the line passes no side outside.
     const int s[] = {orient(p, q, t[0], t[1]), orient(p, q, t[1], t[2]), orient(p, q, t[2], t[0])};
-    const auto [least, most] = std::minmax({s[0], s[1], s[2]});
-    return least * most >= 0;
+    const auto [min, max] = std::minmax({s[0], s[1], s[2]});
+    return min * max >= 0;
 }
 
 /// All of g on one side of f's plane.

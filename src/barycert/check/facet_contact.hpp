@@ -1,4 +1,4 @@
-/// Internal: do two boundary facets meet where they must not? Exactly, by signs of orientations alone.
+/// Do two boundary facets meet where they must not? Exactly, by signs of orientations alone.
 #pragma once
 
 #include <array>

@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "barycert/base/large_vector.hpp"
+#include "barycert/base/large_pages.hpp"
 #include "barycert/mesh/facets.hpp"
 
 namespace barycert::check {

@@ -1,4 +1,4 @@
-/// Internal: how cells meet at their facets, and which facets are the boundary.
+/// How cells meet at their facets, and which facets are the boundary.
 #pragma once
 
 #include <array>

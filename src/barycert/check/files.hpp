@@ -1,4 +1,4 @@
-/// Internal: do the neighbours and faces that came with a mesh belong to its cells?
+/// Do the neighbours and faces that came with a mesh belong to its cells?
 #pragma once
 
 #include <cstdint>

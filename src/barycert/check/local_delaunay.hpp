@@ -1,4 +1,4 @@
-/// Internal: the test of every interior facet behind delaunay.hpp.
+/// The test of every interior facet behind delaunay.hpp.
 #pragma once
 
 #include <vector>

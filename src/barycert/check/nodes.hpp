@@ -1,4 +1,4 @@
-/// Internal: what the nodes are by themselves.
+/// What the nodes are by themselves.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-/// Internal: do the interiors of two cells meet? Exactly, by separating planes.
+/// Do the interiors of two cells meet? Exactly, by separating planes.
 #pragma once
 
 #include <array>

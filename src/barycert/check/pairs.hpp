@@ -1,4 +1,4 @@
-/// Internal: the searches for facets and cells that meet where they must not.
+/// The searches for facets and cells that meet where they must not.
 #pragma once
 
 #include <array>

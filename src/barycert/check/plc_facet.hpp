@@ -1,4 +1,4 @@
-/// Internal: a facet of a PLC as a region of its plane.
+/// A facet of a PLC as a region of its plane.
 #pragma once
 
 #include <array>

@@ -54,10 +54,9 @@ Shape triangle(const Real* e, Real area) {
     const Real angles[] = {std::atan2(2 * area, dot(sides[0], sides[1])),
                            std::atan2(2 * area, -dot(sides[0], sides[2])),
                            std::atan2(2 * area, dot(sides[1], sides[2]))};
-    const auto [least, most] = std::minmax({angles[0], angles[1], angles[2]});
+    const auto [min, max] = std::minmax({angles[0], angles[1], angles[2]});
     const Real radius = l[0] * l[1] * l[2] / (4 * area), inradius = 2 * area / (l[0] + l[1] + l[2]);
-    return rounded(radius / std::min({l[0], l[1], l[2]}), aspect(std::max({l[0], l[1], l[2]}), inradius, 2), least,
-                   most);
+    return rounded(radius / std::min({l[0], l[1], l[2]}), aspect(std::max({l[0], l[1], l[2]}), inradius, 2), min, max);
 }
 
 template <class Real>
@@ -76,7 +75,7 @@ Shape tetrahedron(const Real* e, Real volume) {
     };
     const Edge edges[] = {{2, 3, aa},          {1, 3, bb},          {1, 2, cc},
                           {0, 3, dot(ab, ab)}, {0, 2, dot(ac, ac)}, {0, 1, dot(bc, bc)}};
-    Real longest = 0, shortest = infinity, least = infinity, most = -infinity;
+    Real longest = 0, shortest = infinity, min = infinity, max = -infinity;
     const Edge *sharpest = edges, *flattest = edges;
     Real sharpest_dot = 0, flattest_dot = 0;
     for (const Edge& edge : edges) {
@@ -85,8 +84,8 @@ Shape tetrahedron(const Real* e, Real volume) {
         // The angle grows with minus its cosine.
         const Real product = dot(normals[edge.i], normals[edge.j]);
         const Real order = product / (4 * area[edge.i] * area[edge.j]);
-        if (order < least) least = order, sharpest = &edge, sharpest_dot = product;
-        if (order > most) most = order, flattest = &edge, flattest_dot = product;
+        if (order < min) min = order, sharpest = &edge, sharpest_dot = product;
+        if (order > max) max = order, flattest = &edge, flattest_dot = product;
     }
     // |n_i x n_j| = 6 volume * |edge|: accurate near 0 and 180 degrees, where a cosine is not.
     const auto angle = [&](const Edge& edge, Real product) {

@@ -1,4 +1,4 @@
-/// Internal: shape measures of one cell, in plain floating point.
+/// Shape measures of one cell, in plain floating point.
 ///
 /// Enters: the edges of a cell from its first corner, divided by a power of two so that the largest component is in
 /// [1, 2), and its volume in the same unit, accurately: plain formulas lose all its digits on slivers. In double where

@@ -1,4 +1,4 @@
-/// Internal: the driver of all batches. It cuts them into blocks of cases in structure of arrays for the SIMD lanes,
+/// The driver of all batches. It cuts them into blocks of cases in structure of arrays for the SIMD lanes,
 /// and hands single cases that these leave undecided to the last tier.
 #pragma once
 

@@ -1,4 +1,4 @@
-/// Internal: the last tier, in exact integers: without heap and without floating point.
+/// The last tier, in exact integers: without heap and without floating point.
 ///
 /// Coordinates become integers by shifts alone: each axis in its own unit for the simplices that fill their space (a
 /// determinant is homogeneous in each axis, so the units cancel in numerator / denominator), all axes in one for those

@@ -1,4 +1,4 @@
-/// Internal: exact integers of a width known when compiling, for the frequent case of coordinates of like magnitude.
+/// Exact integers of a width known when compiling, for the frequent case of coordinates of like magnitude.
 ///
 /// Two's complement in N limbs of 64 bits, no branches. A product has the limbs of both factors and cannot overflow; a
 /// sum keeps its width, so that whoever adds has to show that there is room.

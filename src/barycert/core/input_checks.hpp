@@ -1,4 +1,4 @@
-/// Internal: what calls and batches require of their input, as Errors.
+/// What calls and batches require of their input, as Errors.
 #pragma once
 
 #include <algorithm>

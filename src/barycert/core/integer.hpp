@@ -1,4 +1,4 @@
-/// Internal: exact integers without heap, for what floating point cannot decide.
+/// Exact integers without heap, for what floating point cannot decide.
 ///
 /// Sign and magnitude in limbs of 64 bits, as many as the number needs, in a fixed place on the stack. Why integers and
 /// not floating-point expansions: a finite double is a small integer times a power of two, so after one shift per
@@ -72,7 +72,8 @@ public:
         limbs_[whole] = mantissa << part;
         limbs_[whole + 1] = part == 0 ? 0 : mantissa >> (64 - part);
         size_ = whole + 2;
-        trim();
+        // Limbs from size_ on are never read.
+        trim();  // NOLINT(clang-analyzer-optin.cplusplus.UninitializedObject)
     }
 
     /// A magnitude, the least significant limb first.

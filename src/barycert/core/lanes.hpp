@@ -1,4 +1,4 @@
-/// Internal: the tiers that run on SIMD lanes, dispatched at run time to the widest instruction set at hand.
+/// The tiers that run on SIMD lanes, dispatched at run time to the widest instruction set at hand.
 ///
 /// Each function works through cases in structure of arrays (layout of CaseArrays), writes what its error bound proves,
 /// and lists the numbers of the cases it leaves undecided. Nothing is said of their output.

@@ -7,7 +7,7 @@
 // and sum n_i is the orientation. The sum on the left is, up to its sign, the classical determinant of the rows
 // (r_i, |r_i|^2), expanded along the last column; so it has a meaning for flat simplices too.
 //
-// The bounds in insphere.cpp and the widths in exact_weights.cpp follow from these formulas.
+// The bounds in predicates.cpp and the widths in exact_weights.cpp follow from these formulas.
 //
 // Included once per SIMD target (see Highway's foreach_target.h), hence no #pragma once.
 #if defined(BARYCERT_CORE_LIFTED_INL_HPP) == defined(HWY_TARGET_TOGGLE)

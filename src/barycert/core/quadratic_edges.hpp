@@ -1,4 +1,4 @@
-/// Internal: the edges that mid-edge nodes stand on.
+/// The edges that mid-edge nodes stand on.
 #pragma once
 
 namespace barycert::core {

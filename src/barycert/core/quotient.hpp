@@ -1,4 +1,4 @@
-/// Internal: quotients of exact integers, rounded to the nearest double.
+/// Quotients of exact integers, rounded to the nearest double.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-/// Internal: finite doubles as integers times a power of two.
+/// Finite doubles as integers times a power of two.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// Internal: the SIMD targets that lanes are compiled for. Comes before any header of Highway's, in every source and
+/// The SIMD targets that lanes are compiled for. Comes before any header of Highway's, in every source and
 /// header that includes one.
 ///
 /// Three on x86-64: what every processor has (emulated, as SSE2 lacks too much), AVX2 with fused multiply-add, AVX-512.

@@ -1,4 +1,4 @@
-/// Internal: is a file a whole shared library, as far as its headers tell?
+/// Is a file a whole shared library, as far as its headers tell?
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-/// Internal: weights from a linear system given to Eigen. Linkage: vectors.hpp.
+/// Weights from a linear system given to Eigen. Linkage: vectors.hpp.
 ///
 /// Not for the variants with other compiler flags: Eigen's inline functions are shared between source files.
 #pragma once

@@ -1,4 +1,4 @@
-/// Internal: how the file of each simplex adds its kernels to the catalogue.
+/// How the file of each simplex adds its kernels to the catalogue.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-/// Internal: interpolation by auxiliary lines, as a scan converter does it. Notation and linkage: vectors.hpp.
+/// Interpolation by auxiliary lines, as a scan converter does it. Notation and linkage: vectors.hpp.
 ///
 ///            o         The line y = const through p meets two sides of a convex polygon in l and r. Interpolate on
 ///           / \        the two sides, then from l to r:

@@ -1,4 +1,4 @@
-/// Internal: weights on a segment a b in 3-space. Notation and linkage: vectors.hpp.
+/// Weights on a segment a b in 3-space. Notation and linkage: vectors.hpp.
 #pragma once
 
 #include "barycert/kernels/vectors.hpp"

@@ -1,4 +1,4 @@
-/// Internal: weights in a tetrahedron a b c d. Notation and linkage: vectors.hpp.
+/// Weights in a tetrahedron a b c d. Notation and linkage: vectors.hpp.
 ///
 /// V(q0,q1,q2,q3) = det(q1-q0, q2-q0, q3-q0) is six times the signed volume.
 #pragma once

@@ -1,4 +1,4 @@
-/// Internal: weights in a triangle a b c of the plane. Notation and linkage: vectors.hpp.
+/// Weights in a triangle a b c of the plane. Notation and linkage: vectors.hpp.
 #pragma once
 
 #include "barycert/kernels/scanline.hpp"

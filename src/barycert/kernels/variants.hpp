@@ -1,4 +1,4 @@
-/// Internal: the same formulas compiled again under other flags. Declarations only: a source with flags of its own
+/// The same formulas compiled again under other flags. Declarations only: a source with flags of its own
 /// must not emit an inline function that the linker could take for everyone.
 #pragma once
 

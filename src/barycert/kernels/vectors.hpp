@@ -1,4 +1,4 @@
-/// Internal: the few vector operations that the formulas are written in.
+/// The few vector operations that the formulas are written in.
 ///
 /// Everything here and in the *_formulas.hpp headers has internal linkage and uses the language alone, no library:
 /// each source file that includes them gets its own copy under its own compiler flags, and no copy can stand in for

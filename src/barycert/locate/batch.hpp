@@ -1,4 +1,4 @@
-/// Internal: many points, in blocks and chunks, on several threads.
+/// Many points, in blocks and chunks, on several threads.
 #pragma once
 
 #include <tbb/parallel_for.h>
@@ -43,9 +43,9 @@ inline Status check_finite(std::span<const double> points, std::size_t d, std::s
 
 /// How many points are sorted together: the more there are, the nearer they lie to each other.
 inline std::size_t block_of(std::size_t count) {
-    constexpr std::size_t least = std::size_t{1} << 13, most = std::size_t{1} << 20;
+    constexpr std::size_t min = std::size_t{1} << 13, max = std::size_t{1} << 20;
     const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-    return std::clamp((count + threads - 1) / threads, least, most);
+    return std::clamp((count + threads - 1) / threads, min, max);
 }
 
 /// For blocks of the points, on all threads of the calling arena: worker = make(number of the first point of the

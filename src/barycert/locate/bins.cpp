@@ -6,11 +6,11 @@
 namespace barycert::locate {
 
 Bins::Bins(std::size_t d, const double* low, const double* high, std::size_t bins) : quantizer_(d, low, high), d_(d) {
-    constexpr std::size_t most = std::size_t{1} << 27;
-    const auto wanted = static_cast<std::size_t>(std::bit_width(std::min(bins, most) | 1)) - 1;
+    constexpr std::size_t max = std::size_t{1} << 27;
+    const auto wanted = static_cast<std::size_t>(std::bit_width(std::min(bins, max) | 1)) - 1;
 
     // The axis of each bit of a bin, from the highest down. No axis gets more than its table should hold.
-    constexpr int most_of_axis = 20;
+    constexpr int max_of_axis = 20;
     std::array<double, 3> side{-1, -1, -1};
     for (std::size_t k = 0; k < d; ++k) side[k] = high[k] * 0.5 - low[k] * 0.5;
     std::vector<std::size_t> axes;
@@ -19,7 +19,7 @@ Bins::Bins(std::size_t d, const double* low, const double* high, std::size_t bin
         const auto longest = static_cast<std::size_t>(std::max_element(side.begin(), side.end()) - side.begin());
         if (side[longest] < 0) break;
         axes.push_back(longest);
-        side[longest] = ++given[longest] < most_of_axis ? side[longest] * 0.5 : -1;
+        side[longest] = ++given[longest] < max_of_axis ? side[longest] * 0.5 : -1;
     }
     bits_ = static_cast<int>(axes.size());
     for (std::size_t k = 0; k < d; ++k) {

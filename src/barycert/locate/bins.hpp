@@ -1,4 +1,4 @@
-/// Internal: a space-filling curve through the bins of a box.
+/// A space-filling curve through the bins of a box.
 #pragma once
 
 #include <array>

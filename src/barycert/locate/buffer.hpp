@@ -1,13 +1,13 @@
-/// Internal: large arrays without a first value.
+/// Large arrays without a first value.
 #pragma once
-
-#include <sys/mman.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <new>
 #include <span>
+
+#include "barycert/base/large_pages.hpp"
 
 namespace barycert::locate {
 
@@ -19,50 +19,25 @@ public:
     Buffer() = default;
     explicit Buffer(std::size_t size)
         : data_(static_cast<T*>(::operator new(size == 0 ? 1 : size * sizeof(T), alignment(size)))), size_(size) {
-#ifdef MADV_HUGEPAGE
-        if (size * sizeof(T) >= large_page) ::madvise(data_.get(), size * sizeof(T), MADV_HUGEPAGE);  // a hint
-#endif
+        base::ask_for_large_pages(data_.get(), size * sizeof(T));
         data_.get_deleter().alignment = alignment(size);
     }
 
-    T* data() {
-        return data_.get();
-    }
-    const T* data() const {
-        return data_.get();
-    }
-    std::size_t size() const {
-        return size_;
-    }
-    std::size_t bytes() const {
-        return size_ * sizeof(T);
-    }
-    T& operator[](std::size_t i) {
-        return data_.get()[i];
-    }
-    const T& operator[](std::size_t i) const {
-        return data_.get()[i];
-    }
-    T* begin() {
-        return data();
-    }
-    T* end() {
-        return data() + size_;
-    }
-    const T* begin() const {
-        return data();
-    }
-    const T* end() const {
-        return data() + size_;
-    }
-    operator std::span<const T>() const {
-        return {data(), size_};
-    }
+    T* data() { return data_.get(); }
+    const T* data() const { return data_.get(); }
+    std::size_t size() const { return size_; }
+    std::size_t bytes() const { return size_ * sizeof(T); }
+    T& operator[](std::size_t i) { return data_.get()[i]; }
+    const T& operator[](std::size_t i) const { return data_.get()[i]; }
+    T* begin() { return data(); }
+    T* end() { return data() + size_; }
+    const T* begin() const { return data(); }
+    const T* end() const { return data() + size_; }
+    operator std::span<const T>() const { return {data(), size_}; }
 
 private:
-    static constexpr std::size_t large_page = std::size_t{1} << 21;
     static std::align_val_t alignment(std::size_t size) {
-        return std::align_val_t{size * sizeof(T) >= large_page ? large_page : 64};
+        return std::align_val_t{size * sizeof(T) >= base::large_page ? base::large_page : 64};
     }
     struct Delete {
         std::align_val_t alignment{64};

@@ -1,4 +1,4 @@
-/// Internal: the cells of a mesh in the order of a space-filling curve, ready to be walked through.
+/// The cells of a mesh in the order of a space-filling curve, ready to be walked through.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// Internal: the exact signs of one point in one cell, cheaply where points lie on faces along the axes.
+/// The exact signs of one point in one cell, cheaply where points lie on faces along the axes.
 #pragma once
 
 #include "barycert/locate/cell_index.hpp"

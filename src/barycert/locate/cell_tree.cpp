@@ -6,7 +6,7 @@ namespace barycert::locate {
 namespace {
 
 struct QuantizedBox {
-    std::array<std::int32_t, 3> low{Quantizer::most, Quantizer::most, Quantizer::most}, high{-1, -1, -1};
+    std::array<std::int32_t, 3> low{Quantizer::max, Quantizer::max, Quantizer::max}, high{-1, -1, -1};
 
     void add(const QuantizedBox& b) {
         for (std::size_t k = 0; k < 3; ++k) {

@@ -1,4 +1,4 @@
-/// Internal: boxes of cells in a tree, to find every cell that may hold a point.
+/// Boxes of cells in a tree, to find every cell that may hold a point.
 #pragma once
 
 #include <array>

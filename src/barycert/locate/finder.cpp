@@ -6,7 +6,7 @@ namespace barycert::locate {
 namespace {
 
 /// A walk in floating point can go round in circles, in cells that are almost flat or not Delaunay.
-constexpr int most_rounds = 128;
+constexpr int max_rounds = 128;
 
 }  // namespace
 
@@ -54,7 +54,7 @@ void Finder::walk(const PointRecord* points, std::size_t count, Place* owner, Fe
     const CellIndex& index = data_.index;
     std::fill(owner, owner + count, -1);
     std::size_t stuck = 0;
-    for (int round = 0; walking_ > 0 && round < most_rounds; ++round)
+    for (int round = 0; walking_ > 0 && round < max_rounds; ++round)
         walking_ = step_walks(index, points, walks_.data(), walking_, owner, stuck_.data(), stuck);
     std::uint64_t arrived = 0;
     for (std::size_t i = 0; i < count; ++i) {

@@ -1,4 +1,4 @@
-/// Internal: points to owners, a chunk at a time.
+/// Points to owners, a chunk at a time.
 #pragma once
 
 #include <array>

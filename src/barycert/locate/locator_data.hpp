@@ -1,4 +1,4 @@
-/// Internal: all that a Locator keeps.
+/// All that a Locator keeps.
 #pragma once
 
 #include <atomic>

@@ -84,9 +84,9 @@ NearGuess guess_nearest(const NearCell& cell, const Point3& p) {
             sum.add(guess.place.offset[k] - d, magnitude(d) + magnitude(guess.place.offset[k]), guess.place.away[k],
                     guess.place.reach[k]);
         }
-        const Real most = sum.sum().high();
-        if (!(most <= 0)) guess.gap = std::max(guess.gap, 2 * most);
-        if (std::isnan(most)) guess.gap = most;
+        const Real max = sum.sum().high();
+        if (!(max <= 0)) guess.gap = std::max(guess.gap, 2 * max);
+        if (std::isnan(max)) guess.gap = max;
     }
     return guess;
 }
@@ -108,8 +108,8 @@ NearBest::NearBest(const Point3& p, const NearFeature& f) {
     place = NearPlace(p, f.at[0], offset);
     for (std::size_t k = 0; k < 3; ++k) {
         if (span[k] == 0) continue;
-        const Real off = roundings * size[k] + 4 * (0x1p-1074L * span[k] + least);
-        slack += off * (2 * place.reach[k] + off) + least;
+        const Real off = roundings * size[k] + 4 * (0x1p-1074L * span[k] + min);
+        slack += off * (2 * place.reach[k] + off) + min;
     }
 }
 

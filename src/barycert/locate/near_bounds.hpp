@@ -1,4 +1,4 @@
-/// Internal: which of two places is nearer to a far or near point? In floating point, with a bound of the error.
+/// Which of two places is nearer to a far or near point? In floating point, with a bound of the error.
 ///
 /// For places x and o and a point p
 ///   |p - x|^2 - |p - o|^2 = (x - o).((x - p) + (o - p)),
@@ -34,14 +34,14 @@ struct Estimate {
 inline constexpr Real roundings = 16 * 0x1p-52L;
 /// More than what vanishes in a few products. Not the least subnormal, with which processors are a hundred times
 /// slower.
-inline constexpr Real least = std::numeric_limits<Real>::min();
+inline constexpr Real min = std::numeric_limits<Real>::min();
 
 /// A sum of products of two factors an axis, each with its size.
 class Products {
 public:
     void add(Real x, Real size_x, Real y, Real size_y) {
         sum_.value += x * y;
-        if (size_x > 0) sum_.error += size_x * size_y * roundings + least;
+        if (size_x > 0) sum_.error += size_x * size_y * roundings + min;
     }
     Estimate sum() const { return sum_; }
 

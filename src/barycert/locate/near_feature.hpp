@@ -1,4 +1,4 @@
-/// Internal: the vertex, edge or face of a cell that is nearest to a point, and exact distances to such.
+/// The vertex, edge or face of a cell that is nearest to a point, and exact distances to such.
 ///
 /// Everything here is exact for all finite doubles: signs come from weight_signs, comparisons and distances from
 /// integers. Neither depends on the floating-point environment.

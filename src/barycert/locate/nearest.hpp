@@ -1,4 +1,4 @@
-/// Internal: the search for the nearest point of a mesh, with its work counted.
+/// The search for the nearest point of a mesh, with its work counted.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-/// Internal: boxes of cells in doubles, to find the nearest cell from anywhere.
+/// Boxes of cells in doubles, to find the nearest cell from anywhere.
 #pragma once
 
 #include <array>

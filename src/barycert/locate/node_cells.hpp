@@ -1,4 +1,4 @@
-/// Internal: the cells at each node, to name all cells around a vertex or edge.
+/// The cells at each node, to name all cells around a vertex or edge.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-/// Internal: neighbours found while cells come by.
+/// Neighbours found while cells come by.
 #pragma once
 
 #include <algorithm>

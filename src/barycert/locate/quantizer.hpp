@@ -1,4 +1,4 @@
-/// Internal: coordinates as integers, for boxes and bins.
+/// Coordinates as integers, for boxes and bins.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace barycert::locate {
 class Quantizer {
 public:
     static constexpr int bits = 31;
-    static constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
+    static constexpr std::int32_t max = std::numeric_limits<std::int32_t>::max();
 
     Quantizer() = default;
 
@@ -26,7 +26,7 @@ public:
             half_low_[k] = low[k] * 0.5;
             // Halves, for the difference of two doubles may be none.
             const double half = high[k] * 0.5 - half_low_[k];
-            const double scale = static_cast<double>(most) / half;  // the clamp takes what rounding puts above
+            const double scale = static_cast<double>(max) / half;  // the clamp takes what rounding puts above
             scale_[k] = half > 0 ? std::min(scale, std::numeric_limits<double>::max()) : 0;
         }
     }
@@ -34,7 +34,7 @@ public:
     /// Precondition: x is finite.
     std::int32_t at(std::size_t k, double x) const {
         const double t = (x * 0.5 - half_low_[k]) * scale_[k];
-        return static_cast<std::int32_t>(std::clamp(t, 0.0, static_cast<double>(most)));
+        return static_cast<std::int32_t>(std::clamp(t, 0.0, static_cast<double>(max)));
     }
 
     /// Numbers that no coordinate mapped to q falls below, or rises above, by more than a rounding of their own size.

@@ -1,4 +1,4 @@
-/// Internal: sorting by small whole numbers.
+/// Sorting by small whole numbers.
 #pragma once
 
 #include <array>

@@ -6,7 +6,7 @@
 namespace barycert::locate {
 namespace {
 
-constexpr int most_bits = 10;
+constexpr int max_bits = 10;
 
 template <std::size_t d>
 void place(std::span<const double> points, const std::vector<std::uint32_t>& bin, int shift,
@@ -26,7 +26,7 @@ void place(std::span<const double> points, const std::vector<std::uint32_t>& bin
 void SortedPoints::sort(std::size_t d, const Bins& bins, std::span<const double> points) {
     size_ = points.size() / d;
     if (records_.size() < size_) records_ = Buffer<PointRecord>(size_);
-    const int shift = std::max(0, bins.bits() - most_bits);
+    const int shift = std::max(0, bins.bits() - max_bits);
     bin_.resize(size_);
     next_.assign(bins.count() >> shift, 0);
     for (std::size_t i = 0; i < size_; ++i) {

@@ -1,4 +1,4 @@
-/// Internal: points in the order of the bins.
+/// Points in the order of the bins.
 #pragma once
 
 #include <cstddef>

@@ -1,14 +1,9 @@
 #include "barycert/locate/cell_tree.hpp"
 #include "barycert/locate/walk_lanes.hpp"
 
-// Before Highway's headers.
-#include "barycert/core/simd_targets.hpp"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/locate/tree_lanes.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, as Highway wants it.
-#include <hwy/highway.h>
+#include "barycert/core/foreach_target.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::locate {

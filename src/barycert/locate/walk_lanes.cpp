@@ -1,13 +1,8 @@
 #include "barycert/locate/walk_lanes.hpp"
 
-// Before Highway's headers.
-#include "barycert/core/simd_targets.hpp"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/locate/walk_lanes.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, as Highway wants it.
-#include <hwy/highway.h>
+#include "barycert/core/foreach_target.hpp"
 
 #include "barycert/core/filter-inl.hpp"
 #include "barycert/locate/records-inl.hpp"

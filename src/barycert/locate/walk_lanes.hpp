@@ -1,4 +1,4 @@
-/// Internal: steps of many walks at once, on SIMD lanes.
+/// Steps of many walks at once, on SIMD lanes.
 #pragma once
 
 #include <cstddef>

@@ -8,7 +8,7 @@
 #include <atomic>
 #include <tuple>
 
-#include "barycert/base/large_vector.hpp"
+#include "barycert/base/large_pages.hpp"
 
 namespace barycert::mesh {
 namespace {

@@ -1,4 +1,4 @@
-/// Internal: the facets of all cells, equal ones side by side.
+/// The facets of all cells, equal ones side by side.
 #pragma once
 
 #include <cstddef>

@@ -28,26 +28,26 @@ std::size_t nearest_edge(const Mesh& mesh, const Mesh::Index* corners, Mesh::Ind
     };
     std::array<double, 6> squares{};
     std::array<double, 18> offsets{};
-    double largest = 0;
+    double max = 0;
     for (std::size_t e = 0; e < edges.size(); ++e) {
         for (std::size_t axis = 0; axis < dimension; ++axis) {
             const double middle = coordinate(corners[edges[e][0]], axis) + coordinate(corners[edges[e][1]], axis);
             double& offset = offsets[e * dimension + axis] = middle - 2 * coordinate(node, axis);
             offset = std::max(offset, -offset);
-            largest = std::max(largest, offset);
+            max = std::max(max, offset);
         }
     }
-    if (largest == 0) return edges.size();
+    if (max == 0) return edges.size();
     for (std::size_t e = 0; e < edges.size(); ++e) {
         for (std::size_t axis = 0; axis < dimension; ++axis) {
-            const double scaled = offsets[e * dimension + axis] / largest;  // squares stay in range
+            const double scaled = offsets[e * dimension + axis] / max;  // squares stay in range
             squares[e] += scaled * scaled;
         }
     }
     const auto last = squares.begin() + static_cast<std::ptrdiff_t>(edges.size());
-    const auto least = std::min_element(squares.begin(), last);
-    if (std::count(squares.begin(), last, *least) != 1) return edges.size();
-    return static_cast<std::size_t>(least - squares.begin());
+    const auto min = std::min_element(squares.begin(), last);
+    if (std::count(squares.begin(), last, *min) != 1) return edges.size();
+    return static_cast<std::size_t>(min - squares.begin());
 }
 
 }  // namespace

@@ -175,8 +175,8 @@ Result<std::array<std::size_t, 2>> axes_of_picture(const Grid& grid, const std::
                      .expected = "one point along exactly one axis, such as --grid 800x600x1",
                      .found = fmt::format("{} x {} x {} points", grid.counts[0], grid.counts[1], grid.counts[2]),
                      .remedy = "set where the layer is by --bounds: it lies in their middle"};
-    constexpr std::int64_t most = 1000000;
-    if (grid.counts[axes[0]] > most || grid.counts[axes[1]] > most)
+    constexpr std::int64_t max = 1000000;
+    if (grid.counts[axes[0]] > max || grid.counts[axes[1]] > max)
         return Error{.what = "too many points for a picture",
                      .file = path,
                      .expected = "at most 1000000 along each axis",

@@ -71,10 +71,10 @@ TEST(ResampleCells, Nested) {
     for (const int d : {2, 3}) {
         base::Random random(2);
         Mesh mesh = d == 2 ? one_cell(2, {0, 0, 8, 0, 0, 8}) : one_cell(3, {0, 0, 0, 8, 0, 0, 0, 8, 0, 0, 0, 8});
-        const Mesh largest = mesh;
+        const Mesh max = mesh;
         for (int i = 1; i < 30; ++i) {
             const double by = std::ldexp(1.0, -i / 4), to = i % 4 * 0.25;
-            mesh = joined(mesh, mapped(largest, {by, by, by}, {to, to, to}));
+            mesh = joined(mesh, mapped(max, {by, by, by}, {to, to, to}));
         }
         for (int i = 0; i < 4; ++i) {
             mesh = renumbered(mesh, random);

@@ -41,7 +41,7 @@ TEST(GridLimits, TheMostPointsOnAnAxis) {
     const Mesh mesh = box(3, {1, 1, 1});
     const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, {});
-    const auto grid = grid_over(3, {Grid::most_on_axis, 2, 1}, {5, 5, 5}, {6, 6, 6});
+    const auto grid = grid_over(3, {Grid::max_on_axis, 2, 1}, {5, 5, 5}, {6, 6, 6});
     ASSERT_TRUE(grid);
     const auto status = resample(*sampler, *grid, {}, nothing);
     ASSERT_FALSE(status);

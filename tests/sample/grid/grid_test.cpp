@@ -75,10 +75,10 @@ TEST(Grids, Refused) {
         const auto grid = grid_over(3, {x, y, z}, {0, 0, 0}, {1, 1, 1});
         return grid ? std::string() : grid.error().message();
     };
-    constexpr std::int64_t n_most = Grid::most_on_axis;
-    const std::string most = std::to_string(n_most);
-    EXPECT_EQ(counts_refused(0, 1, 1), "points of the grid along x: expected 1 to " + most + ", found 0");
-    EXPECT_EQ(counts_refused(1, -5, 1), "points of the grid along y: expected 1 to " + most + ", found -5");
+    constexpr std::int64_t n_most = Grid::max_on_axis;
+    const std::string max = std::to_string(n_most);
+    EXPECT_EQ(counts_refused(0, 1, 1), "points of the grid along x: expected 1 to " + max + ", found 0");
+    EXPECT_EQ(counts_refused(1, -5, 1), "points of the grid along y: expected 1 to " + max + ", found -5");
     EXPECT_NE(counts_refused(1, 1, n_most + 1), "");
     EXPECT_NE(counts_refused(std::numeric_limits<std::int64_t>::max(), 1, 1), "");
     EXPECT_NE(counts_refused(std::numeric_limits<std::int64_t>::min(), 1, 1), "");

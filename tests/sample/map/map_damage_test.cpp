@@ -14,7 +14,7 @@ Mesh small_mesh(int dimension) {
 }
 
 /// Reads what it can; rows that are given must be those of `rows`, from the first on. True if all was accepted.
-bool accepted(const std::string& path, const Mesh& mesh, const Table& rows, std::size_t most = 3) {
+bool accepted(const std::string& path, const Mesh& mesh, const Table& rows, std::size_t max = 3) {
     Result<MapReader> reader = MapReader::open(path, mesh);
     if (!reader) {
         EXPECT_FALSE(reader.error().remedy.empty()) << reader.error().message();
@@ -24,11 +24,11 @@ bool accepted(const std::string& path, const Mesh& mesh, const Table& rows, std:
     const auto dimension = static_cast<std::size_t>(mesh.dimension);
     Table got, block;
     while (true) {
-        const Result<std::size_t> count = reader->read(most, block);
+        const Result<std::size_t> count = reader->read(max, block);
         if (!count) {
             EXPECT_FALSE(count.error().remedy.empty()) << count.error().message();
             EXPECT_TRUE(block.cells.empty() && block.points.empty() && block.features.empty());
-            const Result<std::size_t> again = reader->read(most, block);
+            const Result<std::size_t> again = reader->read(max, block);
             EXPECT_FALSE(again.has_value());
         }
         if (!count || *count == 0) {

@@ -51,8 +51,8 @@ TEST(MapFile, round_trip_in_any_pieces) {
             EXPECT_EQ(reader->dimension(), dimension);
             EXPECT_EQ(reader->all(), all);
             EXPECT_EQ(reader->rows(), count);
-            for (const std::size_t most : {std::size_t{1}, std::size_t{999}, block_rows, std::size_t{100000}}) {
-                const Result<Table> read = read_map(folder / "map", mesh, most);
+            for (const std::size_t max : {std::size_t{1}, std::size_t{999}, block_rows, std::size_t{100000}}) {
+                const Result<Table> read = read_map(folder / "map", mesh, max);
                 ASSERT_TRUE(read) << read.error().message();
                 EXPECT_TRUE(same(*read, rows));
             }

@@ -53,12 +53,12 @@ inline Status write_map(const std::string& path, const Mesh& mesh, bool all, con
 }
 
 /// All rows of a map, `most` at a time.
-inline Result<Table> read_map(const std::string& path, const Mesh& mesh, std::size_t most = 1000) {
+inline Result<Table> read_map(const std::string& path, const Mesh& mesh, std::size_t max = 1000) {
     Result<MapReader> reader = MapReader::open(path, mesh);
     if (!reader) return reader.error();
     Table whole, block;
     while (true) {
-        const Result<std::size_t> count = reader->read(most, block);
+        const Result<std::size_t> count = reader->read(max, block);
         if (!count) return count.error();
         if (*count == 0) return whole;
         append(whole, block);

@@ -14,16 +14,16 @@
 namespace barycert::testing {
 namespace {
 
-constexpr double largest = std::numeric_limits<double>::max();
+constexpr double max = std::numeric_limits<double>::max();
 
 std::vector<double> far_points(int d, double size, base::Random& random) {
     std::vector<double> points;
-    for (const double away : {1.5, 1e3, 1e9, 1e14, 1e16, 1e18, 1e50, 1e200, 1e300, largest}) {
+    for (const double away : {1.5, 1e3, 1e9, 1e14, 1e16, 1e18, 1e50, 1e200, 1e300, max}) {
         for (int i = 0; i < 40; ++i) {
             for (int k = 0; k < d; ++k) {
                 const double share = i % 4 == 0 ? static_cast<double>(random.below(3)) - 1 : random.uniform(-1, 1);
                 const double x = size * random.unit() + share * away * size;
-                points.push_back(std::isfinite(x) ? x : share < 0 ? -largest : largest);
+                points.push_back(std::isfinite(x) ? x : share < 0 ? -max : max);
             }
         }
     }

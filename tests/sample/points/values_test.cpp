@@ -122,8 +122,8 @@ TEST(SampleValues, V1_AnyMagnitude) {
         }
         base::Random random(4);
         Mesh mesh = box(d, {2, 2, 2});
-        constexpr double largest = std::numeric_limits<double>::max();
-        for (double& x : mesh.points) x = x == 0 ? -largest : x == 1 ? 0.1 : largest;
+        constexpr double max = std::numeric_limits<double>::max();
+        for (double& x : mesh.points) x = x == 0 ? -max : x == 1 ? 0.1 : max;
         mesh.point_fields = random_fields(mesh.point_count(), {2}, true, random);
         expect_right(mesh, awkward_points(mesh, 40, random), "all of the doubles");
     }

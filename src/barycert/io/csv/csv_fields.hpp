@@ -1,4 +1,4 @@
-/// Internal: a line of CSV cut into its fields.
+/// A line of CSV cut into its fields.
 #pragma once
 
 #include <cstddef>

@@ -48,11 +48,11 @@ std::string listed_names(int dimension) {
 }
 
 std::string listed(const std::vector<std::string_view>& fields) {
-    constexpr std::size_t most = 8;
+    constexpr std::size_t max = 8;
     std::string text;
-    for (std::size_t i = 0; i < std::min(most, fields.size()); ++i)
+    for (std::size_t i = 0; i < std::min(max, fields.size()); ++i)
         text += (i != 0 ? ", " : "") + base::quoted(fields[i]);
-    return text + (fields.size() > most ? ", ..." : "");
+    return text + (fields.size() > max ? ", ..." : "");
 }
 
 }  // namespace

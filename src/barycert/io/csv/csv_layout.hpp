@@ -1,4 +1,4 @@
-/// Internal: what the first line of a CSV file tells about the others, and why a line is refused.
+/// What the first line of a CSV file tells about the others, and why a line is refused.
 #pragma once
 
 #include <cstddef>

@@ -21,7 +21,7 @@ public:
 
     int dimension() const override { return dimension_; }
     std::optional<std::uint64_t> count() const override { return std::nullopt; }
-    Result<std::size_t> read(std::size_t most, std::vector<double>& out) override;
+    Result<std::size_t> read(std::size_t max, std::vector<double>& out) override;
 
 private:
     bool parse(std::string_view line, std::array<double, 3>& point);
@@ -86,17 +86,17 @@ void CsvSource::append(const std::array<double, 3>& point, std::vector<double>& 
     for (std::size_t axis = 0; axis < static_cast<std::size_t>(dimension_); ++axis) out.push_back(point[axis]);
 }
 
-Result<std::size_t> CsvSource::read(std::size_t most, std::vector<double>& out) {
+Result<std::size_t> CsvSource::read(std::size_t max, std::vector<double>& out) {
     const ExactEnvironment environment;
     if (!error_.what.empty()) return error_;
     std::size_t taken = 0;
-    if (first_ && most != 0) {
+    if (first_ && max != 0) {
         append(*first_, out);
         first_.reset();
         ++taken;
     }
     std::array<double, 3> point{};
-    for (std::string_view line; taken != most && lines_.next(line);) {
+    for (std::string_view line; taken != max && lines_.next(line);) {
         if (!holds_fields(line, layout_.separator)) continue;
         if (!parse(line, point)) {
             error_ = row_error(line);

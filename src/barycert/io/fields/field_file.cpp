@@ -159,8 +159,8 @@ Result<Field> read_npy(Field field, const std::string& path, std::string_view by
                      .found = header->structured ? "a structured array" : base::quoted(header->descr),
                      .remedy = "save a.astype('f8')"};
     const auto& shape = header->shape;
-    constexpr std::uint64_t most_components = 1U << 20;
-    if (shape.empty() || shape.size() > 2 || (shape.size() == 2 && (shape[1] < 1 || shape[1] > most_components)))
+    constexpr std::uint64_t max_components = 1U << 20;
+    if (shape.empty() || shape.size() > 2 || (shape.size() == 2 && (shape[1] < 1 || shape[1] > max_components)))
         return Error{.what = "the shape of field \"" + field.name + '"',
                      .file = path,
                      .expected = "(rows,) or (rows, components)",

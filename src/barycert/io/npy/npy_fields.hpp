@@ -1,4 +1,4 @@
-/// Internal: the fields of the structured array that an NPY file of rows holds.
+/// The fields of the structured array that an NPY file of rows holds.
 #pragma once
 
 #include <cstddef>

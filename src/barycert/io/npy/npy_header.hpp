@@ -1,4 +1,4 @@
-/// Internal: the header of an NPY file. Its format: numpy.org/doc/stable/reference/generated/numpy.lib.format.html
+/// The header of an NPY file. Its format: numpy.org/doc/stable/reference/generated/numpy.lib.format.html
 #pragma once
 
 #include <cstddef>

@@ -114,9 +114,9 @@ Status NpySink::write(const TableView& rows) {
     if (!error_.what.empty()) return error_;
     if (Status fits = check_rows(rows, format_, path_); !fits) return error_ = fits.error();
     const std::size_t count = rows.cells.size();
-    const std::size_t most = buffer_.size() / row_size_;
+    const std::size_t max = buffer_.size() / row_size_;
     for (std::size_t row = 0; row < count;) {
-        const std::size_t size = std::min(most, count - row);
+        const std::size_t size = std::min(max, count - row);
         for (std::size_t i = 0; i < size; ++i) put_row(rows, row + i, buffer_.data() + i * row_size_);
         file_.write({buffer_.data(), size * row_size_});
         row += size;

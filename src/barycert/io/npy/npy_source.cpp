@@ -41,7 +41,7 @@ public:
 
     int dimension() const override { return static_cast<int>(dimension_); }
     std::optional<std::uint64_t> count() const override { return layout_.count; }
-    Result<std::size_t> read(std::size_t most, std::vector<double>& out) override;
+    Result<std::size_t> read(std::size_t max, std::vector<double>& out) override;
 
 private:
     Error failure(const char* what, std::string expected, std::string found, std::string remedy) const {
@@ -121,10 +121,10 @@ Status NpySource::read_numbers(std::uint64_t first, std::size_t count, double* o
     return Done{};
 }
 
-Result<std::size_t> NpySource::read(std::size_t most, std::vector<double>& out) {
+Result<std::size_t> NpySource::read(std::size_t max, std::vector<double>& out) {
     const ExactEnvironment environment;
     if (!error_.what.empty()) return error_;
-    const std::size_t taken = std::min<std::uint64_t>(most, layout_.count - next_);
+    const std::size_t taken = std::min<std::uint64_t>(max, layout_.count - next_);
     const std::size_t before = out.size();
     out.resize(before + taken * dimension_);
     double* const points = out.data() + before;

@@ -27,17 +27,17 @@ std::vector<std::int32_t> read_ring(PlcText& in, std::size_t nodes) {
 
 /// These formats number from 0. A file that never uses 0 and does use `nodes` numbers from 1.
 void settle_index_base(PlcText& in, Plc& plc) {
-    std::int32_t smallest = 1;
-    std::int32_t largest = 0;
+    std::int32_t min = 1;
+    std::int32_t max = 0;
     for (const PlcFacet& facet : plc.facets) {
         for (const std::int32_t id : facet.polygons[0]) {
-            smallest = std::min(smallest, id);
-            largest = std::max(largest, id);
+            min = std::min(min, id);
+            max = std::max(max, id);
         }
     }
-    if (static_cast<std::size_t>(largest) < plc.point_count()) return;
-    if (smallest == 0) {
-        in.fail("no such node", "0 to " + std::to_string(plc.point_count() - 1), std::to_string(largest));
+    if (static_cast<std::size_t>(max) < plc.point_count()) return;
+    if (min == 0) {
+        in.fail("no such node", "0 to " + std::to_string(plc.point_count() - 1), std::to_string(max));
     }
     plc.index_base = 1;
     for (PlcFacet& facet : plc.facets) {

@@ -1,4 +1,4 @@
-/// Internal: the colour bar of a picture: a white panel with the colours from bottom to top and two numbers.
+/// The colour bar of a picture: a white panel with the colours from bottom to top and two numbers.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 namespace barycert::io {
 
 /// Least height of a panel: two lines of text and what is around them.
-inline constexpr std::size_t least_bar_height = 25;
+inline constexpr std::size_t min_bar_height = 25;
 
 class ColourBar {
 public:

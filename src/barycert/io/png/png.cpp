@@ -30,9 +30,9 @@ std::string by(std::size_t width, std::size_t height) {
 }
 
 Status check(const std::string& path, const Slice& s) {
-    const std::string most = std::to_string(longest_png_side);
+    const std::string max = std::to_string(longest_png_side);
     if (s.width < 1 || s.height < 1 || s.width > longest_png_side || s.height > longest_png_side) {
-        return refusal(path, "a slice of that size cannot be a picture", "1 to " + most + " values a side",
+        return refusal(path, "a slice of that size cannot be a picture", "1 to " + max + " values a side",
                        by(s.width, s.height), "choose fewer points, or at least one, on each axis");
     }
     if (s.values.size() != s.width * s.height || (!s.valid.empty() && s.valid.size() != s.values.size())) {
@@ -116,8 +116,8 @@ Status write_png(const std::string& path, const Slice& s, SliceCounts* counts) {
     const SliceCounts told = count(s);
     const Scale scale{told.low, told.high};
     const bool with_bar = s.bar && !std::isnan(told.low);
-    const std::size_t height = with_bar ? std::max(lines, least_bar_height) : lines;
-    const ColourBar bar(told.low, told.high, std::max(height, least_bar_height));
+    const std::size_t height = with_bar ? std::max(lines, min_bar_height) : lines;
+    const ColourBar bar(told.low, told.high, std::max(height, min_bar_height));
     const std::size_t width = columns + (with_bar ? bar.width() : 0);
     if (width > longest_png_side) {
         return refusal(path, "there is no room for the colour bar",

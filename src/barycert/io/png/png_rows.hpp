@@ -1,4 +1,4 @@
-/// Internal: rows of pixels into a PNG file, by libpng.
+/// Rows of pixels into a PNG file, by libpng.
 #pragma once
 
 #include <cstddef>

@@ -33,7 +33,7 @@ public:
 
     int dimension() const override { return dimension_; }
     std::optional<std::uint64_t> count() const override { return table_.rows; }
-    Result<std::size_t> read(std::size_t most, std::vector<double>& out) override;
+    Result<std::size_t> read(std::size_t max, std::vector<double>& out) override;
 
 private:
     bool parse(Scanner& scanner, std::array<double, 3>& point) const;
@@ -110,12 +110,12 @@ void NodeSource::let_go() {
     kept_ += size;
 }
 
-Result<std::size_t> NodeSource::read(std::size_t most, std::vector<double>& out) {
+Result<std::size_t> NodeSource::read(std::size_t max, std::vector<double>& out) {
     const ExactEnvironment environment;
     if (!error_.what.empty()) return error_;
     std::size_t taken = 0;
     std::array<double, 3> point{};
-    for (; taken != most && row_ != table_.rows; ++taken, ++row_) {
+    for (; taken != max && row_ != table_.rows; ++taken, ++row_) {
         Scanner scanner{at_, table_.end()};
         const bool begun = scanner.next_row(table_.end());
         if (!begun || !parse(scanner, point)) {

@@ -2,7 +2,7 @@
 #include <array>
 #include <string_view>
 
-#include "barycert/base/large_vector.hpp"
+#include "barycert/base/large_pages.hpp"
 #include "barycert/io/tetgen/tetgen_reader.hpp"
 
 namespace barycert::io {

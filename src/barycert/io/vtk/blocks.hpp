@@ -1,4 +1,4 @@
-/// Internal: data that VTK compressed block by block, through VTK's compressors.
+/// Data that VTK compressed block by block, through VTK's compressors.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-/// Internal: bytes of a file one after the other, whatever their encoding.
+/// Bytes of a file one after the other, whatever their encoding.
 #pragma once
 
 #include <algorithm>

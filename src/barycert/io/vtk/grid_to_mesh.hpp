@@ -1,4 +1,4 @@
-/// Internal: a mesh out of what a VTK file holds.
+/// A mesh out of what a VTK file holds.
 #pragma once
 
 #include <string>

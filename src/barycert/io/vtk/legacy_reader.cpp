@@ -247,7 +247,7 @@ private:
         if (kind == "SCALARS") {
             // The number of components may be left out; the line of the lookup table may be, too.
             if (const std::optional<std::uint64_t> count = parse_count(text_.rest_of_line()); count.has_value()) {
-                components = static_cast<std::size_t>(std::min(*count, most_entities + 1));
+                components = static_cast<std::size_t>(std::min(*count, max_entities + 1));
             }
             const LegacyText before = text_;
             if (text_.keyword() == "LOOKUP_TABLE") {
@@ -294,7 +294,7 @@ private:
         const std::string what = "array " + in_quotes(name);
         if (components == 0 && rows != 0 && &arrays != &grid_.point_arrays && &arrays != &grid_.cell_arrays)
             components = 1;
-        if (components == 0 || components > most_entities) {
+        if (components == 0 || components > max_entities) {
             return text_.error("the components of " + what, "1 or more", std::to_string(components));
         }
         if (Status s = must_be_new(name, arrays); !s) return s;
@@ -331,7 +331,7 @@ private:
 
     Status read_colors(const std::string& name, std::size_t components, std::size_t rows,
                        std::vector<RawArray>& arrays) {
-        if (components == 0 || components > most_entities) {
+        if (components == 0 || components > max_entities) {
             return text_.error("the components of array " + in_quotes(name), "1 or more", std::to_string(components));
         }
         if (Status s = must_be_new(name, arrays); !s) return s;

@@ -115,8 +115,8 @@ Status LegacyText::skip_metadata() {
 Result<std::size_t> LegacyText::count(const std::string& what) {
     const std::string_view word = next_word(rest_);
     const std::optional<std::uint64_t> value = parse_count(word);
-    if (value.has_value() && *value <= most_entities) return static_cast<std::size_t>(*value);
-    return error(what, "a count up to " + std::to_string(most_entities),
+    if (value.has_value() && *value <= max_entities) return static_cast<std::size_t>(*value);
+    return error(what, "a count up to " + std::to_string(max_entities),
                  word.empty() ? "the end of the file" : shown(word));
 }
 

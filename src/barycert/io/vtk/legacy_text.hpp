@@ -1,4 +1,4 @@
-/// Internal: the words and numbers of VTK's legacy files.
+/// The words and numbers of VTK's legacy files.
 #pragma once
 
 #include <optional>

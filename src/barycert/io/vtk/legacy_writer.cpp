@@ -106,8 +106,8 @@ Status write_legacy(const Mesh& mesh, const std::string& path) {
         writer->SetFileTypeToBinary();
         // Version 4.2 counts all numbers of the cells, the lengths among them, with 32 bits.
         const std::size_t numbers = mesh.cell_count() + mesh.cells.size() + mesh.mid_nodes.size();
-        writer->SetFileVersion(numbers > io::most_entities ? vtkDataWriter::VTK_LEGACY_READER_VERSION_5_1
-                                                           : vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2);
+        writer->SetFileVersion(numbers > io::max_entities ? vtkDataWriter::VTK_LEGACY_READER_VERSION_5_1
+                                                          : vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2);
         writer->SetHeader("mesh");
         writer->SetInputData(io::grid_of(mesh, io::Names::any));
         writer->set_file(file);

@@ -1,4 +1,4 @@
-/// Internal: VTK data sets on the memory of meshes and fields. Includes VTK.
+/// VTK data sets on the memory of meshes and fields. Includes VTK.
 #pragma once
 
 #include <vtkDoubleArray.h>

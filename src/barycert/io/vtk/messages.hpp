@@ -1,4 +1,4 @@
-/// Internal: what VTK has to say, kept from the terminal. Includes VTK.
+/// What VTK has to say, kept from the terminal. Includes VTK.
 #pragma once
 
 #include <vtkCommand.h>

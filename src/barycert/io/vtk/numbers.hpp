@@ -1,4 +1,4 @@
-/// Internal: the numbers of VTK files, of every type and in every encoding, as those that meshes hold.
+/// The numbers of VTK files, of every type and in every encoding, as those that meshes hold.
 #pragma once
 
 #include <cstddef>

@@ -29,7 +29,7 @@ std::string fault_of(const PointRows& rows) {
     const auto dimension = static_cast<std::size_t>(rows.dimension);
     if (rows.points.size() % dimension != 0) return "the coordinates do not make whole points";
     const std::size_t count = rows.points.size() / dimension;
-    if (count > io::most_entities) return "there are more than 2147483647 points";
+    if (count > io::max_entities) return "there are more than 2147483647 points";
     for (const double x : rows.points) {
         if (!std::isfinite(x)) return "a coordinate is not finite";
     }

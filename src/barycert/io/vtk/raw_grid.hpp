@@ -1,4 +1,4 @@
-/// Internal: the points, cells and arrays of a VTK file before anything is asked of them.
+/// The points, cells and arrays of a VTK file before anything is asked of them.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ enum class Part : bool { points, all };
 inline constexpr const char* marker_name = "marker";
 
 /// Node and cell numbers of Mesh go up to this.
-inline constexpr std::uint64_t most_entities = INT32_MAX;
+inline constexpr std::uint64_t max_entities = INT32_MAX;
 
 inline std::string in_quotes(std::string_view name) {
     return "'" + std::string(name) + "'";

@@ -1,4 +1,4 @@
-/// Internal: unstructured grids to VTU files through VTK's writer. Includes VTK.
+/// Unstructured grids to VTU files through VTK's writer. Includes VTK.
 #pragma once
 
 #include <vtkUnstructuredGrid.h>

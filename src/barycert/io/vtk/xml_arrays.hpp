@@ -1,4 +1,4 @@
-/// Internal: the numbers of DataArray elements.
+/// The numbers of DataArray elements.
 #pragma once
 
 #include <memory>

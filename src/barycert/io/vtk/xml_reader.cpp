@@ -64,9 +64,9 @@ private:
     Result<std::size_t> count_of(const XmlElement& piece, const char* key, std::size_t before) const {
         const std::optional<std::string_view> text = piece.attribute(key);
         const std::optional<std::uint64_t> count = parse_count(text.value_or(""));
-        if (!count.has_value() || *count > most_entities - before) {
+        if (!count.has_value() || *count > max_entities - before) {
             return arrays_.error(piece, "the attribute " + std::string(key),
-                                 "a count, at most " + std::to_string(most_entities) + " in all pieces",
+                                 "a count, at most " + std::to_string(max_entities) + " in all pieces",
                                  text.has_value() ? in_quotes(*text) : "none");
         }
         return static_cast<std::size_t>(*count);
@@ -177,7 +177,7 @@ private:
         const std::string what = "array " + in_quotes(name);
         const std::string_view text = array.attribute("NumberOfComponents").value_or("1");
         const std::uint64_t components = parse_count(text).value_or(0);
-        if (components == 0 || components > most_entities) {
+        if (components == 0 || components > max_entities) {
             return arrays_.error(array, "the components of " + what, "a count of 1 or more", in_quotes(text));
         }
         auto known =

@@ -1,4 +1,4 @@
-/// Internal: the elements of a VTK XML file, through VTK's XML parser.
+/// The elements of a VTK XML file, through VTK's XML parser.
 #pragma once
 
 #include <cstddef>

@@ -15,37 +15,37 @@ using namespace report;
 
 namespace {
 
-constexpr std::size_t most_kernels = 6;
+constexpr std::size_t max_kernels = 6;
 
 struct Look {
     std::string_view colour;
     Mark mark;
 };
 // Okabe and Ito's colours, told apart by most eyes, and by their marks without colour.
-constexpr std::array<Look, most_kernels> looks{{{"#d55e00", Mark::up},
-                                                {"#0072b2", Mark::circle},
-                                                {"#009e73", Mark::square},
-                                                {"#cc79a7", Mark::diamond},
-                                                {"#e69f00", Mark::down},
-                                                {"#56b4e9", Mark::cross}}};
+constexpr std::array<Look, max_kernels> looks{{{"#d55e00", Mark::up},
+                                               {"#0072b2", Mark::circle},
+                                               {"#009e73", Mark::square},
+                                               {"#cc79a7", Mark::diamond},
+                                               {"#e69f00", Mark::down},
+                                               {"#56b4e9", Mark::cross}}};
 
 /// An error in bits above 2^-53. Below half of that it says nothing: exact weights are rounded that far themselves.
-constexpr double least_bits = -1;
+constexpr double min_bits = -1;
 double error_bits(double units) {
-    return std::max(std::log2(units), least_bits);
+    return std::max(std::log2(units), min_bits);
 }
 
-double largest_error(const KernelResult& k) {
-    double largest = 0;
-    for (const Prediction::Bin& bin : k.prediction.bins()) largest = std::max(largest, bin.worst);
-    return largest;
+double max_error(const KernelResult& k) {
+    double max = 0;
+    for (const Prediction::Bin& bin : k.prediction.bins()) max = std::max(max, bin.worst);
+    return max;
 }
 
 /// Those with something to show, largest worst factor first.
 std::vector<const KernelResult*> candidates(const AuditReport& report, Simplex simplex) {
     std::vector<const KernelResult*> list;
     for (const KernelResult& k : report.kernels) {
-        if (k.kernel.simplex == simplex && k.prediction.cases() > 0 && largest_error(k) > 0.5) list.push_back(&k);
+        if (k.kernel.simplex == simplex && k.prediction.cases() > 0 && max_error(k) > 0.5) list.push_back(&k);
     }
     std::stable_sort(list.begin(), list.end(), [](const KernelResult* a, const KernelResult* b) {
         return a->prediction.worst_factor() > b->prediction.worst_factor();
@@ -58,15 +58,15 @@ bool is_variant(const KernelResult* k) {
 }
 
 std::vector<const KernelResult*> chosen(std::vector<const KernelResult*> list) {
-    if (list.size() > most_kernels && !std::all_of(list.begin(), list.end(), is_variant))
+    if (list.size() > max_kernels && !std::all_of(list.begin(), list.end(), is_variant))
         std::erase_if(list, is_variant);
-    if (list.size() <= most_kernels) return list;
+    if (list.size() <= max_kernels) return list;
     std::vector<const KernelResult*> some;
-    for (std::size_t i = 0; i < most_kernels; ++i) some.push_back(list[i * (list.size() - 1) / (most_kernels - 1)]);
+    for (std::size_t i = 0; i < max_kernels; ++i) some.push_back(list[i * (list.size() - 1) / (max_kernels - 1)]);
     return some;
 }
 
-std::uint64_t most_cases(const std::vector<const KernelResult*>& kernels) {
+std::uint64_t max_cases(const std::vector<const KernelResult*>& kernels) {
     std::uint64_t cases = 0;
     for (const KernelResult* k : kernels) cases = std::max(cases, k->prediction.cases());
     return cases;
@@ -144,12 +144,10 @@ std::string condition_plot(const AuditReport& report) {
             error = std::max(error, std::ceil(error_bits(bin.worst)) + 1);
         }
     }
-    const Axis x{.low = 0, .high = bits, .from = 70, .to = 710, .title = "log2 κ: bits that the cell may cost"};
-    const Axis y{.low = least_bits - 1,
-                 .high = error,
-                 .from = 500,
-                 .to = 60,
-                 .title = "log2 (error / 2⁻⁵³): bits that are lost"};
+    const Axis x{
+        .low = 0, .high = bits, .from = 70, .to = 710, .title = "log2 κ: accuracy at risk from the cell's shape, bits"};
+    const Axis y{
+        .low = min_bits - 1, .high = error, .from = 500, .to = 60, .title = "log2 (error / 2⁻⁵³): accuracy lost, bits"};
     draw_frame(svg, x, y);
     draw_line_through(svg, x, y, {0, 53}, {1, 53}, {.colour = "#888", .width = 1.2, .dashes = "8 4"});
     draw_line_through(svg, x, y, {0, 0}, {1, 1}, {.colour = "#000", .width = 2});
@@ -159,7 +157,7 @@ std::string condition_plot(const AuditReport& report) {
     const TextStyle small{.size = 12, .colour = "#555"};
     svg.text({70, 568},
              fmt::format("Up to {} cases a kernel (seed {}, {} a family), the point in the cell or on its boundary.",
-                         most_cases(kernels), report.seed, report.count),
+                         max_cases(kernels), report.seed, report.count),
              small);
     svg.text({70, 586},
              "Error: the largest |weight - exact weight| of a case. Factor: error / (κ · 2⁻⁵³) where κ < 2⁴⁷.", small);

@@ -73,7 +73,7 @@ Json kernel_json(const Kernel& k) {
 Json family_json(const Family& f) {
     Json j;
     j["name"] = f.name;
-    j["after"] = f.after;
+    j["after"] = f.tests;
     j["parameters"] = f.parameters;
     j["needs_mesh"] = f.needs_mesh;
     j["simplices"] = Json::array();

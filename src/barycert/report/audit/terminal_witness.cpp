@@ -117,7 +117,7 @@ std::string families_text(const std::vector<Family>& families) {
     for (const Family& f : families) {
         std::string simplices;
         for (const Simplex s : f.simplices) simplices += (simplices.empty() ? "" : ", ") + std::string(name(s));
-        out += fmt::format("{}\n    after    {}\n    recipe   {}\n    for      {}{}\n", f.name, f.after, f.parameters,
+        out += fmt::format("{}\n    tests    {}\n    recipe   {}\n    for      {}{}\n", f.name, f.tests, f.parameters,
                            simplices, f.needs_mesh ? " of a mesh" : "");
     }
     return out;

@@ -1,4 +1,4 @@
-/// Internal: which cells of a mesh the HTML report draws, and their pictures.
+/// Which cells of a mesh the HTML report draws, and their pictures.
 #pragma once
 
 #include <array>
@@ -18,11 +18,11 @@ struct Exhibit {
 };
 
 /// The cells of smallest (dihedral) angle, smallest first, that are not degenerate and can be drawn; ties by index.
-std::vector<Exhibit> worst_cells(const CheckReport& report, const Mesh& mesh, std::size_t most);
+std::vector<Exhibit> worst_cells(const CheckReport& report, const Mesh& mesh, std::size_t max);
 
 /// Cells with problems, each problem in turn, so that a few of one kind leave room for the others. Contacts and places
 /// of defects that name cells which can be drawn.
-std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, std::size_t most);
+std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, std::size_t max);
 
 /// A card: the cell from two sides, at the same scale, with the numbers of its nodes; what is known of it. `number` is
 /// the one it has in the map.

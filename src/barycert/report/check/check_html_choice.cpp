@@ -53,18 +53,18 @@ Exhibit of_place(DefectKind problem, const DefectPlace& p, const Cells& cells) {
 
 }  // namespace
 
-std::vector<Exhibit> worst_cells(const CheckReport& report, const Mesh& mesh, std::size_t most) {
+std::vector<Exhibit> worst_cells(const CheckReport& report, const Mesh& mesh, std::size_t max) {
     const CellMeasures& m = report.measures;
     std::vector<std::pair<double, Mesh::Index>> worst;  // a heap, the least bad on top
     for (std::size_t cell = 0; cell < m.min_angle.size(); ++cell) {
         const double angle = m.min_angle[cell];
         if (m.orientation[cell] == 0 || std::isnan(angle)) continue;
         const std::pair entry(angle, static_cast<Mesh::Index>(cell));
-        if (worst.size() == most && !(entry < worst.front())) continue;
+        if (worst.size() == max && !(entry < worst.front())) continue;
         if (!drawable(mesh, cell)) continue;
         worst.push_back(entry);
         std::push_heap(worst.begin(), worst.end());
-        if (worst.size() <= most) continue;
+        if (worst.size() <= max) continue;
         std::pop_heap(worst.begin(), worst.end());
         worst.pop_back();
     }
@@ -78,7 +78,7 @@ std::vector<Exhibit> worst_cells(const CheckReport& report, const Mesh& mesh, st
     return exhibits;
 }
 
-std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, std::size_t most) {
+std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, std::size_t max) {
     // One queue a kind of problem; of pairs of cells, those with a witness first.
     std::vector<std::vector<Exhibit>> queues;
     const auto open_queue = [&] { queues.emplace_back(); };
@@ -103,7 +103,7 @@ std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, s
     for (const bool others : {true, false}) {
         for (std::size_t round = 0; round < longest_queue; ++round) {
             for (const std::vector<Exhibit>& queue : queues) {
-                if (round >= queue.size() || exhibits.size() == most) continue;
+                if (round >= queue.size() || exhibits.size() == max) continue;
                 const Exhibit& e = queue[round];
                 if (pairs.contains(e.cells) || (others && (cells.contains(e.cells[0]) || cells.contains(e.cells[1]))))
                     continue;

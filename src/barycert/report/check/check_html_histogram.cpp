@@ -15,28 +15,28 @@
 namespace barycert::report {
 namespace {
 
-constexpr double most_bins = 48;
+constexpr double max_bins = 48;
 
 /// The smallest of 1, 2, 5 times a power of ten that covers the span with few enough bins.
 double round_width(double span) {
-    const double least = span / most_bins;
-    const double power = std::pow(10, std::floor(std::log10(least)));
+    const double min = span / max_bins;
+    const double power = std::pow(10, std::floor(std::log10(min)));
     for (const double factor : {1.0, 2.0, 5.0}) {
-        if (factor * power >= least) return factor * power;
+        if (factor * power >= min) return factor * power;
     }
     return 10 * power;
 }
 
-void choose_bins(Histogram& h, double least, double most) {
+void choose_bins(Histogram& h, double min, double max) {
     // Values that are all but the same get bins around them, a decade or a tenth of their size.
-    const double smallest = h.logarithmic || most == 0 ? 1 : 0.1 * most;
-    if (most - least < smallest) {
-        const double middle = least + (most - least) / 2;
-        least = middle - smallest / 2;
-        most = least + smallest;
+    const double smallest = h.logarithmic || max == 0 ? 1 : 0.1 * max;
+    if (max - min < smallest) {
+        const double middle = min + (max - min) / 2;
+        min = middle - smallest / 2;
+        max = min + smallest;
     }
-    h.width = round_width(most - least);
-    const double first = std::floor(least / h.width), last = std::floor(most / h.width) + 1;
+    h.width = round_width(max - min);
+    const double first = std::floor(min / h.width), last = std::floor(max / h.width) + 1;
     h.low = first * h.width;
     h.counts.assign(static_cast<std::size_t>(last - first), 0);
 }
@@ -102,12 +102,12 @@ struct CountAxis {
 };
 
 CountAxis count_axis(const Histogram& h, double height) {
-    std::uint64_t most = 1, least = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t max = 1, min = std::numeric_limits<std::uint64_t>::max();
     for (const std::uint64_t c : h.counts) {
-        most = std::max(most, c);
-        if (c > 0) least = std::min(least, c);
+        max = std::max(max, c);
+        if (c > 0) min = std::min(min, c);
     }
-    return {.logarithmic = least < most / 100, .top = static_cast<double>(most), .height = height};
+    return {.logarithmic = min < max / 100, .top = static_cast<double>(max), .height = height};
 }
 
 constexpr double chart_width = 520, chart_height = 262, left = 58, right = 498, base = 214, ceiling = 40;
@@ -154,28 +154,28 @@ std::string counted_apart(const Histogram& h, const HistogramText& text) {
 
 Histogram histogram(const std::vector<double>& values, const BinRule& rule) {
     Histogram h;
-    double least = std::numeric_limits<double>::infinity(), smallest = least, most = -1;
+    double min = std::numeric_limits<double>::infinity(), smallest = min, max = -1;
     for (const double x : values) {
         if (!std::isfinite(x)) continue;
-        least = std::min(least, x);
+        min = std::min(min, x);
         if (x > 0) smallest = std::min(smallest, x);
-        most = std::max(most, x);
+        max = std::max(max, x);
     }
-    const bool far_out = most > 1e300 || (most > 0 && most < 1e-300);  // bounds of bins might over- or underflow
+    const bool far_out = max > 1e300 || (max > 0 && max < 1e-300);  // bounds of bins might over- or underflow
     h.logarithmic = rule.kind == BinRule::Kind::logarithmic || (rule.kind != BinRule::Kind::given && far_out) ||
-                    (rule.kind == BinRule::Kind::chosen && most > 0 && most / 20 > least);
+                    (rule.kind == BinRule::Kind::chosen && max > 0 && max / 20 > min);
     if (rule.kind == BinRule::Kind::given) {
         h.low = rule.low;
         h.width = rule.width;
         h.counts.assign(static_cast<std::size_t>(std::lround((rule.high - rule.low) / rule.width)), 0);
-    } else if (most < 0 || (h.logarithmic && most == 0)) {  // nothing to show
+    } else if (max < 0 || (h.logarithmic && max == 0)) {  // nothing to show
         h.counts.assign(1, 0);
     } else if (h.logarithmic) {
-        choose_bins(h, std::log10(smallest), std::log10(most));
+        choose_bins(h, std::log10(smallest), std::log10(max));
     } else if (rule.kind == BinRule::Kind::linear) {
-        choose_bins(h, std::min(least, rule.low), std::max(most, rule.high));
+        choose_bins(h, std::min(min, rule.low), std::max(max, rule.high));
     } else {
-        choose_bins(h, least, most);
+        choose_bins(h, min, max);
     }
     const double last = static_cast<double>(h.counts.size() - 1);
     for (const double x : values) {

@@ -1,4 +1,4 @@
-/// Internal: histograms of measures for the HTML report.
+/// Histograms of measures for the HTML report.
 #pragma once
 
 #include <array>

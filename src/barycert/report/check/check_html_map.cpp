@@ -20,7 +20,7 @@ namespace barycert::report {
 namespace {
 
 constexpr double map_width = 640, tallest = 440, map_margin = 40;
-constexpr std::size_t most_marks = 3000;
+constexpr std::size_t max_marks = 3000;
 
 /// The cells that have a boundary: others could not be asked for their facets.
 Mesh proper_cells(const Mesh& mesh) {
@@ -126,17 +126,17 @@ Outline outline_of(const Mesh& mesh, const Normalised& normalised, const View& v
         bool crease = false;
         for (; i < edges.size() && edges[i].nodes == edges[first].nodes; ++i)
             crease |= dot(hull[edges[i].facet].normal, hull[edges[first].facet].normal) < bend;
-        if (all < most_marks) out.edges.push_back(edges[first].nodes);
-        if (crease && out.creases.size() <= most_marks) out.creases.push_back(edges[first].nodes);
+        if (all < max_marks) out.edges.push_back(edges[first].nodes);
+        if (crease && out.creases.size() <= max_marks) out.creases.push_back(edges[first].nodes);
     }
-    if (all > most_marks) out.edges.clear();
-    if (out.creases.size() > most_marks / 2 || !out.edges.empty()) out.creases.clear();
+    if (all > max_marks) out.edges.clear();
+    if (out.creases.size() > max_marks / 2 || !out.edges.empty()) out.creases.clear();
     if (!out.edges.empty()) return out;
     std::vector<std::size_t> seen;  // from in front
     for (std::size_t f = 0; f < hull.size(); ++f) {
         if (mesh.dimension == 2 || dot(hull[f].normal, view.z) > 0) seen.push_back(f);
     }
-    const std::size_t room = std::max<std::size_t>(most_marks - out.creases.size(), 1);
+    const std::size_t room = std::max<std::size_t>(max_marks - out.creases.size(), 1);
     const std::size_t step = (seen.size() + room - 1) / room;
     for (std::size_t i = 0; i < seen.size(); i += step) out.facets.push_back(hull[seen[i]]);
     return out;

@@ -1,4 +1,4 @@
-/// Internal: the style sheet of the HTML report.
+/// The style sheet of the HTML report.
 #pragma once
 
 #include <string_view>

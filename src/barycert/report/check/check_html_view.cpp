@@ -17,9 +17,9 @@ Vector minus(const Vector& a, const Vector& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 Vector unit(const Vector& a) {
-    const double largest = std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
-    if (!(largest > std::numeric_limits<double>::min())) return {1, 0, 0};
-    const Vector b{a[0] / largest, a[1] / largest, a[2] / largest};
+    const double max = std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
+    if (!(max > std::numeric_limits<double>::min())) return {1, 0, 0};
+    const Vector b{a[0] / max, a[1] / max, a[2] / max};
     const double length = std::sqrt(dot(b, b));
     return {b[0] / length, b[1] / length, b[2] / length};
 }
@@ -100,13 +100,13 @@ std::array<Vector, 3> extents(const std::vector<Vector>& points) {
 }
 
 View from_above(const std::vector<Vector>& points) {
-    const auto [largest, middle, least] = extents(points);
-    return {largest, middle, cross(largest, middle)};
+    const auto [max, middle, min] = extents(points);
+    return {max, middle, cross(max, middle)};
 }
 
 View from_the_side(const std::vector<Vector>& points) {
-    const auto [largest, middle, least] = extents(points);
-    return {largest, least, cross(largest, least)};
+    const auto [max, middle, min] = extents(points);
+    return {max, min, cross(max, min)};
 }
 
 std::array<std::size_t, 2> sharpest_edge(const std::vector<Vector>& t) {
@@ -146,9 +146,9 @@ View along_edge(const std::vector<Vector>& t, std::array<std::size_t, 2> edge) {
     for (std::size_t i = 0; i < 3; ++i) open[i] -= along * v.z[i];
     if (dot(open, open) < 1e-20) {  // opposite to each other: 180 degrees
         Vector axis{};
-        const auto least =
+        const auto min =
             std::min_element(v.z.begin(), v.z.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); });
-        axis[static_cast<std::size_t>(least - v.z.begin())] = 1;
+        axis[static_cast<std::size_t>(min - v.z.begin())] = 1;
         open = cross(v.z, axis);
     }
     v.x = unit(open);

@@ -1,4 +1,4 @@
-/// Internal: cells of a mesh as points that can be drawn, and the directions to draw them from.
+/// Cells of a mesh as points that can be drawn, and the directions to draw them from.
 #pragma once
 
 #include <array>

@@ -21,8 +21,8 @@ using Json = nlohmann::ordered_json;
 
 /// JSON knows no infinity, and null would hide it: the largest double stands for it.
 Json figure(double x) {
-    constexpr double largest = std::numeric_limits<double>::max();
-    return std::isnan(x) ? Json(nullptr) : Json(std::clamp(x, -largest, largest));
+    constexpr double max = std::numeric_limits<double>::max();
+    return std::isnan(x) ? Json(nullptr) : Json(std::clamp(x, -max, max));
 }
 
 Json conditions_json(const CheckReport& r, const Mesh& mesh) {

@@ -1,4 +1,4 @@
-/// Internal: the environment as every JSON report has it.
+/// The environment as every JSON report has it.
 #pragma once
 
 #include <nlohmann/json.hpp>

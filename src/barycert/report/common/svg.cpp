@@ -50,10 +50,10 @@ std::string xml_escaped(std::string_view text) {
     return out;
 }
 
-std::vector<double> round_ticks(double low, double high, int most) {
-    double step = std::pow(10, std::floor(std::log10((high - low) / most)));
+std::vector<double> round_ticks(double low, double high, int max) {
+    double step = std::pow(10, std::floor(std::log10((high - low) / max)));
     for (const double factor : {2.0, 2.5, 2.0, 2.0}) {  // 1, 2, 5, 10, 20 times the power of ten
-        if (std::floor(high / step) - std::ceil(low / step) < most) break;
+        if (std::floor(high / step) - std::ceil(low / step) < max) break;
         step *= factor;
     }
     std::vector<double> ticks;

@@ -1,4 +1,4 @@
-/// Internal: pictures as SVG, in one self-contained file: a canvas for lines, marks and text, and a frame with axes.
+/// Pictures as SVG, in one self-contained file: a canvas for lines, marks and text, and a frame with axes.
 ///
 /// Coordinates are pixels, y downwards. Everything that comes from outside (names) goes through text(), which escapes
 /// it. Numbers are written with one decimal, so that the same data give the same bytes.
@@ -15,7 +15,7 @@ namespace barycert::report {
 std::string xml_escaped(std::string_view text);
 
 /// Round numbers in [low, high]: multiples of 1, 2 or 5 times a power of ten, at most `most` of them (at least 2).
-std::vector<double> round_ticks(double low, double high, int most);
+std::vector<double> round_ticks(double low, double high, int max);
 
 struct Stroke {
     std::string_view colour = "#222";

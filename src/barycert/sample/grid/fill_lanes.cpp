@@ -6,14 +6,9 @@
 #include <cmath>
 #include <cstring>
 
-// Before Highway's headers.
-#include "barycert/core/simd_targets.hpp"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/sample/grid/fill_lanes.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, as Highway wants it.
-#include <hwy/highway.h>
+#include "barycert/core/foreach_target.hpp"
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/locate/records-inl.hpp"
@@ -61,8 +56,8 @@ HWY_INLINE void set_block(D tag, const locate::CellIndex& index, const NodeValue
             high = hn::Max(high, v[i][k]);
         }
         const V origin = hn::Set(tag, raster.origin[k]), scale = hn::Set(tag, raster.scale[k]);
-        const V most = hn::Set(tag, static_cast<double>(raster.at[static_cast<std::size_t>(k)].size()));
-        const auto clamp = [&](V x) HWY_ATTR { return hn::Min(hn::Max(x, hn::Zero(tag)), most); };
+        const V max = hn::Set(tag, static_cast<double>(raster.at[static_cast<std::size_t>(k)].size()));
+        const auto clamp = [&](V x) HWY_ATTR { return hn::Min(hn::Max(x, hn::Zero(tag)), max); };
         hn::Store(v[d][k], tag, out.origin[k]);
         hn::Store(low, tag, out.low[k]);
         hn::Store(high, tag, out.high[k]);
@@ -89,7 +84,7 @@ HWY_INLINE void set_block(D tag, const locate::CellIndex& index, const NodeValue
     for (std::size_t c = 1; c < nodes.components; ++c) {
         const sample::ValueRecord* const more = nodes.more + (c - 1) / 4 * nodes.node_count;
         for (int i = 0; i < n; ++i) {
-            HWY_ALIGN double lanes[most_lanes];
+            HWY_ALIGN double lanes[max_lanes];
             for (std::size_t l = 0; l < hn::MaxLanes(D()); ++l) lanes[l] = more[node(l, i)].value[(c - 1) % 4];
             f[i] = hn::Load(tag, lanes);
         }
@@ -124,7 +119,7 @@ HWY_INLINE void fill_row(D tag, const Raster& raster, const CellFill<d, V>& fill
             const Partial<V> x = fill.known != nullptr
                                      ? fill.known[c]
                                      : column_terms<d>(tag, raster, fill.cell, fill.values[c], fill.l, column);
-            HWY_ALIGN double lanes[most_lanes];
+            HWY_ALIGN double lanes[max_lanes];
             hn::Store(value_of(tag, fill.values[c], fill.l, fill.terms[c], r, x, certain), tag, lanes);
             for (std::int32_t i = from; i < to; ++i) {
                 const std::size_t point = at + static_cast<std::size_t>(i);
@@ -163,8 +158,8 @@ HWY_INLINE void fill_short_row(D tag, const CellFill<d, V>& fill, std::size_t r,
     const std::uint32_t bits = ((1U << (last - begin)) - 1) & ~((1U << (first - begin)) - 1);
     const std::uint8_t stored[8] = {static_cast<std::uint8_t>(bits)};
     hn::BlendedStore(value, hn::LoadMaskBits(tag, stored), tag, target.values + point);
-    const hn::CappedTag<std::int32_t, most_lanes> whole;
-    constexpr std::size_t width = hn::MaxLanes(hn::CappedTag<std::int32_t, most_lanes>());
+    const hn::CappedTag<std::int32_t, max_lanes> whole;
+    constexpr std::size_t width = hn::MaxLanes(hn::CappedTag<std::int32_t, max_lanes>());
     for (std::size_t i = 0; i < hn::MaxLanes(D()); i += width) {
         const std::uint8_t part[8] = {static_cast<std::uint8_t>(bits >> i)};
         hn::BlendedStore(hn::Set(whole, fill.id), hn::LoadMaskBits(whole, part), whole, target.owner + point + i);
@@ -191,9 +186,9 @@ HWY_INLINE void fill_cell(D tag, const Raster& raster, const CellBlock<space_dim
     cut.last = std::min(cut.last, target.last_layer);
     if (columns.first >= columns.last || lines.first >= lines.last || layers.first >= layers.last) return;
 
-    constexpr std::size_t most_known = 4;
-    Partial<V> known[most_known];
-    const bool one_vector = static_cast<std::size_t>(columns.last - columns.first) <= width && components <= most_known;
+    constexpr std::size_t max_known = 4;
+    Partial<V> known[max_known];
+    const bool one_vector = static_cast<std::size_t>(columns.last - columns.first) <= width && components <= max_known;
     for (std::size_t c = 0; one_vector && c < components; ++c)
         known[c] = column_terms<d>(tag, raster, cell, values[c], l, columns.first);
     const CellFill<d, V> fill{cell, values, components, l, id, columns.first, one_vector ? known : nullptr, terms};
@@ -250,7 +245,7 @@ HWY_INLINE void fill_cell(D tag, const Raster& raster, const CellBlock<space_dim
         ++row;
         layer += row == lines.last ? 1 : 0;
         row = row == lines.last ? lines.first : row;
-        if (++rows.count == Rows::most) run();
+        if (++rows.count == Rows::max) run();
     }
     if (rows.count != 0) run();
 }

@@ -1,4 +1,4 @@
-/// Internal: cells fill in the points of a grid that they hold, on SIMD lanes.
+/// Cells fill in the points of a grid that they hold, on SIMD lanes.
 #pragma once
 
 #include <cstddef>

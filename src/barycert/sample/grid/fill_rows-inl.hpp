@@ -38,22 +38,22 @@ using namespace core::HWY_NAMESPACE;
 
 using sample::Raster;
 
-constexpr std::size_t most_lanes = 8;
+constexpr std::size_t max_lanes = 8;
 
 /// Of each plane, by cell of a block: the weight along a row at (w_y, w_z) is a = constant + sy w_y + sz w_z at w_x =
 /// 0. It bounds the row from below at t = lower - a * lower_factor -+ lower_width, from above likewise; where it does
 /// not, the bound is far away and its factor 0.
 struct PlaneBlock {
-    HWY_ALIGN double constant[most_lanes], sy[most_lanes], sz[most_lanes];
-    HWY_ALIGN double lower[most_lanes], lower_factor[most_lanes], lower_width[most_lanes];
-    HWY_ALIGN double upper[most_lanes], upper_factor[most_lanes], upper_width[most_lanes];
+    HWY_ALIGN double constant[max_lanes], sy[max_lanes], sz[max_lanes];
+    HWY_ALIGN double lower[max_lanes], lower_factor[max_lanes], lower_width[max_lanes];
+    HWY_ALIGN double upper[max_lanes], upper_factor[max_lanes], upper_width[max_lanes];
 };
 
 template <int d>
 struct CellBlock {
-    HWY_ALIGN double origin[d][most_lanes], low[d][most_lanes], high[d][most_lanes];
-    HWY_ALIGN double first[d][most_lanes], last[d][most_lanes];  ///< guesses of places
-    HWY_ALIGN double valid[most_lanes];                          ///< 1 or 0
+    HWY_ALIGN double origin[d][max_lanes], low[d][max_lanes], high[d][max_lanes];
+    HWY_ALIGN double first[d][max_lanes], last[d][max_lanes];  ///< guesses of places
+    HWY_ALIGN double valid[max_lanes];                         ///< 1 or 0
     PlaneBlock plane[d + 1];
 };
 
@@ -104,15 +104,15 @@ HWY_INLINE PlaceRange places_between(const std::vector<double>& at, double first
 /// Rows of a cell, for several vectors: what was stored one by one is loaded as a vector only after a while, or the
 /// processor would have to wait.
 struct Rows {
-    static constexpr std::size_t most = 8 * most_lanes;
-    HWY_ALIGN double y[most], z[most];
-    std::int32_t row[most], layer[most];
+    static constexpr std::size_t max = 8 * max_lanes;
+    HWY_ALIGN double y[max], z[max];
+    std::int32_t row[max], layer[max];
     std::size_t count;
 };
 
 /// What MaxLanes of them have in common with the cell.
 struct RowBlock {
-    HWY_ALIGN std::int32_t first[most_lanes], inner_first[most_lanes], inner_last[most_lanes], last[most_lanes];
+    HWY_ALIGN std::int32_t first[max_lanes], inner_first[max_lanes], inner_last[max_lanes], last[max_lanes];
     std::uint32_t with_points = 0;  ///< bits: rows with certain points
     std::uint32_t unsure = 0;       ///< bits: rows with others
 };
@@ -137,8 +137,8 @@ HWY_INLINE void find_intervals(D tag, const CellBlock<d>& cell, std::size_t l, P
         high = hn::Min(high, upper + upper_width);
         inner_high = hn::Min(inner_high, upper - upper_width);
     }
-    const V least = hn::Set(tag, columns.first), most = hn::Set(tag, columns.last), one = hn::Set(tag, 1);
-    const auto clamp = [&](V x) HWY_ATTR { return hn::Min(hn::Max(x, least), most); };
+    const V min = hn::Set(tag, columns.first), max = hn::Set(tag, columns.last), one = hn::Set(tag, 1);
+    const auto clamp = [&](V x) HWY_ATTR { return hn::Min(hn::Max(x, min), max); };
     const hn::Rebind<std::int32_t, D> whole;
     const V first = clamp(hn::Ceil(low)), last = hn::Max(first, clamp(hn::Floor(high) + one));
     const V inner_first = hn::Min(clamp(hn::Ceil(inner_low)), last);

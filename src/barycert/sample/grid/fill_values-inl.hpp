@@ -29,8 +29,8 @@ using namespace core::HWY_NAMESPACE;
 
 /// Of each component.
 struct ValueBlock {
-    HWY_ALIGN double at_origin[most_lanes], plain[3][most_lanes], correction[3][most_lanes], error[most_lanes];
-    HWY_ALIGN double valid[most_lanes];  ///< 1 or 0
+    HWY_ALIGN double at_origin[max_lanes], plain[3][max_lanes], correction[3][max_lanes], error[max_lanes];
+    HWY_ALIGN double valid[max_lanes];  ///< 1 or 0
 };
 
 template <int d, class D, class V = hn::Vec<D>>
@@ -58,7 +58,7 @@ HWY_INLINE void set_values(D tag, const CellMatrix<d, D>& m, const V (&extent)[d
 
 /// Of a component, by row.
 struct RowTerms {
-    HWY_ALIGN double sum[most_lanes], rest[most_lanes];
+    HWY_ALIGN double sum[max_lanes], rest[max_lanes];
 };
 
 /// Numbers whose exact sum is sum + rest, up to the error that `error` of ValueBlock bounds.
@@ -87,7 +87,7 @@ template <int d, class D, class V = hn::Vec<D>>
 HWY_INLINE Partial<V> column_terms(D tag, const Raster& raster, const CellBlock<d>& cell, const ValueBlock& value,
                                    std::size_t l, std::int32_t column) {
     const auto at = static_cast<std::size_t>(column), size = raster.at[0].size();
-    HWY_ALIGN double lanes[most_lanes];
+    HWY_ALIGN double lanes[max_lanes];
     const double* from = raster.at[0].data() + at;
     if (at + hn::MaxLanes(D()) > size) {
         for (std::size_t i = 0; i < hn::MaxLanes(D()); ++i) lanes[i] = raster.at[0][std::min(at + i, size - 1)];

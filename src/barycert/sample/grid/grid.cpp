@@ -27,9 +27,9 @@ Status check_dimension(int dimension) {
 }
 
 Status check_count(std::size_t axis, double count) {
-    if (count >= 1 && count <= static_cast<double>(Grid::most_on_axis)) return Done{};
+    if (count >= 1 && count <= static_cast<double>(Grid::max_on_axis)) return Done{};
     return Error{.what = std::string("points of the grid along ") + axis_names[axis],
-                 .expected = "1 to " + std::to_string(Grid::most_on_axis),
+                 .expected = "1 to " + std::to_string(Grid::max_on_axis),
                  .found = base::shortest(count)};
 }
 

@@ -16,14 +16,9 @@
 #include <algorithm>
 #include <cmath>
 
-// Before Highway's headers.
-#include "barycert/core/simd_targets.hpp"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/sample/grid/raster_lanes.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, as Highway wants it.
-#include <hwy/highway.h>
+#include "barycert/core/foreach_target.hpp"
 
 #include "barycert/base/strict_math.hpp"
 
@@ -63,7 +58,7 @@ HWY_INLINE void find_planes(const locate::CellIndex& index, locate::Place cell, 
     const auto& node = index.cells[static_cast<std::size_t>(cell)].node;
     const double* v[4];
     for (std::size_t i = 0; i < n; ++i) v[i] = index.nodes[static_cast<std::size_t>(node[i])].at.data();
-    double product = 1, least = 1, most = 1;
+    double product = 1, min = 1, max = 1;
     for (std::size_t k = 0; k < d; ++k) {
         out.low[k] = out.high[k] = v[0][k];
         for (std::size_t i = 1; i < n; ++i) {
@@ -72,8 +67,8 @@ HWY_INLINE void find_planes(const locate::CellIndex& index, locate::Place cell, 
         }
         const double side = out.high[k] - out.low[k];
         product *= side;
-        least = std::min(least, side);
-        most = std::max(most, side);
+        min = std::min(min, side);
+        max = std::max(max, side);
     }
     double volume;
     if constexpr (d == 3) {
@@ -98,7 +93,7 @@ HWY_INLINE void find_planes(const locate::CellIndex& index, locate::Place cell, 
         out.error = 8.5 * 0x1p-52 * product;
     }
     for (std::size_t i = 0; i < n; ++i) out.plane[i].vertex = i == 0 ? v[1] : v[0];
-    out.certain = least >= 0x1p-300 && most <= 0x1p300 && std::abs(volume) > out.error;
+    out.certain = min >= 0x1p-300 && max <= 0x1p300 && std::abs(volume) > out.error;
 }
 
 /// The first place of an axis that is not below x.
@@ -168,8 +163,8 @@ HWY_INLINE void row_spans(D tag, const Raster& raster, const CellPlanes& planes,
     }
     const V origin = hn::Set(tag, raster.origin[0]), scale = hn::Set(tag, raster.scale[0]);
     const V slack = hn::Set(tag, raster.slack), one = hn::Set(tag, 1);
-    const V least = hn::Set(tag, columns.first), most = hn::Set(tag, columns.last);
-    const auto clamp = [&](V x) HWY_ATTR { return hn::Min(hn::Max(x, least), most); };
+    const V min = hn::Set(tag, columns.first), max = hn::Set(tag, columns.last);
+    const auto clamp = [&](V x) HWY_ATTR { return hn::Min(hn::Max(x, min), max); };
     const hn::Rebind<std::int32_t, D> whole;
     HWY_ALIGN std::int32_t first[width], last[width], inner_first[width], inner_last[width];
     hn::Store(hn::DemoteTo(whole, clamp(hn::Ceil((low - origin) * scale - slack))), whole, first);

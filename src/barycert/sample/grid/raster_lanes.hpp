@@ -1,4 +1,4 @@
-/// Internal: which points of a grid a cell holds, row by row, on SIMD lanes.
+/// Which points of a grid a cell holds, row by row, on SIMD lanes.
 #pragma once
 
 #include <array>

@@ -29,9 +29,8 @@ sample::Raster raster_of(const Grid& grid, const locate::CellIndex& index) {
         at.reserve(static_cast<std::size_t>(grid.counts[k]));
         for (std::int64_t i = 0; i < grid.counts[k]; ++i) at.push_back(grid.coordinate(k, i));
         if (k >= index.dimension()) break;
-        double largest = 0;
-        for (const double x : {at.front(), at.back(), index.low[k], index.high[k]})
-            largest = std::max(largest, std::abs(x));
+        double max = 0;
+        for (const double x : {at.front(), at.back(), index.low[k], index.high[k]}) max = std::max(max, std::abs(x));
         // One point alone stands at place 0, whatever the scale: one in which the slack is nothing beside the mesh.
         const double extent = index.high[k] - index.low[k];
         raster.origin[k] = grid.origin[k];
@@ -42,9 +41,9 @@ sample::Raster raster_of(const Grid& grid, const locate::CellIndex& index) {
         const double count = static_cast<double>(grid.counts[k]);
         const double regular_last = grid.origin[k] + (count - 1) * grid.spacing[k];
         const double error =
-            (48 * 0x1p-53 * largest + 2 * std::abs(at.back() - regular_last)) * raster.scale[k] + 16 * 0x1p-53 * count;
+            (48 * 0x1p-53 * max + 2 * std::abs(at.back() - regular_last)) * raster.scale[k] + 16 * 0x1p-53 * count;
         raster.precise = raster.precise && error <= raster.slack / 2 && raster.scale[k] <= 0x1p300 &&
-                         raster.scale[k] >= 0x1p-300 && largest <= 0x1p300;
+                         raster.scale[k] >= 0x1p-300 && max <= 0x1p300;
     }
     return raster;
 }
@@ -99,9 +98,9 @@ Status check_grid(const sample::SamplerData& data, const Grid& grid) {
                      .found = std::to_string(grid.dimension)};
     for (std::size_t k = 0; k < 3; ++k) {
         const bool several = grid.counts[k] > 1;
-        const bool good = grid.counts[k] >= 1 && grid.counts[k] <= Grid::most_on_axis &&
-                          std::isfinite(grid.origin[k]) && std::isfinite(grid.last[k]) && grid.spacing[k] >= 0 &&
-                          std::isfinite(grid.spacing[k]) && (!several || grid.spacing[k] > 0) &&
+        const bool good = grid.counts[k] >= 1 && grid.counts[k] <= Grid::max_on_axis && std::isfinite(grid.origin[k]) &&
+                          std::isfinite(grid.last[k]) && grid.spacing[k] >= 0 && std::isfinite(grid.spacing[k]) &&
+                          (!several || grid.spacing[k] > 0) &&
                           (!several || grid.coordinate(k, grid.counts[k] - 2) <= grid.last[k]) &&
                           (grid.dimension == 3 || k < 2 || !several);
         if (!good) return Error{.what = "the grid is none", .remedy = "make it by grid_over or grid_spaced"};

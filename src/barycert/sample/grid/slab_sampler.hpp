@@ -1,4 +1,4 @@
-/// Internal: some layers of a grid.
+/// Some layers of a grid.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-/// Internal: rows for a chunk of points whose owners are known.
+/// Rows for a chunk of points whose owners are known.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-/// Internal: values for a point that no cell holds.
+/// Values for a point that no cell holds.
 #pragma once
 
 #include <optional>

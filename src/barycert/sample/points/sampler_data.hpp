@@ -1,4 +1,4 @@
-/// Internal: all that a Sampler keeps.
+/// All that a Sampler keeps.
 #pragma once
 
 #include <memory>

@@ -1,14 +1,10 @@
 #include "barycert/sample/points/value_lanes.hpp"
 
-// Before Highway's headers.
-#include "barycert/core/simd_targets.hpp"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/sample/points/value_lanes.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, as Highway wants it.
-#include <hwy/highway.h>
+#include "barycert/core/foreach_target.hpp"
 
+#include "barycert/core/lane_loop-inl.hpp"
 #include "barycert/core/refinement-inl.hpp"
 #include "barycert/locate/records-inl.hpp"
 
@@ -36,7 +32,7 @@ struct RefinedValues {
     }
 };
 
-/// The formula of lanes::plain_values, operation for operation: a map applied later gives the same bits.
+/// The formula of core::plain_value_lanes, operation for operation: a map applied later gives the same bits.
 template <Simplex s, class D, class V = hn::Vec<D>>
 struct PlainValues {
     Fractions<s, V> f;
@@ -112,24 +108,9 @@ template <Simplex s, template <Simplex, class, class> class Values>
 std::size_t evaluate_all(const locate::CellRecord* cells, const NodeValues& nodes, const locate::PointRecord* points,
                          const locate::Walk* items, std::size_t count, double* out, std::size_t stride,
                          std::uint32_t* undecided) {
-    std::size_t found = 0, at = 0;
-    const auto run = [&](auto tag) HWY_ATTR {
-        using D = decltype(tag);
-        constexpr std::size_t width = hn::MaxLanes(D());
-        for (; at + width <= count; at += width) {
-            const hn::Mask<D> decided = evaluate<s, Values>(tag, cells, nodes, points, items + at, out, stride);
-            if (HWY_LIKELY(hn::AllTrue(tag, decided))) continue;
-            std::uint8_t bits[8] = {};
-            hn::StoreMaskBits(tag, decided, bits);
-            for (std::size_t l = 0; l < width; ++l) {
-                undecided[found] = static_cast<std::uint32_t>(at + l);
-                found += (bits[0] >> l & 1) == 0 ? 1 : 0;
-            }
-        }
-    };
-    run(hn::ScalableTag<double>());
-    run(hn::CappedTag<double, 1>());
-    return found;
+    return for_lanes(count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
+        return evaluate<s, Values>(tag, cells, nodes, points, items + at, out, stride);
+    });
 }
 
 template <Simplex s>

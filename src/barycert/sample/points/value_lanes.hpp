@@ -1,4 +1,4 @@
-/// Internal: values of many points in their cells at once, on SIMD lanes.
+/// Values of many points in their cells at once, on SIMD lanes.
 #pragma once
 
 #include <array>
