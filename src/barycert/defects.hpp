@@ -24,7 +24,7 @@ enum class DefectKind : std::uint8_t {
     open_boundary,       ///< the boundary does not continue at a ridge: follows from P2 failing
     boundary_contact,    ///< P3  two boundary facets meet outside common vertices and edges
     nested_part,         ///< P4  a piece of the boundary at which a cell overlaps others
-    overlapping_cells,   ///< the interiors of two cells meet: follows from the above
+    overlapping_cells,   ///< the interiors of two cells meet: caused by the defects above
     wrong_neighbour,     ///< P5  .neigh names a cell that does not share that facet, or misses one that does
     wrong_face,          ///< P5  .face has a triangle that is not a facet of any cell; a mesh of triangles has faces
     unfit_array,         ///< P5  fields, markers or mid-edge nodes do not fit the nodes and cells
@@ -55,7 +55,7 @@ inline constexpr std::array<DefectText, 21> defect_texts{{
      "find where these coordinates were computed", true},
     {DefectKind::repeated_node, "repeated_node", "P1", "cells that name a node twice", "remove these collapsed cells",
      true},
-    {DefectKind::degenerate_cell, "degenerate_cell", "P1", "cells of exactly zero volume",
+    {DefectKind::degenerate_cell, "degenerate_cell", "P1", "cells with a volume of exactly zero",
      "mesh again with a quality bound, or move a node", true},
     {DefectKind::duplicate_cell, "duplicate_cell", "P2", "cells with the same nodes as another", "keep one of each",
      true},
@@ -79,12 +79,12 @@ inline constexpr std::array<DefectText, 21> defect_texts{{
     {DefectKind::unfit_array, "unfit_array", "P5", "other arrays that do not fit the nodes and cells",
      "give one value per component of each node or cell, and valid node indices", true},
     {DefectKind::mixed_orientation, "mixed_orientation", "", "cells of the less frequent orientation",
-     "--fix-orientation writes a copy with all positive", false},
+     "--fix-orientation writes a copy with positive cells", false},
     {DefectKind::plain_sign_wrong, "plain_sign_wrong", "", "cells whose volume has the wrong sign in plain double",
      "use exact predicates on these cells", false},
     {DefectKind::coincident_nodes, "coincident_nodes", "", "nodes with the same coordinates as another",
      "merge them if cells on both sides should be neighbours", false},
-    {DefectKind::unused_node, "unused_node", "", "nodes of no cell", "", false},
+    {DefectKind::unused_node, "unused_node", "", "nodes that no cell uses", "", false},
     {DefectKind::pinched_ridge, "pinched_ridge", "", "ridges where the boundary touches itself", "", false},
     {DefectKind::pinched_node, "pinched_node", "", "nodes where the boundary touches itself", "", false},
 }};

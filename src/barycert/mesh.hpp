@@ -32,7 +32,7 @@ struct Mesh {
 
     int dimension = 3;           ///< 2: triangles in the plane; 3: tetrahedra
     std::vector<double> points;  ///< dimension coordinates a node
-    std::vector<Index> cells;    ///< dimension + 1 corners a cell
+    std::vector<Index> cells;    ///< dimension + 1 vertices a cell
 
     /// Nodes at mid-edges in the order `vtk` whatever the file's, 6 a tetrahedron or 3 a triangle; empty if linear.
     std::vector<Index> mid_nodes;

@@ -1,7 +1,7 @@
 /// Fields at points: the value of every field of a mesh at any point, correctly rounded.
 ///
-/// Enters: a Locator on a mesh, fields of its nodes or cells, points in the unit of the mesh. Leaves: for each point
-/// the owner, the feature and a value for each component of each field.
+/// Input: a mesh with fields of its nodes or cells, and points in the unit of the mesh. Output: a Table, with the owner,
+/// the feature and a value for each component of each field at each point.
 ///
 /// What holds (each law is a test of that name in tests/sample):
 ///   V1  A value of a point field is the exact interpolation in the owner, linear, or quadratic on cells of second
@@ -10,12 +10,13 @@
 ///       their nodal values are finite: a component is NaN if any nodal value of its cell is not.
 ///   D1  Rows depend on point, mesh and fields alone: not on threads, SIMD target, blocks, order, or the method that
 ///       found the owner; so a map that was saved gives the same bytes.
-///   N3  Under the policy nearest, a value of a point field is that of the chosen cell at its point nearest to the one
-///       given, however far that is: so each component lies between the nodal values of the cell. On cells of second
-///       order it is that of the quadratic at a point of the closed cell whose weights differ from those of the nearest
-///       one by roundings alone; it may lie beyond the nodal values as far as the quadratic does in the cell.
-///   E1  Nothing is silent: a point outside has NaN unless asked otherwise, and SampleCounts tells how many were where.
-/// With Rounding::plain owners and features are exact as well; values are plain double.
+///   N3  Under the policy `nearest`, the value of a point field is that of the nearest cell, at the point of that cell
+///       that is nearest to the query point. Each component lies between the nodal values of the cell. On cells of
+///       second order the weights of the nearest point are rounded first, and the value may exceed the nodal values as
+///       far as the quadratic does in the cell.
+///   E1  Nothing is silent: a point outside gets NaN unless the policy says otherwise, and SampleCounts has the numbers
+///       of points inside, on boundaries and outside.
+/// With Rounding::plain, owners and features are exact as well; values are computed in plain double.
 #pragma once
 
 #include <cstdint>
@@ -40,8 +41,8 @@ struct SamplerData;
 /// What a point outside every cell gets.
 enum class Outside : std::uint8_t {
     nan,
-    error,        ///< the whole call fails, naming the first such point
-    fill,         ///< a number
+    error,        ///< the call returns an Error that names the first such point
+    fill,         ///< OutsidePolicy::fill
     nearest,      ///< point fields at the nearest point of the mesh, cell fields of its cell
     extrapolate,  ///< the function of the nearest cell, evaluated where the point is
 };
@@ -64,7 +65,7 @@ struct FieldChoice {
     bool of_cells = false;
 };
 
-/// Thread-safe: any number of threads may ask at once.
+/// Thread-safe: any number of threads may sample at the same time.
 class Sampler {
 public:
     /// A sampler of the fields of these names (Mesh::point_fields, then Mesh::cell_fields; empty: all). It owns its

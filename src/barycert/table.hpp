@@ -19,7 +19,7 @@ namespace barycert {
 /// Where points lie. Functions that take counts add to them, unless they fail.
 struct LocationCounts {
     std::uint64_t interior = 0, face = 0, edge = 0, vertex = 0, outside = 0;
-    TierCounts tests;  ///< of points against cells, where something was decided
+    TierCounts tests;  ///< point-in-cell tests, by the tier that decided them
 
     std::uint64_t points() const { return interior + face + edge + vertex + outside; }
     std::uint64_t inside() const { return points() - outside; }

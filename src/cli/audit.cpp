@@ -142,11 +142,13 @@ void add_audit(CLI::App& app, int& exit_code) {
     file_option(*sub, "--json", a->json, "Write the full report as JSON; - is stdout, in place of the table");
     file_option(*sub, "--witnesses", a->witnesses, "Write the worst cases as JSON, for `barycert replay`; - is stdout");
     file_option(*sub, "--plot", a->plot,
-                "Draw the kernels' errors against the condition numbers of the cells, as SVG; - is stdout");
+                "Plot the errors of the kernels over the condition numbers of the cells, as SVG; - is stdout");
     std::string names;
     for (const std::string& rule : threshold_names()) names += " " + rule;
     sub->add_option("--fail-on", a->fail_on,
-                    "Exit with 1 if a kernel exceeds NAME or NAME>NUMBER; may be repeated. NAME is one of:" + names)
+                    "Exit with 1 if the figure NAME of a kernel exceeds NUMBER (0 if omitted); may be repeated. NAME "
+                    "is one of:" +
+                        names)
         ->type_name("RULE")
         ->allow_extra_args(false);
     sub->add_flag("--no-check", a->no_check,

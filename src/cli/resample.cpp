@@ -54,12 +54,12 @@ void add_targets(CLI::App& sub, ResampleJob& a) {
     sub.add_option_function<std::string>(
            "--grid",
            [&a](const std::string& text) {
-               constexpr const char* expected = "numbers of points along the axes, at least 1, such as 200x200x100";
+               constexpr const char* expected = "numbers of points along the axes, min 1, such as 200x200x100";
                a.counts = numbers_of<std::int64_t>("--grid", text, 'x', count_of, expected);
                if (a.counts.size() < 2 || a.counts.size() > 3)
                    throw CLI::ValidationError("--grid", fmt::format("expected {}, found \"{}\"", expected, text));
            },
-           "So many points along each axis, from one end of the bounds to the other; where it is one, in the middle")
+           "Number of points along each axis, ends included; a single point lies in the middle")
         ->type_name("NXxNYxNZ");
     sub.add_option_function<std::string>(
            "--spacing",
@@ -69,7 +69,7 @@ void add_targets(CLI::App& sub, ResampleJob& a) {
                if (a.spacing.size() > 3)
                    throw CLI::ValidationError("--spacing", fmt::format("expected {}, found \"{}\"", expected, text));
            },
-           "Points at that distance along the axes, from the lower end of the bounds on")
+           "Distance of points along each axis, from the lower end of the bounds")
         ->type_name("H|HXxHYxHZ");
     sub.add_option_function<std::string>(
            "--bounds",
@@ -79,9 +79,9 @@ void add_targets(CLI::App& sub, ResampleJob& a) {
                if (a.bounds.size() != 4 && a.bounds.size() != 6)
                    throw CLI::ValidationError("--bounds", fmt::format("expected {}, found \"{}\"", expected, text));
            },
-           "The box of the grid; default: that of the cells")
+           "Box of the grid; default: the box of the cells")
         ->type_name("XMIN,XMAX,...");
-    file_option(sub, "--onto", a.onto, "At the nodes of that mesh")->type_name("MESH2");
+    file_option(sub, "--onto", a.onto, "Sample at the nodes of this mesh")->type_name("MESH2");
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ void add_resample(CLI::App& app, int& exit_code) {
     file_option(*sub, "MESH", a->mesh, "A TetGen mesh (.node/.ele; Triangle's for 2D), or a VTK file (.vtu .vtk)")
         ->required();
     add_targets(*sub, *a);
-    file_option(*sub, "--output", a->output, "Of a grid: .vti .npy .csv .png; with --onto: .vtu .vtk .node .csv .npy")
+    file_option(*sub, "--output", a->output, "Grids: .vti .npy .csv .png; with --onto: .vtu .vtk .node .csv .npy")
         ->required();
     sub->add_option_function<std::string>(
            "--range",
@@ -113,7 +113,7 @@ void add_resample(CLI::App& app, int& exit_code) {
                    throw CLI::ValidationError("--range", fmt::format("expected {}, found \"{}\"", expected, text));
                a->range = {ends[0], ends[1]};
            },
-           "Of a picture: the values of the first and the last colour; default: the least and the largest value")
+           "Picture: the values of the first and the last colour; default: min and max of the values drawn")
         ->type_name("MIN,MAX");
     add_sampling_options(*sub, *a, *quiet);
     sub->callback([=, &exit_code] { exit_code = run_sampling(*a, *quiet, [&] { return resample_files(*a); }); });

@@ -32,13 +32,12 @@ void add_sample(CLI::App& app, int& exit_code) {
     add_sampling_options(*sub, *a, *quiet);
     sub->add_option_function<std::string>(
            "--on-boundary", [a](const std::string& text) { a->all = text == "all"; },
-           "Where several cells hold a point: a row for that of lowest number (default), or for each of them")
+           "If several cells contain a point: one row for the cell of lowest index (default), or one row per cell")
         ->check(CLI::IsMember({"lowest", "all"}).description(""))
         ->type_name("lowest|all");
-    file_option(*sub, "--save-map", a->save_map, "Write which cell holds each point, for --map");
-    file_option(
-        *sub, "--map", a->map,
-        "In place of --points: the points of that map and the cells it names, for other fields on the same mesh");
+    file_option(*sub, "--save-map", a->save_map, "Write the cell of each point to a file for --map");
+    file_option(*sub, "--map", a->map,
+                "Instead of --points: take points and cells from this map; for other fields on the same mesh");
     sub->callback([=, &exit_code] { exit_code = run_sampling(*a, *quiet, [&] { return sample_files(*a); }); });
 }
 

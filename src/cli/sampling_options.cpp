@@ -60,11 +60,9 @@ void add_field_files(CLI::App& sub, SamplingJob& a) {
     };
     for (const Option& o :
          {Option{"--field", FieldFile::Of::either,
-                 "One more field: a row of numbers for each node, or for each cell (text, blanks or commas between "
-                 "numbers; or .npy)"},
-          Option{"--point-field", FieldFile::Of::points,
-                 "The same where the rows are for nodes, whatever their number"},
-          Option{"--cell-field", FieldFile::Of::cells, "The same where the rows are for cells"}}) {
+                 "Add a field: one row of numbers per node or per cell (text with blanks or commas, or .npy)"},
+          Option{"--point-field", FieldFile::Of::points, "Like --field; the rows belong to nodes"},
+          Option{"--cell-field", FieldFile::Of::cells, "Like --field; the rows belong to cells"}}) {
         sub.add_option_function<std::vector<std::string>>(
                o.name,
                [&a, o](const std::vector<std::string>& all) {
@@ -93,31 +91,29 @@ Status write_reports(const SamplingJob& job, bool quiet, const SampleSummary& su
 void add_sampling_options(CLI::App& sub, SamplingJob& a, bool& quiet) {
     add_field_files(sub, a);
     sub.add_option("--fields", a.fields,
-                   "The fields to sample, in that order: A,B,...; cell:A for the field A of cells "
-                   "where there is one of nodes, too; default: all there are")
+                   "Fields to sample, in this order: A,B,...; cell:A is the cell field A if there is also a node field "
+                   "A; default: all")
         ->allow_extra_args(false)
         ->type_name("NAMES");
     choice_option<Rounding>(sub, "--rounding", a.options.rounding,
                             {{"correct", Rounding::correct}, {"plain", Rounding::plain}}, "correct|plain",
-                            "correct: values are the exact ones, rounded once (default); plain: faster, in double");
+                            "correct: the exact value, rounded once (default); plain: computed in double");
     sub.add_option_function<std::string>(
            "--outside", [&a](const std::string& text) { a.options.outside = policy_of(text); },
-           "What points outside every cell get: nan (default); error: none may be; fill=NUMBER; nearest[=DISTANCE]: "
-           "the "
-           "value at the nearest point of the mesh, within DISTANCE; extrapolate: the function of the nearest cell")
+           "Value of points outside every cell: nan (default); error: fail; fill=NUMBER; nearest[=DISTANCE]: the value "
+           "at the nearest point of the mesh, NaN beyond DISTANCE; extrapolate: the function of the nearest cell")
         ->type_name("nan|error|fill=V|nearest[=D]|extrapolate");
     choice_option<Certify>(sub, "--certify", a.certify,
                            {{"auto", Certify::automatic}, {"always", Certify::always}, {"never", Certify::never}},
                            "auto|always|never",
-                           "Check the mesh first, for then points are found faster: auto (default): where there are at "
-                           "least 1.25 points a "
-                           "cell. No row depends on it");
-    sub.add_option("--threads", a.options.threads, "0: all of them")
+                           "Check the mesh first: in a certified mesh points are located faster. auto (default): if "
+                           "there are at least 1.25 points per cell. Results do not depend on it");
+    sub.add_option("--threads", a.options.threads, "Number of threads; 0: all")
         ->capture_default_str()
         ->check(CLI::Range(0, 4096).description(""))
         ->type_name("N");
-    file_option(sub, "--json", a.report, "Write what was done as JSON; - is stdout");
-    sub.add_flag("--quiet", quiet, "No summary and no progress");
+    file_option(sub, "--json", a.report, "Write the summary as JSON; - is stdout");
+    sub.add_flag("--quiet", quiet, "Print no summary and no progress");
 }
 
 int run_sampling(SamplingJob& job, bool quiet, const std::function<Result<SampleSummary>()>& run) {

@@ -34,7 +34,7 @@ public:
     virtual void probe(Which which) = 0;
     /// vtkProbeFilter onto a vtkImageData of the grid, which needs no locator.
     virtual void probe_image() = 0;
-    /// What the last probe found, NaN where its mask says that there is nothing; empty if there is nothing to read.
+    /// What the last probe found, NaN where its mask says that there is nothing; empty if the file is empty.
     virtual std::vector<double> probed() const = 0;
 };
 

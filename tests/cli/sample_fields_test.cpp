@@ -113,7 +113,7 @@ TEST_F(Fields, that_cannot_be_are_refused) {
     bad_text("", ": field \"t\": expected 5 rows, one for each node, or 2, one for each cell, found 0 rows");
     refused({"--cell-field", "t=" + v}, "expected 2 rows, one for each cell, found 5 rows");
     refused({"--point-field", "t=" + scratch.put("c", "1\n2\n")}, "expected 5 rows, one for each node, found 2 rows");
-    refused({"--field", "attribute0=" + v}, "there is a field of that name already: found \"attribute0\"");
+    refused({"--field", "attribute0=" + v}, "a field of this name exists already: found \"attribute0\"");
     refused({"--field", "t=" + scratch.path("none")}, "error: " + scratch.path("none") + ": cannot read the file");
     refused({"--field", "t=b=" + v}, "error: b=" + v + ": cannot read the file");
     refused({"--field", "t"}, "--field");
@@ -140,7 +140,7 @@ TEST_F(Fields, that_cannot_be_are_refused) {
     scratch.put("even.ele", "4 4 0\n0 0 1 2 3\n1 0 1 2 3\n2 0 1 2 3\n3 0 1 2 3\n");
     const std::string four = "t=" + scratch.put("four", "1\n1\n1\n1\n");
     const Words even{"sample", scratch.path("even"), "--points", points, "--output", "-", "--quiet"};
-    expect_error(plus(even, {"--field", four}), "rows of field \"t\" may be for nodes or for cells");
+    expect_error(plus(even, {"--field", four}), "rows of field \"t\" could belong to nodes or to cells");
     for (const std::string option : {"--point-field", "--cell-field"})
         EXPECT_EQ(run(plus(even, {option, four})).out, "x,y,z,cell,feature,t\n0.25,0.25,0.25,0,interior,1\n");
 }

@@ -45,11 +45,12 @@ TEST(sample_map, gives_the_same_bytes_as_the_points) {
         }
     }
     expect_error({"sample", bracket, "--map", map, "--output", "-", "--on-boundary", "lowest"},
-                 "--on-boundary is not that of the map: expected all, found lowest");
+                 "--on-boundary differs from the map: expected all, found lowest");
     expect_error({"sample", bracket, "--map", map, "--output", "-", "--outside", "error"}, "is outside the mesh");
     expect_error({"sample", mesh("cube-hole"), "--map", map, "--output", "-"}, "error: " + map + ":");
     expect_error({"sample", bracket, "--map", map, "--points", points, "--output", "-"}, "--points and --map");
-    expect_error({"sample", bracket, "--map", map, "--save-map", map, "--output", "-"}, "--save-map beside --map");
+    expect_error({"sample", bracket, "--map", map, "--save-map", map, "--output", "-"},
+                 "--save-map cannot be combined with --map");
     expect_error({"sample", bracket, "--map", "-", "--output", "-"}, "a map cannot come from stdin");
     std::string damaged = base::read_file(map);
     damaged[damaged.size() / 2] ^= 1;

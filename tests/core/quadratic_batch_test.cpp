@@ -239,7 +239,7 @@ TEST(QuadraticBatch, errors_are_told) {
     EXPECT_EQ(what(mids, 1, out), "size of the points");
     for (const Simplex s : {Simplex::segment, Simplex::triangle3d}) {
         q.simplex = s;
-        EXPECT_EQ(what(mids, 1, out), "quadratic interpolation in a simplex that does not fill its space");
+        EXPECT_EQ(what(mids, 1, out), "unsupported simplex for quadratic interpolation");
         EXPECT_FALSE(interpolate_quadratic(s, v.data(), p.data(), f.data()));
     }
     const std::array<double, 2> far{0.25, infinity};

@@ -77,12 +77,12 @@ TEST(CsvErrors, headers) {
         "a,b,c,d,e,f,g,h,i\n", 2,
         {1, unnamed, "columns x, y (or Points:0, Points:1)", "'a', 'b', 'c', 'd', 'e', 'f', 'g', 'h', ...", nullptr});
     expect_csv_refused("x,y,X,z\n1,2,3,4\n", 3,
-                       {1, "two columns of one name", "one column x", "'x' and 'X'", "rename"});
+                       {1, "two columns have the same name", "one column x", "'x' and 'X'", "rename"});
     expect_csv_refused("x y z\n1,2,3\n", 3, {2, "bad coordinate x", "a number", "'1,2,3'", nullptr});
 }
 
 TEST(CsvErrors, quotes) {
-    const char* const what = "a quoted field without an end";
+    const char* const what = "a quoted field is not closed";
     expect_csv_refused("1,2,3,\"a\n4,5,6,b\"\n", 3, {1, what, nullptr, "'1,2,3,\"a'", "close the quote"});
     expect_csv_refused("1,2,3,a\n4,5,6,\"b\"c\n", 3, {2, what, nullptr, nullptr, nullptr});
     expect_csv_refused("1,2,3\n4,5,6,\"b\n", 3, {2, what, nullptr, nullptr, nullptr});  // beyond the fields
@@ -91,16 +91,15 @@ TEST(CsvErrors, quotes) {
 }
 
 TEST(CsvErrors, nothing_to_read) {
-    expect_csv_refused("", 3, {0, "there is nothing to read", "a header line or a point", "nothing", "a header alone"});
-    expect_csv_refused(
-        "\n# x,y,z\n", 3,
-        {0, "there is nothing to read", "a header line or a point", "blank lines and comments", nullptr});
-    expect_csv_refused("\xEF\xBB\xBF", 3, {0, "there is nothing to read", nullptr, "nothing", nullptr});
+    expect_csv_refused("", 3, {0, "the file is empty", "a header line or a point", "nothing", "a header alone"});
+    expect_csv_refused("\n# x,y,z\n", 3,
+                       {0, "the file is empty", "a header line or a point", "blank lines and comments", nullptr});
+    expect_csv_refused("\xEF\xBB\xBF", 3, {0, "the file is empty", nullptr, "nothing", nullptr});
 }
 
 TEST(CsvErrors, no_text) {
     using namespace std::string_literals;
-    const Expected cr{1, "lines that have no LF at their end", "LF or CR LF", "CR alone", "other line ends"};
+    const Expected cr{1, "lines end with CR alone", "LF or CR LF", "CR alone", "other line ends"};
     expect_csv_refused("x,y,z\r1,2,3\r4,5,6\r", 3, cr);
     expect_csv_refused("1,2,3\r4,5,6\r", 3, cr);
     expect_csv_refused(
@@ -113,7 +112,7 @@ TEST(CsvErrors, no_text) {
         3, {1, "the text is not in UTF-8", nullptr, nullptr, nullptr});
     const std::string long_line(std::size_t{1} << 20, ' ');
     expect_csv_refused("1,2,3\n" + long_line + "\n", 3,
-                       {2, "a line that is too long", "at most 1048576 bytes", "more", "text file"});
+                       {2, "a line is too long", "at most 1048576 bytes", "more", "text file"});
     const Result<std::vector<double>> longest = read_bytes("p.csv", "1,2,3\n" + long_line.substr(1) + "\n4,5,6\n", 3);
     ASSERT_TRUE(longest) << longest.error().message();
     EXPECT_EQ(longest->size(), 6U);

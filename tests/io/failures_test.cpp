@@ -125,8 +125,8 @@ TEST_P(Failures, rows_that_do_not_fit) {
         const Status status = (*sink)->write(rows);
         EXPECT_EQ(status.has_value(), i == 0);
         if (i != 0) {
-            EXPECT_EQ(status.error().what, i == 7 ? "a row that lies in a degenerate cell"
-                                                  : "a block of rows whose parts do not fit together");
+            EXPECT_EQ(status.error().what,
+                      i == 7 ? "a row in a degenerate cell" : "the parts of a block of rows have different sizes");
         }
         EXPECT_EQ((*sink)->write(data.rows()).has_value(), i == 0);
         EXPECT_EQ((*sink)->commit().has_value(), i == 0);  // never a file that lacks rows

@@ -106,7 +106,8 @@ TEST(NpySink, versions) {
 TEST(NpySink, names) {
     const TemporaryFolder folder;
     ASSERT_TRUE(write_rows(folder / "r.npy",
-                           random_rows(3, {.dimension = 2, .fields = {{"it's"}, {"a\\b"}, {"a\nb"}, {"distance"}}}, 3), 2));
+                           random_rows(3, {.dimension = 2, .fields = {{"it's"}, {"a\\b"}, {"a\nb"}, {"distance"}}}, 3),
+                           2));
     EXPECT_NE(parts_of(get(folder / "r.npy"))
                   .text.find("('it\\'s', '<f8'), ('a\\\\b', '<f8'), ('a\\x0ab', '<f8'), ('distance', '<f8')"),
               std::string::npos);
@@ -114,7 +115,7 @@ TEST(NpySink, names) {
     const auto refused = [&](std::vector<std::string> names, bool distances, const char* expected, const char* found) {
         const TableFormat format{.dimension = 2, .fields = fields_of(names), .distances = distances};
         expect_error(open_table(folder / "n.npy", format), "/n.npy",
-                     {0, "a column name that an NPY file cannot hold", expected, found, "write CSV"});
+                     {0, "a column name is not allowed in an NPY file", expected, found, "write CSV"});
     };
     const char* const differs = "a name that differs from the others and from x, y, z, cell, feature, distance";
     refused({"p", "p"}, false, differs, "'p'");

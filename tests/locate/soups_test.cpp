@@ -93,7 +93,7 @@ TEST(LocateSoups, L1_L2_NestedCells) {
     }
 }
 
-// A proper mesh with every cell twice, with flat cells between, and with nodes of no cell far away.
+// A proper mesh with every cell twice, with flat cells between, and with nodes that no cell uses far away.
 TEST(LocateSoups, L1_L2_L3_CellsTwiceFlatOnesAndLonelyNodes) {
     for (const int d : {2, 3}) {
         base::Random random(5);

@@ -33,10 +33,10 @@ TEST(MidEdges, orders_of_tetrahedra) {
 }
 
 TEST(MidEdges, an_unknown_order_is_refused) {
-    expect_error(read_tetrahedron("5 4 6 7 8 9"), ".ele", 1, "the mid-edge nodes of the cells stand in no known order",
-                 nullptr, "another order in most cells", nullptr);
-    expect_error(read_tetrahedron("4 5 6 8 7 9"), ".ele", 1, "the mid-edge nodes of the cells stand in no known order",
-                 nullptr, nullptr, nullptr);
+    expect_error(read_tetrahedron("5 4 6 7 8 9"), ".ele", 1, "the order of the mid-edge nodes is unknown", nullptr,
+                 "another order in most cells", nullptr);
+    expect_error(read_tetrahedron("4 5 6 8 7 9"), ".ele", 1, "the order of the mid-edge nodes is unknown", nullptr,
+                 nullptr, nullptr);
 }
 
 TEST(MidEdges, orders_of_triangles) {

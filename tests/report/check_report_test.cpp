@@ -112,7 +112,7 @@ TEST(check_terminal, conditions_say_how_often_they_fail) {
     no_mesh.cells.pop_back();
     EXPECT_EQ(row(text(no_mesh), "P1 "), "1");
     EXPECT_TRUE(contains(text(no_mesh), "not checked\n"));
-    EXPECT_TRUE(contains(text(no_mesh), "(corners without a whole cell)"));
+    EXPECT_TRUE(contains(text(no_mesh), "(the number of vertex indices is not a multiple of the vertices of a cell)"));
     EXPECT_TRUE(contains(text(thoroughly_broken()), "P2 to P5 leave out cells with an invalid index"));
 }
 

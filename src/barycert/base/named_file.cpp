@@ -69,7 +69,7 @@ Status check_distinct(const std::vector<NamedFile>& inputs, const std::vector<Na
             if (!same_file(out.path, outputs[k].path)) continue;
             return Error{.what = outputs[k].what + " and " + out.what + " name the same output",
                          .file = out.path,
-                         .remedy = "give each its own"};
+                         .remedy = "choose two different names"};
         }
     }
     return Done{};

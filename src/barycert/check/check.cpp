@@ -68,8 +68,10 @@ std::vector<CellContact> contacts(const Mesh& mesh, const CellMeasures& measures
 /// Arrays whose sizes do not make whole nodes or cells: nothing else can be said of such a mesh.
 const char* fault_of_sizes(const Mesh& mesh) {
     if (mesh.dimension != 2 && mesh.dimension != 3) return "the dimension is neither 2 nor 3";
-    if (mesh.points.size() % static_cast<std::size_t>(mesh.dimension) != 0) return "coordinates without a whole node";
-    if (mesh.cells.size() % mesh.corners() != 0) return "corners without a whole cell";
+    if (mesh.points.size() % static_cast<std::size_t>(mesh.dimension) != 0)
+        return "the number of coordinates is not a multiple of the dimension";
+    if (mesh.cells.size() % mesh.corners() != 0)
+        return "the number of vertex indices is not a multiple of the vertices of a cell";
     // Corners of boundary facets are counted in 32 bits: 3 * 4 * 2^28 of them.
     if (mesh.point_count() > INT32_MAX || mesh.cell_count() > std::size_t{1} << 28)
         return "more than 2147483647 nodes or 268435456 cells, which this check cannot count";

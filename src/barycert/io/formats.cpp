@@ -18,7 +18,6 @@ struct Suffix {
 constexpr std::array<Suffix, 4> suffixes{
     {{".csv", FileFormat::csv}, {".npy", FileFormat::npy}, {".node", FileFormat::node}, {".vtu", FileFormat::vtu}}};
 
-
 const VtkFiles* installed = nullptr;
 
 }  // namespace
@@ -41,7 +40,7 @@ Result<FileFormat> format_of(const std::string& path) {
     }
     const std::size_t dot = path.find_last_of("./");
     const bool has_suffix = dot != std::string::npos && path[dot] == '.';
-    return Error{.what = "a format that is not known by its suffix",
+    return Error{.what = "unknown file suffix",
                  .file = path,
                  .expected = ".csv, .npy, .node or .vtu, or - for CSV from standard input or on standard output",
                  .found = has_suffix ? '"' + path.substr(dot) + '"' : "no suffix",

@@ -18,22 +18,21 @@ Status check_rows(const TableView& rows, const TableFormat& format, const std::s
     const auto degenerate = std::find(rows.features.begin(), rows.features.end(), Feature::degenerate);
     if (good && degenerate != rows.features.end()) {
         return Error{
-            .what = "a row that lies in a degenerate cell",
+            .what = "a row in a degenerate cell",
             .file = path,
             .expected = "interior, face, edge, vertex or outside",
             .found = "degenerate, in row " + std::to_string(degenerate - rows.features.begin()) + " of a block",
-            .remedy = "degenerate cells hold no points: call it outside"};
+            .remedy = "degenerate cells contain no points: mark the row as outside"};
     }
     if (good) return Done{};
-    return Error{.what = "a block of rows whose parts do not fit together",
+    return Error{.what = "the parts of a block of rows have different sizes",
                  .file = path,
                  .expected = "for each cell " + std::to_string(format.dimension) + " coordinates, a feature, " +
-                             std::to_string(columns) + " values" +
-                             (format.distances ? ", a distance" : ""),
+                             std::to_string(columns) + " values" + (format.distances ? ", a distance" : ""),
                  .found = std::to_string(count) + " cells, " + std::to_string(rows.points.size()) + " coordinates, " +
                           std::to_string(rows.features.size()) + " features, " + std::to_string(rows.values.size()) +
                           " values, " + std::to_string(rows.distances.size()) + " distances",
-                 .remedy = "hand over whole rows of the sink's format"};
+                 .remedy = "pass whole rows in the format of the sink"};
 }
 
 }  // namespace io

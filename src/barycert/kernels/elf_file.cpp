@@ -102,9 +102,9 @@ private:
     Error cut() const {
         return {.what = "cannot load the kernel library",
                 .file = path_,
-                .expected = "all that its headers announce",
+                .expected = "a complete file, as its headers declare",
                 .found = "the end of the file, after " + std::to_string(file_.size()) + " bytes",
-                .remedy = "it is cut short: build or copy it again"};
+                .remedy = "the file is truncated: build or copy it again"};
     }
 
     const std::string& path_;

@@ -30,7 +30,7 @@ const char* fault_of_fields(const std::vector<Field>& fields, std::size_t rows, 
     for (const Field& field : fields) {
         if (field.components < 1) return "a field has no components";
         if (field.data.size() != rows * static_cast<std::size_t>(field.components)) {
-            return "a field has not one value for each node or cell";
+            return "a field does not have one value per node or cell";
         }
         if (values == FieldValues::finite && !all_finite(field.data)) {
             return "a value of a field is not finite, which the format cannot hold";
@@ -40,17 +40,18 @@ const char* fault_of_fields(const std::vector<Field>& fields, std::size_t rows, 
 }
 
 const char* fault_of_cells(const Mesh& mesh) {
-    if (mesh.cells.size() % mesh.corners() != 0) return "the corners do not make whole cells";
-    if (!all_within(mesh.cells, 0, mesh.point_count())) return "a corner of a cell is no node";
+    if (mesh.cells.size() % mesh.corners() != 0)
+        return "the number of vertex indices is not a multiple of the vertices of a cell";
+    if (!all_within(mesh.cells, 0, mesh.point_count())) return "a vertex of a cell is not a node";
     if (!fits(mesh.neighbours, mesh.cells.size())) return "the neighbours do not match the cells";
-    if (!all_within(mesh.neighbours, -1, mesh.cell_count())) return "a neighbour is no cell";
+    if (!all_within(mesh.neighbours, -1, mesh.cell_count())) return "a neighbour is not a cell";
     return nullptr;
 }
 
 const char* fault_of_faces(const Mesh& mesh) {
     if (mesh.dimension == 2 && !mesh.faces.empty()) return faces_of_triangles;
-    if (mesh.faces.size() % 3 != 0) return "the corners do not make whole faces";
-    if (!all_within(mesh.faces, 0, mesh.point_count())) return "a corner of a face is no node";
+    if (mesh.faces.size() % 3 != 0) return "the number of face indices is not a multiple of 3";
+    if (!all_within(mesh.faces, 0, mesh.point_count())) return "a vertex of a face is not a node";
     return nullptr;
 }
 
@@ -67,7 +68,7 @@ const char* inconsistency_of_extras(const Mesh& mesh, FieldValues values) {
     if (!fits(mesh.mid_nodes, mesh.cell_count() * edges_of(mesh.dimension).size())) {
         return "the mid-edge nodes do not match the cells";
     }
-    if (!all_within(mesh.mid_nodes, 0, nodes)) return "a mid-edge node of a cell is no node";
+    if (!all_within(mesh.mid_nodes, 0, nodes)) return "a mid-edge node of a cell is not a node";
     if (!mesh.mid_nodes.empty() && edge_sequence(mesh.mid_edge_order, mesh.dimension).empty()) {
         return "the order of the mid-edge nodes is not set, or is of another dimension";
     }
@@ -77,7 +78,7 @@ const char* inconsistency_of_extras(const Mesh& mesh, FieldValues values) {
 const char* inconsistency_of_cells(const Mesh& mesh, FieldValues values) {
     if (mesh.dimension != 2 && mesh.dimension != 3) return "its dimension is neither 2 nor 3";
     if (mesh.points.size() % static_cast<std::size_t>(mesh.dimension) != 0)
-        return "the coordinates do not make whole nodes";
+        return "the number of coordinates is not a multiple of the dimension";
     if (std::max(mesh.point_count(), mesh.cell_count()) > INT32_MAX) {
         return "it has more than 2147483647 nodes or cells";
     }
@@ -91,7 +92,7 @@ const char* inconsistency(const Mesh& mesh, FieldValues values) {
     if (const char* fault = inconsistency_of_cells(mesh, values); fault != nullptr) return fault;
     if (mesh.face_count() > INT32_MAX) return "it has more than 2147483647 faces";
     if (!fits(mesh.face_mid_nodes, mesh.faces.size())) return "the mid-edge nodes do not match the faces";
-    if (!all_within(mesh.face_mid_nodes, 0, mesh.point_count())) return "a mid-edge node of a face is no node";
+    if (!all_within(mesh.face_mid_nodes, 0, mesh.point_count())) return "a mid-edge node of a face is not a node";
     if (!fits(mesh.face_markers, mesh.face_count())) return "the markers do not match the faces";
     return nullptr;
 }

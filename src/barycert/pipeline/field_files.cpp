@@ -23,9 +23,9 @@ Result<bool> is_of_cells(const FieldFile& file, std::size_t rows, const Mesh& me
     const bool fits_cells = rows == cells && file.of != FieldFile::Of::points;
     if (fits_nodes != fits_cells) return fits_cells;
     if (fits_nodes)
-        return Error{.what = "rows of field \"" + file.name + "\" may be for nodes or for cells",
+        return Error{.what = "rows of field \"" + file.name + "\" could belong to nodes or to cells",
                      .file = file.path,
-                     .found = "a mesh of " + std::to_string(nodes) + " nodes and as many cells",
+                     .found = "a mesh of " + std::to_string(nodes) + " nodes and the same number of cells",
                      .remedy = "say which: --point-field or --cell-field instead of --field"};
     std::string expected = count(nodes, "row") + ", one for each node";
     if (file.of == FieldFile::Of::cells) expected = count(cells, "row") + ", one for each cell";
@@ -34,7 +34,7 @@ Result<bool> is_of_cells(const FieldFile& file, std::size_t rows, const Mesh& me
                  .file = file.path,
                  .expected = expected,
                  .found = count(rows, "row"),
-                 .remedy = "use a file that was made for this mesh"};
+                 .remedy = "use a file made for this mesh"};
 }
 
 /// What rows, grids and meshes have besides fields.
@@ -53,7 +53,7 @@ Status add_fields(const std::vector<FieldFile>& files, Mesh& mesh) {
         if (!cells) return cells.error();
         std::vector<Field>& fields = *cells ? mesh.cell_fields : mesh.point_fields;
         if (sample::field_named(fields, file.name) != nullptr)
-            return Error{.what = "there is a field of that name already",
+            return Error{.what = "a field of this name exists already",
                          .file = file.path,
                          .found = '"' + file.name + '"',
                          .remedy = "give it another name: --field OTHER=" + file.path};

@@ -174,7 +174,7 @@ Result<std::array<std::size_t, 2>> axes_of_picture(const Grid& grid, const std::
                      .file = path,
                      .expected = "one point along exactly one axis, such as --grid 800x600x1",
                      .found = fmt::format("{} x {} x {} points", grid.counts[0], grid.counts[1], grid.counts[2]),
-                     .remedy = "set where the layer is by --bounds: it lies in their middle"};
+                     .remedy = "choose the layer with --bounds: it lies in the middle of the bounds"};
     constexpr std::int64_t max = 1000000;
     if (grid.counts[axes[0]] > max || grid.counts[axes[1]] > max)
         return Error{.what = "too many points for a picture",
@@ -210,7 +210,9 @@ Result<GridOutput> open_picture(const ResampleJob& a, const std::vector<std::str
 Status check_grid_output(const ResampleJob& job) {
     const bool picture = io::has_suffix(job.output, ".png");
     if (job.range && !picture)
-        return Error{.what = "--range without a picture", .file = job.output, .remedy = "it is for --output FILE.png"};
+        return Error{.what = "--range needs a picture",
+                     .file = job.output,
+                     .remedy = "use --output FILE.png, or leave --range out"};
     if (job.output == "-" || io::has_suffix(job.output, ".csv") || io::has_suffix(job.output, ".npy") ||
         io::has_suffix(job.output, ".vti") || picture)
         return Done{};
@@ -224,7 +226,7 @@ Result<GridOutput> open_grid_sink(const ResampleJob& job, const TableFormat& for
     if (array && columns.empty())
         return Error{.what = "no field to write",
                      .file = job.output,
-                     .remedy = "add one by --field NAME=FILE; .vti and .csv have cells without fields, too"};
+                     .remedy = "add one by --field NAME=FILE; .vti and .csv can be written without fields"};
     if (array) return GridOutput{std::make_unique<NpyArraySink>(job.output, grid, columns.size())};
     const bool vti = io::has_suffix(job.output, ".vti");
     Result<std::unique_ptr<TableSink>> sink = vti ? VtiSink::open(job.output, format, grid) : open_rows(job, format);

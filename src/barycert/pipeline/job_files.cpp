@@ -29,7 +29,7 @@ Status check_files(const SamplingJob& job, const std::vector<base::NamedFile>& m
 Error unknown_output(const std::string& path, const std::string& expected) {
     const std::size_t dot = path.find_last_of("./");
     const bool suffix = dot != std::string::npos && path[dot] == '.';
-    return {.what = "--output in a format that is not known by its suffix",
+    return {.what = "unknown suffix of --output",
             .file = path,
             .expected = expected,
             .found = suffix ? '"' + path.substr(dot) + '"' : "no suffix",

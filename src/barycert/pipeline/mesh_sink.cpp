@@ -54,7 +54,7 @@ private:
             return Error{
                 .what = fmt::format("field \"{}\" is not finite at node {}, counted from 0", f.name, node),
                 .file = path_,
-                .expected = "finite attributes: a .node file holds no others",
+                .expected = "finite attributes: a .node file cannot hold NaN or infinity",
                 .remedy = "choose --outside nearest, extrapolate or fill=V for nodes outside, or another format"};
         }
         return write_tetgen(mesh_, tetgen_stem(path_));
@@ -78,7 +78,8 @@ std::vector<std::string> files_of_mesh_output(const ResampleJob& job) {
 }
 
 Status check_mesh_output(const ResampleJob& job) {
-    if (job.range) return Error{.what = "--range beside --onto", .remedy = "it is for pictures: leave it out"};
+    if (job.range)
+        return Error{.what = "--range cannot be combined with --onto", .remedy = "it is for pictures: leave it out"};
     if (is_rows_output(job.output)) return Done{};
     if (io::has_suffix(job.output, ".vtu") || io::has_suffix(job.output, ".vtk")) {
         if (io::vtk_files() == nullptr) return io::vtk_missing(job.output);
@@ -89,7 +90,8 @@ Status check_mesh_output(const ResampleJob& job) {
     // part.1 is a stem: only what others use as a suffix is refused.
     const bool digits = suffix.find_first_not_of("0123456789", 1) == std::string::npos;
     if (digits || suffix == ".node" || suffix == ".ele") return Done{};
-    return unknown_output(job.output, ".vtu, .vtk, .node, .csv or .npy, a stem of TetGen's files, or - for CSV on stdout");
+    return unknown_output(job.output,
+                          ".vtu, .vtk, .node, .csv or .npy, a stem of TetGen's files, or - for CSV on stdout");
 }
 
 std::unique_ptr<TableSink> mesh_sink(Mesh mesh, const std::string& path, const std::vector<TableField>& fields) {

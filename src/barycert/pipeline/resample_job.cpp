@@ -70,7 +70,8 @@ Status check_job(const ResampleJob& job) {
                      .found = targets == 0 ? "none" : "several",
                      .remedy = "`barycert resample --help` explains them"};
     if (!job.bounds.empty() && !job.onto.empty())
-        return Error{.what = "--bounds beside --onto", .remedy = "bounds are for --grid and --spacing: leave them out"};
+        return Error{.what = "--bounds cannot be combined with --onto",
+                     .remedy = "bounds are for --grid and --spacing: leave them out"};
     if (job.onto.empty()) {
         if (Status known = pipeline::check_grid_output(job); !known) return known;
         return pipeline::check_files(job, {}, {{"--output", job.output}});

@@ -17,9 +17,10 @@ Status check_job(const SampleJob& job) {
         return Error{.what = job.points.empty() ? "no points" : "--points and --map",
                      .expected = "one of --points FILE and --map FILE",
                      .found = job.points.empty() ? "neither" : "both",
-                     .remedy = "a map has the points for which it was made"};
+                     .remedy = "a map contains its points"};
     if (!job.map.empty() && !job.save_map.empty())
-        return Error{.what = "--save-map beside --map", .file = job.save_map, .remedy = "copy the map"};
+        return Error{
+            .what = "--save-map cannot be combined with --map", .file = job.save_map, .remedy = "copy the map"};
     if (job.map == "-" || job.save_map == "-")
         return Error{.what = "a map cannot come from stdin or go to stdout", .remedy = "name a file"};
     if (Status known = pipeline::check_rows_format(job.output); !known) return known;
@@ -45,7 +46,7 @@ Status at_points_of_map(Run& run, const SampleJob& job, Engine& engine) {
     auto map = MapReader::open(job.map, engine.mesh());
     if (!map) return map.error();
     if (job.all && *job.all != map->all())
-        return Error{.what = "--on-boundary is not that of the map",
+        return Error{.what = "--on-boundary differs from the map",
                      .file = job.map,
                      .expected = map->all() ? "all" : "lowest",
                      .found = *job.all ? "all" : "lowest",

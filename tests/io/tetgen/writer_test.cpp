@@ -44,24 +44,25 @@ TEST(Writer, an_inconsistent_mesh_is_an_error_and_leaves_nothing) {
     refused([](Mesh& m) { m.dimension = 1; }, "its dimension is neither 2 nor 3");
     refused([](Mesh& m) { m.dimension = 0; }, "its dimension is neither 2 nor 3");
     refused([](Mesh& m) { m.index_base = 2; }, "its index base is neither 0 nor 1");
-    refused([](Mesh& m) { m.points.pop_back(); }, "the coordinates do not make whole nodes");
+    refused([](Mesh& m) { m.points.pop_back(); }, "the number of coordinates is not a multiple of the dimension");
     refused([](Mesh& m) { m.points[1] = std::numeric_limits<double>::quiet_NaN(); }, "a coordinate is not finite");
-    refused([](Mesh& m) { m.cells.pop_back(); }, "the corners do not make whole cells");
-    refused([](Mesh& m) { m.cells[3] = 4; }, "a corner of a cell is no node");
-    refused([](Mesh& m) { m.cells[3] = -1; }, "a corner of a cell is no node");
+    refused([](Mesh& m) { m.cells.pop_back(); },
+            "the number of vertex indices is not a multiple of the vertices of a cell");
+    refused([](Mesh& m) { m.cells[3] = 4; }, "a vertex of a cell is not a node");
+    refused([](Mesh& m) { m.cells[3] = -1; }, "a vertex of a cell is not a node");
     refused([](Mesh& m) { m.mid_nodes = {0, 1, 2}; }, "the mid-edge nodes do not match the cells");
-    refused([](Mesh& m) { m.mid_nodes = {0, 1, 2, 3, 0, 4}; }, "a mid-edge node of a cell is no node");
+    refused([](Mesh& m) { m.mid_nodes = {0, 1, 2, 3, 0, 4}; }, "a mid-edge node of a cell is not a node");
     refused([](Mesh& m) { m.mid_nodes = {0, 1, 2, 3, 0, 1}; },
             "the order of the mid-edge nodes is not set, or is of another dimension");
     refused([](Mesh& m) { m.neighbours = {-1}; }, "the neighbours do not match the cells");
-    refused([](Mesh& m) { m.neighbours = {-1, -1, -1, 1}; }, "a neighbour is no cell");
-    refused([](Mesh& m) { m.neighbours = {-1, -1, -1, -2}; }, "a neighbour is no cell");
-    refused([](Mesh& m) { m.faces = {0, 1}; }, "the corners do not make whole faces");
-    refused([](Mesh& m) { m.faces = {0, 1, 9}; }, "a corner of a face is no node");
+    refused([](Mesh& m) { m.neighbours = {-1, -1, -1, 1}; }, "a neighbour is not a cell");
+    refused([](Mesh& m) { m.neighbours = {-1, -1, -1, -2}; }, "a neighbour is not a cell");
+    refused([](Mesh& m) { m.faces = {0, 1}; }, "the number of face indices is not a multiple of 3");
+    refused([](Mesh& m) { m.faces = {0, 1, 9}; }, "a vertex of a face is not a node");
     refused([](Mesh& m) { m.face_mid_nodes = {0}; }, "the mid-edge nodes do not match the faces");
     refused([](Mesh& m) { m.face_markers = {0}; }, "the markers do not match the faces");
     refused([](Mesh& m) { m.point_markers = {0}; }, "the markers do not match the nodes");
-    refused([](Mesh& m) { m.point_fields = {{"f", 1, {1}}}; }, "a field has not one value for each node or cell");
+    refused([](Mesh& m) { m.point_fields = {{"f", 1, {1}}}; }, "a field does not have one value per node or cell");
     refused([](Mesh& m) { m.cell_fields = {{"f", 0, {}}}; }, "a field has no components");
     refused(
         [](Mesh& m) {

@@ -151,9 +151,10 @@ TEST(VtkPoints, rows_that_do_not_fit) {
     refused(with([](io::PointRows& r) { r.dimension = 1; }), "the dimension is neither 2 nor 3");
     refused(with([](io::PointRows& r) { r.points = r.points.first(5); }), "the coordinates do not make whole points");
     refused(with([&](io::PointRows& r) { r.points = bad; }), "a coordinate is not finite");
-    refused(with([&](io::PointRows& r) { r.cells = cells; }), "an array has not one row a point");
-    refused(with([&](io::PointRows& r) { r.distances = r.points.first(1); }), "an array has not one row a point");
-    refused(with([](io::PointRows& r) { r.fields = {{"f", 1, {1}}}; }), "an array has not one row a point");
+    refused(with([&](io::PointRows& r) { r.cells = cells; }), "an array does not have one row per point");
+    refused(with([&](io::PointRows& r) { r.distances = r.points.first(1); }),
+            "an array does not have one row per point");
+    refused(with([](io::PointRows& r) { r.fields = {{"f", 1, {1}}}; }), "an array does not have one row per point");
     refused(with([](io::PointRows& r) { r.fields = {{"f", 0, {}}}; }), "a field has no components");
     refused(with([](io::PointRows& r) { r.fields = {{"", 1, {1, 2}}}; }), "a field has no name");
     refused(with([](io::PointRows& r) {

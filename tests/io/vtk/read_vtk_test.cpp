@@ -172,7 +172,7 @@ TEST(ReadVtk, integers_that_are_no_doubles) {
     ASSERT_EQ(read->point_fields.size(), 1U);
     EXPECT_EQ(read->point_fields[0].data, (std::vector<double>{0x1p64 - 2048, 0x1p53 + 2, 0}));
     ASSERT_EQ(left_out.point_arrays.size(), 1U);
-    EXPECT_EQ(left_out.point_arrays[0].why, "it holds 9007199254740993, which is no double");
+    EXPECT_EQ(left_out.point_arrays[0].why, "it holds 9007199254740993, which is not exactly a double");
 }
 
 TEST(ReadVtk, files_of_others) {

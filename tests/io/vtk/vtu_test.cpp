@@ -253,12 +253,12 @@ TEST(Vtu, an_inconsistent_mesh_is_an_error_and_leaves_nothing) {
         expect_refusal(mesh, what);
     };
     refused([](Mesh& m) { m.dimension = 0; }, "its dimension is neither 2 nor 3");
-    refused([](Mesh& m) { m.points.pop_back(); }, "the coordinates do not make whole nodes");
+    refused([](Mesh& m) { m.points.pop_back(); }, "the number of coordinates is not a multiple of the dimension");
     refused([](Mesh& m) { m.points[1] = infinity; }, "a coordinate is not finite");
-    refused([](Mesh& m) { m.cells[3] = 4; }, "a corner of a cell is no node");
+    refused([](Mesh& m) { m.cells[3] = 4; }, "a vertex of a cell is not a node");
     refused([](Mesh& m) { m.mid_nodes = {0, 1, 2}; }, "the mid-edge nodes do not match the cells");
     refused([](Mesh& m) { m.point_markers = {0}; }, "the markers do not match the nodes");
-    refused([](Mesh& m) { m.point_fields = {{"f", 1, {1}}}; }, "a field has not one value for each node or cell");
+    refused([](Mesh& m) { m.point_fields = {{"f", 1, {1}}}; }, "a field does not have one value per node or cell");
     refused([](Mesh& m) { m.cell_fields = {{"f", 0, {}}}; }, "a field has no components");
 }
 

@@ -136,7 +136,7 @@ TEST(MapFile, another_mesh_is_refused) {
         if (reader) return std::string("accepted");
         EXPECT_EQ(reader.error().what, "the map was made for another mesh");
         EXPECT_EQ(reader.error().expected, "one of 5 nodes and 2 tetrahedra");
-        EXPECT_EQ(reader.error().remedy, "name the mesh that the map was made for, or make the map anew for this one");
+        EXPECT_EQ(reader.error().remedy, "name the mesh of the map, or create the map again for this mesh");
         return reader.error().found;
     };
     const std::string same_size = "one of that size with other coordinates or cells";
@@ -207,8 +207,8 @@ TEST(MapFile, rows_that_no_map_can_hold) {
         const Result<Table> read = read_map(folder / "plain", mesh);
         EXPECT_EQ(read.has_value(), row.good);
         if (!row.good) {
-            EXPECT_EQ(written.error().what, "row 0 is none of a map");
-            EXPECT_EQ(read.error().what, "row 0 is none of a map");
+            EXPECT_EQ(written.error().what, "row 0 is not valid in a map");
+            EXPECT_EQ(read.error().what, "row 0 is not valid in a map");
             EXPECT_EQ(read.error().expected, written.error().expected);
             EXPECT_FALSE(read.error().remedy.empty());
         }

@@ -129,7 +129,7 @@ TEST(SampleValues, V1_AnyMagnitude) {
     }
 }
 
-// Cells that overlap, flat ones, nodes of no cell with values that are not to be seen.
+// Cells that overlap, flat ones, nodes that no cell uses with values that are not to be seen.
 TEST(SampleValues, V1_Soups) {
     for (const int d : {2, 3}) {
         base::Random random(5);

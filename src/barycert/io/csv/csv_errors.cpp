@@ -81,7 +81,7 @@ Error csv_row_error(std::string_view line, const CsvLayout& layout, const LinePl
         return error;
     }
     if (cutter.malformed()) {
-        error.what = "a quoted field without an end";
+        error.what = "a quoted field is not closed";
         error.expected = "a closing quote, and then a separator or the end of the line";
         error.found = base::quoted(line);
         error.remedy = "close the quote on the same line; double the quotes inside";

@@ -65,12 +65,12 @@ bool holds_fields(std::string_view line, char separator) {
 
 Result<CsvLayout> settle_csv_layout(std::string_view line, int dimension, const LinePlace& place) {
     if (line.find('\r') != std::string_view::npos) {
-        return Error{.what = "lines that have no LF at their end",
+        return Error{.what = "lines end with CR alone",
                      .file = place.file,
                      .line = place.line,
                      .expected = "LF or CR LF",
                      .found = "CR alone",
-                     .remedy = "save the file with other line ends"};
+                     .remedy = "save the file with LF or CR LF as line ends"};
     }
     CsvLayout layout;
     layout.separator = separator_of(line);
@@ -88,12 +88,12 @@ Result<CsvLayout> settle_csv_layout(std::string_view line, int dimension, const 
             for (std::size_t i = 0; i < fields.size(); ++i) {
                 if (!same_but_for_case(fields[i], names[axis])) continue;
                 if (at) {
-                    return Error{.what = "two columns of one name",
+                    return Error{.what = "two columns have the same name",
                                  .file = place.file,
                                  .line = place.line,
                                  .expected = "one column " + std::string(names[axis]),
                                  .found = base::quoted(fields[*at]) + " and " + base::quoted(fields[i]),
-                                 .remedy = "rename the one that is no coordinate"};
+                                 .remedy = "rename the column that is not a coordinate"};
                 }
                 at = i;
             }
@@ -111,7 +111,7 @@ Result<CsvLayout> settle_csv_layout(std::string_view line, int dimension, const 
                      .line = place.line,
                      .expected = listed_names(dimension),
                      .found = listed(fields),
-                     .remedy = "name the columns of the coordinates so, or begin the file with numbers"};
+                     .remedy = "use these column names, or start the file with numbers"};
     }
     layout.axis_of.assign(fields.size(), -1);
     if (fields.size() < axes) {

@@ -48,11 +48,11 @@ Status CsvSource::begin() {
         return Done{};
     }
     if (lines_.failed()) return lines_.error();
-    return Error{.what = "there is nothing to read",
+    return Error{.what = "the file is empty",
                  .file = lines_.name(),
                  .expected = "a header line or a point",
                  .found = lines_.number() == 0 ? "nothing" : "blank lines and comments",
-                 .remedy = "write the file again; a header alone is a file without points"};
+                 .remedy = "write the file again; a file with a header only is a file without points"};
 }
 
 /// False if the line is no point, or may be the beginning of another one: 0.2 of 0.25.

@@ -67,7 +67,7 @@ bool LineReader::refill() {
         begin_ = 0;
     }
     if (end_ == longest_line) {
-        error_ = {.what = "a line that is too long",
+        error_ = {.what = "a line is too long",
                   .file = name_,
                   .line = number_ + 1,
                   .expected = "at most " + std::to_string(longest_line) + " bytes",

@@ -68,7 +68,7 @@ Result<Field> read_text(Field field, const std::string& path, std::string_view b
                              .line = line_number,
                              .expected = "numbers",
                              .found = base::quoted(word),
-                             .remedy = "one row of numbers for each node or cell; put # before lines that are none"};
+                             .remedy = "write one row of numbers per node or cell; start header lines with #"};
             if (word.data() + word.size() == file_end) return base::unended_number(path, line_number);
             field.data.push_back(*x);
         } while (!words.at_end() || words.separated());
@@ -148,7 +148,7 @@ Result<Field> read_npy(Field field, const std::string& path, std::string_view by
     const auto text = find_npy_text(bytes.substr(0, npy_head), path);
     if (!text) return text.error();
     if (text->size > bytes.size() - std::min(bytes.size(), text->offset))
-        return Error{.what = "the file ends within its header", .file = path, .remedy = "write it again"};
+        return Error{.what = "the file ends inside its header", .file = path, .remedy = "write it again"};
     const auto header = parse_npy_text(bytes.substr(text->offset, text->size), path);
     if (!header) return header.error();
     const auto type = number_of(header->descr);
@@ -186,7 +186,7 @@ Result<Field> read_npy(Field field, const std::string& path, std::string_view by
                              .file = path,
                              .expected = "an integer that a double holds exactly",
                              .found = "a larger one",
-                             .remedy = "save a.astype('f8') if it may be rounded"};
+                             .remedy = "save a.astype('f8') to round it"};
             field.data[i * components + c] = *x;
         }
     }

@@ -73,7 +73,7 @@ Result<NpyFields> npy_fields(const TableFormat& format, const std::string& path)
     std::set<std::string> seen;
     for (const Field& field : fields) {
         if (const char* const expected = fault_of(field.name, seen); expected != nullptr) {
-            return Error{.what = "a column name that an NPY file cannot hold",
+            return Error{.what = "a column name is not allowed in an NPY file",
                          .file = path,
                          .expected = expected,
                          .found = base::quoted(field.name),

@@ -52,7 +52,7 @@ Status TetgenReader::settle_mid_edge_order() {
     if (mesh_.mid_nodes.empty()) return Done{};
     const std::optional<MidEdgeOrder> order = mesh::detect_mid_edge_order(mesh_);
     if (!order) {
-        return header_error(cells_, "the mid-edge nodes of the cells stand in no known order",
+        return header_error(cells_, "the order of the mid-edge nodes is unknown",
                             "each near the middle of its edge, in the order of TetGen, Triangle, VTK or Gmsh",
                             "another order in most cells",
                             "check that the files belong together, or write the mesh again as " +

@@ -174,12 +174,12 @@ Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOption
         const std::string target = stem + part.suffix;
         struct stat old {};
         if (!part.present && ::stat(target.c_str(), &old) == 0) {
-            return Error{.what = "a file of another mesh stands in the way",
+            return Error{.what = "a file of another mesh exists",
                          .file = target,
                          .line = 0,
-                         .expected = "no such file, for the mesh to be written has nothing to put in it",
+                         .expected = "no such file: the mesh to be written has no data for it",
                          .found = {},
-                         .remedy = "remove it or write under another name"};
+                         .remedy = "remove it, or choose another name"};
         }
         if (!part.present) continue;
         files.push_back(std::make_unique<RowWriter>(target));

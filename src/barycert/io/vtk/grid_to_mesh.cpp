@@ -62,7 +62,7 @@ Result<Choice> choose(const RawGrid& grid, const std::string& path) {
                   name_of(static_cast<std::uint8_t>(type));
     }
     if (!others.empty()) {
-        return Error{.what = "cells of other types than a simplicial mesh has",
+        return Error{.what = "cells that are neither tetrahedra nor triangles",
                      .file = path,
                      .line = 0,
                      .expected = "tetrahedra or triangles, linear or quadratic",
@@ -85,12 +85,12 @@ Result<Choice> choose(const RawGrid& grid, const std::string& path) {
             if (counts[type] != 0) return Choice{cell_type(type).kind, cell_type(type).nodes, counts[type]};
         }
     }
-    return Error{.what = "there is no mesh in the file",
+    return Error{.what = "the file contains no mesh",
                  .file = path,
                  .line = 0,
                  .expected = "tetrahedra or triangles",
                  .found = std::to_string(grid.types.size()) + " cells of other kinds",
-                 .remedy = "name a file that has cells; this one may be a set of points"};
+                 .remedy = "name a file with cells; this one may contain points only"};
 }
 
 /// Corners and mid-edge nodes of the cells that were chosen, in the order of the file.
@@ -174,7 +174,7 @@ Result<std::vector<double>> to_points(std::vector<double> points, int dimension,
     std::size_t to = 0;
     for (std::size_t i = 0; i < points.size(); i += 3) {
         if (points[i + 2] != 0) {
-            return coordinate_error(path, i / 3, "z", "0, as all lies in the plane", points[i + 2],
+            return coordinate_error(path, i / 3, "z", "0, as the mesh is 2D", points[i + 2],
                                     "project onto the plane z = 0; surfaces in space are not meshes here");
         }
         points[to++] = points[i];

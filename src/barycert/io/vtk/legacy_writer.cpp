@@ -123,12 +123,12 @@ Status write_vtk(const Mesh& mesh, const std::string& path) {
     const ExactEnvironment environment;
     if (path.ends_with(".vtu")) return write_vtu(mesh, path);
     if (!path.ends_with(".vtk")) {
-        return Error{.what = "the ending of the file does not tell its format",
+        return Error{.what = "unknown file suffix",
                      .file = path,
                      .line = 0,
                      .expected = ".vtu or .vtk",
                      .found = {},
-                     .remedy = "name the file so"};
+                     .remedy = "use one of these suffixes"};
     }
     try {
         return write_legacy(mesh, path);

@@ -47,7 +47,7 @@ std::string fault_of(const PointRows& rows) {
         if (field.components < 1) return "a field has no components";
         fits = fits && field.data.size() == count * static_cast<std::size_t>(field.components);
     }
-    if (!fits) return "an array has not one row a point";
+    if (!fits) return "an array does not have one row per point";
     return io::fault_of_names(rows.fields, std::move(names), io::Names::xml);
 }
 

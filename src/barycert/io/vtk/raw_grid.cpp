@@ -26,7 +26,7 @@ Error number_error(const std::string& path, std::size_t line, const std::string&
 }
 
 std::string inexact(const NumberFault& fault) {
-    return "it holds " + fault.text + ", which is no double";
+    return "it holds " + fault.text + ", which is not exactly a double";
 }
 
 }  // namespace barycert::io

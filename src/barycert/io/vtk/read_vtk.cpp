@@ -24,7 +24,7 @@ Result<io::RawGrid> read_grid(const std::string& path, io::Part part) {
                  .line = 0,
                  .expected = "XML (.vtu, .vtp) or a first line '# vtk DataFile Version ...' (.vtk)",
                  .found = {},
-                 .remedy = "check the path; a compressed file is to be unpacked first"};
+                 .remedy = "check the path; unpack a compressed file first"};
 }
 
 Error out_of_memory(const std::string& path) {

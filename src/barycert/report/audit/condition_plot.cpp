@@ -114,11 +114,11 @@ void draw_legend(Svg& svg, const std::vector<const KernelResult*>& kernels, doub
     sample(at, {.colour = "#444", .width = 1.2});
     svg.text({left + 38, at + 4}, "marks: worst case of a bin", small);
     sample(at + 22, {.colour = "#444", .width = 1.2, .dashes = "3 3"});
-    svg.text({left + 38, at + 26}, "its median case", small);
+    svg.text({left + 38, at + 26}, "median case of a bin", small);
     sample(at + 44, {.colour = "#000", .width = 2});
     svg.text({left + 38, at + 48}, "prediction: κ · 2⁻⁵³", small);
     sample(at + 66, {.colour = "#888", .width = 1.2, .dashes = "8 4"});
-    svg.text({left + 38, at + 70}, "a weight is off by 1", small);
+    svg.text({left + 38, at + 70}, "error of 1", small);
 }
 
 }  // namespace
@@ -130,7 +130,7 @@ std::string condition_plot(const AuditReport& report) {
     if (all.empty()) all = candidates(report, simplex = Simplex::triangle);
     const std::vector<const KernelResult*> kernels = chosen(all);
     const std::string what = simplex == Simplex::triangle ? "triangles" : "tetrahedra";
-    const std::string title = "How far weights are off, by the condition number of the cell: " + what;
+    const std::string title = "Error of the weights over the condition number of the cell: " + what;
     Svg svg(980, 620, title);
     svg.text({70, 34}, title, {.size = 18, .bold = true});
     if (kernels.empty()) {
@@ -163,8 +163,8 @@ std::string condition_plot(const AuditReport& report) {
              "Error: the largest |weight - exact weight| of a case. Factor: error / (κ · 2⁻⁵³) where κ < 2⁴⁷.", small);
     if (kernels.size() < all.size())
         svg.text({70, 604},
-                 fmt::format("{} of {} kernels: evenly from the least to the largest worst factor, without variants.",
-                             kernels.size(), all.size()),
+                 fmt::format("{} of {} kernels: selected evenly by worst factor, without variants.", kernels.size(),
+                             all.size()),
                  small);
     return std::move(svg).finish();
 }

@@ -60,12 +60,10 @@ std::string kernel_table(const AuditReport& report, const Colours& paint) {
             out += paint.bad(fmt::format("    certifies its answers, and {} of them are wrong", broken)) + "\n";
     }
     out += paint.dim(
-        "wrong %: cases with any finding, over all families and over those from meshes. A finding is a wrong sign, "
-        "zero, "
-        "region or declaration;\nhow far off a weight is stands in ulps of the correctly rounded one, value: the same "
-        "of "
-        "the interpolated value. Signs, zeros and not\nfinite count weights; inside, outside and degenerate count "
-        "cases. "
+        "wrong %: share of cases with a finding, over all families and over the families mesh.*. A finding is a wrong "
+        "sign, zero, region or declaration.\nulps: error of a weight in ulps of the correctly rounded weight; value: "
+        "the same for the interpolated value. Signs, zeros and not\nfinite count weights; inside, outside and "
+        "degenerate count cases.  "
         "ns: median time of one evaluation, over blocks of cases.\n");
     return out;
 }
@@ -114,9 +112,9 @@ std::string family_table(const AuditReport& report, const Colours& paint) {
                     worst == 0 ? std::string("-") : kernel) +
                "\n";
     }
-    return out +
-           paint.dim(
-               "clean: kernels without a finding, of all. median, worst: share of wrong cases over the kernels.\n");
+    return out + paint.dim(
+                     "clean: kernels without a finding / all kernels. median, worst: share of wrong cases, over the "
+                     "kernels.\n");
 }
 
 std::string replay_command(const AuditReport& report, const KernelResult& k, const Witness& w,
@@ -150,7 +148,7 @@ std::string witness_list(const AuditReport& report, const TerminalStyle& style, 
     for (const KernelResult& k : report.kernels) {
         const Witness* w = worst_witness(k);
         if (w == nullptr) {
-            out += paint.bold(k.kernel.name) + ": none, every weight and value is correctly rounded\n";
+            out += paint.bold(k.kernel.name) + ": no witness, every weight and value is correctly rounded\n";
             continue;
         }
         out += fmt::format("{}: {} in {}, case {} ({})\n    {}\n", paint.bold(k.kernel.name), w->reason, w->family,

@@ -141,7 +141,7 @@ std::string defects(const CheckReport& r, bool breaking) {
 std::string contacts(const CheckReport& r) {
     if (r.contacts.empty()) return "";
     std::string out =
-        "<h2>Pairs of cells that meet where they must not</h2>\n"
+        "<h2>Pairs of cells that overlap or touch</h2>\n"
         "<p class=\"small\">Each with an exact common point: in hexadecimal where doubles are such a point, else "
         "rounded and as exact fractions.</p>\n"
         "<table><tr><th>cells</th><th>how they meet</th><th>common point</th></tr>\n";

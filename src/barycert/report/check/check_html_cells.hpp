@@ -20,7 +20,7 @@ struct Exhibit {
 /// The cells of smallest (dihedral) angle, smallest first, that are not degenerate and can be drawn; ties by index.
 std::vector<Exhibit> worst_cells(const CheckReport& report, const Mesh& mesh, std::size_t max);
 
-/// Cells with problems, each problem in turn, so that a few of one kind leave room for the others. Contacts and places
+/// Cells with defects, each problem in turn, so that a few of one kind leave room for the others. Contacts and places
 /// of defects that name cells which can be drawn.
 std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, std::size_t max);
 

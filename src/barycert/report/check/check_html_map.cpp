@@ -242,7 +242,7 @@ void draw_outline(Picture& svg, const Map& map, const Outline& outline, int d) {
     }
 }
 
-/// Cells with problems, some of them if they are many.
+/// Cells with defects, some of them if they are many.
 std::vector<Pixel> problem_marks(const CheckReport& r, const Mesh& mesh, const Map& map) {
     DefectSet breaking = 0;
     for (const DefectText& t : defect_texts) {

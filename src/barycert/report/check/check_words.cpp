@@ -32,8 +32,8 @@ std::vector<ConditionRow> condition_rows(const CheckReport& report, const Mesh& 
                      : "boundary facets meet only in nodes and edges that they share"},
         {"P4", "no piece of the boundary lies inside cells"},
         {"", "hence, by P1 to P4: no two cells overlap"},
-        {"P5", plane ? "neighbours that came with the mesh are those of its cells"
-                     : "neighbours and faces that came with the mesh are those of its cells"},
+        {"P5", plane ? "neighbours in the files are those of the cells"
+                     : "neighbours and faces in the files are those of the cells"},
     };
     const bool files = !mesh.neighbours.empty() || !mesh.faces.empty();
     const bool looked_at = report.find(DefectKind::bad_structure) == nullptr;

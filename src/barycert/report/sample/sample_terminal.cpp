@@ -35,7 +35,7 @@ std::string outside(const SampleSummary& summary, const Colours& paint) {
     const std::uint64_t count = n.locations.outside;
     if (count == 0) return "0";
     std::vector<std::string> fates;
-    const auto far = [&] { return fmt::format("{:.4g} away at most", n.farthest); };
+    const auto far = [&] { return fmt::format("max distance {:.4g}", n.farthest); };
     if (n.snapped != 0)
         fates.push_back(fmt::format("{} snapped to the nearest point of the mesh, {}", n.snapped, far()));
     if (n.extrapolated != 0)
@@ -52,7 +52,7 @@ std::string outside(const SampleSummary& summary, const Colours& paint) {
 
 std::string values(const SampleSummary& summary) {
     if (summary.columns.empty()) return "none: the mesh has no fields, and --field was not given";
-    if (summary.rounding == Rounding::plain) return "plain double, as asked for; cells and features are exact";
+    if (summary.rounding == Rounding::plain) return "plain double, by --rounding plain; cells and features are exact";
     const TierCounts& t = summary.counts.values;
     std::string text = "exact, rounded once";
     if (t.cases() != 0)
@@ -62,7 +62,7 @@ std::string values(const SampleSummary& summary) {
 }
 
 std::string picture(const SliceCounts& n) {
-    if (std::isnan(n.low)) return "nothing is drawn: no point of it has a finite value";
+    if (std::isnan(n.low)) return "nothing drawn: no point has a finite value";
     std::string text = fmt::format("colours from {} to {}", base::shortest(n.low), base::shortest(n.high));
     if (n.below != 0) text += fmt::format("; {} below, drawn as the first", plural(n.below, "point", "points"));
     if (n.above != 0) text += fmt::format("; {} above, drawn as the last", plural(n.above, "point", "points"));
@@ -117,7 +117,7 @@ std::string sample_text(const SampleSummary& summary, bool colour) {
     out += line("outside", outside(summary, paint));
     out += line("values", values(summary));
     if (summary.nan_values != 0)
-        out += line("NaN", paint.bold(fmt::format("{} of points inside: values of nodes or cells there are not finite",
+        out += line("NaN", paint.bold(fmt::format("{} at points inside: values of nodes or cells there are not finite",
                                                   plural(summary.nan_values, "value", "values"))));
     if (summary.picture) out += line("picture", picture(*summary.picture));
     std::string cells = plural(summary.cells, "cell", "cells") + ", " + plural(summary.nodes, "node", "nodes");

@@ -17,7 +17,7 @@ constexpr const char* axis_names[] = {"x", "y", "z"};
 Status check_bounds(std::size_t axis, double low, double high) {
     if (std::isfinite(low) && std::isfinite(high) && low <= high && std::isfinite(high - low)) return Done{};
     return Error{.what = std::string("bounds of the grid along ") + axis_names[axis],
-                 .expected = "finite numbers, the lower one first, with a finite difference",
+                 .expected = "finite numbers, min before max, with a finite difference",
                  .found = base::shortest(low) + ", " + base::shortest(high)};
 }
 
@@ -42,7 +42,7 @@ Result<Grid> checked(const Grid& grid) {
         // The spacing is rounded: among subnormal numbers, or far from zero, by more than it may.
         if (grid.counts[k] > 1 && grid.coordinate(k, grid.counts[k] - 2) > grid.last[k])
             return Error{.what = std::string("points of the grid along ") + axis_names[k],
-                         .expected = "so few that doubles tell them apart",
+                         .expected = "few enough that their coordinates differ",
                          .found = std::to_string(grid.counts[k])};
     }
     return grid;
@@ -76,7 +76,7 @@ Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts,
         grid.spacing[k] = (high[k] - low[k]) / static_cast<double>(counts[k] - 1);
         if (!(grid.spacing[k] > 0))
             return Error{.what = std::string("bounds of the grid along ") + axis_names[k],
-                         .expected = "some distance between the ends of " + std::to_string(counts[k]) + " points",
+                         .expected = "different ends for  " + std::to_string(counts[k]) + " points",
                          .found = base::shortest(low[k]) + ", " + base::shortest(high[k])};
     }
     return checked(grid);

@@ -103,7 +103,7 @@ Status check_grid(const sample::SamplerData& data, const Grid& grid) {
                           (!several || grid.spacing[k] > 0) &&
                           (!several || grid.coordinate(k, grid.counts[k] - 2) <= grid.last[k]) &&
                           (grid.dimension == 3 || k < 2 || !several);
-        if (!good) return Error{.what = "the grid is none", .remedy = "make it by grid_over or grid_spaced"};
+        if (!good) return Error{.what = "invalid grid", .remedy = "make it by grid_over or grid_spaced"};
     }
     const std::int64_t layer = grid.counts[0] * (grid.dimension == 3 ? grid.counts[1] : 1);
     if (layer > 0x7fffffff)

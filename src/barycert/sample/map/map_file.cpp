@@ -107,11 +107,11 @@ Status MapWriterData::check(const TableView& rows) {
         if (fault == nullptr) continue;
         std::string found = "coordinates";
         for (std::size_t axis = 0; axis < dimension; ++axis) found += ' ' + base::shortest(point[axis]);
-        return fail({.what = "row " + std::to_string(head.rows + pending.cells.size() + i) + " is none of a map",
+        return fail({.what = "row " + std::to_string(head.rows + pending.cells.size() + i) + " is not valid in a map",
                      .file = name,
                      .expected = fault,
                      .found = found + ", cell " + std::to_string(cells[i]) + ", feature " + std::to_string(feature),
-                     .remedy = "write what a Locator of the same mesh has found"});
+                     .remedy = "write results of a Locator on the same mesh"});
     }
     return Done{};
 }

@@ -30,7 +30,7 @@ private:
                 .file = name,
                 .expected = std::move(expected),
                 .found = std::move(found),
-                .remedy = "make the map anew, or copy it again from where it is whole"};
+                .remedy = "create the map again, or copy it again"};
     }
     Status read_header();
     Status check_mesh(const Mesh& mesh) const;
@@ -105,7 +105,7 @@ Status MapReaderData::read_header() {
                      .file = name,
                      .expected = "version " + std::to_string(map_version),
                      .found = "version " + std::to_string(version),
-                     .remedy = "make the map anew with this barycert, or read it with the one that made it"};
+                     .remedy = "create the map again with this version, or read it with the version that wrote it"};
     }
     constexpr std::size_t before = map_header_size - map_checksum_size;
     const bool whole = map_checksum({at, before}, 0) == get_little<std::uint64_t>(at + before);
@@ -142,7 +142,7 @@ Status MapReaderData::check_mesh(const Mesh& mesh) const {
                  .expected = size_of_mesh(head.dimension, head.nodes, head.cells),
                  .found = alike ? "one of that size with other coordinates or cells"
                                 : size_of_mesh(mesh.dimension, mesh.point_count(), mesh.cell_count()),
-                 .remedy = "name the mesh that the map was made for, or make the map anew for this one"};
+                 .remedy = "name the mesh of the map, or create the map again for this mesh"};
 }
 
 Status MapReaderData::next_block() {
@@ -181,7 +181,7 @@ Status MapReaderData::decode(std::size_t count) {
         const char* const fault =
             map_row_fault(&block.points[dimension * i], head.dimension, block.cells[i], feature, head.cells);
         if (fault != nullptr) {
-            return damage("row " + std::to_string(row + i) + " is none of a map", fault,
+            return damage("row " + std::to_string(row + i) + " is not valid in a map", fault,
                           "cell " + std::to_string(block.cells[i]) + ", feature " + std::to_string(feature));
         }
         block.features[i] = static_cast<Feature>(feature);
