@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", "barycert " BARYCERT_VERSION);
     app.require_subcommand(1);
     app.footer(
-        "Exit codes: 0 success; 1 threshold exceeded, mesh not certified or witness not reproduced; 2 usage or input  "
+        "Exit codes: 0 success; 1 threshold exceeded, mesh not certified or witness not reproduced; 2 usage or input "
         "error.\nTables go to stdout, everything else to stderr. `barycert SUBCOMMAND --help` explains each.");
     app.failure_message([](const CLI::App*, const CLI::Error& e) {
         return "error: " + base::printable(e.what()) +
