@@ -22,8 +22,8 @@ struct Grid {
     std::array<std::int64_t, 3> counts{1, 1, 1};
     std::array<double, 3> origin{}, spacing{}, last{};
 
-    /// Returns origin + i * spacing, each operation rounded; for the last point `last`, to the bit, so that a grid over a
-    /// box ends on it.
+    /// Returns origin + i * spacing, each operation rounded; for the last point `last`, to the bit, so that a grid over
+    /// a box ends on it.
     double coordinate(std::size_t axis, std::int64_t i) const;
     std::uint64_t layer_size() const {
         return static_cast<std::uint64_t>(counts[0]) * static_cast<std::uint64_t>(counts[1]);
@@ -32,8 +32,8 @@ struct Grid {
 };
 
 /// Returns the grid from low to high, ends included. An axis of one point has it in the middle. In 2D the third entries
-/// are ignored. Returns an Error if the dimension is neither 2 nor 3, a count is below 1 or above max_on_axis, there are
-/// more than 2^62 points, or bounds are not finite and ascending (low < high where there are several points).
+/// are ignored. Returns an Error if the dimension is neither 2 nor 3, a count is below 1 or above max_on_axis, there
+/// are more than 2^62 points, or bounds are not finite and ascending (low < high where there are several points).
 Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts, const std::array<double, 3>& low,
                        const std::array<double, 3>& high);
 
@@ -55,8 +55,8 @@ Bounds3 bounds_of_cells(const Mesh& mesh);
 using GridSink = std::function<Status(const TableView&)>;
 
 /// Passes to `sink` the rows that Sampler::sample returns for the points of the grid, bit for bit, and returns their
-/// counts. (LocationCounts::tests, and which tier decided a value, may differ.) Blocks come in order; memory is that of a
-/// few layers. Works on every mesh without a certificate. Returns the Errors of Sampler::sample, and that of `sink`,
+/// counts. (LocationCounts::tests, and which tier decided a value, may differ.) Blocks come in order; memory is that of
+/// a few layers. Works on every mesh without a certificate. Returns the Errors of Sampler::sample, and that of `sink`,
 /// after which it stops.
 Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const SampleOptions& options,
                               const GridSink& sink);

@@ -117,9 +117,9 @@ public:
     Result<Table> locate_all(std::span<const double> points, int threads = 0) const;
 
     /// Returns the nearest point of all cells that are not degenerate, if its rounded distance is at most `limit`; none
-    /// if `limit` is negative or NaN. Takes some microseconds to some hundred; more where many cells are equally near up
-    /// to 1e-13 of the size of the mesh, because these are compared in integers. Returns an Error if a coordinate is not
-    /// finite.
+    /// if `limit` is negative or NaN. Takes some microseconds to some hundred; more where many cells are equally near
+    /// up to 1e-13 of the size of the mesh, because these are compared in integers. Returns an Error if a coordinate is
+    /// not finite.
     Result<Nearest> nearest(const double* point, double limit) const;
 
     /// For the library's own use.

@@ -1,7 +1,7 @@
 /// Fields at points: the value of every field of a mesh at any point, correctly rounded.
 ///
-/// Input: a mesh with fields of its nodes or cells, and points in the unit of the mesh. Output: a Table, with the owner,
-/// the feature and a value for each component of each field at each point.
+/// Input: a mesh with fields of its nodes or cells, and points in the unit of the mesh. Output: a Table, with the
+/// owner, the feature and a value for each component of each field at each point.
 ///
 /// What holds (each law is a test of that name in tests/sample):
 ///   V1  A value of a point field is the exact interpolation in the owner, linear, or quadratic on cells of second

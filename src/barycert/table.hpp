@@ -30,7 +30,7 @@ struct LocationCounts {
 /// How values were found.
 struct SampleCounts {
     LocationCounts locations;
-    TierCounts values;               ///< of points with point fields, by the highest tier that one of their values needed
+    TierCounts values;          ///< of points with point fields, by the highest tier that one of their values needed
     std::uint64_t snapped = 0;  ///< points outside that got the value of the nearest point
     std::uint64_t extrapolated = 0;
     std::uint64_t without_value = 0;  ///< points outside that got NaN, or the number to fill in
@@ -42,21 +42,21 @@ struct SampleCounts {
 /// Rows of somebody else.
 struct TableView {
     int dimension = 3;
-    std::uint64_t first_row = 0;                ///< number of rows that came before, in a stream of blocks
-    std::span<const double> points = {};        ///< `dimension` coordinates a row; empty where a grid has them
-    std::span<const Mesh::Index> cells = {};    ///< 0-based; -1 outside
-    std::span<const Feature> features = {};     ///< of the point in that cell
-    std::span<const double> values = {};        ///< as many a row as there are columns, row after row
-    std::span<const double> distances = {};     ///< from the point to the mesh: see Table
+    std::uint64_t first_row = 0;              ///< number of rows that came before, in a stream of blocks
+    std::span<const double> points = {};      ///< `dimension` coordinates a row; empty where a grid has them
+    std::span<const Mesh::Index> cells = {};  ///< 0-based; -1 outside
+    std::span<const Feature> features = {};   ///< of the point in that cell
+    std::span<const double> values = {};      ///< as many a row as there are columns, row after row
+    std::span<const double> distances = {};   ///< from the point to the mesh: see Table
 
     std::size_t row_count() const { return cells.size(); }
 };
 
 struct Table {
     int dimension = 3;
-    std::vector<double> points;      ///< `dimension` coordinates a row; empty where the caller has them
-    std::vector<Mesh::Index> cells;  ///< 0-based; -1 outside
-    std::vector<Feature> features;   ///< of the point in that cell
+    std::vector<double> points;        ///< `dimension` coordinates a row; empty where the caller has them
+    std::vector<Mesh::Index> cells;    ///< 0-based; -1 outside
+    std::vector<Feature> features;     ///< of the point in that cell
     std::vector<std::string> columns;  ///< names of the values of a row: NAME, or NAME.0, NAME.1, ...
     std::vector<double> values;        ///< columns.size() a row, row after row
     /// From the point to the mesh: 0 inside, NaN where a point outside got no value. Empty unless the policy for

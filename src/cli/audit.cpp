@@ -116,7 +116,7 @@ void add_audit(CLI::App& app, int& exit_code) {
         "audit", "Count how often each floating-point kernel is wrong, and by how much, against exact arithmetic");
     const auto a = std::make_shared<AuditArguments>();
     file_option(*sub, "MESH", a->meshes,
-                "TetGen meshes (.node/.ele; Triangle's for 2D) to draw cases from; default: those of barycert")
+                "TetGen meshes (.node/.ele; Triangle's for 2D) for the families mesh.*; default: barycert's own")
         ->allow_extra_args(true);
     sub->add_option("--kernel", a->kernels, "Audit only kernels that match; may be repeated")
         ->type_name("NAME|GLOB")
@@ -124,9 +124,9 @@ void add_audit(CLI::App& app, int& exit_code) {
     sub->add_option("--family", a->families, "Use only families that match; may be repeated")
         ->type_name("NAME|GLOB")
         ->allow_extra_args(false);
-    file_option(*sub, "--kernel-library", a->libraries,
-                "Audit your own kernel: a shared library with the functions of barycert/kernel.h. Only this kernel "
-                "is audited unless --kernel is given, too");
+    file_option(
+        *sub, "--kernel-library", a->libraries,
+        "A shared library with a kernel of yours (see barycert/kernel.h); audited alone unless --kernel is given");
     sub->add_option("--count", a->count, "Cases per family and simplex")
         ->capture_default_str()
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48))
@@ -135,11 +135,11 @@ void add_audit(CLI::App& app, int& exit_code) {
         ->capture_default_str()
         ->check(whole_number())
         ->type_name("S");
-    sub->add_option("--threads", a->threads, "Number of threads; 0: one per core")
+    sub->add_option("--threads", a->threads, "Number of threads; 0: all")
         ->capture_default_str()
         ->check(CLI::Range(0, 4096))
         ->type_name("N");
-    file_option(*sub, "--json", a->json, "Write the full report as JSON; - is stdout, in place of the table");
+    file_option(*sub, "--json", a->json, "Write the report as JSON; - is stdout and suppresses the table");
     file_option(*sub, "--witnesses", a->witnesses, "Write the worst cases as JSON, for `barycert replay`; - is stdout");
     file_option(*sub, "--plot", a->plot,
                 "Plot the errors of the kernels over the condition numbers of the cells, as SVG; - is stdout");
@@ -151,8 +151,7 @@ void add_audit(CLI::App& app, int& exit_code) {
                         names)
         ->type_name("RULE")
         ->allow_extra_args(false);
-    sub->add_flag("--no-check", a->no_check,
-                  "Do not check the meshes first (see `barycert check`), which takes about a second per million cells");
+    sub->add_flag("--no-check", a->no_check, "Do not check whether the meshes are partitions (see `barycert check`)");
     sub->add_flag("--quiet", a->quiet, "Print no table and no progress");
     sub->callback([a, &exit_code] { exit_code = run_audit(*a); });
 }

@@ -39,12 +39,12 @@ struct TextOutput {
     std::string (*text)(const CheckReport&, const Mesh&, const CheckArguments&);
 };
 constexpr std::array<TextOutput, 2> text_outputs{{
-    {"--json", "Write the full report as JSON; - is stdout, in place of the table", &CheckArguments::json,
+    {"--json", "Write the report as JSON; - is stdout and suppresses the table", &CheckArguments::json,
      [](const CheckReport& report, const Mesh&, const CheckArguments& a) {
          return check_json(report, a.mesh, measure_environment());
      }},
     {"--html",
-     "Write the report as one HTML page with histograms and pictures of cells; - is stdout, in place of the table",
+     "Write the report as an HTML page with histograms and pictures of cells; - is stdout and suppresses the table",
      &CheckArguments::html,
      [](const CheckReport& report, const Mesh& mesh, const CheckArguments& a) {
          return check_html(report, mesh, tetgen_stem(a.mesh));
@@ -87,7 +87,7 @@ Status check_nothing_in_the_way(const Mesh& mesh, const std::string& stem) {
          {std::pair(".face", !mesh.faces.empty()), {".neigh", !mesh.neighbours.empty()}}) {
         std::error_code ignored;
         if (!written && std::filesystem::exists(stem + suffix, ignored))
-            return Error{.what = "a file of another mesh would be left beside the copy",
+            return Error{.what = "a file of another mesh exists",
                          .file = stem + suffix,
                          .remedy = "remove it, or give --fix-orientation another name"};
     }
@@ -171,11 +171,11 @@ int run_check(const CheckArguments& a) {
 
 void add_check(CLI::App& app, int& exit_code) {
     auto* sub = app.add_subcommand(
-        "check", "Prove in exact arithmetic that the cells of a mesh partition their domain, or report why not");
+        "check", "Prove in exact arithmetic that a mesh is a partition of its domain, or report why it is not");
     sub->footer(
         "Exit codes: 0 certified, 1 not certified, 2 usage or input error.\nCertified: any two cells meet in a common "
-        "face or not at all, and .neigh and .face, if present, agree with\nthe cells. Second-order cells are taken "
-        "with straight sides.");
+        "face or not at all, and the files .neigh and .face, if present, agree with\nthe cells. Second-order cells are "
+        "checked with straight sides.");
     const auto a = std::make_shared<CheckArguments>();
     file_option(*sub, "MESH", a->mesh,
                 "A TetGen mesh (.node/.ele, .face and .neigh if present) or a mesh of Triangle (2D)")
@@ -188,17 +188,16 @@ void add_check(CLI::App& app, int& exit_code) {
         ->capture_default_str()
         ->check(CLI::Range(0, 1000000))
         ->type_name("N");
-    sub->add_option("--contacts", a->contacts,
-                    "Max number of pairs of overlapping or touching cells listed with a common point")
+    sub->add_option("--contacts", a->contacts, "Max number of overlapping or touching pairs listed with a witness")
         ->capture_default_str()
         ->check(CLI::Range(0, 1000000))
         ->type_name("N");
-    sub->add_option("--threads", a->threads, "Number of threads; 0: one per core")
+    sub->add_option("--threads", a->threads, "Number of threads; 0: all")
         ->capture_default_str()
         ->check(CLI::Range(0, 4096))
         ->type_name("N");
     for (const TextOutput& t : text_outputs) file_option(*sub, t.option, (*a).*t.path, t.help);
-    file_option(*sub, "--vtu", a->vtu, "Write the mesh with the measures and defects of its cells, for ParaView");
+    file_option(*sub, "--vtu", a->vtu, "Write the mesh with measures and defects of each cell as VTU, for ParaView");
     file_option(*sub, "--fix-orientation", a->fixed,
                 "Write a copy in which no cell has negative volume: STEM.node, STEM.ele (.face, .neigh)")
         ->type_name("STEM");

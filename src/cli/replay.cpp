@@ -51,7 +51,7 @@ Result<std::vector<Witness>> made_again(const ReplayArguments& a, const std::vec
     }
     if (!simplex && family.simplices.size() == 1) simplex = family.simplices.front();
     if (!simplex || !family.applies_to(*simplex)) {
-        return Error{.what = "the family applies to several simplices, or not to the one given",
+        return Error{.what = "the simplex is not determined: the family applies to several, or not to the one given",
                      .remedy = "add --simplex NAME or --kernel NAME"};
     }
     MeshSource meshes;
@@ -76,8 +76,7 @@ int run_replay(const ReplayArguments& a) {
     Result<std::vector<Kernel>> kernels = select_kernels({"*"}, a.libraries);
     if (!kernels) return fail(kernels.error());
     if (a.file.empty() == a.family.empty())
-        return fail(
-            {.what = "no witness file and no case given", .remedy = "name a file, or give --family and --case"});
+        return fail({.what = "no case to replay: give a witness file, or --family and --case"});
     if (!a.family.empty() && !a.index) return fail({.what = "--family needs --case"});
     if (std::error_code ignored; std::filesystem::is_directory(a.file, ignored))
         return fail({.what = "cannot read the witnesses", .file = a.file, .expected = "a file", .found = "a folder"});
@@ -113,26 +112,25 @@ int run_replay(const ReplayArguments& a) {
 }  // namespace
 
 void add_replay(CLI::App& app, int& exit_code) {
-    auto* sub = app.add_subcommand("replay", "Show the exact weights of a witness and those of every kernel");
-    sub->footer("Exit code 1 if a witness of the file no longer shows its finding.");
+    auto* sub = app.add_subcommand("replay", "Show witnesses: the weights of every kernel beside the exact ones");
+    sub->footer("Exit codes: 0 done; 1 a witness of a file is not reproduced; 2 usage or input error.");
     const auto a = std::make_shared<ReplayArguments>();
     file_option(*sub, "FILE", a->file, "Witnesses from `barycert audit --witnesses FILE`, or its --json report");
-    sub->add_option("--kernel", a->kernel, "Show only witnesses of kernels that match; with --case: the kernel to mark")
+    sub->add_option("--kernel", a->kernel, "Show only witnesses of matching kernels; with --case, mark this kernel")
         ->type_name("NAME|GLOB");
-    sub->add_option("--reason", a->reason, "Show only witnesses of this class of finding")->type_name("NAME|GLOB");
-    sub->add_option("--family", a->family, "Instead of reading a file, make the case of this family")
-        ->type_name("NAME");
-    sub->add_option("--case", a->index, "Number of the case, with --family")->check(whole_number())->type_name("N");
-    sub->add_option("--seed", a->seed, "Seed of the case, with --family")
+    sub->add_option("--reason", a->reason, "Show only witnesses of this kind of finding")->type_name("NAME|GLOB");
+    sub->add_option("--family", a->family, "Generate a case instead of reading it: its family")->type_name("NAME");
+    sub->add_option("--case", a->index, "Number of the case to generate")->check(whole_number())->type_name("N");
+    sub->add_option("--seed", a->seed, "Seed of the case to generate")
         ->capture_default_str()
         ->check(whole_number())
         ->type_name("S");
-    sub->add_option("--simplex", a->simplex, "Simplex of the case, if family and kernel leave it open")
+    sub->add_option("--simplex", a->simplex, "Simplex of the case, if family and kernel do not determine it")
         ->type_name("NAME");
     file_option(*sub, "--mesh", a->meshes,
-                "Meshes of the case, in the order given to the audit; default: those of barycert")
+                "Meshes of the case, in the order given to the audit; default: barycert's own")
         ->type_name("MESH");
-    file_option(*sub, "--kernel-library", a->libraries, "Also show the kernel of this shared library");
+    file_option(*sub, "--kernel-library", a->libraries, "Also show the kernel of this library");
     sub->callback([a, &exit_code] { exit_code = run_replay(*a); });
 }
 

@@ -127,7 +127,7 @@ TEST(audit, the_table_is_the_report) {
     const Ended r = run({"audit", "--count", "20", "--kernel", "triangle.*", "--json", scratch.path("r.json")});
     EXPECT_EQ(r.code, 0);
     EXPECT_EQ(r.err, "");
-    const Json report = parse(base::read_file(scratch.path("r.json")));
+    const Json report = parse(read_file(scratch.path("r.json")));
     // Kernels stand in the table in the report's order, worst first; the first column of digits is the cases.
     std::size_t at = 0;
     for (const Json& kernel : report["kernels"]) {
@@ -146,8 +146,8 @@ TEST(audit, quiet_says_nothing_and_writes_all) {
                          "--witnesses", scratch.path("w")});
     EXPECT_EQ(r.code, 0);
     EXPECT_EQ(r.out + r.err, "");
-    const Json report = parse(base::read_file(scratch.path("r"))),
-               witnesses = parse(base::read_file(scratch.path("w")));
+    const Json report = parse(read_file(scratch.path("r"))),
+               witnesses = parse(read_file(scratch.path("w")));
     EXPECT_FALSE(report["witnesses"].empty());
     EXPECT_EQ(report["witnesses"], witnesses["witnesses"]);
     const Ended pure = run({"audit", "--count", "10", "--kernel", "segment.*", "--witnesses", "-"});

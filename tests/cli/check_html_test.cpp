@@ -19,7 +19,7 @@ TEST(check_html, a_page_beside_the_table) {
         const Ended r = run({"check", mesh(name), "--html", scratch.path(name)});
         EXPECT_EQ(r.code, 0) << r.err;
         EXPECT_TRUE(contains(r.out, ": certified: "));
-        const std::string page = base::read_file(scratch.path(name));
+        const std::string page = read_file(scratch.path(name));
         EXPECT_TRUE(is_page(page));
         EXPECT_TRUE(contains(page, "<b>Certified</b>"));
         EXPECT_TRUE(contains(page, name));
@@ -34,7 +34,7 @@ TEST(check_html, of_a_mesh_that_is_not_certified) {
     const Ended r = run({"check", scratch.path("a<b"), "--quiet", "--html", scratch.path("page")});
     EXPECT_EQ(r.code, 1) << r.err;
     EXPECT_EQ(r.out, "");
-    const std::string page = base::read_file(scratch.path("page"));
+    const std::string page = read_file(scratch.path("page"));
     EXPECT_TRUE(is_page(page));
     EXPECT_TRUE(contains(page, "<b>NOT certified</b>"));
     EXPECT_TRUE(contains(page, "degenerate cell (coplanar)"));

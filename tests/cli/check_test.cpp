@@ -161,7 +161,7 @@ TEST(check, json_says_what_the_table_says) {
     const Ended file = run(check(over, {"--json", scratch.path("r.json"), "--quiet"}));
     EXPECT_EQ(file.code, 1);
     EXPECT_EQ(file.out + file.err, "");
-    auto written = parse(base::read_file(scratch.path("r.json")));
+    auto written = parse(read_file(scratch.path("r.json")));
     auto shown = j;
     for (auto* report : {&written, &shown}) (*report).erase("seconds");
     EXPECT_EQ(written, shown);
@@ -179,8 +179,8 @@ TEST(check, html_is_a_page) {
     const Ended both = run(check(over, {"--html", scratch.path("r.html"), "--json", scratch.path("r.json")}));
     EXPECT_EQ(both.code, 1);
     EXPECT_TRUE(contains(both.out, ": NOT certified: "));
-    EXPECT_TRUE(contains(base::read_file(scratch.path("r.html")), "</html>"));
-    EXPECT_EQ(parse(base::read_file(scratch.path("r.json")))["schema"], 1);
+    EXPECT_TRUE(contains(read_file(scratch.path("r.html")), "</html>"));
+    EXPECT_EQ(parse(read_file(scratch.path("r.json")))["schema"], 1);
 }
 
 TEST(check, options_reach_the_check) {
@@ -222,7 +222,7 @@ TEST(check, the_copy_has_positive_cells_and_all_else) {
     EXPECT_EQ(r.out + r.err, "");
     EXPECT_EQ(scratch.names(),
               (Words{"fixed.ele", "fixed.neigh", "fixed.node", "mixed.ele", "mixed.neigh", "mixed.node"}));
-    EXPECT_EQ(base::read_file(scratch.path("fixed.ele")), "2 4 1\n0 0 1 2 3 0.1\n1 5 4 7 6 0.2\n");
+    EXPECT_EQ(read_file(scratch.path("fixed.ele")), "2 4 1\n0 0 1 2 3 0.1\n1 5 4 7 6 0.2\n");
     const auto j = parse(run(check(scratch.path("fixed"), {"--json", "-"})).out);
     EXPECT_EQ(j["orientation"]["positive"], 2);
     EXPECT_EQ(j["orientation"]["negative"], 0);
@@ -242,8 +242,7 @@ TEST(check, the_copy_does_not_mix_with_another_mesh) {
     EXPECT_EQ(r.code, 2);
     EXPECT_EQ(r.out, "");
     EXPECT_EQ(r.err, "error: " + scratch.path("other.face") +
-                         ": a file of another mesh would be left beside the copy; remove it, or give --fix-orientation "
-                         "another name\n");
+                         ": a file of another mesh exists; remove it, or give --fix-orientation another name\n");
     EXPECT_EQ(scratch.names(), (Words{"m.ele", "m.node", "other.face"}));
 }
 
@@ -254,7 +253,7 @@ TEST(check, vtu_is_written_or_it_is_told_how_to_get_it) {
 #ifdef BARYCERT_WITH_VTK
     EXPECT_EQ(r.code, 1) << r.err;
     EXPECT_EQ(r.err, "");
-    const std::string written = base::read_file(vtu);
+    const std::string written = read_file(vtu);
     for (const std::string name :
          {"orientation", "volume", "condition", "radius_edge", "aspect", "min_angle", "max_angle", "problems"})
         EXPECT_TRUE(contains(written, "Name=\"" + name + "\"")) << name;
@@ -300,7 +299,7 @@ TEST(check, one_place_for_two_files_is_refused) {
         EXPECT_TRUE(contains(r.err, says)) << r.err;
     }
     EXPECT_EQ(scratch.names(), (Words{"m.ele", "m.node"}));
-    EXPECT_EQ(base::read_file(m + ".ele"), two_cells);
+    EXPECT_EQ(read_file(m + ".ele"), two_cells);
 }
 
 TEST(check, a_place_that_cannot_be_written_does_not_cost_the_table) {
@@ -313,7 +312,7 @@ TEST(check, a_place_that_cannot_be_written_does_not_cost_the_table) {
     const std::string old = scratch.put("r.json", "old");
     const Ended small = run(check(m, {"--json", old}), {.max_file = 512});
     EXPECT_EQ(small.code, 2);
-    EXPECT_EQ(base::read_file(old), "old");
+    EXPECT_EQ(read_file(old), "old");
     const Ended copy =
         run(check(mesh("bracket"), {"--fix-orientation", scratch.path("c"), "--quiet"}), {.max_file = 60000});
     EXPECT_EQ(copy.code, 2) << "the .node file is larger, the others are not";
@@ -329,7 +328,7 @@ TEST(check, killed_it_leaves_nothing) {
     const Ended r = run(check(mesh("flange"), {"--json", old, "--fix-orientation", scratch.path("c")}),
                         {.terminal = true, .kill_on = "checking: cells", .kill_with = SIGKILL});
     EXPECT_EQ(r.signal, SIGKILL);
-    EXPECT_EQ(base::read_file(old), "old");
+    EXPECT_EQ(read_file(old), "old");
     EXPECT_EQ(scratch.names(), Words{"r.json"});
 }
 

@@ -100,7 +100,7 @@ TEST(control_characters, in_files) {
     const Ended made = run({"audit", "--quiet", "--count", "20", "--family", "sliver.*", "--kernel",
                             "tetrahedron.cramer", "--witnesses", scratch.path("w.json")});
     ASSERT_EQ(made.code, 0) << made.err;
-    auto witnesses = parse(base::read_file(scratch.path("w.json")));
+    auto witnesses = parse(read_file(scratch.path("w.json")));
     for (auto& w : witnesses["witnesses"]) {
         for (const char* word : {"kernel", "family", "reason"}) w[word] = "\033[31m\a\n\u009b";
     }

@@ -36,7 +36,7 @@ Outcome outcome(const Words& arguments, const std::string& environment, const st
     const Ended r = run(arguments, started_in(environment));
     EXPECT_EQ(r.signal, 0);
     return {r.code, without_times(r.out), without_times(r.err),
-            file.empty() ? "" : without_times(base::read_file(file))};
+            file.empty() ? "" : without_times(read_file(file))};
 }
 
 /// `arguments` write to `file`, if there is one.

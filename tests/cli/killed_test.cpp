@@ -20,8 +20,8 @@ TEST_P(Killed, in_the_middle_of_the_work) {
     const Ended r = run({"audit", "--count", "1000000000", "--json", report, "--witnesses", witnesses},
                         {.terminal = true, .kill_on = " %  ", .kill_with = GetParam()});
     EXPECT_EQ(r.signal, GetParam());
-    EXPECT_EQ(base::read_file(report), "old report");
-    EXPECT_EQ(base::read_file(witnesses), "old witnesses");
+    EXPECT_EQ(read_file(report), "old report");
+    EXPECT_EQ(read_file(witnesses), "old witnesses");
     EXPECT_EQ(scratch.names(), (Words{"r.json", "w.json"}));
 }
 
@@ -52,7 +52,7 @@ TEST_P(Killed, in_the_middle_of_writing) {
             const Ended r = run(arguments, {.environment = watched(GetParam(), names)});
             EXPECT_EQ(r.signal, GetParam()) << ::testing::PrintToString(arguments) << r.err;
             EXPECT_EQ(scratch.names(), (Words{"old", "p.csv"})) << ::testing::PrintToString(arguments);
-            EXPECT_EQ(base::read_file(old), "old");
+            EXPECT_EQ(read_file(old), "old");
         }
     }
 }
@@ -97,7 +97,7 @@ TEST(killed, a_reader_that_stops_reading_leaves_no_half_map) {
         const Ended r = run_shell("(" + names + "barycert sample " + mesh("bracket") +
                                       " --points p.csv --output - --save-map m; echo $? > code) | head -n 1",
                                   {.folder = scratch.folder()});
-        EXPECT_EQ(base::read_file(scratch.path("code")), "141\n") << r.err;
+        EXPECT_EQ(read_file(scratch.path("code")), "141\n") << r.err;
         EXPECT_EQ(scratch.names(), (Words{"code", "p.csv"})) << names;
     }
 }

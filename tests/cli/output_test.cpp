@@ -45,12 +45,12 @@ TEST(output, one_place_for_two_outputs_is_refused) {
     fs::create_symlink(file, scratch.path("link"));
     scratch.put("r.json", "old");
     expect_told_before_the_work({"--json", file, "--witnesses", scratch.path("link")}, "the same output");
-    EXPECT_EQ(base::read_file(file), "old");
+    EXPECT_EQ(read_file(file), "old");
     for (const std::string option : {"--json", "--witnesses"}) {
         expect_told_before_the_work({option, "-", "--plot", "-"}, option + " and --plot name the same output");
         expect_told_before_the_work({option, file, "--plot", scratch.path("link")}, "name the same output");
     }
-    EXPECT_EQ(base::read_file(file), "old");
+    EXPECT_EQ(read_file(file), "old");
 }
 
 TEST(output, without_the_right_to_write_it_is_told_before_the_work) {
@@ -64,7 +64,7 @@ TEST(output, without_the_right_to_write_it_is_told_before_the_work) {
     scratch.put("r.json", "old");
     ASSERT_EQ(::chmod(file.c_str(), 0444), 0);
     expect_told_before_the_work({"--json", file}, "Permission denied; choose a folder", nobody);
-    EXPECT_EQ(base::read_file(file), "old");
+    EXPECT_EQ(read_file(file), "old");
     EXPECT_EQ(scratch.names(), Words{"r.json"});
     // A device may be written even though nobody may make files beside it.
     const Ended null =
@@ -79,7 +79,7 @@ TEST(output, a_pipe_gets_the_whole_report) {
         run_shell("cat pipe > copy & barycert audit --quiet --count 5 --kernel 'segment.*' --json pipe; wait",
                   {.folder = scratch.folder()});
     EXPECT_EQ(r.code, 0) << r.err;
-    EXPECT_EQ(parse(base::read_file(scratch.path("copy")))["schema"], 1);
+    EXPECT_EQ(parse(read_file(scratch.path("copy")))["schema"], 1);
 }
 
 TEST(output, a_full_disk_is_an_error_that_does_not_cost_the_table) {
@@ -112,14 +112,14 @@ TEST(output, the_picture_appears_whole_and_alone_on_stdout) {
     const Ended r = with({"--plot", file});
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_TRUE(contains(r.out, "tetrahedron.cramer")) << "the table";
-    const std::string picture = base::read_file(file);
+    const std::string picture = read_file(file);
     EXPECT_TRUE(picture.starts_with("<svg ") && picture.ends_with("</svg>\n"));
     EXPECT_TRUE(contains(picture, ">cramer</text>"));
     EXPECT_EQ(scratch.names(), Words{"plot.svg"});
     for (const std::string threads : {"1", "2"}) EXPECT_EQ(with({"--plot", "-", "--threads", threads}).out, picture);
     const Ended cut = with({"--quiet", "--plot", file}, {.max_file = 4096});
     EXPECT_EQ(cut.code, 2);
-    EXPECT_EQ(base::read_file(file), picture);
+    EXPECT_EQ(read_file(file), picture);
     EXPECT_EQ(scratch.names(), Words{"plot.svg"});
 }
 
@@ -129,7 +129,7 @@ TEST(output, a_file_that_may_not_grow_leaves_the_old_one) {
     const Ended r = run({"audit", "--quiet", "--count", "5", "--json", file}, {.max_file = 4096});
     EXPECT_EQ(r.code, 2) << "signal " << r.signal;
     EXPECT_TRUE(contains(r.err, "cannot write the file: found File too large")) << r.err;
-    EXPECT_EQ(base::read_file(file), "old");
+    EXPECT_EQ(read_file(file), "old");
     EXPECT_EQ(scratch.names(), Words{"r.json"});
 }
 
@@ -158,8 +158,8 @@ TEST(output, closed_streams_are_no_crash) {
                              "--witnesses", scratch.path("w")},
                             {.close_stdout = true, .close_stderr = true});
     EXPECT_EQ(quiet.code, 0);
-    EXPECT_EQ(parse(base::read_file(scratch.path("r")))["schema"], 1);
-    EXPECT_EQ(parse(base::read_file(scratch.path("w")))["schema"], 1);
+    EXPECT_EQ(parse(read_file(scratch.path("r")))["schema"], 1);
+    EXPECT_EQ(parse(read_file(scratch.path("w")))["schema"], 1);
     // An error that cannot be told is still an error.
     for (const How& how : {How{.close_stderr = true}, How{.stderr_path = "/dev/full"}}) {
         EXPECT_EQ(run({"audit", "--kernel", "zzz"}, how).code, 2);
@@ -173,9 +173,9 @@ TEST(output, a_reader_that_stops_reading_does_not_cost_the_files) {
         run_shell("(barycert audit --count 5 --json r.json; echo $? > code) | head -n 1", {.folder = scratch.folder()});
     EXPECT_EQ(r.code, 0);
     EXPECT_EQ(lines_of(r.out).size(), 1U);
-    EXPECT_EQ(parse(base::read_file(scratch.path("r.json")))["schema"], 1);
+    EXPECT_EQ(parse(read_file(scratch.path("r.json")))["schema"], 1);
     // Ended by SIGPIPE as any filter, or finished before `head` did; nothing else.
-    const std::string code = base::read_file(scratch.path("code"));
+    const std::string code = read_file(scratch.path("code"));
     EXPECT_TRUE(code == "141\n" || code == "0\n" || code == "2\n") << code;
     EXPECT_TRUE(r.err.empty() || contains(r.err, "cannot write to stdout: found Broken pipe")) << r.err;
 }

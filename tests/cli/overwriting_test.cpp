@@ -26,7 +26,7 @@ public:
         scratch_.put("part.node", "0 3 0 0\n");
         fs::copy_file(BARYCERT_USER_KERNEL, scratch_.path("k.so"));
         for (const auto& entry : fs::directory_iterator(scratch_.folder()))
-            before_[entry.path().filename().string()] = base::read_file(entry.path().string());
+            before_[entry.path().filename().string()] = read_file(entry.path().string());
         fs::create_directory(scratch_.path("other"));
         fs::create_directory_symlink(scratch_.folder(), scratch_.path("way"));
     }
@@ -53,7 +53,7 @@ public:
             EXPECT_EQ(r.out, "");
             EXPECT_TRUE(contains(r.err, option + " would overwrite " + what)) << ::testing::PrintToString(all) << r.err;
         }
-        for (const auto& [kept, bytes] : before_) EXPECT_EQ(base::read_file(scratch_.path(kept)), bytes) << kept;
+        for (const auto& [kept, bytes] : before_) EXPECT_EQ(read_file(scratch_.path(kept)), bytes) << kept;
     }
     bool untouched() const {
         Words names;

@@ -92,7 +92,7 @@ protected:
         const Ended r = run({"audit", "--quiet", "--count", "50", "--kernel", "tetrahedron.inverse", "--kernel",
                              "triangle.inverse", "--witnesses", file_});
         ASSERT_EQ(r.code, 0) << r.err;
-        all_ = parse(base::read_file(file_));
+        all_ = parse(read_file(file_));
         ASSERT_GT(all_["witnesses"].size(), 4U);
     }
     /// Number of witnesses that `replay` shows, each headed "SIMPLEX, REASON of KERNEL".

@@ -46,20 +46,20 @@ TEST(resample, arrays_have_x_fastest) {
     // On this grid attribute0 is 1 + 2x + 4y + 8z, and (1, 1, 0), (1, 0, 1), (0, 1, 1) lie outside.
     const Words line{"resample", two, "--grid", "2x2x3", "--outside", "fill=-1", "--output"};
     EXPECT_EQ(run(plus(line, {scratch.path("a.npy"), "--fields", "attribute0"})).code, 0);
-    const std::string file = base::read_file(scratch.path("a.npy"));
+    const std::string file = read_file(scratch.path("a.npy"));
     EXPECT_EQ(file.substr(10, 66), "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2, 2), }    ");
     ASSERT_EQ(file.size() % 64, 32U);
     std::vector<double> values(12);
     std::memcpy(values.data(), file.data() + file.size() - 96, 96);
     EXPECT_EQ(values, (std::vector<double>{1, 3, 5, -1, 5, -1, -1, -1, 9, -1, -1, 15}));
     EXPECT_EQ(run(plus(line, {scratch.path("b.npy")})).code, 0);
-    const std::string both = base::read_file(scratch.path("b.npy"));
+    const std::string both = read_file(scratch.path("b.npy"));
     EXPECT_TRUE(contains(both, "'shape': (3, 2, 2, 2), }"));
     values.resize(24);
     std::memcpy(values.data(), both.data() + both.size() - 192, 192);
     EXPECT_EQ((std::vector<double>{values.begin(), values.begin() + 6}), (std::vector<double>{1, 7, 3, 7, 5, 7}));
     EXPECT_EQ(run(plus(line, {scratch.path("a.vti"), "--fields", "attribute0"})).code, 0);
-    const std::string vti = base::read_file(scratch.path("a.vti"));
+    const std::string vti = read_file(scratch.path("a.vti"));
     for (const std::string part : {"WholeExtent=\"0 1 0 1 0 2\"", "Name=\"attribute0\"", "Name=\"vtkValidPointMask\"",
                                    "Name=\"cell\"", "Spacing=\"1 1 0.5\""})
         EXPECT_TRUE(contains(vti, part)) << part;
@@ -74,8 +74,8 @@ TEST(resample, a_picture_of_a_layer) {
     const Ended r = run(plus(line, {"--grid", "40x30x1", "--range", "0,0.5", "--json", scratch.path("j")}));
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_TRUE(contains(r.out, "\npicture    colours from 0 to 0.5; ")) << r.out;
-    EXPECT_EQ(base::read_file(png).substr(0, 8), "\x89PNG\r\n\x1a\n");
-    const auto j = parse(base::read_file(scratch.path("j")));
+    EXPECT_EQ(read_file(png).substr(0, 8), "\x89PNG\r\n\x1a\n");
+    const auto j = parse(read_file(scratch.path("j")));
     EXPECT_EQ(j["from"], "grid");
     EXPECT_EQ(j["grid"]["counts"].dump(), "[40,30,1]");
     EXPECT_EQ(j["grid"]["origin"][2], 0.5);
@@ -84,7 +84,7 @@ TEST(resample, a_picture_of_a_layer) {
     EXPECT_EQ(j["method"], "grid");
     for (const std::string grid : {"40x1x30", "1x40x30"}) EXPECT_EQ(run(plus(line, {"--grid", grid})).code, 0) << grid;
     EXPECT_EQ(run({"resample", mesh("plate"), "--grid", "40x30", "--output", png, "--fields", "attribute0"}).code, 0);
-    const std::string before = base::read_file(png);
+    const std::string before = read_file(png);
     for (const std::string grid : {"40x30x2", "40x1x1"})
         expect_error(plus(line, {"--grid", grid}), "expected one point along exactly one axis");
     expect_error(
@@ -92,7 +92,7 @@ TEST(resample, a_picture_of_a_layer) {
         "a picture shows one column: expected a field of one component, chosen by --fields, found attribute0, ");
     expect_error(plus(line, {"--grid", "4x4x1", "--range", "1,1"}), "--range");
     expect_error(plus(line, {"--grid", "2000000x4x1"}), "too many points for a picture");
-    EXPECT_TRUE(base::read_file(png) == before);
+    EXPECT_TRUE(read_file(png) == before);
 }
 
 TEST(resample, onto_another_mesh) {
@@ -106,15 +106,15 @@ TEST(resample, onto_another_mesh) {
         "0.25,0.25,0.5,0,face,6.5\n2,2,2,-1,outside,nan\n";
     EXPECT_EQ(run(plus(line, {"-", "--quiet"})).out, rows);
     EXPECT_EQ(run(plus(line, {scratch.path("r.csv")})).code, 0);
-    EXPECT_EQ(base::read_file(scratch.path("r.csv")), rows);
+    EXPECT_EQ(read_file(scratch.path("r.csv")), rows);
     expect_error(plus(line, {scratch.path("r")}), "field \"attribute0\" is not finite at node 3, counted from 0");
     EXPECT_EQ(scratch.names(), (Words{"onto.ele", "onto.node", "r.csv", "two.ele", "two.node"}));
     for (const std::string name : {"r.1", "s.node"}) {
         EXPECT_EQ(run(plus(line, {scratch.path(name), "--outside", "fill=-2"})).code, 0);
         const std::string stem = name.substr(0, name[0] == 'r' ? 3 : 1);
-        EXPECT_EQ(lines_of(base::read_file(scratch.path(stem + ".node"))),
+        EXPECT_EQ(lines_of(read_file(scratch.path(stem + ".node"))),
                   (Words{"4 3 1 1", "1 0 0 0 1 5", "2 0 0.5 0 3 6", "3 0.25 0.25 0.5 6.5 7", "4 2 2 2 -2 8"}));
-        EXPECT_EQ(lines_of(base::read_file(scratch.path(stem + ".ele"))), (Words{"1 4 0", "1 1 2 3 4"}));
+        EXPECT_EQ(lines_of(read_file(scratch.path(stem + ".ele"))), (Words{"1 4 0", "1 1 2 3 4"}));
     }
     for (const std::string name : {"v.vtu", "v.vtk"}) {
         const Ended r = run(plus(line, {scratch.path(name), "--outside", "fill=-2"}));
@@ -190,7 +190,7 @@ TEST(resample, files_appear_whole_or_not_at_all) {
         const Ended r = run(plus(line, {"--quiet"}), {.max_file = 2000});
         EXPECT_EQ(r.code, 2) << name << ' ' << r.signal;
         EXPECT_TRUE(contains(r.err, "File too large")) << r.err;
-        EXPECT_EQ(base::read_file(file), "old");
+        EXPECT_EQ(read_file(file), "old");
     }
     EXPECT_EQ(scratch.names(), (Words{"r.csv", "r.npy", "r.png", "r.vti"}));
 }

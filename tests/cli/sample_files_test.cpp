@@ -32,12 +32,12 @@ TEST(sample_map, gives_the_same_bytes_as_the_points) {
             const Words line{"sample", bracket, "--outside", policy, "--json", scratch.path("j"), "--output", "-"};
             const Ended made = run(plus(line, {"--points", points, "--save-map", map, "--on-boundary", all}));
             EXPECT_EQ(made.code, 0) << made.err;
-            const auto first = parse(base::read_file(scratch.path("j")));
+            const auto first = parse(read_file(scratch.path("j")));
             EXPECT_GT(first["outside"]["count"], 0);
             const Ended used = run(plus(line, {"--map", map}));
             EXPECT_EQ(used.code, 0) << used.err;
             EXPECT_TRUE(used.out == made.out) << all << ' ' << policy;
-            const auto second = parse(base::read_file(scratch.path("j")));
+            const auto second = parse(read_file(scratch.path("j")));
             EXPECT_EQ(second["method"], "map");
             EXPECT_EQ(second["file"], map);
             for (const std::string same : {"points", "rows", "on_boundary", "inside", "outside", "values"})
@@ -52,12 +52,12 @@ TEST(sample_map, gives_the_same_bytes_as_the_points) {
     expect_error({"sample", bracket, "--map", map, "--save-map", map, "--output", "-"},
                  "--save-map cannot be combined with --map");
     expect_error({"sample", bracket, "--map", "-", "--output", "-"}, "a map cannot come from stdin");
-    std::string damaged = base::read_file(map);
+    std::string damaged = read_file(map);
     damaged[damaged.size() / 2] ^= 1;
     scratch.put("r.csv", "old");
     expect_error({"sample", bracket, "--map", scratch.put("bad.map", damaged), "--output", scratch.path("r.csv")},
                  "error: " + scratch.path("bad.map") + ":");
-    EXPECT_EQ(base::read_file(scratch.path("r.csv")), "old");
+    EXPECT_EQ(read_file(scratch.path("r.csv")), "old");
 }
 
 TEST(sample_files, what_is_not_understood_is_refused) {
@@ -117,7 +117,7 @@ TEST(sample_files, no_output_is_an_input_or_another_output) {
         {{"--output", out, "--save-map", out}, "--output and --save-map name the same output"},
         {{"--output", scratch.path("none/r.csv")}, "make the folder first"}};
     for (const auto& [more, says] : refusals) expect_error(plus(line, more), says);
-    EXPECT_EQ(base::read_file(points), six_points);
+    EXPECT_EQ(read_file(points), six_points);
     EXPECT_EQ(scratch.names(), (Words{"f.csv", "p.csv", "two.ele", "two.node"}));
 }
 
@@ -128,8 +128,8 @@ TEST(sample_files, appear_whole_or_not_at_all) {
     const Words line{"sample", mesh("bracket"), "--points", scratch.path("p.csv"), "--save-map", map, "--output"};
     for (const std::string& target : {out, scratch.path("r.npy")})
         expect_error(plus(line, {target}), "File too large", {.max_file = 100000});
-    EXPECT_EQ(base::read_file(out), "old");
-    EXPECT_EQ(base::read_file(map), "old");
+    EXPECT_EQ(read_file(out), "old");
+    EXPECT_EQ(read_file(map), "old");
     EXPECT_EQ(scratch.names(), (Words{"p.csv", "r.csv", "r.map"}));
     const Ended full = run({"sample", mesh("bracket"), "--points", scratch.path("p.csv"), "--output", "-"},
                            {.stdout_path = "/dev/full"});
@@ -138,7 +138,7 @@ TEST(sample_files, appear_whole_or_not_at_all) {
     // A fault in the points, found late: nothing of what stood before it.
     ASSERT_EQ(run_shell("echo 1,2 >> p.csv", {.folder = scratch.folder()}).code, 0);
     expect_error(plus(line, {out}), "p.csv:20001: ");
-    EXPECT_EQ(base::read_file(out), "old");
+    EXPECT_EQ(read_file(out), "old");
     EXPECT_EQ(scratch.names(), (Words{"p.csv", "r.csv", "r.map"}));
     const How nobody{.as_nobody = true};
     if (run({"--version"}, nobody).code != 0) return;
@@ -160,7 +160,7 @@ std::size_t peak_memory(int times) {
                   {.folder = scratch.folder()});
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_EQ(r.out, std::to_string(100000 * times + 1) + "\n");
-    return std::stoul("0" + base::read_file(scratch.path("peak")));
+    return std::stoul("0" + read_file(scratch.path("peak")));
 }
 
 TEST(sample_stream, memory_does_not_grow_with_the_points) {
@@ -203,7 +203,7 @@ TEST_P(SampleKilled, while_it_writes) {
     over = true;
     writer.join();
     EXPECT_EQ(r.signal, GetParam());
-    EXPECT_EQ(base::read_file(out), "old");
+    EXPECT_EQ(read_file(out), "old");
     // What SIGKILL leaves is beside the file, not in its place.
     if (GetParam() != SIGKILL) {
         EXPECT_EQ(scratch.names(), (Words{"p.csv", "r.csv"}));

@@ -24,7 +24,7 @@ TEST(sample, a_row_a_point) {
     EXPECT_TRUE(contains(r.err, "method     walk: the mesh is certified (checked: 6 points for 2 cells)\n")) << r.err;
     // In a file the same, and then the summary stands on stdout.
     const Ended file = run(plus(line, {scratch.path("r.csv")}));
-    EXPECT_EQ(base::read_file(scratch.path("r.csv")), six_rows);
+    EXPECT_EQ(read_file(scratch.path("r.csv")), six_rows);
     EXPECT_EQ(file.err, "");
     EXPECT_TRUE(contains(file.out, "points     6\n"));
     const Ended quiet = run(plus(line, {scratch.path("r.csv"), "--quiet"}));
@@ -61,7 +61,7 @@ TEST(sample, every_cell_that_holds_a_point_if_asked) {
               "0.5,0.5,0,0,edge,4,7\n0.5,0.5,0,1,edge,4,9\n1,0,0,0,vertex,3,7\n1,0,0,1,vertex,3,9\n"
               "2,2,2,-1,outside,nan,nan\n");
     EXPECT_TRUE(contains(r.err, "points     6, in 9 rows: one for each cell that holds a point\n")) << r.err;
-    const auto j = parse(base::read_file(scratch.path("j")));
+    const auto j = parse(read_file(scratch.path("j")));
     EXPECT_EQ(j["points"], 6);
     EXPECT_EQ(j["rows"], 9);
     EXPECT_EQ(j["on_boundary"], "all");
@@ -94,7 +94,7 @@ TEST(sample, points_outside_get_what_is_asked_for) {
         expect_error({"sample", two, "--points", points, "--output", scratch.path("r.csv"), "--outside", "error",
                       "--on-boundary", all},
                      "error: " + points + ": point 0, counted from 0, is outside the mesh: found (-1, 0, 0); choose");
-    EXPECT_EQ(base::read_file(scratch.path("r.csv")), "old");
+    EXPECT_EQ(read_file(scratch.path("r.csv")), "old");
     EXPECT_EQ(scratch.names(), (Words{"p.csv", "r.csv", "two.ele", "two.node"}));
     scratch.put("in.csv", "0 0 0\n1 1 1\n");
     EXPECT_EQ(run({"sample", two, "--points", scratch.path("in.csv"), "--output", "-", "--outside", "error"}).code, 0);
@@ -148,10 +148,10 @@ TEST(sample, cells_that_own_nothing_and_values_that_are_none_are_told) {
     EXPECT_TRUE(contains(r.out, "NaN        1 value of points inside: ")) << r.out;
     EXPECT_TRUE(contains(r.out, "method     candidates: the mesh is not certified: `barycert check` tells why; "))
         << r.out;
-    const auto j = parse(base::read_file(scratch.path("j")));
+    const auto j = parse(read_file(scratch.path("j")));
     EXPECT_EQ(j["degenerate_cells"], 1);
     EXPECT_EQ(j["verdict"], "not certified");
-    const std::string rows = base::read_file(scratch.path("r.csv"));
+    const std::string rows = read_file(scratch.path("r.csv"));
     std::size_t nan = 0;
     for (const std::string& line : lines_of(rows))
         nan += line.ends_with(",nan") && !contains(line, "outside") ? 1U : 0U;

@@ -91,8 +91,8 @@ TEST(terminal, colour_stays_out_of_files_and_pipes) {
                         {.environment = {"NO_COLOR"}, .stdout_path = scratch.path("table"), .terminal = true});
     EXPECT_EQ(r.code, 0);
     EXPECT_TRUE(contains(r.out, rewrite)) << "stderr is still the terminal";
-    EXPECT_FALSE(contains(base::read_file(scratch.path("table")), "\033"));
-    EXPECT_FALSE(contains(base::read_file(scratch.path("r.json")), "\033"));
+    EXPECT_FALSE(contains(read_file(scratch.path("table")), "\033"));
+    EXPECT_FALSE(contains(read_file(scratch.path("r.json")), "\033"));
 }
 
 }  // namespace

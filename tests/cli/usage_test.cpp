@@ -66,8 +66,8 @@ TEST(usage, what_is_not_understood_is_refused) {
         {{"audit", "--fail-on", "any>"}, "bad limit in a rule"},
         {{"kernels", "zzz"}, "found \"zzz\""},
         {{"families", "zzz"}, "found \"zzz\""},
-        {{"replay"}, "no witness file and no case given; name a file, or give --family and --case"},
-        {{"replay", "w.json", "--family", "huge", "--case", "1"}, "no witness file and no case given"},
+        {{"replay"}, "no case to replay: give a witness file, or --family and --case"},
+        {{"replay", "w.json", "--family", "huge", "--case", "1"}, "name a witness file, or a case"},
         {{"replay", "--family", "huge"}, "--family needs --case"},
         {{"replay", "--family", "hu*", "--case", "1"}, "--family must name one family"},
         {{"replay", "--family", "huge", "--case", "-1"}, "--case"},
@@ -179,7 +179,7 @@ TEST(usage, lists_agree_as_text_and_as_json) {
         EXPECT_EQ(names_in_text(text.out), names);
         const Scratch scratch;
         EXPECT_EQ(run({what, "--json", scratch.path("list.json")}).out, text.out);
-        EXPECT_EQ(base::read_file(scratch.path("list.json")), json.out);
+        EXPECT_EQ(read_file(scratch.path("list.json")), json.out);
     }
     EXPECT_EQ(names_in_text(run({"kernels", "segment.*", "triangle.inverse"}).out).back(), "triangle.inverse");
     EXPECT_EQ(names_in_text(run({"families", "mesh.faces"}).out), Words{"mesh.faces"});

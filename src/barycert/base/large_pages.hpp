@@ -22,7 +22,8 @@ inline void ask_for_large_pages(void* start, std::size_t bytes) {
 #endif
 }
 
-/// values.resize(count) of an empty vector on large pages: half the time of a large read would else go into page faults.
+/// values.resize(count) of an empty vector on large pages: half the time of a large read would else go into page
+/// faults.
 template <class T>
 void resize_large(std::vector<T>& values, std::size_t count) {
     values.reserve(count);

@@ -166,10 +166,6 @@ Grid over(int dimension, const std::array<std::int64_t, 3>& counts, const std::a
     return grid ? *grid : Grid{.dimension = dimension};
 }
 
-Mesh own_mesh(const std::string& stem) {
-    return read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
-}
-
 void set_simple_fields(Mesh& mesh, base::Random& random) {
     mesh.point_fields = random_fields(mesh.point_count(), {1}, false, random);
     mesh.cell_fields = random_fields(mesh.cell_count(), {1}, false, random);

@@ -8,6 +8,7 @@
 #include "barycert/base/random.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/mesh.hpp"
+#include "check/meshes.hpp"
 
 namespace barycert::testing {
 
@@ -45,9 +46,6 @@ void expect_truth(const Mesh& mesh, const Grid& grid, const std::string& what);
 /// grid_over, which must succeed.
 Grid over(int dimension, const std::array<std::int64_t, 3>& counts, const std::array<double, 3>& low,
           const std::array<double, 3>& high);
-
-/// A mesh of data/meshes, with its own fields.
-Mesh own_mesh(const std::string& stem);
 
 /// Fields of 1 component at nodes, of ordinary values, and of 1 at cells.
 void set_simple_fields(Mesh& mesh, base::Random& random);
