@@ -9,7 +9,7 @@ namespace {
 
 using base::MappedFile;
 
-TEST(base::MappedFile, holds_the_bytes_and_zeros_after_them) {
+TEST(MappedFile, holds_the_bytes_and_zeros_after_them) {
     const TemporaryFolder folder;
     for (const std::size_t size : {0U, 1U, 4095U, 4096U, 4097U, 8192U}) {
         const std::string bytes(size, 'x');
@@ -22,7 +22,7 @@ TEST(base::MappedFile, holds_the_bytes_and_zeros_after_them) {
     }
 }
 
-TEST(base::MappedFile, moves) {
+TEST(MappedFile, moves) {
     const TemporaryFolder folder;
     put(folder / "f", "abc");
     Result<base::MappedFile> file = base::MappedFile::open(folder / "f");
@@ -34,7 +34,7 @@ TEST(base::MappedFile, moves) {
     EXPECT_EQ(file->bytes(), "abc");
 }
 
-TEST(base::MappedFile, errors) {
+TEST(MappedFile, errors) {
     const TemporaryFolder folder;
     const auto missing = base::MappedFile::open(folder / "none");
     ASSERT_FALSE(missing);

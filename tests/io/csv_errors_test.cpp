@@ -152,10 +152,10 @@ TEST(CsvErrors, an_error_stays) {
 
 TEST(CsvErrors, files_that_cannot_be_opened) {
     const TemporaryFolder folder;
-    expect_error(base::read_file(folder / "none.csv", 3), "/none.csv",
+    expect_error(read_file(folder / "none.csv", 3), "/none.csv",
                  {0, "cannot read the file", nullptr, "No such file or directory", "check the path"});
     std::filesystem::create_directory(folder / "d.csv");
-    expect_error(base::read_file(folder / "d.csv", 3), "/d.csv",
+    expect_error(read_file(folder / "d.csv", 3), "/d.csv",
                  {0, "cannot read the file", nullptr, "Is a directory", "name a file"});
 }
 

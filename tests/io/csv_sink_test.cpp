@@ -105,7 +105,7 @@ TEST(CsvSink, every_number_reads_back_to_the_same_bits) {
             }
             EXPECT_TRUE(text == first) << "the blocks must not show";
             if (c.format.fields.size() > 2) continue;
-            const Result<std::vector<double>> points = base::read_file(folder / "r.csv", c.format.dimension, 1000);
+            const Result<std::vector<double>> points = read_file(folder / "r.csv", c.format.dimension, 1000);
             ASSERT_TRUE(points) << points.error().message();
             EXPECT_EQ(bits_of(*points), bits_of(data.points));
         }

@@ -90,8 +90,8 @@ TEST(Damage, changed_bytes) {
         }
         SCOPED_TRACE(seed);
         put(folder / sample.name, bytes);
-        const Result<std::vector<double>> one = base::read_file(folder / sample.name, 3, 1);
-        const Result<std::vector<double>> two = base::read_file(folder / sample.name, 3, 100);
+        const Result<std::vector<double>> one = read_file(folder / sample.name, 3, 1);
+        const Result<std::vector<double>> two = read_file(folder / sample.name, 3, 100);
         ASSERT_EQ(one.has_value(), two.has_value());
         ASSERT_EQ(one ? bits_of(*one) : one.error().message(), two ? bits_of(*two) : two.error().message());
         expect_sane(one, bytes);
@@ -110,7 +110,7 @@ TEST(Damage, random_bytes) {
         const char* const name = seed % 3 == 0 ? "p.csv" : seed % 3 == 1 ? "p.npy" : "p.node";
         if (seed % 3 == 1) bytes = std::string("\x93NUMPY\x01\0\x40\0", 10) + bytes;
         put(folder / name, bytes);
-        expect_sane(base::read_file(folder / name, 3), bytes);
+        expect_sane(read_file(folder / name, 3), bytes);
     }
 }
 

@@ -60,7 +60,7 @@ TEST(NodeSource, the_points_of_real_meshes) {
         SCOPED_TRACE(path);
         const Result<Mesh> mesh = read_tetgen(path);
         if (!mesh) continue;  // a file of nodes without cells
-        const Result<std::vector<double>> points = base::read_file(path, mesh->dimension, 1000);
+        const Result<std::vector<double>> points = read_file(path, mesh->dimension, 1000);
         ASSERT_TRUE(points) << points.error().message();
         EXPECT_EQ(bits_of(*points), bits_of(mesh->points));
         ++files;

@@ -153,13 +153,13 @@ TEST(NpySource, points_that_are_not_finite) {
 
 TEST(NpySource, files_that_cannot_be_opened) {
     const TemporaryFolder folder;
-    expect_error(base::read_file(folder / "none.npy", 3), "/none.npy",
+    expect_error(read_file(folder / "none.npy", 3), "/none.npy",
                  {0, "cannot read the file", nullptr, "No such file or directory", "check the path"});
     std::filesystem::create_directory(folder / "d.npy");
-    expect_error(base::read_file(folder / "d.npy", 3), "/d.npy",
+    expect_error(read_file(folder / "d.npy", 3), "/d.npy",
                  {0, "cannot read the file", "a regular file", "a folder", nullptr});
     ASSERT_EQ(::mkfifo((folder / "f.npy").c_str(), 0600), 0);
-    expect_error(base::read_file(folder / "f.npy", 3), "/f.npy",
+    expect_error(read_file(folder / "f.npy", 3), "/f.npy",
                  {0, "cannot read the file", "a regular file", "a pipe or device", nullptr});
 }
 

@@ -72,20 +72,20 @@ np.savetxt('blanks.csv', a)
 )"));
     for (const char* file : {"c.npy", "fortran.npy", "big.npy", "bigfortran.npy", "v2.npy", "v3.npy"}) {
         SCOPED_TRACE(file);
-        const Result<std::vector<double>> read = base::read_file(folder / file, 3, 1000);
+        const Result<std::vector<double>> read = read_file(folder / file, 3, 1000);
         ASSERT_TRUE(read) << read.error().message();
         EXPECT_EQ(bits_of(*read), bits_of(points));
     }
-    EXPECT_TRUE(base::read_file(folder / "empty.npy", 3).value().empty());
-    EXPECT_EQ(bits_of(base::read_file(folder / "single.npy", 3).value()), get(folder / "singles"));
-    EXPECT_EQ(bits_of(base::read_file(folder / "plane.npy", 2).value()), get(folder / "plane"));
-    EXPECT_FALSE(base::read_file(folder / "int.npy", 3));
-    EXPECT_FALSE(base::read_file(folder / "row.npy", 3));
-    expect_error(base::read_file(folder / "zip.npy", 3), "zip.npy",
+    EXPECT_TRUE(read_file(folder / "empty.npy", 3).value().empty());
+    EXPECT_EQ(bits_of(read_file(folder / "single.npy", 3).value()), get(folder / "singles"));
+    EXPECT_EQ(bits_of(read_file(folder / "plane.npy", 2).value()), get(folder / "plane"));
+    EXPECT_FALSE(read_file(folder / "int.npy", 3));
+    EXPECT_FALSE(read_file(folder / "row.npy", 3));
+    expect_error(read_file(folder / "zip.npy", 3), "zip.npy",
                  {0, "cannot read the header of the NPY file", "one array", nullptr, nullptr});
     // 19 digits: enough for every double.
-    EXPECT_EQ(bits_of(base::read_file(folder / "t.csv", 3, 1000).value()), bits_of(points));
-    EXPECT_EQ(bits_of(base::read_file(folder / "blanks.csv", 3, 1000).value()), bits_of(points));
+    EXPECT_EQ(bits_of(read_file(folder / "t.csv", 3, 1000).value()), bits_of(points));
+    EXPECT_EQ(bits_of(read_file(folder / "blanks.csv", 3, 1000).value()), bits_of(points));
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ inline Result<std::vector<double>> read_all(PointSource& source, std::size_t blo
     }
 }
 
-inline Result<std::vector<double>> base::read_file(const std::string& path, int dimension, std::size_t block = 3) {
+inline Result<std::vector<double>> read_file(const std::string& path, int dimension, std::size_t block = 3) {
     Result<std::unique_ptr<PointSource>> source = open_points(path, dimension);
     if (!source) return source.error();
     EXPECT_EQ((*source)->dimension(), dimension);
@@ -47,7 +47,7 @@ inline Result<std::vector<double>> read_bytes(const std::string& name, const std
                                               std::size_t block = 3) {
     const TemporaryFolder folder;
     put(folder / name, bytes);
-    return base::read_file(folder / name, dimension, block);
+    return read_file(folder / name, dimension, block);
 }
 
 /// What an error says, but for the file; no part checked that is nullptr, of the remedy only a part.

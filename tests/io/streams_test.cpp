@@ -58,7 +58,7 @@ TEST(Streams, the_standard_input_is_a_pipe) {
         for (const char c : std::string_view("x,y,z\n1,2,3\n4,5,6\n\n7,8,9\n")) write_fully(descriptor, {&c, 1});
         ::close(descriptor);
     });
-    const Result<std::vector<double>> points = base::read_file("-", 3, 2);
+    const Result<std::vector<double>> points = read_file("-", 3, 2);
     writer.join();
     ASSERT_TRUE(points) << points.error().message();
     EXPECT_EQ(*points, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
@@ -70,7 +70,7 @@ TEST(Streams, errors_of_the_standard_input_have_lines) {
     const Redirected in(STDIN_FILENO, ends[0]);
     write_fully(ends[1], "1,2,3\n1,2,c\n");
     ::close(ends[1]);
-    expect_error(base::read_file("-", 3), "standard input", {2, "bad coordinate z", "a number", "'c'", nullptr});
+    expect_error(read_file("-", 3), "standard input", {2, "bad coordinate z", "a number", "'c'", nullptr});
 }
 
 TEST(Streams, a_number_cut_on_the_standard_input) {
@@ -79,7 +79,7 @@ TEST(Streams, a_number_cut_on_the_standard_input) {
     const Redirected in(STDIN_FILENO, ends[0]);
     write_fully(ends[1], "1,2,3\n1,2,0.2");
     ::close(ends[1]);
-    expect_error(base::read_file("-", 3), "standard input",
+    expect_error(read_file("-", 3), "standard input",
                  {2, "the last row has no line end, so the file may be cut short", "a line end", nullptr, nullptr});
 }
 

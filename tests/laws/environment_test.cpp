@@ -86,9 +86,9 @@ TEST(Environment, SignsOfMixedNumbers) {
                 if (v.text(vertex_count(s)) == expected) return;
                 ++failures;
                 std::string numbers;
-                for (const double x : c.vertices) numbers += " " + base::hexadecimal(x);
+                for (const double x : c.vertices) numbers += " " + hexadecimal(x);
                 numbers += " point";
-                for (const double x : c.point) numbers += " " + base::hexadecimal(x);
+                for (const double x : c.point) numbers += " " + hexadecimal(x);
                 ADD_FAILURE() << environment << ": " << name(s) << numbers << "\n  oracle " << expected
                               << "\n  barycert " << v.text(vertex_count(s));
             });

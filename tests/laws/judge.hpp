@@ -86,8 +86,8 @@ inline std::string describe(const Subject& s, std::uint64_t index, const Case& c
     for (int i = 0; i <= n; ++i) {
         text += i < n ? "  vertex " + std::to_string(i) : std::string("  point   ");
         for (int k = 0; k < d; ++k)
-            text += "  " + base::hexadecimal(i < n ? c.vertex(i, k) : c.point[static_cast<std::size_t>(k)]);
-        if (i < n) text += "  value " + base::hexadecimal(c.values[static_cast<std::size_t>(i)]);
+            text += "  " + hexadecimal(i < n ? c.vertex(i, k) : c.point[static_cast<std::size_t>(k)]);
+        if (i < n) text += "  value " + hexadecimal(c.values[static_cast<std::size_t>(i)]);
         text += "\n";
     }
     return text;
@@ -349,8 +349,8 @@ inline Tally judge_values(const Subject& s, std::uint64_t seed, std::uint64_t fi
             const OracleAnswer& a = answers[j];
             const auto check = [&](double judged, double answer, const std::string& what) {
                 if (!same(judged, answer))
-                    tally.disagree(describe(s, at + j, c) + "  " + what + ": judge " + base::hexadecimal(judged) +
-                                   ", barycert " + base::hexadecimal(answer) + "\n");
+                    tally.disagree(describe(s, at + j, c) + "  " + what + ": judge " + hexadecimal(judged) +
+                                   ", barycert " + hexadecimal(answer) + "\n");
             };
             const auto hold = [&](bool law, const char* what) {
                 if (!law) tally.disagree(describe(s, at + j, c) + "  " + what + "\n");

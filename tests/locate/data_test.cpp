@@ -23,7 +23,7 @@ TEST(LocateData, L1_L2_OwnMeshes) {
 
 // Holes, slits and thin walls are no different where the numbers are.
 TEST(LocateData, L1_L2_OwnMeshesElsewhere) {
-    struct locate::Place {
+    struct Place {
         std::array<double, 3> factor, shift;
     };
     for (const char* stem : {"bracket", "needle-slit", "lattice-eighths", "plate"}) {

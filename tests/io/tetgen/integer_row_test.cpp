@@ -74,7 +74,7 @@ TEST(IntegerRow, never_differs_from_the_scanner) {
 #endif
 }
 
-TEST(io::Scanner, integers_of_every_length) {
+TEST(Scanner, integers_of_every_length) {
     std::string digits;
     for (int length = 1; length <= 19; ++length) {
         digits += static_cast<char>('0' + length % 10);
@@ -88,7 +88,7 @@ TEST(io::Scanner, integers_of_every_length) {
     }
 }
 
-TEST(io::Scanner, limits_of_64_bits) {
+TEST(Scanner, limits_of_64_bits) {
     const auto read = [](std::string text) {
         text.append(16, '\0');
         std::int64_t value = 1;
