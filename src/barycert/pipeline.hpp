@@ -28,8 +28,8 @@ struct FieldFile {
     std::string name, path;
 };
 
-/// Whether the mesh is checked first, so that points can be found by walks: `automatic` where points are many enough to
-/// repay it.
+/// Whether the mesh is checked first, so that points can be found by walks: `automatic`: if there are
+/// enough points that the check saves time.
 enum class Certify : std::uint8_t { automatic, always, never };
 
 /// What a job is doing.
@@ -64,10 +64,10 @@ struct SampleJob : SamplingJob {
 
 /// Fields on a regular grid, or at the nodes of another mesh: exactly one of counts, spacing and onto is set.
 struct ResampleJob : SamplingJob {
-    std::vector<std::int64_t> counts = {};  ///< points along each axis
-    std::vector<double> spacing = {};       ///< of points: one for all axes, or one each
-    std::vector<double> bounds = {};        ///< low and high, axis after axis; empty: the box of the cells
-    std::string onto;                       ///< a mesh
+    std::vector<std::int64_t> counts = {};         ///< points along each axis
+    std::vector<double> spacing = {};              ///< of points: one for all axes, or one each
+    std::vector<double> bounds = {};               ///< low and high, axis after axis; empty: the box of the cells
+    std::string onto;                              ///< a mesh
     std::optional<std::array<double, 2>> range{};  ///< of the colours of a picture
 };
 
@@ -120,8 +120,8 @@ struct SampleSummary {
     int threads = 1;
 };
 
-/// Returns an Error, and writes nothing, if the job contradicts itself, an input cannot be read, an output is an input or
-/// cannot be written, or the policy for points outside is `error` and a point is outside.
+/// Returns an Error, and writes nothing, if the job contradicts itself, an input cannot be read, an output is an input
+/// or cannot be written, or the policy for points outside is `error` and a point is outside.
 Result<SampleSummary> sample_files(const SampleJob& job);
 Result<SampleSummary> resample_files(const ResampleJob& job);
 

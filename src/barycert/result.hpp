@@ -1,4 +1,4 @@
-/// One result type for callers who check and callers who throw. The library never prints and never exits.
+/// One result type for error codes and for exceptions. The library never prints and never exits.
 #pragma once
 
 #include <cstddef>
