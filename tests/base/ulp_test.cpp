@@ -41,7 +41,7 @@ TEST(UlpError, by_hand) {
     EXPECT_EQ(base::ulp_error(-0x1p-1074, 0x1p-1074), 2);
     EXPECT_EQ(base::ulp_error(0x0.fffffffffffffp-1022, 0x1p-1022), 1);
     EXPECT_EQ(base::ulp_error(testing::max_double, -testing::max_double),
-              0x1.fffffffffffffp+53);                                           // the plain difference would overflow
+              0x1.fffffffffffffp+53);  // the plain difference would overflow
     EXPECT_EQ(base::ulp_error(testing::max_double, 0x1p-1074), testing::max_double);  // the quotient does
     EXPECT_EQ(base::ulp_error(0, testing::max_double), 0x1.fffffffffffffp+52);
 }

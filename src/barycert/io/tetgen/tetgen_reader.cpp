@@ -18,6 +18,7 @@
 #include <sys/stat.h>
 
 #include <array>
+#include <iterator>
 #include <optional>
 #include <string_view>
 
@@ -90,6 +91,7 @@ std::string tetgen_stem(const std::string& path) {
 
 std::vector<std::string> tetgen_files(const std::string& path) {
     std::vector<std::string> files;
+    files.reserve(std::size(suffixes));
     for (const std::string_view suffix : suffixes) files.push_back(tetgen_stem(path) + std::string(suffix));
     return files;
 }

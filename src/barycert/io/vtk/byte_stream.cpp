@@ -1,6 +1,7 @@
 #include "barycert/io/vtk/byte_stream.hpp"
 
 #include <array>
+#include <cstdint>
 
 namespace barycert::io {
 namespace {
@@ -8,18 +9,18 @@ namespace {
 constexpr int space = -1, padding = -2, other = -3;
 
 /// What each character stands for.
-constexpr std::array<signed char, 256> make_table() {
-    std::array<signed char, 256> table{};
-    for (signed char& entry : table) entry = other;
+constexpr std::array<std::int8_t, 256> make_table() {
+    std::array<std::int8_t, 256> table{};
+    for (std::int8_t& entry : table) entry = other;
     constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (std::size_t i = 0; i < digits.size(); ++i) {
-        table[static_cast<unsigned char>(digits[i])] = static_cast<signed char>(i);
+        table[static_cast<unsigned char>(digits[i])] = static_cast<std::int8_t>(i);
     }
     for (const char c : {' ', '\t', '\n', '\r'}) table[static_cast<unsigned char>(c)] = space;
     table['='] = padding;
     return table;
 }
-constexpr std::array<signed char, 256> table = make_table();
+constexpr std::array<std::int8_t, 256> table = make_table();
 
 }  // namespace
 
@@ -28,7 +29,7 @@ bool Base64Stream::next_quadruple() {
     int digits = 0, pads = 0;
     std::size_t at = 0;
     for (; digits + pads < 4 && at < left_.size(); ++at) {
-        const int value = table[static_cast<unsigned char>(left_[at])];
+        const std::int8_t value = table[static_cast<unsigned char>(left_[at])];
         if (value == space) continue;
         if (value == padding) {
             ++pads;

@@ -34,7 +34,7 @@ std::uint8_t type_in(Section section, std::int64_t nodes) {
 
 class LegacyReader {
 public:
-    LegacyReader(LegacyText text, Part part) : text_(std::move(text)), part_(part) {}
+    LegacyReader(LegacyText text, Part part) : text_(text), part_(part) {}
 
     Result<RawGrid> read() {
         if (Status s = text_.read_head(); !s) return s.error();

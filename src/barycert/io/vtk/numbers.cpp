@@ -58,7 +58,7 @@ bool convert(From from, To& to) {
         if (!(from >= -two63 && from < two63) || std::trunc(from) != from) return false;
         return convert(static_cast<std::int64_t>(from), to);
     } else {
-        to = static_cast<To>(from);
+        to = static_cast<To>(from);  // NOLINT(bugprone-signed-char-misuse): a number of 8 bits, no character
         return std::in_range<To>(from);
     }
 }
