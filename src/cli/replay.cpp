@@ -76,7 +76,8 @@ int run_replay(const ReplayArguments& a) {
     Result<std::vector<Kernel>> kernels = select_kernels({"*"}, a.libraries);
     if (!kernels) return fail(kernels.error());
     if (a.file.empty() == a.family.empty())
-        return fail({.what = "no case to replay: give a witness file, or --family and --case"});
+        return fail({.what = a.file.empty() ? "no case to replay" : "a witness file and a case",
+                     .expected = "either a witness file, or --family and --case"});
     if (!a.family.empty() && !a.index) return fail({.what = "--family needs --case"});
     if (std::error_code ignored; std::filesystem::is_directory(a.file, ignored))
         return fail({.what = "cannot read the witnesses", .file = a.file, .expected = "a file", .found = "a folder"});

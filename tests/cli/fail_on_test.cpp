@@ -112,9 +112,9 @@ TEST(fail_on, several_rules_each_tell_and_the_files_are_written_all_the_same) {
     const Ended r = run(audited({"--fail-on", "opposite_sign", "--fail-on", "any>1e9", "--fail-on", "false_certificate",
                                  "--json", scratch.path("r.json")}));
     EXPECT_EQ(r.code, 1);
-    EXPECT_TRUE(contains(r.err, ": opposite_sign is "));
+    EXPECT_TRUE(contains(r.err, ": opposite_sign = "));
     EXPECT_TRUE(contains(r.err, "fails: tetrahedron.user-swapped: false_certificate = "));
-    EXPECT_FALSE(contains(r.err, ": any is "));
+    EXPECT_FALSE(contains(r.err, ": any = "));
     EXPECT_TRUE(contains(r.out, "tetrahedron.homogeneous"));
     EXPECT_EQ(parse(read_file(scratch.path("r.json")))["kernels"].size(), 3U);
 }

@@ -84,11 +84,11 @@ TEST(sample, points_outside_get_what_is_asked_for) {
     expect("fill=-1.5", head + "-1,0,0,-1,outside,-1.5" + inside + "\n-3,0,0,-1,outside,-1.5\n", "2 got -1.5\n");
     const std::string far = "x,y,z,cell,feature,attribute0,distance\n";
     expect("nearest", far + "-1,0,0,-1,outside,1,1" + inside + ",0\n-3,0,0,-1,outside,1,3\n",
-           "2 snapped to the nearest point of the mesh, 3 away at most\n");
+           "2 snapped to the nearest point of the mesh, max distance 3\n");
     expect("nearest=1.5", far + "-1,0,0,-1,outside,1,1" + inside + ",0\n-3,0,0,-1,outside,nan,nan\n",
-           "1 snapped to the nearest point of the mesh, 1 away at most; 1 got NaN, farther than 1.5\n");
+           "1 snapped to the nearest point of the mesh, max distance 1; 1 got NaN, farther than 1.5\n");
     expect("extrapolate", far + "-1,0,0,-1,outside,-1,1" + inside + ",0\n-3,0,0,-1,outside,-5,3\n",
-           "2 extrapolated from the nearest cell, 3 away at most\n");
+           "2 extrapolated from the nearest cell, max distance 3\n");
     scratch.put("r.csv", "old");
     for (const std::string all : {"lowest", "all"})
         expect_error({"sample", two, "--points", points, "--output", scratch.path("r.csv"), "--outside", "error",
@@ -145,8 +145,10 @@ TEST(sample, cells_that_own_nothing_and_values_that_are_none_are_told) {
                          scratch.path("r.csv"), "--json", scratch.path("j")});
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_TRUE(contains(r.out, "mesh       3 cells, 5 nodes; 1 cell is degenerate and owns nothing\n")) << r.out;
-    EXPECT_TRUE(contains(r.out, "NaN        1 value of points inside: ")) << r.out;
-    EXPECT_TRUE(contains(r.out, "method     candidates: the mesh is not certified: `barycert check` tells why; "))
+    EXPECT_TRUE(contains(r.out, "NaN        1 value at points inside: ")) << r.out;
+    EXPECT_TRUE(contains(
+        r.out,
+        "method     candidates: the mesh is not certified (checked: 6 points for 3 cells); `barycert check` tells why"))
         << r.out;
     const auto j = parse(read_file(scratch.path("j")));
     EXPECT_EQ(j["degenerate_cells"], 1);

@@ -4,7 +4,7 @@ set(loose -Ofast -ffast-math -funsafe-math-optimizations -fno-signed-zeros -ffp-
 list(JOIN loose " " loose)
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${BUILD_DIR} --fresh -G Ninja -DCMAKE_CXX_COMPILER=${COMPILER}
   "-DCMAKE_CXX_FLAGS=${loose}" -DCMAKE_BUILD_TYPE=Release -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DBARYCERT_TETGEN=OFF
-  -DBARYCERT_VTK=OFF OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+  -DBARYCERT_VTK=OFF -DBARYCERT_UNITY=OFF OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 file(READ ${BUILD_DIR}/compile_commands.json commands)
 string(JSON count LENGTH "${commands}")
 if(count LESS 100)

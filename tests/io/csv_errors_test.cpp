@@ -71,8 +71,9 @@ TEST(CsvErrors, headers) {
     const char* const unnamed = "the header does not name the coordinates";
     expect_csv_refused(
         "x,y\n1,2\n", 3,
-        {1, unnamed, "columns x, y, z (or Points:0, Points:1, Points:2)", "'x', 'y'", "name the columns"});
-    expect_csv_refused("\n#\nlon,lat,h\n1,2,3\n", 3, {3, unnamed, nullptr, "'lon', 'lat', 'h'", "name the columns"});
+        {1, unnamed, "columns x, y, z (or Points:0, Points:1, Points:2)", "'x', 'y'", "use these column names"});
+    expect_csv_refused("\n#\nlon,lat,h\n1,2,3\n", 3,
+                       {3, unnamed, nullptr, "'lon', 'lat', 'h'", "use these column names"});
     expect_csv_refused(
         "a,b,c,d,e,f,g,h,i\n", 2,
         {1, unnamed, "columns x, y (or Points:0, Points:1)", "'a', 'b', 'c', 'd', 'e', 'f', 'g', 'h', ...", nullptr});
@@ -91,7 +92,8 @@ TEST(CsvErrors, quotes) {
 }
 
 TEST(CsvErrors, nothing_to_read) {
-    expect_csv_refused("", 3, {0, "the file is empty", "a header line or a point", "nothing", "a header alone"});
+    expect_csv_refused("", 3,
+                       {0, "the file is empty", "a header line or a point", "nothing", "a file with a header only"});
     expect_csv_refused("\n# x,y,z\n", 3,
                        {0, "the file is empty", "a header line or a point", "blank lines and comments", nullptr});
     expect_csv_refused("\xEF\xBB\xBF", 3, {0, "the file is empty", nullptr, "nothing", nullptr});
@@ -99,7 +101,7 @@ TEST(CsvErrors, nothing_to_read) {
 
 TEST(CsvErrors, no_text) {
     using namespace std::string_literals;
-    const Expected cr{1, "lines end with CR alone", "LF or CR LF", "CR alone", "other line ends"};
+    const Expected cr{1, "lines end with CR alone", "LF or CR LF", "CR alone", "save the file with LF or CR LF"};
     expect_csv_refused("x,y,z\r1,2,3\r4,5,6\r", 3, cr);
     expect_csv_refused("1,2,3\r4,5,6\r", 3, cr);
     expect_csv_refused(

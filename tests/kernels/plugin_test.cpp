@@ -119,9 +119,9 @@ TEST_F(DamagedPlugin, CutAnywhereIsRefused) {
     EXPECT_EQ(load_apart(put(whole_), ""), Ending::loaded);
     EXPECT_EQ(load_apart(put(""), "found an empty file"), Ending::refused);
     for (std::size_t size = 1; size < whole_.size(); size += size < 600 ? 13 : 101) {
-        ASSERT_EQ(load_apart(put(whole_.substr(0, size)), "cut short"), Ending::refused) << size;
+        ASSERT_EQ(load_apart(put(whole_.substr(0, size)), "truncated"), Ending::refused) << size;
     }
-    ASSERT_EQ(load_apart(put(whole_.substr(0, whole_.size() - 1)), "cut short"), Ending::refused);
+    ASSERT_EQ(load_apart(put(whole_.substr(0, whole_.size() - 1)), "truncated"), Ending::refused);
 }
 
 // The same without a table of sections, as strippers leave it: what has to be mapped is enough to tell.
@@ -132,7 +132,7 @@ TEST_F(DamagedPlugin, CutWithoutSectionsIsRefusedOrLoads) {
     EXPECT_EQ(load_apart(put(whole_), ""), Ending::loaded);
     std::size_t loaded = 0, refused = 0;
     for (std::size_t size = 1; size < whole_.size(); size += size < 600 ? 13 : 101) {
-        const Ending ending = load_apart(put(whole_.substr(0, size)), "cut short");
+        const Ending ending = load_apart(put(whole_.substr(0, size)), "truncated");
         ASSERT_NE(ending, Ending::killed) << size;
         ASSERT_TRUE(ending == Ending::loaded || loaded == 0) << "a longer one is refused: " << size;
         ++(ending == Ending::loaded ? loaded : refused);
@@ -151,9 +151,9 @@ TEST_F(DamagedPlugin, HeadersThatLeadOutOfTheFileAreRefused) {
     };
     using Header = ElfW(Ehdr);
     const auto far = ~decltype(Header::e_phoff){0} - 15;
-    EXPECT_EQ(load_apart(with([&](Header& h) { h.e_phoff = far; }), "cut short"), Ending::refused);
-    EXPECT_EQ(load_apart(with([&](Header& h) { h.e_shoff = far; }), "cut short"), Ending::refused);
-    EXPECT_EQ(load_apart(with([&](Header& h) { h.e_phnum = 0xfffe; }), "cut short"), Ending::refused);
+    EXPECT_EQ(load_apart(with([&](Header& h) { h.e_phoff = far; }), "truncated"), Ending::refused);
+    EXPECT_EQ(load_apart(with([&](Header& h) { h.e_shoff = far; }), "truncated"), Ending::refused);
+    EXPECT_EQ(load_apart(with([&](Header& h) { h.e_phnum = 0xfffe; }), "truncated"), Ending::refused);
     EXPECT_EQ(load_apart(with([&](Header& h) { h.e_phentsize = 7; }), "another size"), Ending::refused);
     EXPECT_EQ(load_apart(with([&](Header& h) { h.e_ident[EI_CLASS] ^= 3; }), "another machine"), Ending::refused);
     EXPECT_EQ(load_apart(with([&](Header& h) { h.e_ident[EI_DATA] ^= 3; }), "another machine"), Ending::refused);
@@ -165,7 +165,7 @@ TEST_F(DamagedPlugin, HeadersThatLeadOutOfTheFileAreRefused) {
     std::memcpy(&part, bytes.data() + header().e_phoff, sizeof part);
     part.p_filesz = ~decltype(part.p_filesz){0};
     std::memcpy(bytes.data() + header().e_phoff, &part, sizeof part);
-    EXPECT_EQ(load_apart(put(bytes), "cut short"), Ending::refused);
+    EXPECT_EQ(load_apart(put(bytes), "truncated"), Ending::refused);
 }
 
 TEST_F(DamagedPlugin, WhatIsNoRegularFileIsRefused) {

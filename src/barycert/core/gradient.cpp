@@ -38,7 +38,7 @@ namespace barycert {
 
 Result<Gradient> gradient(Simplex simplex, const double* vertices, const double* values) {
     const ExactEnvironment environment;
-    if (Status known = core::check_fills_space(simplex, "gradient"); !known) return known.error();
+    if (Status known = core::check_fills_space(simplex, "a gradient"); !known) return known.error();
     const double* f[4] = {};
     for (int i = 0; i < vertex_count(simplex); ++i) f[i] = values + i;
     Gradient g;
@@ -57,7 +57,7 @@ Status gradients(Simplex simplex, std::span<const double> nodes, std::span<const
     const ExactEnvironment environment;
     const int components = values.components;
     const core::MeshCells cells{simplex, nodes, corners};
-    if (Status known = core::check_fills_space(simplex, "gradient"); !known) return known;
+    if (Status known = core::check_fills_space(simplex, "a gradient"); !known) return known;
     if (Status some = core::check_components(components); !some) return some;
     const std::size_t per_cell =
         static_cast<std::size_t>(space_dimension(simplex)) * static_cast<std::size_t>(components);

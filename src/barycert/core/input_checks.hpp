@@ -69,7 +69,7 @@ inline Status check_components(int components) {
 /// The simplex fills its space. `what` names what is asked for.
 inline Status check_fills_space(Simplex s, const std::string& what) {
     if (s == Simplex::triangle || s == Simplex::tetrahedron) return Done{};
-    return Error{.what = what + " in a simplex that does not fill its space",
+    return Error{.what = "unsupported simplex for " + what,
                  .expected = "triangle or tetrahedron",
                  .found = std::string(name(s))};
 }

@@ -1,6 +1,7 @@
 #include "barycert/table.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace barycert {
 
@@ -39,7 +40,9 @@ void SampleCounts::add(const SampleCounts& other) {
     snapped += other.snapped;
     extrapolated += other.extrapolated;
     without_value += other.without_value;
-    farthest = std::max(farthest, other.farthest);
+    // Bits of numbers that are not negative compare as they do, whatever the environment does to subnormal ones.
+    farthest = std::bit_cast<double>(
+        std::max(std::bit_cast<std::uint64_t>(farthest), std::bit_cast<std::uint64_t>(other.farthest)));
 }
 
 std::vector<std::string> column_names(const std::vector<TableField>& fields) {
