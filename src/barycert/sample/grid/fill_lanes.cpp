@@ -21,12 +21,6 @@ namespace HWY_NAMESPACE {
 using namespace core::HWY_NAMESPACE;
 using namespace locate::HWY_NAMESPACE;
 
-using locate::Place;
-using sample::FillTarget;
-using sample::interior_without_value;
-using sample::NodeValues;
-using sample::Span;
-
 /// Cells [0, MaxLanes).
 template <Simplex s, class D>
 HWY_INLINE void set_block(D tag, const locate::CellIndex& index, const NodeValues& nodes, const Raster& raster,
@@ -168,12 +162,23 @@ HWY_INLINE void fill_short_row(D tag, const CellFill<d, V>& fill, std::size_t r,
     if ((bits & ~certain) != 0) set_bytes(target.feature + point, bits & ~certain, interior_without_value);
 }
 
-template <Simplex s, class D>
-HWY_INLINE void fill_cell(D tag, const Raster& raster, const CellBlock<space_dimension(s)>& cell,
-                          const ValueBlock* values, std::size_t components, std::size_t l, locate::Place place,
-                          Mesh::Index id, const FillTarget& target, std::vector<Span>& unsure, RowTerms* terms) {
+/// One cell of a block, and what is known of its components.
+template <int d>
+struct CellOfBlock {
+    const CellBlock<d>& block;
+    std::size_t lane;
+    locate::Place place;
+    Mesh::Index id;
+    const ValueBlock* values;
+    std::size_t components;
+    RowTerms* terms;
+};
+
+template <int d, class D>
+HWY_INLINE void fill_cell(D tag, const Raster& raster, const CellOfBlock<d>& one, const FillTarget& target,
+                          std::vector<Span>& undecided) {
     using V = hn::Vec<D>;
-    constexpr int d = space_dimension(s);
+    const auto& [cell, l, place, id, values, components, terms] = one;
     constexpr std::size_t width = hn::MaxLanes(D());
     const auto range = [&](std::size_t k) {
         return places_between(raster.at[k], cell.first[k][l], cell.last[k][l], cell.low[k][l], cell.high[k][l]);
@@ -205,10 +210,10 @@ HWY_INLINE void fill_cell(D tag, const Raster& raster, const CellBlock<space_dim
             RowBlock block;
             find_intervals<d>(tag, cell, l, columns, rows, at, block);
             const std::uint32_t real = rows.count - at >= width ? ~0U : (1U << (rows.count - at)) - 1;
-            for (std::uint32_t bits = block.unsure & real; bits != 0; bits &= bits - 1) {
+            for (std::uint32_t bits = block.undecided & real; bits != 0; bits &= bits - 1) {
                 const auto r = static_cast<std::size_t>(__builtin_ctz(bits));
-                unsure.push_back({place, rows.row[at + r], rows.layer[at + r], block.first[r], block.inner_first[r],
-                                  block.inner_last[r], block.last[r]});
+                undecided.push_back({place, rows.row[at + r], rows.layer[at + r], block.first[r], block.inner_first[r],
+                                     block.inner_last[r], block.last[r]});
             }
             block.with_points &= real;
             if (block.with_points == 0) continue;
@@ -251,35 +256,35 @@ HWY_INLINE void fill_cell(D tag, const Raster& raster, const CellBlock<space_dim
 }
 
 template <Simplex s>
-void fill_all(const locate::CellIndex& index, const NodeValues& nodes, const Raster& raster, const locate::Place* cells,
-              std::size_t count, const FillTarget& target, std::vector<Span>& unsure,
-              std::vector<locate::Place>& hard) {
+void fill_all(const FillSource& source, std::span<const locate::Place> cells, const FillTarget& target,
+              UndecidedFill& undecided) {
     const hn::ScalableTag<double> tag;
     constexpr std::size_t width = hn::MaxLanes(hn::ScalableTag<double>());
+    const std::size_t components = source.nodes.components;
     CellBlock<space_dimension(s)> block;
-    std::vector<ValueBlock> values(nodes.components);
-    std::vector<RowTerms> terms(nodes.components);
-    for (std::size_t at = 0; at < count; at += width) {
+    std::vector<ValueBlock> values(components);
+    std::vector<RowTerms> terms(components);
+    for (std::size_t at = 0; at < cells.size(); at += width) {
         locate::Place some[width];
-        for (std::size_t l = 0; l < width; ++l) some[l] = cells[std::min(at + l, count - 1)];
-        set_block<s>(tag, index, nodes, raster, some, block, values.data());
-        for (std::size_t l = 0; l < std::min(width, count - at); ++l) {
+        for (std::size_t l = 0; l < width; ++l) some[l] = cells[std::min(at + l, cells.size() - 1)];
+        set_block<s>(tag, source.index, source.nodes, source.raster, some, block, values.data());
+        for (std::size_t l = 0; l < std::min(width, cells.size() - at); ++l) {
             if (block.valid[l] == 0) {
-                hard.push_back(some[l]);
-            } else {
-                fill_cell<s>(tag, raster, block, values.data(), nodes.components, l, some[l],
-                             index.original[static_cast<std::size_t>(some[l])], target, unsure, terms.data());
+                undecided.cells.push_back(some[l]);
+                continue;
             }
+            const Mesh::Index id = source.index.original[static_cast<std::size_t>(some[l])];
+            fill_cell<space_dimension(s)>(tag, source.raster,
+                                          {block, l, some[l], id, values.data(), components, terms.data()}, target,
+                                          undecided.spans);
         }
     }
 }
 
-void fill_cells(const locate::CellIndex& index, const NodeValues& nodes, const Raster& raster,
-                const locate::Place* cells, std::size_t count, const FillTarget& target, std::vector<Span>& unsure,
-                std::vector<locate::Place>& hard) {
-    index.simplex == Simplex::triangle
-        ? fill_all<Simplex::triangle>(index, nodes, raster, cells, count, target, unsure, hard)
-        : fill_all<Simplex::tetrahedron>(index, nodes, raster, cells, count, target, unsure, hard);
+void fill_cells(const FillSource& source, std::span<const locate::Place> cells, const FillTarget& target,
+                UndecidedFill& undecided) {
+    source.index.simplex == Simplex::triangle ? fill_all<Simplex::triangle>(source, cells, target, undecided)
+                                              : fill_all<Simplex::tetrahedron>(source, cells, target, undecided);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -291,10 +296,9 @@ namespace barycert::sample {
 
 HWY_EXPORT(fill_cells);
 
-void fill_cells(const locate::CellIndex& index, const NodeValues& nodes, const Raster& raster,
-                const locate::Place* cells, std::size_t count, const FillTarget& target, std::vector<Span>& unsure,
-                std::vector<locate::Place>& hard) {
-    HWY_DYNAMIC_DISPATCH(fill_cells)(index, nodes, raster, cells, count, target, unsure, hard);
+void fill_cells(const FillSource& source, std::span<const locate::Place> cells, const FillTarget& target,
+                UndecidedFill& undecided) {
+    HWY_DYNAMIC_DISPATCH(fill_cells)(source, cells, target, undecided);
 }
 
 }  // namespace barycert::sample

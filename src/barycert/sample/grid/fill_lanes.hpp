@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "barycert/sample/grid/raster_lanes.hpp"
@@ -24,11 +25,27 @@ struct FillTarget {
     bool overlapping = false;  ///< cells may overlap: the lowest keeps a point
 };
 
+/// What cells fill in: the points of a grid, by the components of the nodes (at least 1). Cells are linear.
+struct FillSource {
+    const locate::CellIndex& index;
+    const NodeValues& nodes;
+    const Raster& raster;  ///< raster.precise is true
+};
+
+/// What the filter leaves open.
+struct UndecidedFill {
+    std::vector<Span> spans;           ///< with points that may be in the cell or not
+    std::vector<locate::Place> cells;  ///< of which nothing is known; they have no spans
+
+    void clear() {
+        spans.clear();
+        cells.clear();
+    }
+};
+
 /// For points that are certainly in the interior of one of the cells: sets owner, feature, and values where their
-/// rounding is certain. Spans with points of which that is not certain go to `unsure`, without the cells in `hard`, of
-/// which nothing is known. Components: those of `nodes`, at least 1; cells are linear. Precondition: raster.precise.
-void fill_cells(const locate::CellIndex& index, const NodeValues& nodes, const Raster& raster,
-                const locate::Place* cells, std::size_t count, const FillTarget& target, std::vector<Span>& unsure,
-                std::vector<locate::Place>& hard);
+/// rounding is certain. Adds the rest to `undecided`.
+void fill_cells(const FillSource& source, std::span<const locate::Place> cells, const FillTarget& target,
+                UndecidedFill& undecided);
 
 }  // namespace barycert::sample

@@ -114,7 +114,7 @@ struct Rows {
 struct RowBlock {
     HWY_ALIGN std::int32_t first[max_lanes], inner_first[max_lanes], inner_last[max_lanes], last[max_lanes];
     std::uint32_t with_points = 0;  ///< bits: rows with certain points
-    std::uint32_t unsure = 0;       ///< bits: rows with others
+    std::uint32_t undecided = 0;    ///< bits: rows with others
 };
 
 template <int d, class D>
@@ -151,7 +151,7 @@ HWY_INLINE void find_intervals(D tag, const CellBlock<d>& cell, std::size_t l, P
     hn::StoreMaskBits(tag, hn::Lt(inner_first, inner_last), bits);
     out.with_points = bits[0];
     hn::StoreMaskBits(tag, hn::Or(hn::Ne(first, inner_first), hn::Ne(last, inner_last)), bits);
-    out.unsure = bits[0];
+    out.undecided = bits[0];
 }
 
 }  // namespace HWY_NAMESPACE

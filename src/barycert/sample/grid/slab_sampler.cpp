@@ -39,6 +39,8 @@ void SlabSampler::run(std::int32_t first, std::int32_t last, std::span<const loc
 }
 
 void SlabSampler::fill(std::span<const locate::Place> cells) {
+    const NodeValues nodes = data_.node_values();
+    const FillSource source{data_.index(), nodes, raster_};
     const FillTarget target{rows_.cells.data(),
                             rows_.features.data(),
                             rows_.values.data(),
@@ -49,12 +51,10 @@ void SlabSampler::fill(std::span<const locate::Place> cells) {
                             last_,
                             data_.located().method != Method::walk};
     for (std::size_t c = 0; c < cells.size(); c += cells_at_once) {
-        spans_.clear();
-        hard_.clear();
-        fill_cells(data_.index(), data_.node_values(), raster_, cells.data() + c,
-                   std::min(cells_at_once, cells.size() - c), target, spans_, hard_);
-        for (Span& span : spans_) take(span);
-        raster(hard_);
+        undecided_.clear();
+        fill_cells(source, cells.subspan(c, std::min(cells_at_once, cells.size() - c)), target, undecided_);
+        for (const Span& span : undecided_.spans) take(span);
+        raster(undecided_.cells);
     }
 }
 

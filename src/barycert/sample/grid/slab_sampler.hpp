@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "barycert/grid.hpp"
+#include "barycert/sample/grid/fill_lanes.hpp"
 #include "barycert/sample/grid/raster_lanes.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"
 
@@ -48,7 +49,7 @@ private:
     SampleCounts counts_;
     std::optional<ChunkSampler> sampler_;
     std::vector<Span> spans_;
-    std::vector<locate::Place> hard_;
+    UndecidedFill undecided_;
     std::array<locate::PointRecord, locate::chunk_size> records_{};
     std::array<locate::Place, locate::chunk_size> cells_{};
     std::array<Feature, locate::chunk_size> features_{};

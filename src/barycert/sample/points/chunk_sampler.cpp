@@ -30,12 +30,13 @@ void ChunkSampler::operator()(const locate::PointRecord* points, std::size_t cou
 
 void ChunkSampler::interpolate_linear(const locate::PointRecord* points, std::size_t count) {
     const locate::CellIndex& index = data_.index();
-    const std::size_t left =
-        interpolate_lanes(index.simplex, index.cells.data(), data_.node_values(), points, inside_.data(), count,
-                          options_.rounding, rows_.values, data_.columns.size(), undecided_.data());
+    const NodeValues nodes = data_.node_values();
+    const std::size_t undecided =
+        interpolate_lanes({index.simplex, index.cells.data(), nodes, points, std::span(inside_).first(count)},
+                          options_.rounding, {rows_.values, data_.columns.size()}, undecided_.data());
     if (options_.rounding == Rounding::plain) return;
-    counts_.values.add(Tier::double_double, count - left);
-    for (std::size_t i = 0; i < left; ++i) {
+    counts_.values.add(Tier::double_double, count - undecided);
+    for (std::size_t i = 0; i < undecided; ++i) {
         const locate::Walk& item = inside_[undecided_[i]];
         interpolate_exactly(points[item.point], item.cell);
     }

@@ -61,16 +61,18 @@ HWY_INLINE void scatter(D tag, hn::Vec<D> v, double* const* to, std::size_t offs
     for (std::size_t l = 0; l < width; ++l) to[l][offset] = lanes[l];
 }
 
-/// Items [0, width). Returns the mask of those decided.
+/// Items [at, at + width). Returns the mask of those decided.
 template <Simplex s, template <Simplex, class, class> class Values, class D>
-HWY_INLINE hn::Mask<D> evaluate(D tag, const locate::CellRecord* cells, const NodeValues& nodes,
-                                const locate::PointRecord* points, const locate::Walk* items, double* out,
-                                std::size_t stride) {
+HWY_INLINE hn::Mask<D> evaluate(D tag, const LanePoints& of, std::size_t at, const ValueTarget& target) {
+    const auto* const cells = of.cells;
+    const auto* const points = of.points;
+    const auto* const items = of.items.data() + at;
+    const NodeValues& nodes = of.nodes;
     using V = hn::Vec<D>;
     constexpr std::size_t width = hn::MaxLanes(D());
     constexpr int n = vertex_count(s), d = space_dimension(s);
     double* to[width];
-    for (std::size_t l = 0; l < width; ++l) to[l] = out + stride * points[items[l].point].number;
+    for (std::size_t l = 0; l < width; ++l) to[l] = target.out + target.stride * points[items[l].point].number;
     const auto node = [&](std::size_t l, int i) HWY_ATTR {
         return static_cast<std::size_t>(cells[items[l].cell].node[static_cast<std::size_t>(i)]);
     };
@@ -104,31 +106,23 @@ HWY_INLINE hn::Mask<D> evaluate(D tag, const locate::CellRecord* cells, const No
     return certain;
 }
 
-template <Simplex s, template <Simplex, class, class> class Values>
-std::size_t evaluate_all(const locate::CellRecord* cells, const NodeValues& nodes, const locate::PointRecord* points,
-                         const locate::Walk* items, std::size_t count, double* out, std::size_t stride,
-                         std::uint32_t* undecided) {
-    return for_lanes(count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
-        return evaluate<s, Values>(tag, cells, nodes, points, items + at, out, stride);
+template <Simplex s>
+std::size_t evaluate_rounded(const LanePoints& points, Rounding rounding, const ValueTarget& target,
+                             std::uint32_t* undecided) {
+    if (rounding == Rounding::plain)
+        return for_lanes(points.items.size(), undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
+            return evaluate<s, PlainValues>(tag, points, at, target);
+        });
+    return for_lanes(points.items.size(), undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
+        return evaluate<s, RefinedValues>(tag, points, at, target);
     });
 }
 
-template <Simplex s>
-std::size_t evaluate_rounded(const locate::CellRecord* cells, const NodeValues& nodes,
-                             const locate::PointRecord* points, const locate::Walk* items, std::size_t count,
-                             Rounding rounding, double* out, std::size_t stride, std::uint32_t* undecided) {
-    return rounding == Rounding::plain
-               ? evaluate_all<s, PlainValues>(cells, nodes, points, items, count, out, stride, undecided)
-               : evaluate_all<s, RefinedValues>(cells, nodes, points, items, count, out, stride, undecided);
-}
-
-std::size_t interpolate_lanes(Simplex s, const locate::CellRecord* cells, const NodeValues& nodes,
-                              const locate::PointRecord* points, const locate::Walk* items, std::size_t count,
-                              Rounding rounding, double* out, std::size_t stride, std::uint32_t* undecided) {
-    return s == Simplex::triangle ? evaluate_rounded<Simplex::triangle>(cells, nodes, points, items, count, rounding,
-                                                                        out, stride, undecided)
-                                  : evaluate_rounded<Simplex::tetrahedron>(cells, nodes, points, items, count, rounding,
-                                                                           out, stride, undecided);
+std::size_t interpolate_lanes(const LanePoints& points, Rounding rounding, const ValueTarget& target,
+                              std::uint32_t* undecided) {
+    return points.simplex == Simplex::triangle
+               ? evaluate_rounded<Simplex::triangle>(points, rounding, target, undecided)
+               : evaluate_rounded<Simplex::tetrahedron>(points, rounding, target, undecided);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -140,11 +134,9 @@ namespace barycert::sample {
 
 HWY_EXPORT(interpolate_lanes);
 
-std::size_t interpolate_lanes(Simplex s, const locate::CellRecord* cells, const NodeValues& nodes,
-                              const locate::PointRecord* points, const locate::Walk* items, std::size_t count,
-                              Rounding rounding, double* out, std::size_t stride, std::uint32_t* undecided) {
-    return HWY_DYNAMIC_DISPATCH(interpolate_lanes)(s, cells, nodes, points, items, count, rounding, out, stride,
-                                                   undecided);
+std::size_t interpolate_lanes(const LanePoints& points, Rounding rounding, const ValueTarget& target,
+                              std::uint32_t* undecided) {
+    return HWY_DYNAMIC_DISPATCH(interpolate_lanes)(points, rounding, target, undecided);
 }
 
 }  // namespace barycert::sample

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "barycert/locate/cell_index.hpp"
 #include "barycert/locate/walk_lanes.hpp"
@@ -25,11 +26,24 @@ struct NodeValues {
     std::size_t components = 0;  ///< at least 1
 };
 
-/// Component c of the value of points[items[j].point] in cell items[j].cell, linear, goes to out[stride * number + c],
-/// with the number that stands in the record of the point. Returns how many j are undecided, these in undecided[0 ...],
-/// ascending, with nothing said of their values. Rounding::plain decides all.
-std::size_t interpolate_lanes(Simplex simplex, const locate::CellRecord* cells, const NodeValues& nodes,
-                              const locate::PointRecord* points, const locate::Walk* items, std::size_t count,
-                              Rounding rounding, double* out, std::size_t stride, std::uint32_t* undecided);
+/// Points in their cells.
+struct LanePoints {
+    Simplex simplex;  ///< of the cells, linear
+    const locate::CellRecord* cells;
+    const NodeValues& nodes;
+    const locate::PointRecord* points;
+    std::span<const locate::Walk> items;  ///< points[item.point] lies in cells[item.cell]
+};
+
+/// Component c of the value of a point goes to out[stride * number + c], with the number in the record of the point.
+struct ValueTarget {
+    double* out;
+    std::size_t stride;
+};
+
+/// Returns how many items are undecided, these in undecided[0 ...], ascending; their values are unspecified.
+/// Rounding::plain decides all.
+std::size_t interpolate_lanes(const LanePoints& points, Rounding rounding, const ValueTarget& target,
+                              std::uint32_t* undecided);
 
 }  // namespace barycert::sample
