@@ -50,6 +50,7 @@ struct SamplingJob {
     /// Where the caller will write a report: the job makes sure that this is no other file of the job, and can be
     /// written. Empty: nowhere.
     std::string report;
+    bool count_degenerate = true;      ///< of SampleSummary: a pass over the cells
     std::string program = "barycert";  ///< how the user calls the program, for commands in messages
     std::function<void(const JobProgress&)> progress = {};
 };

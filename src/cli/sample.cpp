@@ -14,14 +14,12 @@ namespace barycert::cli {
 void add_sample(CLI::App& app, int& exit_code) {
     auto* sub = app.add_subcommand("sample", "Sample the fields of a mesh at points, correctly rounded");
     sub->footer(
-        "Rows: x,y,z,cell,feature, then a column for each component of each field (NAME, or NAME.0, NAME.1, ...), "
-        "those of\n"
-        "nodes first, and with --outside nearest or extrapolate the distance to the mesh. cell: the cell of lowest "
-        "number\n"
-        "that holds the point, counted from 0 in the order of the file; -1 outside. feature: interior, face, edge, "
+        "Rows: x,y,z,cell,feature, then one column per component of each field (NAME, or NAME.0, NAME.1, ...), node\n"
+        "fields first, then with --outside nearest or extrapolate the distance to the mesh. cell: the cell of lowest\n"
+        "index that contains the point, counted from 0 in file order; -1 outside. feature: interior, face, edge, "
         "vertex\n"
-        "or outside, exactly. Attributes of TetGen's nodes are attribute0, attribute1, ...\n"
-        "Files appear whole or not at all; rows on stdout cannot be taken back. Exit codes: 0 done, 2 usage or input "
+        "or outside, exact. TetGen's node attributes are named attribute0, attribute1, ...\n"
+        "Files appear whole or not at all; rows already printed to stdout stay. Exit codes: 0 done, 2 usage or input\n"
         "error.");
     const auto a = std::make_shared<SampleJob>();
     const auto quiet = std::make_shared<bool>(false);

@@ -124,6 +124,7 @@ int run_sampling(SamplingJob& job, bool quiet, const std::function<Result<Sample
         p.done == 0 ? progress.stage(p.stage) : progress.count(p.stage, p.done);
     };
     job.program = command_name();
+    job.count_degenerate = !quiet || !job.report.empty();
     const Result<SampleSummary> summary = run();
     progress.clear();
     if (!summary) return fail(summary.error());

@@ -103,9 +103,9 @@ TEST_F(Fields, that_cannot_be_are_refused) {
     const auto bad_text = [&](const std::string& text, const std::string& says) {
         refused({"--field", "t=" + scratch.put("bad", text)}, "error: " + scratch.path("bad") + says);
     };
-    bad_text("0\n1\n2\nthree\n4\n", ":4: a row of field \"t\": expected numbers, found 'three'");
-    bad_text("0\n1\n2\n3,\n4\n", ":4: a row of field \"t\": expected numbers, found ''");
-    bad_text("0\n1\n,2\n3\n4\n", ":3: a row of field \"t\": expected numbers, found ''");
+    bad_text("0\n1\n2\nthree\n4\n", ":4: a row of field \"t\": expected numbers, found \"three\"");
+    bad_text("0\n1\n2\n3,\n4\n", ":4: a row of field \"t\": expected numbers, found \"\"");
+    bad_text("0\n1\n,2\n3\n4\n", ":3: a row of field \"t\": expected numbers, found \"\"");
     bad_text("0\n1\n2 2\n3\n4\n", ":3: a row of field \"t\": expected 1 numbers, as in the first row, found 2");
     bad_text("0\n1\n2\n", ": field \"t\": expected 5 rows, one for each node, or 2, one for each cell, found 3 rows");
     bad_text("0\n1\n2\n3\n0.2", ":5: the last row has no line end, so the file may be cut short: expected a line end");

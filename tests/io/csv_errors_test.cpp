@@ -20,30 +20,30 @@ TEST(CsvErrors, coordinates) {
     const char* const x = "bad coordinate x";
     const char* const y = "bad coordinate y";
     const char* const z = "bad coordinate z";
-    expect_csv_refused("x,y,z\n1,2,3\n1,nan,3\n", 3, bad(3, y, finite, "'nan'", "remove the point"));
-    expect_csv_refused("x,y,z\n1,2,-inf\n", 3, bad(2, z, finite, "'-inf'", "remove the point"));
-    expect_csv_refused("x,y,z\n1,2,+Infinity\n", 3, bad(2, z, finite, "'+Infinity'", "remove the point"));
-    expect_csv_refused("1,2,-NaN\n", 3, bad(1, z, finite, "'-NaN'", nullptr));
-    expect_csv_refused("nan,nan,nan\n", 3, bad(1, x, finite, "'nan'", nullptr));
+    expect_csv_refused("x,y,z\n1,2,3\n1,nan,3\n", 3, bad(3, y, finite, "\"nan\"", "remove the point"));
+    expect_csv_refused("x,y,z\n1,2,-inf\n", 3, bad(2, z, finite, "\"-inf\"", "remove the point"));
+    expect_csv_refused("x,y,z\n1,2,+Infinity\n", 3, bad(2, z, finite, "\"+Infinity\"", "remove the point"));
+    expect_csv_refused("1,2,-NaN\n", 3, bad(1, z, finite, "\"-NaN\"", nullptr));
+    expect_csv_refused("nan,nan,nan\n", 3, bad(1, x, finite, "\"nan\"", nullptr));
     expect_csv_refused("1,2,3\n\n# c\n1,,3\n", 3, bad(4, y, "a number", "nothing", "fill it in"));
     expect_csv_refused("1,2,3\n1,\"\",3\n", 3, bad(2, y, "a number", "nothing", "fill it in"));
     expect_csv_refused("1\t2\t3\n\t2\t3\n", 3, bad(2, x, "a number", "nothing", "fill it in"));
     expect_csv_refused("1\t2\t3\n\t\t\n", 3, bad(2, x, "a number", "nothing", "fill it in"));
     expect_csv_refused("1,2,3\n,,\n", 3, bad(2, x, "a number", "nothing", "fill it in"));
-    expect_csv_refused("1,2,3\n1,2,abc\n", 3, bad(2, z, "a number", "'abc'", "separate the fields by commas"));
-    expect_csv_refused("1,2,abc\n", 3, bad(1, z, "a number", "'abc'", nullptr));  // a number in it: no header
-    expect_csv_refused("1,2,3\n1 2 3\n", 3, bad(2, x, "a number", "'1 2 3'", "separate the fields by commas"));
-    expect_csv_refused("1 2 3\n1,2,3\n", 3, bad(2, x, "a number", "'1,2,3'", nullptr));
-    expect_csv_refused("1;2;3\n1,5;2;3\n", 3, bad(2, x, "a number", "'1,5'", "decimal point"));
-    expect_csv_refused("1,5;2,5;3,5\n", 3, bad(1, x, "a number", "'1,5'", "decimal point"));
-    expect_csv_refused("1,2,3\n1d5,2,3\n", 3, bad(2, x, "a number", "'1d5'", "with e"));
-    expect_csv_refused("1,2,3\n1,2,1e400\n", 3, bad(2, z, "a number that a double can hold", "'1e400'", "1.8e308"));
-    expect_csv_refused("1,2,3\n1,2,0x10\n", 3, bad(2, z, "a number", "'0x10'", nullptr));
-    expect_csv_refused("1,2,3\n1,2,+-3\n", 3, bad(2, z, nullptr, "'+-3'", nullptr));
-    expect_csv_refused("1,2,3\n1,2,3 # c\n", 3, bad(2, z, "a number", "'3 # c'", "put #"));
-    expect_csv_refused("1,2,3\n1,2,3\r4,5,6\r", 3, bad(2, z, "a number", "'3\\r4'", "not with CR alone"));
-    expect_csv_refused(std::string("1,2,3\n1,2,3\0\n", 13), 3, bad(2, z, "a number", "'3\\x00'", "binary"));
-    expect_csv_refused("z,x,y\n1,2,3\n1,b,3\n", 3, bad(3, x, "a number", "'b'", nullptr));  // by name, not by place
+    expect_csv_refused("1,2,3\n1,2,abc\n", 3, bad(2, z, "a number", "\"abc\"", "separate the fields by commas"));
+    expect_csv_refused("1,2,abc\n", 3, bad(1, z, "a number", "\"abc\"", nullptr));  // a number in it: no header
+    expect_csv_refused("1,2,3\n1 2 3\n", 3, bad(2, x, "a number", "\"1 2 3\"", "separate the fields by commas"));
+    expect_csv_refused("1 2 3\n1,2,3\n", 3, bad(2, x, "a number", "\"1,2,3\"", nullptr));
+    expect_csv_refused("1;2;3\n1,5;2;3\n", 3, bad(2, x, "a number", "\"1,5\"", "decimal point"));
+    expect_csv_refused("1,5;2,5;3,5\n", 3, bad(1, x, "a number", "\"1,5\"", "decimal point"));
+    expect_csv_refused("1,2,3\n1d5,2,3\n", 3, bad(2, x, "a number", "\"1d5\"", "with e"));
+    expect_csv_refused("1,2,3\n1,2,1e400\n", 3, bad(2, z, "a number that a double can hold", "\"1e400\"", "1.8e308"));
+    expect_csv_refused("1,2,3\n1,2,0x10\n", 3, bad(2, z, "a number", "\"0x10\"", nullptr));
+    expect_csv_refused("1,2,3\n1,2,+-3\n", 3, bad(2, z, nullptr, "\"+-3\"", nullptr));
+    expect_csv_refused("1,2,3\n1,2,3 # c\n", 3, bad(2, z, "a number", "\"3 # c\"", "put #"));
+    expect_csv_refused("1,2,3\n1,2,3\r4,5,6\r", 3, bad(2, z, "a number", "\"3\\r4\"", "not with CR alone"));
+    expect_csv_refused(std::string("1,2,3\n1,2,3\0\n", 13), 3, bad(2, z, "a number", "\"3\\x00\"", "binary"));
+    expect_csv_refused("z,x,y\n1,2,3\n1,b,3\n", 3, bad(3, x, "a number", "\"b\"", nullptr));  // by name, not by place
 }
 
 TEST(CsvErrors, numbers_of_fields) {
@@ -60,31 +60,31 @@ TEST(CsvErrors, numbers_of_fields) {
     expect_csv_refused(
         "1;2\n1;2;3;4\n", 2,
         {2, "too many fields in a line", "2, separated by semicolons, as in the first line", "4", nullptr});
+    expect_csv_refused("# c\n1,2\n", 3,
+                       {2, "too few columns for a point", "3 numbers, for the mesh is 3-dimensional", "\"1\", \"2\"",
+                        "one point a line"});
     expect_csv_refused(
-        "# c\n1,2\n", 3,
-        {2, "too few columns for a point", "3 numbers, for the mesh is 3-dimensional", "'1', '2'", "one point a line"});
-    expect_csv_refused("5\n", 2,
-                       {1, "too few columns for a point", "2 numbers, for the mesh is 2-dimensional", "'5'", nullptr});
+        "5\n", 2, {1, "too few columns for a point", "2 numbers, for the mesh is 2-dimensional", "\"5\"", nullptr});
 }
 
 TEST(CsvErrors, headers) {
     const char* const unnamed = "the header does not name the coordinates";
     expect_csv_refused(
         "x,y\n1,2\n", 3,
-        {1, unnamed, "columns x, y, z (or Points:0, Points:1, Points:2)", "'x', 'y'", "use these column names"});
+        {1, unnamed, "columns x, y, z (or Points:0, Points:1, Points:2)", "\"x\", \"y\"", "use these column names"});
     expect_csv_refused("\n#\nlon,lat,h\n1,2,3\n", 3,
-                       {3, unnamed, nullptr, "'lon', 'lat', 'h'", "use these column names"});
-    expect_csv_refused(
-        "a,b,c,d,e,f,g,h,i\n", 2,
-        {1, unnamed, "columns x, y (or Points:0, Points:1)", "'a', 'b', 'c', 'd', 'e', 'f', 'g', 'h', ...", nullptr});
+                       {3, unnamed, nullptr, "\"lon\", \"lat\", \"h\"", "use these column names"});
+    expect_csv_refused("a,b,c,d,e,f,g,h,i\n", 2,
+                       {1, unnamed, "columns x, y (or Points:0, Points:1)",
+                        "\"a\", \"b\", \"c\", \"d\", \"e\", \"f\", \"g\", \"h\", ...", nullptr});
     expect_csv_refused("x,y,X,z\n1,2,3,4\n", 3,
-                       {1, "two columns have the same name", "one column x", "'x' and 'X'", "rename"});
-    expect_csv_refused("x y z\n1,2,3\n", 3, {2, "bad coordinate x", "a number", "'1,2,3'", nullptr});
+                       {1, "two columns have the same name", "one column x", "\"x\" and \"X\"", "rename"});
+    expect_csv_refused("x y z\n1,2,3\n", 3, {2, "bad coordinate x", "a number", "\"1,2,3\"", nullptr});
 }
 
 TEST(CsvErrors, quotes) {
     const char* const what = "a quoted field is not closed";
-    expect_csv_refused("1,2,3,\"a\n4,5,6,b\"\n", 3, {1, what, nullptr, "'1,2,3,\"a'", "close the quote"});
+    expect_csv_refused("1,2,3,\"a\n4,5,6,b\"\n", 3, {1, what, nullptr, "\"1,2,3,\"a\"", "close the quote"});
     expect_csv_refused("1,2,3,a\n4,5,6,\"b\"c\n", 3, {2, what, nullptr, nullptr, nullptr});
     expect_csv_refused("1,2,3\n4,5,6,\"b\n", 3, {2, what, nullptr, nullptr, nullptr});  // beyond the fields
     expect_csv_refused("1 2 3 a\n4 5 6 \"b\"c\n", 3, {2, what, nullptr, nullptr, nullptr});
@@ -135,7 +135,7 @@ TEST(CsvErrors, numbers_that_the_end_of_the_file_may_have_cut) {
     expect_csv_refused("1,2", 2, first);
     // Other errors come first: there is more to mend than the end.
     expect_csv_refused("1,2,3\n4,5", 3, {2, "too few fields in a line", nullptr, "2", nullptr});
-    expect_csv_refused("1,2,3\n4,5,1e", 3, {2, "bad coordinate z", nullptr, "'1e'", nullptr});
+    expect_csv_refused("1,2,3\n4,5,1e", 3, {2, "bad coordinate z", nullptr, "\"1e\"", nullptr});
 }
 
 TEST(CsvErrors, an_error_stays) {

@@ -38,13 +38,13 @@ TEST(NodeSource, refused) {
     refused("1 2 0 0\n1 0 0\n", 3,
             {1, "bad dimension in the header", "3, for the mesh is 3-dimensional", "2", nullptr});
     refused("1 3 0 2\n1 0 0 0 1 1\n", 3, {1, "bad number of markers in the header", "0 or 1", "2", nullptr});
-    refused("2 3 0 0\n1 0 0 0\n2 0 nan 0\n", 3, {3, "bad coordinate", "a finite number", "'nan'", nullptr});
-    refused("2 3 0 0\n1 0 0 0\n2 0 0x1 0\n", 3, {3, "bad coordinate", "a number", "'0x1'", nullptr});
-    refused("2 3 0 0\n1 0 0 0\n3 0 0 0\n", 3, {3, "a row out of sequence", "row 2", "'3'", nullptr});
-    refused("2 3 0 0\n2 0 0 0\n3 0 0 0\n", 3, {2, "a bad first row number", "0 or 1", "'2'", nullptr});
+    refused("2 3 0 0\n1 0 0 0\n2 0 nan 0\n", 3, {3, "bad coordinate", "a finite number", "\"nan\"", nullptr});
+    refused("2 3 0 0\n1 0 0 0\n2 0 0x1 0\n", 3, {3, "bad coordinate", "a number", "\"0x1\"", nullptr});
+    refused("2 3 0 0\n1 0 0 0\n3 0 0 0\n", 3, {3, "a row out of sequence", "row 2", "\"3\"", nullptr});
+    refused("2 3 0 0\n2 0 0 0\n3 0 0 0\n", 3, {2, "a bad first row number", "0 or 1", "\"2\"", nullptr});
     refused("2 3 0 0\n1 0 0 0\n", 3, {3, "the file ends too early", "2 rows as the header tells", "1", nullptr});
-    refused("1 3 0 0\n1 0 0 0\n2 0 0 0\n", 3, {3, "more rows than the header tells", "1 row", "a row '2'", nullptr});
-    refused("0 3 0 0\n0 0 0 0\n", 3, {2, "more rows than the header tells", "0 rows", "a row '0'", nullptr});
+    refused("1 3 0 0\n1 0 0 0\n2 0 0 0\n", 3, {3, "more rows than the header tells", "1 row", "a row \"2\"", nullptr});
+    refused("0 3 0 0\n0 0 0 0\n", 3, {2, "more rows than the header tells", "0 rows", "a row \"0\"", nullptr});
     refused("1 3 0 0\n1 0 0\n", 3, {2, "too few columns in a row", nullptr, "3", nullptr});
     refused("1 3 0 0\n1 0 0 0 0\n", 3, {2, "too many columns in a row", nullptr, nullptr, "mend the header"});
     refused("1 3 0 0\n1 0 0 0", 3,

@@ -118,11 +118,11 @@ TEST(NpySink, names) {
                      {0, "a column name is not allowed in an NPY file", expected, found, "write CSV"});
     };
     const char* const differs = "a name that differs from the others and from x, y, z, cell, feature, distance";
-    refused({"p", "p"}, false, differs, "'p'");
-    refused({"y"}, false, differs, "'y'");
-    refused({"cell"}, false, differs, "'cell'");
-    refused({"distance"}, true, differs, "'distance'");
-    refused({""}, false, "a name", "''");
+    refused({"p", "p"}, false, differs, "\"p\"");
+    refused({"y"}, false, differs, "\"y\"");
+    refused({"cell"}, false, differs, "\"cell\"");
+    refused({"distance"}, true, differs, "\"distance\"");
+    refused({""}, false, "a name", "\"\"");
     for (const char* name : {"\xFF", "a\xC3", "\xC3(", "\xC0\xAF", "\xE0\x80\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80",
                              "\xF0\x80\x80\x80", "\x80"}) {
         refused({name}, false, "a name in UTF-8", nullptr);

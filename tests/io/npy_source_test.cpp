@@ -78,8 +78,8 @@ TEST(NpySource, types_that_are_refused) {
     for (const char* type : {"<i8", "<f2", "|O", "<c16", "=f8", "|u1", "<f16", "f8"}) {
         SCOPED_TRACE(type);
         expect_npy_refused(npy_bytes(npy_dictionary(type, "(3, 3)"), as_bytes(points)), 3,
-                           {0, what, "float64 or float32: '<f8', '>f8', '<f4' or '>f4'",
-                            ("'" + std::string(type) + "'").c_str(), "a.astype('f8')"});
+                           {0, what, "float64 or float32: \"<f8\", \">f8\", \"<f4\" or \">f4\"",
+                            ('"' + std::string(type) + '"').c_str(), "a.astype('f8')"});
     }
     const std::string structured =
         "{'descr': [('x', '<f8'), ('a]\\'', '<f8', (2,))], 'fortran_order': False, 'shape': (3,), }";
@@ -113,7 +113,7 @@ TEST(NpySource, shapes_that_are_refused) {
 TEST(NpySource, headers_that_are_refused) {
     const char* const what = "cannot read the header of the NPY file";
     expect_npy_refused("", 3, {0, what, nullptr, "nothing", "numpy.save"});
-    expect_npy_refused("1,2,3\n4,5,6\n", 3, {0, what, "a file that begins with \\x93NUMPY", "'1,2,3\\n'", nullptr});
+    expect_npy_refused("1,2,3\n4,5,6\n", 3, {0, what, "a file that begins with \\x93NUMPY", "\"1,2,3\\n\"", nullptr});
     expect_npy_refused(std::string("PK\x03\x04 and more"), 3,
                        {0, what, "one array", nullptr, "the one array of points"});
     std::string bytes = npy_bytes(npy_dictionary("<f8", "(3, 3)"), as_bytes(points));

@@ -70,7 +70,7 @@ TEST(Streams, errors_of_the_standard_input_have_lines) {
     const Redirected in(STDIN_FILENO, ends[0]);
     write_fully(ends[1], "1,2,3\n1,2,c\n");
     ::close(ends[1]);
-    expect_error(read_file("-", 3), "standard input", {2, "bad coordinate z", "a number", "'c'", nullptr});
+    expect_error(read_file("-", 3), "standard input", {2, "bad coordinate z", "a number", "\"c\"", nullptr});
 }
 
 TEST(Streams, a_number_cut_on_the_standard_input) {

@@ -64,8 +64,8 @@ TEST(Plugin, RefusalsSayWhatIsWrong) {
     expect_refusal(__FILE__, "cannot load the kernel library");
     expect_refusal(plugin("example_kernel_no_weights"), "expected the function barycert_kernel_weights");
     expect_refusal(plugin("example_kernel_wrong_abi"), "expected 1, found 99");
-    expect_refusal(plugin("example_kernel_wrong_simplex"), "found 'pentagon'");
-    expect_refusal(plugin("example_kernel_wrong_name"), "found 'two words'");
+    expect_refusal(plugin("example_kernel_wrong_simplex"), "found \"pentagon\"");
+    expect_refusal(plugin("example_kernel_wrong_name"), "found \"two words\"");
     expect_refusal(plugin("example_kernel_taken_name"), "found tetrahedron.signed-volume");
 }
 

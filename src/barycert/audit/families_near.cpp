@@ -16,11 +16,11 @@ void ordinary_inside(Case& c, base::Random& random, std::uint64_t = 0) {
 
 // The three grids of Kettner, Mehlhorn, Pion, Schirra and Yap: p, q and r nearly on a line, p over a grid of
 // neighbouring doubles.
-struct Grid {
+struct CoordinateGrid {
     std::array<double, 2> p, q, r, apex;
 };
 
-void ulp_grid(Case& c, base::Random& random, std::uint64_t index, const Grid& g) {
+void ulp_grid(Case& c, base::Random& random, std::uint64_t index, const CoordinateGrid& g) {
     const auto cell = index * 40503 % 65536;  // 256 x 256 points; an odd factor visits each once, well spread
     set_vertex(c, 0, {g.q[0], g.q[1], 0});
     set_vertex(c, 1, {g.r[0], g.r[1], 0});

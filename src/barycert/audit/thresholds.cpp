@@ -67,7 +67,7 @@ Result<Threshold> parse_threshold(std::string_view text) {
         const auto limit = base::parse_double(text.substr(sign + 1));
         if (!limit || !(*limit >= 0))
             return Error{.what = "bad limit in a rule",
-                         .expected = "a number >= 0 after '>'",
+                         .expected = "a number >= 0 after >",
                          .found = '"' + std::string(text) + '"'};
         rule.limit = *limit;
     }

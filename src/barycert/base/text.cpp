@@ -106,7 +106,7 @@ std::string printable(std::string_view text) {
 
 std::string quoted(std::string_view word) {
     constexpr std::size_t longest = 40;
-    return "'" + printable(word.substr(0, longest)) + (word.size() > longest ? "...'" : "'");
+    return '"' + printable(word.substr(0, longest)) + (word.size() > longest ? "...\"" : "\"");
 }
 
 bool glob_match(std::string_view pattern, std::string_view text) {

@@ -20,7 +20,7 @@ std::string text_or_empty(const char* text) {
     return text == nullptr ? "" : text;
 }
 
-/// Letters, digits, '-', '_' and '.', so that a name survives shells, globs and file names.
+/// Letters, digits, -, _ and ., so that a name survives shells, globs and file names.
 bool well_formed(std::string_view name) {
     return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
@@ -42,12 +42,12 @@ Result<Kernel> described(const std::string& path, const barycert_kernel_info& in
     const auto simplex = simplex_named(simplex_name);
     if (!simplex) {
         return refused(path, "the kernel library names an unknown simplex",
-                       "segment, triangle, triangle3d or tetrahedron", "'" + simplex_name + "'",
+                       "segment, triangle, triangle3d or tetrahedron", '"' + simplex_name + '"',
                        "set info->simplex to one of these");
     }
     if (!well_formed(formula_name)) {
-        return refused(path, "the kernel library has an unusable name", "letters, digits, '-', '_' and '.'",
-                       "'" + formula_name + "'", "set info->name accordingly");
+        return refused(path, "the kernel library has an unusable name", "letters, digits, -, _ and .",
+                       '"' + formula_name + '"', "set info->name accordingly");
     }
     const std::string formula = text_or_empty(info.formula), source = text_or_empty(info.source);
     Kernel k = kernels::make_kernel(*simplex, formula_name, weights,

@@ -101,7 +101,7 @@ Status Engine::build(const Certificate& certificate) {
     SampleSummary& summary = run_.summary;
     summary.columns = sampler_->columns();
     const bool certified = certificate_.verdict() == Verdict::certified;
-    summary.degenerate_cells = certified ? 0 : count_degenerate(mesh_);
+    summary.degenerate_cells = certified || !run_.job.count_degenerate ? 0 : count_degenerate(mesh_);
     summary.seconds.build += watch.lap();
     return Done{};
 }

@@ -23,9 +23,9 @@ std::span<const double> point_of(const Table& rows, std::size_t row) {
 }
 
 /// Where rows go: into a sink and perhaps a map.
-class RowWriter {
+class StreamOutput {
 public:
-    RowWriter(const SinkFactory& factory, const std::string& save_map) : factory_(factory), map_path_(save_map) {}
+    StreamOutput(const SinkFactory& factory, const std::string& save_map) : factory_(factory), map_path_(save_map) {}
 
     /// When the columns are known; a second call does nothing.
     Status open(const Engine& engine, bool all) {
@@ -137,7 +137,7 @@ std::uint64_t count_nan(const TableView& rows) {
 
 Status sample_stream(Run& run, Engine& engine, PointSource& source, const SinkFactory& factory,
                      const std::string& save_map) {
-    RowWriter writer(factory, save_map);
+    StreamOutput writer(factory, save_map);
     SampleSeconds& seconds = run.summary.seconds;
     Table rows;
     rows.dimension = source.dimension();
@@ -171,7 +171,7 @@ Status sample_stream(Run& run, Engine& engine, PointSource& source, const SinkFa
 Status sample_map(Run& run, Engine& engine, MapReader& map, const SinkFactory& factory) {
     const SampleOptions options = without_refusal(run.job.options);
     const bool refuse = run.job.options.outside.kind == Outside::error;
-    RowWriter writer(factory, "");
+    StreamOutput writer(factory, "");
     if (Status opened = writer.open(engine, map.all()); !opened) return opened;
     SampleSummary& summary = run.summary;
     PointsOfRows points;

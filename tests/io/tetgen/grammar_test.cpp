@@ -132,9 +132,9 @@ TEST(Grammar, faces) {
         EXPECT_EQ(mesh->face_markers, (Markers{-7}));
     }
     expect_error(read("1 1\n1 1 2 4 -7 1 9\n"), ".face", 2, "cell out of range", "1 to 1 (cells), or -1 for none",
-                 "'9'", "same base");
-    expect_error(read("1 0\n1 1 2 4 5\n"), ".face", 2, "too many columns in a row", nullptr, nullptr, "'1 1'");
-    expect_error(read("1 0\n1 1 2 9\n"), ".face", 2, "corner out of range", "1 to 4 (nodes)", "'9'", nullptr);
+                 "\"9\"", "same base");
+    expect_error(read("1 0\n1 1 2 4 5\n"), ".face", 2, "too many columns in a row", nullptr, nullptr, "\"1 1\"");
+    expect_error(read("1 0\n1 1 2 9\n"), ".face", 2, "corner out of range", "1 to 4 (nodes)", "\"9\"", nullptr);
     expect_error(read("1 2\n1 1 2 4 5 6\n"), ".face", 1, "bad number of markers in the header", "0 or 1", "2", nullptr);
     expect_error(read_texts("3 2 0 0\n0 0 0\n1 1 0\n2 0 1\n", "1 3 0\n0 0 1 2\n", "1 0\n0 0 1 2\n"), ".face", 1,
                  "a mesh of triangles has no faces", nullptr, nullptr, "remove");
@@ -148,8 +148,8 @@ TEST(Grammar, neighbours) {
     ASSERT_TRUE(mesh) << mesh.error().message();
     EXPECT_EQ(mesh->neighbours, (Indices{1, -1, -1, -1, -1, -1, -1, 0}));
     expect_error(read("2 4\n1 2 -1 -1 -1\n2 -1 -1 -1 0\n"), ".neigh", 3, "neighbour out of range",
-                 "1 to 2 (cells), or -1 for none", "'0'", nullptr);
-    expect_error(read("2 4\n1 2 -1 -1 -1\n2 -1 -2 -1 1\n"), ".neigh", 3, "neighbour out of range", nullptr, "'-2'",
+                 "1 to 2 (cells), or -1 for none", "\"0\"", nullptr);
+    expect_error(read("2 4\n1 2 -1 -1 -1\n2 -1 -2 -1 1\n"), ".neigh", 3, "neighbour out of range", nullptr, "\"-2\"",
                  nullptr);
     expect_error(read("1 4\n1 2 -1 -1 -1\n"), ".neigh", 1, "the number of cells differs from that of the .ele file",
                  "2", "1", "remove");
@@ -192,23 +192,23 @@ TEST(Refused, headers) {
     const auto header = [](const char* text) { return read_texts(std::string(text) + "\n1 0 0 0\n"); };
     expect_error(read_texts(""), ".node", 1, "the file is empty", nullptr, "nothing", nullptr);
     expect_error(read_texts("# only\n\n"), ".node", 1, "the file is empty", nullptr, "nothing", nullptr);
-    expect_error(header("--- nodes ---"), ".node", 1, "bad number of nodes in the header", nullptr, "'---'", "#");
+    expect_error(header("--- nodes ---"), ".node", 1, "bad number of nodes in the header", nullptr, "\"---\"", "#");
     expect_error(header("-1 3"), ".node", 1, "bad number of nodes in the header", "an integer from 0 to 2147483647",
-                 "'-1'", nullptr);
-    expect_error(header("2147483648 3"), ".node", 1, "bad number of nodes in the header", nullptr, "'2147483648'",
+                 "\"-1\"", nullptr);
+    expect_error(header("2147483648 3"), ".node", 1, "bad number of nodes in the header", nullptr, "\"2147483648\"",
                  nullptr);
     expect_error(header("99999999999999999999 3"), ".node", 1, "bad number of nodes in the header", nullptr, nullptr,
                  nullptr);
     expect_error(header("010 3"), ".node", 1, "bad number of nodes in the header", "an integer without leading zeros",
-                 "'010'", "octal");
+                 "\"010\"", "octal");
     expect_error(header("1 4"), ".node", 1, "bad dimension in the header", "2 or 3", "4", nullptr);
     expect_error(header("1 3 0 2"), ".node", 1, "bad number of markers in the header", "0 or 1", "2", "attributes");
-    expect_error(header("1 3 0 0 0"), ".node", 1, "too many numbers in the header", "at most 4", "'0'", nullptr);
-    expect_error(header("1 3 0 0 BIN"), ".node", 1, "a binary file", "text", "'BIN' in the header", "as text");
-    expect_error(header("1 3 BIN"), ".node", 1, "a binary file", "text", "'BIN' in the header", "as text");
-    expect_error(header("1;3;0;0"), ".node", 1, "bad number of nodes in the header", nullptr, "'1;3;0;0'",
+    expect_error(header("1 3 0 0 0"), ".node", 1, "too many numbers in the header", "at most 4", "\"0\"", nullptr);
+    expect_error(header("1 3 0 0 BIN"), ".node", 1, "a binary file", "text", "\"BIN\" in the header", "as text");
+    expect_error(header("1 3 BIN"), ".node", 1, "a binary file", "text", "\"BIN\" in the header", "as text");
+    expect_error(header("1;3;0;0"), ".node", 1, "bad number of nodes in the header", nullptr, "\"1;3;0;0\"",
                  "spaces, tabs or commas");
-    expect_error(header("1.0 3"), ".node", 1, "bad number of nodes in the header", nullptr, "'1.0'", "without point");
+    expect_error(header("1.0 3"), ".node", 1, "bad number of nodes in the header", nullptr, "\"1.0\"", "without point");
     expect_error(header("1,,3"), ".node", 1, "bad number of dimensions in the header", nullptr, "nothing", nullptr);
     expect_error(read_texts(tetrahedron_node, "1 4 0 BIN\n\x01\x02\n"), ".ele", 1, "a binary file", nullptr, nullptr,
                  nullptr);
@@ -233,21 +233,22 @@ TEST(Refused, counts_beyond_the_file) {
 
 TEST(Refused, row_numbers) {
     const auto rows = [](const char* text) { return read_texts("4 3 0 0\n" + std::string(text)); };
-    expect_error(rows("5 0 0 0\n6 1 0 0\n7 0 1 0\n8 0 0 1\n"), ".node", 2, "a bad first row number", "0 or 1", "'5'",
+    expect_error(rows("5 0 0 0\n6 1 0 0\n7 0 1 0\n8 0 0 1\n"), ".node", 2, "a bad first row number", "0 or 1", "\"5\"",
                  "TetGen");
-    expect_error(rows("1 0 0 0\n3 1 0 0\n2 0 1 0\n4 0 0 1\n"), ".node", 3, "a row out of sequence", "row 2", "'3'",
+    expect_error(rows("1 0 0 0\n3 1 0 0\n2 0 1 0\n4 0 0 1\n"), ".node", 3, "a row out of sequence", "row 2", "\"3\"",
                  "TetGen");
-    expect_error(rows("1 0 0 0\n2 1 0 0\n30 0 1 0\n40 0 0 1\n"), ".node", 4, "a row out of sequence", "row 3", "'30'",
+    expect_error(rows("1 0 0 0\n2 1 0 0\n30 0 1 0\n40 0 0 1\n"), ".node", 4, "a row out of sequence", "row 3", "\"30\"",
                  nullptr);
-    expect_error(rows("1 0 0 0\n2 1 0 0\n2 0 1 0\n4 0 0 1\n"), ".node", 4, "a row out of sequence", "row 3", "'2'",
+    expect_error(rows("1 0 0 0\n2 1 0 0\n2 0 1 0\n4 0 0 1\n"), ".node", 4, "a row out of sequence", "row 3", "\"2\"",
                  nullptr);
     expect_error(rows("01 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"), ".node", 2, "bad id",
-                 "an integer without leading zeros", "'01'", "octal");
-    expect_error(rows("1.0 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"), ".node", 2, "bad id", "an integer", "'1.0'", nullptr);
+                 "an integer without leading zeros", "\"01\"", "octal");
+    expect_error(rows("1.0 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"), ".node", 2, "bad id", "an integer", "\"1.0\"",
+                 nullptr);
     expect_error(read_texts(tetrahedron_node, "1 4 0\n0 1 2 3 4\n"), ".ele", 2,
-                 "the files of this mesh count from different bases", "row 1 first, as in the .node file", "'0'",
+                 "the files of this mesh count from different bases", "row 1 first, as in the .node file", "\"0\"",
                  "all from 1");
-    expect_error(read_texts(tetrahedron_node, "1 4 0\n7 1 2 3 4\n"), ".ele", 2, "a bad first row number", "1", "'7'",
+    expect_error(read_texts(tetrahedron_node, "1 4 0\n7 1 2 3 4\n"), ".ele", 2, "a bad first row number", "1", "\"7\"",
                  nullptr);
 }
 
@@ -259,8 +260,8 @@ TEST(Refused, columns) {
                  "header");
     expect_error(row("4 3 0 0", "3 0 1 # 0"), ".node", 4, "too few columns in a row", nullptr, "3", nullptr);
     expect_error(row("4 3 0 0", "3 0 1 0 7"), ".node", 4, "too many columns in a row", "4 columns: id, 3 coordinates",
-                 "5, the first too many being '7'",
-                 "if the last column is a marker, make the header '4 3 0 1'; if it is an attribute, '4 3 1 0'");
+                 "5, the first too many being \"7\"",
+                 "if the last column is a marker, make the header \"4 3 0 1\"; if it is an attribute, \"4 3 1 0\"");
     expect_error(row("4 3 0 0", "3 0 1 0,"), ".node", 4, "too many columns in a row", nullptr,
                  "5, the first too many being an empty one after a comma", nullptr);
     expect_error(row("4 3 0 0", "3 0,5 1,5 0,5"), ".node", 4, "too many columns in a row", nullptr, nullptr, nullptr);
@@ -268,9 +269,9 @@ TEST(Refused, columns) {
                  "nothing", nullptr);
     expect_error(row("4 3 0 0", ",3,1,0,0"), ".node", 4, "bad id", "a number before and after each comma", "nothing",
                  nullptr);
-    expect_error(row("4 3 0 0", "v 3 1 0 0"), ".node", 4, "bad id", "an integer", "'v'", nullptr);
+    expect_error(row("4 3 0 0", "v 3 1 0 0"), ".node", 4, "bad id", "an integer", "\"v\"", nullptr);
     expect_error(read_texts(tetrahedron_node, "1 4 0\n1 1 2 3 4 5\n"), ".ele", 2, "too many columns in a row", nullptr,
-                 nullptr, "make the header '1 4 1'");
+                 nullptr, "make the header \"1 4 1\"");
     expect_error(read_texts(tetrahedron_node, "1 4 1\n1 1 2 3 4\n"), ".ele", 2, "too few columns in a row",
                  "6 columns: id, 4 corners, 1 attribute", "5", nullptr);
     expect_error(read_texts("3 2 1 1\n0 0 0 8\n1 1 0 8\n2 0 1 8\n"), ".node", 2, "too few columns in a row",
@@ -285,11 +286,13 @@ TEST(Refused, reals) {
         SCOPED_TRACE(text);
         expect_error(value(text), ".node", 3, "bad coordinate", "a finite number", nullptr, "finite");
     }
-    expect_error(value("1e400"), ".node", 3, "bad coordinate", "a number that a double can hold", "'1e400'", "1.8e308");
+    expect_error(value("1e400"), ".node", 3, "bad coordinate", "a number that a double can hold", "\"1e400\"",
+                 "1.8e308");
     expect_error(value("-1.7976931348623159e308"), ".node", 3, "bad coordinate", "a number that a double can hold",
                  nullptr, nullptr);
-    expect_error(value("1.0D+03"), ".node", 3, "bad coordinate", "a number", "'1.0D+03'", "write the exponent with e");
-    expect_error(value("1d3"), ".node", 3, "bad coordinate", "a number", "'1d3'", "write the exponent with e");
+    expect_error(value("1.0D+03"), ".node", 3, "bad coordinate", "a number", "\"1.0D+03\"",
+                 "write the exponent with e");
+    expect_error(value("1d3"), ".node", 3, "bad coordinate", "a number", "\"1d3\"", "write the exponent with e");
     for (const char* text :
          {"0x10", "1.5.5", "1-2", "1+2", "1e", "--1", "+-1", "-+1", "-", "+", ".", "e5", "1;0;0", "1_000", "1\v", "1\f",
           "\xC2\xA0"
@@ -301,11 +304,11 @@ TEST(Refused, reals) {
         EXPECT_EQ(mesh.error().what, "bad coordinate");
         EXPECT_EQ(mesh.error().line, 3U);
     }
-    expect_error(value("1;0;0"), ".node", 3, "bad coordinate", "a number", "'1;0;0'", "spaces, tabs or commas");
-    expect_error(value("1\r0"), ".node", 3, "bad coordinate", "a number", "'1\\r0'", "CR LF");
-    expect_error(value(std::string("1\0", 2)), ".node", 3, "bad coordinate", "a number", "'1\\x00'", "binary");
+    expect_error(value("1;0;0"), ".node", 3, "bad coordinate", "a number", "\"1;0;0\"", "spaces, tabs or commas");
+    expect_error(value("1\r0"), ".node", 3, "bad coordinate", "a number", "\"1\\r0\"", "CR LF");
+    expect_error(value(std::string("1\0", 2)), ".node", 3, "bad coordinate", "a number", "\"1\\x00\"", "binary");
     expect_error(value(std::string(100, 'x')), ".node", 3, "bad coordinate", "a number",
-                 "'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...'", nullptr);
+                 "\"xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...\"", nullptr);
 }
 
 TEST(Refused, indices) {
@@ -316,17 +319,17 @@ TEST(Refused, indices) {
          {"9", "0", "5", "-1", "2147483648", "4294967298", "4294967300", "100000001", "9223372036854775807"}) {
         SCOPED_TRACE(text);
         expect_error(corner(text), ".ele", 2, "corner out of range", "1 to 4 (nodes)",
-                     ("'" + std::string(text) + "'").c_str(), "same base");
+                     ('"' + std::string(text) + '"').c_str(), "same base");
     }
-    expect_error(corner("010"), ".ele", 2, "bad corner", "an integer without leading zeros", "'010'", "octal");
-    expect_error(corner("00"), ".ele", 2, "bad corner", "an integer without leading zeros", "'00'", "octal");
-    expect_error(corner("4.0"), ".ele", 2, "bad corner", "an integer", "'4.0'", nullptr);
-    expect_error(corner("4e0"), ".ele", 2, "bad corner", "an integer", "'4e0'", nullptr);
-    expect_error(corner("four"), ".ele", 2, "bad corner", "an integer", "'four'", nullptr);
-    expect_error(corner("0x4"), ".ele", 2, "bad corner", "an integer", "'0x4'", nullptr);
+    expect_error(corner("010"), ".ele", 2, "bad corner", "an integer without leading zeros", "\"010\"", "octal");
+    expect_error(corner("00"), ".ele", 2, "bad corner", "an integer without leading zeros", "\"00\"", "octal");
+    expect_error(corner("4.0"), ".ele", 2, "bad corner", "an integer", "\"4.0\"", nullptr);
+    expect_error(corner("4e0"), ".ele", 2, "bad corner", "an integer", "\"4e0\"", nullptr);
+    expect_error(corner("four"), ".ele", 2, "bad corner", "an integer", "\"four\"", nullptr);
+    expect_error(corner("0x4"), ".ele", 2, "bad corner", "an integer", "\"0x4\"", nullptr);
     expect_error(corner("99999999999999999999"), ".ele", 2, "bad corner", "an integer of at most 64 bits", nullptr,
                  nullptr);
-    expect_error(read_texts("1 3 0 1\n0 0 0 0 1.5\n"), ".node", 2, "bad marker", "an integer", "'1.5'", nullptr);
+    expect_error(read_texts("1 3 0 1\n0 0 0 0 1.5\n"), ".node", 2, "bad marker", "an integer", "\"1.5\"", nullptr);
     expect_error(read_texts("0 3 0 0\n", "1 4\n0 0 0 0 0\n"), ".ele", 2, "corner out of range",
                  "none, for there are no nodes", nullptr, nullptr);
 }
@@ -335,11 +338,11 @@ TEST(Refused, ends_of_files) {
     const std::string node = tetrahedron_node;
     expect_error(read_texts("5" + node.substr(1)), ".node", 6, "the file ends too early", "5 rows as the header tells",
                  "4", nullptr);
-    expect_error(read_texts(node + "5 1 1 1\n"), ".node", 6, "more rows than the header tells", "4 rows", "a row '5'",
+    expect_error(read_texts(node + "5 1 1 1\n"), ".node", 6, "more rows than the header tells", "4 rows", "a row \"5\"",
                  nullptr);
-    expect_error(read_texts(node + "garbage here 1 2 3\n"), ".node", 6, "text after the last row", nullptr, "'garbage'",
-                 "#");
-    expect_error(read_texts(node + "\n# end\n7\n"), ".node", 8, "text after the last row", nullptr, "'7'", nullptr);
+    expect_error(read_texts(node + "garbage here 1 2 3\n"), ".node", 6, "text after the last row", nullptr,
+                 "\"garbage\"", "#");
+    expect_error(read_texts(node + "\n# end\n7\n"), ".node", 8, "text after the last row", nullptr, "\"7\"", nullptr);
     // "1" may be the beginning of "1.25": the last row must end.
     expect_error(read_texts(node.substr(0, node.size() - 1)), ".node", 5,
                  "the last row has no line end, so the file may be cut short", "a line end", nullptr,
@@ -355,7 +358,7 @@ TEST(Refused, the_first_error_is_told_whatever_the_number_of_threads) {
         node += std::to_string(i) + (i == 77777 ? " 0 x 0\n" : i > 150000 ? " bad\n" : " 0.25 0.5 0.75\n");
     }
     for (const int threads : {1, 2, 7}) {
-        expect_error(read_texts(node, "0\n", "", "", threads), ".node", 77779, "bad coordinate", "a number", "'x'",
+        expect_error(read_texts(node, "0\n", "", "", threads), ".node", 77779, "bad coordinate", "a number", "\"x\"",
                      nullptr);
     }
 }

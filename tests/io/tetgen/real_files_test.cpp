@@ -82,7 +82,7 @@ TEST(RealFiles, meshes) {
         expect_good(folder, good);
         left.erase(good.stem);
     }
-    expect_bad(folder, {"HumanWedgeMesh_BIN", ".node", 1, "a binary file", "text", "'BIN' in the header"});
+    expect_bad(folder, {"HumanWedgeMesh_BIN", ".node", 1, "a binary file", "text", "\"BIN\" in the header"});
     left.erase("HumanWedgeMesh_BIN");
     EXPECT_TRUE(left.empty()) << "no expectation for " << *left.begin();
 }
@@ -99,9 +99,9 @@ TEST(RealFiles, chaste_bad_data) {
         left.erase(each.stem);
     }
     const Bad bad[] = {
-        {"chaste_bad_elements_disk_522_elements", ".ele", 3, "a row out of sequence", "row 1", "'2'"},
-        {"chaste_bad_nodes_disk_522_elements", ".node", 3, "a row out of sequence", "row 1", "'3'"},
-        {"chaste_permuted_nodes_disk_522_elements", ".node", 7, "a row out of sequence", "row 6", "'7'"},
+        {"chaste_bad_elements_disk_522_elements", ".ele", 3, "a row out of sequence", "row 1", "\"2\""},
+        {"chaste_bad_nodes_disk_522_elements", ".node", 3, "a row out of sequence", "row 1", "\"3\""},
+        {"chaste_permuted_nodes_disk_522_elements", ".node", 7, "a row out of sequence", "row 6", "\"7\""},
         {"chaste_canonical_triangle_missing_edge_attribute", ".node", 2, "too few columns in a row",
          "5 columns: id, 2 coordinates, 1 attribute, 1 marker", "4"},
         {"chaste_canonical_triangle_missing_node_attribute", ".node", 3, "too few columns in a row",
@@ -123,18 +123,18 @@ TEST(RealFiles, tetgen_traps) {
         left.erase(stem);
     }
     const Bad bad[] = {
-        {"badidx", ".ele", 2, "corner out of range", "1 to 4 (nodes)", "'9'"},
-        {"base5", ".node", 2, "a bad first row number", "0 or 1", "'5'"},
-        {"dash", ".node", 1, "bad number of nodes in the header", nullptr, "'---'"},
-        {"dexp", ".node", 3, "bad coordinate", "a number", "'1.0D+03'"},
+        {"badidx", ".ele", 2, "corner out of range", "1 to 4 (nodes)", "\"9\""},
+        {"base5", ".node", 2, "a bad first row number", "0 or 1", "\"5\""},
+        {"dash", ".node", 1, "bad number of nodes in the header", nullptr, "\"---\""},
+        {"dexp", ".node", 3, "bad coordinate", "a number", "\"1.0D+03\""},
         {"five", ".ele", 1, "bad number of corners in the header", nullptr, "5"},
-        {"gap", ".node", 4, "a row out of sequence", "row 3", "'30'"},
-        {"nanx", ".node", 2, "bad coordinate", "a finite number", "'nan'"},
-        {"octal", ".ele", 2, "bad corner", "an integer without leading zeros", "'010'"},
-        {"perm", ".node", 3, "a row out of sequence", "row 2", "'3'"},
-        {"semi", ".node", 1, "bad number of nodes in the header", nullptr, "'4;3;0;0'"},
+        {"gap", ".node", 4, "a row out of sequence", "row 3", "\"30\""},
+        {"nanx", ".node", 2, "bad coordinate", "a finite number", "\"nan\""},
+        {"octal", ".ele", 2, "bad corner", "an integer without leading zeros", "\"010\""},
+        {"perm", ".node", 3, "a row out of sequence", "row 2", "\"3\""},
+        {"semi", ".node", 1, "bad number of nodes in the header", nullptr, "\"4;3;0;0\""},
         {"short", ".node", 6, "the file ends too early", "5 rows as the header tells", "4"},
-        {"trail", ".node", 6, "text after the last row", nullptr, "'garbage'"},
+        {"trail", ".node", 6, "text after the last row", nullptr, "\"garbage\""},
     };
     for (const Bad& each : bad) {
         expect_bad(folder, each);

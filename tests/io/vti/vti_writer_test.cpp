@@ -77,7 +77,7 @@ TEST(VtiWriter, nothing_appears_before_the_commit) {
         ASSERT_TRUE((*writer)->write(0, std::as_bytes(std::span(values))));
         const Status early = (*writer)->commit();
         ASSERT_FALSE(early);
-        EXPECT_EQ(early.error().what, "the bytes of array 'T'");
+        EXPECT_EQ(early.error().what, "the bytes of array \"T\"");
         EXPECT_EQ(early.error().expected, "32");
         EXPECT_EQ(early.error().found, "24");
         EXPECT_EQ(get(folder / "a.vti"), "old");
@@ -115,10 +115,10 @@ TEST(VtiWriter, what_is_refused) {
     refused({{2, 2, 2}, {}, {1, 1, -1}}, {}, "the spacing along axis 2", "-1");
     refused({{1, 1, 1}, {}, {nan, 1, 1}}, {}, "the spacing along axis 0", "nan");
     refused(good, {{"", 1, io::VtiType::int8}}, "the name of an array", "none");
-    refused(good, {{"a\x01", 1, io::VtiType::int8}}, "the name of an array", "'a\x01'");
-    refused(good, {{"a", 0, io::VtiType::int8}}, "the components of array 'a'", "0");
+    refused(good, {{"a\x01", 1, io::VtiType::int8}}, "the name of an array", "\"a\x01\"");
+    refused(good, {{"a", 0, io::VtiType::int8}}, "the components of array \"a\"", "0");
     refused(good, {{"a", 1, io::VtiType::int8}, {"b", 1, io::VtiType::int8}, {"a", 1, io::VtiType::int8}},
-            "the names of arrays", "'a' twice");
+            "the names of arrays", "\"a\" twice");
     refused({{2147483647, 2147483647, 2}, {}, {1, 1, 1}}, {{"a", 1, io::VtiType::float64}}, "the size of the arrays",
             "more");
     refused({{2147483647, 2147483647, 1}, {}, {1, 1, 1}}, {{"a", 2147483647, io::VtiType::float64}},

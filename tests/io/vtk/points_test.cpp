@@ -38,7 +38,7 @@ TEST(VtkPoints, of_every_kind_of_file) {
     EXPECT_EQ(read_vtk_points(folder / "m.vtp", 2).value(), (std::vector<double>{0.1, 0.2, 0.3, 0.4}));
     const Result<Mesh> mesh = read_quietly(folder / "m.vtp");
     ASSERT_FALSE(mesh);
-    EXPECT_EQ(mesh.error().found, "'PolyData'");
+    EXPECT_EQ(mesh.error().found, "\"PolyData\"");
     put(folder / "m.vtk",
         "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_GRID\nDIMENSIONS 2 1 1\nPOINTS 2 float\n1 2 0 3 4 "
         "0\n");
@@ -160,12 +160,12 @@ TEST(VtkPoints, rows_that_do_not_fit) {
     refused(with([](io::PointRows& r) {
                 r.fields = {{"f", 1, {1, 2}}, {"f", 1, {1, 2}}};
             }),
-            "two fields are named 'f'");
+            "two fields are named \"f\"");
     refused(with([](io::PointRows& r) {
                 r.fields = {{"distance", 1, {1, 2}}};
                 r.distances = r.points.first(2);
             }),
-            "two fields are named 'distance'");
+            "two fields are named \"distance\"");
 }
 
 TEST(VtkPoints, endings) {

@@ -276,15 +276,15 @@ TEST(Vtu, names_that_the_format_cannot_hold) {
         [&](Mesh& m) {
             m.cell_fields = {{"a\x01", 1, cell.data}};
         },
-        "the name of field 'a\x01' has bytes that XML cannot hold");
-    refused([&](Mesh& m) { m.point_fields = {point, {"g", 1, point.data}, point}; }, "two fields are named 'f'");
-    refused([&](Mesh& m) { m.cell_fields = {cell, cell}; }, "two fields are named 'f'");
+        "the name of field \"a\x01\" has bytes that XML cannot hold");
+    refused([&](Mesh& m) { m.point_fields = {point, {"g", 1, point.data}, point}; }, "two fields are named \"f\"");
+    refused([&](Mesh& m) { m.cell_fields = {cell, cell}; }, "two fields are named \"f\"");
     refused(
         [&](Mesh& m) {
             m.point_fields = {{"marker", 1, point.data}};
             m.point_markers = {1, 2, 3, 4};
         },
-        "two fields are named 'marker'");
+        "two fields are named \"marker\"");
     Mesh both = tetrahedron();  // of different kinds
     both.point_fields = {point};
     both.cell_fields = {cell, {"marker", 1, {1}}};

@@ -58,11 +58,11 @@ const char* fault_of(const std::string& name, std::set<std::string>& seen) {
 }  // namespace
 
 Result<NpyFields> npy_fields(const TableFormat& format, const std::string& path) {
-    struct Field {
+    struct NpyColumn {
         std::string name;
         const char* type = "<f8";
     };
-    std::vector<Field> fields{{"x"}, {"y"}};
+    std::vector<NpyColumn> fields{{"x"}, {"y"}};
     if (format.dimension == 3) fields.push_back({"z"});
     fields.push_back({"cell", "<i8"});
     fields.push_back({"feature", "|S8"});
@@ -71,7 +71,7 @@ Result<NpyFields> npy_fields(const TableFormat& format, const std::string& path)
 
     NpyFields result{.descr = "[", .row_size = 8 * fields.size()};  // each has 8 bytes
     std::set<std::string> seen;
-    for (const Field& field : fields) {
+    for (const NpyColumn& field : fields) {
         if (const char* const expected = fault_of(field.name, seen); expected != nullptr) {
             return Error{.what = "a column name is not allowed in an NPY file",
                          .file = path,

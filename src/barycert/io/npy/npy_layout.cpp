@@ -37,7 +37,7 @@ Error type_error(const NpyHeader& header, std::size_t dimension, const std::stri
                               dimension == 2 ? "save numpy.stack([a['x'], a['y']], axis=1)"
                                              : "save numpy.stack([a['x'], a['y'], a['z']], axis=1)"});
     }
-    return failure(file, {"cannot read points of that type", "float64 or float32: '<f8', '>f8', '<f4' or '>f4'",
+    return failure(file, {"cannot read points of that type", "float64 or float32: \"<f8\", \">f8\", \"<f4\" or \">f4\"",
                           base::quoted(header.descr), "save a.astype('f8')"});
 }
 

@@ -65,12 +65,12 @@ Status TetgenReader::settle_mid_edge_order() {
 }
 
 std::string header_text(std::initializer_list<std::int64_t> numbers) {
-    std::string text = "'";
+    std::string text = "\"";
     for (const std::int64_t number : numbers) {
         if (text.size() > 1) text += ' ';
         text += std::to_string(number);
     }
-    text += "'";
+    text += '"';
     return text;
 }
 

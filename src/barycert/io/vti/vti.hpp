@@ -57,7 +57,7 @@ public:
     Status commit();
 
 private:
-    struct Place {
+    struct ArrayPlace {
         std::uint64_t begin = 0;  // of its header in the file
         std::uint64_t size = 0;   // bytes of its numbers
         std::uint64_t done = 0;   // of them, handed over
@@ -69,7 +69,7 @@ private:
 
     std::string path_;
     std::vector<VtiArray> arrays_;
-    std::vector<Place> places_;
+    std::vector<ArrayPlace> places_;
     std::uint64_t tail_ = 0;  // where the end of the XML goes
     std::uint64_t end_ = 0;   // of what was written in order
     base::OutputFile file_;

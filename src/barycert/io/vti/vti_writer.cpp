@@ -61,17 +61,17 @@ Status check_arrays(const std::string& path, const std::vector<VtiArray>& arrays
         if (array.name.empty()) return wrong(path, "the name of an array", "one", "none");
         if (!io::xml_attribute(array.name)) {
             return wrong(path, "the name of an array", "text in UTF-8 without control characters",
-                         "'" + array.name + "'");
+                         '"' + array.name + '"');
         }
         if (array.components < 1) {
-            return wrong(path, "the components of array '" + array.name + "'", "1 or more",
+            return wrong(path, "the components of array \"" + array.name + '"', "1 or more",
                          std::to_string(array.components));
         }
         names.push_back(array.name);
     }
     std::sort(names.begin(), names.end());
     const auto twice = std::adjacent_find(names.begin(), names.end());
-    if (twice != names.end()) return wrong(path, "the names of arrays", "different ones", "'" + *twice + "' twice");
+    if (twice != names.end()) return wrong(path, "the names of arrays", "different ones", '"' + *twice + "\" twice");
     return Done{};
 }
 
@@ -121,7 +121,7 @@ Result<std::unique_ptr<VtiWriter>> VtiWriter::open(const std::string& path, cons
     const ExactEnvironment environment;
     if (Status s = check_grid(path, grid); !s) return s.error();
     if (Status s = check_arrays(path, arrays); !s) return s.error();
-    std::vector<Place> places;
+    std::vector<ArrayPlace> places;
     std::vector<std::uint64_t> offsets;
     std::uint64_t end = 0;
     for (const VtiArray& array : arrays) {
@@ -135,7 +135,7 @@ Result<std::unique_ptr<VtiWriter>> VtiWriter::open(const std::string& path, cons
     }
     const std::string head = head_of(grid, arrays, offsets);
     std::unique_ptr<VtiWriter> writer(new VtiWriter(path, arrays));
-    for (Place& place : places) place.begin += head.size();
+    for (ArrayPlace& place : places) place.begin += head.size();
     writer->places_ = std::move(places);
     writer->tail_ = head.size() + end;
     writer->put(0, head);
@@ -166,8 +166,8 @@ Status VtiWriter::write(std::size_t array, std::span<const std::byte> bytes) {
     if (array >= places_.size()) {
         return error("the number of an array", "less than " + std::to_string(places_.size()), std::to_string(array));
     }
-    Place& place = places_[array];
-    const std::string name = "array '" + arrays_[array].name + "'";
+    ArrayPlace& place = places_[array];
+    const std::string name = "array \"" + arrays_[array].name + '"';
     if (bytes.size() > place.size - place.done) {
         return error("the bytes of " + name, std::to_string(place.size) + " in all", "more");
     }
@@ -192,7 +192,7 @@ Status VtiWriter::write(std::size_t array, std::span<const std::byte> bytes) {
 Status VtiWriter::commit() {
     for (std::size_t i = 0; i < places_.size(); ++i) {
         if (places_[i].done != places_[i].size) {
-            return error("the bytes of array '" + arrays_[i].name + "'", std::to_string(places_[i].size),
+            return error("the bytes of array \"" + arrays_[i].name + '"', std::to_string(places_[i].size),
                          std::to_string(places_[i].done));
         }
     }

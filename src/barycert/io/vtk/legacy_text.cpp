@@ -53,7 +53,7 @@ Status LegacyText::read_head() {
     if (known) first.remove_prefix(start.size());
     const char* const end = first.data() + first.size();
     if (!known || std::from_chars(first.data(), end, major_version_).ec != std::errc{}) {
-        return error("the first line", "'# vtk DataFile Version 4.2' or the like", shown(first));
+        return error("the first line", "\"# vtk DataFile Version 4.2\" or the like", shown(first));
     }
     rest_of_line();  // title
     const std::string type = keyword();

@@ -36,7 +36,7 @@ inline constexpr const char* marker_name = "marker";
 inline constexpr std::uint64_t max_entities = INT32_MAX;
 
 inline std::string in_quotes(std::string_view name) {
-    return "'" + std::string(name) + "'";
+    return '"' + std::string(name) + '"';
 }
 
 /// Words for a fault in the array `what`, of `count` numbers.
