@@ -74,15 +74,15 @@ public:
     /// The number of points, where it is known before the end.
     virtual std::optional<std::uint64_t> count() const = 0;
 
-    /// Appends the coordinates of up to `max_points` points to `out`, point after point, and returns how many: fewer than
-    /// `max_points` only at the end, 0 after it. On an Error the points before the fault may have been appended; the source
-    /// gives nothing but that Error from then on.
+    /// Appends the coordinates of up to `max_points` points to `out`, point after point, and returns how many: fewer
+    /// than `max_points` only at the end, 0 after it. On an Error the points before the fault may have been appended;
+    /// the source gives nothing but that Error from then on.
     virtual Result<std::size_t> read(std::size_t max_points, std::vector<double>& out) = 0;
 };
 
 /// Opens the points of a CSV, NPY or .node file, or, once use_vtk_files() was called, of a .vtu, .vtp or .vtk file; "-"
-/// is CSV from the standard input. `dimension`: 2 or 3; of a CSV only the columns that are asked for are read. Returns an
-/// Error if the suffix is another one, the file cannot be read, or has another dimension.
+/// is CSV from the standard input. `dimension`: 2 or 3; of a CSV only the columns that are asked for are read. Returns
+/// an Error if the suffix is another one, the file cannot be read, or has another dimension.
 Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int dimension);
 
 /// Points from memory, as they are. An incomplete last point is left out.
@@ -118,9 +118,9 @@ public:
     virtual Status commit() = 0;
 };
 
-/// Opens a CSV or NPY file, or, once use_vtk_files() was called, a .vtu file, by the suffix of the path; "-" is CSV on the
-/// standard output. Returns an Error if the suffix is another one, the path cannot be written, or NPY names would be
-/// refused by NumPy.
+/// Opens a CSV or NPY file, or, once use_vtk_files() was called, a .vtu file, by the suffix of the path; "-" is CSV on
+/// the standard output. Returns an Error if the suffix is another one, the path cannot be written, or NPY names would
+/// be refused by NumPy.
 Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const TableFormat& format);
 
 }  // namespace barycert

@@ -43,9 +43,8 @@ void run_growth(std::span<const int> sizes, std::size_t point_count, const Round
         all.push_back(std::make_unique<Size>(n, point_count));
         Size& size = *all.back();
         const std::string name = size.subject.name;
-        contest.add("sample, " + name, [&size] {
-            demand_done(size.sampler.sample(size.subject.points, options(1), size.rows));
-        });
+        contest.add("sample, " + name,
+                    [&size] { demand_done(size.sampler.sample(size.subject.points, options(1), size.rows)); });
         contest.add("locate, " + name, [&size] {
             demand_done(size.locator.locate(size.subject.points, size.rows.cells, size.rows.features, nullptr, 1));
         });

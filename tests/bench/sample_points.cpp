@@ -24,9 +24,7 @@ struct Written {
 void add_ours(Round& round, Written& out, Contest& contest) {
     const Subject& subject = round.subject;
     const auto sample = [&](const Sampler& sampler, SampleOptions how) {
-        return [&sampler, &subject, &out, how] {
-            demand_done(sampler.sample(subject.points, how, out.rows));
-        };
+        return [&sampler, &subject, &out, how] { demand_done(sampler.sample(subject.points, how, out.rows)); };
     };
     out.cells.resize(subject.point_count());
     out.rows.cells = round.rows.cells;
@@ -39,9 +37,7 @@ void add_ours(Round& round, Written& out, Contest& contest) {
                 [&] { demand_done(round.ours.walk.locate(subject.points, out.cells, out.features, nullptr, 1)); });
     contest.add("candidates", sample(round.ours.uncertified, options(1)));
     contest.add("three", sample(round.ours.three, options(1)));
-    contest.add("evaluate", [&] {
-        demand_done(round.ours.one.evaluate(subject.points, options(1), out.rows));
-    });
+    contest.add("evaluate", [&] { demand_done(round.ours.one.evaluate(subject.points, options(1), out.rows)); });
 }
 
 void add_peers(Round& round, Written& out, Contest& contest) {

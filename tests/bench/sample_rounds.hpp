@@ -26,7 +26,7 @@ struct Round {
     const Subject& subject;
     RoundOptions how;
     Ours ours;
-    Table rows = {};                     ///< at the points
+    Table rows = {};                       ///< at the points
     std::vector<double> grid_values = {};  ///< on the grid
     std::unique_ptr<VtkPeer> vtk = {};     ///< null: not built
     std::unique_ptr<CgalPeer> cgal = {};

@@ -146,8 +146,7 @@ TEST(audit, quiet_says_nothing_and_writes_all) {
                          "--witnesses", scratch.path("w")});
     EXPECT_EQ(r.code, 0);
     EXPECT_EQ(r.out + r.err, "");
-    const Json report = parse(read_file(scratch.path("r"))),
-               witnesses = parse(read_file(scratch.path("w")));
+    const Json report = parse(read_file(scratch.path("r"))), witnesses = parse(read_file(scratch.path("w")));
     EXPECT_FALSE(report["witnesses"].empty());
     EXPECT_EQ(report["witnesses"], witnesses["witnesses"]);
     const Ended pure = run({"audit", "--count", "10", "--kernel", "segment.*", "--witnesses", "-"});

@@ -35,8 +35,7 @@ struct Outcome {
 Outcome outcome(const Words& arguments, const std::string& environment, const std::string& file) {
     const Ended r = run(arguments, started_in(environment));
     EXPECT_EQ(r.signal, 0);
-    return {r.code, without_times(r.out), without_times(r.err),
-            file.empty() ? "" : without_times(read_file(file))};
+    return {r.code, without_times(r.out), without_times(r.err), file.empty() ? "" : without_times(read_file(file))};
 }
 
 /// `arguments` write to `file`, if there is one.

@@ -1,5 +1,5 @@
-/// VTK's files, which barycert::vtk reads and writes: it is a library of its own, and readers and writers by suffix find
-/// it here once use_vtk_files() was called.
+/// VTK's files, which barycert::vtk reads and writes: it is a library of its own, and readers and writers by suffix
+/// find it here once use_vtk_files() was called.
 #pragma once
 
 #include <memory>

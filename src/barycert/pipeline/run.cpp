@@ -15,8 +15,7 @@ Result<SampleSummary> run_job(const std::string& command, const SamplingJob& job
                               const std::function<Status(Run&, Engine&)>& work) {
     const int threads = job.options.threads;
     std::optional<tbb::global_control> limit;
-    if (threads > 0)
-        limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     Stopwatch whole;
     Run run{job};
     SampleSummary& summary = run.summary;

@@ -40,7 +40,8 @@ struct Run {
 
 class Engine;
 
-/// Does `work` with an engine on the mesh of the job, on no more threads than the job allows. `command`: of the summary.
+/// Does `work` with an engine on the mesh of the job, on no more threads than the job allows. `command`: of the
+/// summary.
 Result<SampleSummary> run_job(const std::string& command, const SamplingJob& job,
                               const std::function<Status(Run&, Engine&)>& work);
 

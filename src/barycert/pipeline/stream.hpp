@@ -31,8 +31,8 @@ std::uint64_t count_nan(const TableView& rows);
 /// Opens what takes the rows of that format, which is known when the engine is prepared.
 using SinkFactory = std::function<Result<std::unique_ptr<TableSink>>(const TableFormat&)>;
 
-/// All points of the source into rows and, if `save_map` is not empty, into a map. Adds to the summary of the run. Error
-/// besides those of its parts: the policy is `error`, and a point is outside; it names the point and the file.
+/// All points of the source into rows and, if `save_map` is not empty, into a map. Adds to the summary of the run.
+/// Error besides those of its parts: the policy is `error`, and a point is outside; it names the point and the file.
 Status sample_stream(Run& run, Engine& engine, PointSource& source, const SinkFactory& factory,
                      const std::string& save_map);
 

@@ -21,7 +21,7 @@ int main() {
     std::vector<double> values(2);
     TierCounts tiers;
     const Status status = interpolate(MeshQueries{Simplex::tetrahedron, nodes, corners, cells, points},
-                                             NodalValues<float>{temperature}, values, &tiers);
+                                      NodalValues<float>{temperature}, values, &tiers);
     if (!status) return std::fprintf(stderr, "%s\n", status.error().message().c_str()), 2;
     std::printf("%s, %g and %g, %s, %d cases\n", on_face ? "on a face" : "elsewhere", values[0], values[1],
                 values[0] == values[1] ? "same bits" : "different", static_cast<int>(tiers.cases()));

@@ -35,7 +35,8 @@ struct PointRows {
 /// twice, is empty, or that XML cannot hold; a coordinate that is not finite; the file cannot be written.
 Status write_vtk_points(const std::string& path, const PointRows& rows);
 
-/// A sink of rows into such a file. It keeps them in memory until commit(), for the format has one array after the other.
+/// A sink of rows into such a file. It keeps them in memory until commit(), for the format has one array after the
+/// other.
 Result<std::unique_ptr<TableSink>> open_vtu_sink(const std::string& path, const TableFormat& format);
 
 }  // namespace barycert::io
