@@ -75,6 +75,19 @@ InputFile::~InputFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
+Result<std::size_t> InputFile::read_at(std::uint64_t offset, std::span<char> bytes, const std::string& path) const {
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+        const ssize_t got =
+            ::pread(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return read_failure(path, errno);
+        if (got == 0) break;
+        done += static_cast<std::size_t>(got);
+    }
+    return done;
+}
+
 Result<std::string> read_file(const std::string& path, std::size_t longest) {
     struct stat status {};
     InputFile file;

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "barycert/result.hpp"
@@ -26,6 +27,11 @@ public:
     ~InputFile();
 
     int descriptor() const { return descriptor_; }
+
+    /// Fills `bytes` from `offset` on and returns how many there were: fewer only where the file ends. `path`: for the
+    /// Error if it cannot be read.
+    Result<std::size_t> read_at(std::uint64_t offset, std::span<char> bytes, const std::string& path) const;
+
     /// In bytes, when it was opened.
     std::uint64_t size() const { return size_; }
 

@@ -1,10 +1,8 @@
 // Points from an NPY file, read by blocks and not mapped: memory is bounded, and a file that shrinks meanwhile is told.
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -68,18 +66,11 @@ private:
 
 Status NpySource::read_bytes(std::uint64_t offset, std::size_t size) {
     bytes_.resize(size);
-    for (std::size_t done = 0; done < size;) {
-        const ssize_t got =
-            ::pread(file_.descriptor(), bytes_.data() + done, size - done, static_cast<off_t>(offset + done));
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return base::read_failure(path_, errno);
-        if (got == 0) {
-            return failure("the file ends too early", "byte " + std::to_string(offset + size - 1),
-                           "the end of the file", "do not change the file while it is read");
-        }
-        done += static_cast<std::size_t>(got);
-    }
-    return Done{};
+    const Result<std::size_t> got = file_.read_at(offset, bytes_, path_);
+    if (!got) return got.error();
+    if (*got == size) return Done{};
+    return failure("the file ends too early", "byte " + std::to_string(offset + size - 1), "the end of the file",
+                   "do not change the file while it is read");
 }
 
 Status NpySource::begin() {

@@ -89,14 +89,7 @@ std::string fault_of_legacy_names(const Mesh& mesh) {
 Status write_legacy(const Mesh& mesh, const std::string& path) {
     std::string fault = io::fault_of_mesh(mesh, io::Names::any);
     if (fault.empty()) fault = fault_of_legacy_names(mesh);
-    if (!fault.empty()) {
-        return Error{.what = "cannot write the mesh: " + fault,
-                     .file = path,
-                     .line = 0,
-                     .expected = {},
-                     .found = {},
-                     .remedy = "correct the mesh in memory"};
-    }
+    if (!fault.empty()) return io::cannot_write("the mesh", fault, path);
     base::OutputFile file(path);
     io::Messages messages;
     {

@@ -118,4 +118,8 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const Mesh& mesh, Names names) {
     return grid;
 }
 
+Error cannot_write(const std::string& what, const std::string& fault, const std::string& path) {
+    return {.what = "cannot write " + what + ": " + fault, .file = path, .remedy = "correct it in memory"};
+}
+
 }  // namespace barycert::io

@@ -25,6 +25,9 @@ std::string fault_of_mesh(const Mesh& mesh, Names names);
 /// a name.
 std::string fault_of_names(const std::vector<Field>& fields, std::vector<std::string> others, Names names);
 
+/// That `what` ("the mesh") cannot be written because of that fault.
+Error cannot_write(const std::string& what, const std::string& fault, const std::string& path);
+
 /// An array of VTK's on memory that it neither frees nor writes to: its interface knows no const.
 vtkSmartPointer<vtkDoubleArray> view_of(std::span<const double> values, int components);
 

@@ -92,14 +92,7 @@ Status write(const std::string& path, const PointRows& rows) {
 
 Status write_vtk_points(const std::string& path, const PointRows& rows) {
     const ExactEnvironment environment;
-    if (const std::string fault = fault_of(rows); !fault.empty()) {
-        return Error{.what = "cannot write the points: " + fault,
-                     .file = path,
-                     .line = 0,
-                     .expected = {},
-                     .found = {},
-                     .remedy = "correct the rows in memory"};
-    }
+    if (const std::string fault = fault_of(rows); !fault.empty()) return io::cannot_write("the points", fault, path);
     try {
         return write(path, rows);
     } catch (const std::bad_alloc&) {

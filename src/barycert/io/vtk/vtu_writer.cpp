@@ -24,14 +24,8 @@ std::size_t file_size(const Mesh& mesh, std::size_t index_size) {
 
 Status write_vtu(const Mesh& mesh, const std::string& path) {
     const ExactEnvironment environment;
-    if (const std::string fault = io::fault_of_mesh(mesh, io::Names::xml); !fault.empty()) {
-        return Error{.what = "cannot write the mesh: " + fault,
-                     .file = path,
-                     .line = 0,
-                     .expected = {},
-                     .found = {},
-                     .remedy = "correct the mesh in memory"};
-    }
+    if (const std::string fault = io::fault_of_mesh(mesh, io::Names::xml); !fault.empty())
+        return io::cannot_write("the mesh", fault, path);
     try {
         const std::size_t size = file_size(mesh, io::needs_wide_indices(mesh) ? 8 : 4);
         return io::write_vtu_grid(io::grid_of(mesh, io::Names::xml), path, size);

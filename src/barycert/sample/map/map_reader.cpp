@@ -1,8 +1,5 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <utility>
 
 #include "barycert/base/input_file.hpp"
@@ -70,17 +67,10 @@ Status MapReaderData::open(const Mesh& mesh) {
 /// `count` bytes from `from` on, into `bytes`.
 Status MapReaderData::fill(std::uint64_t from, std::size_t count) {
     bytes.resize(count);
-    for (std::size_t have = 0; have < count;) {
-        const ssize_t got =
-            ::pread(file.descriptor(), bytes.data() + have, count - have, static_cast<off_t>(from + have));
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return base::read_failure(name, errno);
-        if (got == 0) {
-            return damage("the map is cut off", std::to_string(size) + " bytes", std::to_string(from + have));
-        }
-        have += static_cast<std::size_t>(got);
-    }
-    return Done{};
+    const Result<std::size_t> got = file.read_at(from, bytes, name);
+    if (!got) return got.error();
+    if (*got == count) return Done{};
+    return damage("the map is cut off", std::to_string(size) + " bytes", std::to_string(from + *got));
 }
 
 Status MapReaderData::read_header() {
