@@ -6,9 +6,8 @@
 set -u
 source=$1
 build=$2
-core=$source/src/barycert/core
-base=$source/src/barycert/base
 mkdir -p "$build"
+. "$(dirname "$0")/core_sources.sh"
 launcher=
 command -v ccache >/dev/null && launcher=ccache
 status=0
@@ -70,9 +69,7 @@ answers() {
     own=$3
     shift 3
     objects=
-    for file in "$base"/result.cpp "$core"/environment.cpp "$base"/exact_environment.cpp "$base"/random.cpp "$core"/exact_weights.cpp \
-        "$core"/inverse.cpp "$core"/lanes.cpp "$core"/predicates.cpp "$core"/quotient.cpp "$base"/text.cpp \
-        "$core"/weight_signs.cpp "$core"/weights.cpp "$source"/tests/core/same_bytes.cpp; do
+    for file in $(core_sources "$source" "$build"); do
         object=$build/$name-$(basename "$file" .cpp).o
         rm -f "$object"
         case $file in *same_bytes.cpp) set -- $own ;; esac

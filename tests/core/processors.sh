@@ -10,9 +10,8 @@ shift 2
 [ "$(uname -m)" = x86_64 ] || { echo "not an x86-64 machine: left out"; exit 77; }
 command -v g++ >/dev/null || { echo "g++ is not here: left out"; exit 77; }
 [ $# -gt 0 ] || set -- x86-64-v2 x86-64-v3 x86-64-v4 native
-core=$source/src/barycert/core
-base=$source/src/barycert/base
 mkdir -p "$build"
+. "$(dirname "$0")/core_sources.sh"
 flags='-std=c++20 -ffp-contract=off -pthread -Wno-psabi'
 launcher=
 command -v ccache >/dev/null && launcher=ccache
@@ -33,9 +32,7 @@ done
 
 for processor in "$@"; do
     objects=
-    for file in "$base"/result.cpp "$core"/environment.cpp "$base"/exact_environment.cpp "$base"/random.cpp "$core"/exact_weights.cpp \
-        "$core"/inverse.cpp "$core"/lanes.cpp "$core"/predicates.cpp "$core"/quotient.cpp "$base"/text.cpp \
-        "$core"/weight_signs.cpp "$core"/weights.cpp "$source"/tests/core/same_bytes.cpp; do
+    for file in $(core_sources "$source" "$build"); do
         object=$build/$processor-$(basename "$file" .cpp).o
         rm -f "$object"
         # shellcheck disable=SC2086

@@ -8,9 +8,8 @@ source=$1
 build=$2
 shift 2
 [ $# -gt 0 ] || set -- -O0 -O3
-core=$source/src/barycert/core
-base=$source/src/barycert/base
 mkdir -p "$build"
+. "$(dirname "$0")/core_sources.sh"
 flags='-std=c++20 -ffp-contract=off -pthread -Wno-psabi'
 launcher=
 command -v ccache >/dev/null && launcher=ccache
@@ -24,9 +23,7 @@ for compiler in g++ clang++; do
     fi
     for level in "$@"; do
         objects=
-        for file in "$base"/result.cpp "$core"/environment.cpp "$base"/exact_environment.cpp "$base"/random.cpp "$core"/exact_weights.cpp "$core"/inverse.cpp "$core"/lanes.cpp \
-            "$core"/predicates.cpp "$core"/quotient.cpp "$base"/text.cpp "$core"/weight_signs.cpp "$core"/weights.cpp \
-            "$source"/tests/core/same_bytes.cpp; do
+        for file in $(core_sources "$source" "$build"); do
             object=$build/$compiler$level-$(basename "$file" .cpp).o
             rm -f "$object"
             $launcher $compiler $flags "$level" -DBARYCERT_VERSION='"x"' -I"$source/src" -I"$source/tests" -c "$file" \

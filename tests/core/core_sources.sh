@@ -1,0 +1,11 @@
+# Sourced by the scripts beside it: the sources of the exact core and of what asks it, same_bytes.cpp.
+#
+# core_sources SOURCE_DIR BUILD_DIR     writes a file that joins most of them, for they share their headers, and prints
+# the paths of all that is to be compiled
+core_sources() {
+    for name in base/result base/exact_environment base/random base/text core/environment core/exact_weights \
+        core/inverse core/predicates core/quotient core/weight_signs; do
+        echo "#include \"barycert/$name.cpp\""
+    done >"$2/joined.cpp"
+    echo "$2/joined.cpp $1/src/barycert/core/weights.cpp $1/src/barycert/core/lanes.cpp $1/tests/core/same_bytes.cpp"
+}
