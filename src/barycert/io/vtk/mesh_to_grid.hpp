@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert::io {
 
