@@ -27,6 +27,7 @@ inline std::optional<double> round_scaled(std::uint64_t q, Tail tail, int expone
     const int kept = top >= -1022 ? 53 : 53 - (-1022 - top);  // bits that a double has there; below 1 if it underflows
     const int dropped = length - kept;                        // at least 2
     if (dropped > length) return 0.0;                         // less than half of the smallest subnormal
+    // As q >= 2^54, dropped >= 2. NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult)
     const std::uint64_t half = std::uint64_t{1} << (dropped - 1);
     const std::uint64_t rest = q & (2 * half - 1);
     std::uint64_t m = dropped == 64 ? 0 : q >> dropped;
@@ -73,6 +74,7 @@ double round_quotient(const Integer& numerator, const Integer& denominator, int 
     int a = 0, b = 0;
     const UInt128 n_lead = leading_bits(numerator, 119, a);
     const auto d_lead = static_cast<std::uint64_t>(leading_bits(denominator, 63, b));
+    // The first of the 63 bits of d_lead is 1. NOLINTNEXTLINE(clang-analyzer-core.DivideZero)
     const auto lead = static_cast<std::uint64_t>(n_lead / d_lead);
     if (const auto r = round_scaled(lead, Tail::unknown, a - b + exponent)) return sign < 0 ? -*r : *r;
     Integer n = abs(numerator);
