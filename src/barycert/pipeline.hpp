@@ -101,24 +101,23 @@ struct SampleSeconds {
 struct SampleSummary {
     std::string command;  ///< "sample" or "resample"
     std::string mesh, output;
-    PointsFrom from = PointsFrom::points;
-    std::string points;        ///< the file they came from; empty for a grid
-    std::optional<Grid> grid;  ///< of ResampleJob::counts and spacing
-    std::optional<SliceCounts> picture;
-    int dimension = 3;
-    std::uint64_t nodes = 0, cells = 0, degenerate_cells = 0;
+    std::string points;                ///< the file they came from; empty for a grid
     std::vector<std::string> columns;  ///< of values
-    Rounding rounding = Rounding::correct;
-    bool all = false;  ///< a row for each cell that holds a point
+    std::string reason;                ///< why `method`: a clause
+    std::optional<Grid> grid;          ///< of ResampleJob::counts and spacing
+    std::optional<SliceCounts> picture;
     OutsidePolicy outside;
     SampleCounts counts;  ///< locations: one a point
+    SampleSeconds seconds;
+    std::uint64_t nodes = 0, cells = 0, degenerate_cells = 0;
     std::uint64_t rows = 0;
     std::uint64_t nan_values = 0;  ///< of points inside: from values of nodes or cells that are not finite
+    int dimension = 3, threads = 1;
+    PointsFrom from = PointsFrom::points;
     FoundBy method = FoundBy::walk;
-    std::string reason;  ///< why that method: a clause
+    Rounding rounding = Rounding::correct;
     Verdict verdict = Verdict::not_checked;
-    SampleSeconds seconds;
-    int threads = 1;
+    bool all = false;  ///< a row for each cell that holds a point
 };
 
 /// Returns an Error, and writes nothing, if the job contradicts itself, an input cannot be read, an output is an input

@@ -77,7 +77,7 @@ public:
 
     /// The same on a locator that there is. Locator and fields must stay and outlive the sampler, which copies what it
     /// needs of point fields in the order in which it will be read. Returns an Error if a field does not fit the mesh.
-    static Result<Sampler> build(const Locator& locator, std::vector<FieldChoice> fields);
+    static Result<Sampler> build(const Locator& locator, const std::vector<FieldChoice>& fields);
 
     Sampler(Sampler&&) noexcept;
     Sampler& operator=(Sampler&&) noexcept;

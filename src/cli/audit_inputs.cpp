@@ -27,7 +27,7 @@ fs::path data_folder() {
     std::error_code ignored;
     const fs::path self = fs::read_symlink("/proc/self/exe", ignored);
     if (!ignored) {
-        const fs::path installed = self.parent_path().parent_path() / "share" / "barycert" / "data";
+        fs::path installed = self.parent_path().parent_path() / "share" / "barycert" / "data";
         if (fs::is_directory(installed, ignored)) return installed;
     }
     if (fs::is_directory(BARYCERT_SOURCE_DATA_DIR, ignored)) return BARYCERT_SOURCE_DATA_DIR;

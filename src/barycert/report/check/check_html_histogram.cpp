@@ -63,12 +63,13 @@ std::vector<Tick> ticks_of(const Histogram& h) {
             if (t == std::floor(t)) ticks.push_back({t, "10" + superscript(t)});
         }
     } else {
-        for (double k = std::floor(h.low); k <= h.high(); ++k) {
+        const int low = static_cast<int>(std::floor(h.low)), high = static_cast<int>(std::floor(h.high()));
+        for (int k = low; k <= high; ++k) {
             for (const double factor : {1.0, 2.0, 5.0}) {
                 const double t = k + std::log10(factor);
                 if (t < h.low || t > h.high()) continue;
-                ticks.push_back({t, std::fabs(k) <= 3 ? fmt::format("{:.6g}", factor * std::pow(10, k))
-                                                      : fmt::format("{:.0f}e{:.0f}", factor, k)});
+                ticks.push_back({t, std::abs(k) <= 3 ? fmt::format("{:.6g}", factor * std::pow(10, k))
+                                                     : fmt::format("{:.0f}e{}", factor, k)});
             }
         }
     }
@@ -91,7 +92,11 @@ struct CountAxis {
     std::vector<double> ticks() const {
         std::vector<double> list;
         if (logarithmic) {
-            for (double t = 1; t <= top; t *= 10) list.push_back(t);
+            double t = 1;
+            while (t <= top) {
+                list.push_back(t);
+                t *= 10;
+            }
             return list;
         }
         for (const double t : round_ticks(0, top, 6)) {

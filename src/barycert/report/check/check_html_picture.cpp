@@ -135,6 +135,7 @@ void place_labels(Picture& picture, std::vector<Label> labels, double top) {
         middle.y += l.at.y / static_cast<double>(labels.size());
     }
     std::vector<Rectangle> taken;
+    taken.reserve(2 * labels.size());
     for (const Label& l : labels) taken.push_back({l.at.x - 3, l.at.y - 3, l.at.x + 3, l.at.y + 3});
     for (const Label& l : labels) {
         const double outward = std::atan2(l.at.y - middle.y, l.at.x - middle.x);

@@ -178,7 +178,13 @@ template <int d, class D>
 HWY_INLINE void fill_cell(D tag, const Raster& raster, const CellOfBlock<d>& one, const FillTarget& target,
                           std::vector<Span>& undecided) {
     using V = hn::Vec<D>;
-    const auto& [cell, l, place, id, values, components, terms] = one;
+    // No structured binding: lambdas of clang 14 cannot take one.
+    const CellBlock<d>& cell = one.block;
+    const std::size_t l = one.lane, components = one.components;
+    const locate::Place place = one.place;
+    const Mesh::Index id = one.id;
+    const ValueBlock* const values = one.values;
+    RowTerms* const terms = one.terms;
     constexpr std::size_t width = hn::MaxLanes(D());
     const auto range = [&](std::size_t k) {
         return places_between(raster.at[k], cell.first[k][l], cell.last[k][l], cell.low[k][l], cell.high[k][l]);

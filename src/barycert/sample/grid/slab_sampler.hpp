@@ -15,7 +15,7 @@ namespace barycert::sample {
 
 /// Layers [first, last) of the third axis (2D: of the second), and the rows of their points. Keeps its memory from slab
 /// to slab.
-class SlabSampler {
+class SlabSampler {  // NOLINT(clang-analyzer-optin.performance.Padding): one a thread
 public:
     SlabSampler(const SamplerData& data, const Grid& grid, const Raster& raster, const SampleOptions& options)
         : data_(data), grid_(grid), raster_(raster), options_(options) {}

@@ -183,7 +183,7 @@ Sampler::Sampler(Sampler&&) noexcept = default;
 Sampler& Sampler::operator=(Sampler&&) noexcept = default;
 Sampler::~Sampler() = default;
 
-Result<Sampler> Sampler::build(const Locator& locator, std::vector<FieldChoice> fields) {
+Result<Sampler> Sampler::build(const Locator& locator, const std::vector<FieldChoice>& fields) {
     const ExactEnvironment environment;
     auto data = std::make_unique<SamplerData>();
     data->locator = &locator;
@@ -206,7 +206,7 @@ Result<Sampler> Sampler::build(const Mesh& mesh, const std::vector<std::string>&
     Result<Locator> locator = Locator::build(mesh, options);
     if (!locator) return locator.error();
     auto own = std::make_unique<const Locator>(std::move(*locator));
-    Result<Sampler> sampler = build(*own, std::move(*chosen));
+    Result<Sampler> sampler = build(*own, *chosen);
     if (sampler) sampler->data_->own_locator = std::move(own);
     return sampler;
 }

@@ -15,11 +15,6 @@ namespace HWY_NAMESPACE {
 using namespace core::HWY_NAMESPACE;
 using namespace locate::HWY_NAMESPACE;
 
-using locate::CellRecord;
-using locate::NodeRecord;
-using locate::PointRecord;
-using locate::Walk;
-
 /// Values of refined weights, or plain ones: value(f) for the nodal values f of a component, clearing `certain` where
 /// it is not.
 template <Simplex s, class D, class V = hn::Vec<D>>
