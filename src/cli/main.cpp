@@ -19,6 +19,7 @@
 #include "barycert/vtk.hpp"
 #endif
 
+// What is thrown is told below; telling it may fail for want of memory. NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
     using namespace barycert;
     // For all threads, before any of them starts: a library that was loaded first may have changed it.
