@@ -33,7 +33,7 @@ void expect_same_rows(const Table& expected, const Table& found, const Grid& gri
 /// All but LocationCounts::tests, and which tiers decided values.
 void expect_same_counts(const SampleCounts& expected, const SampleCounts& found, const std::string& what);
 
-/// The law of resample.hpp. Returns the counts.
+/// The law of grid.hpp. Returns the counts.
 SampleCounts expect_law(const Sampler& sampler, const Grid& grid, const SampleOptions& options,
                         const std::string& what);
 

@@ -1,4 +1,4 @@
-// The law of resample.hpp on meshes that are proper, at all places and scales.
+// The law of grid.hpp on meshes that are proper, at all places and scales.
 #include <gtest/gtest.h>
 
 #include <cmath>

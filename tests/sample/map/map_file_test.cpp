@@ -83,7 +83,7 @@ TEST(MapFile, blocks_are_full_until_the_end) {
     EXPECT_TRUE(block.cells.empty());
 }
 
-/// The bytes are those that the description in map_file.hpp asks for: files of today can be read tomorrow.
+/// The bytes are those that the description in map.hpp asks for: files of today can be read tomorrow.
 TEST(MapFile, bytes_are_as_described) {
     const TemporaryFolder folder;
     base::Random random(3);

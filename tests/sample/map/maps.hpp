@@ -1,4 +1,4 @@
-/// Maps for tests, and a second writer of the format, made from its description in map_file.hpp alone.
+/// Maps for tests, and a second writer of the format, made from its description in map.hpp alone.
 #pragma once
 
 #include <bit>

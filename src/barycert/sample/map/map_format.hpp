@@ -1,4 +1,4 @@
-/// The parts of a map file that its writer and its reader share. See map_file.hpp.
+/// The parts of a map file that its writer and its reader share. See map.hpp.
 #pragma once
 
 #include <cmath>
