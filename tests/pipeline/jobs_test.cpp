@@ -1,0 +1,78 @@
+// Whole jobs as a library calls them. What they write is tested by way of the command line, in tests/cli.
+#include "barycert/pipeline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/tetgen/mesh_files.hpp"
+
+namespace barycert::testing {
+namespace {
+
+const std::string mesh = BARYCERT_DATA_DIR "/meshes/cube-hole";
+
+TEST(Jobs, SampleTellsWhatItDoesAndDid) {
+    const TemporaryFolder folder;
+    std::vector<std::string> stages;
+    SampleJob job;
+    job.mesh = mesh;
+    job.fields = {"attribute0"};
+    job.points = mesh + ".node";
+    job.output = folder / "rows.csv";
+    job.certify = Certify::always;
+    job.progress = [&](const JobProgress& p) { stages.emplace_back(p.stage); };
+    const auto summary = sample_files(job);
+    ASSERT_TRUE(summary) << summary.error().message();
+    EXPECT_EQ(summary->command, "sample");
+    EXPECT_EQ(summary->cells, 1590U);
+    EXPECT_EQ(summary->rows, 409U);
+    EXPECT_EQ(summary->counts.locations.vertex, 409U) << "each point is a node";
+    EXPECT_EQ(summary->columns, std::vector<std::string>{"attribute0"});
+    EXPECT_EQ(summary->method, FoundBy::walk);
+    EXPECT_EQ(summary->verdict, Verdict::certified);
+    ASSERT_GE(stages.size(), 3U);
+    EXPECT_EQ(stages.front(), "reading " + mesh);
+    EXPECT_EQ(stages.back(), "building the locator");
+    EXPECT_TRUE(std::filesystem::exists(job.output));
+}
+
+TEST(Jobs, ResampleOntoAGrid) {
+    const TemporaryFolder folder;
+    ResampleJob job;
+    job.mesh = mesh;
+    job.fields = {"attribute0"};
+    job.counts = {4, 4, 4};
+    job.output = folder / "grid.npy";
+    const auto summary = resample_files(job);
+    ASSERT_TRUE(summary) << summary.error().message();
+    EXPECT_EQ(summary->rows, 64U);
+    EXPECT_EQ(summary->from, PointsFrom::grid);
+    ASSERT_TRUE(summary->grid);
+    EXPECT_EQ(summary->grid->counts[2], 4);
+}
+
+TEST(Jobs, RefusedJobsWriteNothing) {
+    const TemporaryFolder folder;
+    SampleJob both;
+    both.mesh = mesh;
+    both.points = mesh + ".node";
+    both.map = "m";
+    both.output = folder / "rows.csv";
+    EXPECT_FALSE(sample_files(both));
+    SampleJob same;
+    same.mesh = mesh;
+    same.points = mesh + ".node";
+    same.output = same.report = folder / "rows.csv";
+    EXPECT_FALSE(sample_files(same)) << "the report is to go where the rows go";
+    ResampleJob none;
+    none.mesh = mesh;
+    none.output = folder / "grid.npy";
+    EXPECT_FALSE(resample_files(none));
+    EXPECT_EQ(folder.file_count(), 0U);
+}
+
+}  // namespace
+}  // namespace barycert::testing
