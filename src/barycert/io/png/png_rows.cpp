@@ -20,6 +20,7 @@ struct Encoder {
     const std::function<void(std::size_t, std::uint8_t*)>& row;
     std::vector<std::uint8_t> pixels;
     png_uint_32 width = 0, height = 0;
+    PngContent content = PngContent::few_colours;
     png_structp png = nullptr;
     png_infop info = nullptr;
     std::array<char, 200> message{};
@@ -62,8 +63,8 @@ bool encode(Encoder& e) {
     png_set_IHDR(e.png, e.info, e.width, e.height, 8, PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(e.png, e.info, PNG_sRGB_INTENT_PERCEPTUAL);
-    // Few colours, in runs: filters only make more of them.
-    png_set_filter(e.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+    png_set_filter(e.png, PNG_FILTER_TYPE_BASE,
+                   e.content == PngContent::few_colours ? PNG_FILTER_NONE : PNG_ALL_FILTERS);
     png_write_info(e.png, e.info);
     for (png_uint_32 r = 0; r < e.height; ++r) {
         e.row(r, e.pixels.data());
@@ -76,13 +77,15 @@ bool encode(Encoder& e) {
 }  // namespace
 
 Status write_png_rows(const std::string& path, std::size_t width, std::size_t height,
-                      const std::function<void(std::size_t, std::uint8_t*)>& row) {
+                      const std::function<void(std::size_t, std::uint8_t*)>& row,
+                      PngContent content) {
     base::OutputFile file(path);
     if (Status opened = file.status(); !opened) return opened;
     Encoder encoder(file, row);
     encoder.pixels.resize(4 * width);
     encoder.width = static_cast<png_uint_32>(width);
     encoder.height = static_cast<png_uint_32>(height);
+    encoder.content = content;
     encoder.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &encoder, on_png_error, on_png_warning);
     if (encoder.png != nullptr) encoder.info = png_create_info_struct(encoder.png);
     const bool made = encoder.info != nullptr;

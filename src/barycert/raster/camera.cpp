@@ -1,0 +1,167 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "barycert/base/strict_math.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/core/quotient.hpp"
+#include "barycert/core/scaled_double.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/scene.hpp"
+
+namespace barycert {
+namespace {
+
+Error no_camera(const std::string& what, const std::string& expected, const std::string& found) {
+    return {.what = what, .expected = expected, .found = found, .remedy = "choose other numbers"};
+}
+
+std::string text_of(const Vector3& v) {
+    return base::shortest(v[0]) + ", " + base::shortest(v[1]) + ", " + base::shortest(v[2]);
+}
+
+bool all_finite(std::span<const double> numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+}
+
+double dot(const Vector3& a, const Vector3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vector3 cross(const Vector3& a, const Vector3& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The direction of v with length 1, whatever its length was; nothing if it is zero or not finite.
+std::optional<Vector3> direction(const Vector3& v) {
+    const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+    if (!all_finite(v) || largest == 0) return std::nullopt;
+    const int shift = -std::ilogb(largest);
+    Vector3 d;
+    for (std::size_t k = 0; k < 3; ++k) d[k] = std::scalbn(v[k], shift);
+    const double length = std::sqrt(dot(d, d));
+    for (double& x : d) x /= length;
+    return d;
+}
+
+/// (x / w + 1) * size / 2 = (x + w) * size / (2 w), rounded once.
+double exact_window(double x, double w, std::int32_t size) {
+    core::Unit unit;
+    unit.add(core::scaled(x));
+    unit.add(core::scaled(w));
+    const auto depth = unit.multiple<core::Integer>(core::scaled(w));
+    const auto sum = unit.multiple<core::Integer>(core::scaled(x)) + depth;
+    const core::Integer product = sum * core::Integer(false, static_cast<std::uint64_t>(size), 0);
+    return core::round_quotient(product.sign() < 0, product.magnitude(), depth.magnitude(), -1);
+}
+
+Result<Matrix4> finite_matrix(const Matrix4& m, const char* what) {
+    if (all_finite(m.m)) return m;
+    return no_camera(what, "numbers whose matrix does not overflow", "one that does");
+}
+
+}  // namespace
+
+Matrix4 operator*(const Matrix4& a, const Matrix4& b) {
+    const ExactEnvironment environment;
+    Matrix4 product;
+    for (std::size_t r = 0; r < 4; ++r) {
+        for (std::size_t c = 0; c < 4; ++c) {
+            double sum = 0;
+            for (std::size_t k = 0; k < 4; ++k) sum += a.m[4 * r + k] * b.m[4 * k + c];
+            product.m[4 * r + c] = sum;
+        }
+    }
+    return product;
+}
+
+Result<Matrix4> look_at(const Vector3& eye, const Vector3& centre, const Vector3& up) {
+    const ExactEnvironment environment;
+    const auto sight = direction({centre[0] - eye[0], centre[1] - eye[1], centre[2] - eye[2]});
+    if (!sight)
+        return no_camera("a camera that looks nowhere", "eye and centre that differ, finite",
+                         text_of(eye) + " and " + text_of(centre));
+    const auto upwards = direction(up);
+    // Of unit vectors: a product below 2^-50 is mostly rounding error.
+    const Vector3 across = upwards ? cross(*sight, *upwards) : Vector3{};
+    if (!upwards || dot(across, across) < 0x1p-100)
+        return no_camera("a camera that knows no up", "an upwards direction off the direction of sight", text_of(up));
+    const Vector3 right = *direction(across), above = cross(right, *sight);
+    Matrix4 m;
+    for (std::size_t k = 0; k < 3; ++k) {
+        m.m[k] = right[k];
+        m.m[4 + k] = above[k];
+        m.m[8 + k] = -(*sight)[k];
+    }
+    m.m[3] = -dot(right, eye);
+    m.m[7] = -dot(above, eye);
+    m.m[11] = dot(*sight, eye);
+    return finite_matrix(m, "a camera too far away");
+}
+
+Result<Matrix4> perspective(double fovy, double aspect, double near, double far) {
+    const ExactEnvironment environment;
+    if (!(fovy > 0 && fovy < 180))
+        return no_camera("the angle of sight", "degrees above 0 and below 180", base::shortest(fovy));
+    if (!(aspect > 0) || !std::isfinite(aspect))
+        return no_camera("the aspect of the window", "a positive number", base::shortest(aspect));
+    if (!(near > 0 && near < far) || !std::isfinite(far))
+        return no_camera("the depth of sight", "0 < near < far, finite",
+                         base::shortest(near) + " and " + base::shortest(far));
+    const double scale = 1 / std::tan(fovy * (std::numbers::pi / 360));
+    Matrix4 m;
+    m.m = {scale / aspect, 0, 0, 0, 0, scale, 0, 0, 0, 0, (far + near) / (near - far), 2 * far * (near / (near - far)), 0, 0, -1, 0};
+    return finite_matrix(m, "the perspective");
+}
+
+Result<Matrix4> orthographic(double left, double right, double bottom, double top, double near, double far) {
+    const ExactEnvironment environment;
+    const std::array<double, 6> all{left, right, bottom, top, near, far};
+    if (!all_finite(all) || left == right || bottom == top || near == far) {
+        std::string found;
+        for (const double x : all) found += (found.empty() ? "" : ", ") + base::shortest(x);
+        return no_camera("the box of sight", "three pairs of different finite numbers", found);
+    }
+    const double width = right - left, height = top - bottom, depth = far - near;
+    Matrix4 m;
+    m.m = {2 / width, 0, 0, -(right + left) / width, 0, 2 / height, 0, -(top + bottom) / height, 0, 0, -2 / depth,
+           -(far + near) / depth, 0, 0, 0, 1};
+    return finite_matrix(m, "the box of sight");
+}
+
+Result<Matrix4> rotation(const Vector3& axis, double degrees) {
+    const ExactEnvironment environment;
+    const auto a = direction(axis);
+    if (!a || !std::isfinite(degrees))
+        return no_camera("a rotation", "an axis that is not zero and an angle, finite",
+                         text_of(axis) + " by " + base::shortest(degrees));
+    const double angle = std::fmod(degrees, 360) * (std::numbers::pi / 180), c = std::cos(angle), s = std::sin(angle);
+    const auto [x, y, z] = *a;
+    Matrix4 m;
+    m.m = {c + x * x * (1 - c),     x * y * (1 - c) - z * s, x * z * (1 - c) + y * s, 0,
+           y * x * (1 - c) + z * s, c + y * y * (1 - c),     y * z * (1 - c) - x * s, 0,
+           z * x * (1 - c) - y * s, z * y * (1 - c) + x * s, c + z * z * (1 - c),     0,
+           0,                       0,                       0,                       1};
+    return m;
+}
+
+Matrix4 translation(const Vector3& by) {
+    Matrix4 m;
+    for (std::size_t k = 0; k < 3; ++k) m.m[4 * k + 3] = by[k];
+    return m;
+}
+
+Matrix4 scaling(const Vector3& by) {
+    Matrix4 m;
+    for (std::size_t k = 0; k < 3; ++k) m.m[5 * k] = by[k];
+    return m;
+}
+
+std::array<double, 2> viewport(RasterSize size, double x, double y, double w, Rounding rounding) {
+    const ExactEnvironment environment;
+    if (rounding == Rounding::correct) return {exact_window(x, w, size.width), exact_window(y, w, size.height)};
+    return held(std::array<double, 2>{(held(x) / held(w) + 1) * (0.5 * size.width), (held(y) / held(w) + 1) * (0.5 * size.height)});
+}
+
+}  // namespace barycert

@@ -1,0 +1,153 @@
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "barycert/clip.hpp"
+#include "barycert/core/scaled_double.hpp"
+#include "barycert/raster/exact_point.hpp"
+
+namespace barycert::raster {
+namespace {
+
+using core::Integer;
+
+struct Segment {
+    int dimension;
+    std::span<const double> a, b;
+};
+
+Status check(const Segment& s) {
+    if (s.dimension < 1 || s.dimension > 3) {
+        return Error{.what = "dimension of a segment",
+                     .expected = "1, 2 or 3",
+                     .found = std::to_string(s.dimension),
+                     .remedy = "choose another dimension"};
+    }
+    if (s.a.size() != s.b.size() || s.a.size() < static_cast<std::size_t>(s.dimension)) {
+        return Error{.what = "the ends of a segment",
+                     .expected = std::to_string(s.dimension) + " coordinates and as many attributes at both ends",
+                     .found = std::to_string(s.a.size()) + " and " + std::to_string(s.b.size()) + " numbers",
+                     .remedy = "give a number for each coordinate and attribute of each end"};
+    }
+    for (std::size_t i = 0; i < s.a.size(); ++i) {
+        for (const auto& [end, x] : {std::pair("first", s.a[i]), {"second", s.b[i]}}) {
+            if (std::isfinite(x)) continue;
+            return Error{.what = "number " + std::to_string(i) + " of the " + end + " end",
+                         .expected = "a finite number",
+                         .found = std::to_string(x),
+                         .remedy = "leave the segment out"};
+        }
+    }
+    return Done{};
+}
+
+/// What is left of a segment, exactly: each end is as given, or where a form is zero.
+class SegmentClipper {
+public:
+    explicit SegmentClipper(const Segment& s) : segment_(s) {}
+
+    /// Takes off what lies where the form is negative.
+    void clip(const Form& form) {
+        if (empty_) return;
+        const int at_a = sign(a_, 0, form), at_b = sign(b_, 1, form);
+        empty_ = at_a < 0 && at_b < 0;
+        if (empty_ || (at_a >= 0 && at_b >= 0)) return;
+        (at_a < 0 ? a_ : b_) = zero_on_segment(form);
+    }
+
+    ClippedSegment result() const {
+        if (empty_) return {};
+        return {false, a_.has_value(), b_.has_value(), row(a_, segment_.a), row(b_, segment_.b)};
+    }
+
+private:
+    using End = std::optional<ExactPoint>;
+
+    static int sign(const End& end, std::size_t original, const Form& form) {
+        return end ? sign_at(form, *end, 2) : form[original].sign();
+    }
+
+    std::vector<double> row(const End& end, std::span<const double> original) const {
+        std::vector<double> numbers(original.begin(), original.end());
+        if (!end) return numbers;
+        for (std::size_t k = 0; k < numbers.size(); ++k) {
+            const double ends[2] = {segment_.a[k], segment_.b[k]};
+            numbers[k] = value_at(*end, ends, 1, 2);
+        }
+        return numbers;
+    }
+
+    const Segment& segment_;
+    End a_, b_;
+    bool empty_ = false;
+};
+
+/// normal . x + offset at both ends, in one unit.
+Form distance_form(const Segment& s, const HalfSpace& h) {
+    const auto d = static_cast<std::size_t>(s.dimension);
+    core::Unit of_normal, of_points;
+    of_normal.add(core::scaled(h.offset));
+    of_points.add(core::scaled(1));
+    for (std::size_t k = 0; k < d; ++k) {
+        of_normal.add(core::scaled(h.normal[k]));
+        of_points.add(core::scaled(s.a[k]));
+        of_points.add(core::scaled(s.b[k]));
+    }
+    const auto product = [&](double n, double x) {
+        return of_normal.multiple<Integer>(core::scaled(n)) * of_points.multiple<Integer>(core::scaled(x));
+    };
+    Form form;
+    for (std::size_t end = 0; end < 2; ++end) {
+        form[end] = product(h.offset, 1);
+        for (std::size_t k = 0; k < d; ++k) form[end] = form[end] + product(h.normal[k], (end == 0 ? s.a : s.b)[k]);
+    }
+    return form;
+}
+
+Error bad_bound(const std::string& what, const std::string& expected, double found) {
+    return {.what = what,
+            .expected = expected,
+            .found = std::to_string(found),
+            .remedy = "choose another bound"};
+}
+
+}  // namespace
+}  // namespace barycert::raster
+
+namespace barycert {
+
+using raster::Segment;
+using raster::SegmentClipper;
+
+Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
+                                    const HalfSpace& bound) {
+    const Segment segment{dimension, a, b};
+    if (Status good = raster::check(segment); !good) return good.error();
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(dimension); ++k) {
+        const double x = k < static_cast<std::size_t>(dimension) ? bound.normal[k] : bound.offset;
+        if (!std::isfinite(x)) return raster::bad_bound("the half-space", "finite numbers", x);
+    }
+    SegmentClipper clipper(segment);
+    clipper.clip(raster::distance_form(segment, bound));
+    return clipper.result();
+}
+
+Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
+                                    const ClipBox& box) {
+    const Segment segment{dimension, a, b};
+    if (Status good = raster::check(segment); !good) return good.error();
+    SegmentClipper clipper(segment);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
+        for (const double x : {box.min[k], box.max[k]}) {
+            if (std::isnan(x)) return raster::bad_bound("a bound of the box", "a number", x);
+        }
+        const double ends[2] = {a[k], b[k]};
+        // An infinite bound on the far side bounds nothing; on the near side nothing lies inside.
+        if (box.min[k] == HUGE_VAL || box.max[k] == -HUGE_VAL) return ClippedSegment{};
+        if (std::isfinite(box.min[k])) clipper.clip(raster::difference_form(ends, box.min[k], 1, 2));
+        if (std::isfinite(box.max[k])) clipper.clip(raster::difference_form(box.max[k], ends, 1, 2));
+    }
+    return clipper.result();
+}
+
+}  // namespace barycert

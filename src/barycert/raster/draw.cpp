@@ -1,0 +1,213 @@
+#include "barycert/raster/draw.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "barycert/base/strict_math.hpp"
+#include "barycert/perspective.hpp"
+#include "barycert/raster/edge.hpp"
+#include "barycert/raster/fill_rows.hpp"
+#include "barycert/weights.hpp"
+
+namespace barycert::raster {
+namespace {
+
+/// A component from 0 to 1 in 255 steps, rounded. NaN gives 0.
+std::uint8_t byte(double x) {
+    return x >= 1 ? 255 : x > 0 ? static_cast<std::uint8_t>(x * 255 + 0.5) : 0;
+}
+
+/// False where plain weights may be off by more than 2^-38. With X and Y the extent of the triangle, a pixel's centre in
+/// it is within X and Y of each vertex, so that the four differences of a signed area are exact or off by half an ulp,
+/// and the area by at most 2 * 3.01 * 2^-53 X Y + 2^-53 X Y < 2^-50 X Y. Twice the triangle's area D is as exact. For
+/// |D| >= 2^-11 X Y the quotient of both is off by less than 2^-50 * 2^11 * 2 + 2^-53 < 2^-37.9.
+bool thick_enough(const std::array<double, 6>& v) {
+    const double area = (v[2] - v[0]) * (v[5] - v[1]) - (v[4] - v[0]) * (v[3] - v[1]);
+    const double wide = std::max({v[0], v[2], v[4]}) - std::min({v[0], v[2], v[4]});
+    const double tall = std::max({v[1], v[3], v[5]}) - std::min({v[1], v[3], v[5]});
+    return std::abs(area) >= 0x1p-11 * wide * tall;
+}
+
+/// The centres of the pixels of a row, one after the other.
+std::vector<double>& centres(std::int32_t j, std::int32_t first, std::int32_t last, std::vector<double>& points) {
+    points.clear();
+    for (std::int32_t i = first; i < last; ++i) {
+        points.push_back(i + 0.5);
+        points.push_back(j + 0.5);
+    }
+    return points;
+}
+
+/// Correctly rounded values of numbers that are linear in the window, at the pixels of a row.
+class CorrectRows {
+public:
+    CorrectRows(std::span<const double> window, std::span<const double> values, std::size_t components)
+        : window_(window), values_(values), components_(static_cast<int>(components)) {}
+
+    void fill(std::int32_t j, std::int32_t first, std::int32_t last, double* out) {
+        constexpr std::array<std::int32_t, 3> corners{0, 1, 2};
+        const auto count = static_cast<std::size_t>(last - first);
+        cells_.assign(count, 0);
+        const MeshQueries queries{Simplex::triangle, window_, corners, cells_, centres(j, first, last, points_)};
+        // No error can occur: sizes fit, and coordinates are finite.
+        (void)interpolate(queries, NodalValues<double>{values_, components_},
+                          {out, count * static_cast<std::size_t>(components_)});
+    }
+
+private:
+    std::span<const double> window_, values_;
+    int components_;
+    std::vector<double> points_;
+    std::vector<std::int32_t> cells_;
+};
+
+/// The depth and the attributes of the pixels of a row, as Shading asks for them: 1 + components numbers a pixel.
+///
+/// With perspective, 1/w and v/w are interpolated. All are multiplied by the least w, so that 1/w cannot overflow; it
+/// may underflow, for a vertex 2^1074 times as far away as another one, whose share is then below the last place.
+template <class Rows>
+class AttributeRows {
+public:
+    static constexpr std::size_t depth_at = 0, scale_at = 1;
+
+    /// What is linear in the window at each vertex: the depth, the scale if there is one, attributes times the scale.
+    static std::vector<double> linear(const WindowTriangle& t, const Shading& s) {
+        const std::size_t n = s.components();
+        std::array<double, 3> depth = t.w;
+        if (s.interpolation == Interpolation::projected_z) {
+            for (std::size_t i = 0; i < 3; ++i) depth[i] = (t.z[i] + 1) / 2;
+        }
+        const double least = *std::min_element(depth.begin(), depth.end());
+        std::vector<double> values;
+        for (std::size_t i = 0; i < 3; ++i) {
+            values.push_back(t.z[i]);
+            double scale = 1;
+            if (s.interpolation != Interpolation::affine) {
+                scale = (s.interpolation == Interpolation::projected_z ? 1 : least) / depth[i];
+                values.push_back(scale);
+            }
+            for (std::size_t k = 0; k < n; ++k) values.push_back(scale * t.attributes[n * i + k]);
+        }
+        return values;
+    }
+
+    AttributeRows(Rows rows, const Shading& s) : rows_(std::move(rows)), shading_(s) {}
+
+    void fill(std::int32_t j, std::int32_t first, std::int32_t last, std::vector<double>& out) {
+        const std::size_t n = shading_.components(), count = static_cast<std::size_t>(last - first);
+        const bool scaled = shading_.interpolation != Interpolation::affine;
+        const std::size_t from = n + (scaled ? 2 : 1);
+        out.resize(from * count);
+        rows_.fill(j, first, last, out.data());
+        if (!scaled) return;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double* const in = out.data() + from * i;
+            double* const to = out.data() + (from - 1) * i;  // never ahead of what is still to be read
+            const double depth = in[depth_at], scale = in[scale_at];
+            to[0] = depth;
+            for (std::size_t k = 0; k < n; ++k) to[1 + k] = in[2 + k] / scale;
+        }
+    }
+
+private:
+    Rows rows_;
+    const Shading& shading_;
+};
+
+/// The same, each number the exact function of the vertices' window coordinates, w and attributes, rounded once.
+class CorrectAttributeRows {
+public:
+    CorrectAttributeRows(const WindowTriangle& t, const Shading& s)
+        : triangle_(t), shading_(s), depth_(t.window, t.z, 1), linear_(t.window, t.attributes, s.components()) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            vertices_[3 * i] = t.window[2 * i];
+            vertices_[3 * i + 1] = t.window[2 * i + 1];
+            vertices_[3 * i + 2] = t.w[i];
+        }
+    }
+
+    void fill(std::int32_t j, std::int32_t first, std::int32_t last, std::vector<double>& out) {
+        const std::size_t n = shading_.components(), count = static_cast<std::size_t>(last - first);
+        depths_.resize(count);
+        depth_.fill(j, first, last, depths_.data());
+        values_.resize(n * count);
+        if (n != 0 && shading_.interpolation == Interpolation::affine) {
+            linear_.fill(j, first, last, values_.data());
+        } else if (n != 0) {
+            // No error can occur: sizes fit, coordinates are finite, w > 0.
+            (void)perspective_values(vertices_.data(), centres(j, first, last, points_), triangle_.attributes,
+                                     static_cast<int>(n), values_);
+        }
+        out.resize((1 + n) * count);
+        for (std::size_t i = 0; i < count; ++i) {
+            out[(1 + n) * i] = depths_[i];
+            std::copy_n(values_.data() + n * i, n, out.data() + (1 + n) * i + 1);
+        }
+    }
+
+private:
+    const WindowTriangle& triangle_;
+    const Shading& shading_;
+    CorrectRows depth_, linear_;
+    std::array<double, 9> vertices_;
+    std::vector<double> points_, depths_, values_;
+};
+
+template <class Rows>
+PixelCounts draw_rows(Canvas& canvas, const SortedTriangle& sorted, Rows rows) {
+    const std::size_t n = canvas.shading.components();
+    PixelCounts counts;
+    std::vector<double> row;
+    for_spans(sorted, canvas.image.width, [&](std::int32_t j, std::int32_t first, std::int32_t last) {
+        rows.fill(j, first, last, row);
+        counts.covered += static_cast<std::uint64_t>(last - first);
+        const std::size_t begin = canvas.image.offset(first, j) / 4;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(last - first); ++i) {
+            const double* const pixel = row.data() + (1 + n) * i;
+            double& depth = canvas.depth[begin + i];
+            if (!(pixel[0] < depth)) {
+                ++counts.hidden;
+                continue;
+            }
+            depth = pixel[0];
+            const Rgba colour = canvas.shading.colour(pixel + 1);
+            std::copy_n(colour.data(), 4, canvas.image.data.data() + 4 * (begin + i));
+            if (canvas.attributes != nullptr) std::copy_n(pixel + 1, n, canvas.attributes->data.data() + n * (begin + i));
+        }
+    });
+    return counts;
+}
+
+}  // namespace
+
+Rgba Shading::colour(const double* attributes) const {
+    const double* const place = attributes + (colours ? 3 : 0);
+    Rgba result{0, 0, 0, 255};
+    if (texture != nullptr) result = texel(*texture, place[0], place[1]);
+    if (!colours) return result;
+    for (std::size_t k = 0; k < 3; ++k)
+        result[k] = texture == nullptr ? byte(attributes[k]) : byte(std::clamp(attributes[k], 0.0, 1.0) * (result[k] / 255.0));
+    return result;
+}
+
+PixelCounts draw_triangle(Canvas& canvas, const WindowTriangle& t) {
+    const Shading& s = canvas.shading;
+    const SortedTriangle sorted(t.window.data(), canvas.image.height);
+    if (s.rounding == Rounding::correct) return draw_rows(canvas, sorted, CorrectAttributeRows(t, s));
+    using Any = AttributeRows<CorrectRows>;
+    const std::vector<double> values = Any::linear(t, s);
+    const std::size_t components = values.size() / 3;
+    const auto count = static_cast<int>(components);
+    const auto draw = [&](auto rows) { return draw_rows(canvas, sorted, AttributeRows(std::move(rows), s)); };
+    if (!thick_enough(t.window)) return draw(CorrectRows(t.window, values, components));
+    switch (s.method) {
+        case FillMethod::scanline:
+            return draw(ScanlineRows(sorted, t.window.data(), values, count));
+        case FillMethod::bilinear:
+            return draw(BilinearRows(sorted, t.window.data(), values, count));
+        default:
+            return draw(BarycentricRows(t.window.data(), values, count));
+    }
+}
+
+}  // namespace barycert::raster

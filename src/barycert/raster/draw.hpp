@@ -1,0 +1,53 @@
+/// The pixels of one triangle: which of them are seen, the attributes there, colours.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "barycert/raster.hpp"
+#include "barycert/scene.hpp"
+
+namespace barycert::raster {
+
+/// A triangle within the clip volume, in the window. Numbers are finite, w > 0, the area in the window is not zero.
+struct WindowTriangle {
+    std::array<double, 6> window;        ///< x and y of each vertex
+    std::array<double, 3> z;             ///< z / w, the depth
+    std::array<double, 3> w;
+    std::span<const double> attributes;  ///< components numbers a vertex: the colour if there is one, u and v likewise
+};
+
+/// How triangles become colours.
+struct Shading {
+    bool colours = false, coordinates = false;
+    const Texture* texture = nullptr;
+    FillMethod method = FillMethod::barycentric;
+    Interpolation interpolation = Interpolation::perspective;
+    Rounding rounding = Rounding::plain;
+
+    std::size_t components() const { return (colours ? 3U : 0U) + (coordinates ? 2U : 0U); }
+
+    /// The colour for attributes as in WindowTriangle. NaN counts as 0.
+    Rgba colour(const double* attributes) const;
+};
+
+/// What is drawn on.
+struct Canvas {
+    Image image;
+    std::vector<double> depth;         ///< of each pixel; infinite where nothing is drawn
+    PixelValues* attributes = nullptr;  ///< if they are wanted
+    Shading shading;
+
+    RasterSize size() const { return {image.width, image.height}; }
+};
+
+struct PixelCounts {
+    std::uint64_t covered = 0, hidden = 0;
+};
+
+/// Draws the triangle where it is in front, and returns the number of pixels.
+PixelCounts draw_triangle(Canvas& canvas, const WindowTriangle& triangle);
+
+}  // namespace barycert::raster

@@ -1,0 +1,45 @@
+/// Points of a segment or triangle by their exact weights, for clipping.
+///
+/// Notation. A form h is a number at each vertex, h_i, and so one at each point of the simplex: sum of weight i times h_i;
+/// the distance to a bound, up to a factor. A form is known up to a positive factor, as integers in a unit of its own.
+/// Widths: a distance to a plane x = w or x = min is a difference of doubles, 2099 bits (integer.hpp); that to a
+/// half-space is a sum of four products of two doubles, 4198 bits. Numerators are such a distance, or in a triangle a
+/// difference of two products of differences, 4199 bits; times a double or a difference, and summed over three vertices,
+/// that is less than 6302 bits, of 14704 that there are.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "barycert/core/integer.hpp"
+
+namespace barycert::raster {
+
+using Form = std::array<core::Integer, 3>;  ///< of a segment, the first two
+
+/// Weight i is numerator[i] / denominator.
+struct ExactPoint {
+    Form numerator;
+    core::Integer denominator;  ///< the sum of the numerators; positive
+};
+
+/// x_i - y_i at each of `count` vertices. Numbers `stride` apart.
+Form difference_form(const double* x, const double* y, std::size_t stride, int count);
+
+/// The same from one number: x_i - y, and y - x_i.
+Form difference_form(const double* x, double y, std::size_t stride, int count);
+Form difference_form(double y, const double* x, std::size_t stride, int count);
+
+/// The point where h is zero on the segment. Precondition: h differs at its ends.
+ExactPoint zero_on_segment(const Form& h);
+
+/// The point where g and h are zero in the triangle. Precondition: there is exactly one.
+ExactPoint zero_in_triangle(const Form& g, const Form& h);
+
+/// The sign of h at the point: -1, 0 or 1.
+int sign_at(const Form& h, const ExactPoint& p, int count);
+
+/// The number at the point, correctly rounded, of which each vertex has one.
+double value_at(const ExactPoint& p, const double* values, std::size_t stride, int count);
+
+}  // namespace barycert::raster

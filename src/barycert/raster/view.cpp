@@ -1,0 +1,240 @@
+#include "barycert/view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "barycert/base/strict_math.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/io/png/colour_bar.hpp"
+#include "barycert/io/png/colour_map.hpp"
+#include "barycert/raster/view_camera.hpp"
+
+namespace barycert {
+namespace raster {
+namespace {
+
+constexpr double ambient = 0.35;
+constexpr std::uint8_t grey = 190;  ///< of what has no value
+
+Error refusal(const std::string& what, const std::string& expected, const std::string& found) {
+    return {.what = what, .expected = expected, .found = found, .remedy = "correct the surface or its view"};
+}
+
+Status check_arrays(const SurfaceView& s) {
+    if (s.dimension != 2 && s.dimension != 3) return refusal("dimension of a surface", "2 or 3", std::to_string(s.dimension));
+    const auto d = static_cast<std::size_t>(s.dimension);
+    if (s.points.size() % d != 0 || s.triangles.size() % 3 != 0)
+        return refusal("arrays of a surface", std::to_string(d) + " coordinates a point and 3 points a triangle",
+                       std::to_string(s.points.size()) + " and " + std::to_string(s.triangles.size()) + " numbers");
+    const std::size_t points = s.points.size() / d, triangles = s.triangles.size() / 3;
+    if ((!s.point_values.empty() && s.point_values.size() != points) ||
+        (!s.triangle_values.empty() && s.triangle_values.size() != triangles) ||
+        (!s.point_values.empty() && !s.triangle_values.empty()))
+        return refusal("values of a surface", "one a point, or one a triangle, or none",
+                       std::to_string(s.point_values.size()) + " for " + std::to_string(points) + " points and " +
+                           std::to_string(s.triangle_values.size()) + " for " + std::to_string(triangles) + " triangles");
+    for (std::size_t i = 0; i < s.triangles.size(); ++i) {
+        if (s.triangles[i] < 0 || static_cast<std::size_t>(s.triangles[i]) >= points)
+            return refusal("corner " + std::to_string(i % 3) + " of triangle " + std::to_string(i / 3),
+                           "an index below " + std::to_string(points), std::to_string(s.triangles[i]));
+    }
+    for (std::size_t i = 0; i < s.points.size(); ++i) {
+        if (!std::isfinite(s.points[i]))
+            return refusal("coordinate " + std::to_string(i % d) + " of point " + std::to_string(i / d), "a finite number",
+                           base::shortest(s.points[i]));
+    }
+    return Done{};
+}
+
+Status check(const SurfaceView& s, const ViewOptions& o) {
+    if (Status good = check_arrays(s); !good) return good;
+    if (Status good = check_raster_size(o.size); !good) return good;
+    for (const double angle : {o.azimuth, o.elevation}) {
+        if (!std::isfinite(angle)) return refusal("the place of the camera", "finite angles", base::shortest(angle));
+    }
+    if (o.range && !(std::isfinite(o.range->first) && std::isfinite(o.range->second) && o.range->first <= o.range->second))
+        return refusal("the range of colours", "two finite numbers, the lower one first",
+                       base::shortest(o.range->first) + " and " + base::shortest(o.range->second));
+    return Done{};
+}
+
+/// The value at a corner of a triangle.
+double value_at(const SurfaceView& s, std::size_t corner) {
+    if (!s.point_values.empty()) return s.point_values[static_cast<std::size_t>(s.triangles[corner])];
+    return s.triangle_values[corner / 3];
+}
+
+bool has_values(const SurfaceView& s) {
+    return !s.point_values.empty() || !s.triangle_values.empty();
+}
+
+/// From values to the u of the texture of colours.
+struct ValueScale {
+    double low = std::numeric_limits<double>::quiet_NaN(), high = low;
+
+    ValueScale(const SurfaceView& s, const ViewOptions& o) {
+        if (!has_values(s)) return;
+        double least = HUGE_VAL, greatest = -HUGE_VAL;
+        for (std::size_t c = 0; c < s.triangles.size(); ++c) {
+            const double x = value_at(s, c);
+            if (!std::isfinite(x)) continue;
+            least = std::min(least, x);
+            greatest = std::max(greatest, x);
+        }
+        if (o.range) {
+            low = o.range->first, high = o.range->second;
+        } else if (least <= greatest) {
+            low = least, high = greatest;
+        }
+        // A zero may come with either sign: the bar says 0.
+        if (low == 0) low = 0;
+        if (high == 0) high = 0;
+    }
+
+    bool known() const { return !std::isnan(low); }
+
+    double operator()(double x) const {
+        if (low == high) return x < low ? 0 : x > low ? 1 : 0.5;
+        double over = x - low, whole = high - low;
+        if (!std::isfinite(whole) || !std::isfinite(over)) {  // too large a difference: of halves there is one
+            over = 0.5 * x - 0.5 * low;
+            whole = 0.5 * high - 0.5 * low;
+        }
+        constexpr double far = 0x1p40;  // beyond the range a texture goes on with its rim
+        return std::clamp(over / whole, -far, far);
+    }
+};
+
+/// Row 0: the colours; row 1: the colour of what has no value.
+Texture colour_texture() {
+    Texture t;
+    t.image = {io::colour_count, 2, std::vector<std::uint8_t>(std::size_t{8} * io::colour_count, grey)};
+    for (std::int32_t i = 0; i < io::colour_count; ++i) {
+        const io::Colour c = io::colour(i);
+        t.image.set_pixel(i, 0, {c[0], c[1], c[2], 255});
+        t.image.set_pixel(i, 1, {grey, grey, grey, 255});
+    }
+    return t;
+}
+
+/// How bright a triangle is: two-sided, from 0.35 to 1.
+double brightness(const double* a, const double* b, const double* c, const Vector3& light) {
+    Vector3 u, v;
+    for (std::size_t k = 0; k < 3; ++k) {
+        u[k] = b[k] - a[k];
+        v[k] = c[k] - a[k];
+    }
+    const Vector3 n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    if (!(length > 0)) return 1;
+    return ambient + (1 - ambient) * std::min(1.0, std::abs(n[0] * light[0] + n[1] * light[1] + n[2] * light[2]) / length);
+}
+
+/// From the upper left behind the viewer.
+Vector3 light_of(const ViewAxes& axes) {
+    Vector3 light;
+    for (std::size_t k = 0; k < 3; ++k) light[k] = axes.towards[k] + 0.5 * axes.up[k] - 0.4 * axes.right[k];
+    const double length = std::sqrt(light[0] * light[0] + light[1] * light[1] + light[2] * light[2]);
+    for (double& x : light) x /= length;
+    return light;
+}
+
+Result<Matrix4> camera_of(const std::vector<double>& points, const SurfaceView& s, const ViewOptions& o, std::int32_t width) {
+    const double aspect = 1.0 * width / o.size.height;
+    return s.dimension == 2 ? fitting_map(points, aspect) : fitting_camera(points, view_axes(o.azimuth, o.elevation), aspect);
+}
+
+/// The points that triangles use: the others are no part of the picture.
+std::vector<double> used_points(const SurfaceView& s) {
+    const auto d = static_cast<std::size_t>(s.dimension);
+    std::vector<double> used;
+    used.reserve(s.triangles.size() * d);
+    for (const std::int32_t i : s.triangles) {
+        const double* const p = s.points.data() + d * static_cast<std::size_t>(i);
+        used.insert(used.end(), p, p + d);
+    }
+    return used;
+}
+
+/// The scene in a window that is `width` pixels wide.
+Result<Scene> scene_of(const SurfaceView& s, const ViewOptions& o, std::int32_t width, const ValueScale& scale,
+                       std::uint64_t& without_value) {
+    Scene scene;
+    scene.size = {width, o.size.height};
+    scene.background = o.background;
+    scene.method = o.method;
+    scene.rounding = o.rounding;
+    // Three vertices of its own for each triangle, for each has its own light.
+    const std::vector<double> points = normalised_points(used_points(s), s.dimension);
+    const Result<Matrix4> camera = camera_of(points, s, o, width);
+    if (!camera) return camera.error();
+    scene.to_clip = *camera;
+    const Vector3 light = light_of(view_axes(o.azimuth, o.elevation));
+    const bool values = has_values(s);
+    if (values) scene.texture = colour_texture();
+    for (std::size_t t = 0; t < s.triangles.size(); t += 3) {
+        const double* const p = points.data() + 3 * t;
+        const double shade = s.dimension == 2 ? 1 : brightness(p, p + 3, p + 6, light);
+        const bool finite = values && std::isfinite(value_at(s, t)) && std::isfinite(value_at(s, t + 1)) &&
+                            std::isfinite(value_at(s, t + 2));
+        without_value += static_cast<std::uint64_t>(values && !finite);
+        for (std::size_t c = 0; c < 3; ++c) {
+            scene.positions.insert(scene.positions.end(), {p[3 * c], p[3 * c + 1], p[3 * c + 2], 1});
+            scene.triangles.push_back(static_cast<std::int32_t>(t + c));
+            const double level = values ? shade : shade * (grey / 255.0);
+            scene.colours.insert(scene.colours.end(), {level, level, level});
+            if (!values) continue;
+            scene.texture_coordinates.push_back(finite ? scale(value_at(s, t + c)) : 0);
+            scene.texture_coordinates.push_back(finite ? 0.25 : 0.75);
+        }
+    }
+    return scene;
+}
+
+}  // namespace
+}  // namespace raster
+
+Result<Scene> surface_scene(const SurfaceView& surface, const ViewOptions& options, ViewCounts* counts) {
+    const ExactEnvironment environment;
+    if (Status good = raster::check(surface, options); !good) return good.error();
+    const raster::ValueScale scale(surface, options);
+    std::uint64_t without_value = 0;
+    Result<Scene> scene = raster::scene_of(surface, options, options.size.width, scale, without_value);
+    if (scene && counts != nullptr) *counts = {{}, scale.low, scale.high, without_value};
+    return scene;
+}
+
+Result<Image> draw_surface(const SurfaceView& surface, const ViewOptions& options, ViewCounts* counts) {
+    const ExactEnvironment environment;
+    if (Status good = raster::check(surface, options); !good) return good.error();
+    const raster::ValueScale scale(surface, options);
+    const bool with_bar = options.bar && scale.known();
+    const auto height = static_cast<std::size_t>(options.size.height);
+    const io::ColourBar bar(scale.low, scale.high, std::max(height, io::min_bar_height));
+    const auto bar_width = static_cast<std::int32_t>(with_bar ? bar.width() : 0);
+    if (with_bar && (height < io::min_bar_height || bar_width >= options.size.width)) {
+        return raster::refusal("there is no room for the colour bar",
+                               "more than " + std::to_string(bar_width) + " by " + std::to_string(io::min_bar_height - 1) + " pixels",
+                               std::to_string(options.size.width) + " by " + std::to_string(options.size.height));
+    }
+    ViewCounts told{{}, scale.low, scale.high, 0};
+    const Result<Scene> scene =
+        raster::scene_of(surface, options, options.size.width - bar_width, scale, told.without_value);
+    if (!scene) return scene.error();
+    Result<Image> drawn = render(*scene, &told.render);
+    if (!drawn) return drawn;
+    if (counts != nullptr) *counts = told;
+    if (!with_bar) return drawn;
+    Result<Image> whole = blank_image(options.size.width, options.size.height, options.background);
+    if (!whole) return whole;
+    for (std::int32_t j = 0; j < options.size.height; ++j) {
+        std::copy_n(drawn->data.data() + drawn->offset(0, j), drawn->offset(0, 1), whole->data.data() + whole->offset(0, j));
+        bar.row(height - 1 - static_cast<std::size_t>(j), whole->data.data() + whole->offset(drawn->width, j));
+    }
+    return whole;
+}
+
+}  // namespace barycert
