@@ -41,6 +41,7 @@ set(room_of_audit audit)
 set(room_of_audit_families audit)
 set(room_of_audit_findings audit)
 set(room_of_audit_witness audit)
+set(room_of_raster raster)
 set(room_of_report report)
 set(room_of_audit_report report)
 
