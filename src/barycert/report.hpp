@@ -1,4 +1,4 @@
-/// What a check and a sampling found, as text, JSON, HTML and pictures. Strings come back; only write_png writes a
+/// What a check, a sampling and a picture found, as text, JSON, HTML and pictures. Strings come back; only write_png writes a
 /// file.
 #pragma once
 
@@ -13,6 +13,7 @@
 #include "barycert/check.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/pipeline.hpp"
+#include "barycert/rendering.hpp"
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
 
@@ -70,5 +71,14 @@ std::string sample_text(const SampleSummary& summary, bool colour);
 inline constexpr int sample_schema = 1;
 
 std::string sample_json(const SampleSummary& summary, const Environment& environment);
+
+// What a picture shows, for people; and as JSON, whose members are documented in SCHEMA.md beside this file.
+
+/// A few lines of at most 120 columns, names aside.
+std::string render_text(const RenderSummary& summary, bool colour);
+
+inline constexpr int render_schema = 1;
+
+std::string render_json(const RenderSummary& summary, const Environment& environment);
 
 }  // namespace barycert

@@ -3,52 +3,16 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <charconv>
 #include <memory>
-#include <optional>
-#include <string_view>
-#include <vector>
 
-#include "barycert/base/text.hpp"
 #include "barycert/pipeline.hpp"
 #include "command.hpp"
 #include "files.hpp"
+#include "options.hpp"
 #include "sampling_options.hpp"
 
 namespace barycert::cli {
 namespace {
-
-/// The parts of the text between separators, each read by `read`; throws what the parser of options tells.
-template <class Number, class Read>
-std::vector<Number> numbers_of(const std::string& option, std::string_view text, char separator, Read read,
-                               const char* expected) {
-    std::vector<Number> all;
-    for (std::string_view rest = text;;) {
-        const std::size_t end = rest.find(separator);
-        const std::optional<Number> x = read(rest.substr(0, end));
-        if (!x) throw CLI::ValidationError(option, fmt::format("expected {}, found \"{}\"", expected, text));
-        all.push_back(*x);
-        if (end == std::string_view::npos) return all;
-        rest.remove_prefix(end + 1);
-    }
-}
-
-std::optional<std::int64_t> count_of(std::string_view text) {
-    std::int64_t n = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
-    if (error != std::errc{} || end != text.data() + text.size() || n < 1) return std::nullopt;
-    return n;
-}
-
-std::optional<double> finite(std::string_view text) {
-    const auto x = base::parse_double(text);
-    return x && std::isfinite(*x) ? x : std::nullopt;
-}
-
-std::optional<double> positive(std::string_view text) {
-    const auto x = finite(text);
-    return x && *x > 0 ? x : std::nullopt;
-}
 
 void add_targets(CLI::App& sub, ResampleJob& a) {
     sub.add_option_function<std::string>(

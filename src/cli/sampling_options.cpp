@@ -5,13 +5,13 @@
 #include <CLI/CLI.hpp>
 
 #include <cmath>
-#include <map>
 #include <optional>
 
 #include "barycert/base/text.hpp"
 #include "barycert/report.hpp"
 #include "command.hpp"
 #include "files.hpp"
+#include "options.hpp"
 #include "progress.hpp"
 
 namespace barycert::cli {
@@ -35,14 +35,6 @@ OutsidePolicy policy_of(const std::string& text) {
                                "expected nan, error, fill=NUMBER, nearest, nearest=DISTANCE (at least 0) or "
                                "extrapolate, found \"" +
                                    text + '"');
-}
-
-/// An option of a few words, each of which stands for a value.
-template <class Value>
-void choice_option(CLI::App& sub, const std::string& name, Value& value, const std::map<std::string, Value>& words,
-                   const std::string& type, const std::string& help) {
-    const auto set = [&value, words](const std::string& word) { value = words.at(word); };
-    sub.add_option_function<std::string>(name, set, help)->check(CLI::IsMember(words).description(""))->type_name(type);
 }
 
 FieldFile field_file_of(const std::string& option, FieldFile::Of of, const std::string& text) {

@@ -1,0 +1,33 @@
+#include "options.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "barycert/base/text.hpp"
+
+namespace barycert::cli {
+
+void refuse_option(const std::string& option, const std::string& expected, std::string_view found) {
+    throw CLI::ValidationError(option, fmt::format("expected {}, found \"{}\"", expected, found));
+}
+
+std::optional<std::int64_t> count_of(std::string_view text) {
+    std::int64_t n = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
+    if (error != std::errc{} || end != text.data() + text.size() || n < 1) return std::nullopt;
+    return n;
+}
+
+std::optional<double> finite(std::string_view text) {
+    const auto x = base::parse_double(text);
+    return x && std::isfinite(*x) ? x : std::nullopt;
+}
+
+std::optional<double> positive(std::string_view text) {
+    const auto x = finite(text);
+    return x && *x > 0 ? x : std::nullopt;
+}
+
+}  // namespace barycert::cli

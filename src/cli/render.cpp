@@ -1,0 +1,47 @@
+// barycert render: pictures from triangles. One picture a source; a scene from a file here.
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+#include "command.hpp"
+#include "files.hpp"
+#include "render_options.hpp"
+
+namespace barycert::cli {
+namespace {
+
+int run_scene_file(const std::string& path, const PictureOptions& o) {
+    if (path.empty() || o.output.empty())
+        return fail({.what = path.empty() ? "nothing to draw" : "no file for the picture",
+                     .expected = path.empty() ? "a scene file (.json), or the name of a picture" : "--output FILE.png",
+                     .remedy = "`barycert render --help` lists the pictures"});
+    std::vector<base::NamedFile> inputs{{"the scene", path}};
+    for (base::NamedFile& file : base::named_files("an image of the scene", scene_files(path))) inputs.push_back(std::move(file));
+    return run_scene(o, "scene", inputs, [&] { return read_scene(path); });
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, int& exit_code) {
+    auto* sub = app.add_subcommand("render", "Draw triangles: a scene, a mesh, and pictures that show how it is done");
+    sub->footer(
+        "`barycert render SCENE.json --output FILE.png` draws a scene; doc/rendering.md describes its file. Coverage is\n"
+        "exact: a pixel belongs to the triangle that holds its centre, and on a common side to one of both triangles.\n"
+        "`barycert render PICTURE --help` explains each picture. Exit codes: 0 done, 2 usage or input error.");
+    const auto path = std::make_shared<std::string>();
+    const auto o = std::make_shared<PictureOptions>();
+    file_option(*sub, "SCENE", *path, "A scene (.json)");
+    add_picture_options(*sub, *o, false);
+    sub->require_subcommand(0, 1);
+    add_render_gradient(*sub, exit_code);
+    add_render_texture(*sub, exit_code);
+    add_render_cube(*sub, exit_code);
+    add_render_clip(*sub, exit_code);
+    add_render_mesh(*sub, exit_code);
+    sub->callback([=, &exit_code] {
+        if (sub->get_subcommands().empty()) exit_code = run_scene_file(*path, *o);
+    });
+}
+
+}  // namespace barycert::cli

@@ -1,0 +1,81 @@
+// barycert render mesh: the boundary of a mesh, lit, coloured by a field.
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+#include "barycert/io.hpp"
+#include "files.hpp"
+#include "options.hpp"
+#include "progress.hpp"
+#include "command.hpp"
+#include "render_options.hpp"
+
+namespace barycert::cli {
+namespace {
+
+struct MeshPicture {
+    PictureOptions files;
+    MeshPictureJob job;
+    bool no_bar = false;
+};
+
+Result<RenderSummary> draw_mesh(MeshPicture& p) {
+    Progress progress(!p.files.quiet && stderr_is_terminal());
+    progress.stage("reading " + p.job.mesh);
+    p.job.output = p.files.output;
+    p.job.view.bar = !p.no_bar;
+    return render_mesh_file(p.job);
+}
+
+}  // namespace
+
+void add_render_mesh(CLI::App& render, int& exit_code) {
+    auto* sub = render.add_subcommand("mesh", "The boundary of a mesh, lit, in the colours of a field");
+    sub->footer(
+        "Triangles in the plane are drawn from above. Colours go from dark violet (low) to light yellow (high); grey: no\n"
+        "finite value. Second-order cells are drawn with straight sides.");
+    const auto p = std::make_shared<MeshPicture>();
+    file_option(*sub, "MESH", p->job.mesh, "A TetGen mesh (.node/.ele; Triangle's for 2D), or a VTK file (.vtu .vtk)")
+        ->required();
+    sub->add_option("--field", p->job.field,
+                    "The field: A, point:A or cell:A; A.1 is its component 1; default: none, the mesh is grey")
+        ->type_name("NAME");
+    sub->add_option_function<std::string>(
+           "--value-range",
+           [p](const std::string& text) {
+               constexpr const char* expected = "MIN,MAX, finite numbers, MIN < MAX";
+               const auto ends = numbers_of<double>("--value-range", text, ',', finite, expected);
+               if (ends.size() != 2 || !(ends[0] < ends[1])) refuse_option("--value-range", expected, text);
+               p->job.view.range = {ends[0], ends[1]};
+           },
+           "The values of the first and the last colour; default: min and max of the values drawn")
+        ->type_name("MIN,MAX");
+    const auto angle = [&](const char* name, double& degrees, const char* help) {
+        sub->add_option_function<std::string>(
+               name,
+               [name, &degrees](const std::string& text) {
+                   const auto x = finite(text);
+                   if (!x) refuse_option(name, "degrees, a finite number", text);
+                   degrees = *x;
+               },
+               help)
+            ->type_name("DEGREES");
+    };
+    angle("--azimuth", p->job.view.azimuth, "Where the camera stands, from the x axis towards the y axis; default: 30");
+    angle("--elevation", p->job.view.elevation, "How far above the xy plane; default: 25");
+    sub->add_flag("--no-bar", p->no_bar, "Draw no colour bar");
+    add_picture_options(*sub, p->files);
+    add_size_option(*sub, p->job.view.size);
+    add_method_options(*sub, p->job.view.method, p->job.view.rounding);
+    sub->add_option("--threads", p->job.threads, "Number of threads; 0: all")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 4096).description(""))
+        ->type_name("N");
+    sub->callback([=, &exit_code] {
+        const auto inputs = base::named_files("the mesh", mesh_files(p->job.mesh));
+        exit_code = run_picture(p->files, inputs, [&] { return draw_mesh(*p); });
+    });
+}
+
+}  // namespace barycert::cli
