@@ -5,7 +5,8 @@
 ///
 /// Laws (each is a test of that name in tests/raster):
 ///   C1  Which part lies inside is decided exactly, for any finite numbers.
-///   C2  Every number of a new vertex is the exact one rounded to nearest, ties to even: the exact one of the segment or
+///   C2  Every number of a new vertex is the exact one rounded to nearest, ties to even: the exact one of the segment
+///   or
 ///       triangle that was given, however many bounds have cut it. An exact zero is +0. Vertices that stay keep their
 ///       bits.
 ///   C3  The end of an edge has the same bits for both triangles that share the edge, in whatever order they name its
@@ -13,8 +14,8 @@
 ///   C4  What was clipped by a box or the clip volume lies in it, rounded as it is: clipping it again changes nothing.
 ///   D1  Answers depend on the numbers alone, not on the machine nor (D2) on the floating-point environment.
 ///
-/// Why C4: rounding to nearest is monotonic and commutes with the sign. A new vertex lies exactly in the volume, so that
-/// x <= w exactly, hence x <= w rounded; and where x = w exactly, both are rounded to the same number.
+/// Why C4: rounding to nearest is monotonic and commutes with the sign. A new vertex lies exactly in the volume, so
+/// that x <= w exactly, hence x <= w rounded; and where x = w exactly, both are rounded to the same number.
 ///
 /// Not promised: that a new vertex, rounded, lies on the line of its edge, or in an oblique half-space.
 #pragma once
@@ -40,14 +41,14 @@ struct ClipBox {
 };
 
 struct ClippedSegment {
-    bool empty = true;             ///< nothing lies inside; a and b are empty
+    bool empty = true;                  ///< nothing lies inside; a and b are empty
     bool new_a = false, new_b = false;  ///< a bound has cut: that end is a new vertex
-    std::vector<double> a, b;      ///< the ends of what lies inside, in the order of the segment; equal if that is a point
+    std::vector<double> a, b;  ///< the ends of what lies inside, in the order of the segment; equal if that is a point
 };
 
-/// Clips the segment from a to b, each a row of `dimension` coordinates (1 to 3) and any attributes. What lies on a bound
-/// is inside. Returns an Error if the rows differ in length or are shorter than the dimension, or a number is not finite
-/// (bounds of a box may be infinite).
+/// Clips the segment from a to b, each a row of `dimension` coordinates (1 to 3) and any attributes. What lies on a
+/// bound is inside. Returns an Error if the rows differ in length or are shorter than the dimension, or a number is not
+/// finite (bounds of a box may be infinite).
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
                                     const HalfSpace& bound);
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,

@@ -18,8 +18,8 @@ struct ColourRange {
     std::uint64_t without_value = 0;  ///< triangles, drawn in grey
 };
 
-/// The largest difference of an interpolated texture coordinate from the correctly rounded perspective-correct one, over
-/// all pixels, and where.
+/// The largest difference of an interpolated texture coordinate from the correctly rounded perspective-correct one,
+/// over all pixels, and where.
 struct TexelError {
     double texels = 0;
     std::int32_t column = 0, row = 0;  ///< row counted from the bottom
@@ -49,8 +49,9 @@ struct MeshPictureJob {
     int threads = 0;  ///< 0: as many as the machine has
 };
 
-/// Draws facets that one cell alone has; their colours are those of nodes, or of that cell. Returns an Error if the mesh
-/// cannot be read, has no such field or component or no cells, as draw_surface does, or if the file cannot be written.
+/// Draws facets that one cell alone has; their colours are those of nodes, or of that cell. Returns an Error if the
+/// mesh cannot be read, has no such field or component or no cells, as draw_surface does, or if the file cannot be
+/// written.
 Result<RenderSummary> render_mesh_file(const MeshPictureJob& job);
 
 }  // namespace barycert

@@ -1,5 +1,5 @@
-/// What a check, a sampling and a picture found, as text, JSON, HTML and pictures. Strings come back; only write_png writes a
-/// file.
+/// What a check, a sampling and a picture found, as text, JSON, HTML and pictures. Strings come back; only write_png
+/// writes a file.
 #pragma once
 
 #include <cstddef>

@@ -1,15 +1,17 @@
 /// From vertices to pixels: triangles with attributes, cameras, textures, a picture.
 ///
-/// The way of a triangle: object coordinates -> clip space (one matrix) -> clipped to -w <= x, y, z <= w -> divided by w
+/// The way of a triangle: object coordinates -> clip space (one matrix) -> clipped to -w <= x, y, z <= w -> divided by
+/// w
 /// -> window -> the pixels whose centres it covers (raster.hpp, R1) -> of several triangles at a pixel the one with the
 /// lowest depth, of equal ones the first -> the attributes there -> colour.
 ///
-/// Conventions, those of OpenGL: clip space is left-handed, z/w = -1 is the near end and 1 the far end; x = -w, y = -w is
-/// the lower left corner of the window; matrices act on columns. Depths are z/w, interpolated linearly in the window.
+/// Conventions, those of OpenGL: clip space is left-handed, z/w = -1 is the near end and 1 the far end; x = -w, y = -w
+/// is the lower left corner of the window; matrices act on columns. Depths are z/w, interpolated linearly in the
+/// window.
 ///
-/// A colour is three numbers from 0 to 1 in sRGB as it is stored, and is interpolated so; below 0 and above 1 it is drawn
-/// as these. A texture's colour is multiplied by the vertices' colour if there are both. Nothing is blended: a pixel takes
-/// over the opacity of its texel.
+/// A colour is three numbers from 0 to 1 in sRGB as it is stored, and is interpolated so; below 0 and above 1 it is
+/// drawn as these. A texture's colour is multiplied by the vertices' colour if there are both. Nothing is blended: a
+/// pixel takes over the opacity of its texel.
 #pragma once
 
 #include <array>
@@ -37,15 +39,15 @@ struct Matrix4 {
     friend bool operator==(const Matrix4&, const Matrix4&) = default;
 };
 
-// Cameras. Numbers that are not finite, or that give no camera, are an Error; so are matrices that overflow. Tangent and
-// sine are those of the C library: matrices may differ in their last bits from machine to machine.
+// Cameras. Numbers that are not finite, or that give no camera, are an Error; so are matrices that overflow. Tangent
+// and sine are those of the C library: matrices may differ in their last bits from machine to machine.
 
 /// From the world to the eye: x to the right, y up, looking along -z. Error: eye and centre, or up and the direction of
 /// sight, give no direction.
 Result<Matrix4> look_at(const Vector3& eye, const Vector3& centre, const Vector3& up);
 
-/// From the eye to clip space: `fovy` in degrees is the angle of sight from the lower to the upper rim, above 0 and below
-/// 180; aspect is width / height; 0 < near < far are distances along the direction of sight.
+/// From the eye to clip space: `fovy` in degrees is the angle of sight from the lower to the upper rim, above 0 and
+/// below 180; aspect is width / height; 0 < near < far are distances along the direction of sight.
 Result<Matrix4> perspective(double fovy, double aspect, double near, double far);
 
 /// The box left <= x <= right, bottom <= y <= top, near <= -z <= far, each pair of different numbers.
@@ -72,17 +74,18 @@ struct Scene {
     RasterSize size;
     Rgba background{255, 255, 255, 255};
 
-    std::vector<double> positions;                ///< x, y, z, w of each vertex; w is 1 for a point
-    std::vector<double> colours;                  ///< red, green, blue of each vertex, or empty
-    std::vector<double> texture_coordinates;      ///< u, v of each vertex, or empty
-    std::vector<std::int32_t> triangles;          ///< three vertices each
-    Matrix4 to_clip;                              ///< projection * view * model
-    std::optional<Texture> texture;               ///< needs texture_coordinates
+    std::vector<double> positions;            ///< x, y, z, w of each vertex; w is 1 for a point
+    std::vector<double> colours;              ///< red, green, blue of each vertex, or empty
+    std::vector<double> texture_coordinates;  ///< u, v of each vertex, or empty
+    std::vector<std::int32_t> triangles;      ///< three vertices each
+    Matrix4 to_clip;                          ///< projection * view * model
+    std::optional<Texture> texture;           ///< needs texture_coordinates
     FillMethod method = FillMethod::barycentric;
     Interpolation interpolation = Interpolation::perspective;
 
-    /// `correct`: positions in clip space, window coordinates, depths and attributes are each the exact function of what
-    /// they are computed from, rounded once. With FillMethod::barycentric, and not with Interpolation::projected_z.
+    /// `correct`: positions in clip space, window coordinates, depths and attributes are each the exact function of
+    /// what they are computed from, rounded once. With FillMethod::barycentric, and not with
+    /// Interpolation::projected_z.
     Rounding rounding = Rounding::plain;
 };
 

@@ -1,7 +1,7 @@
 /// Pictures of pixels, their PNG files, and textures.
 ///
-/// A pixel is red, green, blue and opacity of 8 bits each, in sRGB, not multiplied by the opacity. Rows go upwards: row 0
-/// is the lowest, as in raster.hpp and as v does. Files have their rows from the top: reading and writing turn them.
+/// A pixel is red, green, blue and opacity of 8 bits each, in sRGB, not multiplied by the opacity. Rows go upwards: row
+/// 0 is the lowest, as in raster.hpp and as v does. Files have their rows from the top: reading and writing turn them.
 #pragma once
 
 #include <array>
@@ -45,10 +45,10 @@ Result<Image> blank_image(std::int32_t width, std::int32_t height, Rgba colour);
 /// Returns an Error if a side is less than 1, there are too many pixels, or `data` has not four bytes for each.
 Status check_image(const Image& image);
 
-/// Reads a PNG file of any colour type, depth and interlacing as 8-bit RGBA: 16 bits are rounded to 8, greys and palettes
-/// become colours, a pixel without opacity is opaque. Numbers are taken as they are, whatever gamma or profile the file
-/// names. Returns an Error if the file cannot be read, is no PNG file, is damaged or cut short, or has more than
-/// max_image_pixels: memory is bounded by these, whatever the file says.
+/// Reads a PNG file of any colour type, depth and interlacing as 8-bit RGBA: 16 bits are rounded to 8, greys and
+/// palettes become colours, a pixel without opacity is opaque. Numbers are taken as they are, whatever gamma or profile
+/// the file names. Returns an Error if the file cannot be read, is no PNG file, is damaged or cut short, or has more
+/// than max_image_pixels: memory is bounded by these, whatever the file says.
 Result<Image> read_png(const std::string& path);
 
 /// Writes 8-bit RGBA in sRGB; the file appears whole or not at all. Returns an Error as check_image does, if a side is
@@ -76,8 +76,8 @@ struct Texture {
 /// The colour at (u, v): u runs along the width, v along the height, (0, 0) is the lower left corner of the picture and
 /// (1, 1) the upper right one. Requires an image that check_image accepts.
 ///
-/// Any doubles are safe: no texel outside the image is read, at u = 1 and v = 1 neither. NaN counts as 0; infinity as the
-/// rim it lies beyond, with repeat and mirror as 0.
+/// Any doubles are safe: no texel outside the image is read, at u = 1 and v = 1 neither. NaN counts as 0; infinity as
+/// the rim it lies beyond, with repeat and mirror as 0.
 ///
 /// Filter::nearest is exact: texel i holds i <= u * width < i + 1, for the product without rounding. Texels are half
 /// open, so that u = 1 is the last texel with clamp and mirror, and the first with repeat.
@@ -88,8 +88,8 @@ Rgba texel(const Texture& texture, double u, double v);
 /// A picture of 2 by 2 texels: below red and green, above blue and yellow.
 Image four_colours();
 
-/// A chequered picture of cells * cells squares, each of texels * texels texels, dark at the lower left. Returns an Error
-/// if a number is less than 1 or the picture would have too many pixels.
+/// A chequered picture of cells * cells squares, each of texels * texels texels, dark at the lower left. Returns an
+/// Error if a number is less than 1 or the picture would have too many pixels.
 Result<Image> checkerboard(std::int32_t cells, std::int32_t texels);
 
 }  // namespace barycert

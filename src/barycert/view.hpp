@@ -18,19 +18,19 @@ namespace barycert {
 
 /// Triangles, by their points: in space, or in the plane (then they are drawn from above, without light).
 struct SurfaceView {
-    int dimension = 3;                              ///< 3, or 2: coordinates a point
-    std::span<const double> points = {};            ///< finite, in any unit
-    std::span<const std::int32_t> triangles = {};   ///< three points each
-    std::span<const double> point_values = {};      ///< one a point, or ...
-    std::span<const double> triangle_values = {};   ///< ... one a triangle, or neither: grey. NaN or infinite: none
+    int dimension = 3;                             ///< 3, or 2: coordinates a point
+    std::span<const double> points = {};           ///< finite, in any unit
+    std::span<const std::int32_t> triangles = {};  ///< three points each
+    std::span<const double> point_values = {};     ///< one a point, or ...
+    std::span<const double> triangle_values = {};  ///< ... one a triangle, or neither: grey. NaN or infinite: none
 };
 
 struct ViewOptions {
     RasterSize size{800, 600};  ///< of the whole picture
     Rgba background{255, 255, 255, 255};
 
-    /// Where the camera stands, in degrees: azimuth from the x axis towards the y axis, elevation above the xy plane. The z
-    /// axis points up in the picture. Not for the plane.
+    /// Where the camera stands, in degrees: azimuth from the x axis towards the y axis, elevation above the xy plane.
+    /// The z axis points up in the picture. Not for the plane.
     double azimuth = 30, elevation = 25;
 
     /// The values of the first and the last colour; without it, the least and the greatest of the values.

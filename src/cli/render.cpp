@@ -17,7 +17,8 @@ int run_scene_file(const std::string& path, const PictureOptions& o) {
                      .expected = path.empty() ? "a scene file (.json), or the name of a picture" : "--output FILE.png",
                      .remedy = "`barycert render --help` lists the pictures"});
     std::vector<base::NamedFile> inputs{{"the scene", path}};
-    for (base::NamedFile& file : base::named_files("an image of the scene", scene_files(path))) inputs.push_back(std::move(file));
+    for (base::NamedFile& file : base::named_files("an image of the scene", scene_files(path)))
+        inputs.push_back(std::move(file));
     return run_scene(o, "scene", inputs, [&] { return read_scene(path); });
 }
 
@@ -26,7 +27,8 @@ int run_scene_file(const std::string& path, const PictureOptions& o) {
 void add_render(CLI::App& app, int& exit_code) {
     auto* sub = app.add_subcommand("render", "Draw triangles: a scene, a mesh, and pictures that show how it is done");
     sub->footer(
-        "`barycert render SCENE.json --output FILE.png` draws a scene; doc/rendering.md describes its file. Coverage is\n"
+        "`barycert render SCENE.json --output FILE.png` draws a scene; doc/rendering.md describes its file. Coverage "
+        "is\n"
         "exact: a pixel belongs to the triangle that holds its centre, and on a common side to one of both triangles.\n"
         "`barycert render PICTURE --help` explains each picture. Exit codes: 0 done, 2 usage or input error.");
     const auto path = std::make_shared<std::string>();

@@ -121,7 +121,8 @@ Result<Scene> clip_scene(const ClipPicture& p) {
 }  // namespace
 
 void add_render_clip(CLI::App& render, int& exit_code) {
-    auto* sub = render.add_subcommand("clip", "A triangle and segments with colours, before and after clipping by a box");
+    auto* sub =
+        render.add_subcommand("clip", "A triangle and segments with colours, before and after clipping by a box");
     const auto p = std::make_shared<ClipPicture>();
     add_picture_options(*sub, p->files);
     add_size_option(*sub, p->size);

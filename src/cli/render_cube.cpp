@@ -92,15 +92,17 @@ Result<RenderSummary> draw_cube(const CubePicture& p) {
 
 void add_render_cube(CLI::App& render, int& exit_code) {
     auto* sub = render.add_subcommand(
-        "cube", "A checkerboard on the faces of a cube in perspective, and the largest error of its texture coordinates");
+        "cube",
+        "A checkerboard on the faces of a cube in perspective, and the largest error of its texture coordinates");
     const auto p = std::make_shared<CubePicture>();
-    choice_option<Interpolation>(*sub, "--interpolation", p->interpolation,
-                                 {{"perspective", Interpolation::perspective},
-                                  {"affine", Interpolation::affine},
-                                  {"projected-z", Interpolation::projected_z}},
-                                 "perspective|affine|projected-z",
-                                 "Of texture coordinates in the window: (v/w)/(1/w) (default); v itself, which is wrong; with "
-                                 "the projected z in place of w, which is wrong as well");
+    choice_option<Interpolation>(
+        *sub, "--interpolation", p->interpolation,
+        {{"perspective", Interpolation::perspective},
+         {"affine", Interpolation::affine},
+         {"projected-z", Interpolation::projected_z}},
+        "perspective|affine|projected-z",
+        "Of texture coordinates in the window: (v/w)/(1/w) (default); v itself, which is wrong; with "
+        "the projected z in place of w, which is wrong as well");
     add_picture_options(*sub, p->files);
     add_size_option(*sub, p->size);
     add_method_options(*sub, p->method, p->rounding);

@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "barycert/io.hpp"
+#include "command.hpp"
 #include "files.hpp"
 #include "options.hpp"
 #include "progress.hpp"
-#include "command.hpp"
 #include "render_options.hpp"
 
 namespace barycert::cli {
@@ -33,7 +33,8 @@ Result<RenderSummary> draw_mesh(MeshPicture& p) {
 void add_render_mesh(CLI::App& render, int& exit_code) {
     auto* sub = render.add_subcommand("mesh", "The boundary of a mesh, lit, in the colours of a field");
     sub->footer(
-        "Triangles in the plane are drawn from above. Colours go from dark violet (low) to light yellow (high); grey: no\n"
+        "Triangles in the plane are drawn from above. Colours go from dark violet (low) to light yellow (high); grey: "
+        "no\n"
         "finite value. Second-order cells are drawn with straight sides.");
     const auto p = std::make_shared<MeshPicture>();
     file_option(*sub, "MESH", p->job.mesh, "A TetGen mesh (.node/.ele; Triangle's for 2D), or a VTK file (.vtu .vtk)")

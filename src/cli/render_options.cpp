@@ -48,9 +48,11 @@ void add_size_option(CLI::App& sub, RasterSize& size) {
     sub.add_option_function<std::string>(
            "--size",
            [&size](const std::string& text) {
-               const std::string expected = "width and height in pixels, 1 to " + std::to_string(max_raster_side) + ", such as 640x480";
+               const std::string expected =
+                   "width and height in pixels, 1 to " + std::to_string(max_raster_side) + ", such as 640x480";
                const auto sides = numbers_of<std::int64_t>("--size", text, 'x', count_of, expected.c_str());
-               if (sides.size() != 2 || std::max(sides[0], sides[1]) > max_raster_side) refuse_option("--size", expected, text);
+               if (sides.size() != 2 || std::max(sides[0], sides[1]) > max_raster_side)
+                   refuse_option("--size", expected, text);
                size = {static_cast<std::int32_t>(sides[0]), static_cast<std::int32_t>(sides[1])};
            },
            "Width and height in pixels; default: " + std::to_string(size.width) + 'x' + std::to_string(size.height))
@@ -58,15 +60,17 @@ void add_size_option(CLI::App& sub, RasterSize& size) {
 }
 
 void add_method_options(CLI::App& sub, FillMethod& method, Rounding& rounding) {
-    choice_option<FillMethod>(sub, "--method", method,
-                              {{"barycentric", FillMethod::barycentric},
-                               {"scanline", FillMethod::scanline},
-                               {"bilinear", FillMethod::bilinear}},
-                              "barycentric|scanline|bilinear",
-                              "How values are found at pixels: by the weights at each (default); by constant steps; along "
-                              "auxiliary lines");
+    choice_option<FillMethod>(
+        sub, "--method", method,
+        {{"barycentric", FillMethod::barycentric},
+         {"scanline", FillMethod::scanline},
+         {"bilinear", FillMethod::bilinear}},
+        "barycentric|scanline|bilinear",
+        "How values are found at pixels: by the weights at each (default); by constant steps; along "
+        "auxiliary lines");
     choice_option<Rounding>(sub, "--rounding", rounding, {{"correct", Rounding::correct}, {"plain", Rounding::plain}},
-                            "correct|plain", "plain: computed in double (default); correct: the exact values, rounded once");
+                            "correct|plain",
+                            "plain: computed in double (default); correct: the exact values, rounded once");
 }
 
 int run_picture(const PictureOptions& o, const std::vector<base::NamedFile>& inputs,

@@ -89,7 +89,8 @@ void add_render_texture(CLI::App& render, int& exit_code) {
                         "What it is put on; default: square");
     choice_option<Wrap>(*sub, "--wrap", p->wrap,
                         {{"clamp", Wrap::clamp}, {"repeat", Wrap::repeat}, {"mirror", Wrap::mirror}},
-                        "clamp|repeat|mirror", "What is beyond the picture: its rim (default), the picture again, or again "
+                        "clamp|repeat|mirror",
+                        "What is beyond the picture: its rim (default), the picture again, or again "
                         "and every other time reversed");
     choice_option<Filter>(*sub, "--filter", p->filter, {{"nearest", Filter::nearest}, {"bilinear", Filter::bilinear}},
                           "nearest|bilinear", "The texel at a point (default), or between the four around it");
@@ -106,7 +107,8 @@ void add_render_texture(CLI::App& render, int& exit_code) {
         ->type_name("MIN,MAX");
     add_plain_options(*sub, *p);
     sub->callback([=, &exit_code] {
-        const std::vector<base::NamedFile> inputs = p->image.empty() ? std::vector<base::NamedFile>{} : base::named_files("--image", {p->image});
+        const std::vector<base::NamedFile> inputs =
+            p->image.empty() ? std::vector<base::NamedFile>{} : base::named_files("--image", {p->image});
         exit_code = run_scene(p->files, "texture", inputs, [&] { return texture_scene(*p); });
     });
 }

@@ -33,7 +33,9 @@ Rows any_triangle(base::Random& random, std::size_t attributes) {
 
 std::vector<Rows> split(const Rows& polygon, std::size_t row) {
     std::vector<Rows> all;
-    for (std::size_t i = 0; i < polygon.size(); i += row) all.emplace_back(polygon.begin() + static_cast<std::ptrdiff_t>(i), polygon.begin() + static_cast<std::ptrdiff_t>(i + row));
+    for (std::size_t i = 0; i < polygon.size(); i += row)
+        all.emplace_back(polygon.begin() + static_cast<std::ptrdiff_t>(i),
+                         polygon.begin() + static_cast<std::ptrdiff_t>(i + row));
     return all;
 }
 
@@ -49,7 +51,8 @@ TEST(ClipTriangle, C1_C2_AsTheJudgeSays) {
         (clip == Clip::cut ? cut : clip == Clip::outside ? outside : clip == Clip::inside ? inside : eye) += 1;
         if (clip == Clip::at_eye) {
             // Some vertex has a w that is zero, or rounds to it.
-            ASSERT_TRUE(std::any_of(judged.begin(), judged.end(), [](const RationalRow& r) { return is_nearest(0, r[3]); }));
+            ASSERT_TRUE(
+                std::any_of(judged.begin(), judged.end(), [](const RationalRow& r) { return is_nearest(0, r[3]); }));
             continue;
         }
         const std::vector<Rows> vertices = split(polygon, row);

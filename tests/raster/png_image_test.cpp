@@ -56,14 +56,15 @@ Image write_kind(const std::string& path, const Kind& kind, std::int32_t width, 
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png_create_info_struct(png);
     png_init_io(png, file);
-    png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), kind.depth, kind.colour_type,
-                 kind.interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), kind.depth,
+                 kind.colour_type, kind.interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     std::vector<png_color> palette;
     std::vector<png_byte> opacity;
     if (kind.colour_type == PNG_COLOR_TYPE_PALETTE) {
         for (int i = 0; i < 1 << kind.depth; ++i) {
-            palette.push_back({static_cast<png_byte>(7 * i), static_cast<png_byte>(255 - i), static_cast<png_byte>(13 * i)});
+            palette.push_back(
+                {static_cast<png_byte>(7 * i), static_cast<png_byte>(255 - i), static_cast<png_byte>(13 * i)});
             opacity.push_back(static_cast<png_byte>(255 - 3 * i));
         }
         png_set_PLTE(png, info, palette.data(), static_cast<int>(palette.size()));
@@ -86,7 +87,8 @@ Image write_kind(const std::string& path, const Kind& kind, std::int32_t width, 
             }
             Rgba pixel{0, 0, 0, 255};
             if (kind.colour_type == PNG_COLOR_TYPE_PALETTE) {
-                pixel = {palette[s[0]].red, palette[s[0]].green, palette[s[0]].blue, kind.transparent ? opacity[s[0]] : std::uint8_t{255}};
+                pixel = {palette[s[0]].red, palette[s[0]].green, palette[s[0]].blue,
+                         kind.transparent ? opacity[s[0]] : std::uint8_t{255}};
             } else {
                 const bool grey = channels < 3;
                 for (std::size_t c = 0; c < 3; ++c) pixel[c] = to_byte(s[grey ? 0 : c], kind.depth);
@@ -114,7 +116,8 @@ TEST(ReadPng, EveryKind) {
         if (depth <= 8) kinds.push_back({PNG_COLOR_TYPE_PALETTE, depth});
         if (depth <= 8) kinds.push_back({PNG_COLOR_TYPE_PALETTE, depth, false, true});
         if (depth < 8) continue;
-        for (const int type : {PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGBA, PNG_COLOR_TYPE_GRAY_ALPHA}) kinds.push_back({type, depth});
+        for (const int type : {PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGBA, PNG_COLOR_TYPE_GRAY_ALPHA})
+            kinds.push_back({type, depth});
         kinds.push_back({PNG_COLOR_TYPE_RGB, depth, false, true});
     }
     for (Kind kind : kinds) {
@@ -123,7 +126,8 @@ TEST(ReadPng, EveryKind) {
             const Image expected = write_kind(folder / "kind.png", kind, 13, 11);
             const Result<Image> read = read_png(folder / "kind.png");
             ASSERT_TRUE(read) << read.error().message();
-            EXPECT_EQ(*read, expected) << kind.colour_type << ' ' << kind.depth << ' ' << interlaced << kind.transparent;
+            EXPECT_EQ(*read, expected) << kind.colour_type << ' ' << kind.depth << ' ' << interlaced
+                                       << kind.transparent;
         }
     }
 }

@@ -107,7 +107,8 @@ TEST(Texel, NearestIsExact) {
         const double u = place_near_border(random, size);
         for (const Wrap wrap : all_wraps) {
             const Texture t{numbered(size, 1), wrap, Filter::nearest};
-            ASSERT_EQ(texel(t, u, 0.5)[0], judged_texel(u, size, wrap)) << u << ' ' << size << ' ' << static_cast<int>(wrap);
+            ASSERT_EQ(texel(t, u, 0.5)[0], judged_texel(u, size, wrap))
+                << u << ' ' << size << ' ' << static_cast<int>(wrap);
         }
     }
 }

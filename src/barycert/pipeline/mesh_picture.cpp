@@ -41,7 +41,8 @@ Result<ChosenComponent> chosen_field(const Mesh& mesh, const std::string& name) 
     ChosenComponent chosen;
     if (found) {
         if (found->size() != 1)
-            return Error{.what = "more than one field", .expected = "one", .found = base::quoted(name), .remedy = "name one"};
+            return Error{
+                .what = "more than one field", .expected = "one", .found = base::quoted(name), .remedy = "name one"};
         if (const int n = found->front().field->components; n != 1)
             return Error{.what = "the field has several components",
                          .expected = "the name of one: " + name + ".0 to " + name + '.' + std::to_string(n - 1),
@@ -89,7 +90,9 @@ DrawnFacets facets_of(const Mesh& mesh) {
 /// One component of the field, for each node or each triangle.
 std::vector<double> values_of(const ChosenComponent& chosen, const DrawnFacets& drawn) {
     const auto components = static_cast<std::size_t>(chosen.field->components);
-    const auto at = [&](std::size_t i) { return chosen.field->data[i * components + static_cast<std::size_t>(chosen.component)]; };
+    const auto at = [&](std::size_t i) {
+        return chosen.field->data[i * components + static_cast<std::size_t>(chosen.component)];
+    };
     std::vector<double> values;
     if (chosen.of_cells) {
         for (const Mesh::Index cell : drawn.cells) values.push_back(at(static_cast<std::size_t>(cell)));

@@ -111,7 +111,22 @@ Result<Matrix4> perspective(double fovy, double aspect, double near, double far)
                          base::shortest(near) + " and " + base::shortest(far));
     const double scale = 1 / std::tan(fovy * (std::numbers::pi / 360));
     Matrix4 m;
-    m.m = {scale / aspect, 0, 0, 0, 0, scale, 0, 0, 0, 0, (far + near) / (near - far), 2 * far * (near / (near - far)), 0, 0, -1, 0};
+    m.m = {scale / aspect,
+           0,
+           0,
+           0,
+           0,
+           scale,
+           0,
+           0,
+           0,
+           0,
+           (far + near) / (near - far),
+           2 * far * (near / (near - far)),
+           0,
+           0,
+           -1,
+           0};
     return finite_matrix(m, "the perspective");
 }
 
@@ -125,8 +140,8 @@ Result<Matrix4> orthographic(double left, double right, double bottom, double to
     }
     const double width = right - left, height = top - bottom, depth = far - near;
     Matrix4 m;
-    m.m = {2 / width, 0, 0, -(right + left) / width, 0, 2 / height, 0, -(top + bottom) / height, 0, 0, -2 / depth,
-           -(far + near) / depth, 0, 0, 0, 1};
+    m.m = {2 / width, 0, 0,          -(right + left) / width, 0, 2 / height, 0, -(top + bottom) / height,
+           0,         0, -2 / depth, -(far + near) / depth,   0, 0,          0, 1};
     return finite_matrix(m, "the box of sight");
 }
 
@@ -139,10 +154,22 @@ Result<Matrix4> rotation(const Vector3& axis, double degrees) {
     const double angle = std::fmod(degrees, 360) * (std::numbers::pi / 180), c = std::cos(angle), s = std::sin(angle);
     const auto [x, y, z] = *a;
     Matrix4 m;
-    m.m = {c + x * x * (1 - c),     x * y * (1 - c) - z * s, x * z * (1 - c) + y * s, 0,
-           y * x * (1 - c) + z * s, c + y * y * (1 - c),     y * z * (1 - c) - x * s, 0,
-           z * x * (1 - c) - y * s, z * y * (1 - c) + x * s, c + z * z * (1 - c),     0,
-           0,                       0,                       0,                       1};
+    m.m = {c + x * x * (1 - c),
+           x * y * (1 - c) - z * s,
+           x * z * (1 - c) + y * s,
+           0,
+           y * x * (1 - c) + z * s,
+           c + y * y * (1 - c),
+           y * z * (1 - c) - x * s,
+           0,
+           z * x * (1 - c) - y * s,
+           z * y * (1 - c) + x * s,
+           c + z * z * (1 - c),
+           0,
+           0,
+           0,
+           0,
+           1};
     return m;
 }
 
@@ -161,7 +188,8 @@ Matrix4 scaling(const Vector3& by) {
 std::array<double, 2> viewport(RasterSize size, double x, double y, double w, Rounding rounding) {
     const ExactEnvironment environment;
     if (rounding == Rounding::correct) return {exact_window(x, w, size.width), exact_window(y, w, size.height)};
-    return held(std::array<double, 2>{(held(x) / held(w) + 1) * (0.5 * size.width), (held(y) / held(w) + 1) * (0.5 * size.height)});
+    return held(std::array<double, 2>{(held(x) / held(w) + 1) * (0.5 * size.width),
+                                      (held(y) / held(w) + 1) * (0.5 * size.height)});
 }
 
 }  // namespace barycert

@@ -105,10 +105,7 @@ Form distance_form(const Segment& s, const HalfSpace& h) {
 }
 
 Error bad_bound(const std::string& what, const std::string& expected, double found) {
-    return {.what = what,
-            .expected = expected,
-            .found = std::to_string(found),
-            .remedy = "choose another bound"};
+    return {.what = what, .expected = expected, .found = std::to_string(found), .remedy = "choose another bound"};
 }
 
 }  // namespace

@@ -6,10 +6,10 @@
 #include "barycert/environment.hpp"
 #include "barycert/raster/exact_point.hpp"
 
-// Sutherland and Hodgman's way (Reentrant Polygon Clipping, CACM 17, 1974): bound after bound, each taking off what lies
-// beyond it. But polygons are kept as what they are exactly, never as rounded vertices: an edge is the line where a form
-// is zero (one of the triangle's weights, or the distance to a bound that has cut), a new vertex is where two lines meet.
-// Signs of forms at vertices are exact, and rounding is done once, at the end.
+// Sutherland and Hodgman's way (Reentrant Polygon Clipping, CACM 17, 1974): bound after bound, each taking off what
+// lies beyond it. But polygons are kept as what they are exactly, never as rounded vertices: an edge is the line where
+// a form is zero (one of the triangle's weights, or the distance to a bound that has cut), a new vertex is where two
+// lines meet. Signs of forms at vertices are exact, and rounding is done once, at the end.
 
 namespace barycert::raster {
 namespace {

@@ -17,10 +17,10 @@ std::uint8_t byte(double x) {
     return x >= 1 ? 255 : x > 0 ? static_cast<std::uint8_t>(x * 255 + 0.5) : 0;
 }
 
-/// False where plain weights may be off by more than 2^-38. With X and Y the extent of the triangle, a pixel's centre in
-/// it is within X and Y of each vertex, so that the four differences of a signed area are exact or off by half an ulp,
-/// and the area by at most 2 * 3.01 * 2^-53 X Y + 2^-53 X Y < 2^-50 X Y. Twice the triangle's area D is as exact. For
-/// |D| >= 2^-11 X Y the quotient of both is off by less than 2^-50 * 2^11 * 2 + 2^-53 < 2^-37.9.
+/// False where plain weights may be off by more than 2^-38. With X and Y the extent of the triangle, a pixel's centre
+/// in it is within X and Y of each vertex, so that the four differences of a signed area are exact or off by half an
+/// ulp, and the area by at most 2 * 3.01 * 2^-53 X Y + 2^-53 X Y < 2^-50 X Y. Twice the triangle's area D is as exact.
+/// For |D| >= 2^-11 X Y the quotient of both is off by less than 2^-50 * 2^11 * 2 + 2^-53 < 2^-37.9.
 bool thick_enough(const std::array<double, 6>& v) {
     const double area = (v[2] - v[0]) * (v[5] - v[1]) - (v[4] - v[0]) * (v[3] - v[1]);
     const double wide = std::max({v[0], v[2], v[4]}) - std::min({v[0], v[2], v[4]});
@@ -172,7 +172,8 @@ PixelCounts draw_rows(Canvas& canvas, const SortedTriangle& sorted, Rows rows) {
             depth = pixel[0];
             const Rgba colour = canvas.shading.colour(pixel + 1);
             std::copy_n(colour.data(), 4, canvas.image.data.data() + 4 * (begin + i));
-            if (canvas.attributes != nullptr) std::copy_n(pixel + 1, n, canvas.attributes->data.data() + n * (begin + i));
+            if (canvas.attributes != nullptr)
+                std::copy_n(pixel + 1, n, canvas.attributes->data.data() + n * (begin + i));
         }
     });
     return counts;
@@ -186,7 +187,8 @@ Rgba Shading::colour(const double* attributes) const {
     if (texture != nullptr) result = texel(*texture, place[0], place[1]);
     if (!colours) return result;
     for (std::size_t k = 0; k < 3; ++k)
-        result[k] = texture == nullptr ? byte(attributes[k]) : byte(std::clamp(attributes[k], 0.0, 1.0) * (result[k] / 255.0));
+        result[k] =
+            texture == nullptr ? byte(attributes[k]) : byte(std::clamp(attributes[k], 0.0, 1.0) * (result[k] / 255.0));
     return result;
 }
 

@@ -13,8 +13,8 @@ namespace barycert::raster {
 
 /// A triangle within the clip volume, in the window. Numbers are finite, w > 0, the area in the window is not zero.
 struct WindowTriangle {
-    std::array<double, 6> window;        ///< x and y of each vertex
-    std::array<double, 3> z;             ///< z / w, the depth
+    std::array<double, 6> window;  ///< x and y of each vertex
+    std::array<double, 3> z;       ///< z / w, the depth
     std::array<double, 3> w;
     std::span<const double> attributes;  ///< components numbers a vertex: the colour if there is one, u and v likewise
 };
@@ -36,7 +36,7 @@ struct Shading {
 /// What is drawn on.
 struct Canvas {
     Image image;
-    std::vector<double> depth;         ///< of each pixel; infinite where nothing is drawn
+    std::vector<double> depth;          ///< of each pixel; infinite where nothing is drawn
     PixelValues* attributes = nullptr;  ///< if they are wanted
     Shading shading;
 

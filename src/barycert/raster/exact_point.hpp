@@ -1,11 +1,11 @@
 /// Points of a segment or triangle by their exact weights, for clipping.
 ///
-/// Notation. A form h is a number at each vertex, h_i, and so one at each point of the simplex: sum of weight i times h_i;
-/// the distance to a bound, up to a factor. A form is known up to a positive factor, as integers in a unit of its own.
-/// Widths: a distance to a plane x = w or x = min is a difference of doubles, 2099 bits (integer.hpp); that to a
+/// Notation. A form h is a number at each vertex, h_i, and so one at each point of the simplex: sum of weight i times
+/// h_i; the distance to a bound, up to a factor. A form is known up to a positive factor, as integers in a unit of its
+/// own. Widths: a distance to a plane x = w or x = min is a difference of doubles, 2099 bits (integer.hpp); that to a
 /// half-space is a sum of four products of two doubles, 4198 bits. Numerators are such a distance, or in a triangle a
-/// difference of two products of differences, 4199 bits; times a double or a difference, and summed over three vertices,
-/// that is less than 6302 bits, of 14704 that there are.
+/// difference of two products of differences, 4199 bits; times a double or a difference, and summed over three
+/// vertices, that is less than 6302 bits, of 14704 that there are.
 #pragma once
 
 #include <array>

@@ -34,7 +34,8 @@ Result<Image> blank_image(std::int32_t width, std::int32_t height, Rgba colour) 
     if (Status good = check_sides(width, height); !good) return good.error();
     Image image{width, height, {}};
     image.data.resize(image.offset(0, height));
-    for (std::size_t i = 0; i < image.data.size(); i += 4) std::copy_n(colour.begin(), 4, image.data.begin() + static_cast<std::ptrdiff_t>(i));
+    for (std::size_t i = 0; i < image.data.size(); i += 4)
+        std::copy_n(colour.begin(), 4, image.data.begin() + static_cast<std::ptrdiff_t>(i));
     return image;
 }
 
@@ -63,7 +64,8 @@ Result<Image> read_png(const std::string& path) {
 
 Status write_png(const std::string& path, const Image& image) {
     Status good = check_image(image);
-    if (good && std::max<std::size_t>(static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height)) > io::longest_png_side) {
+    if (good && std::max<std::size_t>(static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height)) >
+                    io::longest_png_side) {
         good = Error{.what = "the image is too long for a PNG file",
                      .expected = "at most " + std::to_string(io::longest_png_side) + " pixels a side",
                      .found = by(image.width, image.height),
@@ -79,8 +81,8 @@ Status write_png(const std::string& path, const Image& image) {
         const std::size_t upwards = static_cast<std::size_t>(image.height) - 1 - r;
         std::copy_n(image.data.data() + upwards * row, row, pixels);
     };
-    return io::write_png_rows(path, static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height), copy_row,
-                              io::PngContent::shades);
+    return io::write_png_rows(path, static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height),
+                              copy_row, io::PngContent::shades);
 }
 
 Image four_colours() {

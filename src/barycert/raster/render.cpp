@@ -23,9 +23,9 @@ Status check_finite(const std::vector<double>& numbers, std::size_t per_vertex, 
     const auto bad = std::find_if(numbers.begin(), numbers.end(), [](double x) { return !std::isfinite(x); });
     if (bad == numbers.end()) return Done{};
     const auto i = static_cast<std::size_t>(bad - numbers.begin());
-    return misfit("number " + std::to_string(i % per_vertex) + " of the " + what + " of vertex " +
-                      std::to_string(i / per_vertex),
-                  "a finite number", std::to_string(*bad));
+    return misfit(
+        "number " + std::to_string(i % per_vertex) + " of the " + what + " of vertex " + std::to_string(i / per_vertex),
+        "a finite number", std::to_string(*bad));
 }
 
 /// An array has what it should for each of `vertices`, or nothing if it may.
@@ -57,7 +57,8 @@ Status check(const Scene& s) {
         return misfit("the picture is too large", "at most " + std::to_string(max_image_pixels) + " pixels",
                       std::to_string(s.size.width) + " by " + std::to_string(s.size.height));
     if (s.positions.size() % 4 != 0)
-        return misfit("the positions of the scene", "x, y, z, w of each vertex", std::to_string(s.positions.size()) + " numbers");
+        return misfit("the positions of the scene", "x, y, z, w of each vertex",
+                      std::to_string(s.positions.size()) + " numbers");
     const std::size_t vertices = s.positions.size() / 4;
     if (Status good = check_finite(s.positions, 4, "position"); !good) return good;
     if (!s.colours.empty()) {
@@ -67,7 +68,8 @@ Status check(const Scene& s) {
         if (Status good = check_array(s.texture_coordinates, 2, vertices, "texture coordinate"); !good) return good;
     }
     if (s.triangles.size() % 3 != 0)
-        return misfit("the triangles of the scene", "three vertices each", std::to_string(s.triangles.size()) + " indices");
+        return misfit("the triangles of the scene", "three vertices each",
+                      std::to_string(s.triangles.size()) + " indices");
     for (std::size_t i = 0; i < s.triangles.size(); ++i) {
         if (s.triangles[i] < 0 || static_cast<std::size_t>(s.triangles[i]) >= vertices)
             return misfit("vertex " + std::to_string(i % 3) + " of triangle " + std::to_string(i / 3),
@@ -103,8 +105,8 @@ public:
 
     RenderCounts run() {
         for (std::size_t t = 0; t < scene_.triangles.size(); t += 3) draw(scene_.triangles.data() + t);
-        counts_.pixels = static_cast<std::uint64_t>(std::count_if(
-            canvas_.depth.begin(), canvas_.depth.end(), [](double z) { return z < HUGE_VAL; }));
+        counts_.pixels = static_cast<std::uint64_t>(
+            std::count_if(canvas_.depth.begin(), canvas_.depth.end(), [](double z) { return z < HUGE_VAL; }));
         return counts_;
     }
 
@@ -190,8 +192,12 @@ Result<Image> render(const Scene& scene, RenderCounts* counts, PixelValues* attr
     raster::Canvas canvas;
     canvas.image = std::move(*blank);
     canvas.depth.assign(canvas.image.data.size() / 4, HUGE_VAL);
-    canvas.shading = {!scene.colours.empty(), !scene.texture_coordinates.empty(),
-                      scene.texture ? &*scene.texture : nullptr, scene.method, scene.interpolation, scene.rounding};
+    canvas.shading = {!scene.colours.empty(),
+                      !scene.texture_coordinates.empty(),
+                      scene.texture ? &*scene.texture : nullptr,
+                      scene.method,
+                      scene.interpolation,
+                      scene.rounding};
     if (attributes != nullptr) {
         Result<PixelValues> empty = empty_pixels(scene.size, static_cast<int>(canvas.shading.components()));
         if (!empty) return empty.error();

@@ -104,7 +104,9 @@ Matrix4 camera(const SceneValue& value, RasterSize size) {
         const SceneValue p = value.member("perspective");
         p.allow_only({"fovy", "aspect", "near", "far"});
         const double aspect = p.has("aspect") ? p.member("aspect").number() : 1.0 * size.width / size.height;
-        return checked(p, perspective(p.member("fovy").number(), aspect, p.member("near").number(), p.member("far").number())) * view;
+        return checked(p, perspective(p.member("fovy").number(), aspect, p.member("near").number(),
+                                      p.member("far").number())) *
+               view;
     }
     const SceneValue o = value.member("orthographic");
     o.allow_only({"left", "right", "bottom", "top", "near", "far"});
@@ -142,7 +144,8 @@ Texture texture(const SceneValue& value, const std::filesystem::path& folder) {
         t.wrap = value.member("wrap").choice<Wrap>(
             {{"clamp", Wrap::clamp}, {"repeat", Wrap::repeat}, {"mirror", Wrap::mirror}});
     if (value.has("filter"))
-        t.filter = value.member("filter").choice<Filter>({{"nearest", Filter::nearest}, {"bilinear", Filter::bilinear}});
+        t.filter =
+            value.member("filter").choice<Filter>({{"nearest", Filter::nearest}, {"bilinear", Filter::bilinear}});
     return t;
 }
 
@@ -205,13 +208,13 @@ void read_choices(const SceneValue& file, Scene& scene) {
                                                                  {"scanline", FillMethod::scanline},
                                                                  {"bilinear", FillMethod::bilinear}});
     if (file.has("interpolation"))
-        scene.interpolation =
-            file.member("interpolation").choice<Interpolation>({{"perspective", Interpolation::perspective},
-                                                                {"affine", Interpolation::affine},
-                                                                {"projected-z", Interpolation::projected_z}});
+        scene.interpolation = file.member("interpolation")
+                                  .choice<Interpolation>({{"perspective", Interpolation::perspective},
+                                                          {"affine", Interpolation::affine},
+                                                          {"projected-z", Interpolation::projected_z}});
     if (file.has("rounding"))
-        scene.rounding = file.member("rounding")
-                             .choice<Rounding>({{"plain", Rounding::plain}, {"correct", Rounding::correct}});
+        scene.rounding =
+            file.member("rounding").choice<Rounding>({{"plain", Rounding::plain}, {"correct", Rounding::correct}});
 }
 
 Rgba background(const SceneValue& value) {

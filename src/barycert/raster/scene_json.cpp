@@ -91,7 +91,8 @@ std::int64_t SceneValue::integer(std::int64_t low, std::int64_t high) const {
     const bool unsigned_number = value_.is_number_unsigned();
     if (unsigned_number || value_.is_number_integer()) {
         const bool fits = !unsigned_number || value_.get<std::uint64_t>() <= static_cast<std::uint64_t>(INT64_MAX);
-        if (fits && value_.get<std::int64_t>() >= low && value_.get<std::int64_t>() <= high) return value_.get<std::int64_t>();
+        if (fits && value_.get<std::int64_t>() >= low && value_.get<std::int64_t>() <= high)
+            return value_.get<std::int64_t>();
     }
     fail("an integer from " + std::to_string(low) + " to " + std::to_string(high));
 }

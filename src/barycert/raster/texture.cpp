@@ -12,9 +12,9 @@ namespace {
 /// The greatest integer that is not above u * size, the product taken without rounding. Preconditions: |u| < 2,
 /// 1 <= size <= 2^26, so that all is far from overflow.
 ///
-/// A product that is rounded to a number that is no integer lies between the same integers as the exact one. One that is
-/// rounded to an integer t may have come from below; then u * size - t < 0, a difference that one fused operation tells
-/// rightly: it is rounded once, and not to zero, as it is a multiple of the unit of u.
+/// A product that is rounded to a number that is no integer lies between the same integers as the exact one. One that
+/// is rounded to an integer t may have come from below; then u * size - t < 0, a difference that one fused operation
+/// tells rightly: it is rounded once, and not to zero, as it is a multiple of the unit of u.
 std::int64_t exact_floor(double u, double size) {
     const double t = u * size;
     const double whole = std::floor(t);

@@ -24,7 +24,8 @@ Error refusal(const std::string& what, const std::string& expected, const std::s
 }
 
 Status check_arrays(const SurfaceView& s) {
-    if (s.dimension != 2 && s.dimension != 3) return refusal("dimension of a surface", "2 or 3", std::to_string(s.dimension));
+    if (s.dimension != 2 && s.dimension != 3)
+        return refusal("dimension of a surface", "2 or 3", std::to_string(s.dimension));
     const auto d = static_cast<std::size_t>(s.dimension);
     if (s.points.size() % d != 0 || s.triangles.size() % 3 != 0)
         return refusal("arrays of a surface", std::to_string(d) + " coordinates a point and 3 points a triangle",
@@ -35,7 +36,8 @@ Status check_arrays(const SurfaceView& s) {
         (!s.point_values.empty() && !s.triangle_values.empty()))
         return refusal("values of a surface", "one a point, or one a triangle, or none",
                        std::to_string(s.point_values.size()) + " for " + std::to_string(points) + " points and " +
-                           std::to_string(s.triangle_values.size()) + " for " + std::to_string(triangles) + " triangles");
+                           std::to_string(s.triangle_values.size()) + " for " + std::to_string(triangles) +
+                           " triangles");
     for (std::size_t i = 0; i < s.triangles.size(); ++i) {
         if (s.triangles[i] < 0 || static_cast<std::size_t>(s.triangles[i]) >= points)
             return refusal("corner " + std::to_string(i % 3) + " of triangle " + std::to_string(i / 3),
@@ -43,8 +45,8 @@ Status check_arrays(const SurfaceView& s) {
     }
     for (std::size_t i = 0; i < s.points.size(); ++i) {
         if (!std::isfinite(s.points[i]))
-            return refusal("coordinate " + std::to_string(i % d) + " of point " + std::to_string(i / d), "a finite number",
-                           base::shortest(s.points[i]));
+            return refusal("coordinate " + std::to_string(i % d) + " of point " + std::to_string(i / d),
+                           "a finite number", base::shortest(s.points[i]));
     }
     return Done{};
 }
@@ -55,7 +57,8 @@ Status check(const SurfaceView& s, const ViewOptions& o) {
     for (const double angle : {o.azimuth, o.elevation}) {
         if (!std::isfinite(angle)) return refusal("the place of the camera", "finite angles", base::shortest(angle));
     }
-    if (o.range && !(std::isfinite(o.range->first) && std::isfinite(o.range->second) && o.range->first <= o.range->second))
+    if (o.range &&
+        !(std::isfinite(o.range->first) && std::isfinite(o.range->second) && o.range->first <= o.range->second))
         return refusal("the range of colours", "two finite numbers, the lower one first",
                        base::shortest(o.range->first) + " and " + base::shortest(o.range->second));
     return Done{};
@@ -130,7 +133,8 @@ double brightness(const double* a, const double* b, const double* c, const Vecto
     const Vector3 n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
     const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     if (!(length > 0)) return 1;
-    return ambient + (1 - ambient) * std::min(1.0, std::abs(n[0] * light[0] + n[1] * light[1] + n[2] * light[2]) / length);
+    return ambient +
+           (1 - ambient) * std::min(1.0, std::abs(n[0] * light[0] + n[1] * light[1] + n[2] * light[2]) / length);
 }
 
 /// From the upper left behind the viewer.
@@ -142,9 +146,11 @@ Vector3 light_of(const ViewAxes& axes) {
     return light;
 }
 
-Result<Matrix4> camera_of(const std::vector<double>& points, const SurfaceView& s, const ViewOptions& o, std::int32_t width) {
+Result<Matrix4> camera_of(const std::vector<double>& points, const SurfaceView& s, const ViewOptions& o,
+                          std::int32_t width) {
     const double aspect = 1.0 * width / o.size.height;
-    return s.dimension == 2 ? fitting_map(points, aspect) : fitting_camera(points, view_axes(o.azimuth, o.elevation), aspect);
+    return s.dimension == 2 ? fitting_map(points, aspect)
+                            : fitting_camera(points, view_axes(o.azimuth, o.elevation), aspect);
 }
 
 /// The points that triangles use: the others are no part of the picture.
@@ -216,9 +222,10 @@ Result<Image> draw_surface(const SurfaceView& surface, const ViewOptions& option
     const io::ColourBar bar(scale.low, scale.high, std::max(height, io::min_bar_height));
     const auto bar_width = static_cast<std::int32_t>(with_bar ? bar.width() : 0);
     if (with_bar && (height < io::min_bar_height || bar_width >= options.size.width)) {
-        return raster::refusal("there is no room for the colour bar",
-                               "more than " + std::to_string(bar_width) + " by " + std::to_string(io::min_bar_height - 1) + " pixels",
-                               std::to_string(options.size.width) + " by " + std::to_string(options.size.height));
+        return raster::refusal(
+            "there is no room for the colour bar",
+            "more than " + std::to_string(bar_width) + " by " + std::to_string(io::min_bar_height - 1) + " pixels",
+            std::to_string(options.size.width) + " by " + std::to_string(options.size.height));
     }
     ViewCounts told{{}, scale.low, scale.high, 0};
     const Result<Scene> scene =
@@ -231,7 +238,8 @@ Result<Image> draw_surface(const SurfaceView& surface, const ViewOptions& option
     Result<Image> whole = blank_image(options.size.width, options.size.height, options.background);
     if (!whole) return whole;
     for (std::int32_t j = 0; j < options.size.height; ++j) {
-        std::copy_n(drawn->data.data() + drawn->offset(0, j), drawn->offset(0, 1), whole->data.data() + whole->offset(0, j));
+        std::copy_n(drawn->data.data() + drawn->offset(0, j), drawn->offset(0, 1),
+                    whole->data.data() + whole->offset(0, j));
         bar.row(height - 1 - static_cast<std::size_t>(j), whole->data.data() + whole->offset(drawn->width, j));
     }
     return whole;

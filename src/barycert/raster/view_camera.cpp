@@ -67,8 +67,8 @@ Result<Matrix4> fitting_camera(std::span<const double> points, const ViewAxes& a
     double distance = z.high + 0.1;
     for (std::size_t i = 0; i < points.size(); i += 3) {
         const double* const p = points.data() + i;
-        const double across = std::max(std::abs(along(axes.right, p) - x.middle()) / aspect,
-                                       std::abs(along(axes.up, p) - y.middle()));
+        const double across =
+            std::max(std::abs(along(axes.right, p) - x.middle()) / aspect, std::abs(along(axes.up, p) - y.middle()));
         distance = std::max(distance, along(axes.towards, p) + across / tangent);
     }
     Matrix4 view;
@@ -95,7 +95,8 @@ Result<Matrix4> fitting_map(std::span<const double> points, double aspect) {
     if (points.empty()) x = y = {0, 0};
     double half = std::max(x.half() / aspect, y.half()) / part;
     if (!(half > 0)) half = 1;
-    return orthographic(x.middle() - half * aspect, x.middle() + half * aspect, y.middle() - half, y.middle() + half, -1, 1);
+    return orthographic(x.middle() - half * aspect, x.middle() + half * aspect, y.middle() - half, y.middle() + half,
+                        -1, 1);
 }
 
 }  // namespace barycert::raster

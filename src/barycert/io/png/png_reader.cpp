@@ -68,8 +68,8 @@ bool decode_header(Decoder& d) {
     png_set_chunk_cache_max(d.png, 100);
     png_set_keep_unknown_chunks(d.png, PNG_HANDLE_CHUNK_NEVER, nullptr, 0);
     png_read_info(d.png, d.info);
-    png_set_expand(d.png);       // palettes, less than 8 bits, a transparent colour
-    png_set_scale_16(d.png);     // rounded, not cut
+    png_set_expand(d.png);    // palettes, less than 8 bits, a transparent colour
+    png_set_scale_16(d.png);  // rounded, not cut
     png_set_gray_to_rgb(d.png);
     png_set_add_alpha(d.png, 0xff, PNG_FILLER_AFTER);
     png_set_interlace_handling(d.png);
@@ -95,7 +95,9 @@ Error failure(const Decoder& d) {
     return {.what = "cannot read the PNG file",
             .file = d.path,
             .expected = d.at == 0 && !no_struct ? "a PNG file" : "",
-            .found = no_struct ? "libpng does not start" : d.cut_short ? "the end of the file" : std::string(d.message.data()),
+            .found = no_struct     ? "libpng does not start"
+                     : d.cut_short ? "the end of the file"
+                                   : std::string(d.message.data()),
             .remedy = d.cut_short ? "get or make the file again: it is cut short" : "get or make the file again"};
 }
 

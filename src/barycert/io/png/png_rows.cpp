@@ -77,8 +77,7 @@ bool encode(Encoder& e) {
 }  // namespace
 
 Status write_png_rows(const std::string& path, std::size_t width, std::size_t height,
-                      const std::function<void(std::size_t, std::uint8_t*)>& row,
-                      PngContent content) {
+                      const std::function<void(std::size_t, std::uint8_t*)>& row, PngContent content) {
     base::OutputFile file(path);
     if (Status opened = file.status(); !opened) return opened;
     Encoder encoder(file, row);

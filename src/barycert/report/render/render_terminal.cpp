@@ -14,8 +14,10 @@ std::string row(std::string_view name, const std::string& text) {
 }
 
 std::string picture_row(const RenderSummary& s) {
-    std::string text = fmt::format("{}, {} x {} pixels: {}", s.picture, s.size.width, s.size.height, report::word(s.method));
-    if (s.interpolation != Interpolation::perspective || s.texel_error) text += fmt::format(", {}", report::word(s.interpolation));
+    std::string text =
+        fmt::format("{}, {} x {} pixels: {}", s.picture, s.size.width, s.size.height, report::word(s.method));
+    if (s.interpolation != Interpolation::perspective || s.texel_error)
+        text += fmt::format(", {}", report::word(s.interpolation));
     if (s.rounding == Rounding::correct) text += ", correctly rounded";
     return row("picture", text);
 }
@@ -34,7 +36,8 @@ std::string triangles_row(const RenderCounts& n) {
 
 std::string pixels_row(const RenderCounts& n) {
     std::string text = fmt::format("{} drawn", n.pixels);
-    if (n.hidden != 0 || n.covered != n.pixels) text += fmt::format("; {} covered in all, {} of them hidden", n.covered, n.hidden);
+    if (n.hidden != 0 || n.covered != n.pixels)
+        text += fmt::format("; {} covered in all, {} of them hidden", n.covered, n.hidden);
     return row("pixels", text);
 }
 
@@ -46,14 +49,17 @@ std::string render_text(const RenderSummary& s, bool colour) {
     std::string out = picture_row(s) + triangles_row(s.counts) + pixels_row(s.counts);
     if (s.colours) {
         const ColourRange& c = *s.colours;
-        std::string text = std::isnan(c.low) ? "none: no value is finite"
-                                             : fmt::format("from {} to {}", base::shortest(c.low), base::shortest(c.high));
-        if (c.without_value != 0) text += paint.bold(fmt::format("; {} triangles without a value, grey", c.without_value));
+        std::string text = std::isnan(c.low)
+                               ? "none: no value is finite"
+                               : fmt::format("from {} to {}", base::shortest(c.low), base::shortest(c.high));
+        if (c.without_value != 0)
+            text += paint.bold(fmt::format("; {} triangles without a value, grey", c.without_value));
         out += row("colours", base::printable(c.field) + " " + text);
     }
     if (s.texel_error) {
         const TexelError& e = *s.texel_error;
-        out += row("error", fmt::format("at most {:.3g} texels, in column {}, row {} from the bottom", e.texels, e.column, e.row));
+        out += row("error", fmt::format("at most {:.3g} texels, in column {}, row {} from the bottom", e.texels,
+                                        e.column, e.row));
     }
     return out + row("time", fmt::format("{:.3g} s", s.seconds));
 }
