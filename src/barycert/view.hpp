@@ -35,7 +35,7 @@ struct ViewOptions {
 
     /// The values of the first and the last colour; without it, the least and the greatest of the values.
     std::optional<std::pair<double, double>> range = {};
-    bool bar = true;  ///< a colour bar to the right, if there are values
+    bool bar = true;  ///< a colour bar to the right, if there are values; its numbers have four digits
     FillMethod method = FillMethod::barycentric;
     Rounding rounding = Rounding::plain;
 };

@@ -10,7 +10,7 @@
 namespace barycert {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN(), endless = std::numeric_limits<double>::infinity();
 
 using Point4 = std::array<double, 4>;
 
@@ -82,21 +82,21 @@ TEST(Camera, WhatIsNoCameraIsAnError) {
     EXPECT_FALSE(look_at({1, 1, 1}, {1, 1, 1}, {0, 1, 0}));
     EXPECT_FALSE(look_at({0, 0, 0}, {0, 3, 0}, {0, 1, 0}));
     EXPECT_FALSE(look_at({0, 0, 0}, {0, 0, 1}, {0, 0, 0}));
-    EXPECT_FALSE(look_at({nan, 0, 0}, {0, 0, 1}, {0, 1, 0}));
-    EXPECT_FALSE(look_at({0, 0, 0}, {0, 0, inf}, {0, 1, 0}));
+    EXPECT_FALSE(look_at({no_number, 0, 0}, {0, 0, 1}, {0, 1, 0}));
+    EXPECT_FALSE(look_at({0, 0, 0}, {0, 0, endless}, {0, 1, 0}));
     EXPECT_TRUE(look_at({0, 0, 0}, {0, 0, 1e-320}, {0, 1e300, 0}));
-    for (const double fovy : {0.0, -10.0, 180.0, nan}) EXPECT_FALSE(perspective(fovy, 1, 1, 2));
-    for (const double aspect : {0.0, -1.0, inf, nan}) EXPECT_FALSE(perspective(50, aspect, 1, 2));
+    for (const double fovy : {0.0, -10.0, 180.0, no_number}) EXPECT_FALSE(perspective(fovy, 1, 1, 2));
+    for (const double aspect : {0.0, -1.0, endless, no_number}) EXPECT_FALSE(perspective(50, aspect, 1, 2));
     EXPECT_FALSE(perspective(50, 1, 0, 2));
     EXPECT_FALSE(perspective(50, 1, 2, 2));
     EXPECT_FALSE(perspective(50, 1, 2, 1));
-    EXPECT_FALSE(perspective(50, 1, 1, inf));
+    EXPECT_FALSE(perspective(50, 1, 1, endless));
     EXPECT_FALSE(perspective(50, 1e-320, 1, 2));  // overflows
     EXPECT_FALSE(orthographic(1, 1, 0, 1, 0, 1));
-    EXPECT_FALSE(orthographic(0, 1, 0, nan, 0, 1));
+    EXPECT_FALSE(orthographic(0, 1, 0, no_number, 0, 1));
     EXPECT_FALSE(orthographic(0, 1e-320, 0, 1, 0, 1));
     EXPECT_FALSE(rotation({0, 0, 0}, 20));
-    EXPECT_FALSE(rotation({0, 0, 1}, inf));
+    EXPECT_FALSE(rotation({0, 0, 1}, endless));
 }
 
 TEST(Viewport, IsCorrectlyRoundedAndWithinTheWindow) {

@@ -13,7 +13,6 @@
 namespace barycert {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::uint64_t sum_of(const RenderCounts& n) {
     return n.drawn + n.outside + n.degenerate + n.between_pixels;
@@ -106,7 +105,7 @@ double slope(const std::vector<double>& rows, RasterSize size, std::int32_t i, s
     const RasterSize fine{3 * size.width, 3 * size.height};  // the centre of a pixel is one of nine
     const auto at = [&](std::int32_t x, std::int32_t y) {
         const auto hit = cast_ray(rows, fine, 3 * i + 1 + x, 3 * j + 1 + y);
-        return hit ? CGAL::to_double(hit->attributes[attribute]) : nan;
+        return hit ? CGAL::to_double(hit->attributes[attribute]) : std::numeric_limits<double>::quiet_NaN();
     };
     double most = 0;
     for (const auto& [x, y] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
@@ -336,14 +335,16 @@ TEST(Render, BadScenesAreErrors) {
         change(s);
         const Result<Image> image = render(s);
         EXPECT_FALSE(image) << what;
-        if (!image) EXPECT_FALSE(image.error().remedy.empty() && image.error().expected.empty()) << what;
+        if (!image) {
+            EXPECT_FALSE(image.error().expected.empty()) << what;
+        }
     };
     refused("size 0", [](Scene& s) { s.size.width = 0; });
     refused("negative size", [](Scene& s) { s.size.height = -4; });
     refused("large size", [](Scene& s) { s.size = {32768, 32768}; });
     refused("huge size", [](Scene& s) { s.size = {2147483647, 2147483647}; });
-    refused("NaN", [](Scene& s) { s.positions[5] = nan; });
-    refused("NaN in a colour", [](Scene& s) { s.colours[5] = nan; });
+    refused("NaN", [](Scene& s) { s.positions[5] = std::numeric_limits<double>::quiet_NaN(); });
+    refused("NaN in a colour", [](Scene& s) { s.colours[5] = std::numeric_limits<double>::quiet_NaN(); });
     refused("infinity", [](Scene& s) { s.to_clip.m[3] = HUGE_VAL; });
     refused("overflow", [](Scene& s) { s.positions[0] = 1e308, s.to_clip.m[0] = 4; });
     refused("overflow, correctly rounded",

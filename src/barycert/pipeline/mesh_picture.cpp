@@ -115,7 +115,11 @@ Result<RenderSummary> render_mesh_file(const MeshPictureJob& job) {
     if (!mesh) return mesh.error();
     if (mesh->cells.empty())
         return Error{.what = "the mesh has no cells", .file = job.mesh, .remedy = "there is nothing to draw"};
-    RenderSummary summary{.picture = "mesh", .input = job.mesh, .output = job.output, .size = job.view.size};
+    RenderSummary summary;
+    summary.picture = "mesh";
+    summary.input = job.mesh;
+    summary.output = job.output;
+    summary.size = job.view.size;
     const pipeline::DrawnFacets drawn = pipeline::facets_of(*mesh);
     SurfaceView surface{.dimension = mesh->dimension, .points = mesh->points, .triangles = drawn.triangles};
     std::vector<double> values;

@@ -1,5 +1,7 @@
 #include "barycert/view.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -146,6 +148,17 @@ Vector3 light_of(const ViewAxes& axes) {
     return light;
 }
 
+/// The number with four digits, for the bar: all digits of a computed number would take half the picture.
+double four_digits(double x) {
+    return base::parse_double(fmt::format("{:.4g}", x)).value_or(x);
+}
+
+/// The bar with its range in few digits, if they still tell its ends apart.
+io::ColourBar short_bar(double low, double high, std::size_t height) {
+    const double short_low = four_digits(low), short_high = four_digits(high);
+    return short_low == short_high ? io::ColourBar(low, high, height) : io::ColourBar(short_low, short_high, height);
+}
+
 Result<Matrix4> camera_of(const std::vector<double>& points, const SurfaceView& s, const ViewOptions& o,
                           std::int32_t width) {
     const double aspect = 1.0 * width / o.size.height;
@@ -219,7 +232,7 @@ Result<Image> draw_surface(const SurfaceView& surface, const ViewOptions& option
     const raster::ValueScale scale(surface, options);
     const bool with_bar = options.bar && scale.known();
     const auto height = static_cast<std::size_t>(options.size.height);
-    const io::ColourBar bar(scale.low, scale.high, std::max(height, io::min_bar_height));
+    const io::ColourBar bar = raster::short_bar(scale.low, scale.high, std::max(height, io::min_bar_height));
     const auto bar_width = static_cast<std::int32_t>(with_bar ? bar.width() : 0);
     if (with_bar && (height < io::min_bar_height || bar_width >= options.size.width)) {
         return raster::refusal(
