@@ -188,7 +188,7 @@ TEST(Cover, SubPixelTriangles) {
 TEST(Cover, BadInputIsRefused) {
     std::vector<PixelSpan> spans;
     const Corners good{0, 0, 3, 0, 0, 3};
-    for (const double bad : {NAN, HUGE_VAL, -HUGE_VAL}) {
+    for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
         for (std::size_t k = 0; k < 6; ++k) {
             Corners t = good;
             t[k] = bad;

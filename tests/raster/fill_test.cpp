@@ -105,7 +105,7 @@ TEST(Fill, ComponentsAreFilledAlike) {
             PixelValues both = empty_pixels({20, 20}, 2).value();
             const std::array<double, 6> values{d.values[0], e.values[0], d.values[1],
                                                e.values[1], d.values[2], e.values[2]};
-            const Result<std::size_t> count = fill_triangle(d.triangle, values, both, {method, rounding});
+            Result<std::size_t> count = fill_triangle(d.triangle, values, both, {method, rounding});
             const PixelValues one = filled({20, 20}, d.triangle, d.values, {method, rounding});
             const PixelValues two = filled({20, 20}, d.triangle, e.values, {method, rounding});
             std::size_t set = 0;
