@@ -47,6 +47,7 @@ struct Family {
     std::string parameters;  ///< the recipe with its numbers
     bool needs_mesh = false;
     std::vector<Simplex> simplices;
+    bool perspective = false;  ///< its cases are for kernels with Kernel::perspective, and no others
 
     /// Fills `c` (its simplex is set, all else zero). `index` is the case's number.
     using Recipe = void (*)(Case& c, base::Random& random, std::uint64_t index);

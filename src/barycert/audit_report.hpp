@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "barycert/audit.hpp"
+#include "barycert/audit_drift.hpp"
+#include "barycert/audit_texels.hpp"
 #include "barycert/report.hpp"
 
 // Reports as text for a terminal or a log.
@@ -43,5 +45,19 @@ std::string families_json(const std::vector<Family>& families);
 /// beyond half of 2^-53; if more than six, without variants (names with a second dot); if still more than six, six of
 /// them, evenly from the least to the largest worst factor.
 std::string condition_plot(const AuditReport& report);
+
+// Drift over the size of a triangle, and rules of texel addressing.
+
+/// A table: a row a size, a column a kernel.
+std::string drift_text(const DriftReport& report, const TerminalStyle& style);
+std::string drift_json(const DriftReport& report);
+
+/// An SVG of its own, both axes logarithmic: across the size in pixels, upwards the largest error in ulps. At most six
+/// kernels, the first of the report.
+std::string drift_plot(const DriftReport& report);
+
+/// A table: a row a rule; below it the witnesses.
+std::string texels_text(const std::vector<TexelResult>& results, const TerminalStyle& style);
+std::string texels_json(const std::vector<TexelResult>& results);
 
 }  // namespace barycert

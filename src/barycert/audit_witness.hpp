@@ -38,10 +38,10 @@ struct Replay {
     OracleAnswer exact;
     int affine_dimension = 0;  ///< of the simplex
 
-    /// Whether interpolation along auxiliary lines gives the barycentric weights, in rational numbers; `undefined` for
-    /// segments and triangle3d.
+    /// Whether interpolation along auxiliary lines gives the barycentric weights, in rational numbers, or, for
+    /// perspective, ray casting the perspective-correct ones; `undefined` for segments and triangle3d.
     IdentityVerdict identity = IdentityVerdict::undefined;
-    std::vector<KernelAnswer> answers;  ///< of the kernels on this simplex
+    std::vector<KernelAnswer> answers;  ///< of the kernels for such cases
 
     /// Why the witness no longer shows its finding; empty if it does, or if it names no kernel or reason.
     std::string not_reproduced;

@@ -11,7 +11,7 @@
 ///   W1  A weight has the exact sign; it is zero only if the exact one is, or rounds to it.   weights.hpp
 ///   W2  A weight is the exact one rounded to nearest, ties to even.                          weights.hpp
 ///   V1  A value is the exact sum of weight (quadratic field: of shape function) times nodal
-///       value, rounded once.                                                weights.hpp, quadratic.hpp
+///       value, rounded once.                               weights.hpp, quadratic.hpp, perspective.hpp
 ///   V2  A point that two cells share has the same value, to the bit, from both.      the same headers
 ///   G1  A gradient's component is the exact one rounded to nearest, ties to even.        gradient.hpp
 ///   D1  Results depend on the input bits alone: not on threads, SIMD target, compiler,
@@ -44,6 +44,7 @@
 #include "barycert/environment.hpp"  // IWYU pragma: export
 #include "barycert/gradient.hpp"     // IWYU pragma: export
 #include "barycert/inverse.hpp"      // IWYU pragma: export
+#include "barycert/perspective.hpp"  // IWYU pragma: export
 #include "barycert/predicates.hpp"   // IWYU pragma: export
 #include "barycert/quadratic.hpp"    // IWYU pragma: export
 #include "barycert/result.hpp"       // IWYU pragma: export

@@ -12,7 +12,8 @@ extern "C" {
 struct barycert_kernel_info {
     int abi;                 /* set to BARYCERT_KERNEL_ABI */
     const char* name;        /* without the simplex: "my-formula" is listed as "tetrahedron.my-formula" */
-    const char* simplex;     /* "segment", "triangle", "triangle3d" or "tetrahedron" */
+    const char* simplex;     /* "segment", "triangle", "triangle3d" or "tetrahedron"; or "triangle.perspective", whose
+                                "my-formula" is listed as "triangle.perspective-my-formula" */
     const char* formula;     /* one line; may be NULL */
     const char* source;      /* may be NULL */
     int declares_degenerate; /* 1 if barycert_kernel_weights may return 1 */
@@ -22,8 +23,9 @@ struct barycert_kernel_info {
 /* Fills *info, whose members are zero on entry. The strings must live as long as the library. */
 void barycert_kernel_describe(struct barycert_kernel_info* info);
 
-/* vertices: the coordinates, vertex after vertex (segment 2x3, triangle 3x2, triangle3d 3x3, tetrahedron 4x3);
- * point: its 2 or 3 coordinates; weights: room for one a vertex.
+/* vertices: the coordinates, vertex after vertex (segment 2x3, triangle 3x2, triangle3d 3x3, tetrahedron 4x3;
+ * triangle.perspective 3x3: x, y in the window and the depth w, above 0); point: its 2 or 3 coordinates; weights: room
+ * for one a vertex.
  * Returns 0 if the weights are set, 1 if the simplex is declared degenerate. */
 int barycert_kernel_weights(const double* vertices, const double* point, double* weights);
 

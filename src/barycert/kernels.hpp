@@ -16,8 +16,9 @@
 
 namespace barycert {
 
-/// Weights of `point` in the simplex at `vertices` (layout of Case). Returns 0 if `weights` is set, 1 if the kernel
-/// declares the simplex degenerate (then `weights` is unspecified). Same signature as in barycert/kernel.h.
+/// Weights of `point` in the simplex at `vertices` (layout of Case: of kernels for perspective, x, y, w a vertex).
+/// Returns 0 if `weights` is set, 1 if the kernel declares the simplex degenerate (then `weights` is unspecified). Same
+/// signature as in barycert/kernel.h.
 using WeightsFunction = int (*)(const double* vertices, const double* point, double* weights);
 
 /// The interpolated value from weights and nodal values.
@@ -35,6 +36,7 @@ using CaseValueFunction = double (*)(const double* vertices, const double* point
 struct Kernel {
     std::string name;  ///< `simplex.formula[.variant]`, the handle on the command line
     Simplex simplex = Simplex::tetrahedron;
+    bool perspective = false;          ///< for cases with Case::perspective, and no others
     std::string formula;               ///< one line of mathematics
     std::string source;                ///< where the formula is published or in use
     std::string fails;                 ///< one line: where and why it goes wrong

@@ -11,6 +11,11 @@
 ///   segment:     n_0 = v_1 . e, n_1 = -v_0 . e, e = v_1 - v_0,                         d = e . e
 /// The last two are the weights of the orthogonal projection of p: dotting with N or e removes what is normal to
 /// the simplex. In each case sum n_i = d, so that d = 0 exactly when the simplex is degenerate.
+///
+/// Perspective (Case::perspective, a triangle with depths w_i in a window): the ray from the eye through the point
+/// meets the triangle with the vertices (x_i w_i, y_i w_i, w_i) at the weights m_i / m, m_i = n_i w_j w_k, m = sum m_i.
+/// Where d or m is zero (then the ray is parallel to the triangle's plane) there are none: the case counts as
+/// degenerate.
 #pragma once
 
 #include <array>
@@ -31,7 +36,7 @@ struct OracleAnswer {
     bool narrow = false;                 ///< machine words were wide enough (for counting; never changes an answer)
 };
 
-/// Precondition: all numbers of the case are finite.
+/// Precondition: all numbers of the case are finite, and its depths are above zero.
 OracleAnswer ask_oracle(const Case& c);
 
 namespace exact {
@@ -43,7 +48,9 @@ OracleAnswer ask_wide(const Case& c);
 double partition_residual(std::span<const double> weights);
 
 /// Exact Euclidean length of (sum of weight times vertex) - p, rounded once, where p is the case's point, or its
-/// projection for a triangle3d or segment. Preconditions: weights finite, simplex not degenerate.
+/// projection for a triangle3d or segment. For perspective, the distance in the window from p to the projection of the
+/// point that the weights give before the projection; infinite if that has depth zero. Preconditions: weights finite,
+/// simplex not degenerate.
 double reproduction_residual(const Case& c, std::span<const double> weights);
 
 /// Kind of a simplex by the dimension of its affine hull: 3 for a proper tetrahedron, ... 0 if all vertices coincide.
@@ -68,6 +75,12 @@ IdentityVerdict bilinear_is_barycentric(const Case& c);
 /// Precondition: c.simplex == Simplex::tetrahedron, finite coordinates.
 IdentityVerdict trilinear_is_barycentric(const Case& c);
 
+/// Perspective-correct interpolation is ray casting: the ray from the eye through (x, y, 1) is met with the plane of
+/// the triangle before the projection, (x_i w_i, y_i w_i, w_i), and the weights of the common point are read off ratios
+/// of areas in that plane; they are compared with the weights of 1/Z = sum alpha_i / w_i. `undefined` where there are
+/// no weights. Precondition: c.perspective, finite coordinates, depths above zero.
+IdentityVerdict perspective_is_ray_casting(const Case& c);
+
 // The gradient of a linear field, by the oracle: exact integers, rounded once, nothing shared with core.
 //
 // The mathematics. The gradient of weight i is the normal of the opposite face over the signed volume: with (i, a, b,
@@ -91,5 +104,9 @@ GradientAnswer oracle_gradient(const Case& c);
 /// `mids` on the edges 01 12 02 (triangle) or 01 12 02 03 13 23 (tetrahedron), correctly rounded; NaN if degenerate.
 /// Preconditions: triangle or tetrahedron, everything finite, a value for each edge.
 double oracle_quadratic_value(const Case& c, std::span<const double> mids);
+
+/// The texel of a finite coordinate u in a row of `size` >= 1 texels that covers 0 to 1: floor(u size), brought into
+/// [0, size) by clamping or, with `repeat`, modulo size. In exact integers.
+std::int64_t oracle_texel(double u, std::int64_t size, bool repeat);
 
 }  // namespace barycert

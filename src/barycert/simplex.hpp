@@ -63,11 +63,17 @@ struct Case {
     std::array<double, 12> vertices{};
     std::array<double, 3> point{};
     std::array<double, 4> values{};
+    bool perspective = false;  ///< a triangle whose vertices are x, y, w: see perspective.hpp
 
-    double vertex(int i, int axis) const {
-        return vertices[static_cast<std::size_t>(space_dimension(simplex) * i + axis)];
-    }
-    double& vertex(int i, int axis) { return vertices[static_cast<std::size_t>(space_dimension(simplex) * i + axis)]; }
+    /// Numbers of a vertex in `vertices`: its coordinates and, for perspective, its depth w > 0.
+    int stride() const { return space_dimension(simplex) + (perspective ? 1 : 0); }
+
+    double vertex(int i, int axis) const { return vertices[static_cast<std::size_t>(stride() * i + axis)]; }
+    double& vertex(int i, int axis) { return vertices[static_cast<std::size_t>(stride() * i + axis)]; }
+
+    /// The w of a vertex. Precondition: perspective.
+    double depth(int i) const { return vertex(i, 2); }
+    double& depth(int i) { return vertex(i, 2); }
 };
 
 /// Where a point lies with respect to a closed simplex; `degenerate` is said of the simplex itself.

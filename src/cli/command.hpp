@@ -19,11 +19,15 @@ inline constexpr int exit_error = 2;
 /// Each adds its subcommand to the app; when it has run, `exit_code` is set.
 void add_audit(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
-void add_replay(CLI::App& app, int& exit_code);
 void add_render(CLI::App& app, int& exit_code);
+void add_replay(CLI::App& app, int& exit_code);
 void add_resample(CLI::App& app, int& exit_code);
 void add_sample(CLI::App& app, int& exit_code);
 void add_catalogue(CLI::App& app, int& exit_code);
+
+/// Likewise below `barycert render`.
+void add_render_drift(CLI::App& render, int& exit_code);
+void add_render_texels(CLI::App& render, int& exit_code);
 
 /// Replaces this process by barycert-tetgen with the same arguments; returns exit_error if it cannot be found.
 int exec_mesh(int argc, char** argv);

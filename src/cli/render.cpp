@@ -41,6 +41,10 @@ void add_render(CLI::App& app, int& exit_code) {
     add_render_cube(*sub, exit_code);
     add_render_clip(*sub, exit_code);
     add_render_mesh(*sub, exit_code);
+#ifdef BARYCERT_WITH_AUDIT
+    add_render_drift(*sub, exit_code);
+    add_render_texels(*sub, exit_code);
+#endif
     sub->callback([=, &exit_code] {
         if (sub->get_subcommands().empty()) exit_code = run_scene_file(*path, *o);
     });

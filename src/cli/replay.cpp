@@ -41,10 +41,11 @@ Result<std::vector<Witness>> made_again(const ReplayArguments& a, const std::vec
                      .expected = "segment, triangle, triangle3d or tetrahedron",
                      .found = '"' + a.simplex + '"'};
     if (!simplex && !a.kernel.empty()) {
-        const auto k = std::find_if(kernels.begin(), kernels.end(),
-                                    [&](const Kernel& x) { return base::glob_match(a.kernel, x.name); });
+        const auto k = std::find_if(kernels.begin(), kernels.end(), [&](const Kernel& x) {
+            return x.perspective == family.perspective && base::glob_match(a.kernel, x.name);
+        });
         if (k == kernels.end())
-            return Error{.what = "no kernel of that name",
+            return Error{.what = "no kernel of that name for the cases of that family",
                          .found = '"' + a.kernel + '"',
                          .remedy = "`barycert kernels` lists them"};
         simplex = k->simplex;

@@ -94,6 +94,23 @@ TEST(Runner, TellsProgressToTheEnd) {
     EXPECT_EQ(told.back(), 4000U);
 }
 
+// Kernels meet the cases that they are for.
+TEST(Runner, PerspectiveKernelsMeetPerspectiveCasesAlone) {
+    const AuditReport r =
+        audit_of(kernels_matching("triangle.*"), {family_named("random"), family_named("perspective.ordinary")}, 50);
+    ASSERT_EQ(r.kernels.size(), kernels_matching("triangle.*").size());
+    for (const KernelResult& k : r.kernels) {
+        ASSERT_EQ(k.families.size(), 1U) << k.kernel.name;
+        EXPECT_EQ(k.families[0].family, k.kernel.perspective ? 1U : 0U) << k.kernel.name;
+        if (k.kernel.perspective) EXPECT_EQ(k.prediction.cases(), 0U) << k.kernel.name;
+    }
+    EXPECT_EQ(r.cases, 100U);
+    AuditOptions options;
+    options.kernels = kernels_matching("triangle.signed-area");
+    options.families = {family_named("perspective.ordinary")};
+    EXPECT_FALSE(run_audit(options, {}));
+}
+
 // The residuals kept are the worst of all cases although most are never computed: compared with computing them all.
 TEST(Runner, SkippingResidualsLosesNothing) {
     for (const char* name : {"tetrahedron.homogeneous", "triangle.beta-gamma", "triangle3d.gram", "segment.projection",

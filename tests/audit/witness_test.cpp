@@ -17,7 +17,8 @@ namespace {
 AuditReport nasty_audit() {
     return audit_of(
         catalogue(),
-        {family_named("huge"), family_named("subnormal"), family_named("lattice.tenths"), family_named("mesh.faces")},
+        {family_named("huge"), family_named("subnormal"), family_named("lattice.tenths"), family_named("mesh.faces"),
+         family_named("perspective.pixel-edges"), family_named("perspective.depth-ratio")},
         300, own_meshes());
 }
 
@@ -69,6 +70,7 @@ void expect_same(const std::vector<Witness>& read, const AuditReport& report) {
             EXPECT_EQ(read[i].index, w.index);
             EXPECT_EQ(read[i].seed, w.seed);
             EXPECT_EQ(read[i].c.simplex, w.c.simplex);
+            EXPECT_EQ(read[i].c.perspective, w.c.perspective);
             for (std::size_t x = 0; x < 12; ++x)
                 EXPECT_EQ(std::bit_cast<std::uint64_t>(read[i].c.vertices[x]),
                           std::bit_cast<std::uint64_t>(w.c.vertices[x]));
@@ -87,6 +89,23 @@ TEST(Witness, FilesKeepEveryBit) {
     const AuditReport report = nasty_audit();
     expect_same(read_witnesses(TemporaryFile(witnesses_json(report)).path()).value(), report);
     expect_same(read_witnesses(TemporaryFile(audit_json(report)).path()).value(), report);
+}
+
+// Read from a file, a witness of perspective is shown beside the kernels for such cases, and no others.
+TEST(Witness, PerspectiveIsReplayedWithItsOwnKernels) {
+    const AuditReport report = nasty_audit();
+    int seen = 0;
+    for (const Witness& w : read_witnesses(TemporaryFile(witnesses_json(report)).path()).value()) {
+        const Replay replay = replay_witness(w, catalogue());
+        EXPECT_EQ(replay.not_reproduced, "") << w.kernel;
+        for (const KernelAnswer& a : replay.answers)
+            EXPECT_EQ(a.kernel.starts_with("triangle.perspective-"), w.c.perspective) << a.kernel;
+        if (!w.c.perspective) continue;
+        EXPECT_EQ(replay.identity, IdentityVerdict::holds);
+        EXPECT_EQ(replay.answers.size(), 6U);
+        ++seen;
+    }
+    EXPECT_GT(seen, 5);
 }
 
 std::string refusal(const std::string& bytes) {
@@ -117,6 +136,19 @@ TEST(Witness, MalformedFilesAreRefused) {
     EXPECT_NE(refusal(replaced("\"witnesses\"", "\"others\"")).find("witnesses"), std::string::npos);
     EXPECT_NE(refusal("[]").find("schema"), std::string::npos);
     EXPECT_FALSE(read_witnesses("/nowhere/at/all.json"));
+    // Perspective: depths are above zero, and only triangles have it.
+    const std::string depths =
+        R"({"schema":1,"witnesses":[{"simplex":"triangle","perspective":true,"vertices":[["0","0","1"],["1","0","2"],["0","1","3"]],"point":["0x1p-2","0.25"]}]})";
+    EXPECT_TRUE(read_witnesses(TemporaryFile(depths).path()).value().front().c.perspective);
+    const auto changed = [&](const std::string& from, const std::string& to) {
+        std::string s = depths;
+        return refusal(s.replace(s.find(from), from.size(), to));
+    };
+    EXPECT_NE(changed("\"2\"]", "\"0\"]").find("vertex 1: expected a depth w above 0"), std::string::npos);
+    EXPECT_NE(changed("\"2\"]", "\"-1\"]").find("a depth w above 0"), std::string::npos);
+    EXPECT_NE(changed(",\"2\"]", "]").find("vertex 1: expected 2 coordinates and w"), std::string::npos);
+    EXPECT_NE(changed("true", "7").find("perspective: expected false, or true for a triangle"), std::string::npos);
+    EXPECT_NE(changed("triangle", "tetrahedron").find("perspective: expected false"), std::string::npos);
 }
 
 }  // namespace

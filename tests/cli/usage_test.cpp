@@ -74,6 +74,18 @@ TEST(usage, what_is_not_understood_is_refused) {
         {{"replay", "--family", "mesh.inside", "--case", "1"}, "add --simplex NAME or --kernel NAME"},
         {{"replay", "--family", "mesh.inside", "--case", "1", "--simplex", "pentagon"}, "unknown simplex"},
         {{"replay", "--family", "mesh.inside", "--case", "1", "--kernel", "zzz"}, "no kernel of that name"},
+        {{"replay", "--family", "perspective.ordinary", "--case", "1", "--kernel", "triangle.signed-area"},
+         "no kernel of that name for the cases of that family"},
+        {{"replay", "--family", "random", "--case", "1", "--kernel", "triangle.perspective-affine"},
+         "no kernel of that name for the cases of that family"},
+        {{"audit", "--kernel", "triangle.perspective-affine", "--family", "random"}, "nothing to audit"},
+        {{"render"}, "subcommand is required"},
+        {{"render", "nonsense"}, "nonsense"},
+        {{"render", "drift", "--count", "0"}, "--count"},
+        {{"render", "drift", "--kernel", "zzz"}, "no kernel of that name"},
+        {{"render", "drift", "--kernel", "tetrahedron.cramer"}, "the kernel is not for triangles without perspective"},
+        {{"render", "drift", "--output", "drift.png"}, "expected a name that ends in .svg, found \"drift.png\""},
+        {{"render", "texels", "--count", "0"}, "--count"},
     };
     for (const Refusal& refusal : refusals) expect_refused(refusal);
 }
@@ -85,6 +97,8 @@ TEST(usage, an_empty_name_of_a_file_is_refused) {
                                                      {"audit", "--json", ""},
                                                      {"audit", "--witnesses", ""},
                                                      {"audit", "--plot", ""},
+                                                     {"render", "drift", "--output", ""},
+                                                     {"render", "texels", "--json", ""},
                                                      {"audit", "--kernel-library", ""},
                                                      {"check", ""},
                                                      {"check", m, "--json", ""},

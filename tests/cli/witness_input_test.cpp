@@ -82,6 +82,28 @@ TEST(witness_input, members_missing_or_malformed) {
     expect_refused(with("simplex", "\"tetrahedron\""), "expected an array of 4");
 }
 
+TEST(witness_input, depths_of_perspective) {
+    Json w = good;
+    w["kernel"] = "triangle.perspective-affine";
+    w["perspective"] = true;
+    expect_refused(file_of(w), "witness 1, vertex 0: expected 2 coordinates and w");
+    w["vertices"] = Json::parse("[[0, 0, 1], [8, 0, 3], [0, 8, 2]]");
+    w["point"] = Json::parse("[4, 0]");
+    const Scratch scratch;
+    const Ended r = run({"replay", scratch.put("w.json", file_of(w)), "--kernel", "triangle.perspective-affine"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_TRUE(contains(r.out, "triangle in a window (vertices x, y, w)")) << r.out;
+    EXPECT_TRUE(contains(r.out, "exact: boundary (edge)")) << r.out;
+    EXPECT_TRUE(contains(r.out, "ray casting and interpolation of 1/w give the same weights here")) << r.out;
+    for (const char* depth : {"0", "-1", "\"-0x1p-1074\"", "\"nan\""}) {
+        Json bad = w;
+        bad["vertices"][1][2] = Json::parse(depth);
+        expect_refused(file_of(bad), "witness 1, vertex 1: expected a");
+    }
+    w["simplex"] = "tetrahedron";
+    expect_refused(file_of(w), "witness 1, perspective: expected false, or true for a triangle");
+}
+
 TEST(witness_input, numbers_that_are_none) {
     for (const Json& x : std::vector<Json>{"nan", "NaN", "inf", "-inf", "0x1p+9999", "1e999", "", " 1", "1 ", "0x",
                                            "1.5.2", nullptr, true, Json::array()}) {

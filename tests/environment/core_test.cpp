@@ -137,6 +137,33 @@ TEST(EveryEnvironment, GradientsAndQuadraticFields) {
     }
 }
 
+TEST(EveryEnvironment, Perspective) {
+    const std::vector<Case> cases = cases_of(Simplex::triangle);
+    expect_same_everywhere("perspective", [&](Answers& out) {
+        TierCounts tiers;
+        for (const Case& plain : cases) {
+            double v[9];
+            for (int i = 0; i < 3; ++i) {
+                for (int k = 0; k < 2; ++k) v[3 * i + k] = plain.vertex(i, k);
+                v[3 * i + 2] = (i + 1) * (i == 1 ? unit : plain.vertices[11] == 0 ? 1 : unit);
+            }
+            const auto w = perspective_weights(v, plain.point.data());
+            const auto z = perspective_depth(v, plain.point.data());
+            const auto f = perspective_value(v, plain.point.data(), plain.values.data());
+            out.add(w && z && f);
+            if (!w || !z || !f) continue;
+            for (const double x : w->weights) out.add(x);
+            out.add(z->value);
+            out.add(f->value);
+            double values[1];
+            out.add(perspective_values(v, {plain.point.data(), 2}, {plain.values.data(), 3}, 1, values, &tiers)
+                        .has_value());
+            out.add(values[0]);
+        }
+        add(out, tiers);
+    });
+}
+
 TEST(EveryEnvironment, ConditionNumbers) {
     const double found[6] = {unit, 0, 2 * unit, 1000 * unit, 3 * unit, 2001 * unit};
     EXPECT_EQ(condition_number(Simplex::triangle, found), 8004);

@@ -92,13 +92,27 @@ inline Case random_case(base::Random& r, Simplex simplex, Kind kind) {
     return c;
 }
 
+/// A triangle in a window: the same with a depth at each vertex, of the same kind or from 1 to 10.
+inline Case random_perspective_case(base::Random& r, Kind kind) {
+    const Case plain = random_case(r, Simplex::triangle, kind);
+    Case c = plain;
+    c.perspective = true;
+    const bool of_kind = r.coin(), level = r.integer(0, 7) == 0;
+    for (int i = 0; i < 3; ++i) {
+        for (int axis = 0; axis < 2; ++axis) c.vertex(i, axis) = plain.vertex(i, axis);
+        double w = 0;
+        while (!(w > 0)) w = of_kind ? std::fabs(number(r, kind, i)) : r.uniform(1, 10);
+        c.depth(i) = level && i > 0 ? c.depth(0) : w;
+    }
+    return c;
+}
+
 /// For messages.
 inline std::string describe(const Case& c) {
     std::string text{name(c.simplex)};
     for (int i = 0; i < vertex_count(c.simplex); ++i) {
         text += "\n  v" + std::to_string(i);
-        for (int axis = 0; axis < space_dimension(c.simplex); ++axis)
-            text += ' ' + base::hexadecimal(c.vertex(i, axis));
+        for (int axis = 0; axis < c.stride(); ++axis) text += ' ' + base::hexadecimal(c.vertex(i, axis));
     }
     text += "\n  p";
     for (int axis = 0; axis < space_dimension(c.simplex); ++axis)

@@ -98,9 +98,36 @@ inline int affine_dimension(const Case& c) {
     return static_cast<int>(eliminate(rows, rows[0].size()));
 }
 
+/// Ray casting: beta_0, beta_1, beta_2 and Z with sum beta_i (x_i w_i, y_i w_i, w_i) = Z (x, y, 1) and sum beta_i = 1;
+/// nothing if there are none, or if the plane of the triangle holds the eye.
+inline std::optional<std::vector<Q>> cast_ray(const Case& c) {
+    std::vector<Row> rows(3), all;
+    for (int i = 0; i < 3; ++i) {
+        const Q w(c.depth(i));
+        rows[0].push_back(Q(c.vertex(i, 0)) * w);
+        rows[1].push_back(Q(c.vertex(i, 1)) * w);
+        rows[2].push_back(w);
+    }
+    all = rows;
+    if (eliminate(rows, 3) < 3) return std::nullopt;
+    const Q ray[3] = {Q(c.point[0]), Q(c.point[1]), Q(1)};
+    for (std::size_t k = 0; k < 3; ++k) {
+        all[k].push_back(-ray[k]);
+        all[k].emplace_back(0);
+    }
+    all.push_back({Q(1), Q(1), Q(1), Q(0), Q(1)});
+    if (eliminate(all, 4) < 4) return std::nullopt;
+    return std::vector<Q>{all[0][4], all[1][4], all[2][4], all[3][4]};
+}
+
 /// Exact weights; nothing if degenerate. Full-dimensional simplices: sum of weights 1, sum of weight times vertex = p.
 /// Others: least squares over the edges, whose normal equations have the Gram matrix.
 inline std::optional<std::vector<Q>> weights(const Case& c) {
+    if (c.perspective) {
+        auto cast = cast_ray(c);
+        if (cast) cast->pop_back();
+        return cast;
+    }
     const auto count = static_cast<std::size_t>(vertex_count(c.simplex));
     const int dimension = space_dimension(c.simplex);
     std::vector<Row> rows;

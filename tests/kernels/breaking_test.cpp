@@ -35,7 +35,7 @@ TEST(Breaking, EachKernelMisjudgesItsCase) {
         for (const char* const kernel : b.kernels) {
             const Kernel* const k = find(kernel);
             if (k == nullptr) continue;  // a contracted variant on a machine without FMA; the next test sees the rest
-            const Case c{k->simplex, b.vertices, b.point, {}};
+            const Case c{k->simplex, b.vertices, b.point, {}, k->perspective};
             double w[4];
             const int status = k->weights(c.vertices.data(), c.point.data(), w);
             const Region claimed = claimed_region(*k, status, {w, static_cast<std::size_t>(vertex_count(k->simplex))});
@@ -61,6 +61,48 @@ TEST(Breaking, IncrementLosesTheValueAtB) {
         EXPECT_EQ(blend.value(w, values), 1.0);
         EXPECT_EQ(increment.value(w, values), 0.0);
     }
+}
+
+/// Depths 1 and 3 at the ends of an edge: its middle is a quarter of the way. The shortcuts take it for half.
+TEST(Breaking, PerspectiveShortcutsMissTheMiddle) {
+    const double vertices[9] = {0, 0, 1, 8, 0, 3, 0, 8, 2}, middle[2] = {4, 0}, values[3] = {0, 64, 0};
+    const auto value = [&](const char* name) {
+        const Kernel& k = *find(std::string("triangle.perspective-") + name);
+        double w[3];
+        EXPECT_EQ(k.weights(vertices, middle, w), 0);
+        const double v = k.interpolate != nullptr ? k.interpolate(vertices, middle, values) : k.value(w, values);
+        EXPECT_NEAR(w[1] * 64, v, 1e-4) << name;
+        return v;
+    };
+    for (const char* right : {"textbook", "varying", "exact"}) EXPECT_NEAR(value(right), 16, 1e-12) << right;
+    EXPECT_NEAR(value("varying.float32"), 16, 1e-4);
+    EXPECT_EQ(value("affine"), 32);
+    EXPECT_NEAR(value("projected-z"), 32, 0.05);
+}
+
+/// One row of pixels of a wide triangle: every step rounds, so that the error at the far end is that of many.
+TEST(Breaking, IncrementsDrift) {
+    const auto error = [](const char* name, int size) {
+        const auto s = static_cast<double>(size);
+        const double vertices[6] = {0, 0, s, 0.1, 0.3, s}, point[2] = {s / 2 + 0.5, s / 4 + 0.5};
+        const double values[3] = {1, 1.3, 1.9};
+        const Kernel& k = *find(name);
+        const double right = find("triangle.exact")->interpolate(vertices, point, values);
+        return std::fabs(k.interpolate(vertices, point, values) - right) / 0x1p-52;
+    };
+    EXPECT_LT(error("triangle.scanline-increments", 8), 8);
+    EXPECT_GT(error("triangle.scanline-increments", 4096), 100);
+    EXPECT_GT(error("triangle.scanline-increments.float32", 4096), 0x1p29 * 100);
+}
+
+/// More steps than a kernel may take are jumped: it comes to an end, and near the right value.
+TEST(Breaking, IncrementsComeToAnEnd) {
+    const double vertices[6] = {0, 0, 0x1p60, 0, 0, 0x1p60}, point[2] = {0x1p58, 0x1p58};
+    double w[3];
+    ASSERT_EQ(find("triangle.scanline-increments")->weights(vertices, point, w), 0);
+    EXPECT_EQ(w[0], 0.5);
+    EXPECT_EQ(w[1], 0.25);
+    EXPECT_EQ(w[2], 0.25);
 }
 
 TEST(Breaking, BlendChangesAConstant) {

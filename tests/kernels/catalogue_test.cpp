@@ -34,9 +34,14 @@ TEST(Catalogue, EveryKernelIsDescribed) {
         }
         EXPECT_NE(k.weights, nullptr);
         EXPECT_NE(k.value, nullptr);
-        const bool exact = k.name.find(".exact") != std::string::npos;
+        const bool exact = k.name.ends_with("exact");
         EXPECT_EQ(k.certifies, exact) << "a plain formula certifies nothing: " << k.name;
-        EXPECT_EQ(k.interpolate != nullptr, exact) << k.name;
+        // Exact kernels, and those whose formula has the value in it.
+        bool of_its_own = exact;
+        for (const char* formula : {"increments", "perspective-textbook", "perspective-varying"})
+            of_its_own = of_its_own || k.name.find(formula) != std::string::npos;
+        EXPECT_EQ(k.interpolate != nullptr, of_its_own) << k.name;
+        EXPECT_EQ(k.perspective, k.name.starts_with("triangle.perspective-")) << k.name;
         EXPECT_EQ(k.rule == RegionRule::tolerant, k.tolerance != 0) << k.name;
     }
 }
@@ -55,6 +60,8 @@ TEST(Catalogue, GlobSelects) {
     EXPECT_EQ(kernels_matching("*.fast-math").size(), 4U);
     EXPECT_EQ(kernels_matching("*.O0").size(), 4U);
     EXPECT_EQ(kernels_matching("tetrahedron").size(), 0U);
+    EXPECT_EQ(kernels_matching("*.exact").size(), 4U);
+    EXPECT_EQ(kernels_matching("triangle.perspective-*").size(), 6U);
 #ifdef __x86_64__
     EXPECT_EQ(kernels_matching("*.contracted").size(), __builtin_cpu_supports("fma") != 0 ? 4U : 0U);
 #endif

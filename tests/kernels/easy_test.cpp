@@ -20,11 +20,12 @@ bool contains(const Kernel& k, const char* part) {
 
 /// Bound of |w - right|. Coordinates are multiples of 4 up to 32, so every product and sum of a closed formula is an
 /// integer below 2^24 over another, and the quotient is a number of quarters: no rounding at all, in float too.
-/// A reciprocal, an inverse, a decomposition or an auxiliary line divides earlier: at most about 30 roundings, each
-/// amplified by the condition of these simplices (< 20), so less than 2^10 u. A wrong formula is off by a quarter.
+/// A reciprocal, an inverse, a decomposition, an auxiliary line or a step divides earlier: at most about 30 roundings
+/// (two for each of 32 steps), each amplified by the condition of these simplices (< 20), so less than 2^10 u. A wrong
+/// formula is off by a quarter.
 double bound(const Kernel& k) {
     const double u = contains(k, ".float32") ? 0x1p-24 : 0x1p-53;
-    for (const char* part : {".fast-math", "inverse", "-lu", "linear"}) {
+    for (const char* part : {".fast-math", "inverse", "-lu", "linear", "increments", "projected-z"}) {
         if (contains(k, part)) return 0x1p10 * u;
     }
     return 0;
@@ -35,7 +36,7 @@ bool excluded(const Kernel& k, const Quarters& weights) {
     const bool vertex = std::count(weights.begin(), weights.end(), 4) == 1;
     const bool outside = *std::min_element(weights.begin(), weights.end()) < 0;
     const bool boundary = std::count(weights.begin(), weights.begin() + vertex_count(k.simplex), 0) > 0;
-    return (contains(k, "unsigned") && outside) || (contains(k, "bilinear") && vertex) ||
+    return (contains(k, "unsigned") && outside) || ((contains(k, "bilinear") || contains(k, "increments")) && vertex) ||
            (contains(k, "trilinear") && (boundary || outside));
 }
 
@@ -46,6 +47,8 @@ void check(const Kernel& k, const std::vector<double>& corners, const Quarters& 
     do {
         Case c;
         c.simplex = k.simplex;
+        c.perspective = k.perspective;
+        for (int i = 0; i < n && c.perspective; ++i) c.depth(i) = 2;  // all equal: no perspective
         for (int i = 0; i < n; ++i) {
             const int from = order[static_cast<std::size_t>(i)];
             for (int axis = 0; axis < d; ++axis) {

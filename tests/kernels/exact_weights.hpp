@@ -1,5 +1,5 @@
-/// The right answer, by rational arithmetic: normal equations of the edge vectors, solved by elimination. Shares
-/// nothing with the kernels but the types of a case.
+/// The right answer, by rational arithmetic: normal equations of the edge vectors, solved by elimination, then, for
+/// perspective, the depths. Shares nothing with the kernels but the types of a case.
 #pragma once
 
 #include <gmpxx.h>
@@ -46,6 +46,12 @@ inline ExactWeights exact_weights(const Case& c) {
     for (int i = 0; i < m; ++i) {
         exact.weights.push_back(at(i, m) / at(i, i));
         exact.weights[0] -= exact.weights.back();
+    }
+    if (c.perspective) {
+        mpq_class sum;
+        for (int i = 0; i < n; ++i) sum += exact.weights[static_cast<std::size_t>(i)] /= mpq_class(c.depth(i));
+        if (sum == 0) return {};
+        for (mpq_class& w : exact.weights) w /= sum;
     }
     for (const mpq_class& w : exact.weights) {
         if (w == 0 && exact.region == Region::interior) exact.region = Region::boundary;

@@ -58,6 +58,15 @@ TEST(Plugin, NameWithoutSlashIsTakenFromTheWorkingDirectory) {
     ASSERT_TRUE(kernel.has_value()) << kernel.error().message();
 }
 
+TEST(Plugin, PerspectiveIsAKindOfCaseOfItsOwn) {
+    const Result<Kernel> k = load_kernel_library(plugin("example_kernel_perspective"));
+    ASSERT_TRUE(k) << k.error().message();
+    EXPECT_EQ(k->name, "triangle.perspective-octant");
+    EXPECT_EQ(k->simplex, Simplex::triangle);
+    EXPECT_TRUE(k->perspective);
+    EXPECT_FALSE(load_kernel_library(plugin("example_kernel"))->perspective);
+}
+
 TEST(Plugin, RefusalsSayWhatIsWrong) {
     expect_refusal(plugin("no_such_library"), "cannot load the kernel library");
     expect_refusal("no_such_library.so", "cannot load the kernel library");

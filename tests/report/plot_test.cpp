@@ -143,6 +143,34 @@ TEST(Plot, OfTrianglesIfThereAreNoTetrahedra) {
     EXPECT_EQ(shown(svg).size(), 6U);
 }
 
+TEST(DriftPlot, ShowsEachKernelByName) {
+    DriftOptions options;
+    options.kernels = kernels_matching("triangle.scanline-increments*");
+    options.kernels.push_back(kernels_matching("triangle.exact").at(0));
+    options.count = 100;
+    const DriftReport report = measure_drift(options).value();
+    const std::string svg = drift_plot(report);
+    expect_readable(svg);
+    std::set<std::string> words;
+    for (const Text& t : texts(svg)) words.insert(t.words);
+    for (const char* word :
+         {"scanline-increments", "scanline-increments.float32", "exact", "4", "64", "4096", "0", "2⁰"})
+        EXPECT_TRUE(words.contains(word)) << word;
+    EXPECT_EQ(svg, drift_plot(report));
+    EXPECT_NE(svg.find("<rect width=\"980\" height=\"620\" fill=\"#fff\"/>"), std::string::npos);  // in dark mode too
+}
+
+TEST(DriftPlot, OfManyOrNoneStaysReadable) {
+    DriftOptions options;
+    options.kernels = kernels_matching("triangle.*");
+    std::erase_if(options.kernels, [](const Kernel& k) { return k.perspective; });
+    options.count = 20;
+    const DriftReport report = measure_drift(options).value();
+    EXPECT_GT(report.curves.size(), 6U);
+    expect_readable(drift_plot(report));
+    expect_readable(drift_plot({}));
+}
+
 TEST(Plot, WithNothingToShowSaysSo) {
     for (const char* glob : {"segment.*", "triangle3d.*", "*.exact"}) {
         const std::string svg = condition_plot(only(glob));

@@ -45,6 +45,15 @@ void sample_reports(Schema& schema) {
     }
 }
 
+/// Drift and texels, with something of everything.
+void raster_reports(Schema& schema) {
+    DriftOptions options;
+    options.kernels = kernels_matching("triangle.signed-area");
+    options.count = 20;
+    schema.check("Drift", Json::parse(drift_json(measure_drift(options).value())), "drift");
+    schema.check("Texels", Json::parse(texels_json(audit_texels(texel_rules(), 2000))), "texels");
+}
+
 /// Everything that is written, checked against a schema.
 Schema schema_with_all_reports() {
     Schema schema(BARYCERT_SCHEMA);
@@ -54,6 +63,7 @@ Schema schema_with_all_reports() {
     schema.check("Families", Json::parse(families_json(all_families())), "families");
     check_reports(schema);
     sample_reports(schema);
+    raster_reports(schema);
     return schema;
 }
 

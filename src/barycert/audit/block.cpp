@@ -66,7 +66,8 @@ void add_residuals(KernelStatistics& s, const Case& c, const OracleAnswer& answe
     if (!(bound.partition < s.partition_residual.value)) {
         s.partition_residual.include(std::fabs(partition_residual(w)), index);
     }
-    if (!(bound.reproduction < s.reproduction_residual.value)) {
+    // Perspective divides by a sum of weights and depths, for which there is no bound.
+    if (c.perspective || !(bound.reproduction < s.reproduction_residual.value)) {
         s.reproduction_residual.include(reproduction_residual(c, w), index);
     }
 }

@@ -26,9 +26,9 @@ inline constexpr std::array<double, 4> unset_weights = [] {
 Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answer, int status,
                    std::span<const double> weights);
 
-/// kappa of the case's cell where there is something to predict: a triangle or tetrahedron, not degenerate, with the
-/// point in it or on its boundary, and no product of differences far out in the range of double. NaN elsewhere.
-/// `region` is the exact one.
+/// kappa of the case's cell where there is something to predict: a triangle or tetrahedron, not degenerate, without
+/// perspective, with the point in it or on its boundary, and no product of differences far out in the range of double.
+/// NaN elsewhere. `region` is the exact one.
 double predicting_condition(const Case& c, Region region);
 
 }  // namespace barycert::audit

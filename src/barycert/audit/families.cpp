@@ -18,7 +18,7 @@ bool Family::applies_to(Simplex s) const {
 const std::vector<Family>& all_families() {
     static const std::vector<Family> families = [] {
         std::vector<Family> all = mesh_families();
-        for (auto* part : {near_families, shape_families, range_families}) {
+        for (auto* part : {near_families, shape_families, range_families, raster_families, perspective_families}) {
             for (Family& f : part()) all.push_back(std::move(f));
         }
         return all;
@@ -40,6 +40,7 @@ Case make_case(const Family& family, Simplex s, std::uint64_t seed, std::uint64_
     base::Random random = base::Random::stream(seed, stream, index);
     Case c;
     c.simplex = s;
+    c.perspective = family.perspective;
     if (family.needs_mesh) {
         family.mesh_recipe(c, random, meshes);
     } else {

@@ -15,6 +15,8 @@ std::vector<Family> mesh_families();
 std::vector<Family> near_families();
 std::vector<Family> shape_families();
 std::vector<Family> range_families();
+std::vector<Family> raster_families();
+std::vector<Family> perspective_families();
 
 /// Every coordinate of every vertex, and of the point, from `make(axis)`.
 template <class Make>
@@ -36,6 +38,10 @@ inline std::array<double, 3> lifted(const Case& c, base::Random& random, std::ar
     for (std::size_t k = 0; k < 3; ++k) from[k] += h * normal[k];
     return from;
 }
+
+/// Sets a triangle on the grid of 1/256 pixel, in a box of `size` pixels somewhere in a window, and a pixel centre in
+/// it (a few have none), or, `on_edge`, exactly on one of its edges. Does not set values. (families_raster.cpp)
+void set_pixel_case(Case& c, base::Random& random, int size, bool on_edge);
 
 inline Family built(const char* name, const char* tests, const char* parameters, Family::Recipe recipe,
                     std::vector<Simplex> simplices) {

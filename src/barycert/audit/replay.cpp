@@ -54,10 +54,11 @@ Replay replay_witness(const Witness& witness, const std::vector<Kernel>& kernels
     const Case& c = witness.c;
     r.exact = ask_oracle(c);
     r.affine_dimension = affine_dimension(c);
-    if (c.simplex == Simplex::triangle) r.identity = bilinear_is_barycentric(c);
+    if (c.simplex == Simplex::triangle)
+        r.identity = c.perspective ? perspective_is_ray_casting(c) : bilinear_is_barycentric(c);
     if (c.simplex == Simplex::tetrahedron) r.identity = trilinear_is_barycentric(c);
     for (const Kernel& k : kernels) {
-        if (k.simplex == c.simplex) r.answers.push_back(answer_of(k, c, r.exact));
+        if (k.simplex == c.simplex && k.perspective == c.perspective) r.answers.push_back(answer_of(k, c, r.exact));
     }
     r.not_reproduced = not_reproduced(r, kernels);
     return r;

@@ -37,7 +37,8 @@ std::vector<Job> plan(const AuditOptions& options, const MeshSource& meshes) {
             if (!family.applies_to(s) || (family.needs_mesh && !meshes.supplies(s))) continue;
             Job job{f, s, {}};
             for (std::size_t k = 0; k < options.kernels.size(); ++k) {
-                if (options.kernels[k].simplex == s) job.kernels.push_back(k);
+                const Kernel& kernel = options.kernels[k];
+                if (kernel.simplex == s && kernel.perspective == family.perspective) job.kernels.push_back(k);
             }
             if (!job.kernels.empty()) jobs.push_back(std::move(job));
         }

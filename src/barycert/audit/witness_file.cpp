@@ -61,6 +61,17 @@ std::uint64_t count_or(const Json& object, const char* key, std::uint64_t otherw
                                                                        : otherwise;
 }
 
+/// A new member: without it, as in older files, there is none.
+bool is_perspective(const Json& j, Simplex simplex, const std::string& where) {
+    if (!j.contains("perspective")) return false;
+    const Json& member = j.at("perspective");
+    if (!member.is_boolean() || (member.get<bool>() && simplex != Simplex::triangle))
+        throw Exception({.what = where + ", perspective",
+                         .expected = "false, or true for a triangle",
+                         .found = member.dump().substr(0, 40)});
+    return member.get<bool>();
+}
+
 Witness witness_from(const Json& j, const std::string& where) {
     Witness w;
     const Json& simplex = member(j, "simplex", where);
@@ -70,6 +81,7 @@ Witness witness_from(const Json& j, const std::string& where) {
                          .expected = "segment, triangle, triangle3d or tetrahedron as simplex",
                          .found = simplex.dump()});
     w.c.simplex = *known;
+    w.c.perspective = is_perspective(j, *known, where);
     w.kernel = text_or(j, "kernel", "");
     w.reason = text_or(j, "reason", "");
     w.family = text_or(j, "family", "");
@@ -77,16 +89,18 @@ Witness witness_from(const Json& j, const std::string& where) {
     w.index = count_or(j, "case", 0);
     if (j.contains("magnitude") && j.at("magnitude").is_number()) w.magnitude = j.at("magnitude").get<double>();
     const auto n = static_cast<std::size_t>(vertex_count(*known)),
-               d = static_cast<std::size_t>(space_dimension(*known));
+               d = static_cast<std::size_t>(space_dimension(*known)), stride = static_cast<std::size_t>(w.c.stride());
     const Json& vertices = array_of(j, "vertices", n, where);
     for (std::size_t i = 0; i < n; ++i) {
-        if (!vertices[i].is_array() || vertices[i].size() != d) {
-            throw Exception({.what = where + ", vertex " + std::to_string(i),
-                             .expected = std::to_string(d) + " coordinates",
+        const std::string vertex = where + ", vertex " + std::to_string(i);
+        if (!vertices[i].is_array() || vertices[i].size() != stride) {
+            throw Exception({.what = vertex,
+                             .expected = std::to_string(d) + " coordinates" + (w.c.perspective ? " and w" : ""),
                              .found = vertices[i].dump().substr(0, 80)});
         }
-        for (std::size_t k = 0; k < d; ++k)
-            w.c.vertices[d * i + k] = number(vertices[i][k], where + ", vertex " + std::to_string(i));
+        for (std::size_t k = 0; k < stride; ++k) w.c.vertices[stride * i + k] = number(vertices[i][k], vertex);
+        if (w.c.perspective && !(w.c.depth(static_cast<int>(i)) > 0))
+            throw Exception({.what = vertex, .expected = "a depth w above 0", .found = vertices[i][d].dump()});
     }
     const Json& point = array_of(j, "point", d, where);
     for (std::size_t k = 0; k < d; ++k) w.c.point[k] = number(point[k], where + ", point");
@@ -100,21 +114,23 @@ Witness witness_from(const Json& j, const std::string& where) {
 }  // namespace
 
 Json audit::witness_json(const Witness& w) {
-    const int n = vertex_count(w.c.simplex), d = space_dimension(w.c.simplex);
+    const int n = vertex_count(w.c.simplex), d = space_dimension(w.c.simplex), stride = w.c.stride();
     const auto hex = [](double x) { return Json(base::hexadecimal(x)); };
     Json j;
     j["kernel"] = w.kernel;
     j["reason"] = w.reason;
     j["simplex"] = name(w.c.simplex);
+    j["perspective"] = w.c.perspective;
     j["family"] = w.family;
     j["seed"] = w.seed;
     j["case"] = w.index;
     j["magnitude"] = std::isfinite(w.magnitude) ? Json(w.magnitude) : Json(nullptr);
-    j["vertices"] = vector_of(n, [&](int i) { return vector_of(d, [&](int k) { return hex(w.c.vertex(i, k)); }); });
+    j["vertices"] =
+        vector_of(n, [&](int i) { return vector_of(stride, [&](int k) { return hex(w.c.vertex(i, k)); }); });
     j["point"] = vector_of(d, [&](int k) { return hex(w.c.point[static_cast<std::size_t>(k)]); });
     j["values"] = vector_of(n, [&](int i) { return hex(w.c.values[static_cast<std::size_t>(i)]); });
     j["decimal"]["vertices"] = vector_of(
-        n, [&](int i) { return vector_of(d, [&](int k) { return Json(base::shortest(w.c.vertex(i, k))); }); });
+        n, [&](int i) { return vector_of(stride, [&](int k) { return Json(base::shortest(w.c.vertex(i, k))); }); });
     j["decimal"]["point"] =
         vector_of(d, [&](int k) { return Json(base::shortest(w.c.point[static_cast<std::size_t>(k)])); });
     return j;

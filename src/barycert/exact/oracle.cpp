@@ -23,7 +23,8 @@ Feature feature_of(Simplex simplex, std::uint8_t support) {
 template <class Types>
 OracleAnswer answer(const Case& c, const Scales& scales) {
     using N = typename Types::Number;
-    const Solution<Types> s = solve<Types>(c, scales);
+    Solution<Types> s = solve<Types>(c, scales);
+    if (c.perspective) apply_perspective<Types>(c, scales, s);
     const auto count = static_cast<std::size_t>(vertex_count(c.simplex));
     OracleAnswer a;
     const int orientation = s.denominator.sign();
@@ -76,8 +77,36 @@ double partition_residual(std::span<const double> weights) {
     return round_quotient(sum, BigInteger(1), scale.low);
 }
 
+namespace {
+
+/// The place in the window of sum W_i (x_i w_i, y_i w_i, w_i), less p: sum W_i w_i (v_i - p) / sum W_i w_i.
+double projected_residual(const Case& c, std::span<const double> weights) {
+    Scales scales(c);
+    Scale common, weight_scale;
+    for (const Scale& s : scales.axes) common.include(s);
+    for (const double w : weights) weight_scale.include(w);
+    BigInteger depth(0);
+    std::array<BigInteger, 2> offset{};
+    for (int i = 0; i < 3; ++i) {
+        const BigInteger share = scaled<BigInteger>(weights[static_cast<std::size_t>(i)], weight_scale.low) *
+                                 scaled<BigInteger>(c.depth(i), scales.depths.low);
+        depth += share;
+        for (int axis = 0; axis < 2; ++axis) {
+            const auto k = static_cast<std::size_t>(axis);
+            offset[k] += share * (scaled<BigInteger>(c.vertex(i, axis), common.low) -
+                                  scaled<BigInteger>(c.point[k], common.low));
+        }
+    }
+    const BigInteger square = offset[0] * offset[0] + offset[1] * offset[1];
+    if (depth.sign() == 0) return square.sign() == 0 ? 0.0 : std::numeric_limits<double>::infinity();
+    return round_root(square, depth * depth, common.low);
+}
+
+}  // namespace
+
 double reproduction_residual(const Case& c, std::span<const double> weights) {
     const ExactEnvironment environment;
+    if (c.perspective) return projected_residual(c, weights);
     // sum w_i v_i - sum (n_i/d) v_i = sum (w_i d - n_i) v_i / d, because the exact
     // weights n_i/d give p, or its projection, whatever the weights w_i under test sum to.
     Scales scales(c);

@@ -3,8 +3,9 @@
 /// Bounds for the narrow types. Every coordinate, relative to its axis' scale, is below 2^61 in magnitude (the caller
 /// checks), so differences are below 2^62, products of two below 2^124, 2x2 minors below 2^125 and thus within Int128;
 /// n_i of a tetrahedron below 3 * 2^62 * 2^125 < 2^189, of a triangle3d below 3 * 2^250 < 2^252, of a segment below
-/// 3 * 2^124. A value numerator adds 61 + 2 bits. Quotients are shifted by at most the length of the denominator plus
-/// 56 bits. All this stays below 512 bits.
+/// 3 * 2^124. Perspective multiplies those of a triangle, below 2^125, by two depths: below 2^247, three of them below
+/// 2^249. A value numerator adds 61 + 2 bits. Quotients are shifted by at most the length of the denominator plus 56
+/// bits. All this stays below 512 bits.
 #pragma once
 
 #include <algorithm>
@@ -37,6 +38,7 @@ struct Solution {
 /// mix the axes (triangle3d, segment) all must share one.
 struct Scales {
     std::array<Scale, 3> axes{};
+    Scale depths;  ///< for perspective
     Scale values;
     bool narrow = true;
 
@@ -53,9 +55,10 @@ struct Scales {
             for (const Scale& s : axes) common.include(s);
             axes.fill(common);
         }
+        for (int i = 0; i < count && c.perspective; ++i) depths.include(c.depth(i));
         for (int i = 0; i < count; ++i) values.include(c.values[static_cast<std::size_t>(i)]);
-        narrow =
-            values.bits() <= 61 && std::all_of(axes.begin(), axes.end(), [](const Scale& s) { return s.bits() <= 61; });
+        narrow = values.bits() <= 61 && depths.bits() <= 61 &&
+                 std::all_of(axes.begin(), axes.end(), [](const Scale& s) { return s.bits() <= 61; });
     }
 };
 
@@ -141,6 +144,21 @@ Solution<Types> solve(const Case& c, const Scales& scales) {
         }
     }
     return s;
+}
+
+/// From the weights in the window, n_i / d, to those of perspective, n_i w_j w_k / sum n_i w_j w_k. The denominator
+/// becomes zero also where the area is.
+template <class Types>
+void apply_perspective(const Case& c, const Scales& scales, Solution<Types>& s) {
+    using N = typename Types::Number;
+    if (s.denominator.sign() == 0) return;
+    const auto w = [&](int i) { return N(scaled<typename Types::Coordinate>(c.depth(i % 3), scales.depths.low)); };
+    s.denominator = N(0);
+    for (int i = 0; i < 3; ++i) {
+        N& n = s.numerators[static_cast<std::size_t>(i)];
+        n *= w(i + 1) * w(i + 2);
+        s.denominator += n;
+    }
 }
 
 }  // namespace barycert::exact

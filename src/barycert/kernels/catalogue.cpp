@@ -78,6 +78,7 @@ const std::vector<Kernel>& catalogue() {
         kernels::add_exact(list, Simplex::segment);
         kernels::add_triangle(list);
         kernels::add_exact(list, Simplex::triangle);
+        kernels::add_perspective(list);
         kernels::add_triangle3d(list);
         kernels::add_exact(list, Simplex::triangle3d);
         kernels::add_tetrahedron(list);

@@ -39,10 +39,11 @@ Result<Kernel> described(const std::string& path, const barycert_kernel_info& in
                        "set info->abi = BARYCERT_KERNEL_ABI and rebuild it with this version's barycert/kernel.h");
     }
     const std::string simplex_name = text_or_empty(info.simplex), formula_name = text_or_empty(info.name);
-    const auto simplex = simplex_named(simplex_name);
+    const bool perspective = simplex_name == "triangle.perspective";
+    const auto simplex = perspective ? Simplex::triangle : simplex_named(simplex_name);
     if (!simplex) {
         return refused(path, "the kernel library names an unknown simplex",
-                       "segment, triangle, triangle3d or tetrahedron", '"' + simplex_name + '"',
+                       "segment, triangle, triangle3d, tetrahedron or triangle.perspective", '"' + simplex_name + '"',
                        "set info->simplex to one of these");
     }
     if (!well_formed(formula_name)) {
@@ -50,10 +51,11 @@ Result<Kernel> described(const std::string& path, const barycert_kernel_info& in
                        '"' + formula_name + '"', "set info->name accordingly");
     }
     const std::string formula = text_or_empty(info.formula), source = text_or_empty(info.source);
-    Kernel k = kernels::make_kernel(*simplex, formula_name, weights,
+    Kernel k = kernels::make_kernel(*simplex, (perspective ? "perspective-" : "") + formula_name, weights,
                                     info.declares_degenerate != 0 ? kernels::Declares::yes : kernels::Declares::no,
                                     {formula.c_str(), source.c_str(), ""});
     k.certifies = info.certifies != 0;
+    k.perspective = perspective;
     const auto same_name = [&](const Kernel& other) { return other.name == k.name; };
     if (std::any_of(catalogue().begin(), catalogue().end(), same_name)) {
         return refused(path, "the kernel library takes the name of a kernel of the catalogue", "another name", k.name,

@@ -1,6 +1,7 @@
 // Kernels on a triangle of the plane.
 #include "barycert/kernels/triangle_formulas.hpp"
 
+#include "barycert/kernels/increments.hpp"
 #include "barycert/kernels/linear_formulas.hpp"
 #include "barycert/kernels/registry.hpp"
 
@@ -47,6 +48,22 @@ void add_triangle(std::vector<Kernel>& list) {
         {"the line y = py meets two edges in l and r: weights on each edge, then p = (1-u) l + u r",
          "Gouraud 1971, scan conversion",
          "0/0 at the topmost and the lowest vertex, where l and r coincide; poor near them"});
+
+    const Text steps{
+        "from the lowest vertex by constant steps: x and W along two sides for each unit of y, then W for each unit of "
+        "x; the last step a fraction",
+        "scanline rasterisation; the notes' sixth section",
+        "each step rounds: the error grows with the size in pixels; 0/0 at the topmost and the lowest vertex. More "
+        "than "
+        "2^14 steps are jumped"};
+    add("scanline-increments", increments<double>, Declares::no, steps);
+    list.back().interpolate = incremented_value<double>;
+    add("scanline-increments.float32", in_float<s, increments<float>>, Declares::no,
+        {steps.formula, steps.source,
+         "rounds coordinates to 24 bits first, and each step too: a triangle of thousands of pixels shows it in eight "
+         "bits of "
+         "colour"});
+    list.back().interpolate = value_in_float<s, incremented_value<float>>;
 
     const Text ones{"W_a = |1 p; 1 b; 1 c| / |1 a; 1 b; 1 c| and cyclic, 3x3 determinants", "homogeneous coordinates",
                     "products of absolute coordinates cancel: at an offset of 2^26 triangle sizes no digit is left"};

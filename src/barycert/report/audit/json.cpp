@@ -60,6 +60,7 @@ Json kernel_json(const Kernel& k) {
     Json j;
     j["name"] = k.name;
     j["simplex"] = name(k.simplex);
+    j["perspective"] = k.perspective;
     j["formula"] = k.formula;
     j["source"] = k.source;
     j["fails"] = k.fails;
@@ -78,6 +79,7 @@ Json family_json(const Family& f) {
     j["needs_mesh"] = f.needs_mesh;
     j["simplices"] = Json::array();
     for (const Simplex s : f.simplices) j["simplices"].push_back(name(s));
+    j["perspective"] = f.perspective;
     return j;
 }
 

@@ -22,20 +22,22 @@ std::string findings(const Comparison& r) {
     return out.empty() ? "-" : out;
 }
 
-std::string coordinates(const Case& c, auto at) {
+std::string coordinates(int count, auto at) {
     std::string decimal, hex;
-    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
+    for (int axis = 0; axis < count; ++axis) {
         decimal += (axis == 0 ? "" : ", ") + base::shortest(at(axis));
         hex += (axis == 0 ? "" : ", ") + base::hexadecimal(at(axis));
     }
     return fmt::format("({})\n        ({})\n", decimal, hex);
 }
 
-/// Interpolating along auxiliary lines is barycentric interpolation, in exact arithmetic.
+/// Interpolating along auxiliary lines is barycentric interpolation, and ray casting the perspective-correct one, in
+/// exact arithmetic.
 std::string identity_line(const Replay& r) {
-    const char* const what = r.witness.c.simplex == Simplex::triangle
-                                 ? "bilinear interpolation and ratios of signed areas"
-                                 : "trilinear interpolation and ratios of signed volumes";
+    const Case& c = r.witness.c;
+    const char* const what = c.perspective                    ? "ray casting and interpolation of 1/w"
+                             : c.simplex == Simplex::triangle ? "bilinear interpolation and ratios of signed areas"
+                                                              : "trilinear interpolation and ratios of signed volumes";
     switch (r.identity) {
         case IdentityVerdict::holds:
             return fmt::format("    in exact arithmetic {} give the same weights here\n", what);
@@ -57,6 +59,7 @@ std::string witness_text(const Replay& replay, const TerminalStyle& style) {
     const int n = vertex_count(c.simplex);
     const OracleAnswer& answer = replay.exact;
     std::string title(name(c.simplex));
+    if (c.perspective) title += " in a window (vertices x, y, w)";
     if (!witness.kernel.empty())
         title += ", " + (witness.reason.empty() ? "" : witness.reason + " of ") + witness.kernel;
     std::string out = paint.bold(base::printable(title)) + "\n";
@@ -65,12 +68,15 @@ std::string witness_text(const Replay& replay, const TerminalStyle& style) {
                            witness.seed);
     }
     for (int i = 0; i < n; ++i)
-        out += fmt::format("    v{}  ", i) + coordinates(c, [&](int axis) { return c.vertex(i, axis); });
-    out += "    p   " + coordinates(c, [&](int axis) { return c.point[static_cast<std::size_t>(axis)]; });
+        out += fmt::format("    v{}  ", i) + coordinates(c.stride(), [&](int axis) { return c.vertex(i, axis); });
+    out += "    p   " +
+           coordinates(space_dimension(c.simplex), [&](int axis) { return c.point[static_cast<std::size_t>(axis)]; });
     out += "    exact: " + std::string(name(answer.region));
     if (answer.region == Region::boundary) out += fmt::format(" ({})", name(answer.feature));
     if (answer.region == Region::degenerate)
-        out += fmt::format(" (its vertices span {} dimensions)", replay.affine_dimension);
+        out += c.perspective && replay.affine_dimension == 2
+                   ? std::string(" (the ray through the point is parallel to the plane)")
+                   : fmt::format(" (its vertices span {} dimensions)", replay.affine_dimension);
     out += "\n";
 
     std::size_t width = 5;
@@ -117,8 +123,9 @@ std::string families_text(const std::vector<Family>& families) {
     for (const Family& f : families) {
         std::string simplices;
         for (const Simplex s : f.simplices) simplices += (simplices.empty() ? "" : ", ") + std::string(name(s));
-        out += fmt::format("{}\n    tests    {}\n    recipe   {}\n    for      {}{}\n", f.name, f.tests, f.parameters,
-                           simplices, f.needs_mesh ? " of a mesh" : "");
+        out += fmt::format("{}\n    tests    {}\n    recipe   {}\n    for      {}{}{}\n", f.name, f.tests, f.parameters,
+                           simplices, f.needs_mesh ? " of a mesh" : "",
+                           f.perspective ? " with a depth at each vertex" : "");
     }
     return out;
 }

@@ -119,17 +119,25 @@ std::string Svg::finish() && {
     return std::move(body_);
 }
 
+namespace {
+
+std::string tick_text(const Axis& axis, double t) {
+    return axis.label == nullptr ? base::shortest(t) : axis.label(t);
+}
+
+}  // namespace
+
 void draw_frame(Svg& svg, const Axis& x, const Axis& y) {
     const Stroke grid{.colour = "#e4e4e4"}, rule{.colour = "#444"};
     for (const double t : round_ticks(x.low, x.high, 12)) {
         svg.line({x.at(t), y.from}, {x.at(t), y.to}, grid);
         svg.line({x.at(t), y.from}, {x.at(t), y.from + 5}, rule);
-        svg.text({x.at(t), y.from + 20}, base::shortest(t), {.anchor = Anchor::middle});
+        svg.text({x.at(t), y.from + 20}, tick_text(x, t), {.anchor = Anchor::middle});
     }
     for (const double t : round_ticks(y.low, y.high, 12)) {
         svg.line({x.from, y.at(t)}, {x.to, y.at(t)}, grid);
         svg.line({x.from - 5, y.at(t)}, {x.from, y.at(t)}, rule);
-        svg.text({x.from - 9, y.at(t) + 4.5}, base::shortest(t), {.anchor = Anchor::end});
+        svg.text({x.from - 9, y.at(t) + 4.5}, tick_text(y, t), {.anchor = Anchor::end});
     }
     svg.polyline({{x.from, y.from}, {x.to, y.from}, {x.to, y.to}, {x.from, y.to}, {x.from, y.from}}, rule);
     svg.text({(x.from + x.to) / 2, y.from + 44}, x.title, {.size = 14, .anchor = Anchor::middle});

@@ -59,6 +59,7 @@ struct Axis {
     double low = 0, high = 1;
     double from = 0, to = 1;
     std::string_view title;
+    std::string (*label)(double) = nullptr;  ///< what a tick is called, where it is not the number itself
 
     double at(double x) const { return from + (to - from) * (x - low) / (high - low); }
 };

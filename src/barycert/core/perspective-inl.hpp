@@ -1,0 +1,146 @@
+// Internal: the double-double tier of perspective-correct interpolation, many points of one triangle on SIMD lanes.
+//
+// Notation of numerators-inl.hpp for the triangle in the window, w_i its depths; W_i = w_j w_k, exact in two doubles.
+//   m_i = n_i W_i,  m = sum m_i,  d = sum n_i;  a weight is m_i / m, a value sum m_i f_i / m, the depth d w_0 W_0 / m.
+//
+// Bounds, u = 2^-53, errors of the operations as in double_double-inl.hpp: a product 9 u^2, a sum 4 u^2 of the
+// magnitudes. R_x, R_y: the largest |v_i - p| along the axes, P = 2 R_x R_y >= the two products of a numerator.
+//   n_i           2 products, 1 sum: (9 + 4) u^2 P             13 u^2 P
+//   d             3 of them, 2 sums: 39 + 8 * 3                63 u^2 P
+//   m_i           that of n_i and a product: 13 + 9            22 u^2 P W_i
+//   m             three, 2 sums: 22 + 8                        30 u^2 P S,  S = sum W_i
+//   sum m_i f_i   22 and a product 9, 2 sums 8                 39 u^2 P sum W_i |f_i|
+//   d w_0 W_0     63 and two products of 3 P: 27 + 27          117 u^2 P w_0 W_0
+// The quotient q of numerator and m, E their errors: s = fl(N.high / m.high) and the correction c = (N - s m) / m.high
+// obey, as in refinement-inl.hpp (where c is derived for triangles in space),
+//   |N / m - (s + c)| <= 1.01 (E_N + |s| E_m) / |m.high| + 25 u^2 |s|   if E_m <= 2^-10 |m.high|,
+// of which 1.02 and 26 leave room for the roundings of the bound and for u^3. Then m is not zero, so that there are
+// weights unless the area is zero: that d is not is asked for besides.
+//
+// Ranges; outside them nothing is certain: R_x, R_y in [2^-200, 2^200], depths in [2^-100, 2^100], the largest |f_i| in
+// [2^-200, 2^200] or zero, |s| in [2^-800, 2^900] (or all f_i zero). So 2^-399 <= P <= 2^401, W_i in [2^-200, 2^200],
+// and no product exceeds 2^807. Underflow loses at most 2^-1070 an operation, against 0.1 u^2 P W_i F >= 2^-909 (F the
+// largest value); |m.high| >= 2^10 * 30 u^2 P S > 2^-691. N.high below 2^-969, where s m is not split exactly, is less
+// than E_N unless all values are zero, so that the sign and with it the rounding are uncertain.
+//
+// Included once per SIMD target.
+#if defined(BARYCERT_CORE_PERSPECTIVE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef BARYCERT_CORE_PERSPECTIVE_INL_HPP
+#undef BARYCERT_CORE_PERSPECTIVE_INL_HPP
+#else
+#define BARYCERT_CORE_PERSPECTIVE_INL_HPP
+#endif
+
+#include "barycert/core/refinement-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace barycert::core {
+namespace HWY_NAMESPACE {
+
+template <class D>
+struct ProjectedLanes {
+    using V = hn::Vec<D>;
+    using Number = DoubleDouble<V>;
+    Number numerator[3];       ///< m_i
+    Number denominator, area;  ///< m, d
+    V product[3];              ///< W_i, rounded
+    V depth0;                  ///< w_0
+    Number product0;           ///< W_0
+    V p;                       ///< u^2 P
+    V denominator_error, inverse;
+    hn::Mask<D> valid;
+};
+
+/// `vertices` are x, y, w of three vertices.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE ProjectedLanes<D> project_lanes(D tag, const double* vertices, V x, V y) {
+    constexpr double u = 0x1p-53;
+    using Number = DoubleDouble<V>;
+    const auto constant = [&](double a) { return hn::Set(tag, a); };
+    ProjectedLanes<D> out;
+    const V point[2] = {x, y};
+    Relative<Simplex::triangle, Number> c;
+    V extent[2];
+    for (int k = 0; k < 2; ++k) {
+        for (int i = 0; i < 3; ++i) c.r[i][k] = difference(constant(vertices[3 * i + k]), point[k]);
+        extent[k] = hn::Max(hn::Max(hn::Abs(c.r[0][k].high), hn::Abs(c.r[1][k].high)), hn::Abs(c.r[2][k].high));
+    }
+    Fractions<Simplex::triangle, Number> window;
+    solve(c, Number{hn::Zero(tag), hn::Zero(tag)}, window);
+    V sum = hn::Zero(tag);
+    for (int i = 0; i < 3; ++i) {
+        const TwoTerms<V> w =
+            two_product(constant(vertices[3 * ((i + 1) % 3) + 2]), constant(vertices[3 * ((i + 2) % 3) + 2]));
+        const Number both{w.high, w.low};
+        if (i == 0) out.product0 = both;
+        out.product[i] = w.high;
+        out.numerator[i] = window.numerator[i] * both;
+        sum = sum + w.high;
+    }
+    out.depth0 = constant(vertices[2]);
+    out.area = window.denominator;
+    out.denominator = out.numerator[0] + out.numerator[1] + out.numerator[2];
+    out.p = constant(2 * u * u) * (extent[0] * extent[1]);
+    out.denominator_error = constant(30) * (out.p * sum);
+    out.inverse = constant(1) / out.denominator.high;
+    const auto within = [&](V a, double low, double high) {
+        return hn::And(hn::Ge(a, constant(low)), hn::Le(a, constant(high)));
+    };
+    out.valid = hn::And(within(extent[0], 0x1p-200, 0x1p200), within(extent[1], 0x1p-200, 0x1p200));
+    out.valid = hn::And(out.valid, hn::Le(out.denominator_error, constant(0x1p-10) * hn::Abs(out.denominator.high)));
+    out.valid = hn::And(out.valid, hn::Gt(hn::Abs(out.area.high), constant(65) * out.p));
+    for (int i = 0; i < 3; ++i) out.valid = hn::And(out.valid, within(constant(vertices[3 * i + 2]), 0x1p-100, 0x1p100));
+    return out;
+}
+
+/// numerator / m correctly rounded, where certain. `all_zero`: the numerator is exactly zero.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V divided(D tag, const ProjectedLanes<D>& q, const DoubleDouble<V>& numerator, V error, hn::Mask<D> all_zero,
+                     hn::Mask<D>& certain) {
+    constexpr double u = 0x1p-53;
+    const auto constant = [&](double a) { return hn::Set(tag, a); };
+    const V s = numerator.high / q.denominator.high;
+    const TwoTerms<V> p = two_product(s, q.denominator.high);
+    const V rest = ((numerator.high - p.high) - p.low) + (numerator.low - s * q.denominator.low);
+    const V correction = rest * q.inverse, size = hn::Abs(s);
+    const V bound = constant(1.02) * ((error + size * q.denominator_error) * hn::Abs(q.inverse)) +
+                    constant(26 * u * u) * size + constant(0x1p-52) * hn::Abs(correction);
+    const auto in_range = hn::And(hn::Ge(size, constant(0x1p-800)), hn::Le(size, constant(0x1p900)));
+    certain = hn::And(hn::And(certain, q.valid), hn::Or(in_range, all_zero));
+    // + 0: an exact zero is positive.
+    return rounded_if_certain<D>(s, correction, bound, certain) + hn::Zero(tag);
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V perspective_weight(D tag, const ProjectedLanes<D>& q, int i, hn::Mask<D>& certain) {
+    return divided(tag, q, q.numerator[i], hn::Set(tag, 22) * (q.p * q.product[i]), hn::MaskFalse(tag), certain);
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V perspective_depth(D tag, const ProjectedLanes<D>& q, hn::Mask<D>& certain) {
+    const DoubleDouble<V> numerator = (q.area * q.product0) * DoubleDouble<V>{q.depth0, hn::Zero(tag)};
+    const V error = hn::Set(tag, 117) * (q.p * (q.product[0] * q.depth0));
+    return divided(tag, q, numerator, error, hn::MaskFalse(tag), certain);
+}
+
+/// f: the values at the three vertices.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V perspective_value(D tag, const ProjectedLanes<D>& q, const V (&f)[3], hn::Mask<D>& certain) {
+    const auto product = [&](int i) { return q.numerator[i] * DoubleDouble<V>{f[i], hn::Zero(tag)}; };
+    const DoubleDouble<V> numerator = product(0) + product(1) + product(2);
+    V sum = hn::Zero(tag), max = hn::Zero(tag);
+    for (int i = 0; i < 3; ++i) {
+        sum = sum + q.product[i] * hn::Abs(f[i]);
+        max = hn::Max(max, hn::Abs(f[i]));
+    }
+    const auto zero = hn::Eq(max, hn::Zero(tag));
+    const auto in_range =
+        hn::Or(zero, hn::And(hn::Ge(max, hn::Set(tag, 0x1p-200)), hn::Le(max, hn::Set(tag, 0x1p200))));
+    certain = hn::And(certain, in_range);
+    return divided(tag, q, numerator, hn::Set(tag, 39) * (q.p * sum), zero, certain);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace barycert::core
+HWY_AFTER_NAMESPACE();
+#endif
