@@ -28,9 +28,10 @@ std::vector<RationalRow> judge_clip(const std::vector<double>& vertices) {
             if (from >= Rational(0)) left.push_back(a);
             if (from * to < Rational(0)) left.push_back(between(a, b, from / (from - to)));
         }
+        if (left.size() < 3) return {};  // nothing, a corner or an edge
         polygon = left;
     }
-    return polygon.size() < 3 ? std::vector<RationalRow>{} : polygon;
+    return polygon;
 }
 
 }  // namespace barycert
