@@ -47,7 +47,7 @@ Result<Scene> cube_scene(const CubePicture& p) {
     add_face(scene, {0, 0, -1}, {-1, 0, 0}, {0, 1, 0});
     add_face(scene, {-1, 0, 0}, {0, 0, 1}, {0, 1, 0});
     add_face(scene, {0, -1, 0}, {1, 0, 0}, {0, 0, 1});
-    const auto view = look_at({1.6, 1.5, 2.4}, {0.08, -0.1, 0.08}, {0, 1, 0});
+    const auto view = look_at({1.6, 1.5, 2.4}, {0, -0.1, 0.13}, {0, 1, 0});
     if (!view) return view.error();
     const auto projection = perspective(62, 1.0 * p.size.width / p.size.height, 0.5, 10);
     if (!projection) return projection.error();
