@@ -1,0 +1,14 @@
+/// The subcommands of `barycert render`, one a file.
+#pragma once
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace barycert::cli {
+
+/// Each adds its subcommand to `render`; when it has run, `exit_code` is set.
+void add_render_iso(CLI::App& render, int& exit_code);
+void add_render_slice(CLI::App& render, int& exit_code);
+
+}  // namespace barycert::cli
