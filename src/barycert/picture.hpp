@@ -21,6 +21,9 @@ struct Slice {
     std::optional<std::pair<double, double>> range = {};
     std::span<const std::uint8_t> valid = {};  ///< empty, or one a value: 0 where there is none (outside)
     bool bar = true;                           ///< a colour bar with the range in numbers, to the right of the slice
+
+    std::string title = {};   ///< a line under the slice; printable ASCII, other characters are drawn as boxes
+    double pixel_length = 0;  ///< of a column; if above 0, a scale of lengths stands under the slice
 };
 
 /// What became of the values.
@@ -41,7 +44,9 @@ struct SliceCounts {
 /// The range is divided into 256 equal parts, a colour each; its ends have the first and the last colour. If all that
 /// is drawn has one value, or the range is one number, that has the colour in the middle. The bar is a white panel of
 /// its own beside the slice; a slice less than 25 pixels high is made so high by transparent lines below it. Without a
-/// range there is no bar.
+/// range there is no bar. Title and scale are a white panel below both; a title that is too long is cut, and there is
+/// no scale where there is no place for it. The scale is a line of 1, 2 or 5 times a power of ten, rounded to pixels,
+/// with that number.
 ///
 /// `counts`: if given, set. Errors: sizes that do not fit together, no value at all, more than a million pixels a side;
 /// an aspect or a range that is none; a file that cannot be written.

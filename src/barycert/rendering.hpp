@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "barycert/pipeline.hpp"
 #include "barycert/result.hpp"
 #include "barycert/view.hpp"
 
@@ -42,7 +43,8 @@ struct RenderSummary {
 
 /// The boundary of a mesh of tetrahedra, or a mesh of triangles in the plane, as a PNG file.
 struct MeshPictureJob {
-    std::string mesh;    ///< as for read_mesh
+    std::string mesh;  ///< as for read_mesh
+    std::vector<FieldFile> field_files = {};
     std::string field;   ///< NAME, point:NAME, cell:NAME, each perhaps with .K for component K; empty: grey
     std::string output;  ///< must end in .png
     ViewOptions view;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "barycert/check.hpp"
+#include "barycert/contour.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/pipeline.hpp"
 #include "barycert/rendering.hpp"
@@ -71,6 +72,15 @@ std::string sample_text(const SampleSummary& summary, bool colour);
 inline constexpr int sample_schema = 1;
 
 std::string sample_json(const SampleSummary& summary, const Environment& environment);
+
+// What a run of cutting did, for people and as JSON.
+
+/// A few lines of at most 120 columns, names of files and fields aside.
+std::string contour_text(const ContourSummary& summary, bool colour);
+
+inline constexpr int contour_schema = 1;
+
+std::string contour_json(const ContourSummary& summary, const Environment& environment);
 
 // What a picture shows, for people; and as JSON, whose members are documented in SCHEMA.md beside this file.
 

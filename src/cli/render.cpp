@@ -1,4 +1,4 @@
-// barycert render: pictures from triangles. One picture a source; a scene from a file here.
+// barycert render: pictures and surfaces, one subcommand of its own each; here a scene from a file.
 
 #include <CLI/CLI.hpp>
 
@@ -6,6 +6,7 @@
 
 #include "command.hpp"
 #include "files.hpp"
+#include "render.hpp"
 #include "render_options.hpp"
 
 namespace barycert::cli {
@@ -25,7 +26,8 @@ int run_scene_file(const std::string& path, const PictureOptions& o) {
 }  // namespace
 
 void add_render(CLI::App& app, int& exit_code) {
-    auto* sub = app.add_subcommand("render", "Draw triangles: a scene, a mesh, and pictures that show how it is done");
+    auto* sub = app.add_subcommand(
+        "render", "Pictures of meshes and scenes, surfaces in meshes, and what the shortcuts of rasterisers cost");
     sub->footer(
         "`barycert render SCENE.json --output FILE.png` draws a scene; doc/rendering.md describes its file. Coverage "
         "is\n"
@@ -41,6 +43,8 @@ void add_render(CLI::App& app, int& exit_code) {
     add_render_cube(*sub, exit_code);
     add_render_clip(*sub, exit_code);
     add_render_mesh(*sub, exit_code);
+    add_render_iso(*sub, exit_code);
+    add_render_slice(*sub, exit_code);
 #ifdef BARYCERT_WITH_AUDIT
     add_render_drift(*sub, exit_code);
     add_render_texels(*sub, exit_code);

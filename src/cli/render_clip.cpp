@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "barycert/clip.hpp"
+#include "render.hpp"
 #include "render_options.hpp"
 
 namespace barycert::cli {

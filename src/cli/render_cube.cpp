@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "options.hpp"
+#include "render.hpp"
 #include "render_options.hpp"
 
 namespace barycert::cli {

@@ -9,7 +9,9 @@
 #include "files.hpp"
 #include "options.hpp"
 #include "progress.hpp"
+#include "render.hpp"
 #include "render_options.hpp"
+#include "sampling_options.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -42,6 +44,7 @@ void add_render_mesh(CLI::App& render, int& exit_code) {
     sub->add_option("--field", p->job.field,
                     "The field: A, point:A or cell:A; A.1 is its component 1; default: none, the mesh is grey")
         ->type_name("NAME");
+    add_field_files(*sub, p->job.field_files, "--field-file");
     sub->add_option_function<std::string>(
            "--value-range",
            [p](const std::string& text) {
@@ -74,7 +77,8 @@ void add_render_mesh(CLI::App& render, int& exit_code) {
         ->check(CLI::Range(0, 4096).description(""))
         ->type_name("N");
     sub->callback([=, &exit_code] {
-        const auto inputs = base::named_files("the mesh", mesh_files(p->job.mesh));
+        auto inputs = base::named_files("the mesh", mesh_files(p->job.mesh));
+        for (const FieldFile& file : p->job.field_files) inputs.push_back({"a field file", file.path});
         exit_code = run_picture(p->files, inputs, [&] { return draw_mesh(*p); });
     });
 }

@@ -41,11 +41,4 @@ int run_scene(const PictureOptions& o, const std::string& picture, const std::ve
 /// What render_text and render_json say of a scene, but for the counts and the time.
 RenderSummary summary_of(const std::string& picture, const PictureOptions& o, const Scene& scene);
 
-// Each adds a picture to `barycert render`.
-void add_render_gradient(CLI::App& render, int& exit_code);
-void add_render_texture(CLI::App& render, int& exit_code);
-void add_render_cube(CLI::App& render, int& exit_code);
-void add_render_clip(CLI::App& render, int& exit_code);
-void add_render_mesh(CLI::App& render, int& exit_code);
-
 }  // namespace barycert::cli

@@ -6,6 +6,7 @@
 
 #include "files.hpp"
 #include "options.hpp"
+#include "render.hpp"
 #include "render_options.hpp"
 
 namespace barycert::cli {

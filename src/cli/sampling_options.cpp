@@ -44,28 +44,6 @@ FieldFile field_file_of(const std::string& option, FieldFile::Of of, const std::
     return {of, text.substr(0, sign), text.substr(sign + 1)};
 }
 
-void add_field_files(CLI::App& sub, SamplingJob& a) {
-    struct Option {
-        const char* name;
-        FieldFile::Of of;
-        const char* help;
-    };
-    for (const Option& o :
-         {Option{"--field", FieldFile::Of::either,
-                 "Add a field: one row of numbers per node or per cell (text with blanks or commas, or .npy)"},
-          Option{"--point-field", FieldFile::Of::points, "Like --field; the rows belong to nodes"},
-          Option{"--cell-field", FieldFile::Of::cells, "Like --field; the rows belong to cells"}}) {
-        sub.add_option_function<std::vector<std::string>>(
-               o.name,
-               [&a, o](const std::vector<std::string>& all) {
-                   for (const std::string& text : all) a.field_files.push_back(field_file_of(o.name, o.of, text));
-               },
-               o.help)
-            ->allow_extra_args(false)
-            ->type_name("NAME=FILE");
-    }
-}
-
 Status write_reports(const SamplingJob& job, bool quiet, const SampleSummary& summary) {
     Status json = Done{};
     if (!job.report.empty()) json = write_output(job.report, sample_json(summary, measure_environment()));
@@ -80,8 +58,30 @@ Status write_reports(const SamplingJob& job, bool quiet, const SampleSummary& su
 
 }  // namespace
 
+void add_field_files(CLI::App& sub, std::vector<FieldFile>& files, const std::string& either) {
+    struct Option {
+        std::string name;
+        FieldFile::Of of;
+        std::string help;
+    };
+    for (const Option& o :
+         {Option{either, FieldFile::Of::either,
+                 "Add a field: one row of numbers per node or per cell (text with blanks or commas, or .npy)"},
+          Option{"--point-field", FieldFile::Of::points, "Like " + either + "; the rows belong to nodes"},
+          Option{"--cell-field", FieldFile::Of::cells, "Like " + either + "; the rows belong to cells"}}) {
+        sub.add_option_function<std::vector<std::string>>(
+               o.name,
+               [&files, o](const std::vector<std::string>& all) {
+                   for (const std::string& text : all) files.push_back(field_file_of(o.name, o.of, text));
+               },
+               o.help)
+            ->allow_extra_args(false)
+            ->type_name("NAME=FILE");
+    }
+}
+
 void add_sampling_options(CLI::App& sub, SamplingJob& a, bool& quiet) {
-    add_field_files(sub, a);
+    add_field_files(sub, a.field_files, "--field");
     sub.add_option("--fields", a.fields,
                    "Fields to sample, in this order: A,B,...; cell:A is the cell field A if there is also a node field "
                    "A; default: all")

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "barycert/pipeline.hpp"
 #include "barycert/result.hpp"
@@ -11,6 +13,9 @@ class App;
 }  // namespace CLI
 
 namespace barycert::cli {
+
+/// Options that add fields from files; `either` names the one whose rows may belong to nodes or to cells.
+void add_field_files(CLI::App& sub, std::vector<FieldFile>& files, const std::string& either);
 
 void add_sampling_options(CLI::App& sub, SamplingJob& job, bool& quiet);
 

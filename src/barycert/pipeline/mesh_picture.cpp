@@ -2,7 +2,6 @@
 
 #include <tbb/global_control.h>
 
-#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <string>
@@ -10,10 +9,11 @@
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
-#include "barycert/mesh/adjacency.hpp"
+#include "barycert/pipeline/field_files.hpp"
 #include "barycert/pipeline/run.hpp"
 #include "barycert/rendering.hpp"
 #include "barycert/sample/points/field_choice.hpp"
+#include "barycert/surface.hpp"
 
 namespace barycert {
 namespace pipeline {
@@ -65,41 +65,49 @@ Result<ChosenComponent> chosen_field(const Mesh& mesh, const std::string& name) 
     return chosen;
 }
 
-/// What is drawn: triangles, and which cell each belongs to.
-struct DrawnFacets {
-    std::vector<Mesh::Index> triangles, cells;
+/// Triangles, with the chosen component at their points or on them.
+struct DrawnSurface {
+    Surface surface;
+    std::vector<double> values;
+    bool of_triangles = false;
+
+    SurfaceView view(int dimension) const {
+        SurfaceView view{.dimension = dimension, .points = surface.points, .triangles = surface.cells};
+        (of_triangles ? view.triangle_values : view.point_values) = values;
+        return view;
+    }
 };
 
-DrawnFacets facets_of(const Mesh& mesh) {
-    DrawnFacets drawn;
-    if (mesh.dimension == 2) {
-        drawn.triangles = mesh.cells;
-        for (std::size_t c = 0; c < mesh.cell_count(); ++c) drawn.cells.push_back(static_cast<Mesh::Index>(c));
-        return drawn;
-    }
-    for (const std::int64_t facet : mesh::hull_facets(mesh, mesh::compute_neighbours(mesh))) {
-        const std::int64_t cell = facet / 4;
-        for (std::int64_t k = 0; k < 4; ++k) {
-            if (k != facet % 4) drawn.triangles.push_back(mesh.cells[static_cast<std::size_t>(4 * cell + k)]);
-        }
-        drawn.cells.push_back(static_cast<Mesh::Index>(cell));
-    }
-    return drawn;
+/// The cells of a mesh in the plane, or the boundary of one in space. The fields of `options` are carried along.
+Result<Surface> triangles_of(const Mesh& mesh, const CutOptions& options) {
+    if (mesh.dimension == 3) return boundary(mesh, options);
+    Surface cells;
+    cells.points = mesh.points;
+    cells.cells = mesh.cells;
+    for (const Field* f : options.point_fields) cells.point_fields.push_back(*f);
+    for (const Field* f : options.cell_fields) cells.cell_fields.push_back(*f);
+    return cells;
 }
 
-/// One component of the field, for each node or each triangle.
-std::vector<double> values_of(const ChosenComponent& chosen, const DrawnFacets& drawn) {
-    const auto components = static_cast<std::size_t>(chosen.field->components);
-    const auto at = [&](std::size_t i) {
-        return chosen.field->data[i * components + static_cast<std::size_t>(chosen.component)];
-    };
-    std::vector<double> values;
-    if (chosen.of_cells) {
-        for (const Mesh::Index cell : drawn.cells) values.push_back(at(static_cast<std::size_t>(cell)));
-    } else {
-        for (std::size_t i = 0; i < chosen.field->data.size() / components; ++i) values.push_back(at(i));
+Result<DrawnSurface> drawn_surface(const Mesh& mesh, const std::string& field, int threads) {
+    CutOptions options;
+    options.threads = threads;
+    ChosenComponent chosen;
+    if (!field.empty()) {
+        const Result<ChosenComponent> found = chosen_field(mesh, field);
+        if (!found) return found.error();
+        chosen = *found;
+        (chosen.of_cells ? options.cell_fields : options.point_fields).push_back(chosen.field);
     }
-    return values;
+    Result<Surface> surface = triangles_of(mesh, options);
+    if (!surface) return surface.error();
+    DrawnSurface drawn{std::move(*surface), {}, chosen.of_cells};
+    if (chosen.field == nullptr) return drawn;
+    const Field& carried = (chosen.of_cells ? drawn.surface.cell_fields : drawn.surface.point_fields).front();
+    const auto components = static_cast<std::size_t>(carried.components);
+    for (auto i = static_cast<std::size_t>(chosen.component); i < carried.data.size(); i += components)
+        drawn.values.push_back(carried.data[i]);
+    return drawn;
 }
 
 }  // namespace
@@ -111,8 +119,9 @@ Result<RenderSummary> render_mesh_file(const MeshPictureJob& job) {
     std::optional<tbb::global_control> limit;
     if (job.threads > 0)
         limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(job.threads));
-    const Result<Mesh> mesh = read_mesh(job.mesh, {.faces = false, .neighbours = false, .threads = job.threads});
+    Result<Mesh> mesh = read_mesh(job.mesh, {.faces = false, .neighbours = false, .threads = job.threads});
     if (!mesh) return mesh.error();
+    if (Status added = pipeline::add_fields(job.field_files, *mesh); !added) return added.error();
     if (mesh->cells.empty())
         return Error{.what = "the mesh has no cells", .file = job.mesh, .remedy = "there is nothing to draw"};
     RenderSummary summary;
@@ -120,21 +129,14 @@ Result<RenderSummary> render_mesh_file(const MeshPictureJob& job) {
     summary.input = job.mesh;
     summary.output = job.output;
     summary.size = job.view.size;
-    const pipeline::DrawnFacets drawn = pipeline::facets_of(*mesh);
-    SurfaceView surface{.dimension = mesh->dimension, .points = mesh->points, .triangles = drawn.triangles};
-    std::vector<double> values;
-    if (!job.field.empty()) {
-        const auto chosen = pipeline::chosen_field(*mesh, job.field);
-        if (!chosen) {
-            Error error = chosen.error();
-            error.file = job.mesh;
-            return error;
-        }
-        values = pipeline::values_of(*chosen, drawn);
-        (chosen->of_cells ? surface.triangle_values : surface.point_values) = values;
+    const auto drawn = pipeline::drawn_surface(*mesh, job.field, job.threads);
+    if (!drawn) {
+        Error error = drawn.error();
+        if (error.file.empty()) error.file = job.mesh;
+        return error;
     }
     ViewCounts counts;
-    const Result<Image> image = draw_surface(surface, job.view, &counts);
+    const Result<Image> image = draw_surface(drawn->view(mesh->dimension), job.view, &counts);
     if (!image) return image.error();
     if (Status written = write_png(job.output, *image); !written) return written.error();
     summary.counts = counts.render;

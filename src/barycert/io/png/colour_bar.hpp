@@ -13,10 +13,13 @@ inline constexpr std::size_t min_bar_height = 25;
 
 class ColourBar {
 public:
-    /// For numbers low <= high, as high as asked for (at least least_bar_height). Text grows with the height.
+    /// For numbers low <= high, as high as asked for (at least min_bar_height). Text grows with the height.
     ColourBar(double low, double high, std::size_t height);
 
     std::size_t width() const { return width_; }
+
+    /// Pixels for each dot of the text.
+    std::size_t scale() const { return scale_; }
 
     /// Sets the 4 * width() bytes of a row, counted from the top.
     void row(std::size_t r, std::uint8_t* pixels) const;

@@ -7,6 +7,7 @@
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/io/png/caption.hpp"
 #include "barycert/io/png/colour_bar.hpp"
 #include "barycert/io/png/colour_map.hpp"
 #include "barycert/io/png/png_rows.hpp"
@@ -44,6 +45,10 @@ Status check(const std::string& path, const Slice& s) {
     if (!(s.aspect > 0) || !std::isfinite(s.aspect)) {
         return refusal(path, "the aspect of a slice is none", "a positive number", base::shortest(s.aspect),
                        "divide the spacing along a line by the spacing of lines");
+    }
+    if (!(s.pixel_length >= 0) || !std::isfinite(s.pixel_length)) {
+        return refusal(path, "the length of a pixel is none", "a finite number, 0 or more",
+                       base::shortest(s.pixel_length), "leave it at 0 for a picture without a scale");
     }
     if (s.range &&
         (!std::isfinite(s.range->first) || !std::isfinite(s.range->second) || s.range->first > s.range->second)) {
@@ -124,7 +129,15 @@ Status write_png(const std::string& path, const Slice& s, SliceCounts* counts) {
                        "at most " + std::to_string(longest_png_side) + " pixels a side", std::to_string(width),
                        "leave out the bar, or choose fewer points");
     }
+    const double column_length = wide != 0 ? s.pixel_length / s.aspect : s.pixel_length;
+    const Caption caption(s.title, column_length, columns, width, bar.scale());
+    if (height + caption.height() > longest_png_side) {
+        return refusal(path, "there is no room for the caption",
+                       "at most " + std::to_string(longest_png_side) + " pixels a side",
+                       std::to_string(height + caption.height()), "leave it out, or choose fewer points");
+    }
     const auto row = [&](std::size_t r, std::uint8_t* pixels) {
+        if (r >= height) return caption.row(r - height, pixels);
         for (std::size_t i = 0; i < 4 * columns; ++i) pixels[i] = 0;
         if (r < lines) {
             const std::size_t upwards = lines - 1 - r;
@@ -139,7 +152,7 @@ Status write_png(const std::string& path, const Slice& s, SliceCounts* counts) {
         }
         if (with_bar) bar.row(r, pixels + 4 * columns);
     };
-    if (Status written = write_png_rows(path, width, height, row); !written) return written;
+    if (Status written = write_png_rows(path, width, height + caption.height(), row); !written) return written;
     if (counts != nullptr) *counts = told;
     return Done{};
 }

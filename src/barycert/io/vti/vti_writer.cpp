@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -8,76 +7,33 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/io/vti/appended.hpp"
 #include "barycert/io/vti/vti.hpp"
-#include "barycert/io/vti/xml_name.hpp"
 
 namespace barycert::io {
 namespace {
-
-constexpr std::string_view tail = "\n  </AppendedData>\n</VTKFile>\n";
-constexpr std::uint64_t header_bytes = 8;
-
-struct TypeName {
-    std::string_view name;
-    std::uint64_t bytes;
-};
-constexpr std::array<TypeName, 6> type_names{
-    {{"Int8", 1}, {"UInt8", 1}, {"Int32", 4}, {"Int64", 8}, {"Float32", 4}, {"Float64", 8}}};
-
-const TypeName& type_name(VtiType type) {
-    return type_names[static_cast<std::size_t>(type)];
-}
-
-Error wrong(const std::string& path, std::string what, std::string expected, std::string found) {
-    return {.what = std::move(what),
-            .file = path,
-            .line = 0,
-            .expected = std::move(expected),
-            .found = std::move(found),
-            .remedy = "correct the grid or its arrays in memory"};
-}
 
 Status check_grid(const std::string& path, const VtiGrid& grid) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::string of_axis = " along axis " + std::to_string(axis);
         if (grid.counts[axis] < 1 || grid.counts[axis] > INT32_MAX) {
-            return wrong(path, "the points" + of_axis, "1 to 2147483647", std::to_string(grid.counts[axis]));
+            return wrong_in_memory(path, "the points" + of_axis, "1 to 2147483647", std::to_string(grid.counts[axis]));
         }
         if (!std::isfinite(grid.origin[axis])) {
-            return wrong(path, "the origin" + of_axis, "a finite number", base::shortest(grid.origin[axis]));
+            return wrong_in_memory(path, "the origin" + of_axis, "a finite number", base::shortest(grid.origin[axis]));
         }
         const double spacing = grid.spacing[axis];
         const bool none = grid.counts[axis] == 1 && spacing == 0;
         if (!none && !(spacing > 0 && std::isfinite(spacing))) {
-            return wrong(path, "the spacing" + of_axis, "a finite number above 0", base::shortest(spacing));
+            return wrong_in_memory(path, "the spacing" + of_axis, "a finite number above 0", base::shortest(spacing));
         }
     }
-    return Done{};
-}
-
-Status check_arrays(const std::string& path, const std::vector<VtiArray>& arrays) {
-    std::vector<std::string> names;
-    for (const VtiArray& array : arrays) {
-        if (array.name.empty()) return wrong(path, "the name of an array", "one", "none");
-        if (!io::xml_attribute(array.name)) {
-            return wrong(path, "the name of an array", "text in UTF-8 without control characters",
-                         '"' + array.name + '"');
-        }
-        if (array.components < 1) {
-            return wrong(path, "the components of array \"" + array.name + '"', "1 or more",
-                         std::to_string(array.components));
-        }
-        names.push_back(array.name);
-    }
-    std::sort(names.begin(), names.end());
-    const auto twice = std::adjacent_find(names.begin(), names.end());
-    if (twice != names.end()) return wrong(path, "the names of arrays", "different ones", '"' + *twice + "\" twice");
     return Done{};
 }
 
 /// Bytes of the array's numbers; nothing if they are 2^63 or more.
 std::optional<std::uint64_t> size_of(const VtiGrid& grid, const VtiArray& array) {
-    std::uint64_t size = type_name(array.type).bytes * static_cast<std::uint64_t>(array.components);
+    std::uint64_t size = number_size(array.type) * static_cast<std::uint64_t>(array.components);
     for (const std::int64_t count : grid.counts) {
         if (__builtin_mul_overflow(size, static_cast<std::uint64_t>(count), &size)) return std::nullopt;
     }
@@ -98,20 +54,12 @@ std::string head_of(const VtiGrid& grid, const std::vector<VtiArray>& arrays,
         extent += (axis == 0 ? "0 " : " 0 ") + std::to_string(grid.counts[axis] - 1);
         if (own.spacing[axis] == 0) own.spacing[axis] = 1;
     }
-    const bool big = std::endian::native == std::endian::big;
-    std::string text = "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"";
-    text += big ? "BigEndian" : "LittleEndian";
-    text += "\" header_type=\"UInt64\">\n  <ImageData WholeExtent=\"" + extent + "\" Origin=\"" + three(own.origin) +
-            "\" Spacing=\"" + three(own.spacing) + "\">\n    <Piece Extent=\"" + extent + "\">\n      <PointData>\n";
-    for (std::size_t i = 0; i < arrays.size(); ++i) {
-        text += "        <DataArray type=\"" + std::string(type_name(arrays[i].type).name) + "\" Name=\"" +
-                *io::xml_attribute(arrays[i].name) + "\"";
-        if (arrays[i].components != 1) text += " NumberOfComponents=\"" + std::to_string(arrays[i].components) + "\"";
-        text += " format=\"appended\" offset=\"" + std::to_string(offsets[i]) + "\"/>\n";
-    }
-    return text +
-           "      </PointData>\n      <CellData>\n      </CellData>\n    </Piece>\n  </ImageData>\n"
-           "  <AppendedData encoding=\"raw\">\n    _";
+    std::string text = vtk_file_head("ImageData") + "  <ImageData WholeExtent=\"" + extent + "\" Origin=\"" +
+                       three(own.origin) + "\" Spacing=\"" + three(own.spacing) + "\">\n    <Piece Extent=\"" + extent +
+                       "\">\n      <PointData>\n";
+    for (std::size_t i = 0; i < arrays.size(); ++i) text += array_element(arrays[i], offsets[i]);
+    return text + "      </PointData>\n      <CellData>\n      </CellData>\n    </Piece>\n  </ImageData>\n" +
+           std::string(appended_begin);
 }
 
 }  // namespace
@@ -129,8 +77,8 @@ Result<std::unique_ptr<VtiWriter>> VtiWriter::open(const std::string& path, cons
         offsets.push_back(end);
         places.push_back({end, size.value_or(0), 0});
         // Room is left for the head and the tail.
-        if (!size.has_value() || __builtin_add_overflow(end, *size + header_bytes, &end) || end > INT64_MAX / 2) {
-            return wrong(path, "the size of the arrays", "less than 2^62 bytes", "more");
+        if (!size.has_value() || __builtin_add_overflow(end, *size + appended_header, &end) || end > INT64_MAX / 2) {
+            return wrong_in_memory(path, "the size of the arrays", "less than 2^62 bytes", "more");
         }
     }
     const std::string head = head_of(grid, arrays, offsets);
@@ -173,12 +121,12 @@ Status VtiWriter::write(std::size_t array, std::span<const std::byte> bytes) {
     }
     bool fits = true;
     if (place.done == 0) {
-        std::array<char, header_bytes> header{};
-        std::memcpy(header.data(), &place.size, header_bytes);
-        fits = put(place.begin, {header.data(), header_bytes});
+        std::array<char, appended_header> header{};
+        std::memcpy(header.data(), &place.size, appended_header);
+        fits = put(place.begin, {header.data(), appended_header});
     }
     fits = fits &&
-           put(place.begin + header_bytes + place.done, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+           put(place.begin + appended_header + place.done, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     if (!fits) {
         Error e = error(name + " is not next", "one array after the other, as the file cannot be written elsewhere",
                         "arrays that take turns");
@@ -196,7 +144,7 @@ Status VtiWriter::commit() {
                          std::to_string(places_[i].done));
         }
     }
-    put(tail_, tail);
+    put(tail_, appended_tail);
     return file_.commit();
 }
 

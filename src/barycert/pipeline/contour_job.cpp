@@ -1,0 +1,297 @@
+// Iso-surfaces, iso-lines and slices, to files of surfaces and pictures.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "barycert/base/text.hpp"
+#include "barycert/contour.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/io/formats.hpp"
+#include "barycert/pipeline/engine.hpp"
+#include "barycert/pipeline/job_files.hpp"
+#include "barycert/pipeline/pixel_grid.hpp"
+#include "barycert/pipeline/run.hpp"
+#include "barycert/sample/points/field_choice.hpp"
+
+namespace barycert {
+namespace {
+
+using pipeline::Engine;
+using pipeline::Run;
+using pipeline::Stopwatch;
+
+bool is_picture(const ContourJob& job) {
+    return io::has_suffix(job.output, ".png");
+}
+
+Status check_job(const ContourJob& job) {
+    if (job.value.has_value() == job.plane.has_value())
+        return Error{
+            .what = "what to cut at", .expected = "a value or a plane", .found = job.value ? "both" : "neither"};
+    const bool surface =
+        io::has_suffix(job.output, ".vtp") || io::has_suffix(job.output, ".ply") || io::has_suffix(job.output, ".off");
+    const bool picture = job.plane.has_value() && is_picture(job);
+    if (!surface && !picture)
+        return pipeline::unknown_output(job.output, job.plane ? ".vtp, .ply, .off or .png" : ".vtp, .ply or .off");
+    if (picture && !job.fields.empty())
+        return Error{.what = "--fields cannot be combined with a picture", .remedy = "--field names what it shows"};
+    if (!picture && job.range)
+        return Error{.what = "--range is for pictures", .remedy = "leave it out, or name a .png file"};
+    if (job.width < 1 || job.width > 1000000)
+        return Error{.what = "--width", .expected = "1 to 1000000", .found = std::to_string(job.width)};
+    return Done{};
+}
+
+/// What reads the mesh, and samples it.
+SamplingJob sampling_of(const ContourJob& job) {
+    SamplingJob s;
+    s.mesh = job.mesh;
+    s.field_files = job.field_files;
+    s.output = job.output;
+    s.options.threads = job.threads;
+    s.report = job.report;
+    s.count_degenerate = false;
+    s.program = job.program;
+    s.progress = job.progress;
+    return s;
+}
+
+/// A column: one component of a field.
+struct Column {
+    FieldChoice choice;
+    int component = 0;
+};
+
+/// By its name as a column: NAME, or NAME.0, NAME.1, ...
+Result<Column> column_named(const Mesh& mesh, const std::string& name) {
+    const Result<std::vector<FieldChoice>> whole = sample::fields_named(mesh, {name});
+    if (whole && whole->size() == 1) {
+        const FieldChoice& choice = whole->front();
+        if (choice.field->components == 1) return Column{choice, 0};
+        return Error{.what = "field \"" + name + "\" has several components",
+                     .expected = fmt::format("one of {0}.0 to {0}.{1}", name, choice.field->components - 1),
+                     .found = name};
+    }
+    const std::size_t dot = name.rfind('.');
+    int component = -1;
+    if (dot != std::string::npos) {
+        const char* const end = name.data() + name.size();
+        const auto read = std::from_chars(name.data() + dot + 1, end, component);
+        if (read.ptr != end || read.ec != std::errc{}) component = -1;
+    }
+    if (component >= 0) {
+        const auto part = sample::fields_named(mesh, {name.substr(0, dot)});
+        if (part && part->size() == 1 && component < part->front().field->components)
+            return Column{part->front(), component};
+    }
+    if (!whole) return whole.error();
+    return Error{.what = "--field", .expected = "the name of one field", .found = base::quoted(name)};
+}
+
+/// Sets low and high to those of at(node) over the nodes of cells.
+template <class At>
+void set_range(const Mesh& mesh, At at, ContourSummary& summary) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Mesh::Index node : mesh.cells) {
+        const double x = at(static_cast<std::size_t>(node));
+        if (!std::isfinite(x)) continue;
+        low = std::min(low, x);
+        high = std::max(high, x);
+    }
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    summary.low = low <= high ? low : nan;
+    summary.high = low <= high ? high : nan;
+}
+
+class Contour {
+public:
+    Contour(const ContourJob& job, Run& run, Engine& engine) : job_(job), run_(run), engine_(engine) {}
+
+    Result<ContourSummary> run() {
+        ContourSummary& s = summary_;
+        s.mesh = job_.mesh;
+        s.field = job_.field;
+        s.output = job_.output;
+        s.value = job_.value;
+        s.plane = job_.plane;
+        s.nodes = mesh().point_count();
+        s.cells = mesh().cell_count();
+        s.dimension = mesh().dimension;
+        s.seconds.mesh = run_.summary.seconds.mesh;
+        if (job_.plane && mesh().dimension == 2)
+            return Error{.what = "a plane cuts meshes of tetrahedra",
+                         .file = job_.mesh,
+                         .found = "triangles in the plane",
+                         .remedy = "draw a mesh of triangles by `" + job_.program + " resample --grid`"};
+        Stopwatch watch;
+        Result<Cut> cut = is_picture(job_) ? cut_plane({}) : cut_with_fields();
+        if (!cut) return cut.error();
+        s.counts = cut->counts;
+        s.points = cut->surface.point_count();
+        s.parts = cut->surface.cell_count();
+        s.seconds.cut = watch.lap();
+        const Status written = is_picture(job_) ? draw(cut->surface) : write(cut->surface);
+        if (!written) return written.error();
+        return std::move(summary_);
+    }
+
+private:
+    const Mesh& mesh() const { return engine_.mesh(); }
+
+    Result<Cut> cut_plane(CutOptions options) {
+        run_.stage("cutting");
+        options.threads = job_.threads;
+        const std::array<double, 3>& n = job_.plane->normal;
+        set_range(
+            mesh(),
+            [&](std::size_t i) {
+                const double* const x = mesh().points.data() + 3 * i;
+                return n[0] * x[0] + n[1] * x[1] + n[2] * x[2];
+            },
+            summary_);
+        return slice(mesh(), *job_.plane, options);
+    }
+
+    Result<Cut> cut_with_fields() {
+        const auto chosen = sample::fields_named(mesh(), job_.fields);
+        if (!chosen) return chosen.error();
+        CutOptions options;
+        options.threads = job_.threads;
+        for (const FieldChoice& c : *chosen) {
+            (c.of_cells ? options.cell_fields : options.point_fields).push_back(c.field);
+            summary_.fields.push_back(c.field->name);
+        }
+        if (job_.plane) return cut_plane(std::move(options));
+        const Result<Column> column = column_named(mesh(), job_.field);
+        if (!column) return column.error();
+        const Field& field = *column->choice.field;
+        if (column->choice.of_cells)
+            return Error{
+                .what = "field \"" + job_.field + "\" is one of cells",
+                .expected = "a field of nodes",
+                .found = "a number for each cell",
+                .remedy = "a field of cells jumps from cell to cell: there is no surface on which it has a value"};
+        run_.stage("cutting");
+        const auto stride = static_cast<std::size_t>(field.components);
+        const auto component = static_cast<std::size_t>(column->component);
+        set_range(
+            mesh(), [&](std::size_t i) { return field.data[stride * i + component]; }, summary_);
+        return mesh().dimension == 2 ? isoline(mesh(), field, *job_.value, options, column->component)
+                                     : isosurface(mesh(), field, *job_.value, options, column->component);
+    }
+
+    Status write(const Surface& surface) {
+        Stopwatch watch;
+        run_.stage("writing " + job_.output);
+        Result<SurfaceFile> file = write_surface(surface, job_.output);
+        if (!file) return file.error();
+        summary_.file = std::move(*file);
+        std::erase_if(summary_.fields, [&](const std::string& name) {
+            const auto& out = summary_.file.left_out;
+            return std::find(out.begin(), out.end(), name) != out.end();
+        });
+        summary_.seconds.write = watch.lap();
+        return Done{};
+    }
+
+    Status draw(const Surface& section) {
+        Stopwatch watch;
+        const Result<Column> column = column_named(mesh(), job_.field);
+        if (!column) return column.error();
+        Result<PixelGrid> pixels = pipeline::pixels_over(*job_.plane, section.points, job_.width);
+        if (!pixels) {
+            Error e = pixels.error();
+            e.file = job_.mesh;
+            if (section.points.empty())
+                e.found += fmt::format("; normal.x is from {} to {}", base::shortest(summary_.low),
+                                       base::shortest(summary_.high));
+            return e;
+        }
+        const auto count = static_cast<std::uint64_t>(pixels->width * pixels->height);
+        if (Status ready = engine_.prepare_for(count, false); !ready) return ready;
+        const Result<Sampler> sampler = Sampler::build(engine_.locator(), {column->choice});
+        if (!sampler) return sampler.error();
+        std::vector<double> values(count);
+        std::vector<std::uint8_t> valid(count);
+        if (Status done = sample(*pixels, *sampler, column->component, values, valid); !done) return done;
+        summary_.seconds.sample = watch.lap();
+        run_.stage("writing " + job_.output);
+        Slice slice;
+        slice.width = static_cast<std::size_t>(pixels->width);
+        slice.height = static_cast<std::size_t>(pixels->height);
+        slice.values = values;
+        slice.valid = valid;
+        if (job_.range) slice.range = {(*job_.range)[0], (*job_.range)[1]};
+        slice.title = fmt::format("{}, plane {},{},{},{}", job_.field, base::shortest(job_.plane->normal[0]),
+                                  base::shortest(job_.plane->normal[1]), base::shortest(job_.plane->normal[2]),
+                                  base::shortest(job_.plane->offset));
+        slice.pixel_length = pixels->pixel;
+        summary_.pixels = *pixels;
+        summary_.fields = {job_.field};
+        Status written = write_png(job_.output, slice, &summary_.picture);
+        summary_.seconds.write = watch.lap();
+        return written;
+    }
+
+    /// Lines of pixels at a time, so that memory is that of the values.
+    Status sample(const PixelGrid& pixels, const Sampler& sampler, int component, std::vector<double>& values,
+                  std::vector<std::uint8_t>& valid) {
+        const std::int64_t lines = std::max<std::int64_t>(1, (std::int64_t{1} << 18) / pixels.width);
+        std::vector<double> points;
+        Table rows;
+        std::size_t at = 0;
+        for (std::int64_t first = 0; first < pixels.height; first += lines) {
+            const std::int64_t last = std::min(pixels.height, first + lines);
+            points.clear();
+            for (std::int64_t j = first; j < last; ++j) {
+                for (std::int64_t i = 0; i < pixels.width; ++i) {
+                    const std::array<double, 3> x = pixels.middle(i, j);
+                    points.insert(points.end(), x.begin(), x.end());
+                }
+            }
+            if (Status done = sampler.sample(points, run_.job.options, rows); !done) return done;
+            summary_.samples.add(rows.counts);
+            for (std::size_t r = 0; r < rows.row_count(); ++r, ++at) {
+                values[at] = rows.value(r, static_cast<std::size_t>(component));
+                valid[at] = rows.cells[r] >= 0 ? 1 : 0;
+            }
+            run_.count(fmt::format("pixels of {}", values.size()), at);
+        }
+        return Done{};
+    }
+
+    const ContourJob& job_;
+    Run& run_;
+    Engine& engine_;
+    ContourSummary summary_;
+};
+
+}  // namespace
+
+Result<ContourSummary> contour_files(const ContourJob& job) {
+    const ExactEnvironment environment;
+    if (Status good = check_job(job); !good) return good.error();
+    const SamplingJob sampling = sampling_of(job);
+    if (Status files = pipeline::check_files(sampling, {}, {{"--output", job.output}}); !files) return files.error();
+    Stopwatch whole;
+    std::optional<ContourSummary> summary;
+    const auto done = pipeline::run_job("render", sampling, [&](Run& run, Engine& engine) -> Status {
+        auto result = Contour(job, run, engine).run();
+        if (!result) return result.error();
+        summary.emplace(std::move(*result));
+        return Done{};
+    });
+    if (!done) return done.error();
+    summary->threads = done->threads;
+    summary->seconds.total = whole.lap();
+    return std::move(*summary);
+}
+
+}  // namespace barycert

@@ -1,0 +1,96 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "barycert/environment.hpp"
+#include "barycert/report.hpp"
+#include "barycert/report/common/environment_json.hpp"
+
+namespace barycert {
+
+using namespace report;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json figure(double x) {
+    return std::isnan(x) ? Json(nullptr) : Json(x);
+}
+
+Json pixels_json(const ContourSummary& s) {
+    Json j;
+    j["width"] = s.pixels->width;
+    j["height"] = s.pixels->height;
+    j["pixel"] = s.pixels->pixel;
+    j["origin"] = s.pixels->origin;
+    j["right"] = s.pixels->step_right;
+    j["up"] = s.pixels->step_up;
+    j["low"] = figure(s.picture.low);
+    j["high"] = figure(s.picture.high);
+    j["drawn"] = s.picture.drawn;
+    j["below"] = s.picture.below;
+    j["above"] = s.picture.above;
+    j["outside"] = s.picture.outside;
+    j["not_finite"] = s.picture.not_finite;
+    return j;
+}
+
+Json cut_json(const CutCounts& n) {
+    Json j;
+    j["cells"] = n.cells;
+    j["not_finite"] = n.not_finite;
+    j["degenerate"] = n.degenerate;
+    j["second_order"] = n.second_order;
+    j["at_nodes"] = n.at_nodes;
+    j["on_edges"] = n.on_edges;
+    j["double_double"] = n.tiers.double_double;
+    j["exact"] = n.tiers.exact;
+    j["nan"] = n.tiers.not_finite;
+    return j;
+}
+
+Json seconds_json(const ContourSeconds& s) {
+    Json j;
+    j["mesh"] = s.mesh;
+    j["cut"] = s.cut;
+    j["sample"] = s.sample;
+    j["write"] = s.write;
+    j["total"] = s.total;
+    return j;
+}
+
+}  // namespace
+
+std::string contour_json(const ContourSummary& s, const Environment& environment) {
+    const ExactEnvironment exact;
+    Json j;
+    j["schema"] = contour_schema;
+    j["command"] = s.value ? "render iso" : "render slice";
+    j["mesh"] = s.mesh;
+    j["dimension"] = s.dimension;
+    j["nodes"] = s.nodes;
+    j["cells"] = s.cells;
+    j["field"] = s.field;
+    j["value"] = s.value ? Json(*s.value) : Json(nullptr);
+    if (s.plane) {
+        j["normal"] = s.plane->normal;
+        j["offset"] = s.plane->offset;
+    }
+    j["low"] = figure(s.low);
+    j["high"] = figure(s.high);
+    j["output"] = s.output;
+    j["points"] = s.points;
+    j["parts"] = s.parts;
+    j["cut"] = cut_json(s.counts);
+    j["fields"] = s.fields;
+    j["left_out"] = s.file.left_out;
+    j["renamed"] = s.file.renamed;
+    if (s.pixels) j["picture"] = pixels_json(s);
+    j["seconds"] = seconds_json(s.seconds);
+    j["threads"] = s.threads;
+    j["environment"] = environment_json(environment);
+    // Names of fields and files may hold any bytes: JSON is UTF-8.
+    return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace barycert

@@ -1,0 +1,83 @@
+#include "barycert/surface/flat_cells.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "barycert/mesh/adjacency.hpp"
+
+namespace barycert::surface {
+namespace {
+
+using Index = Mesh::Index;
+
+constexpr std::int8_t not_asked = 2;
+
+/// 1 or -1 as an even or an odd permutation brings the corners to: corner i, then the others in ascending order.
+/// Precondition: all different.
+int parity(const Index* corners, std::size_t n, std::size_t i) {
+    int sign = i % 2 == 0 ? 1 : -1;
+    for (std::size_t j = 0; j < n; ++j) {
+        for (std::size_t k = 0; k < j; ++k) {
+            if (j != i && k != i && corners[j] < corners[k]) sign = -sign;
+        }
+    }
+    return sign;
+}
+
+bool repeats(const Index* corners, std::size_t n) {
+    for (std::size_t j = 0; j < n; ++j) {
+        if (std::find(corners, corners + j, corners[j]) != corners + j) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+FlatCells::FlatCells(const Mesh& mesh)
+    : mesh_(mesh), neighbours_(mesh::compute_neighbours(mesh)), sign_(mesh.cell_count(), not_asked) {}
+
+int FlatCells::sign(Index cell) {
+    if (sign_[static_cast<std::size_t>(cell)] == not_asked) settle(cell);
+    return sign_[static_cast<std::size_t>(cell)];
+}
+
+void FlatCells::settle(Index start) {
+    const std::size_t n = mesh_.corners();
+    const auto corners = [&](Index cell) { return mesh_.cells.data() + n * static_cast<std::size_t>(cell); };
+    const auto sign_at = [&](Index cell) -> std::int8_t& { return sign_[static_cast<std::size_t>(cell)]; };
+    if (repeats(corners(start), n)) {
+        sign_at(start) = 0;
+        return;
+    }
+    // With respect to the start, of which it is not known.
+    std::vector<Index> met{start};
+    sign_at(start) = 1;
+    int of_start = 0;
+    for (std::size_t next = 0; next < met.size(); ++next) {
+        const Index cell = met[next];
+        for (std::size_t i = 0; i < n; ++i) {
+            const Index other = neighbours_[n * static_cast<std::size_t>(cell) + i];
+            if (other < 0 || sign_at(other) != not_asked || repeats(corners(other), n)) continue;
+            // The corner opposite to the common facet: the node that `cell` has not.
+            std::size_t j = 0;
+            while (std::find(corners(cell), corners(cell) + n, corners(other)[j]) != corners(cell) + n) {
+                if (++j == n) break;
+            }
+            if (j == n) continue;  // both have the same nodes
+            const int fitting = -sign_at(cell) * parity(corners(cell), n, i) * parity(corners(other), n, j);
+            const int own = static_cast<int>(orientation(mesh_, corners(other)));
+            if (own != 0) {
+                if (of_start == 0) of_start = own * fitting;
+                continue;
+            }
+            sign_at(other) = static_cast<std::int8_t>(fitting);
+            met.push_back(other);
+        }
+    }
+    if (of_start >= 0) return;
+    for (const Index cell : met) sign_at(cell) = static_cast<std::int8_t>(-sign_at(cell));
+}
+
+}  // namespace barycert::surface

@@ -1,0 +1,231 @@
+#include "barycert/surface/topology.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <span>
+#include <string>
+
+#include "barycert/base/large_pages.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/surface/cell_cases.hpp"
+#include "barycert/surface/flat_cells.hpp"
+
+namespace barycert::surface {
+namespace {
+
+using Index = Mesh::Index;
+
+/// A cell with a part of the surface.
+struct CutCell {
+    Index cell = 0;
+    std::uint8_t states = 0;  ///< index of its CellCase
+    std::int8_t sign = 0;     ///< its orientation; 0: to be left out
+};
+
+/// Cells that one task looks at, in their order: the work does not depend on threads.
+struct Block {
+    std::vector<CutCell> cells;
+    std::uint64_t not_finite = 0, degenerate = 0;
+    std::size_t first_part = 0;  ///< of the surface
+};
+constexpr std::size_t block_size = std::size_t{1} << 13;
+
+template <class F>
+void for_ranges(std::size_t count, std::size_t grain, F&& f) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
+                      [&](const auto& range) { f(range.begin(), range.end()); });
+}
+
+template <std::size_t n>
+class Cutter {
+public:
+    Cutter(const Mesh& mesh, const std::vector<std::uint8_t>& states) : mesh_(mesh), states_(states) {}
+
+    Status cut(Surface& surface, CutCounts& counts) {
+        find_cells();
+        orient_flat_cells();
+        count_parts();
+        gather_ends();
+        const std::size_t points = number_points();
+        if (std::max(points, part_count_) > INT32_MAX)
+            return Error{.what = "the surface is too large",
+                         .expected = "at most 2147483647 points and cells",
+                         .found = std::to_string(std::max(points, part_count_)),
+                         .remedy = "cut a part of the mesh"};
+        write_edges(points, surface, counts);
+        write_parts(surface, counts);
+        return Done{};
+    }
+
+private:
+    const Index* corners(Index cell) const { return mesh_.cells.data() + n * static_cast<std::size_t>(cell); }
+
+    static const CellCase<n>& case_of(const CutCell& c) { return cell_cases<n>[c.states]; }
+
+    /// The node of the lower number first; a node itself twice.
+    struct Ends {
+        std::size_t low;
+        Index high;
+    };
+    static Ends ends(const Index* corners, const Crossing& crossing) {
+        const Index in = corners[crossing.in], out = corners[crossing.out];
+        return {static_cast<std::size_t>(std::min(in, out)), std::max(in, out)};
+    }
+
+    void find_cells() {
+        const std::size_t count = mesh_.cell_count();
+        blocks_.resize((count + block_size - 1) / block_size);
+        tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t b) {
+            Block& block = blocks_[b];
+            const std::size_t end = std::min(count, (b + 1) * block_size);
+            for (std::size_t cell = b * block_size; cell < end; ++cell) {
+                const Index* const corner = mesh_.cells.data() + n * cell;
+                std::size_t states = 0;
+                for (std::size_t i = 0; i < n; ++i)
+                    states |= static_cast<std::size_t>(states_[static_cast<std::size_t>(corner[i])]) << (2 * i);
+                const CellCase<n>& what = cell_cases<n>[states];
+                if (what.part_count == 0) {
+                    block.not_finite += what.left_out ? 1 : 0;
+                    continue;
+                }
+                const auto sign = static_cast<std::int8_t>(orientation(mesh_, corner));
+                block.degenerate += sign == 0 ? 1 : 0;
+                block.cells.push_back({static_cast<Index>(cell), static_cast<std::uint8_t>(states), sign});
+            }
+        });
+    }
+
+    void orient_flat_cells() {
+        if (std::all_of(blocks_.begin(), blocks_.end(), [](const Block& b) { return b.degenerate == 0; })) return;
+        FlatCells flat(mesh_);
+        for (Block& block : blocks_) {
+            if (block.degenerate == 0) continue;
+            for (CutCell& c : block.cells) {
+                if (c.sign == 0) c.sign = static_cast<std::int8_t>(flat.sign(c.cell));
+            }
+            std::erase_if(block.cells, [](const CutCell& c) { return c.sign == 0; });
+        }
+    }
+
+    void count_parts() {
+        for (Block& block : blocks_) {
+            block.first_part = part_count_;
+            for (const CutCell& c : block.cells) part_count_ += case_of(c).part_count;
+        }
+    }
+
+    template <class F>
+    void for_crossings(F&& f) const {
+        tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t b) {
+            for (const CutCell& c : blocks_[b].cells) {
+                const CellCase<n>& what = case_of(c);
+                const Index* const corner = corners(c.cell);
+                for (std::size_t i = 0; i < what.crossing_count; ++i) f(ends(corner, what.crossings[i]));
+            }
+        });
+    }
+
+    /// At each node, the higher ends of the crossed edges of which it is the lower one: by a counting sort, as threads
+    /// come; then sorted, each once.
+    void gather_ends() {
+        const std::size_t nodes = mesh_.point_count();
+        begin_.assign(nodes + 1, 0);
+        for_crossings(
+            [&](const Ends& e) { std::atomic_ref(begin_[e.low + 1]).fetch_add(1, std::memory_order_relaxed); });
+        for (std::size_t i = 0; i < nodes; ++i) begin_[i + 1] += begin_[i];
+        base::resize_large(high_, begin_.back());
+        std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+        for_crossings([&](const Ends& e) {
+            high_[std::atomic_ref(next[e.low]).fetch_add(1, std::memory_order_relaxed)] = e.high;
+        });
+        first_.assign(nodes + 1, 0);
+        for_ranges(nodes, 4096, [&](std::size_t from, std::size_t to) {
+            for (std::size_t i = from; i < to; ++i) {
+                Index* const list = high_.data() + begin_[i];
+                Index* const end = high_.data() + begin_[i + 1];
+                std::sort(list, end);
+                first_[i + 1] = static_cast<std::size_t>(std::unique(list, end) - list);
+            }
+        });
+    }
+
+    /// first_[i]: the number of the first point of node i; those of the others follow.
+    std::size_t number_points() {
+        for (std::size_t i = 0; i + 1 < first_.size(); ++i) first_[i + 1] += first_[i];
+        return first_.back();
+    }
+
+    void write_edges(std::size_t points, Surface& surface, CutCounts& counts) const {
+        base::resize_large(surface.mesh_edges, 2 * points);
+        std::atomic<std::uint64_t> at_nodes{0};
+        for_ranges(mesh_.point_count(), 4096, [&](std::size_t from, std::size_t to) {
+            std::uint64_t own = 0;
+            for (std::size_t i = from; i < to; ++i) {
+                for (std::size_t k = 0; k < first_[i + 1] - first_[i]; ++k) {
+                    const auto low = static_cast<Index>(i), high = high_[begin_[i] + k];
+                    Index* const edge = surface.mesh_edges.data() + 2 * (first_[i] + k);
+                    const bool low_inside = (states_[i] & 1) != 0;
+                    edge[0] = low_inside ? low : high;
+                    edge[1] = low_inside ? high : low;
+                    own += low == high ? 1 : 0;
+                }
+            }
+            at_nodes += own;
+        });
+        counts.at_nodes = at_nodes;
+        counts.on_edges = points - at_nodes;
+    }
+
+    Index number(const Ends& e) const {
+        const Index* at = high_.data() + begin_[e.low];
+        const Index* const list = at;
+        while (*at != e.high) ++at;
+        return static_cast<Index>(first_[e.low] + static_cast<std::size_t>(at - list));
+    }
+
+    void write_parts(Surface& surface, CutCounts& counts) const {
+        base::resize_large(surface.cells, (n - 1) * part_count_);
+        base::resize_large(surface.mesh_cells, part_count_);
+        tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t b) {
+            std::size_t part = blocks_[b].first_part;
+            for (const CutCell& c : blocks_[b].cells) {
+                const CellCase<n>& what = case_of(c);
+                const Index* const corner = corners(c.cell);
+                std::array<Index, n> points{};
+                for (std::size_t i = 0; i < what.crossing_count; ++i)
+                    points[i] = number(ends(corner, what.crossings[i]));
+                for (std::size_t p = 0; p < what.part_count; ++p, ++part) {
+                    Index* const to = surface.cells.data() + (n - 1) * part;
+                    for (std::size_t i = 0; i < n - 1; ++i) to[i] = points[what.parts[p][i]];
+                    if (c.sign < 0) std::swap(to[n - 3], to[n - 2]);
+                    surface.mesh_cells[part] = c.cell;
+                }
+            }
+        });
+        for (const Block& block : blocks_) {
+            counts.cells += block.cells.size();
+            counts.not_finite += block.not_finite;
+            counts.degenerate += block.degenerate;
+        }
+    }
+
+    const Mesh& mesh_;
+    const std::vector<std::uint8_t>& states_;
+    std::vector<Block> blocks_;
+    std::size_t part_count_ = 0;
+    std::vector<std::size_t> begin_, first_;  ///< of each node, and the end of all
+    std::vector<Index> high_;
+};
+
+}  // namespace
+
+Status cut_cells(const Mesh& mesh, const std::vector<std::uint8_t>& states, Surface& surface, CutCounts& counts) {
+    surface.dimension = mesh.dimension;
+    return mesh.dimension == 2 ? Cutter<3>(mesh, states).cut(surface, counts)
+                               : Cutter<4>(mesh, states).cut(surface, counts);
+}
+
+}  // namespace barycert::surface

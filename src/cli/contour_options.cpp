@@ -1,0 +1,58 @@
+#include "contour_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+
+#include "barycert/base/text.hpp"
+#include "barycert/report.hpp"
+#include "command.hpp"
+#include "files.hpp"
+#include "progress.hpp"
+#include "sampling_options.hpp"
+
+namespace barycert::cli {
+
+std::optional<std::vector<double>> finite_numbers(std::string_view text, char separator) {
+    std::vector<double> all;
+    for (;;) {
+        const std::size_t end = text.find(separator);
+        const std::optional<double> x = base::parse_double(text.substr(0, end));
+        if (!x || !std::isfinite(*x)) return std::nullopt;
+        all.push_back(*x);
+        if (end == std::string_view::npos) return all;
+        text.remove_prefix(end + 1);
+    }
+}
+
+void add_contour_options(CLI::App& sub, ContourJob& job, bool& quiet) {
+    add_field_files(sub, job.field_files, "--field-file");
+    sub.add_option("--fields", job.fields, "Fields to carry along: A,B,...; default: all")
+        ->allow_extra_args(false)
+        ->type_name("NAMES");
+    sub.add_option("--threads", job.threads, "Number of threads; 0: all")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 4096).description(""))
+        ->type_name("N");
+    file_option(sub, "--json", job.report, "Write the summary as JSON; - is stdout");
+    sub.add_flag("--quiet", quiet, "Print no summary and no progress");
+}
+
+int run_contour(ContourJob& job, bool quiet) {
+    Progress progress(!quiet && stderr_is_terminal());
+    job.progress = [&](const JobProgress& p) {
+        p.done == 0 ? progress.stage(p.stage) : progress.count(p.stage, p.done);
+    };
+    job.program = command_name();
+    const Result<ContourSummary> summary = contour_files(job);
+    progress.clear();
+    if (!summary) return fail(summary.error());
+    Status json = Done{}, told = Done{};
+    if (!job.report.empty()) json = write_output(job.report, contour_json(*summary, measure_environment()));
+    if (!quiet && job.report == "-") tell(contour_text(*summary, false));
+    if (!quiet && job.report != "-") told = write_output("-", contour_text(*summary, colour_on_stdout()));
+    if (!json) return fail(json.error());
+    return told ? exit_clean : fail(told.error());
+}
+
+}  // namespace barycert::cli

@@ -1,0 +1,122 @@
+// barycert render iso: where a field has a value, in a mesh or on one segment.
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+#include "barycert/base/text.hpp"
+#include "barycert/inverse.hpp"
+#include "command.hpp"
+#include "contour_options.hpp"
+#include "files.hpp"
+#include "render.hpp"
+
+namespace barycert::cli {
+namespace {
+
+struct IsoArguments {
+    ContourJob job;
+    bool quiet = false;
+    std::vector<double> ends, values;  ///< of --segment, end after end, and --values
+};
+
+void add_segment(CLI::App& sub, IsoArguments& a) {
+    sub.add_option_function<std::string>(
+           "--segment",
+           [&a](const std::string& text) {
+               const std::size_t colon = text.find(':');
+               const auto first = finite_numbers(std::string_view(text).substr(0, colon), ',');
+               const auto second = colon == std::string::npos
+                                       ? std::nullopt
+                                       : finite_numbers(std::string_view(text).substr(colon + 1), ',');
+               if (!first || !second || first->size() != second->size() || first->size() > 3)
+                   throw CLI::ValidationError(
+                       "--segment",
+                       "expected XA,YA,ZA:XB,YB,ZB, finite numbers, as many at both ends (one to three), found \"" +
+                           text + '"');
+               a.ends = *first;
+               a.ends.insert(a.ends.end(), second->begin(), second->end());
+           },
+           "Instead of a mesh: the ends of one segment; with --values")
+        ->type_name("A:B");
+    sub.add_option_function<std::string>(
+           "--values",
+           [&a](const std::string& text) {
+               const auto numbers = finite_numbers(text, ',');
+               if (!numbers || numbers->size() != 2)
+                   throw CLI::ValidationError("--values", "expected two finite numbers, FA,FB, found \"" + text + '"');
+               a.values = *numbers;
+           },
+           "The values at the ends of the segment")
+        ->type_name("FA,FB");
+}
+
+/// t and the point, on one line.
+int on_segment(const IsoArguments& a) {
+    if (a.values.empty() || !a.job.value)
+        return fail({.what = "--segment needs the values at its ends and the one to look for",
+                     .expected = "--values FA,FB --value V"});
+    if (!a.job.mesh.empty() || !a.job.field.empty() || !a.job.output.empty())
+        return fail({.what = "--segment cannot be combined with a mesh, --field or --output"});
+    const std::size_t d = a.ends.size() / 2;
+    const std::span<const double> ends(a.ends);
+    std::vector<double> point(d);
+    const auto t = point_of_value(ends.first(d), ends.subspan(d), a.values[0], a.values[1], *a.job.value, point);
+    if (!t) return fail(t.error());
+    std::string text;
+    if (t->undetermined) {
+        const bool all = a.values[0] == *a.job.value;
+        text = fmt::format("undetermined: both ends have the value {}: {}\n", base::shortest(a.values[0]),
+                           all ? "so has every point" : "no point has the one looked for");
+    } else {
+        text = "t " + base::shortest(t->t) + "\npoint ";
+        for (std::size_t k = 0; k < d; ++k) text += (k == 0 ? "" : ",") + base::shortest(point[k]);
+        text += t->t < 0 || t->t > 1 ? "\noutside the segment, on its line\n" : "\n";
+    }
+    const Status told = write_output("-", text);
+    return told ? exit_clean : fail(told.error());
+}
+
+int run_iso(IsoArguments& a) {
+    if (!a.ends.empty()) return on_segment(a);
+    if (!a.values.empty()) return fail({.what = "--values needs --segment"});
+    if (a.job.mesh.empty() || a.job.field.empty() || !a.job.value || a.job.output.empty())
+        return fail({.what = "something is missing",
+                     .expected = "MESH --field NAME --value V --output FILE, or --segment A:B --values FA,FB --value V",
+                     .remedy = "`barycert render iso --help` explains them"});
+    return run_contour(a.job, a.quiet);
+}
+
+}  // namespace
+
+void add_render_iso(CLI::App& render, int& exit_code) {
+    auto* sub = render.add_subcommand(
+        "iso", "Where a field has a value: the iso-surface of a mesh, the iso-lines of a mesh of triangles");
+    sub->footer(
+        "The boundary of the set where the field is at least the value, exactly; watertight, normals towards lower\n"
+        "values. Points are on edges of the mesh, their coordinates and the fields carried along correctly rounded.\n"
+        "Files, by the suffix: .vtp (all fields), .ply (all fields), .off (no fields, no lines).\n"
+        "--segment A:B --values FA,FB prints the parameter t of one segment (0 at A, 1 at B) and the point.\n"
+        "Exit codes: 0 done, an empty surface included; 2 usage or input error.");
+    const auto a = std::make_shared<IsoArguments>();
+    file_option(*sub, "MESH", a->job.mesh, "A TetGen mesh (.node/.ele; Triangle's for 2D), or a VTK file (.vtu .vtk)");
+    sub->add_option("--field", a->job.field, "The field of nodes; NAME.0, NAME.1, ... for components")
+        ->type_name("NAME");
+    sub->add_option_function<std::string>(
+           "--value",
+           [a](const std::string& text) {
+               const auto numbers = finite_numbers(text, ',');
+               if (!numbers || numbers->size() != 1)
+                   throw CLI::ValidationError("--value", "expected a finite number, found \"" + text + '"');
+               a->job.value = numbers->front();
+           },
+           "Its value")
+        ->type_name("V");
+    file_option(*sub, "--output", a->job.output, "The surface: .vtp .ply .off");
+    add_contour_options(*sub, a->job, a->quiet);
+    add_segment(*sub, *a);
+    sub->callback([=, &exit_code] { exit_code = run_iso(*a); });
+}
+
+}  // namespace barycert::cli

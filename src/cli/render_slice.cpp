@@ -1,0 +1,70 @@
+// barycert render slice: a plane through a mesh, as a picture or a surface.
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+#include "command.hpp"
+#include "contour_options.hpp"
+#include "files.hpp"
+#include "render.hpp"
+
+namespace barycert::cli {
+namespace {
+
+int run_slice(ContourJob& job, bool quiet) {
+    if (job.output.ends_with(".png") && job.field.empty())
+        return fail({.what = "a picture shows a field", .expected = "--field NAME"});
+    return run_contour(job, quiet);
+}
+
+}  // namespace
+
+void add_render_slice(CLI::App& render, int& exit_code) {
+    auto* sub =
+        render.add_subcommand("slice", "Cut a mesh of tetrahedra by a plane: a picture of a field, or a surface");
+    sub->footer(
+        "Sides of nodes are exact, for the four numbers of the plane as they are read. By the suffix of the output:\n"
+        ".png         the field in colours, with a colour bar and a scale of lengths; seen from where the normal\n"
+        "             points to, z upwards. Values are exact at the pixels' middles, which are rounded to doubles.\n"
+        ".vtp .ply    triangles with all fields, correctly rounded; .off: without fields. Normals along the plane's.\n"
+        "Exit codes: 0 done; 2 usage or input error, a picture of nothing included.");
+    const auto job = std::make_shared<ContourJob>();
+    const auto quiet = std::make_shared<bool>(false);
+    file_option(*sub, "MESH", job->mesh, "A TetGen mesh (.node/.ele), or a VTK file (.vtu .vtk)")->required();
+    sub->add_option_function<std::string>(
+           "--plane",
+           [job](const std::string& text) {
+               const auto n = finite_numbers(text, ',');
+               if (!n || n->size() != 4 || ((*n)[0] == 0 && (*n)[1] == 0 && (*n)[2] == 0))
+                   throw CLI::ValidationError(
+                       "--plane",
+                       "expected NX,NY,NZ,D, finite numbers, a normal that is not zero, found \"" + text + '"');
+               job->plane = Plane{{(*n)[0], (*n)[1], (*n)[2]}, (*n)[3]};
+           },
+           "All points with NX x + NY y + NZ z = D")
+        ->required()
+        ->type_name("NX,NY,NZ,D");
+    sub->add_option("--field", job->field, "Picture: the field of nodes or cells; NAME.0, NAME.1, ... for components")
+        ->type_name("NAME");
+    file_option(*sub, "--output", job->output, "The section: .png .vtp .ply .off")->required();
+    sub->add_option("--width", job->width, "Picture: pixels across the section")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1000000).description(""))
+        ->type_name("PIXELS");
+    sub->add_option_function<std::string>(
+           "--range",
+           [job](const std::string& text) {
+               const auto ends = finite_numbers(text, ',');
+               if (!ends || ends->size() != 2 || !((*ends)[0] < (*ends)[1]))
+                   throw CLI::ValidationError("--range",
+                                              "expected MIN,MAX, finite numbers, MIN < MAX, found \"" + text + '"');
+               job->range = {(*ends)[0], (*ends)[1]};
+           },
+           "Picture: the values of the first and the last colour; default: min and max of the values drawn")
+        ->type_name("MIN,MAX");
+    add_contour_options(*sub, *job, *quiet);
+    sub->callback([=, &exit_code] { exit_code = run_slice(*job, *quiet); });
+}
+
+}  // namespace barycert::cli

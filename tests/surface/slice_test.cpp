@@ -1,0 +1,126 @@
+// Slices: sides of nodes and points against rationals.
+#include <gtest/gtest.h>
+
+#include "barycert/surface.hpp"
+#include "core/rational.hpp"
+#include "surface/fields.hpp"
+#include "surface/judge.hpp"
+
+namespace barycert::testing {
+namespace {
+
+Cut expect_right_slice(const Mesh& mesh, const Plane& plane, CutOptions options, const Allowed& allowed = {}) {
+    options.threads = 1;
+    const Result<Cut> cut = slice(mesh, plane, options);
+    EXPECT_TRUE(cut) << cut.error().message();
+    if (!cut) return {};
+    expect_cut(mesh, heights_of(mesh, plane), *cut, options, allowed);
+    for (const int threads : {2, 3}) {
+        options.threads = threads;
+        expect_same(cut->surface, slice(mesh, plane, options).value().surface);
+    }
+    return *cut;
+}
+
+/// Through nodes, along faces, or anywhere; of any magnitude.
+Plane random_plane(base::Random& r, const Mesh& mesh) {
+    const int how = r.integer(0, 4);
+    Plane plane;
+    for (double& n : plane.normal) n = how == 0 || how == 3 ? r.integer(-2, 2) : r.uniform(-1, 1);
+    if (plane.normal == std::array<double, 3>{0, 0, 0}) plane.normal[2] = 1;
+    const double* const x = mesh.points.data() + 3 * r.below(mesh.point_count());
+    plane = plane_through({x[0], x[1], x[2]}, plane.normal);
+    if (how == 1) plane.offset += r.uniform(-1, 1);
+    if (how == 2) {  // of any magnitude, as far as the offset stays a double
+        const int shift = r.integer(-500, 300);
+        for (double& n : plane.normal) n = std::ldexp(n, shift);
+        plane.offset = std::ldexp(plane.offset, shift);
+    }
+    return plane;
+}
+
+TEST(Slice, K1_K2_K3_K4_of_any_plane_in_any_box) {
+    std::uint64_t parts = 0, at_nodes = 0, quick = 0;
+    for (std::uint64_t k = 0; k < 400 && !HasFailure(); ++k) {
+        base::Random r = base::Random::stream(16, base::hash64("slice"), k);
+        const Mesh mesh = moved_box(r, 3);
+        const Field f = random_field(r, "f", mesh.point_count(), 2, r.integer(0, field_kinds - 1));
+        const Plane plane = random_plane(r, mesh);
+        SCOPED_TRACE("case " + std::to_string(k));
+        const Cut cut = expect_right_slice(mesh, plane, {.point_fields = {&f}});
+        parts += cut.surface.cell_count();
+        at_nodes += cut.counts.at_nodes;
+        quick += cut.counts.tiers.double_double;
+    }
+    EXPECT_GT(parts, 2000U);
+    EXPECT_GT(at_nodes, 100U);
+    EXPECT_GT(quick, 1000U);
+}
+
+// Numbers of which floating point makes nothing: planes that graze, coordinates far apart.
+TEST(Slice, of_numbers_of_any_kind) {
+    for (std::uint64_t k = 0; k < 200 && !HasFailure(); ++k) {
+        base::Random r = base::Random::stream(17, base::hash64("slice, any"), k);
+        Mesh mesh = box(3, {2, 1, 1});
+        for (double& x : mesh.points) x = field_number(r, static_cast<int>(k % 6));
+        Plane plane{{field_number(r, 3), field_number(r, 1), field_number(r, 4)}, field_number(r, 3)};
+        if (k % 2 == 0) {
+            const double* const x = mesh.points.data();
+            plane = plane_through({x[0], x[1], x[2]}, plane.normal);
+            if (!std::isfinite(plane.offset)) continue;
+        }
+        expect_right_slice(mesh, plane, {}, {.flat_cells = true, .any_complex = true});
+    }
+}
+
+TEST(Slice, through_the_lattice_of_the_box) {
+    const Mesh mesh = box(3, {2, 2, 2});
+    double expected = 4;
+    for (const double at : {0.0, 0.5, 1.0, 1.5, 2.0}) {
+        const Cut cut = expect_right_slice(mesh, {{0, 0, 1}, at}, {});
+        // Where the plane is the top, nothing of the mesh is beyond it.
+        if (at == 2) expected = 0;
+        double area = 0;
+        const Surface& s = cut.surface;
+        for (std::size_t t = 0; t < s.cell_count(); ++t) {
+            const auto x = [&](std::size_t i, std::size_t k) {
+                return s.points[3 * static_cast<std::size_t>(s.cells[3 * t + i]) + k];
+            };
+            const double twice = (x(1, 0) - x(0, 0)) * (x(2, 1) - x(0, 1)) - (x(1, 1) - x(0, 1)) * (x(2, 0) - x(0, 0));
+            EXPECT_GT(twice, 0) << "normals along that of the plane";
+            area += twice / 2;
+        }
+        EXPECT_EQ(area, expected) << at;
+        if (at == 1) {
+            EXPECT_EQ(cut.counts.on_edges, 0U);
+        }
+    }
+}
+
+TEST(Slice, the_offset_of_a_plane_through_a_point_is_rounded_once) {
+    for (std::uint64_t k = 0; k < 500; ++k) {
+        base::Random r = base::Random::stream(18, base::hash64("planes"), k);
+        std::array<double, 3> p{}, n{};
+        mpq_class exact(0);
+        for (std::size_t i = 0; i < 3; ++i) {
+            p[i] = field_number(r, static_cast<int>(k % 5));
+            n[i] = field_number(r, static_cast<int>(k % 5));
+            exact += mpq_class(p[i]) * mpq_class(n[i]);
+        }
+        EXPECT_TRUE(testing_rational::nearest(plane_through(p, n).offset, exact));
+        EXPECT_EQ(plane_through(p, n).normal, n);
+    }
+}
+
+TEST(Slice, what_is_no_plane_is_refused) {
+    const Mesh mesh = box(3, {1, 1, 1});
+    for (const Plane& plane : {Plane{{0, 0, 0}, 1}, Plane{{0, std::nan(""), 1}, 1}, Plane{{0, 0, 1}, HUGE_VAL}}) {
+        const auto cut = slice(mesh, plane);
+        ASSERT_FALSE(cut);
+        EXPECT_EQ(cut.error().expected, "four finite numbers, the normal not zero");
+    }
+    EXPECT_FALSE(slice(box(2, {1, 1, 1}), {{0, 0, 1}, 0}));
+}
+
+}  // namespace
+}  // namespace barycert::testing
