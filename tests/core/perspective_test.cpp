@@ -17,7 +17,6 @@ namespace barycert {
 namespace {
 
 using testing_cases::all_kinds;
-using testing_cases::bits;
 using testing_cases::describe;
 using testing_cases::Kind;
 using testing_cases::random_perspective_case;
@@ -150,7 +149,8 @@ RC_GTEST_PROP(Perspective, equal_depths_give_the_weights_of_the_window, ()) {
     RC_ASSERT(found && expected);
     RC_ASSERT(found->degenerate == expected->degenerate);
     if (found->degenerate) return;
-    for (std::size_t i = 0; i < 3; ++i) RC_ASSERT(bits(found->weights[i]) == bits(expected->weights[i]));
+    for (std::size_t i = 0; i < 3; ++i)
+        RC_ASSERT(testing_cases::bits(found->weights[i]) == testing_cases::bits(expected->weights[i]));
     RC_ASSERT(perspective_depth(c.vertices.data(), c.point.data())->value == w);
 }
 
@@ -167,7 +167,7 @@ RC_GTEST_PROP(Perspective, units_and_orders_change_no_bit, ()) {
     const auto other = perspective_weights(turned.vertices.data(), turned.point.data());
     RC_ASSERT(w->degenerate == other->degenerate);
     for (std::size_t i = 0; i < 3 && !w->degenerate; ++i)
-        RC_ASSERT(bits(w->weights[i]) == bits(other->weights[(i + 1) % 3]));
+        RC_ASSERT(testing_cases::bits(w->weights[i]) == testing_cases::bits(other->weights[(i + 1) % 3]));
 }
 
 // V2: pixel centres on a shared edge have the same values and depths from both sides, whatever the third vertices.
@@ -196,9 +196,9 @@ RC_GTEST_PROP(Perspective, a_shared_edge_has_one_value, ()) {
     const auto f = perspective_value(left.vertices.data(), left.point.data(), left.values.data());
     const auto g = perspective_value(right.vertices.data(), right.point.data(), right.values.data());
     RC_PRE(!f->degenerate && !g->degenerate);
-    RC_ASSERT(bits(f->value) == bits(g->value));
-    RC_ASSERT(bits(perspective_depth(left.vertices.data(), left.point.data())->value) ==
-              bits(perspective_depth(right.vertices.data(), right.point.data())->value));
+    RC_ASSERT(testing_cases::bits(f->value) == testing_cases::bits(g->value));
+    RC_ASSERT(testing_cases::bits(perspective_depth(left.vertices.data(), left.point.data())->value) ==
+              testing_cases::bits(perspective_depth(right.vertices.data(), right.point.data())->value));
 }
 
 TEST(Perspective, batches_give_the_same_bits_and_count) {
@@ -227,7 +227,7 @@ TEST(Perspective, batches_give_the_same_bits_and_count) {
                 if (std::isnan(one->value)) {
                     EXPECT_TRUE(std::isnan(out[components * j + k]));
                 } else {
-                    EXPECT_EQ(bits(out[components * j + k]), bits(one->value));
+                    EXPECT_EQ(testing_cases::bits(out[components * j + k]), testing_cases::bits(one->value));
                 }
                 degenerate += k == 0 && one->degenerate ? 1 : 0;
             }
