@@ -1,7 +1,9 @@
 /// Drift: how far the value of an attribute moves away from the exact one as a triangle in a window grows.
 ///
-/// Enters: kernels on triangles. Cases: triangles in boxes of 4, 8, ... 4096 pixels with vertices on the grid of 1/256
-/// pixel, attributes of 1 to 2 at the vertices, pixel centres in the triangle (the family triangle.pixels by size).
+/// Enters: kernels on triangles. Cases as those of the family triangle.pixels: vertices on the grid of 1/256 pixel in
+/// boxes of 4, 8, ... 4096 pixels, pixel centres in the triangle. Attributes are 1 to 2 at the vertices. That it is the
+/// steps that tell, not the shape or the place: the box lies at the origin, and the triangle fills an eighth of it at
+/// least.
 /// Leaves: the largest error of the value by size. A kernel that steps from pixel to pixel drifts; one that computes
 /// each pixel afresh does not.
 #pragma once

@@ -102,7 +102,9 @@ TEST(Runner, PerspectiveKernelsMeetPerspectiveCasesAlone) {
     for (const KernelResult& k : r.kernels) {
         ASSERT_EQ(k.families.size(), 1U) << k.kernel.name;
         EXPECT_EQ(k.families[0].family, k.kernel.perspective ? 1U : 0U) << k.kernel.name;
-        if (k.kernel.perspective) EXPECT_EQ(k.prediction.cases(), 0U) << k.kernel.name;
+        if (k.kernel.perspective) {
+            EXPECT_EQ(k.prediction.cases(), 0U) << k.kernel.name;
+        }
     }
     EXPECT_EQ(r.cases, 100U);
     AuditOptions options;

@@ -48,7 +48,9 @@ TEST(Texels, TheAuditCatchesWhatEachRuleDoesWrong) {
         EXPECT_EQ(count_of(r, TexelFinding::past_end) > 100, leaves) << name;
         const bool exact = name.find("exact") != std::string::npos;
         EXPECT_EQ(count_of(r, TexelFinding::wrong_texel) > 0, !exact) << name;
-        if (exact) EXPECT_EQ(count_of(r, TexelFinding::past_end), 0U) << name;
+        if (exact) {
+            EXPECT_EQ(count_of(r, TexelFinding::past_end), 0U) << name;
+        }
     }
 }
 

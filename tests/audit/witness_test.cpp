@@ -95,7 +95,8 @@ TEST(Witness, FilesKeepEveryBit) {
 TEST(Witness, PerspectiveIsReplayedWithItsOwnKernels) {
     const AuditReport report = nasty_audit();
     int seen = 0;
-    for (const Witness& w : read_witnesses(TemporaryFile(witnesses_json(report)).path()).value()) {
+    const std::vector<Witness> read = read_witnesses(TemporaryFile(witnesses_json(report)).path()).value();
+    for (const Witness& w : read) {
         const Replay replay = replay_witness(w, catalogue());
         EXPECT_EQ(replay.not_reproduced, "") << w.kernel;
         for (const KernelAnswer& a : replay.answers)

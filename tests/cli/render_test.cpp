@@ -50,7 +50,9 @@ TEST(render_texels, shows_the_rim) {
     for (const auto& rule : parse(read_file(scratch.path("t.json")))["rules"]) {
         const std::string name = rule["name"];
         EXPECT_EQ(rule["past_end"] > 0, name == "texture.clamp-to-w" || name == "texture.fraction") << name;
-        if (contains(name, "exact")) EXPECT_EQ(rule["witnesses"].size(), 0U) << name;
+        if (contains(name, "exact")) {
+            EXPECT_EQ(rule["witnesses"].size(), 0U) << name;
+        }
     }
 }
 

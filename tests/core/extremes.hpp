@@ -105,11 +105,40 @@ inline void add_calls_of(Simplex s, Point where, std::vector<Call>& calls) {
         [s](const Extreme&, const Numbers& c) { return !std::isnan(condition_number(s, c.vertices)); });
 }
 
+/// A triangle in a window: depths are magnitudes of third coordinates.
+struct WindowTriangle {
+    WindowTriangle(const Extreme& e, Point where) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) vertices[3 * i + k] = e.points[i][k];
+            double& w = vertices[3 * i + 2];
+            w = w == 0 ? 1 : std::fabs(w);
+        }
+        for (std::size_t k = 0; k < 2; ++k) point[k] = e.points[where == Point::own ? 3 : 0][k];
+    }
+    double vertices[9] = {}, point[2] = {};
+};
+
+inline void add_perspective(Point where, std::vector<Call>& calls) {
+    calls.push_back({"perspective_weights", [where](const Extreme& e) {
+                         const WindowTriangle t(e, where);
+                         return perspective_weights(t.vertices, t.point).has_value();
+                     }});
+    calls.push_back({"perspective_depth", [where](const Extreme& e) {
+                         const WindowTriangle t(e, where);
+                         return perspective_depth(t.vertices, t.point).has_value();
+                     }});
+    calls.push_back({"perspective_value", [where](const Extreme& e) {
+                         const WindowTriangle t(e, where);
+                         return perspective_value(t.vertices, t.point, e.values).has_value();
+                     }});
+}
+
 /// Every single call.
 inline std::vector<Call> single_calls(Point where = Point::own) {
     std::vector<Call> calls;
     add_predicates(where, calls);
     for (const Simplex s : all_simplices) add_calls_of(s, where, calls);
+    add_perspective(where, calls);
     calls.push_back({"parameter_of_value", [](const Extreme& e) {
                          return parameter_of_value(e.values[0], e.values[1], e.values[2]).has_value();
                      }});

@@ -9,14 +9,13 @@ namespace barycert {
 namespace {
 
 using testing_cases::all_kinds;
-using testing_cases::bits;
 using testing_cases::Kind;
 
 void expect_same(double a, double b, const Case& c) {
     if (std::isnan(b)) {
         EXPECT_TRUE(std::isnan(a)) << testing_cases::describe(c);
     } else {
-        EXPECT_EQ(bits(a), bits(b)) << testing_cases::describe(c);
+        EXPECT_EQ(testing_cases::bits(a), testing_cases::bits(b)) << testing_cases::describe(c);
     }
 }
 

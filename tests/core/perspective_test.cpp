@@ -17,7 +17,6 @@ namespace barycert {
 namespace {
 
 using testing_cases::all_kinds;
-using testing_cases::bits;
 using testing_cases::describe;
 using testing_cases::Kind;
 using testing_cases::random_perspective_case;
@@ -150,7 +149,8 @@ RC_GTEST_PROP(Perspective, equal_depths_give_the_weights_of_the_window, ()) {
     RC_ASSERT(found && expected);
     RC_ASSERT(found->degenerate == expected->degenerate);
     if (found->degenerate) return;
-    for (std::size_t i = 0; i < 3; ++i) RC_ASSERT(bits(found->weights[i]) == bits(expected->weights[i]));
+    for (std::size_t i = 0; i < 3; ++i)
+        RC_ASSERT(testing_cases::bits(found->weights[i]) == testing_cases::bits(expected->weights[i]));
     RC_ASSERT(perspective_depth(c.vertices.data(), c.point.data())->value == w);
 }
 
@@ -167,7 +167,7 @@ RC_GTEST_PROP(Perspective, units_and_orders_change_no_bit, ()) {
     const auto other = perspective_weights(turned.vertices.data(), turned.point.data());
     RC_ASSERT(w->degenerate == other->degenerate);
     for (std::size_t i = 0; i < 3 && !w->degenerate; ++i)
-        RC_ASSERT(bits(w->weights[i]) == bits(other->weights[(i + 1) % 3]));
+        RC_ASSERT(testing_cases::bits(w->weights[i]) == testing_cases::bits(other->weights[(i + 1) % 3]));
 }
 
 // V2: pixel centres on a shared edge have the same values and depths from both sides, whatever the third vertices.
@@ -196,9 +196,9 @@ RC_GTEST_PROP(Perspective, a_shared_edge_has_one_value, ()) {
     const auto f = perspective_value(left.vertices.data(), left.point.data(), left.values.data());
     const auto g = perspective_value(right.vertices.data(), right.point.data(), right.values.data());
     RC_PRE(!f->degenerate && !g->degenerate);
-    RC_ASSERT(bits(f->value) == bits(g->value));
-    RC_ASSERT(bits(perspective_depth(left.vertices.data(), left.point.data())->value) ==
-              bits(perspective_depth(right.vertices.data(), right.point.data())->value));
+    RC_ASSERT(testing_cases::bits(f->value) == testing_cases::bits(g->value));
+    RC_ASSERT(testing_cases::bits(perspective_depth(left.vertices.data(), left.point.data())->value) ==
+              testing_cases::bits(perspective_depth(right.vertices.data(), right.point.data())->value));
 }
 
 TEST(Perspective, batches_give_the_same_bits_and_count) {
@@ -227,12 +227,82 @@ TEST(Perspective, batches_give_the_same_bits_and_count) {
                 if (std::isnan(one->value)) {
                     EXPECT_TRUE(std::isnan(out[components * j + k]));
                 } else {
-                    EXPECT_EQ(bits(out[components * j + k]), bits(one->value));
+                    EXPECT_EQ(testing_cases::bits(out[components * j + k]), testing_cases::bits(one->value));
                 }
                 degenerate += k == 0 && one->degenerate ? 1 : 0;
             }
         }
         EXPECT_EQ(tiers.degenerate, degenerate);
+    }
+}
+
+// The tier that is meant for them decides ordinary cases; ties, zeros and what is degenerate are left to integers.
+TEST(Perspective, tiers_decide_what_they_are_for) {
+    int double_double = 0;
+    for (std::uint64_t k = 0; k < 1000; ++k) {
+        base::Random r = base::Random::stream(11, base::hash64("tiers"), k);
+        Case c{.simplex = Simplex::triangle};
+        c.perspective = true;
+        for (double& x : c.vertices) x = r.uniform(1, 1000);
+        for (double& f : c.values) f = r.uniform(-1, 1);
+        for (std::size_t i = 0; i < 2; ++i) c.point[i] = r.uniform(1, 1000);
+        const auto w = perspective_weights(c.vertices.data(), c.point.data());
+        const auto z = perspective_depth(c.vertices.data(), c.point.data());
+        const auto f = perspective_value(c.vertices.data(), c.point.data(), c.values.data());
+        double_double += w->tier == Tier::double_double && z->tier == w->tier && f->tier == w->tier ? 1 : 0;
+    }
+    EXPECT_GT(double_double, 990);
+    // 3/4 and 1/4 of the ends of an edge: the exact value lies in the middle between 1 and the next double.
+    Case c = unit_case();
+    c.values = {1, 1 + 0x1p-51, 7, 0};
+    const auto tie = perspective_value(c.vertices.data(), c.point.data(), c.values.data());
+    EXPECT_EQ(tie->tier, Tier::exact);
+    EXPECT_EQ(tie->value, 1);
+    EXPECT_TRUE(check(c));
+    EXPECT_EQ(perspective_weights(c.vertices.data(), c.point.data())->tier, Tier::exact);  // a zero
+    // Fields of zeros are zero, whatever the signs.
+    c.values = {-0.0, 0.0, -0.0, 0};
+    const auto zero = perspective_value(c.vertices.data(), c.point.data(), c.values.data());
+    EXPECT_EQ(testing_cases::bits(zero->value), 0U);
+}
+
+// Just beside a tie, at distances down to what no double-double can tell.
+TEST(Perspective, near_ties_round_to_their_side) {
+    Case c{.simplex = Simplex::triangle};
+    c.perspective = true;
+    c.vertices = {0, 0, 1, 8, 0, 1, 0, 8, 1};
+    c.point = {2, 2, 0};  // weights 1/2, 1/4, 1/4
+    int exact = 0;
+    for (int k = 54; k < 200; ++k) {
+        for (const double side : {-1.0, 1.0}) {
+            c.values = {2, 0x1p-51, side * std::ldexp(1, -k), 0};
+            const auto f = perspective_value(c.vertices.data(), c.point.data(), c.values.data());
+            EXPECT_EQ(f->value, side > 0 ? 1 + 0x1p-52 : 1) << k;
+            exact += f->tier == Tier::exact ? 1 : 0;
+        }
+    }
+    EXPECT_GT(exact, 100);
+    EXPECT_LT(exact, 270);
+}
+
+// A triangle without an area has weights nowhere, though 1/Z of the formula need not vanish.
+TEST(Perspective, a_flat_triangle_is_degenerate_for_every_point) {
+    for (std::uint64_t k = 0; k < 500; ++k) {
+        base::Random r = base::Random::stream(11, base::hash64("flat"), k);
+        Case c{.simplex = Simplex::triangle};
+        c.perspective = true;
+        const double x = r.integer(-9, 9);
+        const double y = r.integer(-9, 9);
+        for (int i = 0; i < 3; ++i) {
+            const double t = r.integer(-9, 9);
+            c.vertex(i, 0) = 3 + t * x;
+            c.vertex(i, 1) = 5 + t * y;
+            c.depth(i) = r.uniform(1, 10);
+        }
+        for (std::size_t i = 0; i < 2; ++i) c.point[i] = r.uniform(-99, 99);
+        EXPECT_TRUE(perspective_weights(c.vertices.data(), c.point.data())->degenerate);
+        EXPECT_TRUE(perspective_depth(c.vertices.data(), c.point.data())->degenerate);
+        EXPECT_TRUE(perspective_value(c.vertices.data(), c.point.data(), c.values.data())->degenerate);
     }
 }
 

@@ -1,5 +1,6 @@
 // The oracle against CGAL: its exact predicates for signs, its rationals for weights.
 
+#include <CGAL/Cartesian.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Gmpq.h>
 #include <gtest/gtest.h>
@@ -13,8 +14,20 @@ namespace {
 
 using Epick = CGAL::Exact_predicates_inexact_constructions_kernel;
 
+/// Sign of 1/Z: the eye and the point (x, y, 1) of the ray, seen from the plane of the triangle before the projection:
+/// the plane's distance along the ray is positive if the ray leaves the eye towards it.
+int side_of_horizon(const Case& c) {
+    using Q = CGAL::Gmpq;
+    using Vector = CGAL::Cartesian<Q>::Vector_3;
+    const auto vertex = [&](int i) {
+        return Vector(Q(c.vertex(i, 0)) * Q(c.depth(i)), Q(c.vertex(i, 1)) * Q(c.depth(i)), Q(c.depth(i)));
+    };
+    const Vector normal = CGAL::cross_product(vertex(1) - vertex(0), vertex(2) - vertex(0));
+    return CGAL::sign(normal * vertex(0)) * CGAL::sign(normal * Vector(Q(c.point[0]), Q(c.point[1]), Q(1)));
+}
+
 /// Sign of the weight of vertex i by CGAL's orientation predicates: the simplex with vertex i replaced by the point,
-/// against the simplex.
+/// against the simplex. Perspective turns all signs round where the ray meets the plane behind the eye.
 int predicate_sign(const Case& c, int replaced) {
     const auto coordinate = [&](int i, int axis, int r) {
         return i == r ? c.point[static_cast<std::size_t>(axis)] : c.vertex(i, axis);
@@ -30,7 +43,8 @@ int predicate_sign(const Case& c, int replaced) {
             v[static_cast<std::size_t>(i)] = {coordinate(i, 0, r), coordinate(i, 1, r), coordinate(i, 2, r)};
         return static_cast<int>(CGAL::orientation(v[0], v[1], v[2], v[3]));
     };
-    return orientation(replaced) * orientation(-1);
+    const int sign = orientation(replaced) * orientation(-1);
+    return c.perspective ? sign * side_of_horizon(c) : sign;
 }
 
 // Every family that lives within the range of CGAL's filters: on subnormal and huge coordinates its kernel makes no

@@ -79,6 +79,7 @@ int run(const Call& call) {
                 "exact", "degenerate", "ns own", "ns judge");
     Tally total;
     for (const Family& f : all_families()) {
+        if (f.perspective) continue;
         Tally of_family;
         for (std::size_t i = 0; i < subjects.size(); ++i) {
             if (subjects[i].family == &f) of_family.add(tallies[i]);

@@ -54,10 +54,12 @@ struct Subject {
     std::uint64_t simplices() const { return family->simplices.size(); }
 };
 
-/// Every family with every simplex that it applies to.
+/// Every family with every simplex that it applies to; not those of perspective, which are not for the functions judged
+/// here.
 inline std::vector<Subject> all_subjects() {
     std::vector<Subject> subjects;
     for (const Family& f : all_families()) {
+        if (f.perspective) continue;
         for (const Simplex s : f.simplices) subjects.push_back({&f, s});
     }
     return subjects;

@@ -20,6 +20,12 @@ namespace {
 
 constexpr int min_size = 4, max_size = 4096;
 
+/// Exact: see families_raster.cpp.
+double twice_area(const Case& c) {
+    return std::fabs((c.vertex(1, 0) - c.vertex(0, 0)) * (c.vertex(2, 1) - c.vertex(0, 1)) -
+                     (c.vertex(1, 1) - c.vertex(0, 1)) * (c.vertex(2, 0) - c.vertex(0, 0)));
+}
+
 /// The kernel's value, with the floating-point environment as it was before.
 double value_of(const Kernel& k, const Case& c) {
     std::fenv_t before;
@@ -58,7 +64,10 @@ Case drift_case(int size, std::uint64_t seed, std::uint64_t index) {
     base::Random random = base::Random::stream(seed, base::hash64("drift") + static_cast<std::uint64_t>(size), index);
     Case c;
     c.simplex = Simplex::triangle;
-    set_pixel_case(c, random, size, false);
+    for (int attempt = 0; attempt < 64; ++attempt) {
+        set_pixel_case(c, random, size, false, 1);
+        if (twice_area(c) >= size * size / 4.0) break;
+    }
     for (std::size_t i = 0; i < 3; ++i) c.values[i] = random.uniform(1, 2);
     return c;
 }

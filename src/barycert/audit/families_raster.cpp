@@ -55,9 +55,9 @@ void pixels(Case& c, base::Random& random, std::uint64_t) {
 
 }  // namespace
 
-void set_pixel_case(Case& c, base::Random& random, int size, bool on_edge) {
+void set_pixel_case(Case& c, base::Random& random, int size, bool on_edge, int window) {
     double origin[2];
-    for (double& o : origin) o = random.integer(0, 4095);
+    for (double& o : origin) o = random.integer(0, window - 1);
     for (int i = 0; i < 3; ++i) {
         for (int axis = 0; axis < 2; ++axis) c.vertex(i, axis) = origin[axis] + random.integer(0, 256 * size) * 0x1p-8;
     }

@@ -15,7 +15,7 @@
 // obey, as in refinement-inl.hpp (where c is derived for triangles in space),
 //   |N / m - (s + c)| <= 1.01 (E_N + |s| E_m) / |m.high| + 25 u^2 |s|   if E_m <= 2^-10 |m.high|,
 // of which 1.02 and 26 leave room for the roundings of the bound and for u^3. Then m is not zero, so that there are
-// weights unless the area is zero: that d is not is asked for besides.
+// weights unless the area is zero, which does not show in m: that |d| > 65 u^2 P is asked for besides.
 //
 // Ranges; outside them nothing is certain: R_x, R_y in [2^-200, 2^200], depths in [2^-100, 2^100], the largest |f_i| in
 // [2^-200, 2^200] or zero, |s| in [2^-800, 2^900] (or all f_i zero). So 2^-399 <= P <= 2^401, W_i in [2^-200, 2^200],
@@ -89,43 +89,56 @@ HWY_INLINE ProjectedLanes<D> project_lanes(D tag, const double* vertices, V x, V
     out.valid = hn::And(within(extent[0], 0x1p-200, 0x1p200), within(extent[1], 0x1p-200, 0x1p200));
     out.valid = hn::And(out.valid, hn::Le(out.denominator_error, constant(0x1p-10) * hn::Abs(out.denominator.high)));
     out.valid = hn::And(out.valid, hn::Gt(hn::Abs(out.area.high), constant(65) * out.p));
-    for (int i = 0; i < 3; ++i) out.valid = hn::And(out.valid, within(constant(vertices[3 * i + 2]), 0x1p-100, 0x1p100));
+    for (int i = 0; i < 3; ++i)
+        out.valid = hn::And(out.valid, within(constant(vertices[3 * i + 2]), 0x1p-100, 0x1p100));
     return out;
 }
 
-/// numerator / m correctly rounded, where certain. `all_zero`: the numerator is exactly zero.
+/// A quotient as plain + correction, no farther than `error` from the exact one where valid.
+template <class D>
+struct QuotientLanes {
+    hn::Vec<D> plain, correction, error;
+    hn::Mask<D> valid;
+};
+
+/// numerator / m. `error` is that of the numerator; `all_zero`: it is exactly zero.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V divided(D tag, const ProjectedLanes<D>& q, const DoubleDouble<V>& numerator, V error, hn::Mask<D> all_zero,
-                     hn::Mask<D>& certain) {
+HWY_INLINE QuotientLanes<D> divided(D tag, const ProjectedLanes<D>& q, const DoubleDouble<V>& numerator, V error,
+                                    hn::Mask<D> all_zero) {
     constexpr double u = 0x1p-53;
     const auto constant = [&](double a) { return hn::Set(tag, a); };
-    const V s = numerator.high / q.denominator.high;
-    const TwoTerms<V> p = two_product(s, q.denominator.high);
-    const V rest = ((numerator.high - p.high) - p.low) + (numerator.low - s * q.denominator.low);
-    const V correction = rest * q.inverse, size = hn::Abs(s);
-    const V bound = constant(1.02) * ((error + size * q.denominator_error) * hn::Abs(q.inverse)) +
-                    constant(26 * u * u) * size + constant(0x1p-52) * hn::Abs(correction);
+    QuotientLanes<D> out;
+    out.plain = numerator.high / q.denominator.high;
+    const TwoTerms<V> p = two_product(out.plain, q.denominator.high);
+    const V rest = ((numerator.high - p.high) - p.low) + (numerator.low - out.plain * q.denominator.low);
+    const V size = hn::Abs(out.plain);
+    out.correction = rest * q.inverse;
+    out.error =
+        constant(1.02) * ((error + size * q.denominator_error) * hn::Abs(q.inverse)) + constant(26 * u * u) * size;
     const auto in_range = hn::And(hn::Ge(size, constant(0x1p-800)), hn::Le(size, constant(0x1p900)));
-    certain = hn::And(hn::And(certain, q.valid), hn::Or(in_range, all_zero));
-    // + 0: an exact zero is positive.
-    return rounded_if_certain<D>(s, correction, bound, certain) + hn::Zero(tag);
+    out.valid = hn::And(q.valid, hn::Or(in_range, all_zero));
+    return out;
+}
+
+template <class D>
+HWY_INLINE hn::Mask<D> never(D tag) {
+    return hn::Lt(hn::Zero(tag), hn::Zero(tag));
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V perspective_weight(D tag, const ProjectedLanes<D>& q, int i, hn::Mask<D>& certain) {
-    return divided(tag, q, q.numerator[i], hn::Set(tag, 22) * (q.p * q.product[i]), hn::MaskFalse(tag), certain);
+HWY_INLINE QuotientLanes<D> perspective_weight(D tag, const ProjectedLanes<D>& q, int i) {
+    return divided(tag, q, q.numerator[i], hn::Set(tag, 22) * (q.p * q.product[i]), never(tag));
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V perspective_depth(D tag, const ProjectedLanes<D>& q, hn::Mask<D>& certain) {
+HWY_INLINE QuotientLanes<D> perspective_depth(D tag, const ProjectedLanes<D>& q) {
     const DoubleDouble<V> numerator = (q.area * q.product0) * DoubleDouble<V>{q.depth0, hn::Zero(tag)};
-    const V error = hn::Set(tag, 117) * (q.p * (q.product[0] * q.depth0));
-    return divided(tag, q, numerator, error, hn::MaskFalse(tag), certain);
+    return divided(tag, q, numerator, hn::Set(tag, 117) * (q.p * (q.product[0] * q.depth0)), never(tag));
 }
 
 /// f: the values at the three vertices.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V perspective_value(D tag, const ProjectedLanes<D>& q, const V (&f)[3], hn::Mask<D>& certain) {
+HWY_INLINE QuotientLanes<D> perspective_value(D tag, const ProjectedLanes<D>& q, const V (&f)[3]) {
     const auto product = [&](int i) { return q.numerator[i] * DoubleDouble<V>{f[i], hn::Zero(tag)}; };
     const DoubleDouble<V> numerator = product(0) + product(1) + product(2);
     V sum = hn::Zero(tag), max = hn::Zero(tag);
@@ -136,8 +149,19 @@ HWY_INLINE V perspective_value(D tag, const ProjectedLanes<D>& q, const V (&f)[3
     const auto zero = hn::Eq(max, hn::Zero(tag));
     const auto in_range =
         hn::Or(zero, hn::And(hn::Ge(max, hn::Set(tag, 0x1p-200)), hn::Le(max, hn::Set(tag, 0x1p200))));
-    certain = hn::And(certain, in_range);
-    return divided(tag, q, numerator, hn::Set(tag, 39) * (q.p * sum), zero, certain);
+    QuotientLanes<D> out = divided(tag, q, numerator, hn::Set(tag, 39) * (q.p * sum), zero);
+    out.valid = hn::And(out.valid, in_range);
+    return out;
+}
+
+/// Correctly rounded, where certain. The correction less or plus the error rounds by u of both: 2 u of the first are
+/// added to the error, 1.02 and 26 have room for the second.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V rounded_quotient(D tag, const QuotientLanes<D>& q, hn::Mask<D>& certain) {
+    certain = hn::And(certain, q.valid);
+    const V error = q.error + hn::Set(tag, 0x1p-52) * hn::Abs(q.correction);
+    // + 0: an exact zero is positive.
+    return rounded_if_certain<D>(q.plain, q.correction, error, certain) + hn::Zero(tag);
 }
 
 }  // namespace HWY_NAMESPACE

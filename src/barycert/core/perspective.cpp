@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "barycert/core/input_checks.hpp"
 #include "barycert/core/perspective_exact.hpp"
+#include "barycert/core/perspective_lanes.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert::core {
@@ -14,12 +16,11 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-bool usable_vertices(const double* vertices) {
+bool usable(const double* vertices, const double* point) {
     for (int i = 0; i < 3; ++i) {
-        const double w = vertices[3 * i + 2];
-        if (!all_finite(vertices + 3 * i, 3) || !(w > 0)) return false;
+        if (!(vertices[3 * i + 2] > 0)) return false;
     }
-    return true;
+    return all_finite(vertices, 9) && all_finite(point, 2);
 }
 
 /// Names the first number that is not as perspective.hpp requires. Precondition: there is one.
@@ -44,10 +45,18 @@ Error unusable_error(const double* vertices, const double* point, const std::str
             .found = std::to_string(point[k])};
 }
 
-Status check_perspective(const double* vertices, const double* point) {
-    if (usable_vertices(vertices) && all_finite(point, 2)) return Done{};
-    return unusable_error(vertices, point);
-}
+constexpr std::size_t points_at_once = 64;
+
+/// Answers of a block of points, an array a number, and what is undecided of them.
+struct AnswerBlock {
+    explicit AnswerBlock(std::size_t numbers) : answers(numbers * points_at_once), at(numbers) {
+        for (std::size_t i = 0; i < numbers; ++i) at[i] = answers.data() + points_at_once * i;
+    }
+
+    std::vector<double> answers;
+    std::vector<double*> at;
+    std::uint32_t undecided[points_at_once];
+};
 
 }  // namespace
 }  // namespace barycert::core
@@ -56,8 +65,12 @@ namespace barycert {
 
 Result<PerspectiveWeights> perspective_weights(const double* vertices, const double* point) {
     const ExactEnvironment environment;
-    if (Status usable = core::check_perspective(vertices, point); !usable) return usable.error();
-    PerspectiveWeights w;
+    PerspectiveWeights w{.weights = {}, .degenerate = false, .tier = Tier::double_double};
+    double* const to[3] = {&w.weights[0], &w.weights[1], &w.weights[2]};
+    std::uint32_t undecided[1];
+    if (core::perspective_weight_lanes(vertices, {point, point + 1, 1}, to, undecided) == 0) return w;
+    if (!core::usable(vertices, point)) return core::unusable_error(vertices, point);
+    w.tier = Tier::exact;
     w.degenerate = !core::exact_perspective_weights(vertices, point, w.weights.data());
     if (w.degenerate) w.weights.fill(core::nan);
     return w;
@@ -65,16 +78,23 @@ Result<PerspectiveWeights> perspective_weights(const double* vertices, const dou
 
 Result<Value> perspective_depth(const double* vertices, const double* point) {
     const ExactEnvironment environment;
-    if (Status usable = core::check_perspective(vertices, point); !usable) return usable.error();
-    Value z{.value = core::nan, .degenerate = false, .tier = Tier::exact};
+    Value z{.value = 0, .degenerate = false, .tier = Tier::double_double};
+    std::uint32_t undecided[1];
+    if (core::perspective_depth_lanes(vertices, {point, point + 1, 1}, &z.value, undecided) == 0) return z;
+    if (!core::usable(vertices, point)) return core::unusable_error(vertices, point);
+    z = {.value = core::nan, .degenerate = false, .tier = Tier::exact};
     z.degenerate = !core::exact_perspective_depth(vertices, point, &z.value);
     return z;
 }
 
 Result<Value> perspective_value(const double* vertices, const double* point, const double* values) {
     const ExactEnvironment environment;
-    if (Status usable = core::check_perspective(vertices, point); !usable) return usable.error();
-    Value v{.value = core::nan, .degenerate = false, .tier = Tier::exact};
+    Value v{.value = 0, .degenerate = false, .tier = Tier::double_double};
+    double* const to[1] = {&v.value};
+    std::uint32_t undecided[1];
+    if (core::perspective_value_lanes(vertices, {point, point + 1, 1}, values, 1, to, undecided) == 0) return v;
+    if (!core::usable(vertices, point)) return core::unusable_error(vertices, point);
+    v = {.value = core::nan, .degenerate = false, .tier = Tier::exact};
     v.degenerate = !core::exact_perspective_values(vertices, point, values, 1, &v.value);
     return v;
 }
@@ -90,19 +110,37 @@ Status perspective_values(const double* vertices, std::span<const double> points
         return core::size_error("size of the values", std::to_string(stride) + " for each of 3 vertices",
                                 values.size());
     if (Status size = core::check_output(out.size(), stride, count, "point"); !size) return size;
-    const bool usable = core::usable_vertices(vertices);
+    constexpr double origin[2] = {};
+    if (!core::usable(vertices, origin)) return core::unusable_error(vertices, origin);
     TierCounts counts;
     const bool finite_values = core::all_finite(values.data(), static_cast<int>(values.size()));
-    for (std::size_t j = 0; j < count; ++j) {
-        const double* const point = points.data() + 2 * j;
-        if (!usable || !core::all_finite(point, 2))
-            return core::unusable_error(vertices, point, "point " + std::to_string(j) + ", ");
-        double* const to = out.data() + stride * j;
-        const bool proper = core::exact_perspective_values(vertices, point, values.data(), components, to);
-        if (!proper) std::fill_n(to, components, core::nan);
-        counts.add(Tier::exact);
-        counts.degenerate += proper ? 0 : 1;
-        counts.not_finite += finite_values ? 0 : 1;
+    double x[core::points_at_once] = {}, y[core::points_at_once] = {};
+    core::AnswerBlock block(stride);
+    for (std::size_t first = 0; first < count; first += core::points_at_once) {
+        const std::size_t some = std::min(core::points_at_once, count - first);
+        for (std::size_t j = 0; j < some; ++j) {
+            x[j] = points[2 * (first + j)];
+            y[j] = points[2 * (first + j) + 1];
+        }
+        const std::size_t left = core::perspective_value_lanes(vertices, {x, y, some}, values.data(), components,
+                                                               block.at.data(), block.undecided);
+        double* const to = out.data() + stride * first;
+        for (std::size_t j = 0; j < some; ++j) {
+            for (std::size_t c = 0; c < stride; ++c) to[stride * j + c] = block.at[c][j];
+        }
+        for (std::size_t i = 0; i < left; ++i) {
+            const std::size_t j = block.undecided[i];
+            const double* const point = points.data() + 2 * (first + j);
+            if (!core::usable(vertices, point))
+                return core::unusable_error(vertices, point, "point " + std::to_string(first + j) + ", ");
+            const bool proper =
+                core::exact_perspective_values(vertices, point, values.data(), components, to + stride * j);
+            if (!proper) std::fill_n(to + stride * j, components, core::nan);
+            counts.degenerate += proper ? 0 : 1;
+        }
+        counts.add(Tier::double_double, some - left);
+        counts.add(Tier::exact, left);
+        counts.not_finite += finite_values ? 0 : some;
     }
     if (tiers != nullptr) tiers->add(counts);
     return Done{};

@@ -16,8 +16,7 @@ template <class Answer>
 HWY_INLINE std::size_t for_points(const double* vertices, const PointBlock& points, std::uint32_t* undecided,
                                   Answer answer) {
     return for_padded_lanes(points.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
-        const auto lanes =
-            project_lanes(tag, vertices, hn::LoadU(tag, points.x + at), hn::LoadU(tag, points.y + at));
+        const auto lanes = project_lanes(tag, vertices, hn::LoadU(tag, points.x + at), hn::LoadU(tag, points.y + at));
         auto certain = lanes.valid;
         answer(tag, lanes, at, certain);
         return certain;
@@ -29,7 +28,8 @@ std::size_t perspective_weights_of(const double* vertices, const PointBlock& poi
     return for_points(vertices, points, undecided,
                       [&](auto tag, const auto& lanes, std::size_t at, auto& certain) BARYCERT_LANE_LAMBDA {
                           for (int i = 0; i < 3; ++i)
-                              hn::StoreU(perspective_weight(tag, lanes, i, certain), tag, out[i] + at);
+                              hn::StoreU(rounded_quotient(tag, perspective_weight(tag, lanes, i), certain), tag,
+                                         out[i] + at);
                       });
 }
 
@@ -37,21 +37,21 @@ std::size_t perspective_depths_of(const double* vertices, const PointBlock& poin
                                   std::uint32_t* undecided) {
     return for_points(vertices, points, undecided,
                       [&](auto tag, const auto& lanes, std::size_t at, auto& certain) BARYCERT_LANE_LAMBDA {
-                          hn::StoreU(perspective_depth(tag, lanes, certain), tag, out + at);
+                          hn::StoreU(rounded_quotient(tag, perspective_depth(tag, lanes), certain), tag, out + at);
                       });
 }
 
 std::size_t perspective_values_of(const double* vertices, const PointBlock& points, const double* values,
                                   int components, double* const* out, std::uint32_t* undecided) {
-    return for_points(vertices, points, undecided,
-                      [&](auto tag, const auto& lanes, std::size_t at, auto& certain) BARYCERT_LANE_LAMBDA {
-                          for (int c = 0; c < components; ++c) {
-                              const hn::Vec<decltype(tag)> f[3] = {hn::Set(tag, values[c]),
-                                                                   hn::Set(tag, values[components + c]),
-                                                                   hn::Set(tag, values[2 * components + c])};
-                              hn::StoreU(perspective_value(tag, lanes, f, certain), tag, out[c] + at);
-                          }
-                      });
+    return for_points(
+        vertices, points, undecided,
+        [&](auto tag, const auto& lanes, std::size_t at, auto& certain) BARYCERT_LANE_LAMBDA {
+            for (int c = 0; c < components; ++c) {
+                const hn::Vec<decltype(tag)> f[3] = {hn::Set(tag, values[c]), hn::Set(tag, values[components + c]),
+                                                     hn::Set(tag, values[2 * components + c])};
+                hn::StoreU(rounded_quotient(tag, perspective_value(tag, lanes, f), certain), tag, out[c] + at);
+            }
+        });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -60,9 +60,8 @@ void add_triangle(std::vector<Kernel>& list) {
     list.back().interpolate = incremented_value<double>;
     add("scanline-increments.float32", in_float<s, increments<float>>, Declares::no,
         {steps.formula, steps.source,
-         "rounds coordinates to 24 bits first, and each step too: a triangle of thousands of pixels shows it in eight "
-         "bits of "
-         "colour"});
+         "rounds coordinates to 24 bits first, and each step too: over 4096 pixels about 12 bits are left (barycert "
+         "render drift)"});
     list.back().interpolate = value_in_float<s, incremented_value<float>>;
 
     const Text ones{"W_a = |1 p; 1 b; 1 c| / |1 a; 1 b; 1 c| and cyclic, 3x3 determinants", "homogeneous coordinates",
