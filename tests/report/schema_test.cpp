@@ -45,6 +45,21 @@ void sample_reports(Schema& schema) {
     }
 }
 
+/// Runs of cutting with something of everything.
+void contour_reports(Schema& schema) {
+    ContourSummary run;
+    run.file.left_out = {"a"};
+    for (const double low : {0.25, std::numeric_limits<double>::quiet_NaN()}) {
+        run.low = run.high = run.picture.low = run.picture.high = low;
+        run.value = 1;
+        schema.check("Contour", Json::parse(contour_json(run, measure_environment())), "iso");
+        run.value.reset();
+        run.plane = Plane{};
+        run.pixels = PixelGrid{};
+        schema.check("Contour", Json::parse(contour_json(run, measure_environment())), "slice");
+    }
+}
+
 /// Everything that is written, checked against a schema.
 Schema schema_with_all_reports() {
     Schema schema(BARYCERT_SCHEMA);
@@ -54,6 +69,7 @@ Schema schema_with_all_reports() {
     schema.check("Families", Json::parse(families_json(all_families())), "families");
     check_reports(schema);
     sample_reports(schema);
+    contour_reports(schema);
     return schema;
 }
 
@@ -137,6 +153,7 @@ TEST(schema, the_number_is_the_documented_one) {
     EXPECT_EQ(witness_schema, 1);
     EXPECT_EQ(check_schema, 1);
     EXPECT_EQ(sample_schema, 1);
+    EXPECT_EQ(contour_schema, 1);
 }
 
 }  // namespace
