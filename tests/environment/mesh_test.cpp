@@ -13,6 +13,7 @@
 #include "barycert/base/random.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/check.hpp"
+#include "barycert/contour.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
@@ -22,6 +23,7 @@
 #include "barycert/oracle.hpp"
 #include "barycert/plc.hpp"
 #include "barycert/report.hpp"
+#include "barycert/surface.hpp"
 #ifdef BARYCERT_WITH_VTK
 #include "barycert/vtk.hpp"
 #endif
@@ -361,11 +363,105 @@ TEST(EveryEnvironment, Pictures) {
         slice.width = 8;
         slice.height = 6;
         slice.values = values;
+        slice.title = "values";
+        slice.pixel_length = 1.0 / 3;
         SliceCounts counts;
         out.add(write_png(folder.path("slice.png"), slice, &counts).has_value());
         out.add(std::string_view(folder.bytes("slice.png")));
         out.add(counts.low);
         out.add(counts.high);
+    });
+}
+
+void add(Answers& out, const Surface& s) {
+    for (const double x : s.points) out.add(x);
+    out.add_all(s.cells);
+    out.add_all(s.mesh_cells);
+    out.add_all(s.mesh_edges);
+    for (const auto* fields : {&s.point_fields, &s.cell_fields}) {
+        for (const Field& f : *fields) {
+            for (const double x : f.data) out.add(x);
+        }
+    }
+}
+
+void add(Answers& out, const Result<Cut>& cut) {
+    out.add(cut.has_value());
+    if (!cut) return;
+    add(out, cut->surface);
+    const CutCounts& n = cut->counts;
+    for (const std::uint64_t x : {n.cells, n.not_finite, n.degenerate, n.second_order, n.at_nodes, n.on_edges})
+        out.add(x);
+    add(out, n.tiers);
+}
+
+TEST(EveryEnvironment, Surfaces) {
+    const Folder folder;
+    for (const Subject& s : subjects()) {
+        const std::array<double, 3> point{10 * s.scale, 3 * s.scale, 7 * s.scale};
+        const double level = 16 * s.scale, twice = 2 * unit;
+        for (const int threads : {1, 2}) {
+            expect_same_everywhere("surfaces in " + s.name, [&](Answers& out) {
+                CutOptions options;
+                options.threads = threads;
+                options.point_fields = {&s.mesh.point_fields[0], &s.mesh.point_fields[1]};
+                options.cell_fields = {&s.mesh.cell_fields[0]};
+                const Field &one = s.mesh.point_fields[0], &two = s.mesh.point_fields[1];
+                if (s.mesh.dimension == 2) {
+                    for (const double value : {0.0, twice}) add(out, isoline(s.mesh, one, value, options));
+                    add(out, isoline(s.mesh, two, 0.1, options));
+                } else {
+                    for (const double value : {0.0, twice}) add(out, isosurface(s.mesh, one, value, options));
+                    add(out, isosurface(s.mesh, two, 0x1p-1030, options, 1));
+                    const Plane through = plane_through(point, {1.0 / 3, 0x1p-300, -0.7});
+                    out.add(through.offset);
+                    add(out, slice(s.mesh, through, options));
+                    add(out, slice(s.mesh, {{1, 0, 0}, level}, options));
+                }
+                const auto rim = boundary(s.mesh, options);
+                out.add(rim.has_value());
+                if (!rim) return;
+                add(out, *rim);
+                for (const char* const name : {"s.vtp", "s.ply", "s.off"}) {
+                    const bool written = write_surface(*rim, folder.path(name)).has_value();
+                    out.add(written);
+                    if (written) out.add(std::string_view(folder.bytes(name)));
+                }
+            });
+        }
+    }
+}
+
+TEST(EveryEnvironment, Contours) {
+    const Folder folder;
+    const Subject s = subjects()[10];
+    ASSERT_EQ(s.mesh.dimension, 3);
+    ASSERT_TRUE(write_tetgen(s.mesh, folder.path("mesh")));
+    ContourJob job;
+    job.mesh = folder.path("mesh");
+    job.field = "attribute1";
+    job.threads = 2;
+    expect_same_everywhere("contours", [&](Answers& out) {
+        for (const char* const name : {"c.vtp", "c.png"}) {
+            job.output = folder.path(name);
+            job.value.reset();
+            job.plane.reset();
+            if (name[2] == 'v') {
+                job.value = 0.1;
+            } else {
+                job.plane = Plane{{0.3, 0.5, 1.0 / 3}, 24};
+                job.width = 60;
+            }
+            auto summary = contour_files(job);
+            out.add(summary.has_value());
+            if (!summary) continue;
+            out.add(std::string_view(folder.bytes(name)));
+            summary->seconds = {};
+            out.add(std::string_view(contour_text(*summary, false)));
+            out.add(std::string_view(contour_json(*summary, {})));
+            if (!summary->pixels) continue;
+            for (const double x : summary->pixels->middle(5, 7)) out.add(x);
+        }
     });
 }
 

@@ -54,6 +54,31 @@ void raster_reports(Schema& schema) {
     schema.check("Texels", Json::parse(texels_json(audit_texels(texel_rules(), 2000))), "texels");
 }
 
+/// Runs of cutting with something of everything.
+void contour_reports(Schema& schema) {
+    ContourSummary run;
+    run.file.left_out = {"a"};
+    for (const double low : {0.25, std::numeric_limits<double>::quiet_NaN()}) {
+        run.low = run.high = run.picture.low = run.picture.high = low;
+        run.value = 1;
+        schema.check("Contour", Json::parse(contour_json(run, measure_environment())), "iso");
+        run.value.reset();
+        run.plane = Plane{};
+        run.pixels = PixelGrid{};
+        schema.check("Contour", Json::parse(contour_json(run, measure_environment())), "slice");
+    }
+}
+
+/// Pictures with something of everything.
+void render_reports(Schema& schema) {
+    RenderSummary picture;
+    for (const double low : {0.25, std::numeric_limits<double>::quiet_NaN()}) {
+        picture.colours = ColourRange{"t", low, low, 1};
+        picture.texel_error = TexelError{low == 0.25 ? low : HUGE_VAL, 1, 2};
+        schema.check("Render", Json::parse(render_json(picture, measure_environment())), "render");
+    }
+}
+
 /// Everything that is written, checked against a schema.
 Schema schema_with_all_reports() {
     Schema schema(BARYCERT_SCHEMA);
@@ -64,6 +89,8 @@ Schema schema_with_all_reports() {
     check_reports(schema);
     sample_reports(schema);
     raster_reports(schema);
+    contour_reports(schema);
+    render_reports(schema);
     return schema;
 }
 
@@ -147,6 +174,8 @@ TEST(schema, the_number_is_the_documented_one) {
     EXPECT_EQ(witness_schema, 1);
     EXPECT_EQ(check_schema, 1);
     EXPECT_EQ(sample_schema, 1);
+    EXPECT_EQ(render_schema, 1);
+    EXPECT_EQ(contour_schema, 1);
 }
 
 }  // namespace

@@ -4,14 +4,18 @@
 #include <cmath>
 #include <string>
 
+#include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert {
 
 std::array<double, 3> PixelGrid::middle(std::int64_t i, std::int64_t j) const {
+    const ExactEnvironment environment;
     std::array<double, 3> at{};
     for (std::size_t k = 0; k < 3; ++k)
-        at[k] = (origin[k] + static_cast<double>(i) * step_right[k]) + static_cast<double>(j) * step_up[k];
+        at[k] = held((held(origin[k]) + static_cast<double>(i) * held(step_right[k])) +
+                     static_cast<double>(j) * held(step_up[k]));
     return at;
 }
 
