@@ -13,10 +13,17 @@ namespace barycert::cli {
 namespace {
 
 int run_scene_file(const std::string& path, const PictureOptions& o) {
-    if (path.empty() || o.output.empty())
-        return fail({.what = path.empty() ? "nothing to draw" : "no file for the picture",
-                     .expected = path.empty() ? "a scene file (.json), or the name of a picture" : "--output FILE.png",
-                     .remedy = "`barycert render --help` lists the pictures"});
+    const char* const remedy = "`barycert render --help` lists the pictures";
+    if (path.empty())
+        return fail(
+            {.what = "nothing to draw", .expected = "the name of a picture, or a scene (.json)", .remedy = remedy});
+    if (!path.ends_with(".json"))
+        return fail({.what = "no such picture",
+                     .expected = "the name of a picture, or a scene (.json)",
+                     .found = '"' + path + '"',
+                     .remedy = remedy});
+    if (o.output.empty())
+        return fail({.what = "--output is required", .remedy = "name the picture: --output FILE.png"});
     std::vector<base::NamedFile> inputs{{"the scene", path}};
     for (base::NamedFile& file : base::named_files("an image of the scene", scene_files(path)))
         inputs.push_back(std::move(file));

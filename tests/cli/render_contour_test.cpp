@@ -160,8 +160,8 @@ TEST(render_iso, what_is_not_understood_is_refused) {
     expect_error(plus(line, {"1", "--output", scratch.path("none/s.vtp")}), "none");
     expect_error(plus(line, {"1", "--output", out, "--json", out}), "--json");
     expect_error({"render", "iso", scratch.path("no"), "--field", "f", "--value", "1", "--output", out}, "no");
-    expect_error({"render", "zzz"}, "subcommand is required");
-    expect_error({"render"}, "subcommand is required");
+    expect_error({"render", "zzz"}, "no such picture");
+    expect_error({"render"}, "nothing to draw");
     EXPECT_EQ(scratch.names(), (Words{"two.ele", "two.node"})) << "nothing is written";
 }
 
