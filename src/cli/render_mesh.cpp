@@ -46,11 +46,11 @@ void add_render_mesh(CLI::App& render, int& exit_code) {
         ->type_name("NAME");
     add_field_files(*sub, p->job.field_files, "--field-file");
     sub->add_option_function<std::string>(
-           "--value-range",
+           "--range",
            [p](const std::string& text) {
                constexpr const char* expected = "MIN,MAX, finite numbers, MIN < MAX";
-               const auto ends = numbers_of<double>("--value-range", text, ',', finite, expected);
-               if (ends.size() != 2 || !(ends[0] < ends[1])) refuse_option("--value-range", expected, text);
+               const auto ends = numbers_of<double>("--range", text, ',', finite, expected);
+               if (ends.size() != 2 || !(ends[0] < ends[1])) refuse_option("--range", expected, text);
                p->job.view.range = {ends[0], ends[1]};
            },
            "The values of the first and the last colour; default: min and max of the values drawn")
