@@ -10,7 +10,8 @@
 namespace barycert {
 namespace {
 
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN(), endless = std::numeric_limits<double>::infinity();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN(),
+                 endless = std::numeric_limits<double>::infinity();
 
 using Point4 = std::array<double, 4>;
 

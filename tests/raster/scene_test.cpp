@@ -13,7 +13,6 @@
 namespace barycert {
 namespace {
 
-
 std::uint64_t sum_of(const RenderCounts& n) {
     return n.drawn + n.outside + n.degenerate + n.between_pixels;
 }
