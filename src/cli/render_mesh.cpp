@@ -78,7 +78,7 @@ void add_render_mesh(CLI::App& render, int& exit_code) {
         ->type_name("N");
     sub->callback([=, &exit_code] {
         auto inputs = base::named_files("the mesh", mesh_files(p->job.mesh));
-        for (const FieldFile& file : p->job.field_files) inputs.push_back({"a field file", file.path});
+        for (const FieldFile& file : p->job.field_files) inputs.push_back({"field " + file.name, file.path});
         exit_code = run_picture(p->files, inputs, [&] { return draw_mesh(*p); });
     });
 }

@@ -53,6 +53,10 @@ TEST(control_characters, in_names_of_files) {
     expect_harmless({"sample", mesh("bracket"), "--points", scratch.path(evil), "--output", "-"}, here);
     expect_harmless({"resample", stem + "2", "--grid", "2x2x2", "--output", "r.csv"}, here);
     expect_harmless({"replay", scratch.path("w" + evil)}, here);
+    expect_harmless({"render", "mesh", stem + "2", "--output", "r.png"}, here);
+    expect_harmless({"render", "mesh", stem, "--field", evil, "--output", "r.png"}, here);
+    expect_harmless({"render", scratch.path(evil + ".json"), "--output", "r.png"}, here);
+    expect_harmless({"render", "texture", "--image", scratch.path(evil), "--output", "r.png"}, here);
     expect_harmless({"audit", "--kernel-library", scratch.path("k" + evil)}, here);
 #ifdef BARYCERT_TETGEN_PROGRAM
     expect_harmless({scratch.path(evil + ".poly")}, {.program = BARYCERT_TETGEN_PROGRAM});

@@ -48,7 +48,8 @@ TEST_P(Killed, in_the_middle_of_writing) {
                                 {"check", mesh("bracket"), "--fix-orientation", out},
                                 {"sample", mesh("bracket"), "--points", points, "--output", old + ".npy"},
                                 {"sample", mesh("bracket"), "--points", points, "--output", "-", "--save-map", out},
-                                {"resample", mesh("bracket"), "--grid", "5x5x5", "--output", out + ".vti"}}) {
+                                {"resample", mesh("bracket"), "--grid", "5x5x5", "--output", out + ".vti"},
+                                {"render", "gradient", "--output", out + ".png"}}) {
             const Ended r = run(arguments, {.environment = watched(GetParam(), names)});
             EXPECT_EQ(r.signal, GetParam()) << ::testing::PrintToString(arguments) << r.err;
             EXPECT_EQ(scratch.names(), (Words{"old", "p.csv"})) << ::testing::PrintToString(arguments);

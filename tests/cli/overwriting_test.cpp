@@ -22,6 +22,8 @@ public:
         scratch_.put("m.face", "0 0\n");
         scratch_.put("p.csv", "0,0,0\n");
         scratch_.put("f.txt", "1\n");
+        scratch_.put("s.json", R"({"texture": {"image": "t.png"}})");
+        scratch_.put("t.png", "t");
         scratch_.put("part.poly", "0 3 0 0\n");
         scratch_.put("part.node", "0 3 0 0\n");
         fs::copy_file(BARYCERT_USER_KERNEL, scratch_.path("k.so"));
@@ -113,6 +115,18 @@ TEST(overwriting, sample_and_resample) {
     }
     inputs.expect_refused(sample, "--output", "p.csv", "--points");
     inputs.expect_refused(with_output, "--json", "f.txt", "field f");
+    EXPECT_TRUE(inputs.untouched());
+}
+
+TEST(overwriting, render) {
+    Inputs inputs;
+    for (const std::string file : {"m.node", "m.ele"})
+        inputs.expect_refused({"render", "mesh", "m", "--output", "r.png"}, "--json", file, "the mesh");
+    inputs.expect_refused({"render", "mesh", "m", "--field-file", "f=f.txt", "--output", "r.png"}, "--json", "f.txt",
+                          "field f");
+    inputs.expect_refused({"render", "s.json", "--output", "r.png"}, "--json", "s.json", "the scene");
+    inputs.expect_refused({"render", "s.json"}, "--output", "t.png", "an image of the scene");
+    inputs.expect_refused({"render", "texture", "--image", "t.png"}, "--output", "t.png", "--image");
     EXPECT_TRUE(inputs.untouched());
 }
 

@@ -197,6 +197,42 @@ TEST(Render, AllMethodsGiveTheSamePicture) {
     }
 }
 
+TEST(Render, PlainValuesOfTheThinnestTriangles) {
+    base::Random random(9);
+    std::uint64_t covered = 0;
+    for (int k = 0; k < 3000; ++k) {
+        Scene s;
+        s.size = {32, 32};
+        // Along the diagonal of centres, a few units of 2^-40 pixels wide. Window coordinates are exact.
+        for (int v = 0; v < 3; ++v) {
+            const int at = random.integer(0, 31);
+            for (int axis = 0; axis < 2; ++axis) {
+                const double x = at + 0.5 + random.integer(-3, 3) * 0x1p-40;
+                s.positions.push_back(x / 16 - 1);
+            }
+            s.positions.insert(s.positions.end(), {0, 1});
+            for (int c = 0; c < 3; ++c) s.colours.push_back(random.unit());
+            s.triangles.push_back(v);
+        }
+        s.rounding = Rounding::correct;
+        PixelValues exact, plain;
+        ASSERT_TRUE(render(s, nullptr, &exact));
+        s.rounding = Rounding::plain;
+        for (const Interpolation interpolation : {Interpolation::affine, Interpolation::perspective}) {
+            s.interpolation = interpolation;
+            RenderCounts counts;
+            ASSERT_TRUE(render(s, &counts, &plain));
+            covered += counts.covered;
+            for (std::size_t i = 0; i < plain.data.size(); ++i) {
+                if (!std::isnan(exact.data[i])) {
+                    ASSERT_NEAR(plain.data[i], exact.data[i], 0x1p-36) << k;
+                }
+            }
+        }
+    }
+    EXPECT_GT(covered, 3000U);
+}
+
 /// A square of cells * cells squares of two triangles, its inner nodes jittered, seen by the matrix.
 Scene jittered_floor(base::Random& random, int cells, double half) {
     Scene s;
