@@ -80,7 +80,7 @@ TEST(usage, what_is_not_understood_is_refused) {
          "no kernel of that name for the cases of that family"},
         {{"audit", "--kernel", "triangle.perspective-affine", "--family", "random"}, "nothing to audit"},
         {{"render"}, "subcommand is required"},
-        {{"render", "nonsense"}, "nonsense"},
+        {{"render", "nonsense"}, "subcommand is required"},
         {{"render", "drift", "--count", "0"}, "--count"},
         {{"render", "drift", "--kernel", "zzz"}, "no kernel of that name"},
         {{"render", "drift", "--kernel", "tetrahedron.cramer"}, "the kernel is not for triangles without perspective"},
