@@ -62,7 +62,9 @@ void draw_drift_legend(Svg& svg, const std::vector<DriftCurve>& curves, bool col
         const std::string& name = curves[i].kernel.name;
         svg.text({left + 38, at + 4}, name.substr(name.find('.') + 1), {.size = 13});
         if (!curves[i].points.empty())
-            svg.text({left + 38, at + 20}, fmt::format("up to {:.3g} relative", curves[i].points.back().worst_relative),
+            svg.text({left + 38, at + 20},
+                     fmt::format("relative {:.2g} at {}", curves[i].points.back().worst_relative,
+                                 curves[i].points.back().size),
                      {.size = 12, .colour = "#555"});
     }
     if (!colour_step) return;
