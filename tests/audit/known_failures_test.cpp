@@ -113,7 +113,7 @@ TEST(KnownFailuresByConstruction, PerspectiveShortcutsAreWrongInSizeAlone) {
         for (const char* kernel : {"triangle.perspective-textbook", "triangle.perspective-varying"}) {
             const KernelStatistics s = statistics_of(kernel, family, 20000);
             EXPECT_LT(s.weight_ulp.value, 1e6) << kernel;
-            EXPECT_LT(s.reproduction_residual.value, 1e-9) << kernel;
+            EXPECT_LT(s.reproduction_residual.value, 1e-6) << kernel;  // of a pixel
         }
     }
 }
