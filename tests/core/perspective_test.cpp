@@ -74,10 +74,10 @@ TEST(Perspective, answers_are_exact_and_rounded_once) {
 
 // Each width of integers to its last bit: 61 and 125 bits fit one and two limbs, one more does not.
 TEST(Perspective, widths_of_integers_hold_to_their_ends) {
-    for (const int coordinate_bits : {60, 61, 62, 124, 125, 126}) {
-        for (const int depth_bits : {1, 60, 61, 62, 125, 126}) {
+    for (const int coordinate_bits : {60, 61, 62, 63, 64, 124, 125, 126, 127, 128}) {
+        for (const int depth_bits : {1, 60, 61, 62, 63, 64, 125, 126, 127, 128}) {
             for (const int value_bits : {53, 61, 62, 63, 64, 130}) {
-                for (std::uint64_t k = 0; k < 12; ++k) {
+                for (std::uint64_t k = 0; k < 8; ++k) {
                     base::Random r = base::Random::stream(11, base::hash64("widths"), k);
                     const Case plain =
                         testing_fields::case_of_widths(r, Simplex::triangle, coordinate_bits, value_bits);
