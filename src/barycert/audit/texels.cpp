@@ -68,6 +68,7 @@ void add(TexelResult& result, double u, std::int64_t size, std::int64_t exact) {
 std::vector<TexelResult> audit_texels(const std::vector<TexelRule>& rules, std::uint64_t count, std::uint64_t seed) {
     const ExactEnvironment environment;
     std::vector<TexelResult> results;
+    results.reserve(rules.size());
     for (const TexelRule& rule : rules) results.push_back({rule, 0, {}, {}});
     for (std::uint64_t i = 0; i < count; ++i) {
         base::Random random = base::Random::stream(seed, base::hash64("texels"), i);
