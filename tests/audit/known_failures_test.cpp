@@ -70,7 +70,16 @@ INSTANTIATE_TEST_SUITE_P(
         Pinned{"tetrahedron.homogeneous", "diagonal", 20000, 16892, 0},
         // Range: products of two underflow, differences overflow.
         Pinned{"tetrahedron.signed-volume", "tiny", 20000, 20000, 0},
-        Pinned{"tetrahedron.signed-volume", "huge", 20000, 20000, 0}));
+        Pinned{"tetrahedron.signed-volume", "huge", 20000, 20000, 0},
+        // Pixel centres: on the edges of a grid areas are exact, steps are not.
+        Pinned{"triangle.signed-area", "triangle.pixels", 20000, 0, 0},
+        Pinned{"triangle.scanline-increments", "triangle.pixels", 20000, 7534, 0},
+        Pinned{"triangle.perspective-varying", "perspective.pixel-edges", 20000, 0, 0},
+        Pinned{"triangle.perspective-textbook", "perspective.pixel-edges", 20000, 2502, 0},
+        // Behind the eye all three signs are those of the window turned round.
+        Pinned{"triangle.perspective-varying", "perspective.outside", 20000, 0, 0},
+        Pinned{"triangle.perspective-affine", "perspective.outside", 20000, 6681, 20043},
+        Pinned{"triangle.perspective-varying.float32", "perspective.edge-on", 20000, 9674, 7338}));
 
 TEST(KnownFailuresByConstruction, UnsignedRatiosNeverSayOutside) {
     for (const char* kernel : {"triangle.unsigned-area", "tetrahedron.unsigned-volume"}) {
@@ -90,6 +99,23 @@ TEST(KnownFailuresByConstruction, SliversLoseTheWeightsToo) {
     const KernelStatistics s = statistics_of("tetrahedron.homogeneous", "sliver.1e-12", 20000);
     EXPECT_GT(s.weight_ulp.value, 1e15);
     EXPECT_GT(s.partition_residual.value, 1e12 * 0x1p-53);
+}
+
+// No sign of the shortcuts is wrong inside; their weights are.
+TEST(KnownFailuresByConstruction, PerspectiveShortcutsAreWrongInSizeAlone) {
+    for (const char* family : {"perspective.ordinary", "perspective.depth-ratio"}) {
+        for (const char* kernel : {"triangle.perspective-affine", "triangle.perspective-projected-z"}) {
+            const KernelStatistics s = statistics_of(kernel, family, 20000);
+            EXPECT_EQ(s.wrong_cases, 0U) << kernel;
+            EXPECT_GT(s.weight_ulp.value, 1e16) << kernel;
+            EXPECT_GT(s.reproduction_residual.value, 100) << kernel;  // pixels
+        }
+        for (const char* kernel : {"triangle.perspective-textbook", "triangle.perspective-varying"}) {
+            const KernelStatistics s = statistics_of(kernel, family, 20000);
+            EXPECT_LT(s.weight_ulp.value, 1e6) << kernel;
+            EXPECT_LT(s.reproduction_residual.value, 1e-6) << kernel;  // of a pixel
+        }
+    }
 }
 
 // Half of the points next to a facet lie outside, and each of them passes for inside.

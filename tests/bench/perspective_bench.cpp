@@ -1,12 +1,14 @@
-// Perspective-correct values at the pixels of triangles: correctly rounded, against the plain formula in double.
-// Answers are verified first, against single calls and, where not in a hurry, by tests.
+// Perspective-correct values at the pixels of a triangle: correctly rounded, against the plain formula in double.
+// Answers are verified elsewhere (tests/core); here that batches and single calls agree.
 #include <bit>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 #include <vector>
 
 #include "barycert/base/random.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/perspective.hpp"
 #include "exact_table.hpp"
 
@@ -98,14 +100,20 @@ int main() {
                     on_grid ? "on the grid of 1/256 pixel" : "anywhere", count,
                     100 * static_cast<double>(tiers.double_double) / static_cast<double>(count),
                     100 * static_cast<double>(tiers.exact) / static_cast<double>(count));
-        std::printf("  correctly rounded, batch  %8.2f ns a pixel\n", ns_per_point(count, [&] {
-                        require(perspective_values(s.vertices, s.points, texture, 2, out).has_value(), "an error");
-                    }));
-        std::printf("  correctly rounded, single %8.2f\n", ns_per_point(count, [&] {
-                        for (std::size_t j = 0; j < count; ++j)
-                            out[j] = perspective_value(s.vertices, s.points.data() + 2 * j, texture)->value;
-                    }));
-        std::printf("  plain double              %8.2f\n", ns_per_point(count, [&] { plain(s, of_plain); }));
+        for (const std::string& target : simd_targets()) {
+            use_simd_target(target);
+            const double batch = ns_per_point(count, [&] {
+                require(perspective_values(s.vertices, s.points, texture, 2, out).has_value(), "an error");
+            });
+            const double single = ns_per_point(count, [&] {
+                for (std::size_t j = 0; j < count; ++j)
+                    out[j] = perspective_value(s.vertices, s.points.data() + 2 * j, texture)->value;
+            });
+            std::printf("  correctly rounded, %-8s two in a batch %8.2f ns a pixel, one in a call %8.2f\n",
+                        target.c_str(), batch, single);
+        }
+        use_simd_target("");
+        std::printf("  plain double, two %35.2f\n", ns_per_point(count, [&] { plain(s, of_plain); }));
     }
     return 0;
 }

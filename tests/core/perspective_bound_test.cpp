@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "barycert/environment.hpp"
+#include "barycert/perspective.hpp"
 #include "core/rational.hpp"
 
 // Before Highway's headers.
@@ -74,6 +75,10 @@ Case bound_case(base::Random& r) {
         c.depth(i) = r.coin() ? r.uniform(1, 10) : r.scaled(1, 2, -20, 20);
         c.values[static_cast<std::size_t>(i)] = r.coin() ? r.uniform(-1, 1) : r.scaled(-1, 1, -30, 30);
         for (std::size_t k = 0; k < 2; ++k) c.point[k] += weights[i] * c.vertex(i, static_cast<int>(k));
+    }
+    if (r.integer(0, 2) == 0) {  // a value near zero: its error is that of the numerator alone
+        const auto w = perspective_weights(c.vertices.data(), c.point.data())->weights;
+        c.values[2] = -(w[0] * c.values[0] + w[1] * c.values[1]) / w[2];
     }
     return c;
 }

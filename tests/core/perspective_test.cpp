@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/environments.hpp"
+#include "barycert/core/perspective_exact.hpp"
 #include "core/field_cases.hpp"
 #include "core/rational.hpp"
 #include "exact/cases.hpp"
@@ -41,8 +41,16 @@ bool check(const Case& c) {
         EXPECT_TRUE(std::isnan(z->value) && std::isnan(f->value));
         return false;
     }
+    // The last tier by itself: mostly it is not asked.
+    double weights[3], depth[1], values[1];
+    EXPECT_TRUE(core::exact_perspective_weights(v, c.point.data(), weights));
+    EXPECT_TRUE(core::exact_perspective_depth(v, c.point.data(), depth));
+    EXPECT_TRUE(core::exact_perspective_values(v, c.point.data(), c.values.data(), 1, values));
+    EXPECT_EQ(testing_cases::bits(depth[0]), testing_cases::bits(z->value));
+    EXPECT_EQ(testing_cases::bits(values[0]), testing_cases::bits(f->value));
     Q value(0);
     for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(testing_cases::bits(weights[i]), testing_cases::bits(w->weights[i]));
         EXPECT_TRUE(nearest(w->weights[i], (*exact)[i]));
         value += (*exact)[i] * Q(c.values[i]);
     }
@@ -66,10 +74,10 @@ TEST(Perspective, answers_are_exact_and_rounded_once) {
 
 // Each width of integers to its last bit: 61 and 125 bits fit one and two limbs, one more does not.
 TEST(Perspective, widths_of_integers_hold_to_their_ends) {
-    for (const int coordinate_bits : {60, 61, 62, 124, 125, 126}) {
-        for (const int depth_bits : {1, 60, 61, 62, 125, 126}) {
-            for (const int value_bits : {53, 61, 62, 130}) {
-                for (std::uint64_t k = 0; k < 12; ++k) {
+    for (const int coordinate_bits : {60, 61, 62, 63, 64, 124, 125, 126, 127, 128}) {
+        for (const int depth_bits : {1, 60, 61, 62, 63, 64, 125, 126, 127, 128}) {
+            for (const int value_bits : {53, 61, 62, 63, 64, 130}) {
+                for (std::uint64_t k = 0; k < 8; ++k) {
                     base::Random r = base::Random::stream(11, base::hash64("widths"), k);
                     const Case plain =
                         testing_fields::case_of_widths(r, Simplex::triangle, coordinate_bits, value_bits);

@@ -22,7 +22,7 @@ std::int64_t clamp_to_last(double u, std::int64_t size) {
 
 std::int64_t scale_by_last(double u, std::int64_t size) {
     const auto last = static_cast<double>(size - 1);
-    return static_cast<std::int64_t>(clamped(u * last, 0, last) + 0.5);
+    return static_cast<std::int64_t>(std::floor(clamped(u * last, 0, last) + 0.5));
 }
 
 std::int64_t fraction_of_u(double u, std::int64_t size) {

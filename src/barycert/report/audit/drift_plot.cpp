@@ -39,7 +39,7 @@ std::string pixels_text(double log_size) {
 }
 
 std::string ulps_text(double log_ulps) {
-    if (log_ulps == no_error) return "0";
+    if (log_ulps == no_error) return "";  // has its own label
     constexpr std::array digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     std::string out = "2";
     for (const char c : fmt::format("{:.0f}", log_ulps))
@@ -54,7 +54,7 @@ void draw_curve(Svg& svg, const Axis& x, const Axis& y, const DriftCurve& curve,
     for (const Svg::Point& p : line) svg.mark(p, look.mark, 3.6, look.colour);
 }
 
-void draw_drift_legend(Svg& svg, const std::vector<DriftCurve>& curves, double left, double top) {
+void draw_drift_legend(Svg& svg, const std::vector<DriftCurve>& curves, bool colour_step, double left, double top) {
     double at = top;
     for (std::size_t i = 0; i < curves.size(); ++i, at += 42) {
         svg.line({left, at}, {left + 28, at}, {.colour = drift_looks[i].colour, .width = 1.6});
@@ -62,9 +62,12 @@ void draw_drift_legend(Svg& svg, const std::vector<DriftCurve>& curves, double l
         const std::string& name = curves[i].kernel.name;
         svg.text({left + 38, at + 4}, name.substr(name.find('.') + 1), {.size = 13});
         if (!curves[i].points.empty())
-            svg.text({left + 38, at + 20}, fmt::format("up to {:.3g} relative", curves[i].points.back().worst_relative),
+            svg.text({left + 38, at + 20},
+                     fmt::format("relative {:.2g} at {}", curves[i].points.back().worst_relative,
+                                 curves[i].points.back().size),
                      {.size = 12, .colour = "#555"});
     }
+    if (!colour_step) return;
     at += 8;
     svg.line({left, at}, {left + 28, at}, {.colour = "#888", .width = 1.2, .dashes = "8 4"});
     svg.text({left + 38, at + 4}, "a step of 1/255: 8-bit colour", {.size = 12, .colour = "#555"});
@@ -85,6 +88,10 @@ std::string drift_plot(const DriftReport& report) {
             error = std::max(error, std::ceil(log_error(p.worst_ulp)) + 1);
         }
     }
+    // A step of eight bits of colour, where an ulp is 2^-52: shown where errors come near it.
+    const double colour = 52 - std::log2(255);
+    const bool colour_step = error > colour - 16;
+    if (colour_step) error = std::max(error, std::ceil(colour) + 1);
     Svg svg(980, 620, title);
     svg.text({70, 34}, title, {.size = 18, .bold = true});
     const Axis x{.low = low,
@@ -100,11 +107,11 @@ std::string drift_plot(const DriftReport& report) {
                  .title = "largest error of the value, ulps (logarithmic)",
                  .label = ulps_text};
     draw_frame(svg, x, y);
-    // Exact values are between 1 and 2, where an ulp is 2^-52.
-    const double colour = 52 - std::log2(255);
-    draw_line_through(svg, x, y, {0, colour}, {1, colour}, {.colour = "#888", .width = 1.2, .dashes = "8 4"});
+    svg.text({x.from - 9, y.at(no_error) + 4.5}, "0", {.anchor = Anchor::end});
+    if (colour_step)
+        draw_line_through(svg, x, y, {0, colour}, {1, colour}, {.colour = "#888", .width = 1.2, .dashes = "8 4"});
     for (std::size_t i = curves.size(); i-- > 0;) draw_curve(svg, x, y, curves[i], drift_looks[i]);
-    draw_drift_legend(svg, curves, 706, 76);
+    draw_drift_legend(svg, curves, colour_step, 706, 76);
     const TextStyle small{.size = 12, .colour = "#555"};
     svg.text(
         {70, 568},

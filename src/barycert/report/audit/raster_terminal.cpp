@@ -14,9 +14,8 @@ std::string drift_text(const DriftReport& report, const TerminalStyle& style) {
     const ExactEnvironment environment;
     const Colours paint(style.colour);
     std::string out = fmt::format(
-        "seed {}, {} cases per size. Largest error of the value, in ulps of the exact one, by the size of the "
-        "triangle\n"
-        "in pixels; (+N): so many values were not finite.\n\n",
+        "seed {}, {} cases per size. Largest error of the value, in ulps of the exact one, by the size of the triangle "
+        "in pixels.\n\n",
         report.seed, report.count);
     std::size_t width = 6;
     for (const DriftCurve& curve : report.curves) width = std::max(width, curve.kernel.name.size());
@@ -32,7 +31,7 @@ std::string drift_text(const DriftReport& report, const TerminalStyle& style) {
             out += fmt::format(" {:>9}", brief(p.worst_ulp));
             not_finite += p.not_finite;
         }
-        out += (not_finite == 0 ? "" : fmt::format("  (+{})", not_finite)) + "\n";
+        out += (not_finite == 0 ? "" : fmt::format("  and {} values not finite", not_finite)) + "\n";
     }
     return out;
 }
