@@ -36,7 +36,7 @@ Cut expect_right(const Mesh& mesh, const Field& field, double value, int compone
 TEST(Isosurface, K1_K2_K3_K4_of_any_field_in_any_box) {
     std::uint64_t parts = 0, at_nodes = 0, exact = 0;
     for (const int d : {2, 3}) {
-        for (std::uint64_t k = 0; k < 300 && !HasFailure(); ++k) {
+        for (std::uint64_t k = 0; k < 400 && !HasFailure(); ++k) {
             base::Random r = base::Random::stream(13, base::hash64("iso"), 2 * k + static_cast<std::uint64_t>(d));
             const Mesh mesh = moved_box(r, d);
             const int kind = static_cast<int>(k % field_kinds), components = r.integer(1, 3);
