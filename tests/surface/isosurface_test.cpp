@@ -47,7 +47,7 @@ TEST(Isosurface, K1_K2_K3_K4_of_any_field_in_any_box) {
             const double value = level_of(r, field, component);
             SCOPED_TRACE("d " + std::to_string(d) + ", case " + std::to_string(k));
             CutOptions options;
-            options.point_fields = {&carried, &field};
+            if (r.coin()) options.point_fields = {&carried, &field};  // numbers out of range need integers
             options.cell_fields = {&of_cells};
             const Cut cut = expect_right(mesh, field, value, component, options);
             parts += cut.surface.cell_count();
