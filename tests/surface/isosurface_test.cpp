@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <utility>
 
+#include "barycert/environment.hpp"
 #include "barycert/surface.hpp"
 #include "check/random_complexes.hpp"
 #include "surface/fields.hpp"
@@ -177,6 +179,28 @@ TEST(Isosurface, flat_cells_fit_their_neighbours) {
         flat += cut.counts.degenerate;
     }
     EXPECT_GT(flat, 100U);
+}
+
+TEST(Isosurface, D1_the_same_bits_and_tiers_on_every_simd_target) {
+    base::Random r(21);
+    const Mesh mesh = own_mesh("cube-hole");
+    const Field f = random_field(r, "f", mesh.point_count(), 1, 1), g = random_field(r, "g", mesh.point_count(), 3, 1);
+    const Plane plane{{0.3, -0.5, 0.7}, 0.2};
+    const CutOptions options{.point_fields = {&f, &g}, .threads = 1};
+    use_simd_target("");
+    const Cut iso = isosurface(mesh, f, 0.1, options).value(), section = slice(mesh, plane, options).value();
+    EXPECT_GT(iso.surface.cell_count(), 1000U);
+    EXPECT_GT(section.surface.cell_count(), 100U);
+    for (const std::string& target : simd_targets()) {
+        SCOPED_TRACE(target);
+        ASSERT_TRUE(use_simd_target(target));
+        for (const auto& [cut, expected] : {std::pair(isosurface(mesh, f, 0.1, options).value(), &iso),
+                                            {slice(mesh, plane, options).value(), &section}}) {
+            expect_same(cut.surface, expected->surface);
+            EXPECT_EQ(cut.counts.tiers, expected->counts.tiers);
+        }
+    }
+    use_simd_target("");
 }
 
 TEST(Isosurface, what_does_not_fit_is_refused) {
