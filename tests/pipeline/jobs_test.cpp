@@ -111,6 +111,8 @@ TEST(Jobs, RefusedJobsWriteNothing) {
     neither.value = 1;
     neither.plane = Plane{};
     EXPECT_FALSE(contour_files(neither)) << "both";
+    neither.plane.reset();
+    EXPECT_FALSE(contour_files(neither)) << "no field";
     EXPECT_EQ(folder.file_count(), 0U);
 }
 

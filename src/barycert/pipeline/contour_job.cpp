@@ -40,6 +40,12 @@ Status check_job(const ContourJob& job) {
     const bool picture = job.plane.has_value() && is_picture(job);
     if (!surface && !picture)
         return pipeline::unknown_output(job.output, job.plane ? ".vtp, .ply, .off or .png" : ".vtp, .ply or .off");
+    if (picture && job.field.empty())
+        return Error{.what = "a picture shows a field", .expected = "--field NAME", .found = "none"};
+    if (job.value && job.field.empty())
+        return Error{.what = "which field has the value", .expected = "--field NAME", .found = "none"};
+    if (job.plane && !picture && !job.field.empty() && !job.fields.empty())
+        return Error{.what = "--field and --fields", .expected = "one of them", .remedy = "--fields names several"};
     if (picture && !job.fields.empty())
         return Error{.what = "--fields cannot be combined with a picture", .remedy = "--field names what it shows"};
     if (!picture && job.range)
@@ -160,8 +166,13 @@ private:
     }
 
     Result<Cut> cut_with_fields() {
-        const auto chosen = sample::fields_named(mesh(), job_.fields);
+        auto chosen = sample::fields_named(mesh(), job_.fields);
         if (!chosen) return chosen.error();
+        if (job_.plane && !job_.field.empty()) {
+            const Result<Column> column = column_named(mesh(), job_.field);
+            if (!column) return column.error();
+            *chosen = {column->choice};
+        }
         CutOptions options;
         options.threads = job_.threads;
         for (const FieldChoice& c : *chosen) {
