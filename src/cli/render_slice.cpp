@@ -9,6 +9,7 @@
 #include "render.hpp"
 
 namespace barycert::cli {
+
 void add_render_slice(CLI::App& render, int& exit_code) {
     auto* sub =
         render.add_subcommand("slice", "Cut a mesh of tetrahedra by a plane: a picture of a field, or a surface");
