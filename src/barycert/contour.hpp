@@ -22,9 +22,9 @@ struct ContourJob {
     std::vector<FieldFile> field_files = {};
 
     // Either: the field of nodes and its value; a field of several components as NAME.0, NAME.1, ...
-    std::string field;  ///< a picture shows it, too, and then it may be a field of cells
+    std::string field;
     std::optional<double> value = {};
-    // Or:
+    // Or a plane; then `field`, which may be one of cells, is what a picture shows, or what a surface carries along.
     std::optional<Plane> plane = {};
 
     std::vector<std::string> fields = {};          ///< to carry along, see Sampler::build; empty: all. Not for pictures

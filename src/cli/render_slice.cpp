@@ -4,21 +4,11 @@
 
 #include <memory>
 
-#include "command.hpp"
 #include "contour_options.hpp"
 #include "files.hpp"
 #include "render.hpp"
 
 namespace barycert::cli {
-namespace {
-
-int run_slice(ContourJob& job, bool quiet) {
-    if (job.output.ends_with(".png") && job.field.empty())
-        return fail({.what = "a picture shows a field", .expected = "--field NAME"});
-    return run_contour(job, quiet);
-}
-
-}  // namespace
 
 void add_render_slice(CLI::App& render, int& exit_code) {
     auto* sub =
@@ -45,7 +35,10 @@ void add_render_slice(CLI::App& render, int& exit_code) {
            "All points with NX x + NY y + NZ z = D")
         ->required()
         ->type_name("NX,NY,NZ,D");
-    sub->add_option("--field", job->field, "Picture: the field of nodes or cells; NAME.0, NAME.1, ... for components")
+    sub->add_option(
+           "--field", job->field,
+           "Picture: the field of nodes or cells that it shows; NAME.0, NAME.1, ... for components. Surface: carry "
+           "this one only")
         ->type_name("NAME");
     file_option(*sub, "--output", job->output, "The section: .png .vtp .ply .off")->required();
     sub->add_option("--width", job->width, "Picture: pixels across the section")
@@ -64,7 +57,7 @@ void add_render_slice(CLI::App& render, int& exit_code) {
            "Picture: the values of the first and the last colour; default: min and max of the values drawn")
         ->type_name("MIN,MAX");
     add_contour_options(*sub, *job, *quiet);
-    sub->callback([=, &exit_code] { exit_code = run_slice(*job, *quiet); });
+    sub->callback([=, &exit_code] { exit_code = run_contour(*job, *quiet); });
 }
 
 }  // namespace barycert::cli

@@ -173,6 +173,12 @@ TEST(render_slice, as_a_surface) {
     EXPECT_TRUE(contains(r.out, "cut        plane 0,0,2,0.5\n")) << r.out;
     for (const std::string& point : Off(off).points) EXPECT_TRUE(point.ends_with(" 0.25")) << point;
     EXPECT_EQ(Off(off).points.size(), 5U);
+    const Words ply{"render", "slice", two, "--plane", "0,0,2,0.5", "--output", scratch.path("s.ply")};
+    EXPECT_TRUE(contains(run(ply).out, "fields     attribute0, cell:attribute0\n"));
+    EXPECT_TRUE(contains(run(plus(ply, {"--field", "attribute0"})).out, "fields     attribute0\n"));
+    EXPECT_TRUE(contains(run(plus(ply, {"--field", "cell:attribute0"})).out, "fields     cell:attribute0\n"));
+    expect_error(plus(ply, {"--field", "zzz"}), "no field of that name");
+    expect_error(plus(ply, {"--field", "attribute0", "--fields", "attribute0"}), "--field and --fields");
     const Ended none = run({"render", "slice", two, "--plane", "0,0,1,7", "--output", off, "--json", "-"});
     EXPECT_EQ(none.code, 0);
     EXPECT_TRUE(contains(none.err, "surface    empty: normal.x at the nodes has 0 to 1\n")) << none.err;

@@ -1,4 +1,5 @@
 // Whole jobs as a library calls them. What they write is tested by way of the command line, in tests/cli.
+#include "barycert/contour.hpp"
 #include "barycert/pipeline.hpp"
 
 #include <gtest/gtest.h>
@@ -54,6 +55,38 @@ TEST(Jobs, ResampleOntoAGrid) {
     EXPECT_EQ(summary->grid->counts[2], 4);
 }
 
+TEST(Jobs, ContoursTellWhatTheyDid) {
+    const TemporaryFolder folder;
+    ContourJob job;
+    job.mesh = mesh;
+    job.field = "attribute1";
+    job.value = 0.3;
+    job.output = folder / "s.ply";
+    const auto surface = contour_files(job);
+    ASSERT_TRUE(surface) << surface.error().message();
+    EXPECT_EQ(surface->cells, 1590U);
+    EXPECT_EQ(surface->fields.size(), 5U);
+    EXPECT_EQ(surface->counts.at_nodes + surface->counts.on_edges, surface->points);
+    EXPECT_GT(surface->parts, 0U);
+    EXPECT_LE(surface->low, 0.3);
+    EXPECT_GE(surface->high, 0.3);
+    job.value.reset();
+    job.plane = Plane{{0, 1, 0}, 0.75};
+    job.output = folder / "s.png";
+    job.width = 64;
+    const auto picture = contour_files(job);
+    ASSERT_TRUE(picture) << picture.error().message();
+    ASSERT_TRUE(picture->pixels);
+    // Seen against y, x runs to the left and z upwards.
+    const PixelGrid& pixels = *picture->pixels;
+    EXPECT_EQ(pixels.height, 64);
+    EXPECT_EQ(pixels.step_right[0], -1.0 / 64);
+    EXPECT_EQ(pixels.step_up[2], 1.0 / 64);
+    EXPECT_EQ(pixels.middle(0, 0), (std::array<double, 3>{1 - 1.0 / 128, 0.75, 1.0 / 128}));
+    EXPECT_EQ(picture->picture.drawn + picture->picture.outside, 64U * 64U);
+    EXPECT_EQ(picture->samples.locations.points(), 64U * 64U);
+}
+
 TEST(Jobs, RefusedJobsWriteNothing) {
     const TemporaryFolder folder;
     SampleJob both;
@@ -71,6 +104,15 @@ TEST(Jobs, RefusedJobsWriteNothing) {
     none.mesh = mesh;
     none.output = folder / "grid.npy";
     EXPECT_FALSE(resample_files(none));
+    ContourJob neither;
+    neither.mesh = mesh;
+    neither.output = folder / "s.vtp";
+    EXPECT_FALSE(contour_files(neither));
+    neither.value = 1;
+    neither.plane = Plane{};
+    EXPECT_FALSE(contour_files(neither)) << "both";
+    neither.plane.reset();
+    EXPECT_FALSE(contour_files(neither)) << "no field";
     EXPECT_EQ(folder.file_count(), 0U);
 }
 

@@ -12,7 +12,7 @@
 
 namespace barycert::testing {
 
-inline constexpr int field_kinds = 7;
+inline constexpr int field_kinds = 8;
 
 /// A number for a field; the kinds are those of difficulties.
 inline double field_number(base::Random& r, int kind) {
@@ -29,6 +29,8 @@ inline double field_number(base::Random& r, int kind) {
             return 1 + r.integer(-3, 3) * 0x1p-52;
         case 5:
             return std::ldexp(r.uniform(-1, 1), 1024);
+        case 6:
+            return std::ldexp(r.uniform(-1, 1), r.integer(-1021, -1018));  // remainders of products underflow
         default: {
             const int what = r.integer(0, 9);
             if (what == 0) return std::numeric_limits<double>::quiet_NaN();
@@ -69,6 +71,7 @@ inline Mesh moved_box(base::Random& r, int d) {
     for (double& x : mesh.points) {
         const double by = lattice ? r.integer(-2, 2) / 16.0 : r.uniform(-0.125, 0.125);
         x = std::ldexp(x + by, shift);
+        if (x == 0 && r.coin()) x = -0.0;
     }
     mesh = renumbered(mesh, r);
     if (r.coin()) flip_some(mesh, r);

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <utility>
 
+#include "barycert/environment.hpp"
 #include "barycert/surface.hpp"
 #include "check/random_complexes.hpp"
 #include "surface/fields.hpp"
@@ -36,7 +38,7 @@ Cut expect_right(const Mesh& mesh, const Field& field, double value, int compone
 TEST(Isosurface, K1_K2_K3_K4_of_any_field_in_any_box) {
     std::uint64_t parts = 0, at_nodes = 0, exact = 0;
     for (const int d : {2, 3}) {
-        for (std::uint64_t k = 0; k < 300 && !HasFailure(); ++k) {
+        for (std::uint64_t k = 0; k < 400 && !HasFailure(); ++k) {
             base::Random r = base::Random::stream(13, base::hash64("iso"), 2 * k + static_cast<std::uint64_t>(d));
             const Mesh mesh = moved_box(r, d);
             const int kind = static_cast<int>(k % field_kinds), components = r.integer(1, 3);
@@ -47,7 +49,7 @@ TEST(Isosurface, K1_K2_K3_K4_of_any_field_in_any_box) {
             const double value = level_of(r, field, component);
             SCOPED_TRACE("d " + std::to_string(d) + ", case " + std::to_string(k));
             CutOptions options;
-            options.point_fields = {&carried, &field};
+            if (r.coin()) options.point_fields = {&carried, &field};  // numbers out of range need integers
             options.cell_fields = {&of_cells};
             const Cut cut = expect_right(mesh, field, value, component, options);
             parts += cut.surface.cell_count();
@@ -177,6 +179,28 @@ TEST(Isosurface, flat_cells_fit_their_neighbours) {
         flat += cut.counts.degenerate;
     }
     EXPECT_GT(flat, 100U);
+}
+
+TEST(Isosurface, D1_the_same_bits_and_tiers_on_every_simd_target) {
+    base::Random r(21);
+    const Mesh mesh = own_mesh("cube-hole");
+    const Field f = random_field(r, "f", mesh.point_count(), 1, 1), g = random_field(r, "g", mesh.point_count(), 3, 1);
+    const Plane plane{{0.3, -0.5, 0.7}, 0.2};
+    const CutOptions options{.point_fields = {&f, &g}, .threads = 1};
+    use_simd_target("");
+    const Cut iso = isosurface(mesh, f, 0.1, options).value(), section = slice(mesh, plane, options).value();
+    EXPECT_GT(iso.surface.cell_count(), 1000U);
+    EXPECT_GT(section.surface.cell_count(), 100U);
+    for (const std::string& target : simd_targets()) {
+        SCOPED_TRACE(target);
+        ASSERT_TRUE(use_simd_target(target));
+        for (const auto& [cut, expected] : {std::pair(isosurface(mesh, f, 0.1, options).value(), &iso),
+                                            {slice(mesh, plane, options).value(), &section}}) {
+            expect_same(cut.surface, expected->surface);
+            EXPECT_EQ(cut.counts.tiers, expected->counts.tiers);
+        }
+    }
+    use_simd_target("");
 }
 
 TEST(Isosurface, what_does_not_fit_is_refused) {

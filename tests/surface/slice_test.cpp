@@ -64,13 +64,64 @@ TEST(Slice, of_numbers_of_any_kind) {
         Mesh mesh = box(3, {2, 1, 1});
         for (double& x : mesh.points) x = field_number(r, static_cast<int>(k % 6));
         Plane plane{{field_number(r, 3), field_number(r, 1), field_number(r, 4)}, field_number(r, 3)};
-        if (k % 2 == 0) {
+        if (k % 4 == 1) {  // products that underflow
+            for (double& x : mesh.points) x = std::ldexp(r.uniform(-1, 1), -535);
+            for (double& n : plane.normal) n = std::ldexp(r.uniform(-1, 1), -537);
+        }
+        if (k % 4 != 3) {
             const double* const x = mesh.points.data();
             plane = plane_through({x[0], x[1], x[2]}, plane.normal);
             if (!std::isfinite(plane.offset)) continue;
         }
         expect_right_slice(mesh, plane, {}, {.flat_cells = true, .any_complex = true});
     }
+}
+
+/// An m up to 2^51 for which x * m is next to the middle between two integers: the denominator of a convergent of the
+/// continued fraction of 2 x that has an odd numerator. 0 if there is none.
+double near_a_half(const mpq_class& x) {
+    mpz_class h[2] = {0, 1}, k[2] = {1, 0}, best = 0;  // the last two convergents
+    const mpz_class limit = mpz_class(1) << 51;
+    for (mpq_class rest = 2 * x;;) {
+        mpz_class whole;
+        mpz_fdiv_q(whole.get_mpz_t(), rest.get_num_mpz_t(), rest.get_den_mpz_t());
+        for (mpz_class* const c : {h, k}) {
+            const mpz_class next = whole * c[1] + c[0];
+            c[0] = c[1];
+            c[1] = next;
+        }
+        if (k[1] > limit) break;
+        if (mpz_odd_p(h[1].get_mpz_t()) != 0) best = k[1];
+        rest -= whole;
+        if (rest == 0) break;
+        rest = 1 / rest;
+    }
+    return best.get_d();
+}
+
+// Values as near to the middle between two doubles as can be, from heights that are small differences of large terms.
+TEST(Slice, K1_near_ties_where_heights_cancel_out) {
+    std::uint64_t exact = 0;
+    for (std::uint64_t k = 0; k < 500 && !HasFailure(); ++k) {
+        base::Random r = base::Random::stream(20, base::hash64("slice, ties"), k);
+        Plane plane{{}, 4};
+        for (double& n : plane.normal) n = r.uniform(0.5, 1);
+        Mesh mesh;
+        for (const double side : {-1, 1}) {
+            const double x = r.uniform(0.5, 1), y = r.uniform(0.5, 1), by = std::ldexp(r.uniform(0.5, 1), -30);
+            const double z = (4 - plane.normal[0] * x - plane.normal[1] * y) / plane.normal[2] + side * by;
+            mesh.points.insert(mesh.points.end(), {x, y, z});
+        }
+        mesh.points.insert(mesh.points.end(), {0, 0, 9, 1, 0, 9});
+        mesh.cells = {0, 1, 2, 3};
+        const Heights g = heights_of(mesh, plane);
+        ASSERT_EQ(sgn(*g[0]), 1);
+        ASSERT_EQ(sgn(*g[1]), -1);
+        const double m = near_a_half(*g[0] / (*g[0] - *g[1]));
+        const Field f{"f", 1, {1, 1 + m * 0x1p-52, 3, 3}};
+        exact += expect_right_slice(mesh, plane, {.point_fields = {&f}}).counts.tiers.exact;
+    }
+    EXPECT_GE(exact, 400U);
 }
 
 TEST(Slice, through_the_lattice_of_the_box) {

@@ -1,6 +1,8 @@
 // Iso-surfaces, iso-lines and slices, to files of surfaces and pictures.
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <charconv>
@@ -40,6 +42,12 @@ Status check_job(const ContourJob& job) {
     const bool picture = job.plane.has_value() && is_picture(job);
     if (!surface && !picture)
         return pipeline::unknown_output(job.output, job.plane ? ".vtp, .ply, .off or .png" : ".vtp, .ply or .off");
+    if (picture && job.field.empty())
+        return Error{.what = "a picture shows a field", .expected = "--field NAME", .found = "none"};
+    if (job.value && job.field.empty())
+        return Error{.what = "which field has the value", .expected = "--field NAME", .found = "none"};
+    if (job.plane && !picture && !job.field.empty() && !job.fields.empty())
+        return Error{.what = "--field and --fields", .expected = "one of them", .remedy = "--fields names several"};
     if (picture && !job.fields.empty())
         return Error{.what = "--fields cannot be combined with a picture", .remedy = "--field names what it shows"};
     if (!picture && job.range)
@@ -98,16 +106,26 @@ Result<Column> column_named(const Mesh& mesh, const std::string& name) {
 /// Sets low and high to those of at(node) over the nodes of cells.
 template <class At>
 void set_range(const Mesh& mesh, At at, ContourSummary& summary) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Mesh::Index node : mesh.cells) {
-        const double x = at(static_cast<std::size_t>(node));
-        if (!std::isfinite(x)) continue;
-        low = std::min(low, x);
-        high = std::max(high, x);
-    }
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    summary.low = low <= high ? low : nan;
-    summary.high = low <= high ? high : nan;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    using Range = std::pair<double, double>;
+    const Range range = tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, mesh.cells.size(), std::size_t{1} << 15), Range{infinity, -infinity},
+        [&](const auto& part, Range so_far) {
+            const ExactEnvironment environment;  // threads that were there before have theirs
+            for (std::size_t i = part.begin(); i != part.end(); ++i) {
+                const double x = at(static_cast<std::size_t>(mesh.cells[i]));
+                if (!std::isfinite(x)) continue;
+                so_far = {std::min(so_far.first, x), std::max(so_far.second, x)};
+            }
+            return so_far;
+        },
+        [](const Range& a, const Range& b) {
+            return Range{std::min(a.first, b.first), std::max(a.second, b.second)};
+        });
+    const bool none = range.first > range.second;
+    // A zero may come with either sign, as threads come.
+    summary.low = none ? std::numeric_limits<double>::quiet_NaN() : range.first + 0.0;
+    summary.high = none ? std::numeric_limits<double>::quiet_NaN() : range.second + 0.0;
 }
 
 class Contour {
@@ -160,8 +178,13 @@ private:
     }
 
     Result<Cut> cut_with_fields() {
-        const auto chosen = sample::fields_named(mesh(), job_.fields);
+        auto chosen = sample::fields_named(mesh(), job_.fields);
         if (!chosen) return chosen.error();
+        if (job_.plane && !job_.field.empty()) {
+            const Result<Column> column = column_named(mesh(), job_.field);
+            if (!column) return column.error();
+            *chosen = {column->choice};
+        }
         CutOptions options;
         options.threads = job_.threads;
         for (const FieldChoice& c : *chosen) {

@@ -110,6 +110,7 @@ Result<Surface> boundary(const Mesh& mesh, const CutOptions& options) {
     const ExactEnvironment environment;
     return surface::in_arena(options.threads, [&]() -> Result<Surface> {
         if (Status good = surface::check_mesh(mesh, 0); !good) return good.error();
+        if (!surface::indices_fit(mesh.cells, mesh.point_count())) return surface::bad_index();
         if (Status fit = surface::check_options(mesh, options); !fit) return fit.error();
         return surface::boundary_of(mesh, options);
     });

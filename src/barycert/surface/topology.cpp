@@ -12,6 +12,7 @@
 #include "barycert/predicates.hpp"
 #include "barycert/surface/cell_cases.hpp"
 #include "barycert/surface/flat_cells.hpp"
+#include "barycert/surface/input.hpp"
 
 namespace barycert::surface {
 namespace {
@@ -45,7 +46,7 @@ public:
     Cutter(const Mesh& mesh, const std::vector<std::uint8_t>& states) : mesh_(mesh), states_(states) {}
 
     Status cut(Surface& surface, CutCounts& counts) {
-        find_cells();
+        if (!find_cells()) return bad_index();
         orient_flat_cells();
         count_parts();
         gather_ends();
@@ -75,12 +76,19 @@ private:
         return {static_cast<std::size_t>(std::min(in, out)), std::max(in, out)};
     }
 
-    void find_cells() {
+    /// False if a corner is no node.
+    bool find_cells() {
         const std::size_t count = mesh_.cell_count();
+        std::atomic<bool> good{true};
         blocks_.resize((count + block_size - 1) / block_size);
         tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t b) {
             Block& block = blocks_[b];
             const std::size_t end = std::min(count, (b + 1) * block_size);
+            if (!indices_fit({corners(static_cast<Index>(b * block_size)), n * (end - b * block_size)},
+                             states_.size())) {
+                good = false;
+                return;
+            }
             for (std::size_t cell = b * block_size; cell < end; ++cell) {
                 const Index* const corner = mesh_.cells.data() + n * cell;
                 std::size_t states = 0;
@@ -96,6 +104,7 @@ private:
                 block.cells.push_back({static_cast<Index>(cell), static_cast<std::uint8_t>(states), sign});
             }
         });
+        return good;
     }
 
     void orient_flat_cells() {

@@ -5,6 +5,7 @@
 #include <vtkErrorCode.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
+#include <vtkPLYReader.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataReader.h>
@@ -75,6 +76,28 @@ TEST(Vtp, vtk_reads_segments) {
     expect_fields(read->GetPointData(), s.point_fields);
     expect_fields(read->GetCellData(), s.cell_fields);
     EXPECT_EQ(read->GetCellData()->GetNumberOfArrays(), 1) << "a field of the name cell goes first";
+}
+
+// VTK reads coordinates of PLY files as floats, and fields not at all.
+TEST(Ply, vtk_reads_triangles) {
+    const TemporaryFolder folder;
+    Surface s = two_triangles();
+    s.points[1] = -1e30;
+    s.points[2] = 0.25;
+    write_surface(s, folder / "s.ply").value();
+    Printed printed;
+    vtkNew<vtkPLYReader> reader;
+    EXPECT_EQ(vtkPLYReader::CanReadFile((folder / "s.ply").c_str()), 1);
+    reader->SetFileName((folder / "s.ply").c_str());
+    reader->Update();
+    EXPECT_EQ(printed.text(), "");
+    vtkPolyData* const read = reader->GetOutput();
+    ASSERT_EQ(read->GetNumberOfPoints(), 4);
+    for (std::size_t v = 0; v < 4; ++v) {
+        for (std::size_t k = 0; k < 3; ++k)
+            EXPECT_EQ(read->GetPoint(static_cast<vtkIdType>(v))[k], static_cast<float>(s.points[3 * v + k]));
+    }
+    expect_cells(read->GetPolys(), s);
 }
 
 TEST(Vtp, vtk_reads_nothing) {

@@ -42,8 +42,8 @@ std::string properties_of(const std::vector<Field>& fields, Names names, std::ve
         for (int c = 0; c < f.components; ++c) {
             const std::string wanted = f.components == 1 ? f.name : f.name + '_' + std::to_string(c);
             const std::string name = names.safe(wanted);
-            text += "property double " + name + '\n';
-            if (name != wanted) renamed.push_back(wanted + " as " + name);
+            text.append("property double ").append(name).append("\n");
+            if (name != wanted) renamed.emplace_back(wanted).append(" as ").append(name);
         }
     }
     return text;

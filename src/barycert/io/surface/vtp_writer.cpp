@@ -31,12 +31,14 @@ struct Section {
 
 std::vector<ArrayBytes> arrays_of(const std::vector<Field>& fields) {
     std::vector<ArrayBytes> all;
+    all.reserve(fields.size() + 1);
     for (const Field& f : fields) all.push_back(array_of(f.name, f.components, VtiType::float64, f.data));
     return all;
 }
 
 Status check_names(const std::string& path, const std::vector<ArrayBytes>& arrays) {
     std::vector<VtiArray> own;
+    own.reserve(arrays.size());
     for (const ArrayBytes& a : arrays) own.push_back(a.array);
     return check_arrays(path, own);
 }

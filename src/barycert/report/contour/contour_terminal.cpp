@@ -48,6 +48,7 @@ std::string points(const ContourSummary& s) {
 
 std::string names(const std::vector<std::string>& all) {
     std::vector<std::string> shown;
+    shown.reserve(all.size());
     for (const std::string& name : all) shown.push_back(base::printable(name));
     return fmt::format("{}", fmt::join(shown, ", "));
 }
