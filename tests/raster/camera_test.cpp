@@ -122,5 +122,14 @@ TEST(Viewport, IsCorrectlyRoundedAndWithinTheWindow) {
     }
 }
 
+TEST(Viewport, NeedsAPositiveDepth) {
+    for (const double w : {0.0, -0.0, -1.0, no_number, endless}) {
+        for (const Rounding rounding : {Rounding::plain, Rounding::correct}) {
+            EXPECT_TRUE(std::isnan(viewport({4, 4}, 0.5, 0.5, w, rounding)[0]));
+            EXPECT_TRUE(std::isnan(viewport({4, 4}, no_number, 0.5, 1, rounding)[1]));
+        }
+    }
+}
+
 }  // namespace
 }  // namespace barycert

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -187,6 +188,8 @@ Matrix4 scaling(const Vector3& by) {
 
 std::array<double, 2> viewport(RasterSize size, double x, double y, double w, Rounding rounding) {
     const ExactEnvironment environment;
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    if (!(w > 0) || !all_finite(std::array{x, y, w})) return {nan, nan};
     if (rounding == Rounding::correct) return {exact_window(x, w, size.width), exact_window(y, w, size.height)};
     return held(std::array<double, 2>{(held(x) / held(w) + 1) * (0.5 * size.width),
                                       (held(y) / held(w) + 1) * (0.5 * size.height)});
