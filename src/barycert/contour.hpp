@@ -14,6 +14,7 @@
 #include "barycert/result.hpp"
 #include "barycert/surface.hpp"
 #include "barycert/table.hpp"
+#include "barycert/view.hpp"
 
 namespace barycert {
 
@@ -28,9 +29,11 @@ struct ContourJob {
     std::optional<Plane> plane = {};
 
     std::vector<std::string> fields = {};          ///< to carry along, see Sampler::build; empty: all. Not for pictures
-    std::string output;                            ///< .vtp, .ply or .off; for a plane also .png
-    std::int64_t width = 800;                      ///< of a picture of the section, in pixels, without bar and caption
+    std::string output;                            ///< .vtp, .ply, .off or .png; segments not as .off or .png
     std::optional<std::array<double, 2>> range{};  ///< of the colours of a picture
+    std::int64_t width = 800;                      ///< of a picture of a section, in pixels, without bar and caption
+    ViewOptions view = {};                         ///< of a picture of an iso-surface, but for its range
+    std::string colours;  ///< the field, of nodes or cells, that colours it; named as `field`; empty: grey
 
     int threads = 0;     ///< 0: as many as the machine has
     std::string report;  ///< as SamplingJob::report
@@ -72,9 +75,12 @@ struct ContourSummary {
     /// Of what is cut, the field or normal.x: its least and greatest number at nodes of cells. NaN if there is none.
     double low = 0, high = 0;
 
-    std::optional<PixelGrid> pixels;  ///< of a picture
+    std::optional<PixelGrid> pixels;  ///< of a picture of a section
     SliceCounts picture;
     SampleCounts samples;
+    std::optional<RasterSize> view;  ///< of a picture of an iso-surface
+    ViewCounts drawn;
+    std::string colours;
     ContourSeconds seconds;
 };
 

@@ -10,7 +10,9 @@
 #include "command.hpp"
 #include "contour_options.hpp"
 #include "files.hpp"
+#include "options.hpp"
 #include "render.hpp"
+#include "render_options.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -50,6 +52,38 @@ void add_segment(CLI::App& sub, IsoArguments& a) {
            },
            "The values at the ends of the segment")
         ->type_name("FA,FB");
+}
+
+/// Of a picture.
+void add_view(CLI::App& sub, ContourJob& job) {
+    sub.add_option("--colours", job.colours,
+                   "Picture: the field of nodes or cells that colours the surface; default: none, it is grey")
+        ->type_name("NAME");
+    sub.add_option_function<std::string>(
+           "--range",
+           [&job](const std::string& text) {
+               const auto ends = finite_numbers(text, ',');
+               if (!ends || ends->size() != 2 || !((*ends)[0] < (*ends)[1]))
+                   refuse_option("--range", "MIN,MAX, finite numbers, MIN < MAX", text);
+               job.range = {(*ends)[0], (*ends)[1]};
+           },
+           "Picture: the values of the first and the last colour; default: min and max of the values drawn")
+        ->type_name("MIN,MAX");
+    const auto angle = [&sub](const char* name, double& degrees, const char* help) {
+        sub.add_option_function<std::string>(
+               name,
+               [name, &degrees](const std::string& text) {
+                   const auto x = finite(text);
+                   if (!x) refuse_option(name, "degrees, a finite number", text);
+                   degrees = *x;
+               },
+               help)
+            ->type_name("DEGREES");
+    };
+    angle("--azimuth", job.view.azimuth,
+          "Picture: where the camera stands, from the x axis towards the y axis; default: 30");
+    angle("--elevation", job.view.elevation, "Picture: how far above the xy plane; default: 25");
+    add_size_option(sub, job.view.size);
 }
 
 /// t and the point, on one line.
@@ -96,9 +130,10 @@ void add_render_iso(CLI::App& render, int& exit_code) {
     sub->footer(
         "The boundary of the set where the field is at least the value, exactly; watertight, normals towards lower\n"
         "values. Points are on edges of the mesh, their coordinates and the fields carried along correctly rounded.\n"
-        "Files, by the suffix: .vtp (all fields), .ply (all fields), .off (no fields, no lines).\n"
+        "Files, by the suffix: .vtp (all fields), .ply (all fields), .off (no fields, no lines), .png (the surface, "
+        "lit).\n"
         "--segment A:B --values FA,FB prints the parameter t of one segment (0 at A, 1 at B) and the point.\n"
-        "Exit codes: 0 done, an empty surface included; 2 usage or input error.");
+        "Exit codes: 0 done, an empty surface included; 2 usage or input error, a picture of nothing included.");
     const auto a = std::make_shared<IsoArguments>();
     file_option(*sub, "MESH", a->job.mesh, "A TetGen mesh (.node/.ele; Triangle's for 2D), or a VTK file (.vtu .vtk)");
     sub->add_option("--field", a->job.field, "The field of nodes; NAME.0, NAME.1, ... for components")
@@ -113,8 +148,9 @@ void add_render_iso(CLI::App& render, int& exit_code) {
            },
            "Its value")
         ->type_name("V");
-    file_option(*sub, "--output", a->job.output, "The surface: .vtp .ply .off");
+    file_option(*sub, "--output", a->job.output, "The surface: .vtp .ply .off .png");
     add_contour_options(*sub, a->job, a->quiet);
+    add_view(*sub, a->job);
     add_segment(*sub, *a);
     sub->callback([=, &exit_code] { exit_code = run_iso(*a); });
 }

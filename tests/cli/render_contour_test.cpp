@@ -123,6 +123,32 @@ TEST(render_iso, fields_from_files_and_their_components) {
     expect_error(plus(line, {"1", "--field", "cell:attribute0"}), "is one of cells");
 }
 
+TEST(render_iso, as_a_picture) {
+    const Scratch scratch;
+    const std::string png = scratch.path("s.png");
+    const Words line{"render", "iso", mesh("flange"), "--field", "attribute0", "--output", png, "--value"};
+    const Ended grey = run(plus(line, {"1.5", "--size", "200x150"}));
+    EXPECT_EQ(grey.code, 0) << grey.err;
+    EXPECT_TRUE(contains(grey.out, "picture    200 x 150 pixels, grey: --colours names a field\n")) << grey.out;
+    const std::string first = read_file(png);
+    EXPECT_EQ(first.substr(0, 8), "\x89PNG\r\n\x1a\n");
+    const Words coloured{"1.5", "--colours", "attribute1", "--size", "200x150", "--azimuth", "60", "--json", "-"};
+    const Ended r = run(plus(line, coloured));
+    EXPECT_EQ(r.code, 0) << r.err;
+    const auto j = parse(r.out);
+    EXPECT_EQ(j["view"]["colours"], "attribute1");
+    EXPECT_EQ(j["view"]["width"], 200);
+    EXPECT_LT(j["view"]["low"], j["view"]["high"]);
+    EXPECT_FALSE(read_file(png) == first);
+    expect_error(plus(line, {"1e9"}), "the iso-surface is empty: expected a value from ");
+    expect_error(plus(line, {"1", "--colours", "zzz"}), "no field of that name");
+    expect_error(plus(line, {"1", "--azimuth", "nan"}), "--azimuth");
+    expect_error(plus(line, {"1", "--size", "0x1"}), "--size");
+    expect_error(plus(line, {"1", "--fields", "attribute1"}), "--fields cannot be combined with a picture");
+    expect_error({"render", "iso", mesh("plate"), "--field", "attribute0", "--value", "1.25", "--output", png},
+                 "iso-lines cannot be written as a picture");
+}
+
 TEST(render_iso, on_a_segment) {
     const auto says = [](const Words& options, const std::string& text) {
         const Ended r = run(plus({"render", "iso"}, options));
@@ -154,9 +180,11 @@ TEST(render_iso, what_is_not_understood_is_refused) {
     expect_error({"render", "iso", two, "--field", "attribute0", "--output", out}, "something is missing");
     expect_error(plus(line, {"nan", "--output", out}), "--value");
     expect_error(plus(line, {"1,2", "--output", out}), "--value");
-    expect_error(plus(line, {"1", "--output", scratch.path("s.stl")}), "expected .vtp, .ply or .off, found \".stl\"");
-    expect_error(plus(line, {"1", "--output", scratch.path("s.png")}), "expected .vtp, .ply or .off");
+    expect_error(plus(line, {"1", "--output", scratch.path("s.stl")}),
+                 "expected .vtp, .ply, .off or .png, found \".stl\"");
     expect_error(plus(line, {"1", "--output", out, "--fields", "zzz"}), "no field of that name");
+    expect_error(plus(line, {"1", "--output", out, "--colours", "attribute0"}), "--colours is for pictures");
+    expect_error(plus(line, {"1", "--output", out, "--range", "0,1"}), "--range is for pictures");
     expect_error(plus(line, {"1", "--output", scratch.path("none/s.vtp")}), "none");
     expect_error(plus(line, {"1", "--output", out, "--json", out}), "--json");
     expect_error({"render", "iso", scratch.path("no"), "--field", "f", "--value", "1", "--output", out}, "no");

@@ -442,12 +442,14 @@ TEST(EveryEnvironment, Contours) {
     job.field = "attribute1";
     job.threads = 2;
     expect_same_everywhere("contours", [&](Answers& out) {
-        for (const char* const name : {"c.vtp", "c.png"}) {
+        for (const std::string name : {"c.vtp", "c.png", "i.png"}) {
             job.output = folder.path(name);
             job.value.reset();
             job.plane.reset();
-            if (name[2] == 'v') {
+            job.colours = name[0] == 'i' ? "attribute2" : "";
+            if (name != "c.png") {
                 job.value = 0.1;
+                job.view.size = {60, 40};
             } else {
                 job.plane = Plane{{0.3, 0.5, 1.0 / 3}, 24};
                 job.width = 60;

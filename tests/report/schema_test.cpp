@@ -61,8 +61,12 @@ void contour_reports(Schema& schema) {
     for (const double low : {0.25, std::numeric_limits<double>::quiet_NaN()}) {
         run.low = run.high = run.picture.low = run.picture.high = low;
         run.value = 1;
+        run.view = RasterSize{};
+        run.colours = "T";
+        run.drawn.low = run.drawn.high = low;
         schema.check("Contour", Json::parse(contour_json(run, measure_environment())), "iso");
         run.value.reset();
+        run.view.reset();
         run.plane = Plane{};
         run.pixels = PixelGrid{};
         schema.check("Contour", Json::parse(contour_json(run, measure_environment())), "slice");

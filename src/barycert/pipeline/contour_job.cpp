@@ -39,9 +39,10 @@ Status check_job(const ContourJob& job) {
             .what = "what to cut at", .expected = "a value or a plane", .found = job.value ? "both" : "neither"};
     const bool surface =
         io::has_suffix(job.output, ".vtp") || io::has_suffix(job.output, ".ply") || io::has_suffix(job.output, ".off");
-    const bool picture = job.plane.has_value() && is_picture(job);
-    if (!surface && !picture)
-        return pipeline::unknown_output(job.output, job.plane ? ".vtp, .ply, .off or .png" : ".vtp, .ply or .off");
+    const bool picture = is_picture(job);
+    if (!surface && !picture) return pipeline::unknown_output(job.output, ".vtp, .ply, .off or .png");
+    if (!picture && !job.colours.empty())
+        return Error{.what = "--colours is for pictures", .remedy = "leave it out, or name a .png file"};
     if (picture && job.field.empty())
         return Error{.what = "a picture shows a field", .expected = "--field NAME", .found = "none"};
     if (job.value && job.field.empty())
@@ -149,13 +150,21 @@ public:
                          .found = "triangles in the plane",
                          .remedy = "draw a mesh of triangles by `" + job_.program + " resample --grid`"};
         Stopwatch watch;
-        Result<Cut> cut = is_picture(job_) ? cut_plane({}) : cut_with_fields();
+        const bool picture = is_picture(job_);
+        if (picture && job_.value && mesh().dimension == 2)
+            return Error{.what = "iso-lines cannot be written as a picture",
+                         .file = job_.output,
+                         .expected = ".vtp or .ply",
+                         .remedy = "choose another name"};
+        Result<Cut> cut = picture && job_.plane ? cut_plane({}) : cut_with_fields();
         if (!cut) return cut.error();
         s.counts = cut->counts;
         s.points = cut->surface.point_count();
         s.parts = cut->surface.cell_count();
         s.seconds.cut = watch.lap();
-        const Status written = is_picture(job_) ? draw(cut->surface) : write(cut->surface);
+        const Status written = !picture     ? write(cut->surface)
+                               : job_.plane ? draw(cut->surface)
+                                            : draw_view(cut->surface);
         if (!written) return written.error();
         return std::move(summary_);
     }
@@ -192,6 +201,9 @@ private:
             summary_.fields.push_back(c.field->name);
         }
         if (job_.plane) return cut_plane(std::move(options));
+        if (is_picture(job_)) {
+            if (Status good = choose_colours(options); !good) return good.error();
+        }
         const Result<Column> column = column_named(mesh(), job_.field);
         if (!column) return column.error();
         const Field& field = *column->choice.field;
@@ -263,6 +275,52 @@ private:
         return written;
     }
 
+    /// A picture of an iso-surface needs the field that colours it, and no other.
+    Status choose_colours(CutOptions& options) {
+        options.point_fields.clear();
+        options.cell_fields.clear();
+        summary_.fields.clear();
+        if (job_.colours.empty()) return Done{};
+        const Result<Column> column = column_named(mesh(), job_.colours);
+        if (!column) return column.error();
+        (column->choice.of_cells ? options.cell_fields : options.point_fields).push_back(column->choice.field);
+        colour_component_ = static_cast<std::size_t>(column->component);
+        summary_.fields = {job_.colours};
+        return Done{};
+    }
+
+    Status draw_view(const Surface& surface) {
+        if (surface.cells.empty())
+            return Error{.what = "the iso-surface is empty",
+                         .file = job_.output,
+                         .expected = fmt::format("a value from {} to {}", base::shortest(summary_.low),
+                                                 base::shortest(summary_.high)),
+                         .found = base::shortest(*job_.value),
+                         .remedy = "choose another value"};
+        Stopwatch watch;
+        run_.stage("drawing");
+        SurfaceView view{.points = surface.points, .triangles = surface.cells};
+        const bool of_points = !surface.point_fields.empty();
+        std::vector<double> values;
+        if (of_points || !surface.cell_fields.empty()) {
+            const Field& carried = of_points ? surface.point_fields.front() : surface.cell_fields.front();
+            const auto components = static_cast<std::size_t>(carried.components);
+            for (std::size_t i = colour_component_; i < carried.data.size(); i += components)
+                values.push_back(carried.data[i]);
+            (of_points ? view.point_values : view.triangle_values) = values;
+        }
+        ViewOptions options = job_.view;
+        if (job_.range) options.range = {(*job_.range)[0], (*job_.range)[1]};
+        const Result<Image> image = draw_surface(view, options, &summary_.drawn);
+        if (!image) return image.error();
+        summary_.view = options.size;
+        summary_.colours = job_.colours;
+        summary_.seconds.sample = watch.lap();
+        Status written = write_png(job_.output, *image);
+        summary_.seconds.write = watch.lap();
+        return written;
+    }
+
     /// Lines of pixels at a time, so that memory is that of the values.
     Status sample(const PixelGrid& pixels, const Sampler& sampler, int component, std::vector<double>& values,
                   std::vector<std::uint8_t>& valid) {
@@ -294,6 +352,7 @@ private:
     Run& run_;
     Engine& engine_;
     ContourSummary summary_;
+    std::size_t colour_component_ = 0;
 };
 
 }  // namespace

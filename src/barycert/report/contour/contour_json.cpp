@@ -35,6 +35,17 @@ Json pixels_json(const ContourSummary& s) {
     return j;
 }
 
+Json view_json(const ContourSummary& s) {
+    Json j;
+    j["width"] = s.view->width;
+    j["height"] = s.view->height;
+    j["colours"] = s.colours;
+    j["low"] = s.colours.empty() ? Json(nullptr) : figure(s.drawn.low);
+    j["high"] = s.colours.empty() ? Json(nullptr) : figure(s.drawn.high);
+    j["without_value"] = s.drawn.without_value;
+    return j;
+}
+
 Json cut_json(const CutCounts& n) {
     Json j;
     j["cells"] = n.cells;
@@ -86,6 +97,7 @@ std::string contour_json(const ContourSummary& s, const Environment& environment
     j["left_out"] = s.file.left_out;
     j["renamed"] = s.file.renamed;
     if (s.pixels) j["picture"] = pixels_json(s);
+    if (s.view) j["view"] = view_json(s);
     j["seconds"] = seconds_json(s.seconds);
     j["threads"] = s.threads;
     j["environment"] = environment_json(environment);

@@ -84,11 +84,23 @@ std::string picture(const ContourSummary& s) {
     return text + (clear == 0 ? "" : fmt::format("; {} without a value, transparent", clear));
 }
 
+std::string view(const ContourSummary& s) {
+    std::string text = fmt::format("{} x {} pixels", s.view->width, s.view->height);
+    if (s.colours.empty()) return text + ", grey: --colours names a field";
+    if (std::isnan(s.drawn.low)) return text + "; no value is finite";
+    text += fmt::format("; colours of {} from {} to {}", base::printable(s.colours), base::shortest(s.drawn.low),
+                        base::shortest(s.drawn.high));
+    if (s.drawn.without_value != 0)
+        text += fmt::format("; {} in grey, without a value", plural(s.drawn.without_value, "triangle", "triangles"));
+    return text;
+}
+
 std::string times(const ContourSummary& s) {
     std::string text =
         fmt::format("{:.3g} s on {}: mesh {:.3g}, cutting {:.3g}", s.seconds.total,
                     plural(static_cast<std::uint64_t>(s.threads), "thread", "threads"), s.seconds.mesh, s.seconds.cut);
     if (s.pixels) text += fmt::format(", sampling {:.3g}", s.seconds.sample);
+    if (s.view) text += fmt::format(", drawing {:.3g}", s.seconds.sample);
     return text + fmt::format(", writing {:.3g}", s.seconds.write);
 }
 
@@ -104,7 +116,8 @@ std::string contour_text(const ContourSummary& s, bool colour) {
     } else {
         out += line("surface", surface(s, paint));
         if (s.parts != 0) out += line("points", points(s));
-        if (!s.fields.empty()) out += line("fields", names(s.fields));
+        if (s.view) out += line("picture", view(s));
+        if (!s.view && !s.fields.empty()) out += line("fields", names(s.fields));
     }
     for (const std::string& note : notes(s)) out += line("note", paint.bold(note));
     out += line("mesh", plural(s.cells, "cell", "cells") + ", " + plural(s.nodes, "node", "nodes"));
