@@ -126,15 +126,33 @@ private:
         }
     }
 
-    template <class F>
-    void for_crossings(F&& f) const {
+    /// visit(cell) for the cut cells of all blocks, in parallel; before that, ask(node) for the corners of a cell soon
+    /// to come: these lie anywhere in memory.
+    template <class Ask, class Visit>
+    void for_cut_cells(Ask ask, Visit visit) const {
+        constexpr std::size_t ahead = 12;
         tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t b) {
-            for (const CutCell& c : blocks_[b].cells) {
-                const CellCase<n>& what = case_of(c);
-                const Index* const corner = corners(c.cell);
-                for (std::size_t i = 0; i < what.crossing_count; ++i) f(ends(corner, what.crossings[i]));
+            const std::vector<CutCell>& cells = blocks_[b].cells;
+            std::size_t part = blocks_[b].first_part;
+            for (std::size_t k = 0; k < cells.size(); ++k) {
+                if (k + ahead < cells.size()) {
+                    const Index* const corner = corners(cells[k + ahead].cell);
+                    for (std::size_t i = 0; i < n; ++i) ask(static_cast<std::size_t>(corner[i]));
+                }
+                visit(cells[k], part);
+                part += case_of(cells[k]).part_count;
             }
         });
+    }
+
+    template <class F>
+    void for_crossings(const std::vector<std::size_t>& counters, F&& f) const {
+        for_cut_cells([&](std::size_t node) { __builtin_prefetch(&counters[node], 1); },
+                      [&](const CutCell& c, std::size_t) {
+                          const CellCase<n>& what = case_of(c);
+                          const Index* const corner = corners(c.cell);
+                          for (std::size_t i = 0; i < what.crossing_count; ++i) f(ends(corner, what.crossings[i]));
+                      });
     }
 
     /// At each node, the higher ends of the crossed edges of which it is the lower one: by a counting sort, as threads
@@ -143,11 +161,11 @@ private:
         const std::size_t nodes = mesh_.point_count();
         begin_.assign(nodes + 1, 0);
         for_crossings(
-            [&](const Ends& e) { std::atomic_ref(begin_[e.low + 1]).fetch_add(1, std::memory_order_relaxed); });
+            begin_, [&](const Ends& e) { std::atomic_ref(begin_[e.low + 1]).fetch_add(1, std::memory_order_relaxed); });
         for (std::size_t i = 0; i < nodes; ++i) begin_[i + 1] += begin_[i];
         base::resize_large(high_, begin_.back());
         std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
-        for_crossings([&](const Ends& e) {
+        for_crossings(next, [&](const Ends& e) {
             high_[std::atomic_ref(next[e.low]).fetch_add(1, std::memory_order_relaxed)] = e.high;
         });
         first_.assign(nodes + 1, 0);
@@ -167,14 +185,17 @@ private:
         return first_.back();
     }
 
-    void write_edges(std::size_t points, Surface& surface, CutCounts& counts) const {
+    /// And sets end_: lists without gaps, as they will be looked up at random.
+    void write_edges(std::size_t points, Surface& surface, CutCounts& counts) {
         base::resize_large(surface.mesh_edges, 2 * points);
+        base::resize_large(end_, points + at_a_time);
         std::atomic<std::uint64_t> at_nodes{0};
         for_ranges(mesh_.point_count(), 4096, [&](std::size_t from, std::size_t to) {
             std::uint64_t own = 0;
             for (std::size_t i = from; i < to; ++i) {
                 for (std::size_t k = 0; k < first_[i + 1] - first_[i]; ++k) {
                     const auto low = static_cast<Index>(i), high = high_[begin_[i] + k];
+                    end_[first_[i] + k] = high;
                     Index* const edge = surface.mesh_edges.data() + 2 * (first_[i] + k);
                     const bool low_inside = (states_[i] & 1) != 0;
                     edge[0] = low_inside ? low : high;
@@ -188,32 +209,40 @@ private:
         counts.on_edges = points - at_nodes;
     }
 
+    /// The place of the end in the list of its node: how many are lower. Eight at a time and without branches, for none
+    /// of them could be predicted.
     Index number(const Ends& e) const {
-        const Index* at = high_.data() + begin_[e.low];
-        const Index* const list = at;
-        while (*at != e.high) ++at;
-        return static_cast<Index>(first_[e.low] + static_cast<std::size_t>(at - list));
+        const std::size_t first = first_[e.low], count = first_[e.low + 1] - first;
+        const Index* const list = end_.data() + first;
+        std::size_t lower = 0;
+        for (std::size_t base = 0; base < count; base += at_a_time) {
+            std::uint32_t sum = 0;
+            const auto rest = static_cast<std::uint32_t>(std::min(count - base, at_a_time));
+            for (std::uint32_t k = 0; k < at_a_time; ++k)
+                sum += static_cast<std::uint32_t>(k < rest) & static_cast<std::uint32_t>(list[base + k] < e.high);
+            lower += sum;
+        }
+        return static_cast<Index>(first + lower);
+    }
+
+    void write_parts_of(const CutCell& c, std::size_t part, Surface& surface) const {
+        const CellCase<n>& what = case_of(c);
+        const Index* const corner = corners(c.cell);
+        std::array<Index, n> points{};
+        for (std::size_t i = 0; i < what.crossing_count; ++i) points[i] = number(ends(corner, what.crossings[i]));
+        for (std::size_t p = 0; p < what.part_count; ++p) {
+            Index* const to = surface.cells.data() + (n - 1) * (part + p);
+            for (std::size_t i = 0; i < n - 1; ++i) to[i] = points[what.parts[p][i]];
+            if (c.sign < 0) std::swap(to[n - 3], to[n - 2]);
+            surface.mesh_cells[part + p] = c.cell;
+        }
     }
 
     void write_parts(Surface& surface, CutCounts& counts) const {
         base::resize_large(surface.cells, (n - 1) * part_count_);
         base::resize_large(surface.mesh_cells, part_count_);
-        tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t b) {
-            std::size_t part = blocks_[b].first_part;
-            for (const CutCell& c : blocks_[b].cells) {
-                const CellCase<n>& what = case_of(c);
-                const Index* const corner = corners(c.cell);
-                std::array<Index, n> points{};
-                for (std::size_t i = 0; i < what.crossing_count; ++i)
-                    points[i] = number(ends(corner, what.crossings[i]));
-                for (std::size_t p = 0; p < what.part_count; ++p, ++part) {
-                    Index* const to = surface.cells.data() + (n - 1) * part;
-                    for (std::size_t i = 0; i < n - 1; ++i) to[i] = points[what.parts[p][i]];
-                    if (c.sign < 0) std::swap(to[n - 3], to[n - 2]);
-                    surface.mesh_cells[part] = c.cell;
-                }
-            }
-        });
+        for_cut_cells([&](std::size_t node) { __builtin_prefetch(&first_[node]); },
+                      [&](const CutCell& c, std::size_t part) { write_parts_of(c, part, surface); });
         for (const Block& block : blocks_) {
             counts.cells += block.cells.size();
             counts.not_finite += block.not_finite;
@@ -226,7 +255,8 @@ private:
     std::vector<Block> blocks_;
     std::size_t part_count_ = 0;
     std::vector<std::size_t> begin_, first_;  ///< of each node, and the end of all
-    std::vector<Index> high_;
+    std::vector<Index> high_, end_;
+    static constexpr std::size_t at_a_time = 8;
 };
 
 }  // namespace
