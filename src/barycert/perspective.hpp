@@ -21,6 +21,9 @@
 /// 1/Z < 0, likewise outside only, the plane is met behind the eye: the answers are those of that point. An attribute
 /// that is NaN or infinite makes its value NaN. A coordinate that is not finite, or a w that is not a finite number
 /// above zero, is an Error: clip before the division.
+///
+/// How: double-double numbers with a proven bound, accepted where both ends of the bound round alike; integers
+/// elsewhere, as on edges and for ties. See perspective-inl.hpp and perspective_exact.cpp.
 #pragma once
 
 #include <array>
@@ -36,7 +39,7 @@ namespace barycert {
 struct PerspectiveWeights {
     std::array<double, 3> weights{};  ///< NaN if degenerate
     bool degenerate = false;
-    Tier tier = Tier::exact;
+    Tier tier = Tier::double_double;
 };
 
 /// Returns beta_0, beta_1, beta_2.

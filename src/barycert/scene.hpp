@@ -58,9 +58,9 @@ Result<Matrix4> rotation(const Vector3& axis, double degrees);
 Matrix4 translation(const Vector3& by);
 Matrix4 scaling(const Vector3& by);
 
-/// From x, y, w of clip space to window coordinates: ((x / w + 1) * width / 2, (y / w + 1) * height / 2); NaN unless w is
-/// above zero and all are finite. With `correct` each is the exact number rounded once, else each operation is rounded.
-/// Within the clip volume no point is moved off the window: rounding is monotonic.
+/// From x, y, w of clip space to window coordinates: ((x / w + 1) * width / 2, (y / w + 1) * height / 2); NaN unless w
+/// is above zero and all are finite. With `correct` each is the exact number rounded once, else each operation is
+/// rounded. Within the clip volume no point is moved off the window: rounding is monotonic.
 std::array<double, 2> viewport(RasterSize size, double x, double y, double w, Rounding rounding = Rounding::correct);
 
 /// How attributes are interpolated between vertices.

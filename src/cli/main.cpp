@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
         if (std::cout && cli::write_output("-", "")) return cli::exit_clean;
         return cli::fail({.what = "cannot write to stdout", .found = std::strerror(errno)});
     } catch (const std::bad_alloc&) {
-        return cli::fail({.what = "out of memory", .remedy = "use a smaller mesh or fewer threads"});
+        return cli::fail({.what = "out of memory", .remedy = "use a smaller mesh or picture, or fewer threads"});
     } catch (const std::exception& e) {
         return cli::fail({.what = e.what()});
     }

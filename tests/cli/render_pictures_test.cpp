@@ -365,7 +365,7 @@ TEST(render_pictures, are_those_of_the_document) {
             off += near ? 0U : 1U;
         }
         EXPECT_LE(off, kept.data.size() / 4 / 1000) << name;
-        EXPECT_LT(std::filesystem::file_size(golden), 60000U) << name;
+        EXPECT_LT(std::filesystem::file_size(golden), 80000U) << name;
     }
     EXPECT_GE(count, 9U);
 }

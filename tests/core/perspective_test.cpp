@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "barycert/core/perspective_exact.hpp"
+#include "barycert/environment.hpp"
 #include "core/field_cases.hpp"
 #include "core/rational.hpp"
 #include "exact/cases.hpp"
@@ -312,6 +313,30 @@ TEST(Perspective, a_flat_triangle_is_degenerate_for_every_point) {
         EXPECT_TRUE(perspective_depth(c.vertices.data(), c.point.data())->degenerate);
         EXPECT_TRUE(perspective_value(c.vertices.data(), c.point.data(), c.values.data())->degenerate);
     }
+}
+
+// D1: the same bits, and the same tiers, on every target of this build and on every machine.
+TEST(Perspective, answers_and_tiers_are_pinned_on_every_target) {
+    for (const std::string& target : simd_targets()) {
+        ASSERT_TRUE(use_simd_target(target));
+        std::uint64_t hash = 0;
+        const auto add = [&](std::uint64_t word) { hash = base::mix64(hash ^ word); };
+        for (std::uint64_t k = 0; k < 4000; ++k) {
+            base::Random r = base::Random::stream(13, base::hash64("pinned"), k);
+            const Case c = random_perspective_case(r, all_kinds[k % all_kinds.size()]);
+            const auto w = perspective_weights(c.vertices.data(), c.point.data());
+            const auto z = perspective_depth(c.vertices.data(), c.point.data());
+            const auto f = perspective_value(c.vertices.data(), c.point.data(), c.values.data());
+            add(static_cast<std::uint64_t>(w->tier) + 4 * static_cast<std::uint64_t>(z->tier) +
+                16 * static_cast<std::uint64_t>(f->tier));
+            if (w->degenerate) continue;
+            for (const double x : w->weights) add(testing_cases::bits(x));
+            add(testing_cases::bits(z->value));
+            add(testing_cases::bits(f->value));
+        }
+        EXPECT_EQ(hash, 0x4c3fb2d3e7476bfULL) << target;
+    }
+    use_simd_target("");
 }
 
 TEST(Perspective, what_cannot_be_is_named) {

@@ -39,8 +39,9 @@ inline std::array<double, 3> lifted(const Case& c, base::Random& random, std::ar
     return from;
 }
 
-/// Sets a triangle on the grid of 1/256 pixel, in a box of `size` pixels that starts somewhere in a window, and a pixel centre in
-/// it (a few have none), or, `on_edge`, exactly on one of its edges. Does not set values. (families_raster.cpp)
+/// Sets a triangle on the grid of 1/256 pixel, in a box of `size` pixels that starts somewhere in a window, and a pixel
+/// centre in it (a few have none), or, `on_edge`, exactly on one of its edges. Does not set values.
+/// (families_raster.cpp)
 void set_pixel_case(Case& c, base::Random& random, int size, bool on_edge, int window = 4096);
 
 inline Family built(const char* name, const char* tests, const char* parameters, Family::Recipe recipe,

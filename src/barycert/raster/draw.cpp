@@ -5,17 +5,13 @@
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/perspective.hpp"
+#include "barycert/raster/bytes.hpp"
 #include "barycert/raster/edge.hpp"
 #include "barycert/raster/fill_rows.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert::raster {
 namespace {
-
-/// A component from 0 to 1 in 255 steps, rounded. NaN gives 0.
-std::uint8_t byte(double x) {
-    return x >= 1 ? 255 : x > 0 ? static_cast<std::uint8_t>(x * 255 + 0.5) : 0;
-}
 
 /// False where plain weights may be off by more than 2^-38. With X and Y the extent of the triangle, a pixel's centre
 /// in it is within X and Y of each vertex, so that the four differences of a signed area are exact or off by half an
@@ -187,8 +183,8 @@ Rgba Shading::colour(const double* attributes) const {
     if (texture != nullptr) result = texel(*texture, place[0], place[1]);
     if (!colours) return result;
     for (std::size_t k = 0; k < 3; ++k)
-        result[k] =
-            texture == nullptr ? byte(attributes[k]) : byte(std::clamp(attributes[k], 0.0, 1.0) * (result[k] / 255.0));
+        result[k] = texture == nullptr ? component_byte(attributes[k])
+                                       : component_byte(std::clamp(attributes[k], 0.0, 1.0) * (result[k] / 255.0));
     return result;
 }
 

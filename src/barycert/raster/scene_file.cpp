@@ -8,6 +8,7 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/raster/bytes.hpp"
 #include "barycert/raster/scene_json.hpp"
 #include "barycert/scene.hpp"
 
@@ -223,7 +224,7 @@ Rgba background(const SceneValue& value) {
     for (std::size_t k = 0; k < value.size(); ++k) {
         const double x = value.entry(k).number();
         if (!(x >= 0 && x <= 1)) value.entry(k).fail("a number from 0 to 1");
-        colour[k] = static_cast<std::uint8_t>(x * 255 + 0.5);
+        colour[k] = component_byte(x);
     }
     return colour;
 }

@@ -5,6 +5,7 @@
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/raster/bytes.hpp"
 
 namespace barycert {
 namespace {
@@ -72,10 +73,9 @@ Rgba texel(const Texture& texture, double u, double v) {
     Rgba colour;
     for (std::size_t k = 0; k < 4; ++k) {
         const double below = a[k] + x.part * (b[k] - a[k]), above = c[k] + x.part * (d[k] - c[k]);
-        colour[k] = static_cast<std::uint8_t>(below + y.part * (above - below) + 0.5);  // between 0 and 255, see below
+        // Between the four texels up to rounding: 0 <= part < 1, and by less than 2^-40 beyond. That is rounded away.
+        colour[k] = raster::nearest_byte(std::max(0.0, below + y.part * (above - below)));
     }
-    // 0 <= part < 1 and rounding is monotonic, so a + part * (b - a) lies between a and b up to rounding, by less than
-    // 2^-40: never below -0.5 nor above 255.5 after the sum.
     return colour;
 }
 

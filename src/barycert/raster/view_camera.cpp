@@ -82,7 +82,7 @@ Result<Matrix4> fitting_camera(std::span<const double> points, const ViewAxes& a
     view.m[11] = -distance;
     const double near = distance - z.high, far = distance - z.low;
     const Result<Matrix4> projection = perspective(fovy, aspect, 0.9 * near, 1.1 * far);
-    if (!projection) return projection;
+    if (!projection) return projection.error();
     return *projection * view;
 }
 
