@@ -50,11 +50,13 @@ std::vector<TexturedCorner> triangles(double across, bool perspective) {
     const auto count = static_cast<std::size_t>(pixels_a_run / area) + 1;
     for (std::size_t k = 0; k < count; ++k) {
         const double x = random.uniform(radius, side - radius), y = random.uniform(radius, side - radius);
-        const double turn = random.uniform(0, 6.28318530717958648);
+        const double turn = random.uniform(0, 6.28318530717958648), start = random.unit();
         for (int i = 0; i < 3; ++i) {
             const double a = turn + 2.09439510239319549 * i;
             const double w = perspective ? random.uniform(1, 4) : 1;
-            const double u = i == 1 ? 1 : 0, v = i == 2 ? 1 : 0;
+            // About a texel a pixel, or the whole texture.
+            const double part = std::min(1.0, across / texture_side), at = (1 - part) * start;
+            const double u = at + (i == 1 ? part : 0), v = at + (i == 2 ? part : 0);
             corners.push_back({x + radius * std::cos(a), y + radius * std::sin(a), w, u, v});
         }
     }

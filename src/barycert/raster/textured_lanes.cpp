@@ -1,15 +1,26 @@
+// Textured triangles: spans by exact crossings (edge.hpp), texture coordinates along them on lanes.
+//
 // Texture coordinates, in units of texels, are affine in the window: U = U_0 + x U_x + y U_y; with perspective so are
-// U/w, V/w and 1/w. Double arithmetic gives them at the first pixel of each vector; the lanes add multiples of the step
-// along the row in single precision. That is an error of about 2^-23 of the coordinate, 2^-13 texels in a picture 1024
-// wide, and the same on every target: nothing is fused.
+// U / w, V / w and 1 / w. Double arithmetic gives them at the first pixel of each row. Then
+//   affine, clamped   fixed point with 16 bits of fraction: the start of a row is cut by less than 2^-16, a step of a
+//                     vector by less than 2^-16 and one within it by less than 2^-16 a lane: after k vectors of n lanes
+//                     the coordinate is off by less than (1 + k + n) 2^-16 texels
+//   all else          single precision: start, offset times step, sum, and with perspective a quotient and a product,
+//                     each rounded once: off by less than 2^-21 of the largest of |U| along the row, divided, with
+//                     perspective, by (least of 1 / w) / (largest of 1 / w)
+// Nothing is fused, and the same is done on every target; only n differs.
 #include "barycert/raster/textured_lanes.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
+#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/raster/textured_lanes.cpp"
 #include "barycert/core/foreach_target.hpp"
+
+#include "barycert/raster/row_blocks-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::raster {
@@ -18,40 +29,145 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::ScalableTag<float>;
 using Ints = hn::Rebind<std::int32_t, Floats>;
+using IntLanes = hn::Vec<Ints>;
+using FloatLanes = hn::Vec<Floats>;
 
-/// value + x * along + y * up.
+/// value + x * along + y * up, x and y from corner 0 of the triangle.
 struct Plane {
     double value, along, up;
 
     double at(double x, double y) const { return value + (x * along + y * up); }
 };
 
-struct Box {
-    double x0, y0, x1, y1, x2, y2, inverse_area;
+/// The edges of a triangle from its corner 0.
+struct Basis {
+    double x1, y1, x2, y2, inverse_area;
+
+    explicit Basis(const TexturedCorner* c)
+        : x1(c[1].x - c[0].x), y1(c[1].y - c[0].y), x2(c[2].x - c[0].x), y2(c[2].y - c[0].y) {
+        inverse_area = 1 / (x1 * y2 - x2 * y1);
+    }
+    Plane plane(double f0, double f1, double f2) const {
+        const double g1 = f1 - f0, g2 = f2 - f0;
+        return {f0, (g1 * y2 - g2 * y1) * inverse_area, (g2 * x1 - g1 * x2) * inverse_area};
+    }
 };
 
-HWY_INLINE Plane plane_through(const Box& b, double f0, double f1, double f2) {
-    const double g1 = f1 - f0, g2 = f2 - f0;
-    return {f0, (g1 * b.y2 - g2 * b.y1) * b.inverse_area, (g2 * b.x1 - g1 * b.x2) * b.inverse_area};
+/// How to get at the texels.
+struct Sheet {
+    const std::int32_t* texels;
+    std::int32_t width, height;
+    int width_bits;  ///< the width is 2^width_bits, or -1 if it is no power of two
+
+    explicit Sheet(const TexelRows& t)
+        : texels(reinterpret_cast<const std::int32_t*>(t.texels)), width(t.width), height(t.height) {
+        const auto w = static_cast<std::uint32_t>(width);
+        width_bits = std::has_single_bit(w) ? std::countr_zero(w) : -1;
+    }
+};
+
+/// Stores the first `count` lanes, 1 <= count <= all.
+HWY_INLINE void store_some(IntLanes colour, std::int32_t* to, std::int32_t count) {
+    const Ints tag;
+#if HWY_TARGET <= HWY_AVX3
+    hn::BlendedStore(colour, hn::FirstN(tag, static_cast<std::size_t>(count)), tag, to);
+#else
+    HWY_ALIGN std::int32_t rest[HWY_MAX_BYTES / 4];
+    hn::Store(colour, tag, rest);
+    std::memcpy(to, rest, 4 * static_cast<std::size_t>(count));
+#endif
 }
 
-/// One coordinate along a row.
-struct Lanes {
-    hn::Vec<Floats> steps;  ///< lane i: i * along
+/// The index of a texel, and 0 from lane `count` on: what is not stored costs no cache line.
+HWY_INLINE IntLanes first_lanes(IntLanes index, std::int32_t count) {
+    const Ints tag;
+    return hn::IfThenElseZero(hn::Lt(hn::Iota(tag, 0), hn::Set(tag, count)), index);
+}
 
-    explicit Lanes(const Plane& plane)
-        : steps(hn::Mul(hn::Iota(Floats(), 0), hn::Set(Floats(), static_cast<float>(plane.along)))) {}
-
-    HWY_INLINE hn::Vec<Floats> at(double first) const {
-        return hn::Add(hn::Set(Floats(), static_cast<float>(first)), steps);
+/// Rows of an affine triangle with a clamped texture, in fixed point.
+template <bool power_of_two>
+class FixedRows {
+public:
+    FixedRows(const Sheet& sheet, const Basis& basis, const TexturedCorner* c) : sheet_(sheet) {
+        u_ = basis.plane(c[0].u * sheet.width, c[1].u * sheet.width, c[2].u * sheet.width);
+        v_ = basis.plane(c[0].v * sheet.height, c[1].v * sheet.height, c[2].v * sheet.height);
+        const Ints tag;
+        const double n = static_cast<double>(hn::Lanes(tag));
+        u_next_ = fixed(n * u_.along), v_next_ = fixed(n * v_.along);
+        u_end_ = sheet.width << fraction, v_end_ = sheet.height << fraction;
+        hn::Store(hn::Mul(hn::Iota(tag, 0), hn::Set(tag, fixed(u_.along))), tag, u_lanes_);
+        hn::Store(hn::Mul(hn::Iota(tag, 0), hn::Set(tag, fixed(v_.along))), tag, v_lanes_);
     }
+
+    /// `count` pixels of a row from `to` on; x and y: the centre of the first.
+    HWY_INLINE void draw(double x, double y, std::int32_t count, std::int32_t* to) const {
+        const Ints tag;
+        const auto n = static_cast<std::int32_t>(hn::Lanes(tag));
+        const std::int32_t u_first = fixed(u_.at(x, y)), v_first = fixed(v_.at(x, y));
+        auto u = hn::Add(hn::Set(tag, u_first), hn::Load(tag, u_lanes_));
+        auto v = hn::Add(hn::Set(tag, v_first), hn::Load(tag, v_lanes_));
+        if (count > n) {
+            const auto u_step = hn::Set(tag, u_next_), v_step = hn::Set(tag, v_next_);
+            const std::int32_t whole = count / n;
+            std::int32_t* const end = to + whole * n;
+            const bool inner = on_sheet(u_first, u_next_, whole, u_end_) && on_sheet(v_first, v_next_, whole, v_end_);
+            for (; inner && to != end; to += n) {
+                hn::StoreU(hn::GatherIndex(tag, sheet_.texels, index(u, v)), tag, to);
+                u = hn::Add(u, u_step);
+                v = hn::Add(v, v_step);
+            }
+            for (; to != end; to += n) {
+                hn::StoreU(hn::GatherIndex(tag, sheet_.texels, clamped_index(u, v)), tag, to);
+                u = hn::Add(u, u_step);
+                v = hn::Add(v, v_step);
+            }
+            count -= whole * n;
+            if (count == 0) return;
+        }
+        store_some(hn::GatherIndex(tag, sheet_.texels, first_lanes(clamped_index(u, v), count)), to, count);
+    }
+
+private:
+    static constexpr int fraction = 16;
+
+    /// Saturates: what is far off the sheet, or no number, is clamped to it later.
+    static std::int32_t fixed(double x) {
+        const double scaled = x * (1 << fraction);
+        return scaled > -0x1p30 ? static_cast<std::int32_t>(std::min(scaled, 0x1p30)) : -(1 << 30);
+    }
+
+    /// Whether `whole` vectors from `first` on need no clamping: both ends of the row are on the sheet, and so is what
+    /// is between, for a coordinate is monotonic along a row. A vector reaches less than one step beyond its first
+    /// lane.
+    static bool on_sheet(std::int32_t first, std::int32_t next, std::int32_t whole, std::int32_t end) {
+        const std::int64_t last = first + static_cast<std::int64_t>(next) * whole;
+        constexpr std::int64_t rounding = 64;  // of the lanes
+        return std::min<std::int64_t>(first, last) >= rounding && std::max<std::int64_t>(first, last) < end - rounding;
+    }
+
+    HWY_INLINE IntLanes index(IntLanes u, IntLanes v) const {
+        const auto column = hn::ShiftRight<fraction>(u), line = hn::ShiftRight<fraction>(v);
+        const auto first =
+            power_of_two ? hn::ShiftLeftSame(line, sheet_.width_bits) : hn::Mul(line, hn::Set(Ints(), sheet_.width));
+        return hn::Add(first, column);
+    }
+    HWY_INLINE IntLanes clamped_index(IntLanes u, IntLanes v) const {
+        const Ints tag;
+        const auto zero = hn::Zero(tag), one = hn::Set(tag, 1);
+        return index(hn::Min(hn::Max(u, zero), hn::Sub(hn::Set(tag, u_end_), one)),
+                     hn::Min(hn::Max(v, zero), hn::Sub(hn::Set(tag, v_end_), one)));
+    }
+
+    const Sheet& sheet_;
+    Plane u_, v_;
+    std::int32_t u_next_, v_next_, u_end_, v_end_;
+    HWY_ALIGN std::int32_t u_lanes_[HWY_MAX_BYTES / 4], v_lanes_[HWY_MAX_BYTES / 4];
 };
 
 /// The index, 0 to size - 1, of the texel at coordinate x in units of texels, whatever x is.
 template <int wrap>
-HWY_INLINE hn::Vec<Ints> texel_index(hn::Vec<Floats> x, hn::Vec<Floats> size, hn::Vec<Floats> inverse_size) {
+HWY_INLINE IntLanes texel_index(FloatLanes x, FloatLanes size, FloatLanes inverse_size) {
     const Floats tag;
-    const auto zero = hn::Zero(tag), last = hn::Sub(size, hn::Set(tag, 1));
     if constexpr (wrap == 1) {
         x = hn::Sub(x, hn::Mul(size, hn::Floor(hn::Mul(x, inverse_size))));
     } else if constexpr (wrap == 2) {
@@ -60,92 +176,130 @@ HWY_INLINE hn::Vec<Ints> texel_index(hn::Vec<Floats> x, hn::Vec<Floats> size, hn
         x = hn::Min(x, hn::Sub(period, x));
     }
     // NaN and what is negative becomes 0.
-    return hn::ConvertTo(Ints(), hn::Min(hn::IfThenElseZero(hn::Ge(x, zero), x), last));
+    x = hn::Min(hn::IfThenElseZero(hn::Gt(x, hn::Zero(tag)), x), hn::Sub(size, hn::Set(tag, 1)));
+    return hn::ConvertTo(Ints(), x);
 }
 
+/// Rows in single precision: any wrapping, and perspective.
 template <int wrap, bool perspective>
-HWY_INLINE std::size_t draw_one(const PixelRows& out, const TexelRows& texture, const TexturedCorner* c) {
-    const Floats tag;
-    const Ints itag;
-    const auto n = static_cast<std::int32_t>(hn::Lanes(tag));
-    const double vertices[6] = {c[0].x, c[0].y, c[1].x, c[1].y, c[2].x, c[2].y};
-    const SortedTriangle sorted(vertices, out.height);
-    if (sorted.begin == sorted.end) return 0;
-
-    Box b{c[0].x, c[0].y, c[1].x - c[0].x, c[1].y - c[0].y, c[2].x - c[0].x, c[2].y - c[0].y, 0};
-    b.inverse_area = 1 / (b.x1 * b.y2 - b.x2 * b.y1);
-    const double width = texture.width, height = texture.height;
-    Plane u{}, v{}, q{};
-    if constexpr (perspective) {
-        const double q0 = 1 / c[0].w, q1 = 1 / c[1].w, q2 = 1 / c[2].w;
-        q = plane_through(b, q0, q1, q2);
-        u = plane_through(b, c[0].u * width * q0, c[1].u * width * q1, c[2].u * width * q2);
-        v = plane_through(b, c[0].v * height * q0, c[1].v * height * q1, c[2].v * height * q2);
-    } else {
-        u = plane_through(b, c[0].u * width, c[1].u * width, c[2].u * width);
-        v = plane_through(b, c[0].v * height, c[1].v * height, c[2].v * height);
-    }
-    const Lanes u_lanes(u), v_lanes(v), q_lanes(q);
-    const auto widths = hn::Set(tag, static_cast<float>(width)), heights = hn::Set(tag, static_cast<float>(height));
-    const auto inverse_widths = hn::Set(tag, static_cast<float>(1 / width));
-    const auto inverse_heights = hn::Set(tag, static_cast<float>(1 / height));
-    const auto stride = hn::Set(itag, texture.width);
-    const auto* const texels = reinterpret_cast<const std::int32_t*>(texture.texels);
-
-    std::size_t count = 0;
-    for_spans(sorted, out.width, [&](std::int32_t j, std::int32_t first, std::int32_t last) HWY_ATTR {
-        const double x = first + 0.5 - b.x0, y = j + 0.5 - b.y0;
-        double uf = u.at(x, y), vf = v.at(x, y), qf = perspective ? q.at(x, y) : 0;
-        auto* row = reinterpret_cast<std::int32_t*>(out.pixels) +
-                    static_cast<std::size_t>(j) * static_cast<std::size_t>(out.width);
-        count += static_cast<std::size_t>(last - first);
-        for (std::int32_t i = first; i < last; i += n) {
-            auto uu = u_lanes.at(uf), vv = v_lanes.at(vf);
-            if constexpr (perspective) {
-                const auto w = hn::Div(hn::Set(tag, 1), q_lanes.at(qf));
-                uu = hn::Mul(uu, w);
-                vv = hn::Mul(vv, w);
-                qf += n * q.along;
-            }
-            uf += n * u.along;
-            vf += n * v.along;
-            const auto column = texel_index<wrap>(uu, widths, inverse_widths);
-            const auto line = texel_index<wrap>(vv, heights, inverse_heights);
-            const auto colour = hn::GatherIndex(itag, texels, hn::Add(hn::Mul(line, stride), column));
-            if (last - i >= n) {
-                hn::StoreU(colour, itag, row + i);
-            } else {
-#if HWY_TARGET <= HWY_AVX3
-                hn::BlendedStore(colour, hn::FirstN(itag, static_cast<std::size_t>(last - i)), itag, row + i);
-#else
-                HWY_ALIGN std::int32_t rest[HWY_MAX_BYTES / 4];
-                hn::Store(colour, itag, rest);
-                std::memcpy(row + i, rest, 4 * static_cast<std::size_t>(last - i));
-#endif
-            }
+class FloatRows {
+public:
+    FloatRows(const Sheet& sheet, const Basis& basis, const TexturedCorner* c) : sheet_(sheet) {
+        const double w = sheet.width, h = sheet.height;
+        if constexpr (perspective) {
+            const double q[3] = {1 / c[0].w, 1 / c[1].w, 1 / c[2].w};
+            q_ = basis.plane(q[0], q[1], q[2]);
+            max_w_ = 256 * std::min({c[0].w, c[1].w, c[2].w});
+            u_ = basis.plane(c[0].u * w * q[0], c[1].u * w * q[1], c[2].u * w * q[2]);
+            v_ = basis.plane(c[0].v * h * q[0], c[1].v * h * q[1], c[2].v * h * q[2]);
+        } else {
+            u_ = basis.plane(c[0].u * w, c[1].u * w, c[2].u * w);
+            v_ = basis.plane(c[0].v * h, c[1].v * h, c[2].v * h);
         }
-    });
-    return count;
+    }
+
+    HWY_INLINE void draw(double x, double y, std::int32_t count, std::int32_t* to) const {
+        const Floats tag;
+        const Ints itag;
+        const auto n = static_cast<std::int32_t>(hn::Lanes(tag));
+        const Line u(u_, x, y), v(v_, x, y), q(q_, x, y);
+        const auto width = hn::Set(tag, static_cast<float>(sheet_.width));
+        const auto height = hn::Set(tag, static_cast<float>(sheet_.height));
+        const auto inverse_width = hn::Div(hn::Set(tag, 1), width), inverse_height = hn::Div(hn::Set(tag, 1), height);
+        const auto lanes = hn::Set(tag, static_cast<float>(n));
+        const auto stride = hn::Set(itag, sheet_.width);
+        auto offset = hn::Iota(tag, 0);
+        const auto index = [&](auto inner) HWY_ATTR {
+            auto s = u.at(offset), t = v.at(offset);
+            if constexpr (perspective) {
+                const auto w = hn::Div(hn::Set(tag, 1), q.at(offset));
+                s = hn::Mul(s, w);
+                t = hn::Mul(t, w);
+            }
+            offset = hn::Add(offset, lanes);
+            if constexpr (decltype(inner)::value)
+                return hn::Add(hn::Mul(hn::ConvertTo(itag, t), stride), hn::ConvertTo(itag, s));
+            else
+                return hn::Add(hn::Mul(texel_index<wrap>(t, height, inverse_height), stride),
+                               texel_index<wrap>(s, width, inverse_width));
+        };
+        if (wrap == 0 && count > 2 * n && on_sheet(x, y, count)) {
+            for (; count >= n; count -= n, to += n)
+                hn::StoreU(hn::GatherIndex(itag, sheet_.texels, index(std::true_type())), itag, to);
+        }
+        for (; count >= n; count -= n, to += n)
+            hn::StoreU(hn::GatherIndex(itag, sheet_.texels, index(std::false_type())), itag, to);
+        if (count > 0)
+            store_some(hn::GatherIndex(itag, sheet_.texels, first_lanes(index(std::false_type()), count)), to, count);
+    }
+
+private:
+    /// Whether the row needs no clamping: both ends are on the sheet, and so is what is between, for a coordinate is
+    /// monotonic along a row, with perspective too as w > 0. `near` is more than the lanes' errors.
+    bool on_sheet(double x, double y, std::int32_t count) const {
+        constexpr double near = 0x1p-5;
+        for (const double at : {x, x + count}) {
+            const double w = perspective ? 1 / q_.at(at, y) : 1;
+            if (!(w > 0 && w < max_w_)) return false;
+            const double s = u_.at(at, y) * w, t = v_.at(at, y) * w;
+            if (!(s >= near && s <= sheet_.width - near && t >= near && t <= sheet_.height - near)) return false;
+        }
+        return true;
+    }
+
+    /// A coordinate along a row, by the number of pixels from the first.
+    struct Line {
+        FloatLanes first, step;
+
+        Line(const Plane& p, double x, double y)
+            : first(hn::Set(Floats(), static_cast<float>(p.at(x, y)))),
+              step(hn::Set(Floats(), static_cast<float>(p.along))) {}
+        HWY_INLINE FloatLanes at(FloatLanes offset) const { return hn::Add(first, hn::Mul(offset, step)); }
+    };
+
+    const Sheet& sheet_;
+    Plane u_, v_, q_{};
+    double max_w_ = 2;  ///< up to which depth the error of 1 / w is small beside it
+};
+
+template <class Rows>
+std::size_t draw_all(const PixelRows& out, const Sheet& sheet, std::span<const TexturedCorner> corners) {
+    std::size_t drawn = 0;
+    auto* const pixels = reinterpret_cast<std::int32_t*>(out.pixels);
+    for (std::size_t k = 0; k + 3 <= corners.size(); k += 3) {
+        const TexturedCorner* const c = corners.data() + k;
+        const double vertices[6] = {c[0].x, c[0].y, c[1].x, c[1].y, c[2].x, c[2].y};
+        const SortedTriangle sorted(vertices, out.height);
+        if (sorted.begin == sorted.end) continue;
+        const Rows rows(sheet, Basis(c), c);
+        for_row_blocks(sorted, out.width, [&](std::int32_t j, const RowBlock& block, std::int32_t size) HWY_ATTR {
+            for (std::int32_t r = 0; r < size; ++r) {
+                const std::int32_t first = block.first[r], count = block.last[r] - first;
+                if (count <= 0) continue;
+                drawn += static_cast<std::size_t>(count);
+                const auto at = static_cast<std::size_t>(j + r) * static_cast<std::size_t>(out.width);
+                rows.draw(first + 0.5 - c[0].x, j + r + 0.5 - c[0].y, count, pixels + at + first);
+            }
+        });
+    }
+    return drawn;
 }
 
-template <int wrap, bool perspective>
-std::size_t draw_all(const PixelRows& out, const TexelRows& texture, std::span<const TexturedCorner> corners) {
-    std::size_t count = 0;
-    for (std::size_t k = 0; k + 3 <= corners.size(); k += 3)
-        count += draw_one<wrap, perspective>(out, texture, corners.data() + k);
-    return count;
+template <bool perspective>
+std::size_t draw_wrapped(const PixelRows& out, const TexelRows& texture, std::span<const TexturedCorner> corners) {
+    const Sheet sheet(texture);
+    if (texture.wrap == 1) return draw_all<FloatRows<1, perspective>>(out, sheet, corners);
+    if (texture.wrap == 2) return draw_all<FloatRows<2, perspective>>(out, sheet, corners);
+    // Fixed point has 14 bits for the texel.
+    if (perspective || std::max(sheet.width, sheet.height) > 1 << 13)
+        return draw_all<FloatRows<0, perspective>>(out, sheet, corners);
+    return sheet.width_bits >= 0 ? draw_all<FixedRows<true>>(out, sheet, corners)
+                                 : draw_all<FixedRows<false>>(out, sheet, corners);
 }
 
 std::size_t draw(const PixelRows& out, const TexelRows& texture, std::span<const TexturedCorner> corners,
                  bool perspective) {
-    switch (texture.wrap) {
-        case 1:
-            return perspective ? draw_all<1, true>(out, texture, corners) : draw_all<1, false>(out, texture, corners);
-        case 2:
-            return perspective ? draw_all<2, true>(out, texture, corners) : draw_all<2, false>(out, texture, corners);
-        default:
-            return perspective ? draw_all<0, true>(out, texture, corners) : draw_all<0, false>(out, texture, corners);
-    }
+    return perspective ? draw_wrapped<true>(out, texture, corners) : draw_wrapped<false>(out, texture, corners);
 }
 
 }  // namespace HWY_NAMESPACE
