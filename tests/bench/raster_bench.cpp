@@ -13,6 +13,9 @@
 #include "barycert/raster.hpp"
 #include "barycert/raster/textured_lanes.hpp"
 #include "exact_table.hpp"
+#ifdef BARYCERT_WITH_OSMESA
+#include "raster_mesa.hpp"
+#endif
 #include "raster_peers.hpp"
 
 namespace {
@@ -22,7 +25,6 @@ using bench::Demand;
 using bench::Row;
 using raster::PixelRows;
 using raster::TexelRows;
-using raster::TexturedCorner;
 
 constexpr std::int32_t side = 1024, texture_side = 256;
 constexpr int repetitions = 11;
@@ -39,13 +41,15 @@ struct Texels {
     Texels() {
         for (std::uint32_t i = 0; i < texture_side * texture_side; ++i) texels.push_back(0xff000000U | i);
     }
-    TexelRows rows() const { return {texels.data(), texture_side, texture_side, 0}; }
+    TexelRows rows() const { return {texels.data(), texture_side, texture_side, Wrap::clamp}; }
 };
 
 /// Triangles with three equal sides, `across` pixels from the leftmost to the rightmost of their circle, anyhow turned.
-std::vector<TexturedCorner> triangles(double across, bool perspective) {
+std::vector<TexturedVertex> triangles(double across, bool perspective) {
     base::Random random(5);
-    std::vector<TexturedCorner> corners;
+    std::vector<TexturedVertex> corners;
+    // Numbers that single precision holds in clip coordinates too: OpenGL is given the same triangles.
+    const auto snapped = [](double x, double unit) { return std::round(x / unit) * unit; };
     const double radius = across / 2, area = 0.75 * std::sqrt(3.0) * radius * radius;
     const auto count = static_cast<std::size_t>(pixels_a_run / area) + 1;
     for (std::size_t k = 0; k < count; ++k) {
@@ -53,17 +57,19 @@ std::vector<TexturedCorner> triangles(double across, bool perspective) {
         const double turn = random.uniform(0, 6.28318530717958648), start = random.unit();
         for (int i = 0; i < 3; ++i) {
             const double a = turn + 2.09439510239319549 * i;
-            const double w = perspective ? random.uniform(1, 4) : 1;
+            const double w = perspective ? snapped(random.uniform(1, 4), 0.0625) : 1;
             // About a texel a pixel, or the whole texture.
-            const double part = std::min(1.0, across / texture_side), at = (1 - part) * start;
+            const double part = snapped(std::min(1.0, across / texture_side), 0x1p-16),
+                         at = snapped((1 - part) * start, 0x1p-16);
             const double u = at + (i == 1 ? part : 0), v = at + (i == 2 ? part : 0);
-            corners.push_back({x + radius * std::cos(a), y + radius * std::sin(a), w, u, v});
+            corners.push_back(
+                {snapped(x + radius * std::cos(a), 0x1p-8), snapped(y + radius * std::sin(a), 0x1p-8), w, u, v});
         }
     }
     return corners;
 }
 
-std::size_t area_of(const std::vector<TexturedCorner>& c) {
+std::size_t area_of(const std::vector<TexturedVertex>& c) {
     std::size_t pixels = 0;
     std::vector<PixelSpan> spans;
     for (std::size_t k = 0; k < c.size(); k += 3) {
@@ -75,57 +81,90 @@ std::size_t area_of(const std::vector<TexturedCorner>& c) {
     return pixels;
 }
 
-/// The largest distance, in texels, between the texel drawn and the exact texture coordinates (of plain double
-/// arithmetic, whose error is far below), over the pixels of single triangles.
-double largest_error(const std::vector<TexturedCorner>& corners, bool perspective) {
-    Picture picture;
-    const Texels texels;
-    double largest = 0;
+struct Findings {
+    std::size_t covered = 0, missed = 0, beyond = 0;  ///< pixels by exact coverage; of them not drawn; drawn besides
+    double largest = 0;  ///< distance, in texels, of a drawn texel from the exact coordinates
+};
+
+/// Holds the picture of a single triangle against exact coverage and against the texture coordinates by double
+/// arithmetic, whose error is far below what is found.
+void judge(const std::uint32_t* pixels, const TexturedVertex* c, bool perspective, Findings& f) {
+    const double v[6] = {c[0].x, c[0].y, c[1].x, c[1].y, c[2].x, c[2].y};
     std::vector<PixelSpan> spans;
-    for (std::size_t k = 0; k < std::min<std::size_t>(corners.size(), 600); k += 3) {
-        const TexturedCorner* const c = corners.data() + k;
-        const double v[6] = {c[0].x, c[0].y, c[1].x, c[1].y, c[2].x, c[2].y};
-        spans.clear();
-        (void)cover_triangle({side, side}, v, spans);
-        std::fill(picture.pixels.begin(), picture.pixels.end(), 0U);
-        const std::size_t drawn = raster::draw_textured(picture.rows(), texels.rows(), {c, 3}, perspective);
-        std::size_t expected = 0;
-        for (const PixelSpan& s : spans) {
-            for (std::int32_t i = s.begin; i < s.end; ++i) {
-                const std::uint32_t pixel =
-                    picture.pixels[static_cast<std::size_t>(s.row) * side + static_cast<std::size_t>(i)];
-                if (pixel == 0) {
-                    std::fprintf(stderr, "wrong: a covered pixel was not drawn\n");
-                    std::exit(1);
-                }
-                ++expected;
-                const double x = i + 0.5, y = s.row + 0.5;
-                double w[3], sum = 0;
-                for (int n = 0; n < 3; ++n) {
-                    const auto &p = c[(n + 1) % 3], &q = c[(n + 2) % 3];
-                    w[n] = ((p.x - x) * (q.y - y) - (q.x - x) * (p.y - y)) / (perspective ? c[n].w : 1);
-                    sum += w[n];
-                }
-                double at[2] = {0, 0};
-                for (int n = 0; n < 3; ++n) {
-                    at[0] += w[n] / sum * c[n].u * texture_side;
-                    at[1] += w[n] / sum * c[n].v * texture_side;
-                }
-                const std::uint32_t index = pixel & 0xffffffU;
-                const double found[2] = {static_cast<double>(index % texture_side),
-                                         static_cast<double>(index / texture_side)};
-                for (int n = 0; n < 2; ++n) largest = std::max({largest, found[n] - at[n], at[n] - (found[n] + 1)});
+    (void)cover_triangle({side, side}, v, spans);
+    std::size_t drawn = 0;
+    for (const PixelSpan& s : spans) {
+        for (std::int32_t i = s.begin; i < s.end; ++i) {
+            ++f.covered;
+            const std::uint32_t pixel = pixels[static_cast<std::size_t>(s.row) * side + static_cast<std::size_t>(i)];
+            if (pixel == 0) {
+                ++f.missed;
+                continue;
             }
-        }
-        const auto all = static_cast<std::size_t>(
-            std::count_if(picture.pixels.begin(), picture.pixels.end(), [](std::uint32_t p) { return p != 0; }));
-        if (drawn != expected || all != expected) {
-            std::fprintf(stderr, "wrong: %zu pixels drawn, %zu set, %zu covered\n", drawn, all, expected);
-            std::exit(1);
+            ++drawn;
+            const double x = i + 0.5, y = s.row + 0.5;
+            double w[3], sum = 0, at[2] = {0, 0};
+            for (int n = 0; n < 3; ++n) {
+                const auto &p = c[(n + 1) % 3], &q = c[(n + 2) % 3];
+                w[n] = ((p.x - x) * (q.y - y) - (q.x - x) * (p.y - y)) / (perspective ? c[n].w : 1);
+                sum += w[n];
+            }
+            for (int n = 0; n < 3; ++n) {
+                at[0] += w[n] / sum * c[n].u * texture_side;
+                at[1] += w[n] / sum * c[n].v * texture_side;
+            }
+            const std::uint32_t index = pixel & 0xffffffU;
+            const double found[2] = {static_cast<double>(index % texture_side),
+                                     static_cast<double>(index / texture_side)};
+            for (int n = 0; n < 2; ++n) f.largest = std::max({f.largest, found[n] - at[n], at[n] - (found[n] + 1)});
         }
     }
-    return largest;
+    const auto all = std::count_if(pixels, pixels + std::size_t{side} * side, [](std::uint32_t p) { return p != 0; });
+    f.beyond += static_cast<std::size_t>(all) - drawn;
 }
+
+constexpr std::size_t judged = 60;  ///< triangles
+
+double largest_error(const std::vector<TexturedVertex>& corners, bool perspective) {
+    Picture picture;
+    const Texels texels;
+    Findings f;
+    for (std::size_t k = 0; k < std::min(corners.size(), 3 * judged); k += 3) {
+        std::fill(picture.pixels.begin(), picture.pixels.end(), 0U);
+        raster::draw_lanes(picture.rows(), texels.rows(), {corners.data() + k, 3}, perspective);
+        judge(picture.pixels.data(), corners.data() + k, perspective, f);
+    }
+    if (f.missed + f.beyond != 0) {
+        std::fprintf(stderr, "wrong: of %zu covered pixels %zu are not drawn, and %zu others are\n", f.covered,
+                     f.missed, f.beyond);
+        std::exit(1);
+    }
+    return f.largest;
+}
+
+#ifdef BARYCERT_WITH_OSMESA
+/// Mesa's times by the clock, and what it draws held against the exact pictures.
+void beside_mesa(const std::vector<TexturedVertex>& corners, double pixels, bool perspective) {
+    const Texels texels;
+    for (const int threads : {1, 2}) {
+        const std::size_t pictures = threads == 1 ? std::min(judged, corners.size() / 3) : 0;
+        bench::MesaAnswer mesa = bench::draw_by_mesa(side, texels.rows(), corners, threads, repetitions, pictures);
+        if (mesa.version.empty()) {
+            std::printf("Mesa: does not start\n");
+            return;
+        }
+        std::printf("  Mesa %s, %d thread%s, %s: %.3g ns by the clock\n", mesa.version.c_str(), threads,
+                    threads == 1 ? "" : "s", perspective ? "perspective" : "affine",
+                    1e9 * bench::median(mesa.seconds) / pixels);
+        if (pictures == 0) continue;
+        Findings f;
+        for (std::size_t k = 0; k < pictures; ++k)
+            judge(mesa.pixels.data() + k * std::size_t{side} * side, corners.data() + 3 * k, perspective, f);
+        std::printf("    of %zu pixels %zu not drawn, %zu others drawn; texture coordinates off by up to %.3g texels\n",
+                    f.covered, f.missed, f.beyond, f.largest);
+    }
+}
+#endif
 
 }  // namespace
 
@@ -148,13 +187,16 @@ int main() {
         row(
             "textbook scanline", pixels, [&] { bench::scanline_loop(picture.rows(), texels.rows(), flat); }, true);
         row(
-            "affine", pixels, [&] { raster::draw_textured(picture.rows(), texels.rows(), flat, false); }, false);
+            "affine", pixels, [&] { raster::draw_lanes(picture.rows(), texels.rows(), flat, false); }, false);
         row(
-            "perspective", deep_pixels, [&] { raster::draw_textured(picture.rows(), texels.rows(), deep, true); },
-            false);
+            "perspective", deep_pixels, [&] { raster::draw_lanes(picture.rows(), texels.rows(), deep, true); }, false);
         char title[100];
         std::snprintf(title, sizeof title, "triangles %g pixels across, ns a pixel", across);
         table.run(title, rows, repetitions);
+#ifdef BARYCERT_WITH_OSMESA
+        beside_mesa(flat, pixels, false);
+        beside_mesa(deep, deep_pixels, true);
+#endif
         table.demand(rows, {"scanline / affine", 1, 2, 8});
         table.demand(rows, {"perspective / affine", 3, 2, 1.5, true});
     }

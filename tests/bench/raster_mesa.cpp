@@ -25,8 +25,8 @@ bool move_all(int file, void* data, std::size_t size, bool out) {
 }
 
 /// Draws and writes its answer to the pipe. llvmpipe reads the number of threads once, when it starts: hence a process.
-void draw(int file, std::int32_t side, const raster::TexelRows& texture,
-          const std::vector<raster::TexturedCorner>& corners, int repetitions, std::size_t pictures) {
+void draw(int file, std::int32_t side, const raster::TexelRows& texture, const std::vector<TexturedVertex>& corners,
+          int repetitions, std::size_t pictures) {
     OSMesaContext context = OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, nullptr);
     const auto pixels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
     std::vector<std::uint32_t> buffer(pixels);
@@ -51,7 +51,7 @@ void draw(int file, std::int32_t side, const raster::TexelRows& texture,
     glViewport(0, 0, side, side);
 
     std::vector<float> positions, texture_at;
-    for (const raster::TexturedCorner& c : corners) {
+    for (const TexturedVertex& c : corners) {
         for (const double x : {(2 * c.x / side - 1) * c.w, (2 * c.y / side - 1) * c.w, 0.0, c.w})
             positions.push_back(static_cast<float>(x));
         texture_at.push_back(static_cast<float>(c.u));
@@ -87,9 +87,8 @@ void draw(int file, std::int32_t side, const raster::TexelRows& texture,
 
 }  // namespace
 
-MesaAnswer draw_by_mesa(std::int32_t side, const raster::TexelRows& texture,
-                        const std::vector<raster::TexturedCorner>& corners, int threads, int repetitions,
-                        std::size_t pictures) {
+MesaAnswer draw_by_mesa(std::int32_t side, const raster::TexelRows& texture, const std::vector<TexturedVertex>& corners,
+                        int threads, int repetitions, std::size_t pictures) {
     MesaAnswer answer;
     int ends[2];
     if (pipe(ends) != 0) return answer;

@@ -9,7 +9,6 @@ namespace {
 
 using raster::PixelRows;
 using raster::TexelRows;
-using raster::TexturedCorner;
 
 /// u and v in units of texels, clamped.
 std::uint32_t texel(const TexelRows& texture, double u, double v) {
@@ -22,8 +21,8 @@ int clamped(double x, int limit) {
     return std::min(std::max(static_cast<int>(x), 0), limit);
 }
 
-std::size_t barycentric_triangle(const PixelRows& out, const TexelRows& texture, const TexturedCorner* c) {
-    const TexturedCorner &a = c[0], &b = c[1], &d = c[2];
+std::size_t barycentric_triangle(const PixelRows& out, const TexelRows& texture, const TexturedVertex* c) {
+    const TexturedVertex &a = c[0], &b = c[1], &d = c[2];
     const double area = (b.x - a.x) * (d.y - a.y) - (d.x - a.x) * (b.y - a.y);
     if (area == 0) return 0;
     const int x0 = clamped(std::floor(std::min({a.x, b.x, d.x})), out.width);
@@ -50,7 +49,7 @@ std::size_t barycentric_triangle(const PixelRows& out, const TexelRows& texture,
 struct Side {
     double x, u, v, x_step, u_step, v_step;
 
-    Side(const TexelRows& texture, const TexturedCorner& a, const TexturedCorner& b, double y) {
+    Side(const TexelRows& texture, const TexturedVertex& a, const TexturedVertex& b, double y) {
         const double dy = b.y - a.y, start = y - a.y;
         x_step = (b.x - a.x) / dy;
         u_step = (b.u - a.u) * texture.width / dy;
@@ -88,8 +87,8 @@ std::size_t rows_between(const PixelRows& out, const TexelRows& texture, Side& p
     return count;
 }
 
-std::size_t scanline_triangle(const PixelRows& out, const TexelRows& texture, const TexturedCorner* c) {
-    const TexturedCorner *a = c, *b = c + 1, *d = c + 2;
+std::size_t scanline_triangle(const PixelRows& out, const TexelRows& texture, const TexturedVertex* c) {
+    const TexturedVertex *a = c, *b = c + 1, *d = c + 2;
     if (b->y < a->y) std::swap(a, b);
     if (d->y < b->y) std::swap(b, d);
     if (b->y < a->y) std::swap(a, b);
@@ -111,14 +110,14 @@ std::size_t scanline_triangle(const PixelRows& out, const TexelRows& texture, co
 
 }  // namespace
 
-std::size_t barycentric_loop(const PixelRows& out, const TexelRows& texture, std::span<const TexturedCorner> corners) {
+std::size_t barycentric_loop(const PixelRows& out, const TexelRows& texture, std::span<const TexturedVertex> corners) {
     std::size_t count = 0;
     for (std::size_t k = 0; k + 3 <= corners.size(); k += 3)
         count += barycentric_triangle(out, texture, corners.data() + k);
     return count;
 }
 
-std::size_t scanline_loop(const PixelRows& out, const TexelRows& texture, std::span<const TexturedCorner> corners) {
+std::size_t scanline_loop(const PixelRows& out, const TexelRows& texture, std::span<const TexturedVertex> corners) {
     std::size_t count = 0;
     for (std::size_t k = 0; k + 3 <= corners.size(); k += 3)
         count += scanline_triangle(out, texture, corners.data() + k);

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <type_traits>
 
@@ -43,7 +44,7 @@ struct Plane {
 struct Basis {
     double x1, y1, x2, y2, inverse_area;
 
-    explicit Basis(const TexturedCorner* c)
+    explicit Basis(const TexturedVertex* c)
         : x1(c[1].x - c[0].x), y1(c[1].y - c[0].y), x2(c[2].x - c[0].x), y2(c[2].y - c[0].y) {
         inverse_area = 1 / (x1 * y2 - x2 * y1);
     }
@@ -88,7 +89,7 @@ HWY_INLINE IntLanes first_lanes(IntLanes index, std::int32_t count) {
 template <bool power_of_two>
 class FixedRows {
 public:
-    FixedRows(const Sheet& sheet, const Basis& basis, const TexturedCorner* c) : sheet_(sheet) {
+    FixedRows(const Sheet& sheet, const Basis& basis, const TexturedVertex* c) : sheet_(sheet) {
         u_ = basis.plane(c[0].u * sheet.width, c[1].u * sheet.width, c[2].u * sheet.width);
         v_ = basis.plane(c[0].v * sheet.height, c[1].v * sheet.height, c[2].v * sheet.height);
         const Ints tag;
@@ -97,6 +98,14 @@ public:
         u_end_ = sheet.width << fraction, v_end_ = sheet.height << fraction;
         hn::Store(hn::Mul(hn::Iota(tag, 0), hn::Set(tag, fixed(u_.along))), tag, u_lanes_);
         hn::Store(hn::Mul(hn::Iota(tag, 0), hn::Set(tag, fixed(v_.along))), tag, v_lanes_);
+    }
+
+    /// Whether the coordinates at the vertices, and so at all pixels, are within the range of fixed point.
+    static bool fits(const Sheet& sheet, const TexturedVertex* c) {
+        constexpr double range = 1 << 13;
+        return std::all_of(c, c + 3, [&](const TexturedVertex& t) {
+            return std::fabs(t.u * sheet.width) <= range && std::fabs(t.v * sheet.height) <= range;
+        });
     }
 
     /// `count` pixels of a row from `to` on; x and y: the centre of the first.
@@ -165,12 +174,12 @@ private:
 };
 
 /// The index, 0 to size - 1, of the texel at coordinate x in units of texels, whatever x is.
-template <int wrap>
+template <Wrap wrap>
 HWY_INLINE IntLanes texel_index(FloatLanes x, FloatLanes size, FloatLanes inverse_size) {
     const Floats tag;
-    if constexpr (wrap == 1) {
+    if constexpr (wrap == Wrap::repeat) {
         x = hn::Sub(x, hn::Mul(size, hn::Floor(hn::Mul(x, inverse_size))));
-    } else if constexpr (wrap == 2) {
+    } else if constexpr (wrap == Wrap::mirror) {
         const auto half = hn::Mul(inverse_size, hn::Set(tag, 0.5F)), period = hn::Add(size, size);
         x = hn::Sub(x, hn::Mul(period, hn::Floor(hn::Mul(x, half))));
         x = hn::Min(x, hn::Sub(period, x));
@@ -181,10 +190,10 @@ HWY_INLINE IntLanes texel_index(FloatLanes x, FloatLanes size, FloatLanes invers
 }
 
 /// Rows in single precision: any wrapping, and perspective.
-template <int wrap, bool perspective>
+template <Wrap wrap, bool perspective>
 class FloatRows {
 public:
-    FloatRows(const Sheet& sheet, const Basis& basis, const TexturedCorner* c) : sheet_(sheet) {
+    FloatRows(const Sheet& sheet, const Basis& basis, const TexturedVertex* c) : sheet_(sheet) {
         const double w = sheet.width, h = sheet.height;
         if constexpr (perspective) {
             const double q[3] = {1 / c[0].w, 1 / c[1].w, 1 / c[2].w};
@@ -197,6 +206,8 @@ public:
             v_ = basis.plane(c[0].v * h, c[1].v * h, c[2].v * h);
         }
     }
+
+    static bool fits(const Sheet&, const TexturedVertex*) { return true; }
 
     HWY_INLINE void draw(double x, double y, std::int32_t count, std::int32_t* to) const {
         const Floats tag;
@@ -223,7 +234,7 @@ public:
                 return hn::Add(hn::Mul(texel_index<wrap>(t, height, inverse_height), stride),
                                texel_index<wrap>(s, width, inverse_width));
         };
-        if (wrap == 0 && count > 2 * n && on_sheet(x, y, count)) {
+        if (wrap == Wrap::clamp && count > 2 * n && on_sheet(x, y, count)) {
             for (; count >= n; count -= n, to += n)
                 hn::StoreU(hn::GatherIndex(itag, sheet_.texels, index(std::true_type())), itag, to);
         }
@@ -263,14 +274,18 @@ private:
 };
 
 template <class Rows>
-std::size_t draw_all(const PixelRows& out, const Sheet& sheet, std::span<const TexturedCorner> corners) {
+std::size_t draw_all(const PixelRows& out, const Sheet& sheet, std::span<const TexturedVertex> vertices) {
     std::size_t drawn = 0;
     auto* const pixels = reinterpret_cast<std::int32_t*>(out.pixels);
-    for (std::size_t k = 0; k + 3 <= corners.size(); k += 3) {
-        const TexturedCorner* const c = corners.data() + k;
-        const double vertices[6] = {c[0].x, c[0].y, c[1].x, c[1].y, c[2].x, c[2].y};
-        const SortedTriangle sorted(vertices, out.height);
+    for (std::size_t k = 0; k + 3 <= vertices.size(); k += 3) {
+        const TexturedVertex* const c = vertices.data() + k;
+        const double window[6] = {c[0].x, c[0].y, c[1].x, c[1].y, c[2].x, c[2].y};
+        const SortedTriangle sorted(window, out.height);
         if (sorted.begin == sorted.end) continue;
+        if (!Rows::fits(sheet, c)) {
+            drawn += draw_all<FloatRows<Wrap::clamp, false>>(out, sheet, vertices.subspan(k, 3));
+            continue;
+        }
         const Rows rows(sheet, Basis(c), c);
         for_row_blocks(sorted, out.width, [&](std::int32_t j, const RowBlock& block, std::int32_t size) HWY_ATTR {
             for (std::int32_t r = 0; r < size; ++r) {
@@ -286,20 +301,19 @@ std::size_t draw_all(const PixelRows& out, const Sheet& sheet, std::span<const T
 }
 
 template <bool perspective>
-std::size_t draw_wrapped(const PixelRows& out, const TexelRows& texture, std::span<const TexturedCorner> corners) {
+std::size_t draw_wrapped(const PixelRows& out, const TexelRows& texture, std::span<const TexturedVertex> vertices) {
     const Sheet sheet(texture);
-    if (texture.wrap == 1) return draw_all<FloatRows<1, perspective>>(out, sheet, corners);
-    if (texture.wrap == 2) return draw_all<FloatRows<2, perspective>>(out, sheet, corners);
-    // Fixed point has 14 bits for the texel.
+    if (texture.wrap == Wrap::repeat) return draw_all<FloatRows<Wrap::repeat, perspective>>(out, sheet, vertices);
+    if (texture.wrap == Wrap::mirror) return draw_all<FloatRows<Wrap::mirror, perspective>>(out, sheet, vertices);
     if (perspective || std::max(sheet.width, sheet.height) > 1 << 13)
-        return draw_all<FloatRows<0, perspective>>(out, sheet, corners);
-    return sheet.width_bits >= 0 ? draw_all<FixedRows<true>>(out, sheet, corners)
-                                 : draw_all<FixedRows<false>>(out, sheet, corners);
+        return draw_all<FloatRows<Wrap::clamp, perspective>>(out, sheet, vertices);
+    return sheet.width_bits >= 0 ? draw_all<FixedRows<true>>(out, sheet, vertices)
+                                 : draw_all<FixedRows<false>>(out, sheet, vertices);
 }
 
-std::size_t draw(const PixelRows& out, const TexelRows& texture, std::span<const TexturedCorner> corners,
+std::size_t draw(const PixelRows& out, const TexelRows& texture, std::span<const TexturedVertex> vertices,
                  bool perspective) {
-    return perspective ? draw_wrapped<true>(out, texture, corners) : draw_wrapped<false>(out, texture, corners);
+    return perspective ? draw_wrapped<true>(out, texture, vertices) : draw_wrapped<false>(out, texture, vertices);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -310,9 +324,9 @@ HWY_AFTER_NAMESPACE();
 namespace barycert::raster {
 HWY_EXPORT(draw);
 
-std::size_t draw_textured(const PixelRows& out, const TexelRows& texture, std::span<const TexturedCorner> corners,
-                          bool perspective) {
-    return HWY_DYNAMIC_DISPATCH(draw)(out, texture, corners, perspective);
+std::size_t draw_lanes(const PixelRows& out, const TexelRows& texture, std::span<const TexturedVertex> vertices,
+                       bool perspective) {
+    return HWY_DYNAMIC_DISPATCH(draw)(out, texture, vertices, perspective);
 }
 }  // namespace barycert::raster
 #endif

@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "barycert/raster/edge.hpp"
+#include "barycert/texture.hpp"
+#include "barycert/textured.hpp"
 
 namespace barycert::raster {
 
@@ -15,21 +16,15 @@ struct PixelRows {
     std::int32_t width = 0, height = 0;
 };
 
-/// Texels as they are read: `wrap` as Wrap of texture.hpp.
+/// Texels as they are read.
 struct TexelRows {
     const std::uint32_t* texels = nullptr;
     std::int32_t width = 0, height = 0;
-    std::uint8_t wrap = 0;  ///< 0 clamp, 1 repeat, 2 mirror
+    Wrap wrap = Wrap::clamp;
 };
 
-/// A vertex in window coordinates with the depth w of clip space, and texture coordinates in [0, 1] over the texture.
-struct TexturedCorner {
-    double x, y, w, u, v;
-};
-
-/// Draws triangles (three corners each) and returns the number of pixels drawn. Preconditions: x and y finite;
-/// perspective: w > 0.
-std::size_t draw_textured(const PixelRows& out, const TexelRows& texture, std::span<const TexturedCorner> corners,
-                          bool perspective);
+/// draw_textured of textured.hpp. Preconditions: three vertices a triangle, all numbers finite, with perspective w > 0.
+std::size_t draw_lanes(const PixelRows& out, const TexelRows& texture, std::span<const TexturedVertex> vertices,
+                       bool perspective);
 
 }  // namespace barycert::raster
