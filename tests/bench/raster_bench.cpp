@@ -45,11 +45,11 @@ struct Texels {
 };
 
 /// Triangles with three equal sides, `across` pixels from the leftmost to the rightmost of their circle, anyhow turned.
-std::vector<TexturedVertex> triangles(double across, bool perspective) {
+std::vector<TexturedVertex> triangles(double across, bool perspective, bool snap = true) {
     base::Random random(5);
     std::vector<TexturedVertex> corners;
     // Numbers that single precision holds in clip coordinates too: OpenGL is given the same triangles.
-    const auto snapped = [](double x, double unit) { return std::round(x / unit) * unit; };
+    const auto snapped = [&](double x, double unit) { return snap ? std::round(x / unit) * unit : x; };
     const double radius = across / 2, area = 0.75 * std::sqrt(3.0) * radius * radius;
     const auto count = static_cast<std::size_t>(pixels_a_run / area) + 1;
     for (std::size_t k = 0; k < count; ++k) {
@@ -143,12 +143,23 @@ double largest_error(const std::vector<TexturedVertex>& corners, bool perspectiv
 }
 
 #ifdef BARYCERT_WITH_OSMESA
-/// Mesa's times by the clock, and what it draws held against the exact pictures.
-void beside_mesa(const std::vector<TexturedVertex>& corners, double pixels, bool perspective) {
+/// What Mesa draws, held against the exact pictures.
+void judge_mesa(const bench::MesaAnswer& mesa, const std::vector<TexturedVertex>& corners, bool perspective,
+                const char* what) {
+    Findings f;
+    for (std::size_t k = 0; k < std::min(judged, corners.size() / 3); ++k)
+        judge(mesa.pixels.data() + k * std::size_t{side} * side, corners.data() + 3 * k, perspective, f);
+    std::printf("    %s: of %zu pixels %zu not drawn, %zu others drawn; texture coordinates off by up to %.3g texels\n",
+                what, f.covered, f.missed, f.beyond, f.largest);
+}
+
+/// Mesa's times by the clock, and what it draws.
+void beside_mesa(double across, const std::vector<TexturedVertex>& corners, double pixels, bool perspective) {
     const Texels texels;
+    const std::size_t pictures = std::min(judged, corners.size() / 3);
     for (const int threads : {1, 2}) {
-        const std::size_t pictures = threads == 1 ? std::min(judged, corners.size() / 3) : 0;
-        bench::MesaAnswer mesa = bench::draw_by_mesa(side, texels.rows(), corners, threads, repetitions, pictures);
+        const bench::MesaAnswer mesa =
+            bench::draw_by_mesa(side, texels.rows(), corners, threads, repetitions, threads == 1 ? pictures : 0);
         if (mesa.version.empty()) {
             std::printf("Mesa: does not start\n");
             return;
@@ -156,13 +167,12 @@ void beside_mesa(const std::vector<TexturedVertex>& corners, double pixels, bool
         std::printf("  Mesa %s, %d thread%s, %s: %.3g ns by the clock\n", mesa.version.c_str(), threads,
                     threads == 1 ? "" : "s", perspective ? "perspective" : "affine",
                     1e9 * bench::median(mesa.seconds) / pixels);
-        if (pictures == 0) continue;
-        Findings f;
-        for (std::size_t k = 0; k < pictures; ++k)
-            judge(mesa.pixels.data() + k * std::size_t{side} * side, corners.data() + 3 * k, perspective, f);
-        std::printf("    of %zu pixels %zu not drawn, %zu others drawn; texture coordinates off by up to %.3g texels\n",
-                    f.covered, f.missed, f.beyond, f.largest);
+        if (threads == 1) judge_mesa(mesa, corners, perspective, "coordinates that single precision holds");
     }
+    const auto any = triangles(across, perspective, false);
+    const bench::MesaAnswer mesa =
+        bench::draw_by_mesa(side, texels.rows(), any, 1, 1, std::min(judged, any.size() / 3));
+    if (!mesa.version.empty()) judge_mesa(mesa, any, perspective, "any coordinates");
 }
 #endif
 
@@ -194,8 +204,8 @@ int main() {
         std::snprintf(title, sizeof title, "triangles %g pixels across, ns a pixel", across);
         table.run(title, rows, repetitions);
 #ifdef BARYCERT_WITH_OSMESA
-        beside_mesa(flat, pixels, false);
-        beside_mesa(deep, deep_pixels, true);
+        beside_mesa(across, flat, pixels, false);
+        beside_mesa(across, deep, deep_pixels, true);
 #endif
         table.demand(rows, {"scanline / affine", 1, 2, 8});
         table.demand(rows, {"perspective / affine", 3, 2, 1.5, true});
