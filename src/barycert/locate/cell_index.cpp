@@ -1,125 +1,139 @@
 #include "barycert/locate/cell_index.hpp"
 
-#include <algorithm>
-#include <limits>
-#include <utility>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
-#include "barycert/locate/open_facets.hpp"
+#include <algorithm>
+#include <atomic>
+#include <limits>
+
 #include "barycert/locate/radix_sort.hpp"
 
 namespace barycert::locate {
 namespace {
 
-/// The box of the nodes that cells have: others may lie anywhere.
-void find_box(const Mesh& mesh, CellIndex& index) {
-    const std::size_t d = index.dimension();
+/// Cells or nodes that a task takes at a time.
+constexpr std::size_t grain = std::size_t{1} << 14;
+
+template <class Use>
+void for_ranges(std::size_t count, Use use) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
+                      [&](const tbb::blocked_range<std::size_t>& range) { use(range.begin(), range.end()); });
+}
+
+/// The nodes that cells have, ascending: others may lie anywhere.
+std::vector<Mesh::Index> used_nodes(const Mesh& mesh) {
     std::vector<std::uint8_t> used(mesh.point_count(), 0);
-    for (const Mesh::Index node : mesh.cells) used[static_cast<std::size_t>(node)] = 1;
+    for_ranges(mesh.cells.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            std::atomic_ref(used[static_cast<std::size_t>(mesh.cells[i])]).store(1, std::memory_order_relaxed);
+    });
+    std::vector<Mesh::Index> nodes(used.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        nodes[count] = static_cast<Mesh::Index>(i);
+        count += used[i];
+    }
+    nodes.resize(count);
+    return nodes;
+}
+
+void find_box(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, CellIndex& index) {
+    const std::size_t d = index.dimension();
     for (std::size_t k = 0; k < d; ++k) {
         index.low[k] = std::numeric_limits<double>::infinity();
         index.high[k] = -index.low[k];
     }
-    for (std::size_t i = 0; i < used.size(); ++i) {
-        if (used[i] == 0) continue;
+    for (const Mesh::Index node : nodes) {
         for (std::size_t k = 0; k < d; ++k) {
-            index.low[k] = std::min(index.low[k], mesh.points[d * i + k]);
-            index.high[k] = std::max(index.high[k], mesh.points[d * i + k]);
+            const double x = mesh.points[d * static_cast<std::size_t>(node) + k];
+            index.low[k] = std::min(index.low[k], x);
+            index.high[k] = std::max(index.high[k], x);
         }
     }
 }
 
-/// The bin of each cell: that of the middle of its corners, in whole numbers of the quantizer.
+/// Copies nodes along the curve; returns the place of each node of the mesh.
 template <std::size_t d>
-void find_bins(const Mesh& mesh, const Bins& bins, Buffer<KeyedPlace>& cells) {
+Buffer<Place> place_nodes(const Mesh& mesh, const std::vector<Mesh::Index>& used, CellIndex& index) {
+    Buffer<KeyedPlace> order(used.size());
+    for_ranges(order.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            order[i] = {index.bins.of(&mesh.points[d * static_cast<std::size_t>(used[i])]), used[i]};
+    });
+    sort_by_key(order, index.bins.bits());
+    Buffer<Place> place(mesh.point_count());
+    index.nodes = Buffer<NodeRecord>(order.size());
+    index.original_node.resize(order.size());
+    for_ranges(order.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const auto node = static_cast<std::size_t>(order[i].place);
+            place[node] = static_cast<Place>(i);
+            index.original_node[i] = order[i].place;
+            index.nodes[i] = {};
+            for (std::size_t k = 0; k < d; ++k) index.nodes[i].at[k] = mesh.points[d * node + k];
+        }
+    });
+    return place;
+}
+
+/// The cells along the curve, by the middles of their corners in whole numbers of the quantizer.
+template <std::size_t d>
+Buffer<KeyedPlace> order_cells(const Mesh& mesh, const Bins& bins) {
     Buffer<std::array<std::int32_t, d>> nodes(mesh.point_count());
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        for (std::size_t k = 0; k < d; ++k) nodes[i][k] = bins.quantizer().at(k, mesh.points[d * i + k]);
-    }
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-        const Mesh::Index* const corner = mesh.cells.data() + (d + 1) * c;
-        std::array<std::int64_t, d> sum{};
-        for (std::size_t i = 0; i <= d; ++i) {
-            const auto& node = nodes[static_cast<std::size_t>(corner[i])];
-            for (std::size_t k = 0; k < d; ++k) sum[k] += node[k];
+    for_ranges(nodes.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            for (std::size_t k = 0; k < d; ++k) nodes[i][k] = bins.quantizer().at(k, mesh.points[d * i + k]);
         }
-        for (std::size_t k = 0; k < d; ++k) sum[k] /= static_cast<std::int64_t>(d + 1);
-        cells[c] = {bins.of_quantized(sum), static_cast<Place>(c)};
-    }
+    });
+    Buffer<KeyedPlace> cells(mesh.cell_count());
+    for_ranges(cells.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t c = first; c < last; ++c) {
+            const Mesh::Index* const corner = mesh.cells.data() + (d + 1) * c;
+            std::array<std::int64_t, d> sum{};
+            for (std::size_t i = 0; i <= d; ++i) {
+                const auto& node = nodes[static_cast<std::size_t>(corner[i])];
+                for (std::size_t k = 0; k < d; ++k) sum[k] += node[k];
+            }
+            for (std::size_t k = 0; k < d; ++k) sum[k] /= static_cast<std::int64_t>(d + 1);
+            cells[c] = {bins.of_quantized(sum), static_cast<Place>(c)};
+        }
+    });
+    sort_by_key(cells, bins.bits());
+    return cells;
 }
 
-/// Numbers nodes in the order in which cells come by, and copies their coordinates.
-class NodeNumbers {
-public:
-    NodeNumbers(const Mesh& mesh, CellIndex& index)
-        : mesh_(mesh), index_(index), place_(mesh.point_count(), -1), d_(index.dimension()) {
-        index.nodes = Buffer<NodeRecord>(mesh.point_count());
-        index.original_node.reserve(mesh.point_count());
-    }
-
-    Place of(Mesh::Index node) {
-        Place& place = place_[static_cast<std::size_t>(node)];
-        if (place < 0) {
-            place = static_cast<Place>(index_.original_node.size());
-            index_.original_node.push_back(node);
-            NodeRecord& record = index_.nodes[static_cast<std::size_t>(place)];
-            record = {};
-            for (std::size_t k = 0; k < d_; ++k) record.at[k] = mesh_.points[d_ * static_cast<std::size_t>(node) + k];
-        }
-        return place;
-    }
-
-    /// Asks for what of() will read, of the corners of a cell soon to come.
-    void fetch(const Mesh::Index* corner) const {
-        for (std::size_t i = 0; i <= d_; ++i) __builtin_prefetch(&place_[static_cast<std::size_t>(corner[i])]);
-    }
-    void fetch_new(const Mesh::Index* corner) const {
-        for (std::size_t i = 0; i <= d_; ++i) {
-            const auto node = static_cast<std::size_t>(corner[i]);
-            if (place_[node] < 0) __builtin_prefetch(&mesh_.points[d_ * node]);
-        }
-    }
-
-private:
-    const Mesh& mesh_;
-    CellIndex& index_;
-    std::vector<Place> place_;
-    std::size_t d_;
-};
-
 template <std::size_t d>
-void place_cells(const Mesh& mesh, bool link, const Buffer<KeyedPlace>& order, CellIndex& index) {
-    NodeNumbers numbers(mesh, index);
-    OpenFacets<d> open(link ? mesh.point_count() : 0);
-    // Cells and nodes that are near in space are anywhere in the file: each is asked for some cells ahead.
-    constexpr std::size_t corners_ahead = 48, nodes_ahead = 32, coordinates_ahead = 16;
+void place_cells(const Mesh& mesh, const Buffer<KeyedPlace>& order, const Buffer<Place>& place_of_node,
+                 CellIndex& index) {
+    // Cells that are near in space are anywhere in the file: they are asked for some cells ahead.
+    constexpr std::size_t ahead = 32;
     const auto corners_at = [&](std::size_t place) {
         return mesh.cells.data() + (d + 1) * static_cast<std::size_t>(order[place].place);
     };
-    std::size_t bin = 0;
-    for (std::size_t place = 0; place < order.size(); ++place) {
-        if (place + corners_ahead < order.size()) {
-            __builtin_prefetch(corners_at(place + corners_ahead));
-            numbers.fetch(corners_at(place + nodes_ahead));
-            numbers.fetch_new(corners_at(place + coordinates_ahead));
+    const auto bin_at = [&](std::size_t place) { return order[place].key >> CellIndex::part_bits; };
+    for_ranges(order.size(), [&](std::size_t first, std::size_t last) {
+        std::size_t bin = first == 0 ? 0 : std::size_t{bin_at(first - 1)} + 1;
+        for (std::size_t place = first; place < last; ++place) {
+            if (place + ahead < last) __builtin_prefetch(corners_at(place + ahead));
+            while (bin <= bin_at(place)) index.first[bin++] = static_cast<Place>(place);
+            const Mesh::Index* const corner = corners_at(place);
+            CellRecord& record = index.cells[place];
+            for (std::size_t i = 0; i <= d; ++i) record.node[i] = place_of_node[static_cast<std::size_t>(corner[i])];
+            if constexpr (d == 2) record.node[3] = record.node[0];
+            record.next = {-1, -1, -1, -1};
+            index.original[place] = order[place].place;
         }
-        while (bin <= order[place].key >> CellIndex::part_bits) index.first[bin++] = static_cast<Place>(place);
-        const Mesh::Index* const corner = corners_at(place);
-        CellRecord& record = index.cells[place];
-        for (std::size_t i = 0; i <= d; ++i) record.node[i] = numbers.of(corner[i]);
-        if constexpr (d == 2) record.node[3] = record.node[0];
-        record.next = {-1, -1, -1, -1};
-        index.original[place] = static_cast<Mesh::Index>(order[place].place);
-        if (link) open.add(static_cast<Place>(place), index.cells.data());
-    }
-    while (bin < index.first.size()) index.first[bin++] = static_cast<Place>(order.size());
+    });
+    const std::size_t end = std::size_t{bin_at(order.size() - 1)} + 1;
+    std::fill(index.first.begin() + static_cast<std::ptrdiff_t>(end), index.first.end(),
+              static_cast<Place>(order.size()));
 }
 
 template <std::size_t d>
-void build(const Mesh& mesh, bool link, CellIndex& index) {
-    Buffer<KeyedPlace> cells(mesh.cell_count());
-    find_bins<d>(mesh, index.bins, cells);
-    sort_by_key(cells, index.bins.bits());
-    place_cells<d>(mesh, link, cells, index);
+void build(const Mesh& mesh, const std::vector<Mesh::Index>& used, CellIndex& index) {
+    const Buffer<Place> place_of_node = place_nodes<d>(mesh, used, index);
+    place_cells<d>(mesh, order_cells<d>(mesh, index.bins), place_of_node, index);
 }
 
 }  // namespace
@@ -140,11 +154,11 @@ std::array<double, 12> vertices_of(const CellIndex& index, Place cell) {
     return vertices;
 }
 
-CellIndex make_cell_index(const Mesh& mesh, bool link) {
+CellIndex make_cell_index(const Mesh& mesh) {
     CellIndex index;
     index.simplex = mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron;
-    index.linked = link;
-    find_box(mesh, index);
+    const std::vector<Mesh::Index> used = used_nodes(mesh);
+    find_box(mesh, used, index);
     index.cells = Buffer<CellRecord>(mesh.cell_count());
     index.original = Buffer<Mesh::Index>(mesh.cell_count());
     if (mesh.cell_count() == 0) {
@@ -154,7 +168,7 @@ CellIndex make_cell_index(const Mesh& mesh, bool link) {
     index.bins =
         Bins(index.dimension(), index.low.data(), index.high.data(), mesh.cell_count() << CellIndex::part_bits);
     index.first.resize((index.bins.count() >> CellIndex::part_bits) + 2);
-    mesh.dimension == 2 ? build<2>(mesh, link, index) : build<3>(mesh, link, index);
+    mesh.dimension == 2 ? build<2>(mesh, used, index) : build<3>(mesh, used, index);
     return index;
 }
 

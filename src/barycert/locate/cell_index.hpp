@@ -41,7 +41,6 @@ struct CellIndex {
     std::vector<Mesh::Index> original_node;  ///< node of the mesh by place; those of no cell have none
     /// By bin, without its last part_bits bits: the first cell there or later; one more at the end.
     std::vector<Place> first;
-    bool linked = false;  ///< `next` is set
 
     std::size_t dimension() const { return static_cast<std::size_t>(space_dimension(simplex)); }
     std::size_t corners() const { return dimension() + 1; }
@@ -68,8 +67,8 @@ struct CellIndex {
 /// The vertices of a cell, vertex after vertex (see Case).
 std::array<double, 12> vertices_of(const CellIndex& index, Place cell);
 
-/// `link`: find the neighbours, which is right where no facet has more than two cells. Precondition: the mesh is
-/// consistent. Time O(cells).
-CellIndex make_cell_index(const Mesh& mesh, bool link);
+/// Without neighbours, see link_facets. Precondition: the mesh is consistent. Time O(cells), on the threads of the
+/// calling arena, which do not change the outcome.
+CellIndex make_cell_index(const Mesh& mesh);
 
 }  // namespace barycert::locate

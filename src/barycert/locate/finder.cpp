@@ -57,6 +57,13 @@ void Finder::walk(const PointRecord* points, std::size_t count, Place* owner, Fe
     for (int round = 0; walking_ > 0 && round < max_rounds; ++round)
         walking_ = step_walks(index, points, walks_.data(), walking_, owner, stuck_.data(), stuck);
     std::uint64_t arrived = 0;
+    if (!data_.proof.contested.empty()) {
+        for (std::size_t i = 0; i < count; ++i) {
+            if (owner[i] < 0 || !data_.proof.is_contested(owner[i])) continue;
+            owner[i] = -1;
+            asked_[asked_count_++] = static_cast<std::uint32_t>(i);
+        }
+    }
     for (std::size_t i = 0; i < count; ++i) {
         feature[i] = owner[i] >= 0 ? Feature::interior : Feature::outside;
         arrived += owner[i] >= 0 ? 1 : 0;
@@ -68,10 +75,11 @@ void Finder::walk(const PointRecord* points, std::size_t count, Place* owner, Fe
 
 void Finder::resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, TierCounts& tests) {
     const CellIndex& index = data_.index;
-    // At the end of the domain the point may still be in another part of it.
-    WeightSigns signs;
-    if (stuck.cell >= 0) signs = cell_signs(index, stuck.cell, point.at.data(), tests);
-    if (stuck.cell < 0 || !signs.contains()) {
+    // At the end of the domain the point may still be in another part of it, in a contested cell in others as well.
+    WeightSigns signs = WeightSigns::degenerate_simplex();
+    if (stuck.cell >= 0 && !data_.proof.is_contested(stuck.cell))
+        signs = cell_signs(index, stuck.cell, point.at.data(), tests);
+    if (!signs.contains()) {
         asked_[asked_count_++] = stuck.point;
         return;
     }

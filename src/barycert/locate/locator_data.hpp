@@ -10,6 +10,7 @@
 #include "barycert/locate/cell_tree.hpp"
 #include "barycert/locate/nearest_tree.hpp"
 #include "barycert/locate/node_cells.hpp"
+#include "barycert/locate/proof.hpp"
 #include "barycert/locate/sorted_points.hpp"
 #include "barycert/locator.hpp"
 
@@ -66,6 +67,8 @@ struct LocatorData {
     const Mesh* mesh = nullptr;
     Method method = Method::candidates;
     CellIndex index;
+    FacetLinks links;  ///< of the index, if the method is walk; open facets are dropped after the proof
+    Proof proof;       ///< likewise
 
     /// Up to 36 MiB a thread: the system would have to clear as much for every block of points.
     Pool<SortedPoints> sorted;
@@ -78,7 +81,7 @@ struct LocatorData {
         return nearest_tree_.get([&] { return NearestTree(index); });
     }
     const NodeCells& node_cells() const {
-        return node_cells_.get([&] { return NodeCells(index); });
+        return node_cells_.get([&] { return NodeCells(index, links.degenerate); });
     }
     /// Place of each cell of the mesh.
     const std::vector<Place>& places() const {
@@ -90,8 +93,8 @@ struct LocatorData {
         });
     }
     std::size_t bytes() const {
-        return index.bytes() + (tree_.made() ? tree_.made()->bytes() : 0) +
-               (nearest_tree_.made() ? nearest_tree_.made()->bytes() : 0) +
+        return index.bytes() + proof.contested.size() * sizeof(std::uint64_t) +
+               (tree_.made() ? tree_.made()->bytes() : 0) + (nearest_tree_.made() ? nearest_tree_.made()->bytes() : 0) +
                (node_cells_.made() ? node_cells_.made()->bytes() : 0) +
                (places_.made() ? places_.made()->size() * sizeof(Place) : 0);
     }

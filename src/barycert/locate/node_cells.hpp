@@ -12,7 +12,8 @@ namespace barycert::locate {
 
 class NodeCells {
 public:
-    explicit NodeCells(const CellIndex& index);
+    /// Without the cells `degenerate`, ascending.
+    NodeCells(const CellIndex& index, std::span<const Place> degenerate);
 
     /// Those of a node, by ascending cell of the mesh.
     std::span<const Place> of(Place node) const {

@@ -16,10 +16,6 @@
 namespace barycert::pipeline {
 namespace {
 
-/// From so many points a cell on the mesh is checked. On 203,693 cells and one thread the check cost 1.3 to 1.6 us a
-/// cell, and a walk saved 1.0 to 1.3 us a point inside: from so many points on the check saves time.
-constexpr double points_a_cell = 1.25;
-
 bool is_degenerate(const Mesh& mesh, std::size_t cell) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
     std::array<const double*, 4> at{};
@@ -43,8 +39,15 @@ bool gives_distances(const OutsidePolicy& policy) {
     return policy.kind == Outside::nearest || policy.kind == Outside::extrapolate;
 }
 
-std::string counted(std::uint64_t n, const char* what, bool at_least = false) {
-    return fmt::format("{}{} {}{}", at_least ? "at least " : "", n, what, n == 1 ? "" : "s");
+/// Why points are found by walks, and where not.
+std::string reason_of(const Locator& locator, std::uint64_t degenerate, const std::string& program) {
+    const std::uint64_t contested = locator.contested_cells();
+    if (locator.certified()) return "the mesh is certified";
+    if (contested == 0 && degenerate != 0) return "cells meet in common faces; degenerate ones are left out";
+    return fmt::format(
+        "{} of {} cells may meet others beside common faces, and there every candidate is tested; "
+        "`{} check` tells more",
+        contested, locator.mesh().cell_count(), program);
 }
 
 }  // namespace
@@ -73,26 +76,13 @@ TableFormat Engine::format() const {
     return {mesh_.dimension, sampler_->fields(), gives_distances(run_.job.options.outside)};
 }
 
-void Engine::prove() {
+Status Engine::build(bool prove) {
     Stopwatch watch;
-    CheckOptions options;
+    BuildOptions options;
+    options.prove = prove;
     options.threads = run_.job.options.threads;
-    options.examples = 0;
-    options.contacts = 0;
-    options.verdict_only = true;
-    options.progress = [&](const char* stage) { run_.stage(fmt::format("checking the mesh: {}", stage)); };
-    const CheckReport report = check_mesh(mesh_, options);
-    certificate_ = report.certificate;
-    run_.summary.verdict = certificate_.verdict();
-    run_.summary.seconds.certify += watch.lap();
-}
-
-Status Engine::build(const Certificate& certificate) {
-    Stopwatch watch;
-    run_.stage("building the locator");
-    sampler_.reset();
-    locator_.reset();
-    Result<Locator> locator = Locator::build(mesh_, certificate);
+    options.progress = [&](const char* stage) { run_.stage(stage); };
+    Result<Locator> locator = Locator::build(mesh_, options);
     if (!locator) return locator.error();
     locator_.emplace(std::move(*locator));
     Result<Sampler> sampler = Sampler::build(*locator_, fields_);
@@ -100,42 +90,27 @@ Status Engine::build(const Certificate& certificate) {
     sampler_.emplace(std::move(*sampler));
     SampleSummary& summary = run_.summary;
     summary.columns = sampler_->columns();
-    const bool certified = certificate_.verdict() == Verdict::certified;
-    summary.degenerate_cells = certified || !run_.job.count_degenerate ? 0 : count_degenerate(mesh_);
+    if (run_.job.count_degenerate)
+        summary.degenerate_cells = prove ? locator_->degenerate_cells() : count_degenerate(mesh_);
     summary.seconds.build += watch.lap();
     return Done{};
 }
 
-Status Engine::prepare_for(std::uint64_t points, bool at_least) {
-    const Certify certify = run_.job.certify;
-    const bool checked = certificate_.verdict() != Verdict::not_checked;
-    const std::size_t cells = mesh_.cell_count();
-    const bool pays = static_cast<double>(points) >= points_a_cell * static_cast<double>(cells);
-    if (locator_ && (checked || certify != Certify::automatic || !pays)) return Done{};
-    const std::string sizes = counted(points, "point", at_least) + " for " + counted(cells, "cell");
+Status Engine::prepare() {
+    if (locator_) return Done{};
+    if (Status built = build(true); !built) return built;
     SampleSummary& summary = run_.summary;
-    if (certify == Certify::never || (certify == Certify::automatic && !pays)) {
-        summary.method = FoundBy::candidates;
-        summary.reason = certify == Certify::never ? "check skipped: --certify never"
-                                                   : "check skipped: too few points (" + sizes + ")";
-        return build({});
-    }
-    prove();
-    if (Status built = build(certificate_); !built) return built;
-    const bool walks = locator_->method() == Method::walk;
-    const std::string why = certify == Certify::always ? "--certify always" : sizes;
-    summary.method = walks ? FoundBy::walk : FoundBy::candidates;
-    summary.reason =
-        walks ? fmt::format("the mesh is certified (checked: {})", why)
-              : fmt::format("the mesh is not certified (checked: {}); `{} check` tells why", why, run_.job.program);
+    summary.method = FoundBy::walk;
+    summary.verdict = locator_->certified() ? Verdict::certified : Verdict::not_certified;
+    summary.contested_cells = locator_->contested_cells();
+    summary.reason = reason_of(*locator_, locator_->degenerate_cells(), run_.job.program);
     return Done{};
 }
 
 Status Engine::prepare_without_search(FoundBy method, const std::string& reason) {
     run_.summary.method = method;
     run_.summary.reason = reason;
-    if (run_.job.certify == Certify::always) prove();
-    return build(certificate_);
+    return build(false);
 }
 
 }  // namespace barycert::pipeline

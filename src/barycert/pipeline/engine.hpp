@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "barycert/certificate.hpp"
-#include "barycert/check.hpp"
 #include "barycert/io.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/mesh.hpp"
@@ -26,9 +24,8 @@ public:
 
     const Mesh& mesh() const { return mesh_; }
 
-    /// Prepares for points one by one, of which there are to be so many, or at least so many. Checks the mesh first if
-    /// that is asked for or likely to pay. May be called again as more become known.
-    Status prepare_for(std::uint64_t points, bool at_least);
+    /// Prepares for points one by one. A second call does nothing.
+    Status prepare();
 
     /// Prepares where no owner is asked of a point alone: they are known, or the cells find their points.
     Status prepare_without_search(FoundBy method, const std::string& reason);
@@ -42,15 +39,13 @@ public:
 
 private:
     explicit Engine(Run& run) : run_(run) {}
-    Status build(const Certificate& certificate);
-    void prove();
+    Status build(bool prove);
 
     Run& run_;
     Mesh mesh_;
     std::vector<FieldChoice> fields_;
     std::optional<Locator> locator_;
     std::optional<Sampler> sampler_;
-    Certificate certificate_;
 };
 
 }  // namespace barycert::pipeline

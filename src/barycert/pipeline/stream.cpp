@@ -152,8 +152,7 @@ Status sample_stream(Run& run, Engine& engine, PointSource& source, const SinkFa
         if (!count) return count.error();
         more = *count == block_of_points;
         seconds.read += watch.lap();
-        const std::uint64_t known = std::max<std::uint64_t>(source.count().value_or(0), done + *count);
-        if (Status ready = engine.prepare_for(known, more && !source.count()); !ready) return ready;
+        if (Status ready = engine.prepare(); !ready) return ready;
         watch.lap();
         if (Status opened = writer.open(engine, run.summary.all); !opened) return opened;
         seconds.write += watch.lap();
