@@ -74,7 +74,7 @@ struct LocatorData {
     Pool<SortedPoints> sorted;
 
     const CellTree& tree() const {
-        return tree_.get([&] { return CellTree(index); });
+        return tree_.get([&] { return make_cell_tree(index); });
     }
     /// Precondition: there is a cell.
     const NearestTree& nearest_tree() const {

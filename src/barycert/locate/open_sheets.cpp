@@ -10,6 +10,7 @@
 
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/check/candidates.hpp"
+#include "barycert/locate/cell_tree.hpp"
 
 namespace barycert::locate {
 namespace {
@@ -60,26 +61,67 @@ PlacedFacet placed(const CellIndex& index, const CellFacet& facet) {
     return placed;
 }
 
+namespace {
+
+/// Flags that threads raise.
+class Conflicts {
+public:
+    Conflicts(int d, const std::vector<PlacedFacet>& facets) : d_(d), facets_(facets), flags_(facets.size(), 0) {}
+
+    void ask(std::size_t i, std::size_t j) {
+        if (raised(i) && raised(j)) return;
+        if (facets_[i].nodes != facets_[j].nodes && !check::facets_conflict(d_, facets_[i], facets_[j])) return;
+        raise(i);
+        raise(j);
+    }
+    std::vector<std::uint8_t> take() { return std::move(flags_); }
+
+private:
+    bool raised(std::size_t i) { return std::atomic_ref(flags_[i]).load(std::memory_order_relaxed) != 0; }
+    void raise(std::size_t i) { std::atomic_ref(flags_[i]).store(1, std::memory_order_relaxed); }
+
+    int d_;
+    const std::vector<PlacedFacet>& facets_;
+    std::vector<std::uint8_t> flags_;
+};
+
+/// The most facets that one node has.
+std::size_t largest_fan(std::size_t nodes, const std::vector<PlacedFacet>& facets) {
+    std::vector<std::uint32_t> count(nodes, 0);
+    std::uint32_t largest = 0;
+    for (const PlacedFacet& facet : facets) {
+        for (const Mesh::Index node : facet.nodes) {
+            if (node >= 0) largest = std::max(largest, ++count[static_cast<std::size_t>(node)]);
+        }
+    }
+    return largest;
+}
+
+}  // namespace
+
 std::vector<std::uint8_t> find_conflicts(const CellIndex& index, const std::vector<PlacedFacet>& facets) {
     const auto d = static_cast<int>(index.dimension());
+    Conflicts conflicts(d, facets);
+    constexpr std::size_t crowd = 256;
+    if (largest_fan(index.original_node.size(), facets) <= crowd) {
+        // Facets are in the order of their cells, which is that of space.
+        const BoxGroups boxes(facets.size(),
+                              [&](std::size_t f) { return box_of(index, facets[f].at.data(), index.dimension()); });
+        tbb::parallel_for(std::size_t{0}, (facets.size() + 7) / 8, [&](std::size_t g) {
+            boxes.for_each_pair(g, [&](std::size_t i, std::size_t j) { conflicts.ask(i, j); });
+        });
+        return conflicts.take();
+    }
     std::vector<check::Item> items(facets.size());
     for (std::size_t i = 0; i < facets.size(); ++i) items[i] = item_of(facets[i], d);
-    const check::Candidates candidates(d, items);
-    std::vector<std::uint8_t> conflict(facets.size(), 0);
-    const auto flag = [&](std::size_t i) { return std::atomic_ref(conflict[i]); };
+    const check::Candidates candidates(d, items, crowd);
     tbb::parallel_for(std::size_t{0}, facets.size(), [&](std::size_t i) {
         candidates.for_each(items[i], [&](std::uint32_t j) {
-            if (j <= i) return true;
-            if (flag(i).load(std::memory_order_relaxed) != 0 && flag(j).load(std::memory_order_relaxed) != 0)
-                return true;
-            if (facets[i].nodes == facets[j].nodes || check::facets_conflict(d, facets[i], facets[j])) {
-                flag(i).store(1, std::memory_order_relaxed);
-                flag(j).store(1, std::memory_order_relaxed);
-            }
+            if (j > i) conflicts.ask(i, j);
             return true;
         });
     });
-    return conflict;
+    return conflicts.take();
 }
 
 std::vector<std::vector<std::uint32_t>> find_sheets(int d, const std::vector<PlacedFacet>& facets,

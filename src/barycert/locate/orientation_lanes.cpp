@@ -78,9 +78,8 @@ void filter_cells(const CellRecord* cells, const NodeRecord* nodes, std::size_t 
 
 void filter_orientations(const CellIndex& index, std::size_t first, std::size_t count, std::int8_t* out) {
     const CellRecord* const cells = index.cells.data() + first;
-    index.simplex == Simplex::triangle
-        ? filter_cells<Simplex::triangle>(cells, index.nodes.data(), count, out)
-        : filter_cells<Simplex::tetrahedron>(cells, index.nodes.data(), count, out);
+    index.simplex == Simplex::triangle ? filter_cells<Simplex::triangle>(cells, index.nodes.data(), count, out)
+                                       : filter_cells<Simplex::tetrahedron>(cells, index.nodes.data(), count, out);
 }
 
 }  // namespace HWY_NAMESPACE

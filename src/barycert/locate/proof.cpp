@@ -57,7 +57,8 @@ private:
     bool overlapped(Place cell) const {
         const check::Corners at = corners(cell);
         bool found = false;
-        tree_().for_each_meeting(box_of(index_, at.data(), index_.corners()), [&](Place other) {
+        tree_().for_each_meeting(box_of(index_, at.data(), index_.corners()), [&](std::size_t i) {
+            const auto other = static_cast<Place>(i);
             if (other != cell && !degenerate(other)) found = check::interiors_meet(d(), at, corners(other));
             return !found;
         });
@@ -103,8 +104,8 @@ private:
     void mark_crossed(const std::vector<PlacedFacet>& bad) {
         const CellTree& tree = tree_();
         tbb::parallel_for(std::size_t{0}, bad.size(), [&](std::size_t f) {
-            tree.for_each_meeting(box_of(index_, bad[f].at.data(), index_.dimension()), [&](Place cell) {
-                if (may_cross(index_, cell, bad[f])) contest(cell);
+            tree.for_each_meeting(box_of(index_, bad[f].at.data(), index_.dimension()), [&](std::size_t cell) {
+                if (may_cross(index_, static_cast<Place>(cell), bad[f])) contest(static_cast<Place>(cell));
                 return true;
             });
         });
