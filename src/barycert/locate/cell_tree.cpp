@@ -13,6 +13,13 @@ CellBox box_of(const CellIndex& index, const double* const* points, std::size_t 
     return box;
 }
 
+CellBox box_of(const CellIndex& index, Place cell) {
+    const auto& node = index.cells[static_cast<std::size_t>(cell)].node;
+    std::array<const double*, 4> at{};
+    for (std::size_t i = 0; i < index.corners(); ++i) at[i] = index.nodes[static_cast<std::size_t>(node[i])].at.data();
+    return box_of(index, at.data(), index.corners());
+}
+
 CellTree make_cell_tree(const CellIndex& index) {
     std::vector<std::array<std::int32_t, 3>> nodes(index.original_node.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes.size(), 8192), [&](const auto& range) {

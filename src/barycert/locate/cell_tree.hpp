@@ -19,6 +19,9 @@ CellTree make_cell_tree(const CellIndex& index);
 /// The box of `count` points with as many coordinates as the index has dimensions.
 CellBox box_of(const CellIndex& index, const double* const* points, std::size_t count);
 
+/// The box of a cell.
+CellBox box_of(const CellIndex& index, Place cell);
+
 struct PointRecord;
 
 struct Candidate {

@@ -41,6 +41,27 @@ bool all_on_one_side(const Plane& plane, std::span<const Corner> corners) {
     return false;
 }
 
+/// The plane of a facet of cell a has all of b on its outer side, or on it.
+bool facet_separates(const CellIndex& index, const CellRecord& a, const CellRecord& b) {
+    const auto n = index.dimension();
+    const auto at = [&](Place node) { return index.nodes[static_cast<std::size_t>(node)].at.data(); };
+    for (std::size_t i = 0; i <= n; ++i) {
+        Plane plane{static_cast<int>(n), {}};
+        for (std::size_t j = 0, k = 0; j <= n; ++j) {
+            if (j != i) plane.at[k++] = at(a.node[j]);
+        }
+        const Sign inner = plane.side(at(a.node[i]));
+        bool separates = true;
+        for (std::size_t j = 0; j <= n && separates; ++j) {
+            bool common = false;  // a vertex of the facet is on its plane
+            for (std::size_t k = 0; k <= n; ++k) common |= k != i && a.node[k] == b.node[j];
+            separates = common || plane.side(at(b.node[j])) != inner;
+        }
+        if (separates) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 // A plane through all common vertices that has the other vertices of one of both strictly on one side, and the other
@@ -76,6 +97,12 @@ bool may_cross(const CellIndex& index, Place cell, const check::PlacedFacet& fac
         if (all_on_side(plane, facet_corners, outer)) return false;
     }
     return true;
+}
+
+bool may_overlap(const CellIndex& index, Place a, Place b) {
+    const CellRecord &first = index.cells[static_cast<std::size_t>(a)],
+                     &second = index.cells[static_cast<std::size_t>(b)];
+    return !facet_separates(index, first, second) && !facet_separates(index, second, first);
 }
 
 }  // namespace barycert::locate

@@ -57,18 +57,21 @@ void Finder::walk(const PointRecord* points, std::size_t count, Place* owner, Fe
     for (int round = 0; walking_ > 0 && round < max_rounds; ++round)
         walking_ = step_walks(index, points, walks_.data(), walking_, owner, stuck_.data(), stuck);
     std::uint64_t arrived = 0;
-    if (!data_.proof.contested.empty()) {
-        for (std::size_t i = 0; i < count; ++i) {
-            if (owner[i] < 0 || !data_.proof.is_contested(owner[i])) continue;
-            owner[i] = -1;
-            asked_[asked_count_++] = static_cast<std::uint32_t>(i);
-        }
-    }
     for (std::size_t i = 0; i < count; ++i) {
         feature[i] = owner[i] >= 0 ? Feature::interior : Feature::outside;
         arrived += owner[i] >= 0 ? 1 : 0;
     }
     tests.add(Tier::filter, arrived);
+    if (!data_.proof.contested.empty()) {
+        std::array<std::uint32_t, chunk_size> contested;
+        std::size_t contested_count = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            contested[contested_count] = static_cast<std::uint32_t>(i);
+            contested_count += owner[i] >= 0 && data_.proof.is_contested(owner[i]) ? 1 : 0;
+        }
+        if (contested_count != 0)
+            data_.contested_cells().find_owners(points, contested.data(), contested_count, owner, feature, tests);
+    }
     for (std::size_t i = 0; i < stuck; ++i) resolve(points[stuck_[i].point], stuck_[i], owner, feature, tests);
     for (std::size_t i = 0; i < walking_; ++i) resolve(points[walks_[i].point], walks_[i], owner, feature, tests);
 }

@@ -92,9 +92,9 @@ private:
         return out;
     }
 
-    bool contested(Place cell) const {
+    bool contested(Place cell) {
         const auto i = static_cast<std::size_t>(cell);
-        return (contested_[i / 64] >> (i % 64) & 1) != 0;
+        return (std::atomic_ref(contested_[i / 64]).load(std::memory_order_relaxed) >> (i % 64) & 1) != 0;
     }
     void contest(Place cell) {
         const auto i = static_cast<std::size_t>(cell);
@@ -105,7 +105,8 @@ private:
         const CellTree& tree = tree_();
         tbb::parallel_for(std::size_t{0}, bad.size(), [&](std::size_t f) {
             tree.for_each_meeting(box_of(index_, bad[f].at.data(), index_.dimension()), [&](std::size_t cell) {
-                if (may_cross(index_, static_cast<Place>(cell), bad[f])) contest(static_cast<Place>(cell));
+                const auto place = static_cast<Place>(cell);
+                if (!contested(place) && may_cross(index_, place, bad[f])) contest(place);
                 return true;
             });
         });
