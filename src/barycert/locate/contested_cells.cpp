@@ -6,10 +6,11 @@
 #include <atomic>
 #include <utility>
 
+#include "barycert/index/crossing.hpp"
+#include "barycert/index/proof.hpp"
 #include "barycert/locate/cell_signs.hpp"
-#include "barycert/locate/cell_tree.hpp"
-#include "barycert/locate/crossing.hpp"
-#include "barycert/locate/proof.hpp"
+#include "barycert/locate/names.hpp"
+#include "barycert/locate/tree_lanes.hpp"
 #include "barycert/locate/walk_lanes.hpp"
 
 namespace barycert::locate {

@@ -7,16 +7,16 @@
 #include <span>
 #include <vector>
 
-#include "barycert/locate/box_groups.hpp"
-#include "barycert/locate/cell_index.hpp"
+#include "barycert/index/box_groups.hpp"
+#include "barycert/index/proof.hpp"
 #include "barycert/locate/lazy.hpp"
+#include "barycert/locate/names.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/simplex.hpp"
 #include "barycert/tiers.hpp"
 
 namespace barycert::locate {
 
-struct Proof;
 struct PointRecord;
 
 class ContestedCells {

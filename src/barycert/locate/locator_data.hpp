@@ -5,13 +5,13 @@
 #include <mutex>
 #include <vector>
 
-#include "barycert/locate/cell_index.hpp"
-#include "barycert/locate/cell_tree.hpp"
+#include "barycert/index/cell_tree.hpp"
+#include "barycert/index/proof.hpp"
 #include "barycert/locate/contested_cells.hpp"
 #include "barycert/locate/lazy.hpp"
+#include "barycert/locate/names.hpp"
 #include "barycert/locate/nearest_tree.hpp"
 #include "barycert/locate/node_cells.hpp"
-#include "barycert/locate/proof.hpp"
 #include "barycert/locate/sorted_points.hpp"
 #include "barycert/locator.hpp"
 
