@@ -5,7 +5,9 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "barycert/locate/locator_data.hpp"
 #include "barycert/mesh/adjacency.hpp"
@@ -130,6 +132,53 @@ TEST(IndexProof, PartsInsideOthers) {
             add_node(third, d == 2 ? std::vector<double>{2.3, 2.6} : std::vector<double>{2.3, 2.6, 2.9}));
         EXPECT_FALSE(Locator::build(third)->certified());
         expect_proved(third, "a third cell at a facet", step);
+    }
+}
+
+/// Cells around a node (3D: an edge), more than are asked pair by pair.
+Mesh fan(int d, int blades) {
+    Mesh mesh;
+    mesh.dimension = d;
+    const auto add = [&](double x, double y, double z) {
+        return add_node(mesh, d == 2 ? std::vector<double>{x, y} : std::vector<double>{x, y, z});
+    };
+    const Mesh::Index low = add(0, 0, 0), high = d == 2 ? low : add(0, 0, 1);
+    for (int i = 0; i < blades; ++i) {
+        const double turn = 2 * std::numbers::pi * i / blades;
+        add(std::cos(turn), std::sin(turn), 0.5);
+    }
+    const Mesh::Index first = high + 1;
+    for (int i = 0; i < blades; ++i) {
+        mesh.cells.push_back(low);
+        if (d == 3) mesh.cells.push_back(high);
+        mesh.cells.push_back(first + i);
+        mesh.cells.push_back(first + (i + 1) % blades);
+    }
+    return mesh;
+}
+
+TEST(IndexProof, CrowdedNodes) {
+    for (const int d : {2, 3}) {
+        const Mesh good = fan(d, 300);
+        EXPECT_TRUE(Locator::build(good)->certified());
+        Mesh folded = good;
+        for (int k = 0; k < 2; ++k) folded.points[static_cast<std::size_t>(d * (d + 7) + k)] *= -0.9;
+        Mesh more = good;  // a cell of its own across a few blades
+        for (const double at : {0.3, 0.4, 0.5}) {
+            const double x = 0.8 * std::cos(at), y = 0.8 * std::sin(at);
+            more.cells.push_back(add_node(
+                more, d == 2 ? std::vector<double>{x, y} : std::vector<double>{x, y * (1 + at), 0.4 + at / 8}));
+        }
+        if (d == 3) more.cells.push_back(add_node(more, {0.5, 0.3, 0.9}));
+        for (const Mesh* const mesh : {&folded, &more}) {
+            const Locator locator = Locator::build(*mesh).value();
+            EXPECT_FALSE(locator.certified());
+            EXPECT_GT(locator.contested_cells(), 0U);
+            if (mesh == &more) {
+                EXPECT_LT(locator.contested_cells(), 100U);
+            }
+            expect_proved(*mesh, mesh == &folded ? "a folded fan" : "a cell across a fan", 97);
+        }
     }
 }
 

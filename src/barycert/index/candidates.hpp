@@ -39,8 +39,8 @@ public:
     Candidates(int d, std::span<const Item> items, std::size_t crowd = 256);
 
     /// found(j), in no special order, for each item j that has a point in common with `item` beside the face of their
-    /// common nodes, and for others, until it returns false. Returns false if it did. Items of the same nodes may be
-    /// left out or not.
+    /// common nodes, for each one of the same nodes (their boxes are the same), and for others, until it returns false.
+    /// Returns false if it did.
     template <class F>
     bool for_each(const Item& item, F&& found) const {
         if (groups_.empty()) return true;

@@ -11,16 +11,10 @@
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/index/candidates.hpp"
 #include "barycert/index/cell_tree.hpp"
+#include "barycert/index/overlapped.hpp"
 
 namespace barycert::index {
 namespace {
-
-Item item_of(const PlacedFacet& facet, int d) {
-    Item item{.count = d};
-    std::copy(facet.nodes.begin(), facet.nodes.end(), item.nodes.begin());
-    std::copy(facet.at.begin(), facet.at.end(), item.at.begin());
-    return item;
-}
 
 struct Ridge {
     std::uint64_t nodes;
@@ -45,6 +39,13 @@ std::vector<Ridge> ridges_of(int d, const std::vector<PlacedFacet>& facets) {
 }
 
 }  // namespace
+
+Item item_of(const PlacedFacet& facet, int d) {
+    Item item{.count = d};
+    std::copy(facet.nodes.begin(), facet.nodes.end(), item.nodes.begin());
+    std::copy(facet.at.begin(), facet.at.end(), item.at.begin());
+    return item;
+}
 
 PlacedFacet placed(const CellIndex& index, const CellFacet& facet) {
     const auto& node = index.cells[static_cast<std::size_t>(facet.cell)].node;
@@ -100,7 +101,6 @@ std::size_t largest_fan(std::size_t nodes, const std::vector<PlacedFacet>& facet
 std::vector<std::uint8_t> find_conflicts(const CellIndex& index, const std::vector<PlacedFacet>& facets) {
     const auto d = static_cast<int>(index.dimension());
     Conflicts conflicts(d, facets);
-    constexpr std::size_t crowd = 256;
     if (largest_fan(index.original_node.size(), facets) <= crowd) {
         // Facets are in the order of their cells, which is that of space.
         const BoxGroups boxes(facets.size(),

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "barycert/index/candidates.hpp"
 #include "barycert/index/cell_index.hpp"
 #include "barycert/index/facet_contact.hpp"
 #include "barycert/index/facet_links.hpp"
@@ -12,6 +13,8 @@ namespace barycert::index {
 
 /// Nodes ascending, by place.
 PlacedFacet placed(const CellIndex& index, const CellFacet& facet);
+
+Item item_of(const PlacedFacet& facet, int d);
 
 /// 1 for each facet that conflicts with another one.
 std::vector<std::uint8_t> find_conflicts(const CellIndex& index, const std::vector<PlacedFacet>& facets);

@@ -10,7 +10,7 @@
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/index/crossing.hpp"
 #include "barycert/index/open_sheets.hpp"
-#include "barycert/index/overlap.hpp"
+#include "barycert/index/overlapped.hpp"
 
 namespace barycert::index {
 namespace {
@@ -42,48 +42,26 @@ public:
 private:
     int d() const { return static_cast<int>(index_.dimension()); }
 
-    Corners corners(Place cell) const {
-        Corners at{};
-        for (std::size_t i = 0; i < index_.corners(); ++i)
-            at[i] =
-                index_.nodes[static_cast<std::size_t>(index_.cells[static_cast<std::size_t>(cell)].node[i])].at.data();
-        return at;
-    }
-    bool degenerate(Place cell) const {
-        return std::binary_search(links_.degenerate.begin(), links_.degenerate.end(), cell);
-    }
-
-    /// The interior of another cell that is not degenerate meets that of `cell`.
-    bool overlapped(Place cell) const {
-        const Corners at = corners(cell);
-        bool found = false;
-        tree_().for_each_meeting(box_of(index_, at.data(), index_.corners()), [&](std::size_t i) {
-            const auto other = static_cast<Place>(i);
-            if (other != cell && !degenerate(other)) found = interiors_meet(d(), at, corners(other));
-            return !found;
-        });
-        return found;
-    }
-
-    /// Is m certainly 1 on the inner side of the sheet? A few of its cells are asked: others may cross some of them.
-    bool good(const std::vector<std::uint32_t>& sheet) const {
-        constexpr std::size_t tries = 8;
-        const std::size_t step = (sheet.size() + tries - 1) / tries;
-        for (std::size_t i = 0; i < sheet.size(); i += step) {
-            if (!overlapped(links_.open[sheet[i]].cell)) return true;
-        }
-        return false;
-    }
-
+    /// All open facets that do not conflict and whose sheet is good are good. A few cells of each sheet are asked:
+    /// others may cross some of them.
     std::vector<PlacedFacet> bad_facets() const {
         std::vector<std::uint8_t> bad = find_conflicts(index_, facets_);
-        const std::vector<std::vector<std::uint32_t>> sheets = find_sheets(d(), facets_, bad);
-        const bool one = sheets.size() == 1 && sheets.front().size() == facets_.size();
-        if (!one) {
-            tbb::parallel_for(std::size_t{0}, sheets.size(), [&](std::size_t s) {
-                if (good(sheets[s])) return;
-                for (const std::uint32_t f : sheets[s]) bad[f] = 1;
-            });
+        std::vector<std::vector<std::uint32_t>> sheets = find_sheets(d(), facets_, bad);
+        if (sheets.size() == 1 && sheets.front().size() == facets_.size()) return {};
+        constexpr std::size_t tries = 4;
+        for (std::size_t n = 0; n < tries && !sheets.empty(); ++n) {
+            std::vector<Place> asked(sheets.size());
+            for (std::size_t s = 0; s < sheets.size(); ++s)
+                asked[s] = links_.open[sheets[s][n * sheets[s].size() / tries]].cell;
+            const std::vector<std::uint8_t> overlapped = find_overlapped(index_, asked, links_.degenerate, tree_);
+            std::size_t left = 0;
+            for (std::size_t s = 0; s < sheets.size(); ++s) {
+                if (overlapped[s] != 0) sheets[left++].swap(sheets[s]);
+            }
+            sheets.resize(left);
+        }
+        for (const std::vector<std::uint32_t>& sheet : sheets) {
+            for (const std::uint32_t f : sheet) bad[f] = 1;
         }
         std::vector<PlacedFacet> out;
         for (std::size_t f = 0; f < facets_.size(); ++f) {
@@ -102,15 +80,41 @@ private:
     }
 
     void mark_crossed(const std::vector<PlacedFacet>& bad) {
-        const CellTree& tree = tree_();
-        tbb::parallel_for(std::size_t{0}, bad.size(), [&](std::size_t f) {
-            tree.for_each_meeting(box_of(index_, bad[f].at.data(), index_.dimension()), [&](std::size_t cell) {
-                const auto place = static_cast<Place>(cell);
-                if (!contested(place) && may_cross(index_, place, bad[f])) contest(place);
-                return true;
-            });
-        });
         for (const Place cell : links_.degenerate) contest(cell);
+        const auto ask = [&](Place cell, const PlacedFacet& facet) {
+            if (!contested(cell) && may_cross(index_, cell, facet)) contest(cell);
+        };
+        if (!is_crowded(index_)) {
+            const CellTree& tree = tree_();
+            tbb::parallel_for(std::size_t{0}, bad.size(), [&](std::size_t f) {
+                tree.for_each_meeting(box_of(index_, bad[f].at.data(), index_.dimension()), [&](std::size_t cell) {
+                    ask(static_cast<Place>(cell), bad[f]);
+                    return true;
+                });
+            });
+            return;
+        }
+        std::vector<Item> items(bad.size());
+        for (std::size_t f = 0; f < bad.size(); ++f) items[f] = item_of(bad[f], d());
+        const Candidates candidates(d(), items, crowd);
+        std::vector<std::array<Mesh::Index, 3>> nodes(bad.size());
+        for (std::size_t f = 0; f < bad.size(); ++f) nodes[f] = bad[f].nodes;
+        std::sort(nodes.begin(), nodes.end());
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, index_.cell_count(), 1 << 10), [&](const auto& range) {
+            for (std::size_t c = range.begin(); c < range.end(); ++c) {
+                const auto cell = static_cast<Place>(c);
+                candidates.for_each(item_of(index_, cell), [&](std::uint32_t f) {
+                    ask(cell, bad[f]);
+                    return !contested(cell);
+                });
+                // A facet of the cell's own nodes meets it in a common face, so it is no candidate.
+                for (std::size_t i = 0; i < index_.corners(); ++i) {
+                    if (index_.cells[c].next[i] < 0) continue;
+                    const auto own = placed(index_, {cell, static_cast<std::int32_t>(i)}).nodes;
+                    if (std::binary_search(nodes.begin(), nodes.end(), own)) contest(cell);
+                }
+            }
+        });
     }
 
     /// Sets of linked cells that are not crossed, of which one is overlapped, or which are too small to be asked for.
@@ -131,13 +135,15 @@ private:
             if (root == c) roots.push_back(static_cast<Place>(c));
             ++size[root];
         }
-        std::vector<std::uint8_t> bad(roots.size());
-        tbb::parallel_for(std::size_t{0}, roots.size(), [&](std::size_t r) {
-            bad[r] = size[static_cast<std::size_t>(roots[r])] < smallest || overlapped(roots[r]) ? 1 : 0;
-        });
-        for (std::size_t r = 0; r < roots.size(); ++r) size[static_cast<std::size_t>(roots[r])] = bad[r];
+        std::vector<Place> asked;
+        for (const Place root : roots) {
+            if (size[static_cast<std::size_t>(root)] >= smallest) asked.push_back(root);
+        }
+        const std::vector<std::uint8_t> overlapped = find_overlapped(index_, asked, links_.degenerate, tree_);
+        std::vector<std::uint8_t> good(index_.cell_count(), 0);  // of roots
+        for (std::size_t i = 0; i < asked.size(); ++i) good[static_cast<std::size_t>(asked[i])] = 1 - overlapped[i];
         for (std::size_t c = 0; c < index_.cell_count(); ++c) {
-            if (!contested(static_cast<Place>(c)) && size[sets.find(c)] != 0) contest(static_cast<Place>(c));
+            if (!contested(static_cast<Place>(c)) && good[sets.find(c)] == 0) contest(static_cast<Place>(c));
         }
     }
 
