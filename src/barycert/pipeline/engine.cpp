@@ -4,11 +4,16 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <utility>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/io.hpp"
+#include "barycert/locate/batch.hpp"
+#include "barycert/locate/cells_at_points.hpp"
+#include "barycert/pipeline/few_points.hpp"
 #include "barycert/pipeline/field_files.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/sample/points/field_choice.hpp"
@@ -88,20 +93,24 @@ void Engine::prove() {
 }
 
 Status Engine::build(const Certificate& certificate) {
+    return build_on(mesh_, fields_, certificate);
+}
+
+Status Engine::build_on(const Mesh& mesh, const std::vector<FieldChoice>& fields, const Certificate& certificate) {
     Stopwatch watch;
     run_.stage("building the locator");
     sampler_.reset();
     locator_.reset();
-    Result<Locator> locator = Locator::build(mesh_, certificate);
+    Result<Locator> locator = Locator::build(mesh, certificate);
     if (!locator) return locator.error();
     locator_.emplace(std::move(*locator));
-    Result<Sampler> sampler = Sampler::build(*locator_, fields_);
+    Result<Sampler> sampler = Sampler::build(*locator_, fields);
     if (!sampler) return sampler.error();
     sampler_.emplace(std::move(*sampler));
     SampleSummary& summary = run_.summary;
     summary.columns = sampler_->columns();
     const bool certified = certificate_.verdict() == Verdict::certified;
-    summary.degenerate_cells = certified || !run_.job.count_degenerate ? 0 : count_degenerate(mesh_);
+    summary.degenerate_cells = certified || !run_.job.count_degenerate ? 0 : count_degenerate(mesh);
     summary.seconds.build += watch.lap();
     return Done{};
 }
@@ -129,6 +138,45 @@ Status Engine::prepare_for(std::uint64_t points, bool at_least) {
         walks ? fmt::format("the mesh is certified (checked: {})", why)
               : fmt::format("the mesh is not certified (checked: {}); `{} check` tells why", why, run_.job.program);
     return Done{};
+}
+
+Status Engine::prepare_for_all(std::span<const double> points) {
+    const std::size_t count = points.size() / static_cast<std::size_t>(mesh_.dimension), cells = mesh_.cell_count();
+    const bool asked = run_.job.certify == Certify::automatic && !gives_distances(run_.job.options.outside);
+    const bool fit = std::all_of(fields_.begin(), fields_.end(), [&](const FieldChoice& choice) {
+        const std::size_t entities = choice.of_cells ? cells : mesh_.point_count();
+        return choice.field->data.size() == entities * static_cast<std::size_t>(choice.field->components);
+    });
+    // What is wrong with fields or points is told by the usual way.
+    if (!asked || !needs_no_index(count, cells) || !fit || !base::all_finite(points)) return prepare_for(count, false);
+    Stopwatch watch;
+    run_.stage("looking for the cells of the points");
+    std::optional<std::vector<Mesh::Index>> near;
+    locate::in_arena(run_.job.options.threads,
+                     [&] { near = locate::cells_at_points(mesh_, points, most_cells(cells)); });
+    if (!near) return prepare_for(count, false);
+    part_ = mesh::part_of(mesh_, std::move(*near));
+    std::vector<FieldChoice> fields;
+    part_->mesh.point_fields.reserve(fields_.size());
+    part_->mesh.cell_fields.reserve(fields_.size());
+    for (const FieldChoice& choice : fields_) {
+        auto& of_part = choice.of_cells ? part_->mesh.cell_fields : part_->mesh.point_fields;
+        of_part.push_back(part_->field(*choice.field, choice.of_cells));
+        fields.push_back({&of_part.back(), choice.of_cells});
+    }
+    SampleSummary& summary = run_.summary;
+    summary.method = FoundBy::pass;
+    summary.reason = fmt::format("no index for {}: {} of {} may hold some", counted(count, "point"),
+                                 part_->cells.size(), counted(cells, "cell"));
+    summary.seconds.build += watch.lap();
+    return build_on(part_->mesh, fields, {});
+}
+
+void Engine::name_cells(Table& rows) const {
+    if (!part_) return;
+    for (Mesh::Index& cell : rows.cells) {
+        if (cell >= 0) cell = part_->cells[static_cast<std::size_t>(cell)];
+    }
 }
 
 Status Engine::prepare_without_search(FoundBy method, const std::string& reason) {

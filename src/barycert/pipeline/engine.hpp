@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "barycert/io.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/mesh.hpp"
+#include "barycert/mesh/part.hpp"
 #include "barycert/pipeline/run.hpp"
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
@@ -30,6 +32,10 @@ public:
     /// that is asked for or likely to pay. May be called again as more become known.
     Status prepare_for(std::uint64_t points, bool at_least);
 
+    /// The same for points that are all there are. Few of them need no index of the mesh: then it is prepared for these
+    /// points alone.
+    Status prepare_for_all(std::span<const double> points);
+
     /// Prepares where no owner is asked of a point alone: they are known, or the cells find their points.
     Status prepare_without_search(FoundBy method, const std::string& reason);
 
@@ -37,17 +43,22 @@ public:
     const Locator& locator() const { return *locator_; }
     const Sampler& sampler() const { return *sampler_; }
 
+    /// Sampled rows name cells as the locator counts them; afterwards, as the mesh does.
+    void name_cells(Table& rows) const;
+
     /// What the rows of this job have.
     TableFormat format() const;
 
 private:
     explicit Engine(Run& run) : run_(run) {}
     Status build(const Certificate& certificate);
+    Status build_on(const Mesh& mesh, const std::vector<FieldChoice>& fields, const Certificate& certificate);
     void prove();
 
     Run& run_;
     Mesh mesh_;
     std::vector<FieldChoice> fields_;
+    std::optional<mesh::Part> part_;  ///< what the locator is of, if not the mesh
     std::optional<Locator> locator_;
     std::optional<Sampler> sampler_;
     Certificate certificate_;

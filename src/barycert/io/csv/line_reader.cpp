@@ -108,4 +108,23 @@ bool LineReader::next(std::string_view& line) {
     return true;
 }
 
+bool LineReader::next_lines(std::string_view& lines) {
+    if (failed()) return false;
+    // As much as there is room for: a pipe gives little at a time.
+    while (!ended_ && (begin_ != 0 || end_ != longest_line)) {
+        if (!refill()) return false;
+    }
+    const std::string_view text(buffer_.data() + begin_, end_ - begin_);
+    if (text.empty()) return false;
+    std::size_t size = text.size();
+    if (!ended_) {
+        const std::size_t feed = text.rfind('\n');
+        if (feed == std::string_view::npos) return refill();  // a line too long: refill() says so
+        size = feed + 1;
+    }
+    lines = text.substr(0, size);
+    begin_ = searched_ = begin_ + size;
+    return true;
+}
+
 }  // namespace barycert::io
