@@ -108,7 +108,8 @@ ReadRows csv_rows(const std::string& path) {
         const std::vector<std::string> fields = fields_of(line);
         require(fields.size() == names.size() && value < fields.size(), "other columns than expected in " + path);
         for (const std::size_t axis : axes) rows.points.push_back(std::strtod(fields[axis].c_str(), nullptr));
-        const bool inside = mask == fields.size() || std::strtod(fields[mask].c_str(), nullptr) != 0;
+        // VTK writes the mask as a character: that of code 1, or none.
+        const bool inside = mask == fields.size() || fields[mask] == "\1";
         rows.values.push_back(inside ? std::strtod(fields[value].c_str(), nullptr)
                                      : std::numeric_limits<double>::quiet_NaN());
     }

@@ -28,6 +28,7 @@ struct Block {
     Table rows;
     std::uint64_t first = 0;  ///< points, or rows of a map, that came before
     std::uint64_t size = 0;   ///< points
+    bool last = false;        ///< as far as was known when it was read
     std::uint64_t nan_values = 0;
     std::optional<std::size_t> outside;  ///< the first row without a cell, where there may be none
     std::optional<Error> error;

@@ -146,6 +146,7 @@ Status sample_stream(Run& run, Engine& engine, PointSource& source, const SinkFa
         if (!count) return count.error();
         more = *count == size;
         block.size = *count;
+        block.last = !more;
         taken += *count;
         return Done{};
     };
@@ -195,7 +196,7 @@ Status sample_stream(Run& run, Engine& engine, PointSource& source, const SinkFa
         sampling += block.seconds;
         Status written = writer.write(rows.view());
         seconds.write += time.lap();
-        if (written) run.count("points", block.first + block.size);
+        if (written && !block.last) run.count("points", block.first + block.size);
         return written;
     };
     Status done = Done{};
