@@ -172,6 +172,16 @@ Status Engine::prepare_for_all(std::span<const double> points) {
     return build_on(part_->mesh, fields, {});
 }
 
+void Engine::let_go_of_mesh() {
+    if (gives_distances(run_.job.options.outside) || !mesh_.mid_nodes.empty()) return;
+    // The index has corners and coordinates in an order of its own, and so has the sampler the values of nodes.
+    mesh_.points = {};
+    mesh_.cells = {};
+    mesh_.faces = {};
+    mesh_.neighbours = {};
+    for (Field& field : mesh_.point_fields) field.data = {};
+}
+
 void Engine::name_cells(Table& rows) const {
     if (!part_) return;
     for (Mesh::Index& cell : rows.cells) {

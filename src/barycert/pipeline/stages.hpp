@@ -21,7 +21,7 @@
 namespace barycert::pipeline {
 
 /// Points of a block at most.
-inline constexpr std::size_t block_of_points = std::size_t{1} << 17;
+inline constexpr std::size_t block_of_points = std::size_t{1} << 18;
 
 /// Rows on their way from the source to the sink, and what became of them.
 struct Block {
@@ -38,7 +38,7 @@ struct Block {
 /// How many points a block has: few enough that all threads have some, enough that sorting them brings near ones
 /// together. `count`: of all, if that is known.
 inline std::size_t block_size(std::optional<std::uint64_t> count) {
-    constexpr std::uint64_t min = std::uint64_t{1} << 14, blocks_a_thread = 4;
+    constexpr std::uint64_t min = std::uint64_t{1} << 14, blocks_a_thread = 2;
     if (!count) return block_of_points;
     const auto threads = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
     return static_cast<std::size_t>(
@@ -46,7 +46,7 @@ inline std::size_t block_size(std::optional<std::uint64_t> count) {
 }
 
 /// Three stages at once: blocks are read one after the other, worked on side by side, and written in the order in which
-/// they were read. At most two blocks a thread, and two more, are in memory.
+/// they were read. At most one block a thread, and two more, are in memory.
 class Stages {
 public:
     /// read(block) fills the next one, of which `size` > 0 unless it is the end; work(block) and write(block) follow.
@@ -82,7 +82,7 @@ public:
             }
             put(block);
         };
-        tbb::parallel_pipeline(2 * threads + 2,
+        tbb::parallel_pipeline(threads + 2,
                                tbb::make_filter<void, Block*>(tbb::filter_mode::serial_in_order, reading) &
                                    tbb::make_filter<Block*, Block*>(tbb::filter_mode::parallel, working) &
                                    tbb::make_filter<Block*, void>(tbb::filter_mode::serial_in_order, writing));

@@ -162,6 +162,7 @@ Status sample_stream(Run& run, Engine& engine, PointSource& source, const SinkFa
     Stopwatch watch;
     if (Status opened = writer.open(engine, summary.all); !opened) return opened;
     seconds.write += watch.lap();
+    engine.let_go_of_mesh();
 
     bool begun = false;
     const auto read = [&](Block& block) -> Status {
@@ -221,6 +222,7 @@ Status sample_map(Run& run, Engine& engine, MapReader& map, const SinkFactory& f
     const bool refuse = run.job.options.outside.kind == Outside::error;
     StreamOutput writer(factory, "");
     if (Status opened = writer.open(engine, map.all()); !opened) return opened;
+    engine.let_go_of_mesh();
     PointsOfRows points;
     LocationCounts locations;
     std::uint64_t taken = 0;
