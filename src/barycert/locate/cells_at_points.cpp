@@ -2,8 +2,10 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <limits>
 
@@ -16,6 +18,9 @@ namespace {
 /// So many points still leave most bins of the coarser grid empty.
 constexpr std::size_t few = 1024;
 
+constexpr std::size_t nodes_at_once = std::size_t{1} << 14;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 std::uint32_t place_of(std::uint32_t code, std::size_t axis) {
     return code >> (8 * axis) & 0xFFU;
 }
@@ -24,8 +29,8 @@ std::uint32_t place_of(std::uint32_t code, std::size_t axis) {
 
 PointBins::PointBins(std::size_t d, std::span<const double> points) : d_(d), bits_(points.size() / d <= few ? 6 : 7) {
     for (std::size_t k = 0; k < d; ++k) {
-        low_[k] = std::numeric_limits<double>::infinity();
-        high_[k] = -low_[k];
+        low_[k] = infinity;
+        high_[k] = -infinity;
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
         low_[i % d] = std::min(low_[i % d], points[i]);
@@ -78,12 +83,61 @@ bool PointBins::some_in(std::uint32_t low, std::uint32_t high) const {
     return false;
 }
 
-std::optional<std::vector<Mesh::Index>> cells_at_points(const Mesh& mesh, std::span<const double> points,
+namespace {
+
+struct NodeBox {
+    std::array<double, 3> low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+
+    void add(const NodeBox& other) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], other.low[k]);
+            high[k] = std::max(high[k], other.high[k]);
+        }
+    }
+};
+
+NodeBox box_of_nodes(const Mesh& mesh) {
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    const auto join = [](NodeBox a, const NodeBox& b) {
+        a.add(b);
+        return a;
+    };
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, mesh.point_count(), nodes_at_once), NodeBox(),
+        [&](const auto& range, NodeBox box) {
+            for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                NodeBox node;
+                for (std::size_t k = 0; k < d; ++k) node.low[k] = node.high[k] = mesh.points[d * i + k];
+                box.add(node);
+            }
+            return box;
+        },
+        join);
+}
+
+/// Those in the box of the nodes: no cell holds another, and one far away would make the bins large.
+std::vector<double> points_in_box(const Mesh& mesh, std::span<const double> points) {
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    const NodeBox box = box_of_nodes(mesh);
+    std::vector<double> inside;
+    for (std::size_t i = 0; i + d <= points.size(); i += d) {
+        bool in = true;
+        for (std::size_t k = 0; k < d; ++k) in = in && points[i + k] >= box.low[k] && points[i + k] <= box.high[k];
+        if (in) inside.insert(inside.end(), points.data() + i, points.data() + i + d);
+    }
+    return inside;
+}
+
+}  // namespace
+
+std::optional<std::vector<Mesh::Index>> cells_at_points(const Mesh& mesh, std::span<const double> all_points,
                                                         std::size_t max) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
+    const std::vector<double> points = points_in_box(mesh, all_points);
+    if (points.empty()) return std::vector<Mesh::Index>();
     const PointBins bins(d, points);
     Buffer<std::int32_t> codes(mesh.point_count());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, codes.size(), 1 << 14), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, codes.size(), nodes_at_once), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i)
             codes[i] = static_cast<std::int32_t>(bins.code(mesh.points.data() + d * i));
     });
@@ -95,8 +149,7 @@ std::optional<std::vector<Mesh::Index>> cells_at_points(const Mesh& mesh, std::s
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
         if (count > max || !sound) return;
         const std::size_t first = b * block, size = std::min(block, cells - first);
-        // One more vector than there may be.
-        Buffer<CellBins> near(size + 64);
+        Buffer<CellBins> near(size);
         const auto kept = find_near({mesh.cells.data() + (d + 1) * first, size, d + 1, {codes.data(), codes.size()}},
                                     bins, near.data());
         if (!kept) {

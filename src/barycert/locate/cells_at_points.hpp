@@ -1,9 +1,9 @@
 /// Which cells may hold some of a few points, by one look at each cell and without an index.
 ///
-/// A coarse grid lies over the box of the points; what is below the box goes to bin 0 of an axis, what is above it to
-/// the last one, and what is inside to bins between, by a map that is monotone whatever is rounded (quantizer.hpp). So
-/// the bins of a cell, from the lowest to the highest of its corners, include that of every point in its box, and a
-/// cell none of whose bins holds a point holds no point.
+/// A coarse grid lies over the box of the points that are in the box of the nodes (no cell holds another point); what
+/// is below the box goes to bin 0 of an axis, what is above it to the last one, and what is inside to bins between, by
+/// a map that is monotone whatever is rounded (quantizer.hpp). So the bins of a cell, from the lowest to the highest of
+/// its corners, include that of every point in its box, and a cell none of whose bins holds a point holds no point.
 #pragma once
 
 #include <array>
@@ -60,7 +60,7 @@ private:
 };
 
 /// Every cell whose box holds one of the points, and maybe others, ascending. Nothing if there are more than `max` of
-/// them, or if a corner is no node. Precondition: finite points, at least one. On all threads of the arena.
+/// them, or if a corner is no node. Precondition: finite points. On all threads of the arena.
 std::optional<std::vector<Mesh::Index>> cells_at_points(const Mesh& mesh, std::span<const double> points,
                                                         std::size_t max);
 

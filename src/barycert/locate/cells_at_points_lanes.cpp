@@ -4,6 +4,7 @@
 #define HWY_TARGET_INCLUDE "barycert/locate/cells_at_points_lanes.cpp"
 #include "barycert/core/foreach_target.hpp"
 
+#include <algorithm>
 #include <bit>
 
 HWY_BEFORE_NAMESPACE();
@@ -16,13 +17,12 @@ using locate::CellBins;
 using locate::CellBlock;
 using locate::PointBins;
 
-/// A bit in `near` for each of the cells from `at` on that may be near, and the codes of their lowest and highest bins.
-/// False if a corner is no node.
+/// A bit in `near` for each of the cells of these corners that may be near, and the codes of their lowest and highest
+/// bins. False if a corner is no node.
 template <std::size_t n, class D>
-HWY_INLINE bool look(D tag, const CellBlock& block, const PointBins& bins, std::size_t at, std::int32_t* low,
+HWY_INLINE bool look(D tag, const Mesh::Index* corner, const CellBlock& block, const PointBins& bins, std::int32_t* low,
                      std::int32_t* high, std::uint64_t& near) {
     using V = hn::Vec<D>;
-    const Mesh::Index* const corner = block.corner + n * at;
     V node[n], code[n];
     if constexpr (n == 4) {
         hn::LoadInterleaved4(tag, corner, node[0], node[1], node[2], node[3]);
@@ -78,28 +78,29 @@ HWY_INLINE bool look(D tag, const CellBlock& block, const PointBins& bins, std::
     return true;
 }
 
-template <std::size_t n, class D>
-HWY_INLINE bool look_on(D tag, const CellBlock& block, const PointBins& bins, std::size_t& at, CellBins*& out) {
-    constexpr std::size_t width = hn::MaxLanes(D());
+template <std::size_t n>
+std::optional<std::size_t> find_near_corners(const CellBlock& block, const PointBins& bins, CellBins* out) {
+    const hn::ScalableTag<std::int32_t> tag;
+    constexpr std::size_t width = hn::MaxLanes(hn::ScalableTag<std::int32_t>());
     HWY_ALIGN std::int32_t low[width], high[width];
-    for (; at + width <= block.count; at += width) {
+    CellBins* const begin = out;
+    for (std::size_t at = 0; at < block.count; at += width) {
+        const std::size_t count = std::min(width, block.count - at);
+        const Mesh::Index* corner = block.corner + n * at;
+        Mesh::Index padded[n * width];
+        if (count < width) {  // filled up with the first of them
+            for (std::size_t i = 0; i < n * width; ++i) padded[i] = corner[i < n * count ? i : i % n];
+            corner = padded;
+        }
         std::uint64_t near = 0;
-        if (!look<n>(tag, block, bins, at, low, high, near)) return false;
+        if (!look<n>(tag, corner, block, bins, low, high, near)) return std::nullopt;
+        if (count < width) near &= (std::uint64_t{1} << count) - 1;
         for (; near != 0; near &= near - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(near));
             *out++ = {static_cast<std::uint32_t>(at + lane), static_cast<std::uint32_t>(low[lane]),
                       static_cast<std::uint32_t>(high[lane])};
         }
     }
-    return true;
-}
-
-template <std::size_t n>
-std::optional<std::size_t> find_near_corners(const CellBlock& block, const PointBins& bins, CellBins* out) {
-    CellBins* const begin = out;
-    std::size_t at = 0;
-    if (!look_on<n>(hn::ScalableTag<std::int32_t>(), block, bins, at, out)) return std::nullopt;
-    if (!look_on<n>(hn::CappedTag<std::int32_t, 1>(), block, bins, at, out)) return std::nullopt;
     return static_cast<std::size_t>(out - begin);
 }
 

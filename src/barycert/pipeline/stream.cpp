@@ -144,10 +144,10 @@ Status sample_stream(Run& run, Engine& engine, PointSource& source, const SinkFa
         const Result<std::size_t> count = source.read(size, block.rows.points);
         seconds.read += watch.lap();
         if (!count) return count.error();
-        more = *count == size;
+        taken += *count;
+        more = *count == size && source.count() != taken;
         block.size = *count;
         block.last = !more;
-        taken += *count;
         return Done{};
     };
     // The first block tells how to go on.
@@ -156,8 +156,7 @@ Status sample_stream(Run& run, Engine& engine, PointSource& source, const SinkFa
     locate::in_arena(threads, [&] { size = block_size(source.count()); });
     if (Status read = read_next(first); !read) return read;
     const std::uint64_t known = std::max<std::uint64_t>(source.count().value_or(0), taken);
-    const bool all = !more || source.count() == taken;
-    Status ready = all ? engine.prepare_for_all(first.rows.points) : engine.prepare_for(known, more && !source.count());
+    Status ready = more ? engine.prepare_for(known, !source.count()) : engine.prepare_for_all(first.rows.points);
     if (!ready) return ready;
     Stopwatch watch;
     if (Status opened = writer.open(engine, summary.all); !opened) return opened;
