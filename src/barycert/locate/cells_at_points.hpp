@@ -33,15 +33,17 @@ public:
     /// Some bin from `low` to `high`, on each axis, holds a point; or there are too many bins to look at.
     bool some_in(std::uint32_t low, std::uint32_t high) const;
 
-    /// For bins of this size (level 0) or twice it (level 1): a bit for each bin, x fastest, that is set if that bin,
-    /// or the next one along some of the axes, holds a point. So one look suffices for a cell of at most two bins an
-    /// axis.
+    /// For bins of this size (level 0), twice it (level 1), ...: a bit for each bin, x fastest, that is set if that
+    /// bin, or the next one along some of the axes, holds a point. So one look suffices for a cell of at most two bins
+    /// an axis.
+    static constexpr std::size_t levels = 3;
     const std::int32_t* near(std::size_t level) const { return near_[level].data(); }
     int bits(std::size_t level) const { return bits_ - static_cast<int>(level); }
 
 private:
-    /// Bin 1 stays empty, so that cells below the box of the points are not near any.
-    static constexpr std::uint32_t first = 2;
+    /// The bins before stay empty, on every level one of them, so that cells below the box of the points are not near
+    /// any.
+    static constexpr std::uint32_t first = 2 << (levels - 1);
 
     std::uint32_t place(std::size_t k, double x) const {
         if (!(x >= low_[k])) return 0;
@@ -55,7 +57,7 @@ private:
     int bits_;  ///< bins on an axis: 2^bits_
     std::array<double, 3> low_{}, high_{};
     Quantizer quantizer_;
-    std::array<std::vector<std::int32_t>, 2> near_;
+    std::array<std::vector<std::int32_t>, levels> near_;
     std::vector<std::uint64_t> rows_;  ///< a bit for each bin, x fastest
 };
 

@@ -49,7 +49,7 @@ HWY_INLINE bool look(D tag, const Mesh::Index* corner, const CellBlock& block, c
     // Where the cell spans at most two bins of a level an axis, the level has the answer; where none does, none.
     auto found = hn::MaskFromVec(hn::Zero(tag));
     auto open = hn::Not(found);
-    for (std::size_t level = 0; level < 2; ++level) {
+    for (std::size_t level = 0; level < PointBins::levels && !hn::AllFalse(tag, open); ++level) {
         const int bits = bins.bits(level);
         V number = hn::Zero(tag);
         auto fits = open;

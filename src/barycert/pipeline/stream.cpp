@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/pipeline/stages.hpp"
@@ -115,7 +116,7 @@ Error outside_error(const std::string& what, std::span<const double> where, cons
 }
 
 std::uint64_t count_nan(const TableView& rows) {
-    if (rows.row_count() == 0) return 0;
+    if (rows.row_count() == 0 || base::all_finite(rows.values)) return 0;
     const std::size_t columns = rows.values.size() / rows.row_count();
     std::uint64_t count = 0;
     for (std::size_t i = 0; i < rows.row_count(); ++i) {
