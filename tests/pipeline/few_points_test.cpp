@@ -32,7 +32,7 @@ const Mesh& cube() {
 /// Inside, at nodes, on faces and edges of the lattice, outside: 50 in all.
 std::string points() {
     base::Random random(5);
-    std::string text = "x,y,z\n";
+    std::string text;
     const auto add = [&](double x, double y, double z) {
         text += base::shortest(x) + ',' + base::shortest(y) + ',' + base::shortest(z) + '\n';
     };
@@ -57,48 +57,76 @@ struct Outcome {
     SampleSummary summary;
 };
 
-Outcome outcome(SampleJob job, Certify certify) {
+Outcome outcome(SampleJob job) {
     const TemporaryFolder folder;
-    job.certify = certify;
     job.output = folder / "rows.csv";
-    job.save_map = folder / "map";
+    if (job.map.empty()) job.save_map = folder / "map";
     const auto summary = sample_files(job);
     if (!summary) return {{}, {}, summary.error().message(), {}};
-    return {get(job.output), get(job.save_map), {}, *summary};
+    return {get(job.output), job.map.empty() ? get(job.save_map) : "", {}, *summary};
+}
+
+/// Points as a file: `times` times one after the other, under one header.
+void put_points(const std::string& path, const std::string& points, int times) {
+    std::string text = "x,y,z\n";
+    for (int i = 0; i < times; ++i) text += points;
+    put(path, text);
+}
+
+/// The job for the points in `folder`, few of them and many.
+struct Both {
+    Outcome few, many;
+};
+Both both(SampleJob job, const TemporaryFolder& folder) {
+    job.mesh = folder / "cube";
+    job.points = folder / "few.csv";
+    Both result;
+    result.few = outcome(job);
+    job.points = folder / "many.csv";
+    result.many = outcome(job);
+    return result;
 }
 
 TEST(FewPoints, same_bytes_as_with_an_index) {
     const TemporaryFolder folder;
     ASSERT_TRUE(write_tetgen(cube(), folder / "cube"));
-    put(folder / "p.csv", points());
+    put_points(folder / "few.csv", points(), 1);
+    put_points(folder / "many.csv", points(), 40);
     ASSERT_TRUE(pipeline::needs_no_index(50, cube().cell_count()));
+    ASSERT_FALSE(pipeline::needs_no_index(2000, cube().cell_count()));
     for (const bool all : {false, true}) {
         for (const OutsidePolicy outside :
              {OutsidePolicy{}, OutsidePolicy{.kind = Outside::fill, .fill = 7}, OutsidePolicy{.kind = Outside::error},
               OutsidePolicy{.kind = Outside::nearest}, OutsidePolicy{.kind = Outside::extrapolate}}) {
             for (const Rounding rounding : {Rounding::correct, Rounding::plain}) {
-                for (const int threads : {1, 2, 5}) {
-                    SampleJob job;
-                    job.mesh = folder / "cube";
-                    job.points = folder / "p.csv";
-                    job.all = all;
-                    job.options = {rounding, outside, threads};
-                    const Outcome few = outcome(job, Certify::automatic), usual = outcome(job, Certify::never);
-                    EXPECT_EQ(few.rows, usual.rows);
-                    EXPECT_EQ(few.map, usual.map);
-                    EXPECT_EQ(few.error, usual.error);
-                    const bool nearest = outside.kind == Outside::nearest || outside.kind == Outside::extrapolate;
-                    if (outside.kind == Outside::error) {
-                        EXPECT_NE(few.error.find("point 45, counted from 0, is outside"), std::string::npos)
-                            << few.error;
-                        continue;
-                    }
-                    EXPECT_EQ(few.summary.method == FoundBy::pass, !nearest);
-                    EXPECT_EQ(few.summary.cells, 24576U);
-                    EXPECT_EQ(few.summary.counts.locations.outside, usual.summary.counts.locations.outside);
-                    EXPECT_EQ(few.summary.counts.locations.vertex, usual.summary.counts.locations.vertex);
-                    EXPECT_GE(few.summary.counts.locations.vertex, 15U);
+                SampleJob job;
+                job.all = all;
+                job.options = {rounding, outside, rounding == Rounding::plain ? 1 : 3};
+                const auto [few, many] = both(job, folder);
+                if (outside.kind == Outside::error) {
+                    const std::string what =
+                        ": point 45, counted from 0, is outside the mesh: found (-1.5, 0.5, 1e+300)";
+                    EXPECT_NE(few.error.find(what), std::string::npos) << few.error;
+                    EXPECT_NE(many.error.find(what), std::string::npos) << many.error;
+                    continue;
                 }
+                ASSERT_EQ(few.error + many.error, "");
+                EXPECT_EQ(few.rows, many.rows.substr(0, few.rows.size()));
+                EXPECT_EQ(many.summary.rows, 40 * few.summary.rows);
+                EXPECT_EQ(few.rows.size() - few.rows.find('\n') - 1,
+                          (many.rows.size() - many.rows.find('\n') - 1) / 40);
+                EXPECT_NE(many.summary.method, FoundBy::pass);
+                const bool nearest = outside.kind == Outside::nearest || outside.kind == Outside::extrapolate;
+                EXPECT_EQ(few.summary.method == FoundBy::pass, !nearest);
+                EXPECT_EQ(few.summary.cells, 24576U);
+                EXPECT_EQ(few.summary.counts.locations.outside, 5U);
+                EXPECT_GE(few.summary.counts.locations.vertex, 15U);
+                // The map names cells as the mesh does.
+                put(folder / "map", few.map);
+                SampleJob again = job;
+                again.mesh = folder / "cube";
+                again.map = folder / "map";
+                EXPECT_EQ(outcome(again).rows, few.rows);
             }
         }
     }
@@ -112,33 +140,37 @@ TEST(FewPoints, the_summary_names_the_way) {
     job.mesh = folder / "cube";
     job.points = folder / "p.csv";
     job.fields = {"attribute1"};
-    const Outcome one = outcome(job, Certify::automatic);
+    const Outcome one = outcome(job);
     EXPECT_EQ(one.summary.method, FoundBy::pass);
     EXPECT_EQ(name(one.summary.method), "pass");
     EXPECT_EQ(one.summary.reason.substr(0, 22), "no index for 1 point: ") << one.summary.reason;
     EXPECT_EQ(one.rows.substr(0, 41), "x,y,z,cell,feature,attribute1\n0.5,0.5,0.5");
     put(folder / "p.csv", "");
-    EXPECT_NE(outcome(job, Certify::automatic).error, "");
+    EXPECT_NE(outcome(job).error, "");
     put(folder / "p.csv", "x,y,z\n");
-    const Outcome none = outcome(job, Certify::automatic);
+    const Outcome none = outcome(job);
     EXPECT_EQ(none.rows, "x,y,z,cell,feature,attribute1\n");
 }
 
-TEST(FewPoints, a_mesh_whose_cells_all_may_hold_a_point_gets_an_index) {
+TEST(FewPoints, where_most_cells_may_hold_a_point_there_is_an_index) {
     const TemporaryFolder folder;
     Mesh mesh = cube();
-    mesh.point_fields.clear();
-    mesh.cell_fields.clear();
-    for (std::size_t i = 0; i < mesh.points.size(); ++i) mesh.points[i] *= i % 3 == 2 ? 1e-9 : 1;
-    ASSERT_TRUE(write_tetgen(mesh, folder / "flat"));
-    std::string text;
-    for (int i = 0; i < 61; ++i) text += base::shortest(i / 60.0) + ' ' + base::shortest(i * 7 % 61 / 60.0) + " 1e-3\n";
-    put(folder / "p.csv", text + "0.5 0.5 -1e-3\n");
-    SampleJob job;
-    job.mesh = folder / "flat";
-    job.points = folder / "p.csv";
-    const Outcome few = outcome(job, Certify::automatic), usual = outcome(job, Certify::never);
-    EXPECT_EQ(few.rows, usual.rows);
+    // All cells in one bin, but for a node far away.
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) mesh.points[i] *= 1e-6;
+    const auto far = static_cast<Mesh::Index>(mesh.point_count());
+    mesh.points.insert(mesh.points.end(), {1, 1, 1});
+    mesh.cells.insert(mesh.cells.end(), {0, 1, 2, far});
+    for (Field& field : mesh.point_fields) field.data.push_back(0.5);
+    mesh.cell_fields[0].data.push_back(0.5);
+    ASSERT_TRUE(write_tetgen(mesh, folder / "cube"));
+    const std::string three = "1e-7,2e-7,3e-7\n1,1,1\n0.75,0.5,0.25\n";
+    put_points(folder / "few.csv", three, 1);
+    put_points(folder / "many.csv", three, 100);
+    const auto [few, many] = both({}, folder);
+    ASSERT_EQ(few.error + many.error, "");
+    EXPECT_EQ(few.summary.method, many.summary.method);
+    EXPECT_EQ(few.rows, many.rows.substr(0, few.rows.size()));
+    EXPECT_EQ(few.summary.counts.locations.vertex, 1U);
 }
 
 }  // namespace

@@ -44,6 +44,12 @@ std::uint64_t count_degenerate(const Mesh& mesh) {
         std::plus<>());
 }
 
+/// Clearing alone would keep the memory.
+template <class T>
+void give_back(std::vector<T>& numbers) {
+    std::vector<T>().swap(numbers);
+}
+
 bool gives_distances(const OutsidePolicy& policy) {
     return policy.kind == Outside::nearest || policy.kind == Outside::extrapolate;
 }
@@ -175,11 +181,10 @@ Status Engine::prepare_for_all(std::span<const double> points) {
 void Engine::let_go_of_mesh() {
     if (gives_distances(run_.job.options.outside) || !mesh_.mid_nodes.empty()) return;
     // The index has corners and coordinates in an order of its own, and so has the sampler the values of nodes.
-    mesh_.points = {};
-    mesh_.cells = {};
-    mesh_.faces = {};
-    mesh_.neighbours = {};
-    for (Field& field : mesh_.point_fields) field.data = {};
+    give_back(mesh_.points);
+    give_back(mesh_.cells);
+    give_back(mesh_.point_markers);
+    for (Field& field : mesh_.point_fields) give_back(field.data);
 }
 
 void Engine::name_cells(Table& rows) const {

@@ -21,7 +21,7 @@
 namespace barycert::pipeline {
 
 /// Points of a block at most.
-inline constexpr std::size_t block_of_points = std::size_t{1} << 18;
+inline constexpr std::size_t block_of_points = std::size_t{1} << 17;
 
 /// Rows on their way from the source to the sink, and what became of them.
 struct Block {
@@ -38,7 +38,7 @@ struct Block {
 /// How many points a block has: few enough that all threads have some, enough that sorting them brings near ones
 /// together. `count`: of all, if that is known.
 inline std::size_t block_size(std::optional<std::uint64_t> count) {
-    constexpr std::uint64_t min = std::uint64_t{1} << 12, blocks_a_thread = 2;
+    constexpr std::uint64_t min = std::uint64_t{1} << 12, blocks_a_thread = 4;
     if (!count) return block_of_points;
     const auto threads = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
     return static_cast<std::size_t>(
