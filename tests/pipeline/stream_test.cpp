@@ -176,6 +176,11 @@ TEST_F(Stream, the_first_error_in_the_order_of_points_is_told) {
             EXPECT_EQ(sink, "fault of the sink") << at;
             EXPECT_FALSE(other.committed);
         }
+        // By the time the sink fails, the block that fails next has been read.
+        for (int i = 0; i < 20; ++i) {
+            const How both{.count = 30'000, .source_fault = 9'000, .sink_fault = 7'000, .threads = threads};
+            EXPECT_EQ(go(both).second, "fault of the sink");
+        }
         // Points outside come long before the source fails, and the sink long after.
         const auto [rows, error] =
             go({.source_fault = 90'000, .sink_fault = 80'000, .low = -0.001, .threads = threads});
