@@ -197,10 +197,9 @@ void compare_peer(const Contender& peer, const std::vector<double>& right) {
         off += difference > limit ? 1 : 0;
         worst = std::max(worst, difference);
     }
-    std::printf(
-        "  VTK, %s: %zu inside missed, %zu outside found, %zu values off by more than 1e-12 of the largest, at "
-        "most %.1e\n",
-        peer.name.c_str(), missed, found, off, worst);
+    std::printf("  VTK, %s: %zu inside missed, %zu outside found, %zu values off by more than %.0e of the largest, ",
+                peer.name.c_str(), missed, found, off, limit);
+    std::printf("at most %.1e\n", worst);
 }
 
 void verify(const Row& row) {
