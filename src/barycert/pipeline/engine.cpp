@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "barycert/base/finite.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/cells_at_points.hpp"
@@ -147,6 +148,7 @@ Status Engine::prepare_for(std::uint64_t points, bool at_least) {
 }
 
 Status Engine::prepare_for_all(std::span<const double> points) {
+    const ExactEnvironment environment;
     const std::size_t count = points.size() / static_cast<std::size_t>(mesh_.dimension), cells = mesh_.cell_count();
     const bool asked = run_.job.certify == Certify::automatic && !gives_distances(run_.job.options.outside);
     const bool fit = std::all_of(fields_.begin(), fields_.end(), [&](const FieldChoice& choice) {

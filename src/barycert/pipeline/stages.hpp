@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "barycert/environment.hpp"
 #include "barycert/pipeline/run.hpp"
 #include "barycert/result.hpp"
 #include "barycert/table.hpp"
@@ -55,6 +56,7 @@ public:
     Status run(Read read, Work work, Write write) {
         const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
         const auto reading = [&](tbb::flow_control& control) -> Block* {
+            const ExactEnvironment of_task;  // the arena is the caller's
             if (ended_ || stopped_) {
                 control.stop();
                 return nullptr;
@@ -66,6 +68,7 @@ public:
             return block;
         };
         const auto working = [&](Block* block) {
+            const ExactEnvironment of_task;
             if (block->error || block->size == 0 || stopped_) return block;
             Stopwatch watch;
             if (Status done = work(*block); !done) block->error = done.error();
@@ -73,6 +76,7 @@ public:
             return block;
         };
         const auto writing = [&](Block* block) {
+            const ExactEnvironment of_task;
             if (!stopped_ && !block->error && block->size != 0) {
                 if (Status done = write(*block); !done) block->error = done.error();
             }
