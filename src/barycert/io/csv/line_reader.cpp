@@ -1,6 +1,7 @@
 #include "barycert/io/csv/line_reader.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -89,6 +90,11 @@ bool LineReader::refill() {
     return true;
 }
 
+bool LineReader::more_is_there() const {
+    pollfd asked{.fd = descriptor_, .events = POLLIN, .revents = 0};
+    return ::poll(&asked, 1, 0) == 1;
+}
+
 bool LineReader::next(std::string_view& line) {
     if (failed()) return false;
     const char* feed = nullptr;
@@ -110,11 +116,14 @@ bool LineReader::next(std::string_view& line) {
 
 bool LineReader::next_lines(std::string_view& lines) {
     if (failed()) return false;
-    // As much as there is room for: a pipe gives little at a time.
+    // As much as there is room for: a pipe gives little at a time. But a line is not kept waiting for others that may
+    // be long in coming.
+    const auto held = [&] { return std::string_view(buffer_.data() + begin_, end_ - begin_); };
     while (!ended_ && (begin_ != 0 || end_ != longest_line)) {
+        if (held().rfind('\n') != std::string_view::npos && !more_is_there()) break;
         if (!refill()) return false;
     }
-    const std::string_view text(buffer_.data() + begin_, end_ - begin_);
+    const std::string_view text = held();
     if (text.empty()) return false;
     std::size_t size = text.size();
     if (!ended_) {

@@ -28,8 +28,8 @@ public:
     bool next(std::string_view& line);
 
     /// Several lines at once, whole ones with their ends but for the last of the file, which may lack its own: at least
-    /// one, at most longest_line bytes. Valid until the next call, and one byte after them may be read. False as above.
-    /// Whoever has counted the lines tells it by count().
+    /// one, and as many more as have come, at most longest_line bytes. Valid until the next call, and one byte after
+    /// them may be read. False as above. Whoever has counted the lines tells it by count().
     bool next_lines(std::string_view& lines);
     void count(std::size_t lines) { number_ += lines; }
 
@@ -48,6 +48,8 @@ public:
 private:
     explicit LineReader(std::string name) : name_(std::move(name)) {}
     bool refill();
+    /// Reading would not wait.
+    bool more_is_there() const;
     bool skip_mark();
 
     std::string name_;
