@@ -47,6 +47,7 @@ struct SamplingJob {
     std::string report;
     bool count_degenerate = true;      ///< of SampleSummary: a pass over the cells
     std::string program = "barycert";  ///< how the user calls the program, for commands in messages
+    /// Called by one thread at a time, which need not be the caller's.
     std::function<void(const JobProgress&)> progress = {};
 };
 
@@ -67,11 +68,15 @@ struct ResampleJob : SamplingJob {
     std::optional<std::array<double, 2>> range{};  ///< of the colours of a picture
 };
 
-/// How the owners of points were found.
-enum class FoundBy : std::uint8_t { walk, candidates, map, grid };
+/// How the owners of points were found. `pass`: one look at each cell, and no index of the mesh.
+enum class FoundBy : std::uint8_t { walk, candidates, map, grid, pass };
 
 constexpr std::string_view name(FoundBy f) {
-    return f == FoundBy::walk ? "walk" : f == FoundBy::candidates ? "candidates" : f == FoundBy::map ? "map" : "grid";
+    return f == FoundBy::walk         ? "walk"
+           : f == FoundBy::candidates ? "candidates"
+           : f == FoundBy::map        ? "map"
+           : f == FoundBy::grid       ? "grid"
+                                      : "pass";
 }
 
 /// Where points came from.
@@ -81,7 +86,8 @@ constexpr std::string_view name(PointsFrom f) {
     return f == PointsFrom::points ? "points" : f == PointsFrom::map ? "map" : f == PointsFrom::mesh ? "mesh" : "grid";
 }
 
-/// Wall times of the stages.
+/// Wall times of the stages. Points are read, sampled and written at the same time: of these each has the time in which
+/// somebody was busy with it, divided by the threads where several may be.
 struct SampleSeconds {
     double mesh = 0;    ///< reading the mesh and the files of fields
     double build = 0;   ///< of the locator and the sampler
@@ -103,8 +109,9 @@ struct SampleSummary {
     OutsidePolicy outside;
     SampleCounts counts;  ///< locations: one a point
     SampleSeconds seconds;
-    std::uint64_t nodes = 0, cells = 0, degenerate_cells = 0;
-    std::uint64_t contested_cells = 0;  ///< see Locator::contested_cells
+    std::uint64_t nodes = 0, cells = 0;
+    std::uint64_t degenerate_cells = 0;  ///< method `pass`: of the cells near the points
+    std::uint64_t contested_cells = 0;   ///< see Locator::contested_cells
     std::uint64_t rows = 0;
     std::uint64_t nan_values = 0;  ///< of points inside: from values of nodes or cells that are not finite
     int dimension = 3, threads = 1;
