@@ -23,6 +23,10 @@ public:
     std::size_t count() const { return std::size_t{1} << bits_; }
     int bits() const { return bits_; }
 
+    /// What `of` does on axis k: the table entry of a coordinate's whole number without its last `shift` bits.
+    int shift(std::size_t k) const { return shift_[k]; }
+    const std::uint32_t* curve(std::size_t k) const { return curve_[k].data(); }
+
     /// The bin of a point with d coordinates, d as given; the nearest one of a point outside the box.
     std::uint32_t of(const double* point) const {
         std::uint32_t bin = 0;

@@ -17,53 +17,50 @@ void Finder::find(const PointRecord* points, std::size_t count, Place* owner, Fe
         start(points, count);
         walk(points, count, owner, feature, counts.tests);
     } else {
-        for (std::size_t i = 0; i < count; ++i) {
-            asked_[asked_count_] = static_cast<std::uint32_t>(i);
-            asked_count_ += data_.index.box_holds(points[i].at.data()) ? 1 : 0;
-            owner[i] = -1;
-            feature[i] = Feature::outside;
-        }
+        std::iota(asked_.begin(), asked_.begin() + static_cast<std::ptrdiff_t>(count), 0);
+        asked_count_ = count;
+        std::fill(owner, owner + count, -1);
+        std::fill(feature, feature + count, Feature::outside);
     }
     if (asked_count_ != 0) ask_candidates(points, owner, feature, counts.tests);
     for (std::size_t i = 0; i < count; ++i) counts.add(feature[i]);
 }
 
-void Finder::find_from(Place start, const PointRecord& point, Place& owner, Feature& feature) {
-    LocationCounts ignored;
-    if (data_.method != Method::walk || !data_.index.box_holds(point.at.data()))
-        return find(&point, 1, &owner, &feature, ignored);
+void Finder::settle(const PointRecord& point, Place stuck, Place& owner, Feature& feature) {
+    TierCounts ignored;
+    owner = -1;
+    feature = Feature::outside;
     asked_count_ = 0;
-    walks_[0] = {0, start};
-    walking_ = 1;
-    walk(&point, 1, &owner, &feature, ignored.tests);
-    if (asked_count_ != 0) ask_candidates(&point, &owner, &feature, ignored.tests);
+    resolve(point, {0, stuck}, &owner, &feature, ignored);
+    if (asked_count_ != 0) ask_candidates(&point, &owner, &feature, ignored);
 }
 
 void Finder::start(const PointRecord* points, std::size_t count) {
     const CellIndex& index = data_.index;
-    walking_ = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const Place cell = index.start(points[i].bin);
         __builtin_prefetch(&index.cells[static_cast<std::size_t>(cell)]);
-        walks_[walking_] = {static_cast<std::uint32_t>(i), cell};
-        walking_ += index.box_holds(points[i].at.data()) ? 1 : 0;
+        walking_.walks[i] = {static_cast<std::uint32_t>(i), cell};
     }
+    walking_.count = count;
 }
 
 void Finder::walk(const PointRecord* points, std::size_t count, Place* owner, Feature* feature, TierCounts& tests) {
-    const CellIndex& index = data_.index;
     std::fill(owner, owner + count, -1);
-    std::size_t stuck = 0;
-    for (int round = 0; walking_ > 0 && round < max_rounds; ++round)
-        walking_ = step_walks(index, points, walks_.data(), walking_, owner, stuck_.data(), stuck);
-    std::uint64_t arrived = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        feature[i] = owner[i] >= 0 ? Feature::interior : Feature::outside;
-        arrived += owner[i] >= 0 ? 1 : 0;
+    std::fill(feature, feature + count, Feature::outside);
+    arrived_.count = stuck_.count = 0;
+    for (int round = 0; walking_.count > 0 && round < max_rounds; ++round)
+        walking_.count = step_walks(data_.index, nodes_, points, walking_.walks.data(), walking_.count, true, arrived_, stuck_);
+    for (std::size_t i = 0; i < arrived_.count; ++i) {
+        const Walk& end = arrived_.walks[i];
+        owner[end.point] = end.cell;
+        feature[end.point] = Feature::interior;
     }
-    tests.add(Tier::filter, arrived);
-    for (std::size_t i = 0; i < stuck; ++i) resolve(points[stuck_[i].point], stuck_[i], owner, feature, tests);
-    for (std::size_t i = 0; i < walking_; ++i) resolve(points[walks_[i].point], walks_[i], owner, feature, tests);
+    tests.add(Tier::filter, arrived_.count);
+    for (const WalkList* const doubtful : {&stuck_, &walking_}) {
+        for (std::size_t i = 0; i < doubtful->count; ++i)
+            resolve(points[doubtful->walks[i].point], doubtful->walks[i], owner, feature, tests);
+    }
 }
 
 void Finder::resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, TierCounts& tests) {

@@ -10,6 +10,7 @@
 #include "barycert/locate/cell_tree.hpp"
 #include "barycert/locate/nearest_tree.hpp"
 #include "barycert/locate/node_cells.hpp"
+#include "barycert/locate/occupancy.hpp"
 #include "barycert/locate/sorted_points.hpp"
 #include "barycert/locator.hpp"
 
@@ -21,6 +22,7 @@ class Lazy {
 public:
     template <class Make>
     const T& get(Make make) const {
+        if (const T* const there = made()) return *there;
         std::call_once(once_, [&] {
             value_ = std::make_unique<T>(make());
             made_.store(value_.get(), std::memory_order_release);
@@ -67,8 +69,18 @@ struct LocatorData {
     Method method = Method::candidates;
     CellIndex index;
 
-    /// Up to 36 MiB a thread: the system would have to clear as much for every block of points.
+    /// Up to 12 MiB a thread: the system would have to clear as much for every block of points.
     Pool<SortedPoints> sorted;
+    Pool<std::vector<Location>> locations;  ///< up to 8 MiB a thread
+
+    /// Makes what pays when so many points are located; of later calls those profit too that have fewer points. Does
+    /// not change results, but how many cells are asked for points outside.
+    void prepare(std::size_t points) const {
+        if (points >= index.cell_count() / points_a_cell && room_.get([&] { return leaves_room(index); }))
+            occupancy_.get([&] { return Occupancy(index); });
+    }
+    /// nullptr unless it was made.
+    const Occupancy* occupancy() const { return occupancy_.made(); }
 
     const CellTree& tree() const {
         return tree_.get([&] { return CellTree(index); });
@@ -92,11 +104,16 @@ struct LocatorData {
     std::size_t bytes() const {
         return index.bytes() + (tree_.made() ? tree_.made()->bytes() : 0) +
                (nearest_tree_.made() ? nearest_tree_.made()->bytes() : 0) +
+               (occupancy_.made() ? occupancy_.made()->bytes() : 0) +
                (node_cells_.made() ? node_cells_.made()->bytes() : 0) +
                (places_.made() ? places_.made()->size() * sizeof(Place) : 0);
     }
 
 private:
+    static constexpr std::size_t points_a_cell = 2;
+
+    Lazy<bool> room_;
+    Lazy<Occupancy> occupancy_;
     Lazy<CellTree> tree_;
     Lazy<NearestTree> nearest_tree_;
     Lazy<NodeCells> node_cells_;

@@ -32,6 +32,11 @@ public:
     void operator()(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
                     const Feature* feature);
 
+    /// Sets the values of a point outside, and its distance if the policy gives some.
+    void outside(const double* point, std::uint32_t number, double* values, double* distance);
+    /// The same for `count` points of one number and the same values, under a policy that does not look at the point.
+    void outside(std::uint64_t count, std::uint32_t number, double* values);
+
     const SampleCounts& counts() const { return counts_; }
     /// The lowest number of a point outside, if the policy is `error` and there is one.
     std::optional<std::uint32_t> refused() const { return refused_; }
@@ -40,7 +45,6 @@ private:
     void interpolate_linear(const locate::PointRecord* points, std::size_t count);
     void interpolate_exactly(const locate::PointRecord& point, locate::Place cell);
     void interpolate_second_order(const locate::PointRecord* points, std::size_t count);
-    void outside(const locate::PointRecord& point);
     double* row(const locate::PointRecord& point) { return rows_.values + data_.columns.size() * point.number; }
 
     const SamplerData& data_;

@@ -76,13 +76,12 @@ void arrange_by_node(SamplerData& data) {
 }
 
 /// What is wrong with the call, before anything is done.
-Status check_call(const SamplerData& data, std::span<const double> points, std::size_t first_point) {
+Status check_call(const SamplerData& data, std::span<const double> points) {
     const std::size_t d = data.index().dimension();
-    if (points.size() % d != 0)
-        return Error{.what = "size of the points",
-                     .expected = std::to_string(d) + " coordinates a point",
-                     .found = std::to_string(points.size()) + " numbers"};
-    return locate::check_finite(points, d, first_point);
+    if (points.size() % d == 0) return Done{};
+    return Error{.what = "size of the points",
+                 .expected = std::to_string(d) + " coordinates a point",
+                 .found = std::to_string(points.size()) + " numbers"};
 }
 
 bool gives_distances(const OutsidePolicy& policy) {
@@ -109,7 +108,7 @@ class SortedRows {
 public:
     SortedRows(const SamplerData& data, const SampleOptions& options, std::size_t size)
         : data_(data), rows_(data.rows.take()) {
-        resize(data, options, size, *rows_);
+        resize(data, options, size + 1, *rows_);  // one more for all points left out
         sampler_.emplace(data, options, rows_from(data, 0, *rows_));
     }
     SortedRows(SortedRows&&) = default;
@@ -123,9 +122,13 @@ public:
     }
     const sample::ChunkSampler& sampler() const { return *sampler_; }
 
-    void write(const locate::SortedPoints& sorted, std::size_t first, Table& out) const {
-        const std::size_t columns = data_.columns.size();
-        const Table& rows = *rows_;
+    void write(const locate::SortedPoints& sorted, std::size_t first, Table& out) {
+        const std::size_t columns = data_.columns.size(), last = sorted.size(), left_out = sorted.left_out();
+        Table& rows = *rows_;
+        rows.cells[last] = -1;
+        rows.features[last] = Feature::outside;
+        if (left_out != 0 && out.distances.empty())
+            sampler_->outside(left_out, static_cast<std::uint32_t>(last), rows.values.data() + columns * last);
         sorted.for_each_in_callers_order(
             [&](std::size_t place) {
                 __builtin_prefetch(&rows.cells[place]);
@@ -138,6 +141,12 @@ public:
                     out.values[columns * (first + i) + c] = rows.values[columns * place + c];
                 if (!out.distances.empty()) out.distances[first + i] = rows.distances[place];
             });
+        if (left_out == 0 || out.distances.empty()) return;
+        sorted.for_each_in_callers_order([](std::size_t) {}, [&](std::size_t i, std::size_t place) {
+            if (place != last) return;
+            sampler_->outside(sorted.point(i), static_cast<std::uint32_t>(last), out.values.data() + columns * (first + i),
+                              &out.distances[first + i]);
+        });
     }
 
 private:
@@ -233,7 +242,7 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
                        std::size_t first_point) const {
     const ExactEnvironment environment;
     out.counts = {};
-    if (Status status = check_call(*data_, points, first_point); !status) return status;
+    if (Status status = check_call(*data_, points); !status) return status;
     resize(*data_, options, points.size() / data_->index().dimension(), out);
     out.point_begin.clear();
     LocationCounts locations;
@@ -246,8 +255,11 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
             rows.write(sorted, first, out);
             outcome.set(first / block, first, rows.sampler(), out);
         };
-        locate::for_chunks(data_->located(), points, locations, make, keep);
-        status = outcome.status(first_point);
+        const locate::NodeRecord* const nodes =
+            data_->nodes.size() != 0 ? data_->nodes.data() : data_->index().nodes.data();
+        const bool finite = locate::for_chunks(data_->located(), nodes, points, locations, make, keep);
+        status = finite ? outcome.status(first_point)
+                        : locate::check_finite(points, data_->index().dimension(), first_point);
         outcome.add_to(out.counts);
     });
     out.counts.locations = locations;
@@ -259,7 +271,8 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
                          std::size_t first_point) const {
     const ExactEnvironment environment;
     out.counts = {};
-    if (Status status = check_call(*data_, points, first_point); !status) return status;
+    if (Status status = check_call(*data_, points); !status) return status;
+    if (Status status = locate::check_finite(points, data_->index().dimension(), first_point); !status) return status;
     const std::size_t d = data_->index().dimension(), count = points.size() / d;
     const std::span<const Mesh::Index> cells = out.cells;
     const std::span<const Feature> features = out.features;

@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "barycert/base/strict_math.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/locate/batch.hpp"
+#include "barycert/locate/locator_data.hpp"
+#include "barycert/locator.hpp"
+
+namespace barycert {
+namespace locate {
+namespace {
+
+/// What a look at one cell tells, as a step of walk_lanes does, whose proofs these are.
+struct Look {
+    bool inside = false;  ///< certainly
+    bool beyond = false;  ///< certainly, of the facet opposite to `face`
+    bool far = false;     ///< by several times the height of the cell over that facet, about
+    std::size_t face = 0;
+};
+
+template <std::size_t d>
+Look look(const CellIndex& index, Place place, const double* p) {
+    constexpr double epsilon = 0x1p-52, many = 4;
+    const CellRecord& cell = index.cells[static_cast<std::size_t>(place)];
+    double r[d + 1][d], n[d + 1], extent[d];
+    for (std::size_t i = 0; i <= d; ++i) {
+        const auto& at = index.nodes[static_cast<std::size_t>(cell.node[i])].at;
+        for (std::size_t k = 0; k < d; ++k) r[i][k] = at[k] - p[k];
+    }
+    double product = 1, least = std::numeric_limits<double>::infinity(), most = 0;
+    for (std::size_t k = 0; k < d; ++k) {
+        extent[k] = std::abs(r[0][k]);
+        for (std::size_t i = 1; i <= d; ++i) extent[k] = std::max(extent[k], std::abs(r[i][k]));
+        product *= extent[k];
+        least = std::min(least, extent[k]);
+        most = std::max(most, extent[k]);
+    }
+    if constexpr (d == 3) {
+        const auto cross = [&](std::size_t i, std::size_t j, double(&out)[3]) {
+            out[0] = r[i][1] * r[j][2] - r[i][2] * r[j][1];
+            out[1] = r[i][2] * r[j][0] - r[i][0] * r[j][2];
+            out[2] = r[i][0] * r[j][1] - r[i][1] * r[j][0];
+        };
+        const auto dot = [&](std::size_t i, const double(&x)[3]) {
+            return r[i][0] * x[0] + r[i][1] * x[1] + r[i][2] * x[2];
+        };
+        double m01[3], m23[3];
+        cross(0, 1, m01);
+        cross(2, 3, m23);
+        n[0] = dot(1, m23);
+        n[1] = -dot(0, m23);
+        n[2] = dot(3, m01);
+        n[3] = -dot(2, m01);
+    } else {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto &a = r[(i + 1) % 3], &b = r[(i + 2) % 3];
+            n[i] = a[0] * b[1] - a[1] * b[0];
+        }
+    }
+    const double denominator = d == 3 ? (n[0] + n[1]) + (n[2] + n[d]) : n[0] + n[1] + n[2];
+    const double sign = std::copysign(1.0, denominator);
+    Look out;
+    double lowest = n[0] * sign;
+    for (std::size_t i = 1; i <= d; ++i) {
+        const double x = n[i] * sign;
+        out.face = x < lowest ? i : out.face;
+        lowest = std::min(lowest, x);
+    }
+    if (!(least >= 0x1p-300 && most <= 0x1p300)) return out;
+    const double bound = (d == 3 ? 49 : 8.5) * epsilon * product;
+    out.inside = lowest > bound;
+    out.beyond = lowest < -bound;
+    out.far = lowest < -many * std::abs(denominator);
+    return out;
+}
+
+/// Where a walk of one point ends.
+struct End {
+    Place cell;
+    bool inside;   ///< certainly
+    bool outside;  ///< of this cell, certainly, and it has no neighbour there
+};
+
+/// From a hint, and from the start of the point's bin if the hint turns out far; or from there at once.
+template <std::size_t d>
+End walk(const CellIndex& index, const double* p, Place hint) {
+    constexpr int patience = 4, max_steps = 256;
+    Place cell = hint;
+    const auto start = [&] { return index.start(index.bins.of(p)); };
+    if (cell < 0) cell = start();
+    for (int step = 0; step < max_steps; ++step) {
+        const Look at = look<d>(index, cell, p);
+        if (at.inside) return {cell, true, false};
+        if (!at.beyond) return {cell, false, false};
+        if (hint >= 0 && (at.far || step == patience)) {
+            hint = -1;
+            cell = start();
+            continue;
+        }
+        const Place next = index.cells[static_cast<std::size_t>(cell)].next[at.face];
+        if (next < 0) return {cell, false, true};
+        cell = next;
+    }
+    return {cell, false, false};
+}
+
+}  // namespace
+}  // namespace locate
+
+Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
+    const ExactEnvironment environment;
+    const locate::LocatorData& data = *data_;
+    const locate::CellIndex& index = data.index;
+    const std::size_t d = index.dimension();
+    for (std::size_t k = 0; k < d; ++k) {
+        if (!std::isfinite(point[k])) return locate::check_finite({point, d}, d).error();
+    }
+    if (!index.box_holds(point)) return Location{};
+    const auto location = [&](locate::Place owner, Feature feature) {
+        return owner < 0 ? Location{} : Location{index.original[static_cast<std::size_t>(owner)], feature};
+    };
+    locate::Place stuck = 0;
+    if (data.method == Method::walk) {
+        const bool hinted = hint >= 0 && static_cast<std::size_t>(hint) < index.cell_count();
+        const locate::Place from = hinted ? data.places()[static_cast<std::size_t>(hint)] : -1;
+        const locate::End end = d == 2 ? locate::walk<2>(index, point, from) : locate::walk<3>(index, point, from);
+        if (end.inside) return location(end.cell, Feature::interior);
+        stuck = end.outside ? ~end.cell : end.cell;
+    }
+    if (data.occupancy() != nullptr && !data.occupancy()->may_hold(index, point)) return Location{};
+    locate::PointRecord record{};
+    for (std::size_t k = 0; k < d; ++k) record.at[k] = point[k];
+    locate::Finder finder(data, index.nodes.data());
+    locate::Place owner = -1;
+    Feature feature = Feature::outside;
+    LocationCounts ignored;
+    if (data.method == Method::walk) {
+        finder.settle(record, stuck, owner, feature);
+    } else {
+        finder.find(&record, 1, &owner, &feature, ignored);
+    }
+    return location(owner, feature);
+}
+
+}  // namespace barycert
