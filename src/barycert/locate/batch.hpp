@@ -70,9 +70,15 @@ bool for_chunks(const LocatorData& data, const NodeRecord* nodes, std::span<cons
             std::array<PointRecord, chunk_size> records;
             std::array<Place, chunk_size> owner;
             std::array<Feature, chunk_size> feature;
+            const auto expect = [&](std::size_t at) {
+                finder.expect(*sorted, at, std::min(chunk_size, sorted->size() - at));
+            };
+            expect(0);
             for (std::size_t at = 0; at < sorted->size(); at += chunk_size) {
                 const std::size_t n = std::min(chunk_size, sorted->size() - at);
+                finder.begin();
                 sorted->copy(at, n, records.data());
+                expect(at + n);
                 finder.find(records.data(), n, owner.data(), feature.data(), parts[b]);
                 worker(records.data(), n, owner.data(), feature.data());
             }

@@ -8,6 +8,7 @@
 
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/locate/locator_data.hpp"
+#include "barycert/locate/sorted_points.hpp"
 #include "barycert/locate/walk_lanes.hpp"
 
 namespace barycert::locate {
@@ -18,8 +19,14 @@ public:
     /// Walks read `nodes`, those of the index or a copy.
     Finder(const LocatorData& data, const NodeRecord* nodes) : data_(data), nodes_(nodes) {}
 
+    /// Points of the places [first, first + count) in `sorted` will be found next: where their walks start, and what
+    /// memory they will read, which is asked for while others are found.
+    void expect(const SortedPoints& sorted, std::size_t first, std::size_t count);
+    /// Those expected are now to be found.
+    void begin();
+
     /// For each of `count` <= chunk_size points: the place of its owner, -1 outside, and the feature.
-    /// Precondition: finite points in the box of the cells.
+    /// Preconditions: finite points in the box of the cells; they were expected, and it was begun.
     void find(const PointRecord* points, std::size_t count, Place* owner, Feature* feature, LocationCounts& counts);
 
     /// The same for one point whose walk ended in doubt: `stuck` is what step_walks says.
@@ -39,7 +46,6 @@ public:
     }
 
 private:
-    void start(const PointRecord* points, std::size_t count);
     void walk(const PointRecord* points, std::size_t count, Place* owner, Feature* feature, TierCounts& tests);
     void resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, TierCounts& tests);
     void ask_candidates(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests);
@@ -65,7 +71,10 @@ private:
 
     const LocatorData& data_;
     const NodeRecord* nodes_;
-    WalkList walking_, arrived_, stuck_;
+    WalkList expected_, walking_, arrived_, stuck_;
+    MemoryAhead ahead_;
+    bool fetch_ = true, expected_fetch_ = true;
+    Place fetched_cells_ = 0, fetched_nodes_ = 0;
     std::array<std::uint32_t, chunk_size> asked_;  ///< points for which every candidate is asked
     std::size_t asked_count_ = 0;
     std::vector<Candidate> candidates_;

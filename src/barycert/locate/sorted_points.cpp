@@ -42,16 +42,9 @@ bool SortedPoints::sort(const CellIndex& index, const Occupancy* occupancy, std:
 }
 
 void SortedPoints::copy(std::size_t first, std::size_t count, PointRecord* to) const {
-    constexpr std::size_t ahead = 24;
-    const auto at = [&](std::size_t place) { return points_.data() + d_ * order_[place].number; };
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t place = first + i;
-        if (place + ahead < size_) {
-            const double* const next = at(place + ahead);
-            __builtin_prefetch(next);
-            __builtin_prefetch(next + d_ - 1);
-        }
-        const double* const from = at(place);
+        const double* const from = point(order_[place].number);
         to[i].at = {from[0], from[1], d_ == 3 ? from[d_ - 1] : 0};
         to[i].number = static_cast<std::uint32_t>(place);
         to[i].bin = order_[place].bin;

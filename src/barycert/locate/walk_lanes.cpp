@@ -17,6 +17,7 @@ using namespace core::HWY_NAMESPACE;
 
 using locate::CellRecord;
 using locate::NodeRecord;
+using locate::MemoryAhead;
 using locate::Place;
 using locate::PointRecord;
 using locate::Walk;
@@ -101,6 +102,9 @@ HWY_INLINE void step(D tag, const CellRecord* cells, const NodeRecord* nodes, co
 /// How many vectors ahead the nodes of cells are asked for.
 constexpr std::size_t vectors_ahead = 4;
 
+/// How much is asked for between steps.
+constexpr std::size_t lines_ahead = 8;
+
 template <Simplex s, std::size_t width>
 HWY_INLINE void fetch_nodes(const locate::CellIndex& index, const NodeRecord* nodes, const Walk* walks) {
     for (std::size_t l = 0; l < width; ++l) {
@@ -112,7 +116,7 @@ HWY_INLINE void fetch_nodes(const locate::CellIndex& index, const NodeRecord* no
 
 template <Simplex s, bool fetch>
 std::size_t step_all(const locate::CellIndex& index, const NodeRecord* nodes, const PointRecord* points, Walk* walks,
-                     std::size_t count, WalkList& arrived, WalkList& stuck) {
+                     std::size_t count, MemoryAhead& ahead, WalkList& arrived, WalkList& stuck) {
     StepTargets to{reinterpret_cast<std::uint64_t*>(walks), &arrived, &stuck, 0};
     std::size_t at = 0;
     const auto run = [&](auto tag) HWY_ATTR {
@@ -123,6 +127,7 @@ std::size_t step_all(const locate::CellIndex& index, const NodeRecord* nodes, co
             for (std::size_t l = 0; l < width; ++l) block[l] = walks[at + l];
             if (fetch && at + (vectors_ahead + 1) * width <= count)
                 fetch_nodes<s, width>(index, nodes, walks + at + vectors_ahead * width);
+            ahead.ask(lines_ahead);
             step<s, fetch>(tag, index.cells.data(), nodes, points, block, to);
         }
     };
@@ -132,11 +137,11 @@ std::size_t step_all(const locate::CellIndex& index, const NodeRecord* nodes, co
 }
 
 std::size_t step_walks(const locate::CellIndex& index, const NodeRecord* nodes, const PointRecord* points, Walk* walks,
-                       std::size_t count, bool fetch, WalkList& arrived, WalkList& stuck) {
+                       std::size_t count, bool fetch, MemoryAhead& ahead, WalkList& arrived, WalkList& stuck) {
     const auto step = index.simplex == Simplex::triangle
                           ? fetch ? step_all<Simplex::triangle, true> : step_all<Simplex::triangle, false>
                           : fetch ? step_all<Simplex::tetrahedron, true> : step_all<Simplex::tetrahedron, false>;
-    return step(index, nodes, points, walks, count, arrived, stuck);
+    return step(index, nodes, points, walks, count, ahead, arrived, stuck);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -149,8 +154,8 @@ namespace barycert::locate {
 HWY_EXPORT(step_walks);
 
 std::size_t step_walks(const CellIndex& index, const NodeRecord* nodes, const PointRecord* points, Walk* walks,
-                       std::size_t count, bool fetch, WalkList& arrived, WalkList& stuck) {
-    return HWY_DYNAMIC_DISPATCH(step_walks)(index, nodes, points, walks, count, fetch, arrived, stuck);
+                       std::size_t count, bool fetch, MemoryAhead& ahead, WalkList& arrived, WalkList& stuck) {
+    return HWY_DYNAMIC_DISPATCH(step_walks)(index, nodes, points, walks, count, fetch, ahead, arrived, stuck);
 }
 
 }  // namespace barycert::locate
