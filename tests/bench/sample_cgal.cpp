@@ -88,7 +88,8 @@ void CgalPeer::follow(std::span<const double> points) {
 
 void CgalPeer::find_each(std::span<const double> points) {
     data_->each.resize(points.size() / 3);
-    for (std::size_t i = 0; i < data_->each.size(); ++i) data_->each[i] = data_->triangulation.locate(point_of(points, i));
+    for (std::size_t i = 0; i < data_->each.size(); ++i)
+        data_->each[i] = data_->triangulation.locate(point_of(points, i));
 }
 
 void CgalPeer::find_each_from(std::span<const double> points, std::size_t (*hint)(std::size_t, std::size_t)) {

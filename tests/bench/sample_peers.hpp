@@ -29,7 +29,8 @@ public:
     virtual void find(Which which, std::vector<Mesh::Index>& cells) = 0;
     /// The same for points of the caller.
     virtual void find_all(Which which, std::span<const double> points, std::vector<Mesh::Index>& cells) = 0;
-    /// The same as find, and the sum of the weights that FindCell gives times the nodal values; NaN where it finds none.
+    /// The same as find, and the sum of the weights that FindCell gives times the nodal values; NaN where it finds
+    /// none.
     virtual void interpolate(Which which, std::vector<double>& values) = 0;
 
     /// vtkProbeFilter at the points, which builds its own locator of that kind each time, as it does for its users.

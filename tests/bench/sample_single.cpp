@@ -58,9 +58,11 @@ void run_single(Round& round, SampleTable& table) {
     const Path slow = path_of(round, "steps of a fifth of a cell", calls, 0.2 * size);
     const Path fast = path_of(round, "steps of a cell", calls, size);
     Path any{"no hint", {}, {}};
-    any.points.assign(round.subject.points.begin(),
-                      round.subject.points.begin() + static_cast<std::ptrdiff_t>(std::min(3 * calls, round.subject.points.size())));
-    any.owners.assign(round.rows.cells.begin(), round.rows.cells.begin() + static_cast<std::ptrdiff_t>(any.points.size() / 3));
+    any.points.assign(
+        round.subject.points.begin(),
+        round.subject.points.begin() + static_cast<std::ptrdiff_t>(std::min(3 * calls, round.subject.points.size())));
+    any.owners.assign(round.rows.cells.begin(),
+                      round.rows.cells.begin() + static_cast<std::ptrdiff_t>(any.points.size() / 3));
     const std::size_t few = any.owners.size();
 
     std::vector<Mesh::Index> cells(calls);
@@ -68,7 +70,8 @@ void run_single(Round& round, SampleTable& table) {
     const auto follow = [&](const Path& path) {
         return [&] {
             Mesh::Index hint = -1;
-            for (std::size_t i = 0; i < calls; ++i) cells[i] = hint = locator.locate(path.points.data() + 3 * i, hint)->cell;
+            for (std::size_t i = 0; i < calls; ++i)
+                cells[i] = hint = locator.locate(path.points.data() + 3 * i, hint)->cell;
         };
     };
     const auto without = [&] {
@@ -101,20 +104,24 @@ void run_single(Round& round, SampleTable& table) {
         contest.add("CGAL slow", [&, cgal] { cgal->follow(slow.points); });
         contest.add("CGAL fast", [&, cgal] { cgal->follow(fast.points); });
         contest.add("CGAL none", [&, cgal] { cgal->find_each(any.points); });
-        contest.add("CGAL far", [&, cgal] { cgal->find_each_from(any.points, far_from); }, [&, cgal] { cgal->follow(any.points); });
+        contest.add(
+            "CGAL far", [&, cgal] { cgal->find_each_from(any.points, far_from); },
+            [&, cgal] { cgal->follow(any.points); });
     }
     contest.run(round.how.repetitions);
 
     const auto tell = [&](const char* key, const std::string& what, std::size_t count, const char* vtk_key) {
         const std::string vtk = std::string("VTK ") + vtk_key, cgal = std::string("CGAL ") + key;
         const auto ns = [&](const std::string& name) {
-            return contest.has(name) ? with_unit(1e9 * contest.cpu(name) / static_cast<double>(count), "ns") : std::string();
+            return contest.has(name) ? with_unit(1e9 * contest.cpu(name) / static_cast<double>(count), "ns")
+                                     : std::string();
         };
-        table.add({.what = round.subject.name + ": one point a call, " + what,
-                   .ours = ns(key),
-                   .vtk = ns(vtk),
-                   .cgal = ns(cgal),
-                   .ratio = joined({times_as_long(contest, "VTK", vtk, key), times_as_long(contest, "CGAL", cgal, key)})});
+        table.add(
+            {.what = round.subject.name + ": one point a call, " + what,
+             .ours = ns(key),
+             .vtk = ns(vtk),
+             .cgal = ns(cgal),
+             .ratio = joined({times_as_long(contest, "VTK", vtk, key), times_as_long(contest, "CGAL", cgal, key)})});
     };
     tell("slow", slow.name, calls, "slow");
     tell("fast", fast.name, calls, "fast");

@@ -97,7 +97,9 @@ TEST(LocateOccupancy, L1_NoCellWhereThereIsNone_Soups) {
         Told all;
         for (std::uint64_t n = 0; n < 60 && !::testing::Test::HasFailure(); ++n) {
             base::Random random = base::Random::stream(11, n, static_cast<std::uint64_t>(d));
-            const Mesh mesh = n % 3 == 0 ? random_soup(d, random) : n % 3 == 1 ? grown_complex(d, random) : damaged_box(d, random);
+            const Mesh mesh = n % 3 == 0   ? random_soup(d, random)
+                              : n % 3 == 1 ? grown_complex(d, random)
+                                           : damaged_box(d, random);
             const Told told = ask(mesh, random, "mesh " + std::to_string(n));
             all.clear += told.clear;
             all.outside += told.outside;

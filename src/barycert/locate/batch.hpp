@@ -51,8 +51,9 @@ inline std::size_t block_of(std::size_t count) {
 
 /// For blocks of the points, on all threads of the calling arena: worker = make(number of the first point of the
 /// block, their count); worker(records, count, owners, features) for each chunk of the sorted block, points that are
-/// known to be outside left out; in the end done(number of the first point, sorted block, worker). `nodes`: those of the
-/// index, or a copy that will be read after it. Returns false, and leaves out blocks, if a coordinate is not finite.
+/// known to be outside left out; in the end done(number of the first point, sorted block, worker). `nodes`: those of
+/// the index, or a copy that will be read after it. Returns false, and leaves out blocks, if a coordinate is not
+/// finite.
 template <class Make, class Done>
 bool for_chunks(const LocatorData& data, const NodeRecord* nodes, std::span<const double> points,
                 LocationCounts& counts, Make make, Done done) {
@@ -65,7 +66,7 @@ bool for_chunks(const LocatorData& data, const NodeRecord* nodes, std::span<cons
         const std::size_t first = b * block, size = std::min(block, count - first);
         std::unique_ptr<SortedPoints> sorted = data.sorted.take();
         if (sorted->sort(data.index, data.occupancy(), points.subspan(d * first, d * size))) {
-            Finder finder(data, nodes);
+            Finder finder(data, nodes, size);
             auto worker = make(first, size);
             std::array<PointRecord, chunk_size> records;
             std::array<Place, chunk_size> owner;

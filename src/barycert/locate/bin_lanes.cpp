@@ -46,14 +46,16 @@ public:
         for (std::size_t k = 0; k < d; ++k) {
             const V zero = x[k] - x[k];  // of finite numbers alone
             strange_ = strange_ + zero;
-            const auto within = hn::And(hn::Ge(x[k], hn::Set(tag, index_.low[k])), hn::Le(x[k], hn::Set(tag, index_.high[k])));
+            const auto within =
+                hn::And(hn::Ge(x[k], hn::Set(tag, index_.low[k])), hn::Le(x[k], hn::Set(tag, index_.high[k])));
             in_box = k == 0 ? within : hn::And(in_box, within);
         }
         const Quantizer& quantizer = index_.bins.quantizer();
         hn::Vec<I> q[d];
         auto bin = hn::Zero(integers);
         for (std::size_t k = 0; k < d; ++k) {
-            const V t = (x[k] * hn::Set(tag, 0.5) - hn::Set(tag, quantizer.half_low(k))) * hn::Set(tag, quantizer.scale(k));
+            const V t =
+                (x[k] * hn::Set(tag, 0.5) - hn::Set(tag, quantizer.half_low(k))) * hn::Set(tag, quantizer.scale(k));
             // At least zero in the box; others become zero, so that every place below is one of the tables.
             const V inside = hn::IfThenElseZero(in_box, hn::Min(t, hn::Set(tag, double{Quantizer::max})));
             q[k] = hn::DemoteTo(integers, inside);
@@ -73,7 +75,8 @@ private:
         const I integers;
         auto row = hn::Zero(integers);
         for (std::size_t k = d - 1; k > 0; --k)
-            row = hn::Or(hn::ShiftLeftSame(row, occupancy_->bits(k)), hn::ShiftRightSame(q[k], Quantizer::bits - occupancy_->bits(k)));
+            row = hn::Or(hn::ShiftLeftSame(row, occupancy_->bits(k)),
+                         hn::ShiftRightSame(q[k], Quantizer::bits - occupancy_->bits(k)));
         const auto column = hn::ShiftRightSame(q[0], Quantizer::bits - occupancy_->bits(0));
         const auto word = hn::Or(hn::ShiftLeftSame(row, occupancy_->bits(0) - Occupancy::word_bits),
                                  hn::ShiftRight<Occupancy::word_bits>(column));
@@ -89,7 +92,8 @@ private:
 };
 
 template <std::size_t d>
-bool find_bins_of(const CellIndex& index, const Occupancy* occupancy, std::span<const double> points, std::uint32_t* bin) {
+bool find_bins_of(const CellIndex& index, const Occupancy* occupancy, std::span<const double> points,
+                  std::uint32_t* bin) {
     const hn::CappedTag<double, 8> tag;
     constexpr std::size_t width = hn::MaxLanes(hn::CappedTag<double, 8>());
     BinsOfPoints<d, hn::CappedTag<double, 8>> bins(index, occupancy);

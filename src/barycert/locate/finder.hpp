@@ -16,17 +16,17 @@ namespace barycert::locate {
 /// Not shared between threads: it keeps the memory of its work.
 class Finder {
 public:
-    /// Walks read `nodes`, those of the index or a copy.
-    Finder(const LocatorData& data, const NodeRecord* nodes) : data_(data), nodes_(nodes) {}
+    /// Walks read `nodes`, those of the index or a copy. `points`: about how many there will be.
+    Finder(const LocatorData& data, const NodeRecord* nodes, std::size_t points)
+        : data_(data), nodes_(nodes), fetch_(points < data.index.cell_count()) {}
 
-    /// Points of the places [first, first + count) in `sorted` will be found next: where their walks start, and what
-    /// memory they will read, which is asked for while others are found.
+    /// Points of the places [first, first + count) in `sorted` will be found after those of the next find().
     void expect(const SortedPoints& sorted, std::size_t first, std::size_t count);
-    /// Those expected are now to be found.
+    /// The points expected are those of the next find().
     void begin();
 
-    /// For each of `count` <= chunk_size points: the place of its owner, -1 outside, and the feature.
-    /// Preconditions: finite points in the box of the cells; they were expected, and it was begun.
+    /// For each of `count` <= chunk_size points: the place of its owner, -1 outside, and the feature. On a mesh for
+    /// walks they are those of the last begin(). Precondition: finite points in the box of the cells.
     void find(const PointRecord* points, std::size_t count, Place* owner, Feature* feature, LocationCounts& counts);
 
     /// The same for one point whose walk ended in doubt: `stuck` is what step_walks says.
@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    void walk(const PointRecord* points, std::size_t count, Place* owner, Feature* feature, TierCounts& tests);
+    void walk(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests);
     void resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, TierCounts& tests);
     void ask_candidates(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests);
 
@@ -71,10 +71,9 @@ private:
 
     const LocatorData& data_;
     const NodeRecord* nodes_;
-    WalkList expected_, walking_, arrived_, stuck_;
-    MemoryAhead ahead_;
-    bool fetch_ = true, expected_fetch_ = true;
-    Place fetched_cells_ = 0, fetched_nodes_ = 0;
+    bool fetch_;  ///< fewer points than cells: most memory is read for the first time
+    Upcoming upcoming_;
+    WalkList walking_, arrived_, stuck_;
     std::array<std::uint32_t, chunk_size> asked_;  ///< points for which every candidate is asked
     std::size_t asked_count_ = 0;
     std::vector<Candidate> candidates_;

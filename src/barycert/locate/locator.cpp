@@ -101,9 +101,8 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
         data_->locations.put(std::move(worker.found));
     };
     bool finite = true;
-    locate::in_arena(threads, [&] {
-        finite = locate::for_chunks(*data_, data_->index.nodes.data(), points, all, make, write);
-    });
+    locate::in_arena(threads,
+                     [&] { finite = locate::for_chunks(*data_, data_->index.nodes.data(), points, all, make, write); });
     if (!finite) return locate::check_finite(points, data_->index.dimension());
     if (counts != nullptr) counts->add(all);
     return Done{};
@@ -140,7 +139,7 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads) c
             const std::size_t first = b * block, size = std::min(block, count - first);
             locate::SortedPoints sorted;
             sorted.sort(data_->index, data_->occupancy(), points.subspan(d * first, d * size));
-            locate::Finder finder(*data_, data_->index.nodes.data());
+            locate::Finder finder(*data_, data_->index.nodes.data(), size);
             std::vector<std::size_t> number(size + 1);
             sorted.for_each_in_callers_order([](std::size_t) {},
                                              [&](std::size_t i, std::size_t place) { number[place] = first + i; });

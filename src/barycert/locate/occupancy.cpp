@@ -12,15 +12,15 @@
 //
 // Let t(x) = (x / 2 - half_low) * scale, with the doubles of the quantizer and exact arithmetic, and u = t * 2^-shift,
 // so that bin b of an axis is about b <= u < b + 1. For x in the box the quantizer rounds the difference and the
-// product: t <= 2^31 is off by less than 2^-20, hence u by less than 2^-30, as shift >= 11. (Where halving x underflows,
-// that is nothing beside half the length of the box, at least 2^-900 here.) The clamp at `max` moves t no further.
-// Cutting off t and then its last bits is cutting off u. So a point whose bin is b has b - 2^-30 <= u <= b + 1 + 2^-30,
-// and the computed u of the corners of cells are off by as much.
+// product: t <= 2^31 is off by less than 2^-20, hence u by less than 2^-30, as shift >= 11. (Where halving x
+// underflows, that is nothing beside half the length of the box, at least 2^-900 here.) The clamp at `max` moves t no
+// further. Cutting off t and then its last bits is cutting off u. So a point whose bin is b has b - 2^-30 <= u <= b + 1
+// + 2^-30, and the computed u of the corners of cells are off by as much.
 //
 // u is affine in x: a point of a closed cell has its u in the hull of those of the corners. A half-space that holds the
 // computed corners holds the exact ones once it is moved outward by 2^-30 a coordinate. If it then misses the box of a
-// bin, moved outward by as much, no point of the cell is in that bin. The half-spaces are those of the cell's box and of
-// its facets. `margin` is for all these, and for the roundings of the box.
+// bin, moved outward by as much, no point of the cell is in that bin. The half-spaces are those of the cell's box and
+// of its facets. `margin` is for all these, and for the roundings of the box.
 //
 // What is rounded in the equation of a facet: coordinates are relative to the lowest bin of the cell (off by a further
 // 2^-30), so that all are at most E_k + 2 on axis k, E_k the extent of the cell. The equation is a sum of at most 12
@@ -146,7 +146,8 @@ public:
             if constexpr (d == 3) row[2] = layer;
             for (row[1] = 0; row[1] < cell.count[1]; ++row[1]) {
                 cell.columns(row, [&](int first, int last) {
-                    set(row, static_cast<std::size_t>(first + cell.low[0]), static_cast<std::size_t>(last + cell.low[0]));
+                    set(row, static_cast<std::size_t>(first + cell.low[0]),
+                        static_cast<std::size_t>(last + cell.low[0]));
                 });
             }
         }

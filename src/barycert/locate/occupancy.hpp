@@ -10,8 +10,8 @@
 
 namespace barycert::locate {
 
-/// The box of a mesh cut into bins, a bit each: clear if no closed cell of non-zero volume has a point there. So a point
-/// of the box whose bit is clear is outside, exactly; one whose bit is set may be outside all the same.
+/// The box of a mesh cut into bins, a bit each: clear if no closed cell of non-zero volume has a point there. So a
+/// point of the box whose bit is clear is outside, exactly; one whose bit is set may be outside all the same.
 ///
 /// The bin of a point is that of its coordinates in whole numbers of the quantizer (Bins), without their last bits.
 class Occupancy {

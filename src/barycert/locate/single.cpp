@@ -135,7 +135,7 @@ Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
     if (data.occupancy() != nullptr && !data.occupancy()->may_hold(index, point)) return Location{};
     locate::PointRecord record{};
     for (std::size_t k = 0; k < d; ++k) record.at[k] = point[k];
-    locate::Finder finder(data, index.nodes.data());
+    locate::Finder finder(data, index.nodes.data(), 1);
     locate::Place owner = -1;
     Feature feature = Feature::outside;
     LocationCounts ignored;

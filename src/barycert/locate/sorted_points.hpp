@@ -25,13 +25,13 @@ public:
     std::size_t left_out() const { return count_ - size_; }
     /// Point i in the order of the caller.
     const double* point(std::size_t i) const { return points_.data() + d_ * i; }
+    /// Of a place in this order.
     std::uint32_t bin(std::size_t place) const { return order_[place].bin; }
-    /// Asks for the coordinates of the points of places [first, first + count).
-    void ask_for(std::size_t first, std::size_t count, MemoryAhead& ahead) const {
-        for (std::size_t i = first; i < first + count; ++i) {
-            const double* const at = point(order_[i].number);
-            ahead.add(at, at + d_);
-        }
+    /// Asks for the coordinates of the point of a place.
+    void ask_for(std::size_t place) const {
+        const double* const at = point(order_[place].number);
+        __builtin_prefetch(at, 0, 2);
+        __builtin_prefetch(at + d_ - 1, 0, 2);
     }
     /// Those of places [first, first + count) in this order. The number of each is its place.
     void copy(std::size_t first, std::size_t count, PointRecord* to) const;

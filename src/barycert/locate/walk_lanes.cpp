@@ -17,9 +17,9 @@ using namespace core::HWY_NAMESPACE;
 
 using locate::CellRecord;
 using locate::NodeRecord;
-using locate::MemoryAhead;
 using locate::Place;
 using locate::PointRecord;
+using locate::Upcoming;
 using locate::Walk;
 using locate::WalkList;
 
@@ -77,7 +77,8 @@ HWY_INLINE void step(D tag, const CellRecord* cells, const NodeRecord* nodes, co
 
     // Two neighbours are eight bytes, of which one half is the one asked for. Bits 32 to 63 of a walk are its cell.
     const auto cell = hn::ShiftRight<32>(walk), one = hn::Set(bits, 1);
-    static_assert(sizeof(CellRecord) == 32 && offsetof(CellRecord, next) == 16 && std::endian::native == std::endian::little);
+    static_assert(sizeof(CellRecord) == 32 && offsetof(CellRecord, next) == 16 &&
+                  std::endian::native == std::endian::little);
     const auto pair = hn::Add(hn::ShiftLeft<5>(cell), hn::ShiftLeft<2>(hn::AndNot(one, face)));
     const auto two = hn::GatherOffset(bits, reinterpret_cast<const std::uint64_t*>(cells[0].next.data()),
                                       hn::BitCast(hn::RebindToSigned<D>(), pair));
@@ -102,21 +103,20 @@ HWY_INLINE void step(D tag, const CellRecord* cells, const NodeRecord* nodes, co
 /// How many vectors ahead the nodes of cells are asked for.
 constexpr std::size_t vectors_ahead = 4;
 
-/// How much is asked for between steps.
-constexpr std::size_t lines_ahead = 8;
+/// How many walks of the next chunk are found between steps.
+constexpr std::size_t found_between = 4;
 
 template <Simplex s, std::size_t width>
 HWY_INLINE void fetch_nodes(const locate::CellIndex& index, const NodeRecord* nodes, const Walk* walks) {
     for (std::size_t l = 0; l < width; ++l) {
         const auto& node = index.cells[static_cast<std::size_t>(walks[l].cell)].node;
-        for (std::size_t i = 0; i < vertex_count(s); ++i)
-            __builtin_prefetch(&nodes[static_cast<std::size_t>(node[i])]);
+        for (std::size_t i = 0; i < vertex_count(s); ++i) __builtin_prefetch(&nodes[static_cast<std::size_t>(node[i])]);
     }
 }
 
 template <Simplex s, bool fetch>
 std::size_t step_all(const locate::CellIndex& index, const NodeRecord* nodes, const PointRecord* points, Walk* walks,
-                     std::size_t count, MemoryAhead& ahead, WalkList& arrived, WalkList& stuck) {
+                     std::size_t count, Upcoming& upcoming, WalkList& arrived, WalkList& stuck) {
     StepTargets to{reinterpret_cast<std::uint64_t*>(walks), &arrived, &stuck, 0};
     std::size_t at = 0;
     const auto run = [&](auto tag) HWY_ATTR {
@@ -127,7 +127,7 @@ std::size_t step_all(const locate::CellIndex& index, const NodeRecord* nodes, co
             for (std::size_t l = 0; l < width; ++l) block[l] = walks[at + l];
             if (fetch && at + (vectors_ahead + 1) * width <= count)
                 fetch_nodes<s, width>(index, nodes, walks + at + vectors_ahead * width);
-            ahead.ask(lines_ahead);
+            upcoming.find(found_between);
             step<s, fetch>(tag, index.cells.data(), nodes, points, block, to);
         }
     };
@@ -137,11 +137,12 @@ std::size_t step_all(const locate::CellIndex& index, const NodeRecord* nodes, co
 }
 
 std::size_t step_walks(const locate::CellIndex& index, const NodeRecord* nodes, const PointRecord* points, Walk* walks,
-                       std::size_t count, bool fetch, MemoryAhead& ahead, WalkList& arrived, WalkList& stuck) {
+                       std::size_t count, bool fetch, Upcoming& upcoming, WalkList& arrived, WalkList& stuck) {
     const auto step = index.simplex == Simplex::triangle
                           ? fetch ? step_all<Simplex::triangle, true> : step_all<Simplex::triangle, false>
-                          : fetch ? step_all<Simplex::tetrahedron, true> : step_all<Simplex::tetrahedron, false>;
-    return step(index, nodes, points, walks, count, ahead, arrived, stuck);
+                      : fetch ? step_all<Simplex::tetrahedron, true>
+                              : step_all<Simplex::tetrahedron, false>;
+    return step(index, nodes, points, walks, count, upcoming, arrived, stuck);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -154,8 +155,8 @@ namespace barycert::locate {
 HWY_EXPORT(step_walks);
 
 std::size_t step_walks(const CellIndex& index, const NodeRecord* nodes, const PointRecord* points, Walk* walks,
-                       std::size_t count, bool fetch, MemoryAhead& ahead, WalkList& arrived, WalkList& stuck) {
-    return HWY_DYNAMIC_DISPATCH(step_walks)(index, nodes, points, walks, count, fetch, ahead, arrived, stuck);
+                       std::size_t count, bool fetch, Upcoming& upcoming, WalkList& arrived, WalkList& stuck) {
+    return HWY_DYNAMIC_DISPATCH(step_walks)(index, nodes, points, walks, count, fetch, upcoming, arrived, stuck);
 }
 
 }  // namespace barycert::locate

@@ -17,6 +17,8 @@ struct alignas(32) PointRecord {
     std::uint32_t bin;
 };
 
+class SortedPoints;
+
 /// Points that are found together: enough for full lanes in every round of the walks, few enough for the first cache.
 inline constexpr std::size_t chunk_size = 1024;
 
@@ -32,35 +34,24 @@ struct WalkList {
     std::size_t count = 0;
 };
 
-/// Memory that will be read soon. Asking for much at once would keep others waiting, so it is done bit by bit.
-struct MemoryAhead {
-    std::array<const void*, 16 * chunk_size> address;
-    std::size_t count = 0, done = 0;
+/// Where the walks of the next chunk start. To be found bit by bit, between the steps of others: what each needs in
+/// memory is asked for, and too much asked for at once would keep all waiting.
+struct Upcoming {
+    const CellIndex* index = nullptr;
+    const SortedPoints* sorted = nullptr;
+    std::size_t first = 0, count = 0, done = 0;
+    std::array<Walk, chunk_size> walks;
 
-    void add(const void* what) {
-        if (count < address.size()) address[count++] = what;
-    }
-    /// Every line of [begin, end).
-    template <class T>
-    void add(const T* begin, const T* end) {
-        constexpr std::uintptr_t line = 64;
-        const auto last = reinterpret_cast<std::uintptr_t>(end);
-        for (auto at = reinterpret_cast<std::uintptr_t>(begin) & ~(line - 1); at < last; at += line)
-            add(reinterpret_cast<const void*>(at));
-    }
-    void ask(std::size_t number) {
-        for (const std::size_t end = std::min(count, done + number); done < end; ++done)
-            __builtin_prefetch(address[done], 0, 2);
-    }
+    void find(std::size_t number);
 };
 
-/// One step of each of `count` walks. Where the point is certainly inside the cell, the walk ends and goes to `arrived`;
-/// where it is certainly beyond a facet that has a neighbour, it goes on there; these walks are moved to the front of
-/// `walks`, and their number is returned. All others, on facets or at the end of the domain or in doubt, go to `stuck`,
-/// with the cell where they stand, or ~cell if the point is certainly outside of it. `walks` is of the size of a
-/// WalkList. `nodes`: those of the index, or a copy. `fetch`: ask for the memory that a step will read some steps
-/// before. In between `ahead` is asked for.
+/// One step of each of `count` walks. Where the point is certainly inside the cell, the walk ends and goes to
+/// `arrived`; where it is certainly beyond a facet that has a neighbour, it goes on there; these walks are moved to the
+/// front of `walks`, and their number is returned. All others, on facets or at the end of the domain or in doubt, go to
+/// `stuck`, with the cell where they stand, or ~cell if the point is certainly outside of it. `walks` is of the size of
+/// a WalkList. `nodes`: those of the index, or a copy. `fetch`: ask some steps before for the memory that a step will
+/// read. In between, walks of `upcoming` are found.
 std::size_t step_walks(const CellIndex& index, const NodeRecord* nodes, const PointRecord* points, Walk* walks,
-                       std::size_t count, bool fetch, MemoryAhead& ahead, WalkList& arrived, WalkList& stuck);
+                       std::size_t count, bool fetch, Upcoming& upcoming, WalkList& arrived, WalkList& stuck);
 
 }  // namespace barycert::locate

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "barycert/core/exact_tier.hpp"
 #include "barycert/quadratic.hpp"
@@ -17,10 +18,16 @@ void ChunkSampler::operator()(const locate::PointRecord* points, std::size_t cou
         inside_[inside] = {static_cast<std::uint32_t>(i), owner[i]};
         inside += owner[i] >= 0 ? 1 : 0;
         const std::uint32_t number = points[i].number;
-        rows_.cells[number] = owner[i] < 0 ? -1 : index.original[static_cast<std::size_t>(owner[i])];
-        rows_.features[number] = feature[i];
+        const Location location{owner[i] < 0 ? -1 : index.original[static_cast<std::size_t>(owner[i])], feature[i]};
+        if (rows_.cells == nullptr) {
+            std::memcpy(row(points[i]) - 1, &location, sizeof location);
+        } else {
+            rows_.cells[number] = location.cell;
+            rows_.features[number] = location.feature;
+        }
         if (owner[i] < 0)
-            outside(points[i].at.data(), number, row(points[i]), rows_.distances == nullptr ? nullptr : rows_.distances + number);
+            outside(points[i].at.data(), number, row(points[i]),
+                    rows_.distances == nullptr ? nullptr : rows_.distances + number);
     }
     if (data_.point_components != 0)
         data_.quadratic ? interpolate_second_order(points, inside) : interpolate_linear(points, inside);
@@ -34,7 +41,7 @@ void ChunkSampler::interpolate_linear(const locate::PointRecord* points, std::si
     const NodeValues nodes = data_.node_values();
     const std::size_t undecided =
         interpolate_lanes({index.simplex, index.cells.data(), nodes, points, std::span(inside_).first(count)},
-                          options_.rounding, {rows_.values, data_.columns.size()}, undecided_.data());
+                          options_.rounding, {rows_.values, rows_.stride}, undecided_.data());
     if (options_.rounding == Rounding::plain) return;
     counts_.values.add(Tier::double_double, count - undecided);
     for (std::size_t i = 0; i < undecided; ++i) {

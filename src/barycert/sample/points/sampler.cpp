@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -107,9 +109,14 @@ sample::BlockRows rows_from(const SamplerData& data, std::size_t first, Table& o
 class SortedRows {
 public:
     SortedRows(const SamplerData& data, const SampleOptions& options, std::size_t size)
-        : data_(data), rows_(data.rows.take()) {
-        resize(data, options, size + 1, *rows_);  // one more for all points left out
-        sampler_.emplace(data, options, rows_from(data, 0, *rows_));
+        : data_(data), rows_(data.rows.take()), columns_(data.columns.size()) {
+        const std::size_t numbers = (size + 1) * stride();  // one row more for all points left out
+        if (rows_->numbers.size() < numbers) rows_->numbers = locate::Buffer<double>(numbers);
+        if (gives_distances(options.outside)) rows_->distances.assign(size + 1, 0);
+        sampler_.emplace(
+            data, options,
+            sample::BlockRows{nullptr, nullptr, values(0),
+                              gives_distances(options.outside) ? rows_->distances.data() : nullptr, stride()});
     }
     SortedRows(SortedRows&&) = default;
     ~SortedRows() {
@@ -123,35 +130,42 @@ public:
     const sample::ChunkSampler& sampler() const { return *sampler_; }
 
     void write(const locate::SortedPoints& sorted, std::size_t first, Table& out) {
-        const std::size_t columns = data_.columns.size(), last = sorted.size(), left_out = sorted.left_out();
-        Table& rows = *rows_;
-        rows.cells[last] = -1;
-        rows.features[last] = Feature::outside;
-        if (left_out != 0 && out.distances.empty())
-            sampler_->outside(left_out, static_cast<std::uint32_t>(last), rows.values.data() + columns * last);
-        sorted.for_each_in_callers_order(
-            [&](std::size_t place) {
-                __builtin_prefetch(&rows.cells[place]);
-                __builtin_prefetch(rows.values.data() + columns * place);
-            },
-            [&](std::size_t i, std::size_t place) {
-                out.cells[first + i] = rows.cells[place];
-                out.features[first + i] = rows.features[place];
-                for (std::size_t c = 0; c < columns; ++c)
-                    out.values[columns * (first + i) + c] = rows.values[columns * place + c];
-                if (!out.distances.empty()) out.distances[first + i] = rows.distances[place];
-            });
-        if (left_out == 0 || out.distances.empty()) return;
-        sorted.for_each_in_callers_order([](std::size_t) {}, [&](std::size_t i, std::size_t place) {
-            if (place != last) return;
-            sampler_->outside(sorted.point(i), static_cast<std::uint32_t>(last), out.values.data() + columns * (first + i),
-                              &out.distances[first + i]);
-        });
+        const std::size_t last = sorted.size(), left_out = sorted.left_out();
+        if (left_out != 0) set_outside(last, left_out, out);
+        sorted.for_each_in_callers_order([&](std::size_t place) { __builtin_prefetch(values(place) - 1); },
+                                         [&](std::size_t i, std::size_t place) {
+                                             const double* const from = values(place);
+                                             const auto location = std::bit_cast<Location>(from[-1]);
+                                             out.cells[first + i] = location.cell;
+                                             out.features[first + i] = location.feature;
+                                             for (std::size_t c = 0; c < columns_; ++c)
+                                                 out.values[columns_ * (first + i) + c] = from[c];
+                                         });
+        if (out.distances.empty()) return;
+        sorted.for_each_in_callers_order([](std::size_t) {},
+                                         [&](std::size_t i, std::size_t place) {
+                                             double* const to = &out.distances[first + i];
+                                             *to = rows_->distances[place];
+                                             if (place == last)
+                                                 sampler_->outside(sorted.point(i), static_cast<std::uint32_t>(last),
+                                                                   out.values.data() + columns_ * (first + i), to);
+                                         });
     }
 
 private:
+    std::size_t stride() const { return columns_ + 1; }
+    double* values(std::size_t row) const { return rows_->numbers.data() + stride() * row + 1; }
+
+    void set_outside(std::size_t row, std::size_t count, const Table& out) {
+        const Location outside;
+        std::memcpy(values(row) - 1, &outside, sizeof outside);
+        std::fill_n(values(row), columns_, 0);
+        if (out.distances.empty()) sampler_->outside(count, static_cast<std::uint32_t>(row), values(row));
+    }
+
     const SamplerData& data_;
-    std::unique_ptr<Table> rows_;
+    std::unique_ptr<sample::PackedRows> rows_;
+    std::size_t columns_;
     std::optional<sample::ChunkSampler> sampler_;
 };
 
