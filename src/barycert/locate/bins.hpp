@@ -14,6 +14,7 @@ namespace barycert::locate {
 /// enough, so bins are as near to cubes as can be.
 class Bins {
 public:
+    /// One bin, for everything.
     Bins() = default;
 
     /// About `bins` of them, at most 2^27.
@@ -47,8 +48,10 @@ private:
     Quantizer quantizer_;
     std::size_t d_ = 0;
     int bits_ = 0;
-    std::array<int, 3> shift_{};
-    std::array<std::vector<std::uint32_t>, 3> curve_;  ///< by place on the axis: its bits where they stand in a bin
+    std::array<int, 3> shift_{Quantizer::bits, Quantizer::bits, Quantizer::bits};
+    using Curve = std::vector<std::uint32_t>;
+    std::array<Curve, 3> curve_{Curve(1), Curve(1),
+                                Curve(1)};  ///< by place on the axis: its bits where they stand in a bin
 };
 
 }  // namespace barycert::locate

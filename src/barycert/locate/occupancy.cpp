@@ -54,7 +54,7 @@ struct BinnedCell {
     std::size_t facets = 0;
 
     /// `corner` in bins; `bins`: how many there are on each axis.
-    void set(const std::array<int, d>& bins) {
+    void set(const std::array<int, d>& bins, bool with_facets) {
         double product = 1;
         for (std::size_t k = 0; k < d; ++k) {
             double least = corner[0][k], most = least;
@@ -67,11 +67,11 @@ struct BinnedCell {
             for (auto& c : corner) c[k] -= low[k];
             product *= most - least + 2;
         }
-        set_facets(0x1p-40 * product);
+        facets = 0;
+        if (with_facets) set_facets(0x1p-40 * product);
     }
 
     void set_facets(double slack) {
-        facets = 0;
         for (std::size_t i = 0; i <= d; ++i) {
             const auto &a = corner[(i + 1) % (d + 1)], &b = corner[(i + 2) % (d + 1)];
             std::array<double, d> n;
@@ -123,8 +123,11 @@ struct BinnedCell {
 template <std::size_t d>
 class Marks {
 public:
-    Marks(const CellIndex& index, const std::array<int, 3>& bits, std::uint32_t* words)
-        : index_(index), words_(words), words_a_row_(std::size_t{1} << (bits[0] - Occupancy::word_bits)) {
+    Marks(const CellIndex& index, const std::array<int, 3>& bits, bool with_facets, std::uint32_t* words)
+        : index_(index),
+          with_facets_(with_facets),
+          words_(words),
+          words_a_row_(std::size_t{1} << (bits[0] - Occupancy::word_bits)) {
         for (std::size_t k = 0; k < d; ++k) {
             unit_[k] = std::ldexp(1.0, bits[k] - Quantizer::bits);
             bins_[k] = 1 << bits[k];
@@ -139,7 +142,7 @@ public:
             for (std::size_t k = 0; k < d; ++k)
                 cell.corner[i][k] = index_.bins.quantizer().before_rounding(k, at[k]) * unit_[k];
         }
-        cell.set(bins_);
+        cell.set(bins_, with_facets_);
         std::array<int, d> row{};
         const int layers = d == 3 ? cell.count[d - 1] : 1;
         for (int layer = 0; layer < layers; ++layer) {
@@ -170,6 +173,7 @@ private:
     }
 
     const CellIndex& index_;
+    bool with_facets_;
     std::uint32_t* words_;
     std::size_t words_a_row_;
     std::array<int, 3> bits_;
@@ -179,11 +183,11 @@ private:
 };
 
 template <std::size_t d>
-void mark(const CellIndex& index, const std::array<int, 3>& bits, std::uint32_t* words) {
+void mark(const CellIndex& index, const std::array<int, 3>& bits, bool with_facets, std::uint32_t* words) {
     // What waits for this, waits in a lock: nothing else may be taken up here.
     tbb::this_task_arena::isolate([&] {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, index.cell_count(), 2048), [&](const auto& range) {
-            Marks<d> marks(index, bits, words);
+            Marks<d> marks(index, bits, with_facets, words);
             for (std::size_t place = range.begin(); place < range.end(); ++place) marks.add(place);
         });
     });
@@ -210,23 +214,29 @@ double share(const CellIndex& index, std::size_t place) {
 
 }  // namespace
 
-Occupancy::Occupancy(const CellIndex& index) {
-    constexpr std::size_t bins_a_cell = 64, max_of_few_cells = std::size_t{1} << 20;
-    const std::size_t wanted =
-        std::max(std::min(bins_a_cell * index.cell_count(), max_of_few_cells), index.bins.count());
-    const Bins bins(index.dimension(), index.low.data(), index.high.data(), wanted);
+Occupancy::Occupancy(const CellIndex& index, double filled, Detail detail) {
+    constexpr std::size_t bins_a_cell = 64, min = std::size_t{1} << 12, few_cells = std::size_t{1} << 20,
+                          max_bins_a_cell = 8;
+    const std::size_t cells = index.cell_count(), max = std::max(few_cells, max_bins_a_cell * cells);
+    const bool fine = detail == Detail::fine;
+    const double wanted =
+        fine ? static_cast<double>(std::max(min, bins_a_cell * cells)) : static_cast<double>(cells) / filled;
+    const auto bins = static_cast<std::size_t>(std::min(wanted, static_cast<double>(max)));
+    const Bins cut(index.dimension(), index.low.data(), index.high.data(), bins);
     std::size_t all = 0;
     for (std::size_t k = 0; k < index.dimension(); ++k) {
-        bits_[k] = std::max(Quantizer::bits - bins.shift(k), k == 0 ? word_bits : 0);
+        bits_[k] = std::max(Quantizer::bits - cut.shift(k), k == 0 ? word_bits : 0);
         all += static_cast<std::size_t>(bits_[k]);
     }
     words_.assign(std::size_t{1} << (all - word_bits), 0);
-    index.simplex == Simplex::triangle ? mark<2>(index, bits_, words_.data()) : mark<3>(index, bits_, words_.data());
+    index.simplex == Simplex::triangle ? mark<2>(index, bits_, fine, words_.data())
+                                       : mark<3>(index, bits_, fine, words_.data());
 }
 
-bool leaves_room(const CellIndex& index) {
+double filled_share(const CellIndex& index) {
+    if (index.cell_count() == 0) return 1;
     for (std::size_t k = 0; k < index.dimension(); ++k) {
-        if (!(index.high[k] * 0.5 - index.low[k] * 0.5 >= min_half)) return false;
+        if (!(index.high[k] * 0.5 - index.low[k] * 0.5 >= min_half)) return 1;
     }
     constexpr std::size_t max_asked = 4096;
     const std::size_t cells = index.cell_count(), asked = std::min(cells, max_asked);
@@ -235,7 +245,7 @@ bool leaves_room(const CellIndex& index) {
         const std::size_t place = i * cells / asked;
         filled += index.simplex == Simplex::triangle ? share<2>(index, place) : share<3>(index, place);
     }
-    return filled * static_cast<double>(cells) < 0.95 * static_cast<double>(asked);
+    return filled * static_cast<double>(cells) / static_cast<double>(asked);
 }
 
 }  // namespace barycert::locate

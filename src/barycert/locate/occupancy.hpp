@@ -18,8 +18,12 @@ class Occupancy {
 public:
     static constexpr int word_bits = 5;  ///< of them, bins along the first axis make a word
 
-    /// Precondition: there is a cell. Time O(cells + bins along their surfaces), on the threads of the calling arena.
-    explicit Occupancy(const CellIndex& index);
+    /// How much it tells: `coarse`, from the boxes of cells alone, with bins about as large as cells; `fine`, with far
+    /// smaller ones if there are not too many cells, which takes some thirty times as long.
+    enum class Detail : std::uint8_t { coarse, fine };
+
+    /// `filled`: filled_share(index), below 1. On the threads of the calling arena.
+    Occupancy(const CellIndex& index, double filled, Detail detail);
 
     int bits(std::size_t k) const { return bits_[k]; }
     const std::uint32_t* words() const { return words_.data(); }
@@ -41,8 +45,8 @@ private:
     std::vector<std::uint32_t> words_;
 };
 
-/// Whether an Occupancy would tell enough to be worth its making for so many points: an estimate from the volumes of
-/// some cells.
-bool leaves_room(const CellIndex& index);
+/// The share of the box of all cells that these fill, estimated from some of them. 1 or more as well where no Occupancy
+/// can be made, because there is no cell or the box is flat or too small.
+double filled_share(const CellIndex& index);
 
 }  // namespace barycert::locate

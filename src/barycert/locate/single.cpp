@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <string>
 
@@ -86,25 +87,62 @@ struct End {
     bool outside;  ///< of this cell, certainly, and it has no neighbour there
 };
 
-/// From a hint, and from the start of the point's bin if the hint turns out far; or from there at once.
+/// Where the last walk of this thread ended. A particle's next hint is that cell, and to look its place up would wait
+/// for memory. What is kept of a locator that is gone does no harm: a walk may start at any place that there is.
+struct LastEnd {
+    const LocatorData* data = nullptr;
+    Mesh::Index cell = -1;
+    Place place = -1;
+};
+thread_local LastEnd last_end;
+
+/// A place to walk from, and whether it is the hint's.
+struct From {
+    Place cell;
+    bool hint;
+};
+
+From start_of(const LocatorData& data, const double* p, Mesh::Index hint) {
+    const CellIndex& index = data.index;
+    if (hint < 0 || static_cast<std::size_t>(hint) >= index.cell_count()) return {index.start(index.bins.of(p)), false};
+    if (last_end.cell == hint && last_end.data == &data &&
+        static_cast<std::size_t>(last_end.place) < index.cell_count())
+        return {last_end.place, true};
+    // Both are asked of memory at the same time. Cells that are far apart in the order of the curve may be neighbours:
+    // then the bin's start is a little farther than the hint.
+    constexpr Place near = 32;
+    const Place place = data.places()[static_cast<std::size_t>(hint)];
+    const std::uint32_t bin = index.bins.of(p), part = bin >> CellIndex::part_bits;
+    const Place start = index.start(bin), in_bin = index.first[part + 1] - index.first[part];
+    return std::abs(place - start) <= near + in_bin ? From{place, true} : From{start, false};
+}
+
+/// Asks for what the next look may read, and for the number of the cell, while this one is looked at.
+void fetch_around(const CellIndex& index, Place cell) {
+    for (const Place next : index.cells[static_cast<std::size_t>(cell)].next)
+        __builtin_prefetch(&index.cells[static_cast<std::size_t>(std::max(next, 0))]);
+    __builtin_prefetch(&index.original[static_cast<std::size_t>(cell)]);
+}
+
+/// If a hint turns out far, or does not lead there in some steps, the walk goes on from the start of the point's bin.
 template <std::size_t d>
-End walk(const CellIndex& index, const double* p, Place hint) {
+End walk(const CellIndex& index, const double* p, From from) {
     constexpr int patience = 4, max_steps = 256;
-    Place cell = hint;
-    const auto start = [&] { return index.start(index.bins.of(p)); };
-    if (cell < 0) cell = start();
+    Place cell = from.cell;
     for (int step = 0; step < max_steps; ++step) {
+        if (step > 0 || !from.hint) fetch_around(index, cell);
         const Look at = look<d>(index, cell, p);
         if (at.inside) return {cell, true, false};
         if (!at.beyond) return {cell, false, false};
-        if (hint >= 0 && (at.far || step == patience)) {
-            hint = -1;
-            cell = start();
-            continue;
-        }
         const Place next = index.cells[static_cast<std::size_t>(cell)].next[at.face];
-        if (next < 0) return {cell, false, true};
-        cell = next;
+        if (from.hint && (at.far || step == patience || next < 0)) {
+            from = {index.start(index.bins.of(p)), false};
+            cell = from.cell;
+        } else if (next < 0) {
+            return {cell, false, true};
+        } else {
+            cell = next;
+        }
     }
     return {cell, false, false};
 }
@@ -126,10 +164,13 @@ Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
     };
     locate::Place stuck = 0;
     if (data.method == Method::walk) {
-        const bool hinted = hint >= 0 && static_cast<std::size_t>(hint) < index.cell_count();
-        const locate::Place from = hinted ? data.places()[static_cast<std::size_t>(hint)] : -1;
+        const locate::From from = locate::start_of(data, point, hint);
         const locate::End end = d == 2 ? locate::walk<2>(index, point, from) : locate::walk<3>(index, point, from);
-        if (end.inside) return location(end.cell, Feature::interior);
+        if (end.inside) {
+            const Mesh::Index owner = index.original[static_cast<std::size_t>(end.cell)];
+            locate::last_end = {&data, owner, end.cell};
+            return Location{owner, Feature::interior};
+        }
         stuck = end.outside ? ~end.cell : end.cell;
     }
     if (data.occupancy() != nullptr && !data.occupancy()->may_hold(index, point)) return Location{};
