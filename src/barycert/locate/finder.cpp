@@ -46,12 +46,19 @@ void Finder::settle(const PointRecord& point, Place stuck, Place& owner, Feature
 }
 
 void Upcoming::find(std::size_t number) {
-    for (const std::size_t end = std::min(count, done + number); done < end; ++done) {
-        sorted->ask_for(first + done);
-        const Place cell = index->start(sorted->bin(first + done));
-        __builtin_prefetch(&index->cells[static_cast<std::size_t>(cell)], 0, 2);
-        walks[done] = {static_cast<std::uint32_t>(done), cell};
+    const std::size_t end = std::min(count, done + number), d = index->dimension();
+    const SortedPoints::Entry* const entries = sorted->entries() + first;
+    const double* const points = sorted->point(0);
+    for (std::size_t i = done; i < end; ++i) {
+        const SortedPoints::Entry entry = entries[i];
+        const double* const at = points + d * entry.number;
+        __builtin_prefetch(at, 0, 2);
+        __builtin_prefetch(at + d - 1, 0, 2);
+        const Place cell = index->start(entry.bin);
+        __builtin_prefetch(index->cells.data() + cell, 0, 2);
+        walks[i] = {static_cast<std::uint32_t>(i), cell};
     }
+    done = end;
 }
 
 void Finder::expect(const SortedPoints& sorted, std::size_t first, std::size_t count) {

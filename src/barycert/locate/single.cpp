@@ -64,14 +64,14 @@ Look look(const CellIndex& index, Place place, const double* p) {
         }
     }
     const double denominator = d == 3 ? (n[0] + n[1]) + (n[2] + n[d]) : n[0] + n[1] + n[2];
-    const double sign = std::copysign(1.0, denominator);
-    Look out;
-    double lowest = n[0] * sign;
-    for (std::size_t i = 1; i <= d; ++i) {
-        const double x = n[i] * sign;
-        out.face = x < lowest ? i : out.face;
-        lowest = std::min(lowest, x);
+    // A branch, as cells of a mesh are nearly all oriented alike: nothing waits for the denominator.
+    if (denominator < 0) [[unlikely]] {
+        for (double& x : n) x = -x;
     }
+    Look out;
+    const std::size_t first = n[1] < n[0] ? 1 : 0, other = d == 3 && n[d] < n[2] ? d : 2;
+    const double lowest = std::min(std::min(n[0], n[1]), std::min(n[2], n[d]));
+    out.face = std::min(n[2], n[d]) < std::min(n[0], n[1]) ? other : first;
     if (!(least >= 0x1p-300 && most <= 0x1p300)) return out;
     const double bound = (d == 3 ? 49 : 8.5) * epsilon * product;
     out.inside = lowest > bound;
@@ -128,9 +128,11 @@ void fetch_around(const CellIndex& index, Place cell) {
 template <std::size_t d>
 End walk(const CellIndex& index, const double* p, From from) {
     constexpr int patience = 4, max_steps = 256;
+    constexpr std::size_t in_cache = std::size_t{1} << 15;
+    const bool fetch = index.cell_count() > in_cache;
     Place cell = from.cell;
     for (int step = 0; step < max_steps; ++step) {
-        if (step > 0 || !from.hint) fetch_around(index, cell);
+        if (fetch && (step > 0 || !from.hint)) fetch_around(index, cell);
         const Look at = look<d>(index, cell, p);
         if (at.inside) return {cell, true, false};
         if (!at.beyond) return {cell, false, false};

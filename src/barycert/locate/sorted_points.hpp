@@ -25,14 +25,12 @@ public:
     std::size_t left_out() const { return count_ - size_; }
     /// Point i in the order of the caller.
     const double* point(std::size_t i) const { return points_.data() + d_ * i; }
-    /// Of a place in this order.
-    std::uint32_t bin(std::size_t place) const { return order_[place].bin; }
-    /// Asks for the coordinates of the point of a place.
-    void ask_for(std::size_t place) const {
-        const double* const at = point(order_[place].number);
-        __builtin_prefetch(at, 0, 2);
-        __builtin_prefetch(at + d_ - 1, 0, 2);
-    }
+    struct Entry {
+        std::uint32_t number;  ///< in the order of the caller
+        std::uint32_t bin;
+    };
+    /// By place in this order.
+    const Entry* entries() const { return order_.data(); }
     /// Those of places [first, first + count) in this order. The number of each is its place.
     void copy(std::size_t first, std::size_t count, PointRecord* to) const;
 
@@ -49,11 +47,6 @@ public:
     }
 
 private:
-    struct Entry {
-        std::uint32_t number;  ///< in the order of the caller
-        std::uint32_t bin;
-    };
-
     std::span<const double> points_;
     std::size_t d_ = 3, count_ = 0, size_ = 0;
     Buffer<Entry> order_;
