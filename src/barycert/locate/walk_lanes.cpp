@@ -104,7 +104,7 @@ HWY_INLINE void step(D tag, const CellRecord* cells, const NodeRecord* nodes, co
 constexpr std::size_t vectors_ahead = 4;
 
 /// How many walks of the next chunk are found between steps.
-constexpr std::size_t found_between = 8;
+constexpr std::size_t found_between = 4;
 
 template <Simplex s, std::size_t width>
 HWY_INLINE void fetch_nodes(const locate::CellIndex& index, const NodeRecord* nodes, const Walk* walks) {

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -10,6 +8,7 @@
 #include "barycert/sample/points/chunk_sampler.hpp"
 #include "barycert/sample/points/field_choice.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
+#include "barycert/sample/points/sorted_rows.hpp"
 #include "barycert/sampler.hpp"
 
 namespace barycert {
@@ -86,10 +85,6 @@ Status check_call(const SamplerData& data, std::span<const double> points) {
                  .found = std::to_string(points.size()) + " numbers"};
 }
 
-bool gives_distances(const OutsidePolicy& policy) {
-    return policy.kind == Outside::nearest || policy.kind == Outside::extrapolate;
-}
-
 void resize(const SamplerData& data, const SampleOptions& options, std::size_t rows, Table& out) {
     out.dimension = data.located().mesh->dimension;
     out.columns = data.columns;
@@ -97,77 +92,13 @@ void resize(const SamplerData& data, const SampleOptions& options, std::size_t r
     out.features.resize(rows);
     out.values.resize(rows * data.columns.size());
     out.distances.clear();
-    if (gives_distances(options.outside)) out.distances.assign(rows, 0);
+    if (sample::gives_distances(options.outside)) out.distances.assign(rows, 0);
 }
 
 sample::BlockRows rows_from(const SamplerData& data, std::size_t first, Table& out) {
     return {out.cells.data() + first, out.features.data() + first, out.values.data() + first * data.columns.size(),
             out.distances.empty() ? nullptr : out.distances.data() + first};
 }
-
-/// The rows of a block in the order in which they are found.
-class SortedRows {
-public:
-    SortedRows(const SamplerData& data, const SampleOptions& options, std::size_t size)
-        : data_(data), rows_(data.rows.take()), columns_(data.columns.size()) {
-        const std::size_t numbers = (size + 1) * stride();  // one row more for all points left out
-        if (rows_->numbers.size() < numbers) rows_->numbers = locate::Buffer<double>(numbers);
-        if (gives_distances(options.outside)) rows_->distances.assign(size + 1, 0);
-        sampler_.emplace(
-            data, options,
-            sample::BlockRows{nullptr, nullptr, values(0),
-                              gives_distances(options.outside) ? rows_->distances.data() : nullptr, stride()});
-    }
-    SortedRows(SortedRows&&) = default;
-    ~SortedRows() {
-        if (rows_) data_.rows.put(std::move(rows_));
-    }
-
-    void operator()(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
-                    const Feature* feature) {
-        (*sampler_)(points, count, owner, feature);
-    }
-    const sample::ChunkSampler& sampler() const { return *sampler_; }
-
-    void write(const locate::SortedPoints& sorted, std::size_t first, Table& out) {
-        const std::size_t last = sorted.size(), left_out = sorted.left_out();
-        if (left_out != 0) set_outside(last, left_out, out);
-        sorted.for_each_in_callers_order([&](std::size_t place) { __builtin_prefetch(values(place) - 1); },
-                                         [&](std::size_t i, std::size_t place) {
-                                             const double* const from = values(place);
-                                             const auto location = std::bit_cast<Location>(from[-1]);
-                                             out.cells[first + i] = location.cell;
-                                             out.features[first + i] = location.feature;
-                                             for (std::size_t c = 0; c < columns_; ++c)
-                                                 out.values[columns_ * (first + i) + c] = from[c];
-                                         });
-        if (out.distances.empty()) return;
-        sorted.for_each_in_callers_order([](std::size_t) {},
-                                         [&](std::size_t i, std::size_t place) {
-                                             double* const to = &out.distances[first + i];
-                                             *to = rows_->distances[place];
-                                             if (place == last)
-                                                 sampler_->outside(sorted.point(i), static_cast<std::uint32_t>(last),
-                                                                   out.values.data() + columns_ * (first + i), to);
-                                         });
-    }
-
-private:
-    std::size_t stride() const { return columns_ + 1; }
-    double* values(std::size_t row) const { return rows_->numbers.data() + stride() * row + 1; }
-
-    void set_outside(std::size_t row, std::size_t count, const Table& out) {
-        const Location outside;
-        std::memcpy(values(row) - 1, &outside, sizeof outside);
-        std::fill_n(values(row), columns_, 0);
-        if (out.distances.empty()) sampler_->outside(count, static_cast<std::uint32_t>(row), values(row));
-    }
-
-    const SamplerData& data_;
-    std::unique_ptr<sample::PackedRows> rows_;
-    std::size_t columns_;
-    std::optional<sample::ChunkSampler> sampler_;
-};
 
 /// What becomes of the blocks of a call: their counts, and the first point that the policy refuses.
 class Outcome {
@@ -264,8 +195,8 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
     locate::in_arena(options.threads, [&] {
         const std::size_t count = out.cells.size(), block = locate::block_of(count);
         Outcome outcome((count + block - 1) / block);
-        const auto make = [&](std::size_t, std::size_t size) { return SortedRows(*data_, options, size); };
-        const auto keep = [&](std::size_t first, const locate::SortedPoints& sorted, SortedRows& rows) {
+        const auto make = [&](std::size_t, std::size_t size) { return sample::SortedRows(*data_, options, size); };
+        const auto keep = [&](std::size_t first, const locate::SortedPoints& sorted, sample::SortedRows& rows) {
             rows.write(sorted, first, out);
             outcome.set(first / block, first, rows.sampler(), out);
         };
