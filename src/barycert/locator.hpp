@@ -16,7 +16,8 @@
 ///   N2  Its cost does not grow with the distance: a point 1e300 mesh sizes away visits about as many cells as one ten
 ///       sizes away.
 ///
-/// Method. On a certified mesh (check.hpp) the cells form a simplicial complex. Points are sorted along a space-filling
+/// Method. Points where no cell is near are outside at once, by a bit for each of many bins of the mesh's box, made when
+/// enough points are asked for. On a certified mesh (check.hpp) the cells form a simplicial complex. Points are sorted along a space-filling
 /// curve; each starts at a cell of its bin and walks, on SIMD lanes, to a cell that certainly contains it. Integers
 /// decide what the filter of signs leaves undecided. The cells around a face, edge or vertex follow from the mesh's
 /// connectivity. Where a walk ends at the boundary, and on meshes without a certificate, every cell whose box contains
@@ -95,7 +96,7 @@ public:
     const Mesh& mesh() const;
     Method method() const;
 
-    /// Bytes of memory besides the mesh, without buffers of points (up to 36 MiB a thread). Grows as parts of the index
+    /// Bytes of memory besides the mesh, without buffers of points (up to 20 MiB a thread). Grows as parts of the index
     /// are built on first use.
     std::size_t bytes() const;
 
