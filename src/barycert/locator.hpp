@@ -16,12 +16,13 @@
 ///   N2  Its cost does not grow with the distance: a point 1e300 mesh sizes away visits about as many cells as one ten
 ///       sizes away.
 ///
-/// Method. Points where no cell is near are outside at once, by a bit for each of many bins of the mesh's box, made when
-/// enough points are asked for. On a certified mesh (check.hpp) the cells form a simplicial complex. Points are sorted
-/// along a space-filling curve; each starts at a cell of its bin and walks, on SIMD lanes, to a cell that certainly
-/// contains it. Integers decide what the filter of signs leaves undecided. The cells around a face, edge or vertex
-/// follow from the mesh's connectivity. Where a walk ends at the boundary, and on meshes without a certificate, every
-/// cell whose box contains the point is tested. Walks are several times faster; both methods return the same results.
+/// Method. Points where no cell is near are outside at once, by a bit for each of many bins of the mesh's box, made
+/// when enough points are asked for. On a certified mesh (check.hpp) the cells form a simplicial complex. Points are
+/// sorted along a space-filling curve; each starts at a cell of its bin and walks, on SIMD lanes, to a cell that
+/// certainly contains it. Integers decide what the filter of signs leaves undecided. The cells around a face, edge or
+/// vertex follow from the mesh's connectivity. Where a walk ends at the boundary, and on meshes without a certificate,
+/// every cell whose box contains the point is tested. Walks are several times faster; both methods return the same
+/// results.
 #pragma once
 
 #include <cstddef>
