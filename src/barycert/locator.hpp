@@ -16,12 +16,13 @@
 ///   N2  Its cost does not grow with the distance: a point 1e300 mesh sizes away visits about as many cells as one ten
 ///       sizes away.
 ///
-/// Method. While the index is made it is proved of each cell, if it is so, that all others meet it in common faces or
-/// not at all (locate/proof.hpp); on a certified mesh (check.hpp) that is so of every cell. Points are sorted along a
-/// space-filling curve; each starts at a cell of its bin and walks, on SIMD lanes, to a cell that certainly contains
-/// it. Integers decide what the filter of signs leaves undecided. The cells around a face, edge or vertex follow from
-/// the mesh's connectivity. Where a walk ends at the boundary, or in a cell of which it is not proved, every cell whose
-/// box contains the point is tested.
+/// Method. Points where no cell is near are outside at once, by a bit for each of many bins of the mesh's box, made
+/// when enough points are asked for. While the index is made it is proved of each cell, if it is so, that all others
+/// meet it in common faces or not at all (index/proof.hpp); on a certified mesh (check.hpp) that is so of every cell.
+/// Points are sorted along a space-filling curve; each starts at a cell of its bin and walks, on SIMD lanes, to a cell
+/// that certainly contains it. Integers decide what the filter of signs leaves undecided. The cells around a face, edge
+/// or vertex follow from the mesh's connectivity. Where a walk ends at the boundary, or in a cell of which it is not
+/// proved, every cell whose box contains the point is tested.
 #pragma once
 
 #include <cstddef>
@@ -101,7 +102,7 @@ public:
     /// Cells of volume exactly zero; 0 if the index was built with `prove` off.
     std::uint64_t degenerate_cells() const;
 
-    /// Bytes of memory besides the mesh, without buffers of points (up to 36 MiB a thread). Grows as parts of the index
+    /// Bytes of memory besides the mesh, without buffers of points (up to 20 MiB a thread). Grows as parts of the index
     /// are built on first use.
     std::size_t bytes() const;
 

@@ -21,6 +21,10 @@ using Triangulation =
 using Point = Kernel::Point_3;
 using Numbered = std::pair<Point, Mesh::Index>;
 
+Point point_of(std::span<const double> points, std::size_t i) {
+    return {points[3 * i], points[3 * i + 1], points[3 * i + 2]};
+}
+
 /// Six times the signed volume, in plain double.
 double volume(const Point& a, const Point& b, const Point& c, const Point& d) {
     const double x1 = b.x() - a.x(), y1 = b.y() - a.y(), z1 = b.z() - a.z();
@@ -36,6 +40,7 @@ struct CgalPeer::Data {
     Triangulation triangulation;
     std::vector<Numbered> sorted;
     std::vector<Triangulation::Cell_handle> cells;  // of the sorted points
+    std::vector<Triangulation::Cell_handle> last, each;
 };
 
 CgalPeer::CgalPeer(const Mesh& mesh) : data_(std::make_unique<Data>()) {
@@ -54,6 +59,7 @@ void CgalPeer::build() {
 void CgalPeer::drop() {
     data_->triangulation.clear();
     data_->cells.clear();
+    data_->last.clear();
 }
 
 void CgalPeer::sort(std::span<const double> points) {
@@ -71,6 +77,26 @@ void CgalPeer::walk() {
     Triangulation::Cell_handle hint;
     for (std::size_t i = 0; i < data_->sorted.size(); ++i)
         data_->cells[i] = hint = data_->triangulation.locate(data_->sorted[i].first, hint);
+}
+
+void CgalPeer::follow(std::span<const double> points) {
+    data_->last.resize(points.size() / 3);
+    Triangulation::Cell_handle hint;
+    for (std::size_t i = 0; i < data_->last.size(); ++i)
+        data_->last[i] = hint = data_->triangulation.locate(point_of(points, i), hint);
+}
+
+void CgalPeer::find_each(std::span<const double> points) {
+    data_->each.resize(points.size() / 3);
+    for (std::size_t i = 0; i < data_->each.size(); ++i)
+        data_->each[i] = data_->triangulation.locate(point_of(points, i));
+}
+
+void CgalPeer::find_each_from(std::span<const double> points, std::size_t (*hint)(std::size_t, std::size_t)) {
+    const std::size_t count = points.size() / 3;
+    data_->each.resize(count);
+    for (std::size_t i = 0; i < count; ++i)
+        data_->each[i] = data_->triangulation.locate(point_of(points, i), data_->last[hint(i, count)]);
 }
 
 std::vector<std::array<Mesh::Index, 4>> CgalPeer::found() const {

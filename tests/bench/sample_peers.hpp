@@ -27,7 +27,10 @@ public:
 
     /// FindCell for each point, in their order: -1 where it finds none.
     virtual void find(Which which, std::vector<Mesh::Index>& cells) = 0;
-    /// The same, and the sum of the weights that FindCell gives times the nodal values; NaN where it finds none.
+    /// The same for points of the caller.
+    virtual void find_all(Which which, std::span<const double> points, std::vector<Mesh::Index>& cells) = 0;
+    /// The same as find, and the sum of the weights that FindCell gives times the nodal values; NaN where it finds
+    /// none.
     virtual void interpolate(Which which, std::vector<double>& values) = 0;
 
     /// vtkProbeFilter at the points, which builds its own locator of that kind each time, as it does for its users.
@@ -54,6 +57,11 @@ public:
     void sort(std::span<const double> points);
     /// Locates the sorted points, each from the cell of the one before. Exact.
     void walk();
+    /// Locates points in their order, each from the cell of the one before.
+    void follow(std::span<const double> points);
+    /// The same without hints; and point i from the cell that follow() found last for point hint(i, number of points).
+    void find_each(std::span<const double> points);
+    void find_each_from(std::span<const double> points, std::size_t (*hint)(std::size_t, std::size_t));
     /// Nodes of the cell found for each point, in the order given to `sort`; -1 if it is outside the hull.
     std::vector<std::array<Mesh::Index, 4>> found() const;
     /// Linear interpolation in the cells found, in plain double; NaN outside the hull.

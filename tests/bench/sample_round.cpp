@@ -105,6 +105,7 @@ void run_subject(const Subject& subject, const RoundOptions& options_, SampleTab
     round.cgal = std::make_unique<CgalPeer>(subject.mesh);
     verify_cgal(round);
     run_points(round, table);
+    run_single(round, table);
     run_grid(round, table);
     run_builds(round, table);
 }

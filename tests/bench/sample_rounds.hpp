@@ -41,6 +41,7 @@ void run_subject(const Subject& subject, const RoundOptions& options, SampleTabl
 
 /// Its parts: they time, and tell.
 void run_points(Round& round, SampleTable& table);
+void run_single(Round& round, SampleTable& table);
 void run_grid(Round& round, SampleTable& table);
 void run_builds(Round& round, SampleTable& table);
 

@@ -47,6 +47,7 @@ public:
     std::size_t build(Which which) override;
     void drop(Which which) override { locator(which) = nullptr; }
     void find(Which which, std::vector<Mesh::Index>& cells) override;
+    void find_all(Which which, std::span<const double> points, std::vector<Mesh::Index>& cells) override;
     void interpolate(Which which, std::vector<double>& values) override;
     void probe(Which which) override { probe(points_, new_locator(which)); }
     void probe_image() override { probe(image_, nullptr); }
@@ -59,11 +60,11 @@ private:
 
     /// visit(number of the point, cell or -1, generic cell, weights) for each point.
     template <class Visit>
-    void for_found(Which which, Visit visit) {
+    void for_found(Which which, std::span<const double> points, Visit visit) {
         vtkNew<vtkGenericCell> cell;
         double parametric[3], weights[8];
-        for (std::size_t i = 0; i < coordinates_.size() / 3; ++i) {
-            double at[3] = {coordinates_[3 * i], coordinates_[3 * i + 1], coordinates_[3 * i + 2]};
+        for (std::size_t i = 0; i < points.size() / 3; ++i) {
+            double at[3] = {points[3 * i], points[3 * i + 1], points[3 * i + 2]};
             visit(i, locator(which)->FindCell(at, 0, cell, parametric, weights), cell.Get(), weights);
         }
     }
@@ -120,15 +121,19 @@ std::size_t Vtk::build(Which which) {
 }
 
 void Vtk::find(Which which, std::vector<Mesh::Index>& cells) {
-    cells.resize(coordinates_.size() / 3);
-    for_found(which, [&](std::size_t i, vtkIdType found, vtkGenericCell*, const double*) {
+    find_all(which, coordinates_, cells);
+}
+
+void Vtk::find_all(Which which, std::span<const double> points, std::vector<Mesh::Index>& cells) {
+    cells.resize(points.size() / 3);
+    for_found(which, points, [&](std::size_t i, vtkIdType found, vtkGenericCell*, const double*) {
         cells[i] = static_cast<Mesh::Index>(found);
     });
 }
 
 void Vtk::interpolate(Which which, std::vector<double>& values) {
     values.resize(coordinates_.size() / 3);
-    for_found(which, [&](std::size_t i, vtkIdType found, vtkGenericCell* cell, const double* weights) {
+    for_found(which, coordinates_, [&](std::size_t i, vtkIdType found, vtkGenericCell* cell, const double* weights) {
         double sum = 0;
         for (int k = 0; k < 4 && found >= 0; ++k)
             sum += weights[k] * values_[static_cast<std::size_t>(cell->GetPointId(k))];

@@ -14,6 +14,7 @@ namespace barycert::index {
 /// enough, so bins are as near to cubes as can be.
 class Bins {
 public:
+    /// One bin, for everything.
     Bins() = default;
 
     /// About `bins` of them, at most 2^27.
@@ -22,6 +23,10 @@ public:
     const Quantizer& quantizer() const { return quantizer_; }
     std::size_t count() const { return std::size_t{1} << bits_; }
     int bits() const { return bits_; }
+
+    /// What `of` does on axis k: the table entry of a coordinate's whole number without its last `shift` bits.
+    int shift(std::size_t k) const { return shift_[k]; }
+    const std::uint32_t* curve(std::size_t k) const { return curve_[k].data(); }
 
     /// The bin of a point with d coordinates, d as given; the nearest one of a point outside the box.
     std::uint32_t of(const double* point) const {
@@ -43,8 +48,10 @@ private:
     Quantizer quantizer_;
     std::size_t d_ = 0;
     int bits_ = 0;
-    std::array<int, 3> shift_{};
-    std::array<std::vector<std::uint32_t>, 3> curve_;  ///< by place on the axis: its bits where they stand in a bin
+    std::array<int, 3> shift_{Quantizer::bits, Quantizer::bits, Quantizer::bits};
+    using Curve = std::vector<std::uint32_t>;
+    std::array<Curve, 3> curve_{Curve(1), Curve(1),
+                                Curve(1)};  ///< by place on the axis: its bits where they stand in a bin
 };
 
 }  // namespace barycert::index

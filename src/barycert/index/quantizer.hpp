@@ -33,9 +33,13 @@ public:
 
     /// Precondition: x is finite.
     std::int32_t at(std::size_t k, double x) const {
-        const double t = (x * 0.5 - half_low_[k]) * scale_[k];
-        return static_cast<std::int32_t>(std::clamp(t, 0.0, static_cast<double>(max)));
+        return static_cast<std::int32_t>(std::clamp(before_rounding(k, x), 0.0, static_cast<double>(max)));
     }
+
+    /// What at() cuts off: (x / 2 - half_low) * scale, rounded as written.
+    double before_rounding(std::size_t k, double x) const { return (x * 0.5 - half_low_[k]) * scale_[k]; }
+    double half_low(std::size_t k) const { return half_low_[k]; }
+    double scale(std::size_t k) const { return scale_[k]; }
 
     /// Numbers that no coordinate mapped to q falls below, or rises above, by more than a rounding of their own size.
     /// Infinite on an axis that the halves of its ends do not tell apart.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -49,30 +50,48 @@ inline std::size_t block_of(std::size_t count) {
 }
 
 /// For blocks of the points, on all threads of the calling arena: worker = make(number of the first point of the
-/// block, their count); worker(records, count, owners, features) for each chunk of the sorted block; in the end
-/// done(number of the first point, sorted block, worker). Precondition: finite points.
+/// block, their count); worker(records, count, owners, features) for each chunk of the sorted block, points that are
+/// known to be outside left out; in the end done(number of the first point, sorted block, worker). `nodes`: those of
+/// the index, or a copy that will be read after it. Returns false, and leaves out blocks, if a coordinate is not
+/// finite.
 template <class Make, class Done>
-void for_chunks(const LocatorData& data, std::span<const double> points, LocationCounts& counts, Make make, Done done) {
+bool for_chunks(const LocatorData& data, const NodeRecord* nodes, std::span<const double> points,
+                LocationCounts& counts, Make make, Done done) {
     const std::size_t d = data.index.dimension(), count = points.size() / d;
+    data.prepare(count);
     const std::size_t block = block_of(count), blocks = (count + block - 1) / block;
     std::vector<LocationCounts> parts(blocks);
+    std::atomic<bool> finite = true;
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
         const std::size_t first = b * block, size = std::min(block, count - first);
         std::unique_ptr<SortedPoints> sorted = data.sorted.take();
-        sorted->sort(d, data.index.bins, points.subspan(d * first, d * size));
-        Finder finder(data);
-        auto worker = make(first, size);
-        std::array<Place, chunk_size> owner;
-        std::array<Feature, chunk_size> feature;
-        for (std::size_t at = 0; at < size; at += chunk_size) {
-            const std::size_t n = std::min(chunk_size, size - at);
-            finder.find(sorted->data() + at, n, owner.data(), feature.data(), parts[b]);
-            worker(sorted->data() + at, n, owner.data(), feature.data());
+        if (sorted->sort(data.index, data.occupancy(), points.subspan(d * first, d * size))) {
+            Finder finder(data, nodes, size);
+            auto worker = make(first, size);
+            std::array<PointRecord, chunk_size> records;
+            std::array<Place, chunk_size> owner;
+            std::array<Feature, chunk_size> feature;
+            const auto expect = [&](std::size_t at) {
+                finder.expect(*sorted, at, std::min(chunk_size, sorted->size() - at));
+            };
+            expect(0);
+            for (std::size_t at = 0; at < sorted->size(); at += chunk_size) {
+                const std::size_t n = std::min(chunk_size, sorted->size() - at);
+                finder.begin();
+                sorted->copy(at, n, records.data());
+                expect(at + n);
+                finder.find(records.data(), n, owner.data(), feature.data(), parts[b]);
+                worker(records.data(), n, owner.data(), feature.data());
+            }
+            parts[b].add(Feature::outside, size - sorted->size());
+            done(first, *sorted, worker);
+        } else {
+            finite = false;
         }
-        done(first, *sorted, worker);
         data.sorted.put(std::move(sorted));
     });
     for (const LocationCounts& part : parts) counts.add(part);
+    return finite;
 }
 
 }  // namespace barycert::locate

@@ -12,68 +12,96 @@ constexpr int max_rounds = 128;
 
 void Finder::find(const PointRecord* points, std::size_t count, Place* owner, Feature* feature,
                   LocationCounts& counts) {
-    asked_count_ = 0;
+    std::fill(owner, owner + count, -1);
+    std::fill(feature, feature + count, Feature::outside);
+    asked_count_ = arrived_.count = 0;
     if (data_.method == Method::walk) {
-        start(points, count);
-        walk(points, count, owner, feature, counts.tests);
+        walk(points, owner, feature, counts.tests);
     } else {
-        for (std::size_t i = 0; i < count; ++i) {
-            asked_[asked_count_] = static_cast<std::uint32_t>(i);
-            asked_count_ += data_.index.box_holds(points[i].at.data()) ? 1 : 0;
-            owner[i] = -1;
-            feature[i] = Feature::outside;
-        }
+        std::iota(asked_.begin(), asked_.begin() + static_cast<std::ptrdiff_t>(count), 0);
+        asked_count_ = count;
     }
     if (asked_count_ != 0) ask_candidates(points, owner, feature, counts.tests);
-    for (std::size_t i = 0; i < count; ++i) counts.add(feature[i]);
-}
-
-void Finder::find_from(Place start, const PointRecord& point, Place& owner, Feature& feature) {
-    LocationCounts ignored;
-    if (data_.method != Method::walk || !data_.index.box_holds(point.at.data()))
-        return find(&point, 1, &owner, &feature, ignored);
-    asked_count_ = 0;
-    walks_[0] = {0, start};
-    walking_ = 1;
-    walk(&point, 1, &owner, &feature, ignored.tests);
-    if (asked_count_ != 0) ask_candidates(&point, &owner, &feature, ignored.tests);
-}
-
-void Finder::start(const PointRecord* points, std::size_t count) {
-    const CellIndex& index = data_.index;
-    walking_ = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const Place cell = index.start(points[i].bin);
-        __builtin_prefetch(&index.cells[static_cast<std::size_t>(cell)]);
-        walks_[walking_] = {static_cast<std::uint32_t>(i), cell};
-        walking_ += index.box_holds(points[i].at.data()) ? 1 : 0;
-    }
-}
-
-void Finder::walk(const PointRecord* points, std::size_t count, Place* owner, Feature* feature, TierCounts& tests) {
-    const CellIndex& index = data_.index;
-    std::fill(owner, owner + count, -1);
-    std::size_t stuck = 0;
-    for (int round = 0; walking_ > 0 && round < max_rounds; ++round)
-        walking_ = step_walks(index, points, walks_.data(), walking_, owner, stuck_.data(), stuck);
-    std::uint64_t arrived = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        feature[i] = owner[i] >= 0 ? Feature::interior : Feature::outside;
-        arrived += owner[i] >= 0 ? 1 : 0;
-    }
-    tests.add(Tier::filter, arrived);
-    if (!data_.proof.contested.empty()) {
-        std::array<std::uint32_t, chunk_size> contested;
-        std::size_t contested_count = 0;
+    std::uint64_t interior = arrived_.count;
+    if (interior != count) {
+        interior = 0;
         for (std::size_t i = 0; i < count; ++i) {
-            contested[contested_count] = static_cast<std::uint32_t>(i);
-            contested_count += owner[i] >= 0 && data_.proof.is_contested(owner[i]) ? 1 : 0;
+            if (feature[i] == Feature::interior) {
+                ++interior;
+            } else {
+                counts.add(feature[i]);
+            }
         }
-        if (contested_count != 0)
-            data_.contested_cells().find_owners(points, contested.data(), contested_count, owner, feature, tests);
     }
-    for (std::size_t i = 0; i < stuck; ++i) resolve(points[stuck_[i].point], stuck_[i], owner, feature, tests);
-    for (std::size_t i = 0; i < walking_; ++i) resolve(points[walks_[i].point], walks_[i], owner, feature, tests);
+    counts.add(Feature::interior, interior);
+}
+
+void Finder::settle(const PointRecord& point, Place stuck, Place& owner, Feature& feature) {
+    TierCounts ignored;
+    owner = -1;
+    feature = Feature::outside;
+    asked_count_ = 0;
+    resolve(point, {0, stuck}, &owner, &feature, ignored);
+    if (asked_count_ != 0) ask_candidates(&point, &owner, &feature, ignored);
+}
+
+void Upcoming::find(std::size_t number) {
+    const std::size_t end = std::min(count, done + number), d = index->dimension();
+    const SortedPoints::Entry* const entries = sorted->entries() + first;
+    const double* const points = sorted->point(0);
+    for (std::size_t i = done; i < end; ++i) {
+        const SortedPoints::Entry entry = entries[i];
+        const double* const at = points + d * entry.number;
+        __builtin_prefetch(at, 0, 2);
+        __builtin_prefetch(at + d - 1, 0, 2);
+        const Place cell = index->start(entry.bin);
+        __builtin_prefetch(index->cells.data() + cell, 0, 2);
+        walks[i] = {static_cast<std::uint32_t>(i), cell};
+    }
+    done = end;
+}
+
+void Finder::expect(const SortedPoints& sorted, std::size_t first, std::size_t count) {
+    upcoming_.index = &data_.index;
+    upcoming_.sorted = &sorted;
+    upcoming_.first = first;
+    upcoming_.count = count;
+    upcoming_.done = 0;
+}
+
+void Finder::begin() {
+    upcoming_.find(upcoming_.count);
+    std::copy_n(upcoming_.walks.begin(), upcoming_.count, walking_.walks.begin());
+    walking_.count = upcoming_.count;
+}
+
+void Finder::walk(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests) {
+    stuck_.count = 0;
+    for (int round = 0; walking_.count > 0 && round < max_rounds; ++round)
+        walking_.count = step_walks(data_.index, nodes_, points, walking_.walks.data(), walking_.count, fetch_,
+                                    upcoming_, arrived_, stuck_);
+    for (std::size_t i = 0; i < arrived_.count; ++i) {
+        const Walk& end = arrived_.walks[i];
+        owner[end.point] = end.cell;
+        feature[end.point] = Feature::interior;
+        __builtin_prefetch(&data_.index.original[static_cast<std::size_t>(end.cell)]);
+    }
+    tests.add(Tier::filter, arrived_.count);
+    if (!data_.proof.contested.empty()) ask_contested(points, owner, feature, tests);
+    for (const WalkList* const doubtful : {&stuck_, &walking_}) {
+        for (std::size_t i = 0; i < doubtful->count; ++i)
+            resolve(points[doubtful->walks[i].point], doubtful->walks[i], owner, feature, tests);
+    }
+}
+
+void Finder::ask_contested(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests) {
+    std::array<std::uint32_t, chunk_size> contested;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < arrived_.count; ++i) {
+        contested[count] = arrived_.walks[i].point;
+        count += data_.proof.is_contested(arrived_.walks[i].cell) ? 1 : 0;
+    }
+    if (count != 0) data_.contested_cells().find_owners(points, contested.data(), count, owner, feature, tests);
 }
 
 void Finder::resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, TierCounts& tests) {

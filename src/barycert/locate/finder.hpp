@@ -3,40 +3,43 @@
 
 #include <array>
 #include <cstddef>
+#include <numeric>
 #include <vector>
 
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/locate/locator_data.hpp"
+#include "barycert/locate/sorted_points.hpp"
 #include "barycert/locate/tree_lanes.hpp"
 #include "barycert/locate/walk_lanes.hpp"
 
 namespace barycert::locate {
 
-/// Points that are found together: enough for full lanes in every round of the walks, few enough for the first cache.
-inline constexpr std::size_t chunk_size = 512;
-
 /// Not shared between threads: it keeps the memory of its work.
 class Finder {
 public:
-    explicit Finder(const LocatorData& data) : data_(data) {}
+    /// Walks read `nodes`, those of the index or a copy. `points`: about how many there will be.
+    Finder(const LocatorData& data, const NodeRecord* nodes, std::size_t points)
+        : data_(data), nodes_(nodes), fetch_(points < data.index.cell_count()) {}
 
-    /// For each of `count` <= chunk_size points: the place of its owner, -1 outside, and the feature.
-    /// Precondition: finite points.
+    /// Points of the places [first, first + count) in `sorted` will be found after those of the next find().
+    void expect(const SortedPoints& sorted, std::size_t first, std::size_t count);
+    /// The points expected are those of the next find().
+    void begin();
+
+    /// For each of `count` <= chunk_size points: the place of its owner, -1 outside, and the feature. On a mesh for
+    /// walks they are those of the last begin(). Precondition: finite points in the box of the cells.
     void find(const PointRecord* points, std::size_t count, Place* owner, Feature* feature, LocationCounts& counts);
 
-    /// The same for one point, the walk starting at a given cell.
-    void find_from(Place start, const PointRecord& point, Place& owner, Feature& feature);
+    /// The same for one point whose walk ended in doubt: `stuck` is what step_walks says.
+    void settle(const PointRecord& point, Place stuck, Place& owner, Feature& feature);
 
-    /// found(point, cell of the mesh, feature) for every cell that holds each of the points, in no order.
+    /// found(point, cell of the mesh, feature) for every cell that holds each of the points, in no order. Precondition:
+    /// as of find().
     template <class F>
     void find_all(const PointRecord* points, std::size_t count, LocationCounts& counts, F found) {
         std::array<std::uint32_t, chunk_size> which;
-        std::size_t in_box = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            which[in_box] = static_cast<std::uint32_t>(i);
-            in_box += data_.index.box_holds(points[i].at.data()) ? 1 : 0;
-        }
-        for_candidates(points, which.data(), in_box, counts.tests, [&](const Candidate& c, WeightSigns signs) {
+        std::iota(which.begin(), which.begin() + static_cast<std::ptrdiff_t>(count), 0);
+        for_candidates(points, which.data(), count, counts.tests, [&](const Candidate& c, WeightSigns signs) {
             if (signs.contains())
                 found(c.point, data_.index.original[static_cast<std::size_t>(c.cell)],
                       signs.feature(data_.index.simplex));
@@ -44,8 +47,9 @@ public:
     }
 
 private:
-    void start(const PointRecord* points, std::size_t count);
-    void walk(const PointRecord* points, std::size_t count, Place* owner, Feature* feature, TierCounts& tests);
+    void walk(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests);
+    /// Who else holds the points that arrived in contested cells?
+    void ask_contested(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests);
     void resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, TierCounts& tests);
     void ask_candidates(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests);
 
@@ -69,9 +73,10 @@ private:
     }
 
     const LocatorData& data_;
-    std::array<Walk, chunk_size> walks_;
-    std::size_t walking_ = 0;
-    std::array<Walk, chunk_size + 1> stuck_;
+    const NodeRecord* nodes_;
+    bool fetch_;  ///< fewer points than cells: most memory is read for the first time
+    Upcoming upcoming_;
+    WalkList walking_, arrived_, stuck_;
     std::array<std::uint32_t, chunk_size> asked_;  ///< points for which every candidate is asked
     std::size_t asked_count_ = 0;
     std::vector<Candidate> candidates_;

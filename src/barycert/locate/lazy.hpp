@@ -15,6 +15,7 @@ class Lazy {
 public:
     template <class Make>
     const T& get(Make make) const {
+        if (const T* const there = made()) return *there;
         std::call_once(once_, [&] {
             // A thread that waits for others while it makes this must not take up work that would ask for it again.
             tbb::this_task_arena::isolate([&] { value_.reset(new T(make())); });

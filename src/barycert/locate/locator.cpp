@@ -1,5 +1,6 @@
 #include "barycert/locator.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "barycert/environment.hpp"
@@ -11,13 +12,12 @@
 namespace barycert {
 namespace {
 
-Status check_points(const Locator& locator, std::span<const double> points) {
+Status check_size(const Locator& locator, std::span<const double> points) {
     const std::size_t d = locator.data().index.dimension();
-    if (points.size() % d != 0)
-        return Error{.what = "size of the points",
-                     .expected = std::to_string(d) + " coordinates a point",
-                     .found = std::to_string(points.size()) + " numbers"};
-    return locate::check_finite(points, d);
+    if (points.size() % d == 0) return Done{};
+    return Error{.what = "size of the points",
+                 .expected = std::to_string(d) + " coordinates a point",
+                 .found = std::to_string(points.size()) + " numbers"};
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ std::size_t Locator::bytes() const {
 Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> cells, std::span<Feature> features,
                        LocationCounts* counts, int threads) const {
     const ExactEnvironment environment;
-    if (Status status = check_points(*this, points); !status) return status;
+    if (Status status = check_size(*this, points); !status) return status;
     const std::size_t count = points.size() / data_->index.dimension();
     if (cells.size() != count || features.size() != count)
         return Error{.what = "size of the output",
@@ -89,28 +89,35 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
     LocationCounts all;
     struct Worker {
         const locate::CellIndex& index;
-        std::vector<Mesh::Index> cells;
-        std::vector<Feature> features;
+        const locate::Pool<std::vector<Location>>& pool;
+        std::unique_ptr<std::vector<Location>> found;
 
         void operator()(const locate::PointRecord* records, std::size_t n, const locate::Place* owner,
                         const Feature* feature) {
-            for (std::size_t i = 0; i < n; ++i) {
-                cells[records[i].number] = owner[i] < 0 ? -1 : index.original[static_cast<std::size_t>(owner[i])];
-                features[records[i].number] = feature[i];
-            }
+            Location* const to = found->data() + records->number;
+            for (std::size_t i = 0; i < n; ++i)
+                to[i] = {owner[i] < 0 ? -1 : index.original[static_cast<std::size_t>(owner[i])], feature[i]};
         }
     };
     const auto make = [&](std::size_t, std::size_t size) {
-        return Worker{data_->index, std::vector<Mesh::Index>(size), std::vector<Feature>(size)};
+        Worker worker{data_->index, data_->locations, data_->locations.take()};
+        worker.found->resize(std::max(worker.found->size(), size + 1));
+        return worker;
     };
-    const auto write = [&](std::size_t first, const locate::SortedPoints& sorted, const Worker& worker) {
-        sorted.for_each_in_callers_order([&](std::size_t place) { __builtin_prefetch(&worker.cells[place]); },
+    const auto write = [&](std::size_t first, const locate::SortedPoints& sorted, Worker& worker) {
+        Location* const found = worker.found->data();
+        found[sorted.size()] = {};  // of those left out
+        sorted.for_each_in_callers_order([&](std::size_t place) { __builtin_prefetch(found + place); },
                                          [&](std::size_t i, std::size_t place) {
-                                             cells[first + i] = worker.cells[place];
-                                             features[first + i] = worker.features[place];
+                                             cells[first + i] = found[place].cell;
+                                             features[first + i] = found[place].feature;
                                          });
+        data_->locations.put(std::move(worker.found));
     };
-    locate::in_arena(threads, [&] { locate::for_chunks(*data_, points, all, make, write); });
+    bool finite = true;
+    locate::in_arena(threads,
+                     [&] { finite = locate::for_chunks(*data_, data_->index.nodes.data(), points, all, make, write); });
+    if (!finite) return locate::check_finite(points, data_->index.dimension());
     if (counts != nullptr) counts->add(all);
     return Done{};
 }
@@ -128,28 +135,33 @@ Result<Table> Locator::locate(std::span<const double> points, int threads) const
 
 Result<Table> Locator::locate_all(std::span<const double> points, int threads) const {
     const ExactEnvironment environment;
-    if (Status status = check_points(*this, points); !status) return status.error();
+    if (Status status = check_size(*this, points); !status) return status.error();
     struct Found {
         std::size_t point;
         Mesh::Index cell;
         Feature feature;
     };
     const std::size_t d = data_->index.dimension(), count = points.size() / d;
+    if (Status status = locate::check_finite(points, d); !status) return status.error();
     constexpr std::size_t block = std::size_t{1} << 13;
     const std::size_t blocks = (count + block - 1) / block;
     std::vector<std::vector<Found>> found(blocks);
     std::vector<LocationCounts> parts(blocks);
     locate::in_arena(threads, [&] {
+        data_->prepare(count);
         tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
             const std::size_t first = b * block, size = std::min(block, count - first);
             locate::SortedPoints sorted;
-            sorted.sort(d, data_->index.bins, points.subspan(d * first, d * size));
-            locate::Finder finder(*data_);
-            std::vector<std::size_t> number(size);
+            sorted.sort(data_->index, data_->occupancy(), points.subspan(d * first, d * size));
+            locate::Finder finder(*data_, data_->index.nodes.data(), size);
+            std::vector<std::size_t> number(size + 1);
             sorted.for_each_in_callers_order([](std::size_t) {},
                                              [&](std::size_t i, std::size_t place) { number[place] = first + i; });
-            for (std::size_t at = 0; at < size; at += locate::chunk_size) {
-                finder.find_all(sorted.data() + at, std::min(locate::chunk_size, size - at), parts[b],
+            std::array<locate::PointRecord, locate::chunk_size> records;
+            for (std::size_t at = 0; at < sorted.size(); at += locate::chunk_size) {
+                const std::size_t n = std::min(locate::chunk_size, sorted.size() - at);
+                sorted.copy(at, n, records.data());
+                finder.find_all(records.data(), n, parts[b],
                                 [&](std::uint32_t point, Mesh::Index cell, Feature feature) {
                                     found[b].push_back({number[at + point], cell, feature});
                                 });
@@ -182,26 +194,6 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads) c
         found[b] = {};
     }
     return table;
-}
-
-Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
-    const ExactEnvironment environment;
-    const locate::CellIndex& index = data_->index;
-    const std::size_t d = index.dimension();
-    if (Status status = locate::check_finite({point, d}, d); !status) return status.error();
-    locate::PointRecord record{};
-    for (std::size_t k = 0; k < d; ++k) record.at[k] = point[k];
-    record.bin = index.bins.of(point);
-    locate::Finder finder(*data_);
-    locate::Place owner = -1;
-    Feature feature = Feature::outside;
-    LocationCounts ignored;
-    if (hint >= 0 && static_cast<std::size_t>(hint) < index.cell_count()) {
-        finder.find_from(data_->places()[static_cast<std::size_t>(hint)], record, owner, feature);
-    } else {
-        finder.find(&record, 1, &owner, &feature, ignored);
-    }
-    return Location{owner < 0 ? -1 : index.original[static_cast<std::size_t>(owner)], feature};
 }
 
 }  // namespace barycert

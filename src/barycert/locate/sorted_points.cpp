@@ -8,36 +8,47 @@ namespace {
 
 constexpr int max_bits = 10;
 
-template <std::size_t d>
-void place(std::span<const double> points, const std::vector<std::uint32_t>& bin, int shift,
-           std::vector<std::uint32_t>& next, PointRecord* records, std::uint32_t* places) {
-    for (std::size_t i = 0; i < bin.size(); ++i) {
-        const std::uint32_t at = places[i] = next[bin[i] >> shift]++;
-        PointRecord& to = records[at];
-        const double* const from = points.data() + d * i;
-        to.at = {from[0], from[1], d == 3 ? from[d - 1] : 0};
-        to.number = at;
-        to.bin = bin[i];
-    }
-}
-
 }  // namespace
 
-void SortedPoints::sort(std::size_t d, const Bins& bins, std::span<const double> points) {
-    size_ = points.size() / d;
-    if (records_.size() < size_) records_ = Buffer<PointRecord>(size_);
-    const int shift = std::max(0, bins.bits() - max_bits);
-    bin_.resize(size_);
-    next_.assign(bins.count() >> shift, 0);
-    for (std::size_t i = 0; i < size_; ++i) {
-        bin_[i] = bins.of(points.data() + d * i);
-        ++next_[bin_[i] >> shift];
+bool SortedPoints::sort(const CellIndex& index, const Occupancy* occupancy, std::span<const double> points) {
+    points_ = points;
+    d_ = index.dimension();
+    count_ = points.size() / d_;
+    if (place_.size() < count_) {
+        place_ = Buffer<std::uint32_t>(count_);
+        order_ = Buffer<Entry>(count_ + 1);
+    }
+    const int shift = std::max(0, index.bins.bits() - max_bits);
+    // The last one is for points that are left out.
+    const auto last = static_cast<std::uint32_t>(index.bins.count() >> shift);
+    next_.assign(last + 1, 0);
+    bool finite = true;
+    constexpr std::size_t at_once = 2048;
+    for (std::size_t at = 0; at < count_; at += at_once) {
+        const std::size_t n = std::min(at_once, count_ - at);
+        finite &= find_bins(index, occupancy, points.subspan(d_ * at, d_ * n), place_.data() + at);
+        for (std::size_t i = at; i < at + n; ++i) ++next_[std::min(place_[i] >> shift, last)];
     }
     std::uint32_t sum = 0;
     for (std::uint32_t& n : next_) sum += std::exchange(n, sum);
-    place_.resize(size_);
-    d == 2 ? place<2>(points, bin_, shift, next_, records_.data(), place_.data())
-           : place<3>(points, bin_, shift, next_, records_.data(), place_.data());
+    size_ = next_[last];
+    for (std::size_t i = 0; i < count_; ++i) {
+        const std::uint32_t bin = place_[i], stream = std::min(bin >> shift, last), at = next_[stream];
+        next_[stream] += stream != last ? 1 : 0;
+        order_[at] = {static_cast<std::uint32_t>(i), bin};
+        place_[i] = at;
+    }
+    return finite;
+}
+
+void SortedPoints::copy(std::size_t first, std::size_t count, PointRecord* to) const {
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t place = first + i;
+        const double* const from = point(order_[place].number);
+        to[i].at = {from[0], from[1], d_ == 3 ? from[d_ - 1] : 0};
+        to[i].number = static_cast<std::uint32_t>(place);
+        to[i].bin = order_[place].bin;
+    }
 }
 
 }  // namespace barycert::locate

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "barycert/index/bins.hpp"
 #include "barycert/index/buffer.hpp"
+#include "barycert/locate/bin_lanes.hpp"
 #include "barycert/locate/names.hpp"
 #include "barycert/locate/walk_lanes.hpp"
 
@@ -16,30 +16,43 @@ namespace barycert::locate {
 /// A block of points, near ones side by side. Keeps its memory from block to block.
 class SortedPoints {
 public:
-    /// d coordinates a point, all finite. Sorted by the first bits of their bins alone: what lies together in one of
-    /// those fits the nearest caches.
-    void sort(std::size_t d, const Bins& bins, std::span<const double> points);
+    /// d coordinates a point. Sorted by the first bits of their bins alone: what lies together in one of those fits the
+    /// nearest caches. Points that find_bins knows to be outside are left out. Returns whether all coordinates are
+    /// finite. The points must stay where they are.
+    bool sort(const CellIndex& index, const Occupancy* occupancy, std::span<const double> points);
 
+    /// How many are left, and how many not.
     std::size_t size() const { return size_; }
-    /// The number of each record is its own place in this order.
-    const PointRecord* data() const { return records_.data(); }
+    std::size_t left_out() const { return count_ - size_; }
+    /// Point i in the order of the caller.
+    const double* point(std::size_t i) const { return points_.data() + d_ * i; }
+    struct Entry {
+        std::uint32_t number;  ///< in the order of the caller
+        std::uint32_t bin;
+    };
+    /// By place in this order.
+    const Entry* entries() const { return order_.data(); }
+    /// Those of places [first, first + count) in this order. The number of each is its place.
+    void copy(std::size_t first, std::size_t count, PointRecord* to) const;
 
-    /// use(i, place of point i in this order) for every point, in the order of the caller. Results are written in this
-    /// order and read in that one: reading at random can be asked for ahead, by ahead(place); writing cannot.
+    /// use(i, place of point i in this order) for every point, in the order of the caller; the place of a point left
+    /// out is size(). Results are written in this order and read in that one: reading at random can be asked for ahead,
+    /// by ahead(place); writing cannot.
     template <class Ahead, class Use>
     void for_each_in_callers_order(Ahead ahead, Use use) const {
         constexpr std::size_t distance = 16;
-        for (std::size_t i = 0; i < size_; ++i) {
-            if (i + distance < size_) ahead(place_[i + distance]);
+        for (std::size_t i = 0; i < count_; ++i) {
+            if (i + distance < count_) ahead(place_[i + distance]);
             use(i, place_[i]);
         }
     }
 
 private:
-    Buffer<PointRecord> records_;
-    std::size_t size_ = 0;
-    std::vector<std::uint32_t> bin_, next_;
-    std::vector<std::uint32_t> place_;  ///< of each point, in the order of the caller
+    std::span<const double> points_;
+    std::size_t d_ = 3, count_ = 0, size_ = 0;
+    Buffer<Entry> order_;
+    std::vector<std::uint32_t> next_;
+    Buffer<std::uint32_t> place_;  ///< of each point, in the order of the caller; before that, its bin
 };
 
 }  // namespace barycert::locate

@@ -1,6 +1,8 @@
 /// Steps of many walks at once, on SIMD lanes.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -15,18 +17,41 @@ struct alignas(32) PointRecord {
     std::uint32_t bin;
 };
 
+class SortedPoints;
+
+/// Points that are found together: enough for full lanes in every round of the walks, few enough for the first cache.
+inline constexpr std::size_t chunk_size = 1024;
+
 /// Where a walk stands.
-struct Walk {
+struct alignas(8) Walk {
     std::uint32_t point;
     Place cell;
 };
 
-/// One step of each of `count` walks. Where the point is certainly inside the cell, inside[point] = cell, and the walk
-/// ends; where it is certainly beyond a facet that has a neighbour, it goes on there; these walks are moved to the
+/// With room for a vector more than the points of a chunk.
+struct WalkList {
+    std::array<Walk, chunk_size + 8> walks;
+    std::size_t count = 0;
+};
+
+/// Where the walks of the next chunk start. To be found bit by bit, between the steps of others: what each needs in
+/// memory is asked for, and too much asked for at once would keep all waiting.
+struct Upcoming {
+    const CellIndex* index = nullptr;
+    const SortedPoints* sorted = nullptr;
+    std::size_t first = 0, count = 0, done = 0;
+    std::array<Walk, chunk_size> walks;
+
+    void find(std::size_t number);
+};
+
+/// One step of each of `count` walks. Where the point is certainly inside the cell, the walk ends and goes to
+/// `arrived`; where it is certainly beyond a facet that has a neighbour, it goes on there; these walks are moved to the
 /// front of `walks`, and their number is returned. All others, on facets or at the end of the domain or in doubt, go to
-/// `stuck`, with the cell where they stand, or ~cell if the point is certainly outside of it, and `stuck_count` is
-/// raised; inside[point] is -1 for these. `stuck` needs room for one more than there may be.
-std::size_t step_walks(const CellIndex& index, const PointRecord* points, Walk* walks, std::size_t count, Place* inside,
-                       Walk* stuck, std::size_t& stuck_count);
+/// `stuck`, with the cell where they stand, or ~cell if the point is certainly outside of it. `walks` is of the size of
+/// a WalkList. `nodes`: those of the index, or a copy. `fetch`: ask some steps before for the memory that a step will
+/// read. In between, walks of `upcoming` are found.
+std::size_t step_walks(const CellIndex& index, const NodeRecord* nodes, const PointRecord* points, Walk* walks,
+                       std::size_t count, bool fetch, Upcoming& upcoming, WalkList& arrived, WalkList& stuck);
 
 }  // namespace barycert::locate

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "barycert/core/exact_tier.hpp"
 #include "barycert/quadratic.hpp"
@@ -17,9 +18,16 @@ void ChunkSampler::operator()(const locate::PointRecord* points, std::size_t cou
         inside_[inside] = {static_cast<std::uint32_t>(i), owner[i]};
         inside += owner[i] >= 0 ? 1 : 0;
         const std::uint32_t number = points[i].number;
-        rows_.cells[number] = owner[i] < 0 ? -1 : index.original[static_cast<std::size_t>(owner[i])];
-        rows_.features[number] = feature[i];
-        if (owner[i] < 0) outside(points[i]);
+        const Location location{owner[i] < 0 ? -1 : index.original[static_cast<std::size_t>(owner[i])], feature[i]};
+        if (rows_.cells == nullptr) {
+            std::memcpy(row(points[i]) - 1, &location, sizeof location);
+        } else {
+            rows_.cells[number] = location.cell;
+            rows_.features[number] = location.feature;
+        }
+        if (owner[i] < 0)
+            outside(points[i].at.data(), number, row(points[i]),
+                    rows_.distances == nullptr ? nullptr : rows_.distances + number);
     }
     if (data_.point_components != 0)
         data_.quadratic ? interpolate_second_order(points, inside) : interpolate_linear(points, inside);
@@ -33,7 +41,7 @@ void ChunkSampler::interpolate_linear(const locate::PointRecord* points, std::si
     const NodeValues nodes = data_.node_values();
     const std::size_t undecided =
         interpolate_lanes({index.simplex, index.cells.data(), nodes, points, std::span(inside_).first(count)},
-                          options_.rounding, {rows_.values, data_.columns.size()}, undecided_.data());
+                          options_.rounding, {rows_.values, rows_.stride}, undecided_.data());
     if (options_.rounding == Rounding::plain) return;
     counts_.values.add(Tier::double_double, count - undecided);
     for (std::size_t i = 0; i < undecided; ++i) {
@@ -97,30 +105,23 @@ void copy_cell_values(const SamplerData& data, Mesh::Index cell, double* row) {
     }
 }
 
-void ChunkSampler::outside(const locate::PointRecord& point) {
-    double* const values = row(point);
-    double* const end = values + data_.columns.size();
-    if (rows_.distances != nullptr) rows_.distances[point.number] = std::numeric_limits<double>::quiet_NaN();
-    switch (options_.outside.kind) {
-        case Outside::error:
-            refused_ = std::min(refused_.value_or(point.number), point.number);
-            [[fallthrough]];
-        case Outside::nan:
-            std::fill(values, end, std::numeric_limits<double>::quiet_NaN());
-            break;
-        case Outside::fill:
-            std::fill(values, end, options_.outside.fill);
-            break;
-        default:
-            if (const auto distance = value_outside(data_, options_, point.at.data(), values, counts_.values)) {
-                ++(options_.outside.kind == Outside::nearest ? counts_.snapped : counts_.extrapolated);
-                rows_.distances[point.number] = *distance;
-                counts_.farthest = std::max(counts_.farthest, *distance);
-                return;
-            }
-            std::fill(values, end, std::numeric_limits<double>::quiet_NaN());
+void ChunkSampler::outside(const double* point, std::uint32_t number, double* values, double* distance) {
+    if (distance == nullptr) return outside(1, number, values);
+    if (const auto found = value_outside(data_, options_, point, values, counts_.values)) {
+        ++(options_.outside.kind == Outside::nearest ? counts_.snapped : counts_.extrapolated);
+        *distance = *found;
+        counts_.farthest = std::max(counts_.farthest, *found);
+        return;
     }
-    ++counts_.without_value;
+    *distance = std::numeric_limits<double>::quiet_NaN();
+    outside(1, number, values);
+}
+
+void ChunkSampler::outside(std::uint64_t count, std::uint32_t number, double* values) {
+    if (options_.outside.kind == Outside::error) refused_ = std::min(refused_.value_or(number), number);
+    const bool fill = options_.outside.kind == Outside::fill;
+    std::fill_n(values, data_.columns.size(), fill ? options_.outside.fill : std::numeric_limits<double>::quiet_NaN());
+    counts_.without_value += count;
 }
 
 }  // namespace barycert::sample

@@ -13,11 +13,13 @@ namespace barycert::sample {
 
 /// Where the rows of a block go; row r of the block is for the point of number r.
 struct BlockRows {
-    Mesh::Index* cells;
+    Mesh::Index* cells;  ///< nullptr: each row of values has a Location before it instead
     Feature* features;
     double* values;
-    double* distances;  ///< nullptr unless the policy gives some
+    double* distances;       ///< nullptr unless the policy gives some
+    std::size_t stride = 0;  ///< from row to row of values; 0: rows of nothing else
 };
+static_assert(sizeof(Location) == sizeof(double));
 
 /// The values of the cell fields of a cell into their columns of a row.
 void copy_cell_values(const SamplerData& data, Mesh::Index cell, double* row);
@@ -26,11 +28,18 @@ void copy_cell_values(const SamplerData& data, Mesh::Index cell, double* row);
 class ChunkSampler {
 public:
     ChunkSampler(const SamplerData& data, const SampleOptions& options, const BlockRows& rows)
-        : data_(data), options_(options), rows_(rows) {}
+        : data_(data), options_(options), rows_(rows) {
+        if (rows_.stride == 0) rows_.stride = data.columns.size();
+    }
 
     /// Precondition: finite points; owners are places of cells, or -1 outside.
     void operator()(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
                     const Feature* feature);
+
+    /// Sets the values of a point outside, and its distance if the policy gives some.
+    void outside(const double* point, std::uint32_t number, double* values, double* distance);
+    /// The same for `count` points of one number and the same values, under a policy that does not look at the point.
+    void outside(std::uint64_t count, std::uint32_t number, double* values);
 
     const SampleCounts& counts() const { return counts_; }
     /// The lowest number of a point outside, if the policy is `error` and there is one.
@@ -40,8 +49,7 @@ private:
     void interpolate_linear(const locate::PointRecord* points, std::size_t count);
     void interpolate_exactly(const locate::PointRecord& point, locate::Place cell);
     void interpolate_second_order(const locate::PointRecord* points, std::size_t count);
-    void outside(const locate::PointRecord& point);
-    double* row(const locate::PointRecord& point) { return rows_.values + data_.columns.size() * point.number; }
+    double* row(const locate::PointRecord& point) { return rows_.values + rows_.stride * point.number; }
 
     const SamplerData& data_;
     const SampleOptions& options_;

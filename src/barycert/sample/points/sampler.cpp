@@ -8,6 +8,7 @@
 #include "barycert/sample/points/chunk_sampler.hpp"
 #include "barycert/sample/points/field_choice.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
+#include "barycert/sample/points/sorted_rows.hpp"
 #include "barycert/sampler.hpp"
 
 namespace barycert {
@@ -76,17 +77,12 @@ void arrange_by_node(SamplerData& data) {
 }
 
 /// What is wrong with the call, before anything is done.
-Status check_call(const SamplerData& data, std::span<const double> points, std::size_t first_point) {
+Status check_call(const SamplerData& data, std::span<const double> points) {
     const std::size_t d = data.index().dimension();
-    if (points.size() % d != 0)
-        return Error{.what = "size of the points",
-                     .expected = std::to_string(d) + " coordinates a point",
-                     .found = std::to_string(points.size()) + " numbers"};
-    return locate::check_finite(points, d, first_point);
-}
-
-bool gives_distances(const OutsidePolicy& policy) {
-    return policy.kind == Outside::nearest || policy.kind == Outside::extrapolate;
+    if (points.size() % d == 0) return Done{};
+    return Error{.what = "size of the points",
+                 .expected = std::to_string(d) + " coordinates a point",
+                 .found = std::to_string(points.size()) + " numbers"};
 }
 
 void resize(const SamplerData& data, const SampleOptions& options, std::size_t rows, Table& out) {
@@ -96,55 +92,13 @@ void resize(const SamplerData& data, const SampleOptions& options, std::size_t r
     out.features.resize(rows);
     out.values.resize(rows * data.columns.size());
     out.distances.clear();
-    if (gives_distances(options.outside)) out.distances.assign(rows, 0);
+    if (sample::gives_distances(options.outside)) out.distances.assign(rows, 0);
 }
 
 sample::BlockRows rows_from(const SamplerData& data, std::size_t first, Table& out) {
     return {out.cells.data() + first, out.features.data() + first, out.values.data() + first * data.columns.size(),
             out.distances.empty() ? nullptr : out.distances.data() + first};
 }
-
-/// The rows of a block in the order in which they are found.
-class SortedRows {
-public:
-    SortedRows(const SamplerData& data, const SampleOptions& options, std::size_t size)
-        : data_(data), rows_(data.rows.take()) {
-        resize(data, options, size, *rows_);
-        sampler_.emplace(data, options, rows_from(data, 0, *rows_));
-    }
-    SortedRows(SortedRows&&) = default;
-    ~SortedRows() {
-        if (rows_) data_.rows.put(std::move(rows_));
-    }
-
-    void operator()(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
-                    const Feature* feature) {
-        (*sampler_)(points, count, owner, feature);
-    }
-    const sample::ChunkSampler& sampler() const { return *sampler_; }
-
-    void write(const locate::SortedPoints& sorted, std::size_t first, Table& out) const {
-        const std::size_t columns = data_.columns.size();
-        const Table& rows = *rows_;
-        sorted.for_each_in_callers_order(
-            [&](std::size_t place) {
-                __builtin_prefetch(&rows.cells[place]);
-                __builtin_prefetch(rows.values.data() + columns * place);
-            },
-            [&](std::size_t i, std::size_t place) {
-                out.cells[first + i] = rows.cells[place];
-                out.features[first + i] = rows.features[place];
-                for (std::size_t c = 0; c < columns; ++c)
-                    out.values[columns * (first + i) + c] = rows.values[columns * place + c];
-                if (!out.distances.empty()) out.distances[first + i] = rows.distances[place];
-            });
-    }
-
-private:
-    const SamplerData& data_;
-    std::unique_ptr<Table> rows_;
-    std::optional<sample::ChunkSampler> sampler_;
-};
 
 /// What becomes of the blocks of a call: their counts, and the first point that the policy refuses.
 class Outcome {
@@ -233,7 +187,7 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
                        std::size_t first_point) const {
     const ExactEnvironment environment;
     out.counts = {};
-    if (Status status = check_call(*data_, points, first_point); !status) return status;
+    if (Status status = check_call(*data_, points); !status) return status;
     resize(*data_, options, points.size() / data_->index().dimension(), out);
     out.point_begin.clear();
     LocationCounts locations;
@@ -241,13 +195,16 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
     locate::in_arena(options.threads, [&] {
         const std::size_t count = out.cells.size(), block = locate::block_of(count);
         Outcome outcome((count + block - 1) / block);
-        const auto make = [&](std::size_t, std::size_t size) { return SortedRows(*data_, options, size); };
-        const auto keep = [&](std::size_t first, const locate::SortedPoints& sorted, SortedRows& rows) {
+        const auto make = [&](std::size_t, std::size_t size) { return sample::SortedRows(*data_, options, size); };
+        const auto keep = [&](std::size_t first, const locate::SortedPoints& sorted, sample::SortedRows& rows) {
             rows.write(sorted, first, out);
             outcome.set(first / block, first, rows.sampler(), out);
         };
-        locate::for_chunks(data_->located(), points, locations, make, keep);
-        status = outcome.status(first_point);
+        const locate::NodeRecord* const nodes =
+            data_->nodes.size() != 0 ? data_->nodes.data() : data_->index().nodes.data();
+        const bool finite = locate::for_chunks(data_->located(), nodes, points, locations, make, keep);
+        status = finite ? outcome.status(first_point)
+                        : locate::check_finite(points, data_->index().dimension(), first_point);
         outcome.add_to(out.counts);
     });
     out.counts.locations = locations;
@@ -259,7 +216,8 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
                          std::size_t first_point) const {
     const ExactEnvironment environment;
     out.counts = {};
-    if (Status status = check_call(*data_, points, first_point); !status) return status;
+    if (Status status = check_call(*data_, points); !status) return status;
+    if (Status status = locate::check_finite(points, data_->index().dimension(), first_point); !status) return status;
     const std::size_t d = data_->index().dimension(), count = points.size() / d;
     const std::span<const Mesh::Index> cells = out.cells;
     const std::span<const Feature> features = out.features;

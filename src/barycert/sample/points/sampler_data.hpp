@@ -11,6 +11,13 @@
 
 namespace barycert::sample {
 
+/// Rows of a block of points in the order in which they are found, each a Location and its values side by side: to be
+/// read at random.
+struct PackedRows {
+    locate::Buffer<double> numbers;
+    std::vector<double> distances;
+};
+
 struct SamplerData {
     std::unique_ptr<const Locator> own_locator;  ///< unless it is somebody else's
     const Locator* locator = nullptr;
@@ -26,7 +33,7 @@ struct SamplerData {
     // Quadratic ones: component c of node i of the mesh at values[point_components * i + c].
     std::vector<double> values;
 
-    locate::Pool<Table> rows;  ///< room for blocks of them, in the order in which they are found
+    locate::Pool<PackedRows> rows;  ///< up to 16 MiB a thread for one column
 
     const locate::LocatorData& located() const { return locator->data(); }
     const locate::CellIndex& index() const { return locator->data().index; }
