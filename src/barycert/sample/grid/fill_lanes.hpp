@@ -14,10 +14,11 @@ namespace barycert::sample {
 /// In FillTarget::feature: in the interior of the owner, the value still to be found.
 inline constexpr Feature interior_without_value = Feature::degenerate;
 
-/// The points of some layers (2D: lines) of a grid, line after line. Each array has room for eight points more.
+/// The points of some layers (2D: lines) of a grid, line after line. Each array has room for a vector more.
 struct FillTarget {
     Mesh::Index* owner = nullptr;  ///< -1: none yet
-    Feature* feature = nullptr;    ///< outside: none yet; interior: with its value
+    /// Of a point with an owner: outside, or interior, means in the interior, with its value. Of others: outside.
+    Feature* feature = nullptr;
     double* values = nullptr;
     std::size_t stride = 1;  ///< numbers a point in `values`, of which the first are the components of the nodes
     std::size_t columns = 0, rows = 0;
@@ -30,6 +31,7 @@ struct FillSource {
     const locate::CellIndex& index;
     const NodeValues& nodes;
     const Raster& raster;  ///< raster.precise is true
+    Rounding rounding = Rounding::correct;
 };
 
 /// What the filter leaves open.
@@ -43,8 +45,8 @@ struct UndecidedFill {
     }
 };
 
-/// For points that are certainly in the interior of one of the cells: sets owner, feature, and values where their
-/// rounding is certain. Adds the rest to `undecided`.
+/// For points that are certainly in the interior of one of the cells: sets owner, and values, or the feature where
+/// their rounding is not certain. Adds the rest to `undecided`.
 void fill_cells(const FillSource& source, std::span<const locate::Place> cells, const FillTarget& target,
                 UndecidedFill& undecided);
 

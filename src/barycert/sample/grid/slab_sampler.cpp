@@ -1,6 +1,7 @@
 #include "barycert/sample/grid/slab_sampler.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/sample/grid/fill_lanes.hpp"
@@ -11,8 +12,8 @@ namespace {
 constexpr std::size_t cells_at_once = 256;
 
 /// Values that fill_cells finds.
-bool can_fill(const SamplerData& data, const Raster& raster, const SampleOptions& options) {
-    return raster.precise && options.rounding == Rounding::correct && !data.quadratic && data.point_components != 0;
+bool can_fill(const SamplerData& data, const Raster& raster) {
+    return raster.precise && !data.quadratic && data.point_components != 0;
 }
 
 }  // namespace
@@ -23,33 +24,39 @@ void SlabSampler::run(std::int32_t first, std::int32_t last, std::span<const loc
     const std::size_t layer = grid_.dimension == 3 ? grid_.layer_size() : static_cast<std::size_t>(grid_.counts[0]);
     points_ = layer * static_cast<std::size_t>(last - first);
     constexpr std::size_t more = 8;  // FillTarget
-    rows_.cells.assign(points_ + more, -1);
-    rows_.features.assign(points_ + more, Feature::outside);
-    rows_.values.resize((points_ + more) * data_.columns.size());
+    if (owners_.size() < points_ + more) {
+        owners_ = locate::Buffer<Mesh::Index>(points_ + more);
+        found_ = locate::Buffer<Feature>(points_ + more);
+        values_ = locate::Buffer<double>((points_ + more) * data_.columns.size());
+    }
+    std::fill_n(owners_.data(), points_ + more, -1);
+    std::fill_n(found_.data(), points_ + more, Feature::outside);
     const bool distances = options_.outside.kind == Outside::nearest || options_.outside.kind == Outside::extrapolate;
-    rows_.distances.assign(distances ? points_ : 0, 0);
+    distances_.assign(distances ? points_ : 0, 0);
     counts_ = {};
     sampler_.emplace(data_, options_,
-                     BlockRows{rows_.cells.data(), rows_.features.data(), rows_.values.data(),
-                               distances ? rows_.distances.data() : nullptr});
-    can_fill(data_, raster_, options_) ? fill(cells) : raster(cells);
-    evaluate_rest();
-    for (std::size_t point = 0; point < points_; ++point) counts_.locations.add(rows_.features[point]);
+                     BlockRows{owners_.data(), found_.data(), values_.data(), distances ? distances_.data() : nullptr});
+    can_fill(data_, raster_) ? fill(cells) : raster(cells);
+    finish();
     counts_.add(sampler_->counts());
+}
+
+FillTarget SlabSampler::target() {
+    return {owners_.data(),
+            found_.data(),
+            values_.data(),
+            data_.columns.size(),
+            static_cast<std::size_t>(grid_.counts[0]),
+            static_cast<std::size_t>(grid_.counts[1]),
+            first_,
+            last_,
+            data_.located().method != Method::walk};
 }
 
 void SlabSampler::fill(std::span<const locate::Place> cells) {
     const NodeValues nodes = data_.node_values();
-    const FillSource source{data_.index(), nodes, raster_};
-    const FillTarget target{rows_.cells.data(),
-                            rows_.features.data(),
-                            rows_.values.data(),
-                            data_.columns.size(),
-                            static_cast<std::size_t>(grid_.counts[0]),
-                            static_cast<std::size_t>(grid_.counts[1]),
-                            first_,
-                            last_,
-                            data_.located().method != Method::walk};
+    const FillSource source{data_.index(), nodes, raster_, options_.rounding};
+    const FillTarget target = this->target();
     for (std::size_t c = 0; c < cells.size(); c += cells_at_once) {
         undecided_.clear();
         fill_cells(source, cells.subspan(c, std::min(cells_at_once, cells.size() - c)), target, undecided_);
@@ -90,7 +97,7 @@ void SlabSampler::take(const Span& span) {
 void SlabSampler::test(const Span& span, std::int32_t column, std::size_t point) {
     const locate::CellIndex& index = data_.index();
     const Mesh::Index cell = index.original[static_cast<std::size_t>(span.cell)];
-    if (rows_.cells[point] >= 0 && rows_.cells[point] < cell) return;
+    if (owners_[point] >= 0 && owners_[point] < cell) return;
     const std::array<double, 3> at{raster_.at[0][static_cast<std::size_t>(column)],
                                    raster_.at[1][static_cast<std::size_t>(span.row)],
                                    raster_.at[2][static_cast<std::size_t>(span.layer)]};
@@ -101,24 +108,38 @@ void SlabSampler::test(const Span& span, std::int32_t column, std::size_t point)
 }
 
 void SlabSampler::own(std::size_t point, Mesh::Index cell, Feature feature) {
-    if (rows_.cells[point] >= 0 && rows_.cells[point] < cell) return;
-    rows_.cells[point] = cell;
-    rows_.features[point] = feature;
+    if (owners_[point] >= 0 && owners_[point] < cell) return;
+    owners_[point] = cell;
+    found_[point] = feature;
 }
 
-void SlabSampler::evaluate_rest() {
-    std::uint64_t found = 0;
-    for (std::size_t point = 0; point < points_; ++point) {
-        if (rows_.features[point] == Feature::interior) {
-            ++found;
-            if (!data_.cell_fields.empty())
-                copy_cell_values(data_, rows_.cells[point], rows_.values.data() + data_.columns.size() * point);
-        } else {
+/// Some points at a time, while they are in cache: features and numbers of those outside, then what takes longer.
+void SlabSampler::finish() {
+    constexpr std::size_t step = 4096;
+    const FillTarget target = this->target();
+    const double fill =
+        options_.outside.kind == Outside::fill ? options_.outside.fill : std::numeric_limits<double>::quiet_NaN();
+    const bool same = options_.outside.kind == Outside::nan || options_.outside.kind == Outside::fill;
+    finished_ = {};
+    for (std::size_t first = 0; first < points_; first += step) {
+        const std::size_t last = std::min(first + step, points_);
+        finished_.others.clear();
+        finish_points(target, first, last, same ? &fill : nullptr, finished_);
+        for (const std::uint32_t point : finished_.others) {
+            const Feature feature = found_[point];
+            counts_.locations.add(feature == interior_without_value ? Feature::interior : feature);
             push(point);
+        }
+        for (std::size_t point = first; !data_.cell_fields.empty() && point < last; ++point) {
+            if (owners_[point] >= 0)
+                copy_cell_values(data_, owners_[point], values_.data() + data_.columns.size() * point);
         }
     }
     flush();
-    counts_.values.add(Tier::double_double, found);
+    counts_.locations.add(Feature::interior, finished_.interior);
+    counts_.locations.add(Feature::outside, finished_.outside);
+    counts_.without_value += finished_.outside;
+    if (options_.rounding == Rounding::correct) counts_.values.add(Tier::double_double, finished_.interior);
 }
 
 void SlabSampler::push(std::size_t point) {
@@ -128,9 +149,9 @@ void SlabSampler::push(std::size_t point) {
     const std::size_t layer = grid_.dimension == 3 ? line / ny + static_cast<std::size_t>(first_) : 0;
     records_[pending_].at = {raster_.at[0][point % nx], raster_.at[1][row], raster_.at[2][layer]};
     records_[pending_].number = static_cast<std::uint32_t>(point);
-    const Mesh::Index cell = rows_.cells[point];
+    const Mesh::Index cell = owners_[point];
     cells_[pending_] = cell < 0 ? -1 : data_.located().places()[static_cast<std::size_t>(cell)];
-    const Feature feature = rows_.features[point];
+    const Feature feature = found_[point];
     features_[pending_] = feature == interior_without_value ? Feature::interior : feature;
     if (++pending_ == locate::chunk_size) flush();
 }
@@ -144,10 +165,10 @@ TableView SlabSampler::block() const {
     const std::size_t layer = grid_.dimension == 3 ? grid_.layer_size() : static_cast<std::size_t>(grid_.counts[0]);
     return {.dimension = grid_.dimension,
             .first_row = layer * static_cast<std::size_t>(first_),
-            .cells = std::span(rows_.cells).first(points_),
-            .features = std::span(rows_.features).first(points_),
-            .values = std::span(rows_.values).first(points_ * data_.columns.size()),
-            .distances = rows_.distances};
+            .cells = {owners_.data(), points_},
+            .features = {found_.data(), points_},
+            .values = {values_.data(), points_ * data_.columns.size()},
+            .distances = distances_};
 }
 
 std::optional<std::uint64_t> SlabSampler::refused() const {

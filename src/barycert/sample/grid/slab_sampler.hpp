@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "barycert/grid.hpp"
+#include "barycert/locate/buffer.hpp"
 #include "barycert/sample/grid/fill_lanes.hpp"
+#include "barycert/sample/grid/finish_lanes.hpp"
 #include "barycert/sample/grid/raster_lanes.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"
 
@@ -29,12 +31,13 @@ public:
     std::optional<std::uint64_t> refused() const;
 
 private:
+    FillTarget target();
     void raster(std::span<const locate::Place> cells);
     void fill(std::span<const locate::Place> cells);
     void take(const Span& span);
     void test(const Span& span, std::int32_t column, std::size_t point);
     void own(std::size_t point, Mesh::Index cell, Feature feature);
-    void evaluate_rest();
+    void finish();
     void push(std::size_t point);
     void flush();
     std::size_t line_of(std::int32_t row, std::int32_t layer) const;
@@ -45,11 +48,15 @@ private:
     const SampleOptions& options_;
     std::int32_t first_ = 0, last_ = 0;
     std::size_t points_ = 0;
-    Table rows_;
+    locate::Buffer<Mesh::Index> owners_;
+    locate::Buffer<Feature> found_;
+    locate::Buffer<double> values_;
+    std::vector<double> distances_;
     SampleCounts counts_;
     std::optional<ChunkSampler> sampler_;
     std::vector<Span> spans_;
     UndecidedFill undecided_;
+    FinishedPoints finished_;
     std::array<locate::PointRecord, locate::chunk_size> records_{};
     std::array<locate::Place, locate::chunk_size> cells_{};
     std::array<Feature, locate::chunk_size> features_{};

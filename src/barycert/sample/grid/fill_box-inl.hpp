@@ -1,0 +1,164 @@
+// Internal: cells whose boxes hold few points of the grid: all of these are looked at, in single precision.
+//
+// Notation as in fill_block-inl.hpp; v = 2^-24. Let f be the first point of the box by the spacing h, place by place
+// fl(origin + first h), and w' = fl(f - o); point n = (n_0, ...) of the box, n_k < N_k, has the coordinates f_k + n_k
+// h_k + d_k. `slack` bounds |d_k| / h_k, the roundings of f and w' included, many times over (raster_lanes.hpp). With L
+// the function constant + sum_k S_k (x_k - o_k), without roundings, weight l of the point is L up to E, and so
+//     l = A + sum_k B_k n_k    up to 2 E + 1.01 slack sum_k |B_k|,    A = L(w') as computed, B_k = fl(S_k h_k):
+// A is rounded six times at most, in sums of numbers below 9.1 K, which is less than E; B_k once, by u |B_k| n_k, of
+// which the sum is far less than v M below. In single precision, M = |A| + sum_k |B_k| (N_k - 1): A is rounded once and
+// goes through three sums; B_k is rounded once, as is its product with the small integer n_k, and goes through three
+// sums or fewer. That is at most 5.01 v M. (Underflow, by 2^-149 each, is less than E.) So the bound
+//     6 v M + 3 E + 2 slack sum_k |B_k|
+// also covers its own evaluation and its rounding to single precision. A weight beyond it is positive; one below minus
+// it is negative.
+//
+// Included once per SIMD target.
+#if defined(BARYCERT_SAMPLE_FILL_BOX_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef BARYCERT_SAMPLE_FILL_BOX_INL_HPP
+#undef BARYCERT_SAMPLE_FILL_BOX_INL_HPP
+#else
+#define BARYCERT_SAMPLE_FILL_BOX_INL_HPP
+#endif
+
+#include <array>
+
+#include "barycert/sample/grid/fill_block-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace barycert::sample {
+namespace HWY_NAMESPACE {
+
+/// Points along each axis of a box at most; places in it are numbered by three bits an axis.
+constexpr int box_bits = 3;
+constexpr std::int32_t box_side = 1 << box_bits;
+static_assert(box_side == max_lanes);
+
+using BoxTag = hn::ScalableTag<float>;
+constexpr std::size_t box_lanes = hn::MaxLanes(BoxTag());
+
+/// By number of columns less one: columns and rows of the points on the lanes, as many whole rows as there is room for.
+struct BoxPattern {
+    HWY_ALIGN float column[box_lanes], row[box_lanes];
+    HWY_ALIGN std::int32_t place[box_lanes];
+    std::int32_t rows;
+};
+constexpr std::int32_t box_columns = std::min<std::int32_t>(box_side, box_lanes);
+constexpr std::array<BoxPattern, box_side> make_box_patterns() {
+    std::array<BoxPattern, box_side> all{};
+    for (std::size_t columns = 1; columns <= box_side; ++columns) {
+        BoxPattern& p = all[columns - 1];
+        for (std::size_t l = 0; l < box_lanes; ++l) {
+            p.column[l] = static_cast<float>(l % columns);
+            p.row[l] = static_cast<float>(l / columns);
+            p.place[l] = static_cast<std::int32_t>(l % columns + (l / columns << box_bits));
+        }
+        p.rows = static_cast<std::int32_t>(box_lanes / columns);
+    }
+    return all;
+}
+inline constexpr std::array<BoxPattern, box_side> box_patterns = make_box_patterns();
+
+/// By cell of a block: its weights at the points of its box.
+template <int d>
+struct BoxBlock {
+    HWY_ALIGN float first[d + 1][max_lanes], step[d + 1][d][max_lanes], error[max_lanes];
+};
+
+/// Returns bits: cells whose boxes are small enough, and whose error is.
+template <int d, class D, class V = hn::Vec<D>>
+HWY_INLINE std::uint32_t set_boxes(D tag, const Raster& raster, const CellBlock<d>& cell, const CellWeights<d, D>& w,
+                                   BoxBlock<d>& out) {
+    const hn::Rebind<float, D> single;
+    const hn::Rebind<std::int32_t, D> whole;
+    V from[d], spacing[d], more[d];  // more: N - 1
+    auto small = hn::FirstN(tag, hn::MaxLanes(D()));
+    for (int k = 0; k < d; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        const V first = hn::PromoteTo(tag, hn::Load(whole, cell.first[k]));
+        const V last = hn::PromoteTo(tag, hn::Load(whole, cell.last[k]));
+        spacing[k] = hn::Set(tag, raster.spacing[at]);
+        more[k] = last - first - hn::Set(tag, 1);
+        from[k] = hn::Set(tag, raster.origin[at]) + first * spacing[k] - hn::Load(tag, cell.origin[k]);
+        small = hn::And(small, hn::Lt(more[k], hn::Set(tag, k == 0 ? box_columns : box_side)));
+    }
+    V error = hn::Zero(tag);
+    for (int j = 0; j <= d; ++j) {
+        V first = w.constant[j], steps = hn::Zero(tag), size = hn::Zero(tag);
+        for (int k = 0; k < d; ++k) {
+            const V step = w.slope[j][k] * spacing[k];
+            first = first + w.slope[j][k] * from[k];
+            steps = steps + hn::Abs(step);
+            size = size + hn::Abs(step) * more[k];
+            hn::Store(hn::DemoteTo(single, step), single, out.step[j][k]);
+        }
+        hn::Store(hn::DemoteTo(single, first), single, out.first[j]);
+        error = hn::Max(error,
+                        hn::Set(tag, 6 * 0x1p-24) * (hn::Abs(first) + size) + hn::Set(tag, 2 * raster.slack) * steps);
+    }
+    error = error + hn::Set(tag, 3) * w.error;
+    hn::Store(hn::DemoteTo(single, error), single, out.error);
+    small = hn::And(small, hn::Le(error, hn::Set(tag, 0x1p-7)));
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(tag, small, bits);
+    return bits[0];
+}
+
+/// Places of a box: column + (row << box_bits) + (layer << 2 box_bits).
+struct BoxPoints {
+    static constexpr std::size_t max = box_side * box_side * box_side;
+    HWY_ALIGN std::int32_t place[max + box_lanes];
+    std::size_t count;
+};
+
+/// The points of the box that are certainly in the interior; each of those that may be in the cell or not is passed to
+/// undecided(place).
+template <int d, class Undecided>
+HWY_INLINE void find_box_points(const CellBlock<d>& cell, const BoxBlock<d>& box, std::size_t l, BoxPoints& out,
+                                Undecided undecided) {
+    const BoxTag tag;
+    const hn::RebindToSigned<BoxTag> whole;
+    using V = hn::Vec<BoxTag>;
+    const std::int32_t columns = cell.last[0][l] - cell.first[0][l], rows = cell.last[1][l] - cell.first[1][l];
+    const std::int32_t layers = d == 3 ? cell.last[d - 1][l] - cell.first[d - 1][l] : 1;
+    const BoxPattern& pattern = box_patterns[static_cast<std::size_t>(columns - 1)];
+    const V column = hn::Load(tag, pattern.column), error = hn::Set(tag, box.error[l]);
+    const auto place = hn::Load(whole, pattern.place);
+    std::size_t count = 0;
+    for (std::int32_t from = 0; from < rows; from += pattern.rows) {
+        const auto used = hn::FirstN(tag, static_cast<std::size_t>(std::min(pattern.rows, rows - from) * columns));
+        const V row = hn::Load(tag, pattern.row) + hn::Set(tag, static_cast<float>(from));
+        V start[d + 1];
+        for (int j = 0; j <= d; ++j) {
+            start[j] = hn::MulAdd(hn::Set(tag, box.step[j][1][l]), row,
+                                  hn::MulAdd(hn::Set(tag, box.step[j][0][l]), column, hn::Set(tag, box.first[j][l])));
+        }
+        for (std::int32_t layer = 0; layer < layers; ++layer) {
+            V min = start[0];
+            if constexpr (d == 3) {
+                const V z = hn::Set(tag, static_cast<float>(layer));
+                min = hn::MulAdd(hn::Set(tag, box.step[0][2][l]), z, start[0]);
+                for (int j = 1; j <= d; ++j)
+                    min = hn::Min(min, hn::MulAdd(hn::Set(tag, box.step[j][2][l]), z, start[j]));
+            } else {
+                for (int j = 1; j <= d; ++j) min = hn::Min(min, start[j]);
+            }
+            const auto inside = hn::And(used, hn::Gt(min, error));
+            const auto maybe = hn::And(used, hn::Le(hn::Abs(min), error));
+            const auto places = place + hn::Set(whole, (from << box_bits) + (layer << 2 * box_bits));
+            hn::StoreU(hn::Compress(places, hn::RebindMask(whole, inside)), whole, out.place + count);
+            count += hn::CountTrue(tag, inside);
+            if (HWY_LIKELY(hn::AllFalse(tag, maybe))) continue;
+            HWY_ALIGN std::int32_t open[box_lanes];
+            hn::Store(hn::Compress(places, hn::RebindMask(whole, maybe)), whole, open);
+            const std::size_t opens = hn::CountTrue(tag, maybe);
+            for (std::size_t i = 0; i < opens; ++i) undecided(open[i]);
+        }
+    }
+    out.count = count;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace barycert::sample
+HWY_AFTER_NAMESPACE();
+#endif
