@@ -104,15 +104,16 @@ HWY_INLINE std::uint32_t set_boxes(D tag, const Raster& raster, const CellBlock<
     return bits[0];
 }
 
-/// Places of a box: column + (row << box_bits) + (layer << 2 box_bits).
+/// Points of the cells of a block: places column + (row << box_bits) + (layer << 2 box_bits) of their boxes. All cells
+/// find theirs before the first of them is read: a vector of what was just stored in parts would have to wait.
 struct BoxPoints {
-    static constexpr std::size_t max = box_side * box_side * box_side;
-    HWY_ALIGN std::int32_t place[max + box_lanes];
-    std::size_t count;
+    static constexpr std::size_t max = box_side * box_side * box_side;  ///< of a cell
+    HWY_ALIGN std::int32_t place[max_lanes * max + box_lanes];
+    std::size_t begin[max_lanes + 1];  ///< by cell; that of the next one is its end
 };
 
-/// The points of the box that are certainly in the interior; each of those that may be in the cell or not is passed to
-/// undecided(place).
+/// The points of the box that are certainly in the interior, from out.begin[l] on; each of those that may be in the
+/// cell or not is passed to undecided(place).
 template <int d, class Undecided>
 HWY_INLINE void find_box_points(const CellBlock<d>& cell, const BoxBlock<d>& box, std::size_t l, BoxPoints& out,
                                 Undecided undecided) {
@@ -124,7 +125,7 @@ HWY_INLINE void find_box_points(const CellBlock<d>& cell, const BoxBlock<d>& box
     const BoxPattern& pattern = box_patterns[static_cast<std::size_t>(columns - 1)];
     const V column = hn::Load(tag, pattern.column), error = hn::Set(tag, box.error[l]);
     const auto place = hn::Load(whole, pattern.place);
-    std::size_t count = 0;
+    std::size_t count = out.begin[l];
     for (std::int32_t from = 0; from < rows; from += pattern.rows) {
         const auto used = hn::FirstN(tag, static_cast<std::size_t>(std::min(pattern.rows, rows - from) * columns));
         const V row = hn::Load(tag, pattern.row) + hn::Set(tag, static_cast<float>(from));
@@ -155,7 +156,7 @@ HWY_INLINE void find_box_points(const CellBlock<d>& cell, const BoxBlock<d>& box
             for (std::size_t i = 0; i < opens; ++i) undecided(open[i]);
         }
     }
-    out.count = count;
+    out.begin[l + 1] = count;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -31,6 +31,7 @@ struct FillBlock {
     locate::Place places[max_lanes];
     CellBlock<d> cells;
     BoxBlock<d> boxes;
+    BoxPoints points;
     RowsBlock<d> rows;
     std::uint32_t valid, box;  ///< bits
     std::vector<typename Values<d>::Block> values;
@@ -99,10 +100,10 @@ HWY_INLINE void set_block(D tag, FillBlock<Values, d>& b) {
     }
 }
 
-/// Writes the values of component c, of points that are numbered from `base` on, and their owners with the last one.
+/// Writes the values of component c of the points of cell l, which are numbered from `base` on; usual: and their owner.
 template <bool usual, template <int> class Values, int d, class D>
-HWY_INLINE void fill_box_component(D tag, const FillBlock<Values, d>& b, std::size_t l, std::size_t c,
-                                   const BoxPoints& points, std::size_t base, std::uint8_t* certain) {
+HWY_INLINE void fill_box_component(D tag, const FillBlock<Values, d>& b, std::size_t l, std::size_t c, std::size_t base,
+                                   std::uint8_t* certain) {
     using V = hn::Vec<D>;
     constexpr std::size_t width = hn::MaxLanes(D());
     const hn::Rebind<std::int32_t, D> whole;
@@ -114,8 +115,9 @@ HWY_INLINE void fill_box_component(D tag, const FillBlock<Values, d>& b, std::si
     const auto mask = hn::Set(whole, box_side - 1);
     const auto line = hn::Set(whole, static_cast<std::int32_t>(target.columns));
     const auto plane = hn::Set(whole, static_cast<std::int32_t>(target.columns * target.rows));
-    for (std::size_t at = 0; at < points.count; at += width) {
-        const auto place = hn::Load(whole, points.place + at);
+    const std::size_t end = b.points.begin[l + 1];
+    for (std::size_t at = b.points.begin[l]; at < end; at += width) {
+        const auto place = hn::LoadU(whole, b.points.place + at);
         const auto column = hn::And(place, mask), row = hn::And(hn::ShiftRight<box_bits>(place), mask);
         auto offset = column + row * line;
         hn::Vec<decltype(index)> places[d];
@@ -132,53 +134,59 @@ HWY_INLINE void fill_box_component(D tag, const FillBlock<Values, d>& b, std::si
         HWY_ALIGN std::int32_t offsets[max_lanes];
         hn::Store(value, tag, values);
         hn::Store(offset, whole, offsets);
-        certain[at / width] &= static_cast<std::uint8_t>(bits);
-        const std::size_t used = std::min(width, points.count - at);
-        for (std::size_t i = 0; i < used; ++i) {
-            const std::size_t point = base + static_cast<std::size_t>(offsets[i]);
-            if (!usual && b.kept(point, id)) continue;
-            target.values[target.stride * point + c] = values[i];
-            if (usual) target.owner[point] = id;
+        const std::size_t used = std::min(width, end - at);
+        const auto point = [&](std::size_t i) { return base + static_cast<std::size_t>(offsets[i]); };
+        if constexpr (usual) {
+            for (std::size_t i = 0; i < used; ++i) {
+                target.values[point(i)] = values[i];
+                target.owner[point(i)] = id;
+            }
+            for (std::uint32_t open = ~bits & ((1U << used) - 1); HWY_UNLIKELY(open != 0); open &= open - 1)
+                target.feature[point(static_cast<std::size_t>(__builtin_ctz(open)))] = interior_without_value;
+        } else {
+            *certain = static_cast<std::uint8_t>(c == 0 ? bits : *certain & bits);
+            ++certain;
+            for (std::size_t i = 0; i < used; ++i) {
+                if (!b.kept(point(i), id)) target.values[target.stride * point(i) + c] = values[i];
+            }
         }
     }
 }
 
+/// The first point of the box of a cell.
+template <template <int> class Values, int d>
+HWY_INLINE std::size_t first_of_box(const FillBlock<Values, d>& b, std::size_t l) {
+    return b.line_of(b.cells.first[1][l], d == 3 ? b.cells.first[d - 1][l] : 0) * b.target.columns +
+           static_cast<std::size_t>(b.cells.first[0][l]);
+}
+
+template <template <int> class Values, int d>
+HWY_INLINE void find_box(FillBlock<Values, d>& b, std::size_t l) {
+    const auto undecided = [&](std::int32_t place) {
+        const std::int32_t column = b.cells.first[0][l] + (place & (box_side - 1));
+        b.undecided.spans.push_back({b.places[l], b.cells.first[1][l] + (place >> box_bits & (box_side - 1)),
+                                     (d == 3 ? b.cells.first[d - 1][l] : 0) + (place >> 2 * box_bits), column,
+                                     column + 1, column + 1, column + 1});
+    };
+    find_box_points<d>(b.cells, b.boxes, l, b.points, undecided);
+}
+
 template <template <int> class Values, int d, class D>
 HWY_INLINE void fill_box(D tag, const FillBlock<Values, d>& b, std::size_t l) {
-    const CellBlock<d>& cells = b.cells;
     const FillTarget& target = b.target;
-    const std::int32_t layer = d == 3 ? cells.first[d - 1][l] : 0;
-    const std::size_t base =
-        b.line_of(cells.first[1][l], layer) * target.columns + static_cast<std::size_t>(cells.first[0][l]);
-    BoxPoints points;
-    const auto undecided = [&](std::int32_t place) {
-        const std::int32_t column = cells.first[0][l] + (place & (box_side - 1));
-        b.undecided.spans.push_back({b.places[l], cells.first[1][l] + (place >> box_bits & (box_side - 1)),
-                                     layer + (place >> 2 * box_bits), column, column + 1, column + 1, column + 1});
-    };
-    find_box_points<d>(cells, b.boxes, l, points, undecided);
-    if (points.count == 0) return;
-    constexpr std::size_t width = hn::MaxLanes(D());
-    std::uint8_t certain[BoxPoints::max / width];
-    std::fill_n(certain, (points.count + width - 1) / width, std::uint8_t{0xff});
-    const auto number = [&](std::size_t i) {
-        const std::int32_t place = points.place[i];
-        return base + static_cast<std::size_t>(place & (box_side - 1)) +
-               static_cast<std::size_t>(place >> box_bits & (box_side - 1)) * target.columns +
-               static_cast<std::size_t>(place >> 2 * box_bits) * target.columns * target.rows;
-    };
-    const auto is_certain = [&](std::size_t i) { return (certain[i / width] >> i % width & 1) != 0; };
+    const std::size_t base = first_of_box(b, l);
     if (b.usual()) {
-        fill_box_component<true>(tag, b, l, 0, points, base, certain);
-        for (std::size_t i = 0; i < points.count; ++i) {
-            if (!is_certain(i)) target.feature[number(i)] = interior_without_value;
-        }
+        fill_box_component<true>(tag, b, l, 0, base, nullptr);
         return;
     }
-    for (std::size_t c = 0; c < b.values.size(); ++c) fill_box_component<false>(tag, b, l, c, points, base, certain);
-    for (std::size_t i = 0; i < points.count; ++i) {
-        const std::size_t point = number(i);
-        if (!b.kept(point, b.id(l))) b.own(point, b.id(l), is_certain(i));
+    constexpr std::size_t width = hn::MaxLanes(D());
+    std::uint8_t certain[BoxPoints::max / width];
+    for (std::size_t c = 0; c < b.values.size(); ++c) fill_box_component<false>(tag, b, l, c, base, certain);
+    for (std::size_t i = 0; i < b.points.begin[l + 1] - b.points.begin[l]; ++i) {
+        const auto place = static_cast<std::size_t>(b.points.place[b.points.begin[l] + i]);
+        const std::size_t row = place >> box_bits & (box_side - 1), layer = place >> 2 * box_bits;
+        const std::size_t point = base + (place & (box_side - 1)) + (layer * target.rows + row) * target.columns;
+        if (!b.kept(point, b.id(l))) b.own(point, b.id(l), (certain[i / width] >> i % width & 1) != 0);
     }
 }
 
@@ -273,17 +281,23 @@ void fill_all(const FillSource& source, std::span<const locate::Place> cells, co
     for (std::size_t at = 0; at < cells.size(); at += width) {
         for (std::size_t l = 0; l < width; ++l) block.places[l] = cells[std::min(at + l, cells.size() - 1)];
         set_block(tag, block);
-        for (std::size_t l = 0; l < std::min(width, cells.size() - at); ++l) {
+        const std::size_t used = std::min(width, cells.size() - at);
+        block.points.begin[0] = 0;
+        for (std::size_t l = 0; l < used; ++l) {
+            block.points.begin[l + 1] = block.points.begin[l];
             bool empty = false;
             for (int k = 0; k < d; ++k) empty |= block.cells.first[k][l] >= block.cells.last[k][l];
             if (empty) continue;
             if ((block.box >> l & 1) != 0) {
-                fill_box(tag, block, l);
+                find_box(block, l);
             } else if ((block.valid >> l & 1) != 0) {
                 fill_rows(tag, block, l);
             } else {
                 undecided.cells.push_back(block.places[l]);
             }
+        }
+        for (std::size_t l = 0; l < used; ++l) {
+            if (block.points.begin[l] != block.points.begin[l + 1]) fill_box(tag, block, l);
         }
     }
 }
