@@ -104,19 +104,26 @@ HWY_INLINE std::uint32_t set_boxes(D tag, const Raster& raster, const CellBlock<
     return bits[0];
 }
 
-/// Points of the cells of a block: places column + (row << box_bits) + (layer << 2 box_bits) of their boxes. All cells
-/// find theirs before the first of them is read: a vector of what was just stored in parts would have to wait.
-struct BoxPoints {
-    static constexpr std::size_t max = box_side * box_side * box_side;  ///< of a cell
-    HWY_ALIGN std::int32_t place[max_lanes * max + box_lanes];
-    std::size_t begin[max_lanes + 1];  ///< by cell; that of the next one is its end
+/// Points of a box at most.
+constexpr std::size_t box_points = box_side * box_side * box_side;
+
+/// Places column + (row << box_bits) + (layer << 2 box_bits) of a box; there is room for box_lanes more.
+struct BoxPlaces {
+    std::int32_t* place;
+    std::size_t count = 0;
+
+    template <class D, class V, class M>
+    HWY_INLINE void add(D tag, V places, M mask) {
+        hn::StoreU(hn::Compress(places, mask), tag, place + count);
+        count += hn::CountTrue(tag, mask);
+    }
 };
 
-/// The points of the box that are certainly in the interior, from out.begin[l] on; each of those that may be in the
-/// cell or not is passed to undecided(place).
-template <int d, class Undecided>
-HWY_INLINE void find_box_points(const CellBlock<d>& cell, const BoxBlock<d>& box, std::size_t l, BoxPoints& out,
-                                Undecided undecided) {
+/// Adds the points of the box of cell l that are certainly in the interior to `inside`, those that may be in the cell
+/// or not to `open`.
+template <int d>
+HWY_INLINE void find_box_points(const CellBlock<d>& cell, const BoxBlock<d>& box, std::size_t l, BoxPlaces& inside_out,
+                                BoxPlaces& open_out) {
     const BoxTag tag;
     const hn::RebindToSigned<BoxTag> whole;
     using V = hn::Vec<BoxTag>;
@@ -124,39 +131,36 @@ HWY_INLINE void find_box_points(const CellBlock<d>& cell, const BoxBlock<d>& box
     const std::int32_t layers = d == 3 ? cell.last[d - 1][l] - cell.first[d - 1][l] : 1;
     const BoxPattern& pattern = box_patterns[static_cast<std::size_t>(columns - 1)];
     const V column = hn::Load(tag, pattern.column), error = hn::Set(tag, box.error[l]);
-    const auto place = hn::Load(whole, pattern.place);
-    std::size_t count = out.begin[l];
+    const auto next_layer = hn::Set(whole, 1 << 2 * box_bits);
+    BoxPlaces inside = inside_out, open = open_out;
     for (std::int32_t from = 0; from < rows; from += pattern.rows) {
         const auto used = hn::FirstN(tag, static_cast<std::size_t>(std::min(pattern.rows, rows - from) * columns));
         const V row = hn::Load(tag, pattern.row) + hn::Set(tag, static_cast<float>(from));
-        V start[d + 1];
+        V weight[d + 1];
         for (int j = 0; j <= d; ++j) {
-            start[j] = hn::MulAdd(hn::Set(tag, box.step[j][1][l]), row,
-                                  hn::MulAdd(hn::Set(tag, box.step[j][0][l]), column, hn::Set(tag, box.first[j][l])));
+            weight[j] = hn::MulAdd(hn::Set(tag, box.step[j][1][l]), row,
+                                   hn::MulAdd(hn::Set(tag, box.step[j][0][l]), column, hn::Set(tag, box.first[j][l])));
         }
-        for (std::int32_t layer = 0; layer < layers; ++layer) {
-            V min = start[0];
-            if constexpr (d == 3) {
-                const V z = hn::Set(tag, static_cast<float>(layer));
-                min = hn::MulAdd(hn::Set(tag, box.step[0][2][l]), z, start[0]);
-                for (int j = 1; j <= d; ++j)
-                    min = hn::Min(min, hn::MulAdd(hn::Set(tag, box.step[j][2][l]), z, start[j]));
-            } else {
-                for (int j = 1; j <= d; ++j) min = hn::Min(min, start[j]);
+        auto place = hn::Load(whole, pattern.place) + hn::Set(whole, from << box_bits);
+        V layer = hn::Zero(tag);
+        for (std::int32_t left = layers; left > 0; --left) {
+            V min = weight[0];
+            if constexpr (d == 3) min = hn::MulAdd(hn::Set(tag, box.step[0][d - 1][l]), layer, weight[0]);
+            for (int j = 1; j <= d; ++j) {
+                V here = weight[j];
+                if constexpr (d == 3) here = hn::MulAdd(hn::Set(tag, box.step[j][d - 1][l]), layer, weight[j]);
+                min = hn::Min(min, here);
             }
-            const auto inside = hn::And(used, hn::Gt(min, error));
+            const auto within = hn::And(used, hn::Gt(min, error));
             const auto maybe = hn::And(used, hn::Le(hn::Abs(min), error));
-            const auto places = place + hn::Set(whole, (from << box_bits) + (layer << 2 * box_bits));
-            hn::StoreU(hn::Compress(places, hn::RebindMask(whole, inside)), whole, out.place + count);
-            count += hn::CountTrue(tag, inside);
-            if (HWY_LIKELY(hn::AllFalse(tag, maybe))) continue;
-            HWY_ALIGN std::int32_t open[box_lanes];
-            hn::Store(hn::Compress(places, hn::RebindMask(whole, maybe)), whole, open);
-            const std::size_t opens = hn::CountTrue(tag, maybe);
-            for (std::size_t i = 0; i < opens; ++i) undecided(open[i]);
+            inside.add(whole, place, hn::RebindMask(whole, within));
+            if (HWY_UNLIKELY(!hn::AllFalse(tag, maybe))) open.add(whole, place, hn::RebindMask(whole, maybe));
+            layer = layer + hn::Set(tag, 1.0F);
+            place = place + next_layer;
         }
     }
-    out.begin[l + 1] = count;
+    inside_out = inside;
+    open_out = open;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -20,32 +20,38 @@ namespace HWY_NAMESPACE {
 using namespace core::HWY_NAMESPACE;
 using namespace locate::HWY_NAMESPACE;
 
+/// Set up one after the other, as what each takes hides the waits of the next.
+constexpr std::size_t blocks_at_once = 8;
+
 /// MaxLanes cells.
 template <template <int> class Values, int d>
 struct FillBlock {
-    static constexpr Simplex simplex = d == 3 ? Simplex::tetrahedron : Simplex::triangle;
+    locate::Place place[max_lanes];
+    Mesh::Index id[max_lanes];
+    CellBlock<d> cells;
+    BoxBlock<d> boxes;
+    std::uint32_t valid, box;           ///< bits; box: with few points in their boxes
+    typename Values<d>::Block* values;  ///< by component
+};
 
+/// What is filled in from where.
+template <int d>
+struct Filling {
     const FillSource& source;
     const FillTarget& target;
     UndecidedFill& undecided;
-    locate::Place places[max_lanes];
-    CellBlock<d> cells;
-    BoxBlock<d> boxes;
-    BoxPoints points;
-    RowsBlock<d> rows;
-    std::uint32_t valid, box;  ///< bits
-    std::vector<typename Values<d>::Block> values;
-    std::vector<typename Values<d>::RowTerms> terms;
-
-    FillBlock(const FillSource& from, const FillTarget& to, UndecidedFill& open)
-        : source(from), target(to), undecided(open), values(from.nodes.components), terms(from.nodes.components) {}
 
     std::size_t line_of(std::int32_t row, std::int32_t layer) const {
         return d == 3
                    ? static_cast<std::size_t>(layer - target.first_layer) * target.rows + static_cast<std::size_t>(row)
                    : static_cast<std::size_t>(row - target.first_layer);
     }
-    Mesh::Index id(std::size_t l) const { return source.index.original[static_cast<std::size_t>(places[l])]; }
+    /// The first point of the box of a cell.
+    std::size_t first_of_box(const CellBlock<d>& cells, std::size_t l) const {
+        return line_of(cells.first[1][l], d == 3 ? cells.first[d - 1][l] : 0) * target.columns +
+               static_cast<std::size_t>(cells.first[0][l]);
+    }
+    std::size_t components() const { return source.nodes.components; }
     bool usual() const { return target.stride == 1 && !target.overlapping; }
     bool kept(std::size_t point, Mesh::Index cell) const {
         return target.overlapping && target.owner[point] >= 0 && target.owner[point] < cell;
@@ -58,14 +64,18 @@ struct FillBlock {
     }
 };
 
+/// From b.place. `rows` is set only if some cells need it.
 template <template <int> class Values, int d, class D>
-HWY_INLINE void set_block(D tag, FillBlock<Values, d>& b) {
+HWY_INLINE void set_block(D tag, const Filling<d>& to, FillBlock<Values, d>& b, RowsBlock<d>& rows) {
     using V = hn::Vec<D>;
     constexpr int n = d + 1;
-    const NodeValues& nodes = b.source.nodes;
+    const FillSource& source = to.source;
+    const NodeValues& nodes = source.nodes;
+    for (std::size_t l = 0; l < hn::MaxLanes(D()); ++l)
+        b.id[l] = source.index.original[static_cast<std::size_t>(b.place[l])];
     const auto node = [&](std::size_t l, int i) HWY_ATTR {
         return static_cast<std::size_t>(
-            b.source.index.cells[static_cast<std::size_t>(b.places[l])].node[static_cast<std::size_t>(i)]);
+            source.index.cells[static_cast<std::size_t>(b.place[l])].node[static_cast<std::size_t>(i)]);
     };
     V v[n][d], f[n];
     for (int i = 0; i < n; ++i) {
@@ -75,7 +85,7 @@ HWY_INLINE void set_block(D tag, FillBlock<Values, d>& b) {
         for (int k = 0; k < d; ++k) v[i][k] = row[k];
         f[i] = row[3];
     }
-    set_places<d>(tag, b.source.raster, {b.target.first_layer, b.target.last_layer}, v, b.cells);
+    set_places<d>(tag, source.raster, {to.target.first_layer, to.target.last_layer}, v, b.cells);
     const CellMatrix<d, D> m = cell_matrix<d>(tag, v);
     V extent[d];
     extents(m.edge, extent);
@@ -84,9 +94,8 @@ HWY_INLINE void set_block(D tag, FillBlock<Values, d>& b) {
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(tag, weights.valid, bits);
     b.valid = bits[0];
-    b.box = set_boxes<d>(tag, b.source.raster, b.cells, weights, b.boxes) & b.valid;
-    if (b.box != (1U << hn::MaxLanes(D())) - 1)
-        set_planes<d>(tag, b.source.raster, b.cells, weights, extent[0], b.rows);
+    b.box = set_boxes<d>(tag, source.raster, b.cells, weights, b.boxes) & b.valid;
+    if (b.box != (1U << hn::MaxLanes(D())) - 1) set_planes<d>(tag, source.raster, b.cells, weights, extent[0], rows);
 
     Values<d>::set(tag, m, v, extent, f, b.values[0]);
     for (std::size_t c = 1; c < nodes.components; ++c) {
@@ -100,24 +109,29 @@ HWY_INLINE void set_block(D tag, FillBlock<Values, d>& b) {
     }
 }
 
-/// Writes the values of component c of the points of cell l, which are numbered from `base` on; usual: and their owner.
+/// Of a cell with few points in its box, those that it holds: entries [begin, end) of a list of places.
+struct BoxFill {
+    std::size_t block, lane, begin, end;
+};
+
+/// Writes the values of component c of the points, which are numbered from `base` on; usual: and their owner.
 template <bool usual, template <int> class Values, int d, class D>
-HWY_INLINE void fill_box_component(D tag, const FillBlock<Values, d>& b, std::size_t l, std::size_t c, std::size_t base,
-                                   std::uint8_t* certain) {
+HWY_INLINE void fill_box_component(D tag, const Filling<d>& to, const FillBlock<Values, d>& b, const BoxFill& one,
+                                   const std::int32_t* found, std::size_t c, std::size_t base, std::uint8_t* certain) {
     using V = hn::Vec<D>;
     constexpr std::size_t width = hn::MaxLanes(D());
     const hn::Rebind<std::int32_t, D> whole;
     const hn::RebindToSigned<D> index;
-    const FillTarget& target = b.target;
-    const Mesh::Index id = b.id(l);
+    const FillTarget& target = to.target;
+    const std::size_t l = one.lane;
+    const Mesh::Index id = b.id[l];
     typename Values<d>::Table table;
-    Values<d>::set_table(tag, b.source.raster, b.cells, b.values[c], l, table);
+    Values<d>::set_table(tag, to.source.raster, b.cells, b.values[c], l, table);
     const auto mask = hn::Set(whole, box_side - 1);
     const auto line = hn::Set(whole, static_cast<std::int32_t>(target.columns));
     const auto plane = hn::Set(whole, static_cast<std::int32_t>(target.columns * target.rows));
-    const std::size_t end = b.points.begin[l + 1];
-    for (std::size_t at = b.points.begin[l]; at < end; at += width) {
-        const auto place = hn::LoadU(whole, b.points.place + at);
+    for (std::size_t at = one.begin; at < one.end; at += width) {
+        const auto place = hn::LoadU(whole, found + at);
         const auto column = hn::And(place, mask), row = hn::And(hn::ShiftRight<box_bits>(place), mask);
         auto offset = column + row * line;
         hn::Vec<decltype(index)> places[d];
@@ -134,7 +148,7 @@ HWY_INLINE void fill_box_component(D tag, const FillBlock<Values, d>& b, std::si
         HWY_ALIGN std::int32_t offsets[max_lanes];
         hn::Store(value, tag, values);
         hn::Store(offset, whole, offsets);
-        const std::size_t used = std::min(width, end - at);
+        const std::size_t used = std::min(width, one.end - at);
         const auto point = [&](std::size_t i) { return base + static_cast<std::size_t>(offsets[i]); };
         if constexpr (usual) {
             for (std::size_t i = 0; i < used; ++i) {
@@ -147,83 +161,108 @@ HWY_INLINE void fill_box_component(D tag, const FillBlock<Values, d>& b, std::si
             *certain = static_cast<std::uint8_t>(c == 0 ? bits : *certain & bits);
             ++certain;
             for (std::size_t i = 0; i < used; ++i) {
-                if (!b.kept(point(i), id)) target.values[target.stride * point(i) + c] = values[i];
+                if (!to.kept(point(i), id)) target.values[target.stride * point(i) + c] = values[i];
             }
         }
     }
 }
 
-/// The first point of the box of a cell.
-template <template <int> class Values, int d>
-HWY_INLINE std::size_t first_of_box(const FillBlock<Values, d>& b, std::size_t l) {
-    return b.line_of(b.cells.first[1][l], d == 3 ? b.cells.first[d - 1][l] : 0) * b.target.columns +
-           static_cast<std::size_t>(b.cells.first[0][l]);
-}
-
-template <template <int> class Values, int d>
-HWY_INLINE void find_box(FillBlock<Values, d>& b, std::size_t l) {
-    const auto undecided = [&](std::int32_t place) {
-        const std::int32_t column = b.cells.first[0][l] + (place & (box_side - 1));
-        b.undecided.spans.push_back({b.places[l], b.cells.first[1][l] + (place >> box_bits & (box_side - 1)),
-                                     (d == 3 ? b.cells.first[d - 1][l] : 0) + (place >> 2 * box_bits), column,
-                                     column + 1, column + 1, column + 1});
-    };
-    find_box_points<d>(b.cells, b.boxes, l, b.points, undecided);
-}
-
 template <template <int> class Values, int d, class D>
-HWY_INLINE void fill_box(D tag, const FillBlock<Values, d>& b, std::size_t l) {
-    const FillTarget& target = b.target;
-    const std::size_t base = first_of_box(b, l);
-    if (b.usual()) {
-        fill_box_component<true>(tag, b, l, 0, base, nullptr);
+HWY_INLINE void fill_box(D tag, const Filling<d>& to, const FillBlock<Values, d>& b, const BoxFill& one,
+                         const std::int32_t* found) {
+    const std::size_t base = to.first_of_box(b.cells, one.lane);
+    if (to.usual()) {
+        fill_box_component<true>(tag, to, b, one, found, 0, base, nullptr);
         return;
     }
     constexpr std::size_t width = hn::MaxLanes(D());
-    std::uint8_t certain[BoxPoints::max / width];
-    for (std::size_t c = 0; c < b.values.size(); ++c) fill_box_component<false>(tag, b, l, c, base, certain);
-    for (std::size_t i = 0; i < b.points.begin[l + 1] - b.points.begin[l]; ++i) {
-        const auto place = static_cast<std::size_t>(b.points.place[b.points.begin[l] + i]);
+    std::uint8_t certain[box_points / width];
+    for (std::size_t c = 0; c < to.components(); ++c)
+        fill_box_component<false>(tag, to, b, one, found, c, base, certain);
+    const Mesh::Index id = b.id[one.lane];
+    for (std::size_t i = 0; i < one.end - one.begin; ++i) {
+        const auto place = static_cast<std::size_t>(found[one.begin + i]);
         const std::size_t row = place >> box_bits & (box_side - 1), layer = place >> 2 * box_bits;
-        const std::size_t point = base + (place & (box_side - 1)) + (layer * target.rows + row) * target.columns;
-        if (!b.kept(point, b.id(l))) b.own(point, b.id(l), (certain[i / width] >> i % width & 1) != 0);
+        const std::size_t point = base + (place & (box_side - 1)) + (layer * to.target.rows + row) * to.target.columns;
+        if (!to.kept(point, id)) to.own(point, id, (certain[i / width] >> i % width & 1) != 0);
     }
+}
+
+template <template <int> class Values, int d>
+HWY_NOINLINE void list_undecided(const Filling<d>& to, const FillBlock<Values, d>& b, std::size_t l,
+                                 const BoxPlaces& open) {
+    for (std::size_t i = 0; i < open.count; ++i) {
+        const std::int32_t place = open.place[i], column = b.cells.first[0][l] + (place & (box_side - 1));
+        to.undecided.spans.push_back({b.place[l], b.cells.first[1][l] + (place >> box_bits & (box_side - 1)),
+                                      (d == 3 ? b.cells.first[d - 1][l] : 0) + (place >> 2 * box_bits), column,
+                                      column + 1, column + 1, column + 1});
+    }
+}
+
+/// Cells with few points in their boxes. All find their points before the first of these are read: a vector of what was
+/// just stored in parts would have to wait.
+template <template <int> class Values, int d, class D>
+HWY_INLINE void fill_boxes(D tag, const Filling<d>& to, const FillBlock<Values, d>* blocks, std::size_t count) {
+    constexpr std::size_t room = 8 * box_points;
+    HWY_ALIGN std::int32_t found[room + box_lanes], opens[box_points + box_lanes];
+    BoxFill fills[blocks_at_once * max_lanes];
+    BoxPlaces inside{found};
+    std::size_t cells = 0;
+    const auto fill = [&]() HWY_ATTR {
+        for (std::size_t i = 0; i < cells; ++i) fill_box(tag, to, blocks[fills[i].block], fills[i], found);
+        inside.count = cells = 0;
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        const FillBlock<Values, d>& b = blocks[i];
+        for (std::uint32_t bits = b.box; bits != 0; bits &= bits - 1) {
+            if (room - inside.count < box_points) fill();
+            const auto l = static_cast<std::size_t>(__builtin_ctz(bits));
+            const std::size_t begin = inside.count;
+            BoxPlaces open{opens};
+            find_box_points<d>(b.cells, b.boxes, l, inside, open);
+            fills[cells] = {i, l, begin, inside.count};
+            cells += inside.count != begin ? 1 : 0;
+            if (HWY_UNLIKELY(open.count != 0)) list_undecided(to, b, l, open);
+        }
+    }
+    fill();
 }
 
 /// Points [first, last) of row r, which begins at point `at`.
 template <template <int> class Values, int d, class D>
-HWY_INLINE void fill_row(D tag, const FillBlock<Values, d>& b, std::size_t l, std::size_t r, PlaceRange columns,
-                         std::size_t at) {
+HWY_INLINE void fill_row(D tag, const Filling<d>& to, const FillBlock<Values, d>& b, std::size_t l,
+                         const typename Values<d>::RowTerms* terms, std::size_t r, PlaceRange columns, std::size_t at) {
     constexpr auto width = static_cast<std::int32_t>(hn::MaxLanes(D()));
-    const FillTarget& target = b.target;
-    const Mesh::Index id = b.id(l);
+    const FillTarget& target = to.target;
+    const Mesh::Index id = b.id[l];
     for (std::int32_t column = columns.first; column < columns.last; column += width) {
         const std::int32_t used = std::min(width, columns.last - column);
-        const auto x = load_some(tag, b.source.raster.at[0].data() + column, used);
+        const auto x = load_some(tag, to.source.raster.at[0].data() + column, used);
         const std::size_t first = at + static_cast<std::size_t>(column);
         std::uint32_t certain = ~0U;
-        for (std::size_t c = 0; c < b.values.size(); ++c) {
+        for (std::size_t c = 0; c < to.components(); ++c) {
             std::uint32_t bits;
-            const auto value = Values<d>::at_row(tag, b.cells, b.values[c], l, b.terms[c], r, x, bits);
+            const auto value = Values<d>::at_row(tag, b.cells, b.values[c], l, terms[c], r, x, bits);
             certain &= bits;
-            if (b.usual()) {
+            if (to.usual()) {
                 hn::BlendedStore(value, hn::FirstN(tag, static_cast<std::size_t>(used)), tag, target.values + first);
                 continue;
             }
             HWY_ALIGN double values[max_lanes];
             hn::Store(value, tag, values);
             for (std::size_t i = 0; i < static_cast<std::size_t>(used); ++i) {
-                if (!b.kept(first + i, id)) target.values[target.stride * (first + i) + c] = values[i];
+                if (!to.kept(first + i, id)) target.values[target.stride * (first + i) + c] = values[i];
             }
         }
         for (std::size_t i = 0; i < static_cast<std::size_t>(used); ++i) {
-            if (!b.kept(first + i, id)) b.own(first + i, id, (certain >> i & 1) != 0);
+            if (!to.kept(first + i, id)) to.own(first + i, id, (certain >> i & 1) != 0);
         }
     }
 }
 
 template <template <int> class Values, int d, class D>
-HWY_INLINE void fill_rows(D tag, FillBlock<Values, d>& b, std::size_t l) {
+HWY_INLINE void fill_rows(D tag, const Filling<d>& to, const FillBlock<Values, d>& b, const RowsBlock<d>& planes,
+                          std::size_t l, typename Values<d>::RowTerms* terms) {
     constexpr std::size_t width = hn::MaxLanes(D());
     const PlaceRange columns = b.cells.places(0, l), lines = b.cells.places(1, l);
     const PlaceRange layers = d == 3 ? b.cells.places(d - 1, l) : PlaceRange{0, 1};
@@ -236,28 +275,28 @@ HWY_INLINE void fill_rows(D tag, FillBlock<Values, d>& b, std::size_t l) {
         }
         for (std::size_t at = 0; at < rows.count; at += width) {
             RowBlock block;
-            find_intervals<d>(tag, b.cells, b.rows, l, columns, rows, at, block);
+            find_intervals<d>(tag, b.cells, planes, l, columns, rows, at, block);
             const std::uint32_t real = rows.count - at >= width ? ~0U : (1U << (rows.count - at)) - 1;
             for (std::uint32_t bits = block.undecided & real; bits != 0; bits &= bits - 1) {
                 const auto r = static_cast<std::size_t>(__builtin_ctz(bits));
-                b.undecided.spans.push_back({b.places[l], rows.row[at + r], rows.layer[at + r], block.first[r],
-                                             block.inner_first[r], block.inner_last[r], block.last[r]});
+                to.undecided.spans.push_back({b.place[l], rows.row[at + r], rows.layer[at + r], block.first[r],
+                                              block.inner_first[r], block.inner_last[r], block.last[r]});
             }
             block.with_points &= real;
             if (block.with_points == 0) continue;
-            for (std::size_t c = 0; c < b.values.size(); ++c)
-                Values<d>::set_rows(tag, b.cells, b.values[c], l, rows, at, b.terms[c]);
+            for (std::size_t c = 0; c < to.components(); ++c)
+                Values<d>::set_rows(tag, b.cells, b.values[c], l, rows, at, terms[c]);
             for (std::uint32_t bits = block.with_points; bits != 0; bits &= bits - 1) {
                 const auto r = static_cast<std::size_t>(__builtin_ctz(bits));
-                fill_row(tag, b, l, r, {block.inner_first[r], block.inner_last[r]},
-                         b.line_of(rows.row[at + r], rows.layer[at + r]) * b.target.columns);
+                fill_row(tag, to, b, l, terms, r, {block.inner_first[r], block.inner_last[r]},
+                         to.line_of(rows.row[at + r], rows.layer[at + r]) * to.target.columns);
             }
         }
         rows.count = 0;
     };
     // One loop over both: nothing could predict where the inner one ends.
-    const double* const y = b.source.raster.at[1].data();
-    const double* const z = b.source.raster.at[2].data();
+    const double* const y = to.source.raster.at[1].data();
+    const double* const z = to.source.raster.at[2].data();
     std::int32_t row = lines.first, layer = layers.first;
     for (std::int64_t left = std::int64_t{lines.last - lines.first} * (layers.last - layers.first); left > 0; --left) {
         rows.y[rows.count] = y[row];
@@ -277,28 +316,34 @@ void fill_all(const FillSource& source, std::span<const locate::Place> cells, co
               UndecidedFill& undecided) {
     const hn::ScalableTag<double> tag;
     constexpr std::size_t width = hn::MaxLanes(hn::ScalableTag<double>());
-    FillBlock<Values, d> block(source, target, undecided);
+    const Filling<d> to{source, target, undecided};
+    FillBlock<Values, d> blocks[blocks_at_once];
+    RowsBlock<d> rows;
+    std::vector<typename Values<d>::Block> values(to.components() * blocks_at_once);
+    std::vector<typename Values<d>::RowTerms> terms(to.components());
+    for (std::size_t i = 0; i < blocks_at_once; ++i) blocks[i].values = &values[i * to.components()];
+    std::size_t count = 0;
     for (std::size_t at = 0; at < cells.size(); at += width) {
-        for (std::size_t l = 0; l < width; ++l) block.places[l] = cells[std::min(at + l, cells.size() - 1)];
-        set_block(tag, block);
-        const std::size_t used = std::min(width, cells.size() - at);
-        block.points.begin[0] = 0;
-        for (std::size_t l = 0; l < used; ++l) {
-            block.points.begin[l + 1] = block.points.begin[l];
-            bool empty = false;
-            for (int k = 0; k < d; ++k) empty |= block.cells.first[k][l] >= block.cells.last[k][l];
-            if (empty) continue;
-            if ((block.box >> l & 1) != 0) {
-                find_box(block, l);
-            } else if ((block.valid >> l & 1) != 0) {
-                fill_rows(tag, block, l);
+        FillBlock<Values, d>& b = blocks[count];
+        for (std::size_t l = 0; l < width; ++l) b.place[l] = cells[std::min(at + l, cells.size() - 1)];
+        set_block(tag, to, b, rows);
+        std::uint32_t holding = (1U << std::min(width, cells.size() - at)) - 1;
+        for (std::size_t l = 0; l < width; ++l) {
+            for (int k = 0; k < d; ++k)
+                holding &= ~(static_cast<std::uint32_t>(b.cells.first[k][l] >= b.cells.last[k][l]) << l);
+        }
+        b.box &= holding;
+        for (std::uint32_t others = holding & ~b.box; others != 0; others &= others - 1) {
+            const auto l = static_cast<std::size_t>(__builtin_ctz(others));
+            if ((b.valid >> l & 1) != 0) {
+                fill_rows(tag, to, b, rows, l, terms.data());
             } else {
-                undecided.cells.push_back(block.places[l]);
+                undecided.cells.push_back(b.place[l]);
             }
         }
-        for (std::size_t l = 0; l < used; ++l) {
-            if (block.points.begin[l] != block.points.begin[l + 1]) fill_box(tag, block, l);
-        }
+        if (++count < blocks_at_once && at + width < cells.size()) continue;
+        fill_boxes(tag, to, blocks, count);
+        count = 0;
     }
 }
 
