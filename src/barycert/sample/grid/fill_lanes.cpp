@@ -3,6 +3,7 @@
 #include "barycert/sample/grid/fill_lanes.hpp"
 
 #include <algorithm>
+#include <array>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/sample/grid/fill_lanes.cpp"
@@ -60,7 +61,7 @@ struct Filling {
     void own(std::size_t point, Mesh::Index cell, bool certain) const {
         target.owner[point] = cell;
         if (target.overlapping || !certain)
-            target.feature[point] = certain ? Feature::interior : interior_without_value;
+            target.feature[point] = certain ? Feature::interior : without_value(Feature::interior);
     }
 };
 
@@ -109,10 +110,30 @@ HWY_INLINE void set_block(D tag, const Filling<d>& to, FillBlock<Values, d>& b, 
     }
 }
 
-/// Of a cell with few points in its box, those that it holds: entries [begin, end) of a list of places.
+/// Of a cell with few points in its box, those that it holds: entries [begin, end) of a list of places. Those of which
+/// this is open follow, up to open_end, where there is one value a point.
 struct BoxFill {
-    std::size_t block, lane, begin, end;
+    std::size_t block, lane, begin, end, open_end;
 };
+
+/// Where place `place` of a box is in the grid.
+template <int d>
+HWY_INLINE std::array<std::int32_t, 3> in_grid(const CellBlock<d>& cells, std::size_t l, std::int32_t place) {
+    return {cells.first[0][l] + (place & (box_side - 1)), cells.first[1][l] + (place >> box_bits & (box_side - 1)),
+            (d == 3 ? cells.first[d - 1][l] : 0) + (place >> 2 * box_bits)};
+}
+
+/// Of the vector from entry `at` on, those points of which it is open whether the cell holds them.
+template <template <int> class Values, int d>
+HWY_NOINLINE void list_open(const Filling<d>& to, const FillBlock<Values, d>& b, const BoxFill& one,
+                            const std::int32_t* found, std::size_t at, std::size_t width, const double* values,
+                            std::uint32_t certain) {
+    for (std::size_t i = std::max(at, one.end); i < std::min(at + width, one.open_end); ++i) {
+        const std::array<std::int32_t, 3> n = in_grid(b.cells, one.lane, found[i]);
+        to.undecided.points.push_back(
+            {b.place[one.lane], n[0], n[1], n[2], values[i - at], (certain >> (i - at) & 1) != 0});
+    }
+}
 
 /// Writes the values of component c of the points, which are numbered from `base` on; usual: and their owner.
 template <bool usual, template <int> class Values, int d, class D>
@@ -130,7 +151,8 @@ HWY_INLINE void fill_box_component(D tag, const Filling<d>& to, const FillBlock<
     const auto mask = hn::Set(whole, box_side - 1);
     const auto line = hn::Set(whole, static_cast<std::int32_t>(target.columns));
     const auto plane = hn::Set(whole, static_cast<std::int32_t>(target.columns * target.rows));
-    for (std::size_t at = one.begin; at < one.end; at += width) {
+    const std::size_t last = usual ? one.open_end : one.end;
+    for (std::size_t at = one.begin; at < last; at += width) {
         const auto place = hn::LoadU(whole, found + at);
         const auto column = hn::And(place, mask), row = hn::And(hn::ShiftRight<box_bits>(place), mask);
         auto offset = column + row * line;
@@ -148,7 +170,7 @@ HWY_INLINE void fill_box_component(D tag, const Filling<d>& to, const FillBlock<
         HWY_ALIGN std::int32_t offsets[max_lanes];
         hn::Store(value, tag, values);
         hn::Store(offset, whole, offsets);
-        const std::size_t used = std::min(width, one.end - at);
+        const std::size_t used = at < one.end ? std::min(width, one.end - at) : 0;
         const auto point = [&](std::size_t i) { return base + static_cast<std::size_t>(offsets[i]); };
         if constexpr (usual) {
             for (std::size_t i = 0; i < used; ++i) {
@@ -156,7 +178,9 @@ HWY_INLINE void fill_box_component(D tag, const Filling<d>& to, const FillBlock<
                 target.owner[point(i)] = id;
             }
             for (std::uint32_t open = ~bits & ((1U << used) - 1); HWY_UNLIKELY(open != 0); open &= open - 1)
-                target.feature[point(static_cast<std::size_t>(__builtin_ctz(open)))] = interior_without_value;
+                target.feature[point(static_cast<std::size_t>(__builtin_ctz(open)))] = without_value(Feature::interior);
+            if (HWY_UNLIKELY(at + width > one.end && one.end != one.open_end))
+                list_open(to, b, one, found, at, width, values, bits);
         } else {
             *certain = static_cast<std::uint8_t>(c == 0 ? bits : *certain & bits);
             ++certain;
@@ -192,10 +216,8 @@ template <template <int> class Values, int d>
 HWY_NOINLINE void list_undecided(const Filling<d>& to, const FillBlock<Values, d>& b, std::size_t l,
                                  const BoxPlaces& open) {
     for (std::size_t i = 0; i < open.count; ++i) {
-        const std::int32_t place = open.place[i], column = b.cells.first[0][l] + (place & (box_side - 1));
-        to.undecided.spans.push_back({b.place[l], b.cells.first[1][l] + (place >> box_bits & (box_side - 1)),
-                                      (d == 3 ? b.cells.first[d - 1][l] : 0) + (place >> 2 * box_bits), column,
-                                      column + 1, column + 1, column + 1});
+        const auto [column, row, layer] = in_grid(b.cells, l, open.place[i]);
+        to.undecided.spans.push_back({b.place[l], row, layer, column, column + 1, column + 1, column + 1});
     }
 }
 
@@ -208,6 +230,7 @@ HWY_INLINE void fill_boxes(D tag, const Filling<d>& to, const FillBlock<Values, 
     BoxFill fills[blocks_at_once * max_lanes];
     BoxPlaces inside{found};
     std::size_t cells = 0;
+    const bool usual = to.usual();
     const auto fill = [&]() HWY_ATTR {
         for (std::size_t i = 0; i < cells; ++i) fill_box(tag, to, blocks[fills[i].block], fills[i], found);
         inside.count = cells = 0;
@@ -220,9 +243,17 @@ HWY_INLINE void fill_boxes(D tag, const Filling<d>& to, const FillBlock<Values, 
             const std::size_t begin = inside.count;
             BoxPlaces open{opens};
             find_box_points<d>(b.cells, b.boxes, l, inside, open);
-            fills[cells] = {i, l, begin, inside.count};
+            const std::size_t end = inside.count;
+            if (HWY_UNLIKELY(open.count != 0)) {
+                if (usual) {
+                    std::copy_n(opens, open.count, found + end);
+                    inside.count += open.count;
+                } else {
+                    list_undecided(to, b, l, open);
+                }
+            }
+            fills[cells] = {i, l, begin, end, inside.count};
             cells += inside.count != begin ? 1 : 0;
-            if (HWY_UNLIKELY(open.count != 0)) list_undecided(to, b, l, open);
         }
     }
     fill();

@@ -11,13 +11,19 @@
 
 namespace barycert::sample {
 
-/// In FillTarget::feature: in the interior of the owner, the value still to be found.
-inline constexpr Feature interior_without_value = Feature::degenerate;
+/// In FillTarget::feature, beside the feature: the value is still to be found.
+inline constexpr std::uint8_t value_missing = 0x80;
+constexpr Feature without_value(Feature f) {
+    return static_cast<Feature>(static_cast<std::uint8_t>(f) | value_missing);
+}
+constexpr bool lacks_value(Feature f) {
+    return (static_cast<std::uint8_t>(f) & value_missing) != 0;
+}
 
 /// The points of some layers (2D: lines) of a grid, line after line. Each array has room for a vector more.
 struct FillTarget {
     Mesh::Index* owner = nullptr;  ///< -1: none yet
-    /// Of a point with an owner: outside, or interior, means in the interior, with its value. Of others: outside.
+    /// Of a point with an owner: outside means interior. Of others: outside.
     Feature* feature = nullptr;
     double* values = nullptr;
     std::size_t stride = 1;  ///< numbers a point in `values`, of which the first are the components of the nodes
@@ -34,13 +40,23 @@ struct FillSource {
     Rounding rounding = Rounding::correct;
 };
 
+/// A point that may be in a cell or not, and what value it would have.
+struct UndecidedPoint {
+    locate::Place cell;
+    std::int32_t column, row, layer;
+    double value;
+    bool certain;  ///< of the value
+};
+
 /// What the filter leaves open.
 struct UndecidedFill {
-    std::vector<Span> spans;           ///< with points that may be in the cell or not
-    std::vector<locate::Place> cells;  ///< of which nothing is known; they have no spans
+    std::vector<Span> spans;             ///< with points that may be in the cell or not
+    std::vector<UndecidedPoint> points;  ///< where there is one value a point
+    std::vector<locate::Place> cells;    ///< of which nothing is known; they have no spans
 
     void clear() {
         spans.clear();
+        points.clear();
         cells.clear();
     }
 };

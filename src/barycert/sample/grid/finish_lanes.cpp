@@ -24,8 +24,9 @@ HWY_INLINE bool finish_point(const FillTarget& target, std::size_t point, const 
         return false;
     }
     if (feature == Feature::outside) feature = Feature::interior;
-    if (feature != Feature::interior) return true;
-    ++out.interior;
+    if (lacks_value(feature)) return true;
+    out.locations.add(feature);
+    ++out.with_value;
     return false;
 }
 
@@ -36,7 +37,7 @@ void finish_points(const FillTarget& target, std::size_t first, std::size_t last
     constexpr std::size_t width = hn::MaxLanes(hn::ScalableTag<std::int32_t>());
     const auto none = hn::Set(bytes, static_cast<std::int8_t>(Feature::outside));
     const auto interior = hn::Set(bytes, static_cast<std::int8_t>(Feature::interior));
-    std::size_t point = first;
+    std::size_t point = first, inside = 0;
     for (; point + width <= last; point += width) {
         auto* const features = reinterpret_cast<std::int8_t*>(target.feature + point);
         const auto known = hn::LoadU(bytes, features);
@@ -45,7 +46,7 @@ void finish_points(const FillTarget& target, std::size_t first, std::size_t last
         const bool usual = hn::AllTrue(bytes, hn::Eq(known, none));
         if (usual && lost == 0) {
             hn::StoreU(interior, bytes, features);
-            out.interior += width;
+            inside += width;
         } else if (usual && lost == width && outside != nullptr) {
             std::fill_n(target.values + target.stride * point, target.stride * width, *outside);
             out.outside += width;
@@ -56,6 +57,8 @@ void finish_points(const FillTarget& target, std::size_t first, std::size_t last
             }
         }
     }
+    out.locations.add(Feature::interior, inside);
+    out.with_value += inside;
     for (; point < last; ++point) {
         if (finish_point(target, point, outside, out)) out.others.push_back(static_cast<std::uint32_t>(point));
     }

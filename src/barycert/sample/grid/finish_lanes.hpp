@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "barycert/sample/grid/fill_lanes.hpp"
+#include "barycert/table.hpp"
 
 namespace barycert::sample {
 
 struct FinishedPoints {
-    std::uint64_t interior = 0;  ///< with a value
+    LocationCounts locations;  ///< of those below
+    std::uint64_t with_value = 0;
     std::uint64_t outside = 0;
-    std::vector<std::uint32_t> others;  ///< their numbers, ascending: on boundaries or without a value
+    std::vector<std::uint32_t> others;  ///< those without a value, by their numbers, ascending
 };
 
 /// Points [first, last) of the target: sets features, and adds to `out`. Those outside get `*outside` for each of their

@@ -61,6 +61,7 @@ void SlabSampler::fill(std::span<const locate::Place> cells) {
         undecided_.clear();
         fill_cells(source, cells.subspan(c, std::min(cells_at_once, cells.size() - c)), target, undecided_);
         for (const Span& span : undecided_.spans) take(span);
+        for (const UndecidedPoint& point : undecided_.points) take(point);
         raster(undecided_.cells);
     }
 }
@@ -73,9 +74,9 @@ void SlabSampler::raster(std::span<const locate::Place> cells) {
         for (const Span& span : spans_) {
             take(span);
             const std::size_t line = line_of(span.row, span.layer);
-            const Mesh::Index cell = data_.index().original[static_cast<std::size_t>(span.cell)];
+            const Mesh::Index cell = original(span.cell);
             for (std::int32_t i = span.inner_first; i < span.inner_last; ++i)
-                own(line + static_cast<std::size_t>(i), cell, interior_without_value);
+                own(line + static_cast<std::size_t>(i), cell, without_value(Feature::interior));
         }
     }
 }
@@ -90,23 +91,35 @@ std::size_t SlabSampler::line_of(std::int32_t row, std::int32_t layer) const {
 /// The points of a span of which it is not certain whether they are in the cell.
 void SlabSampler::take(const Span& span) {
     const std::size_t line = line_of(span.row, span.layer);
-    for (std::int32_t i = span.first; i < span.inner_first; ++i) test(span, i, line + static_cast<std::size_t>(i));
-    for (std::int32_t i = span.inner_last; i < span.last; ++i) test(span, i, line + static_cast<std::size_t>(i));
+    const auto test = [&](std::int32_t column) {
+        const std::size_t point = line + static_cast<std::size_t>(column);
+        const auto feature = tested(span.cell, {column, span.row, span.layer}, point);
+        if (feature) own(point, original(span.cell), without_value(*feature));
+    };
+    for (std::int32_t i = span.first; i < span.inner_first; ++i) test(i);
+    for (std::int32_t i = span.inner_last; i < span.last; ++i) test(i);
 }
 
-void SlabSampler::test(const Span& span, std::int32_t column, std::size_t point) {
-    const locate::CellIndex& index = data_.index();
-    const Mesh::Index cell = index.original[static_cast<std::size_t>(span.cell)];
-    if (owners_[point] >= 0 && owners_[point] < cell) return;
-    const std::array<double, 3> at{raster_.at[0][static_cast<std::size_t>(column)],
-                                   raster_.at[1][static_cast<std::size_t>(span.row)],
-                                   raster_.at[2][static_cast<std::size_t>(span.layer)]};
-    const WeightSigns signs = locate::cell_signs(index, span.cell, at.data(), counts_.locations.tests);
-    if (!signs.contains()) return;
-    const Feature feature = signs.feature(index.simplex);
-    own(point, cell, feature == Feature::interior ? interior_without_value : feature);
+void SlabSampler::take(const UndecidedPoint& one) {
+    const std::size_t point = line_of(one.row, one.layer) + static_cast<std::size_t>(one.column);
+    const auto feature = tested(one.cell, {one.column, one.row, one.layer}, point);
+    if (!feature) return;
+    own(point, original(one.cell), one.certain ? *feature : without_value(*feature));
+    values_[point] = one.value;
 }
 
+/// Where the point lies in the cell, exactly; nothing outside of it, or if a lower cell has the point.
+std::optional<Feature> SlabSampler::tested(locate::Place cell, const std::array<std::int32_t, 3>& places,
+                                           std::size_t point) {
+    if (owners_[point] >= 0 && owners_[point] < original(cell)) return std::nullopt;
+    std::array<double, 3> at{};
+    for (std::size_t k = 0; k < 3; ++k) at[k] = raster_.at[k][static_cast<std::size_t>(places[k])];
+    const WeightSigns signs = locate::cell_signs(data_.index(), cell, at.data(), counts_.locations.tests);
+    if (!signs.contains()) return std::nullopt;
+    return signs.feature(data_.index().simplex);
+}
+
+/// Unless a lower cell has the point.
 void SlabSampler::own(std::size_t point, Mesh::Index cell, Feature feature) {
     if (owners_[point] >= 0 && owners_[point] < cell) return;
     owners_[point] = cell;
@@ -126,8 +139,7 @@ void SlabSampler::finish() {
         finished_.others.clear();
         finish_points(target, first, last, same ? &fill : nullptr, finished_);
         for (const std::uint32_t point : finished_.others) {
-            const Feature feature = found_[point];
-            counts_.locations.add(feature == interior_without_value ? Feature::interior : feature);
+            counts_.locations.add(feature_of(point));
             push(point);
         }
         for (std::size_t point = first; !data_.cell_fields.empty() && point < last; ++point) {
@@ -136,10 +148,10 @@ void SlabSampler::finish() {
         }
     }
     flush();
-    counts_.locations.add(Feature::interior, finished_.interior);
+    counts_.locations.add(finished_.locations);
     counts_.locations.add(Feature::outside, finished_.outside);
     counts_.without_value += finished_.outside;
-    if (options_.rounding == Rounding::correct) counts_.values.add(Tier::double_double, finished_.interior);
+    if (options_.rounding == Rounding::correct) counts_.values.add(Tier::double_double, finished_.with_value);
 }
 
 void SlabSampler::push(std::size_t point) {
@@ -151,8 +163,7 @@ void SlabSampler::push(std::size_t point) {
     records_[pending_].number = static_cast<std::uint32_t>(point);
     const Mesh::Index cell = owners_[point];
     cells_[pending_] = cell < 0 ? -1 : data_.located().places()[static_cast<std::size_t>(cell)];
-    const Feature feature = found_[point];
-    features_[pending_] = feature == interior_without_value ? Feature::interior : feature;
+    features_[pending_] = feature_of(point);
     if (++pending_ == locate::chunk_size) flush();
 }
 

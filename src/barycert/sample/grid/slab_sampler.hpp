@@ -35,12 +35,17 @@ private:
     void raster(std::span<const locate::Place> cells);
     void fill(std::span<const locate::Place> cells);
     void take(const Span& span);
-    void test(const Span& span, std::int32_t column, std::size_t point);
+    void take(const UndecidedPoint& one);
+    std::optional<Feature> tested(locate::Place cell, const std::array<std::int32_t, 3>& places, std::size_t point);
     void own(std::size_t point, Mesh::Index cell, Feature feature);
     void finish();
     void push(std::size_t point);
     void flush();
     std::size_t line_of(std::int32_t row, std::int32_t layer) const;
+    Mesh::Index original(locate::Place cell) const { return data_.index().original[static_cast<std::size_t>(cell)]; }
+    Feature feature_of(std::size_t point) const {
+        return static_cast<Feature>(static_cast<std::uint8_t>(found_[point]) & ~value_missing);
+    }
 
     const SamplerData& data_;
     const Grid& grid_;
