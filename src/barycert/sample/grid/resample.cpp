@@ -123,7 +123,7 @@ Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const Sa
         };
         const auto fill = [&](std::size_t s) {
             samplers[s % at_once].run(static_cast<std::int32_t>(s * depth),
-                                      static_cast<std::int32_t>(std::min(layers.size(), (s + 1) * depth)), cells.of(s));
+                                      static_cast<std::int32_t>(std::min(layers.size(), (s + 1) * depth)), cells, s);
             return s;
         };
         const auto pass_on = [&](std::size_t s) {

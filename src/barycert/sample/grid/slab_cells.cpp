@@ -14,7 +14,7 @@ namespace {
 struct SlabRange {
     std::uint32_t first, last;
 };
-constexpr SlabRange no_slab{1, 0};
+constexpr SlabRange no_slab{~std::uint32_t{0}, 0};
 
 /// Slabs by coordinates.
 class Slabs {
@@ -57,39 +57,38 @@ private:
 
 SlabCells::SlabCells(const locate::CellIndex& index, const Raster& raster, std::size_t depth) {
     const Slabs slabs(index, raster, depth);
-    const std::size_t count = slabs.count(), axis = index.dimension() - 1, cells = index.cell_count();
-    constexpr std::size_t at_once = 16384;
-    const std::size_t parts = (cells + at_once - 1) / at_once;
-    std::vector<SlabRange> ranges(cells);
-    std::vector<std::size_t> next(parts * count);  ///< by part of the cells and slab: how many, then where they go
-    const auto for_parts = [&](const auto& work) {
-        tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t p) {
-            for (std::size_t c = p * at_once; c < std::min(cells, (p + 1) * at_once); ++c) work(c, &next[p * count]);
-        });
-    };
-    for_parts([&](std::size_t c, std::size_t* of_part) {
-        const auto& node = index.cells[c].node;
-        const auto at = [&](std::size_t i) { return index.nodes[static_cast<std::size_t>(node[i])].at[axis]; };
-        // In 2D the last corner repeats the first one.
-        const double a = std::min(at(0), at(1)), b = std::min(at(2), at(3));
-        const double e = std::max(at(0), at(1)), f = std::max(at(2), at(3));
-        ranges[c] = slabs.between(std::min(a, b), std::max(e, f));
-        for (std::size_t s = ranges[c].first; s <= ranges[c].last; ++s) ++of_part[s];
-    });
-    begin_.push_back(0);
-    std::size_t sum = 0;
-    for (std::size_t s = 0; s < count; ++s) {
-        for (std::size_t p = 0; p < parts; ++p) {
-            const std::size_t here = next[p * count + s];
-            next[p * count + s] = sum;
-            sum += here;
+    const std::size_t axis = index.dimension() - 1, cells = index.cell_count();
+    constexpr std::size_t at_once = 32768;
+    parts_.resize((cells + at_once - 1) / at_once);
+    tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t p) {
+        const std::size_t first = p * at_once, count = std::min(at_once, cells - first);
+        std::vector<SlabRange> ranges(count);
+        SlabRange all{~std::uint32_t{0}, 0};
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto& node = index.cells[first + i].node;
+            const auto at = [&](std::size_t n) { return index.nodes[static_cast<std::size_t>(node[n])].at[axis]; };
+            // In 2D the last corner repeats the first one.
+            const double a = at(0), b = at(1), c = at(2), d = at(3);
+            const SlabRange r =
+                slabs.between(std::min(std::min(a, b), std::min(c, d)), std::max(std::max(a, b), std::max(c, d)));
+            ranges[i] = r;
+            all = {std::min(all.first, r.first), std::max(all.last, r.last)};
         }
-        begin_.push_back(sum);
-    }
-    cells_.resize(sum);
-    for_parts([&](std::size_t c, std::size_t* of_part) {
-        for (std::size_t s = ranges[c].first; s <= ranges[c].last; ++s)
-            cells_[of_part[s]++] = static_cast<locate::Place>(c);
+        if (all.first > all.last) return;
+        Part& part = parts_[p];
+        part.first_slab = all.first;
+        // First how many of each slab, two entries behind; then, one behind, where the next one goes.
+        part.begin.assign(all.last - all.first + 3, 0);
+        for (const SlabRange& r : ranges) {
+            for (std::size_t s = r.first; s <= r.last; ++s) ++part.begin[s - all.first + 2];
+        }
+        for (std::size_t s = 2; s < part.begin.size(); ++s) part.begin[s] += part.begin[s - 1];
+        part.cells.resize(part.begin.back());
+        for (std::size_t i = 0; i < count; ++i) {
+            for (std::size_t s = ranges[i].first; s <= ranges[i].last; ++s)
+                part.cells[part.begin[s - all.first + 1]++] = static_cast<locate::Place>(first + i);
+        }
+        part.begin.pop_back();
     });
 }
 

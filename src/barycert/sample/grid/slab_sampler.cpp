@@ -18,7 +18,7 @@ bool can_fill(const SamplerData& data, const Raster& raster) {
 
 }  // namespace
 
-void SlabSampler::run(std::int32_t first, std::int32_t last, std::span<const locate::Place> cells) {
+void SlabSampler::run(std::int32_t first, std::int32_t last, const SlabCells& cells, std::size_t slab) {
     first_ = first;
     last_ = last;
     const std::size_t layer = grid_.dimension == 3 ? grid_.layer_size() : static_cast<std::size_t>(grid_.counts[0]);
@@ -36,7 +36,8 @@ void SlabSampler::run(std::int32_t first, std::int32_t last, std::span<const loc
     counts_ = {};
     sampler_.emplace(data_, options_,
                      BlockRows{owners_.data(), found_.data(), values_.data(), distances ? distances_.data() : nullptr});
-    can_fill(data_, raster_) ? fill(cells) : raster(cells);
+    const bool filled = can_fill(data_, raster_);
+    cells.for_parts(slab, [&](std::span<const locate::Place> some) { filled ? fill(some) : raster(some); });
     finish();
     counts_.add(sampler_->counts());
 }

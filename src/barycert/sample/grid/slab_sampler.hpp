@@ -11,6 +11,7 @@
 #include "barycert/sample/grid/fill_lanes.hpp"
 #include "barycert/sample/grid/finish_lanes.hpp"
 #include "barycert/sample/grid/raster_lanes.hpp"
+#include "barycert/sample/grid/slab_cells.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"
 
 namespace barycert::sample {
@@ -22,8 +23,8 @@ public:
     SlabSampler(const SamplerData& data, const Grid& grid, const Raster& raster, const SampleOptions& options)
         : data_(data), grid_(grid), raster_(raster), options_(options) {}
 
-    /// `cells`: all that can hold a point of these layers.
-    void run(std::int32_t first, std::int32_t last, std::span<const locate::Place> cells);
+    /// By the cells of slab `slab`, which has these layers.
+    void run(std::int32_t first, std::int32_t last, const SlabCells& cells, std::size_t slab);
 
     TableView block() const;
     const SampleCounts& counts() const { return counts_; }
