@@ -23,6 +23,7 @@
 
 #include <array>
 
+#include "barycert/core/lane_loop-inl.hpp"
 #include "barycert/sample/grid/fill_block-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -119,28 +120,27 @@ struct BoxPlaces {
     }
 };
 
-/// Adds the points of the box of cell l that are certainly in the interior to `inside`, those that may be in the cell
-/// or not to `open`.
-template <int d>
-HWY_INLINE void find_box_points(const CellBlock<d>& cell, const BoxBlock<d>& box, std::size_t l, BoxPlaces& inside_out,
-                                BoxPlaces& open_out) {
+/// Calls visit(least weights, their places) for all points of the box of cell l, some vectors of them. Weights on lanes
+/// without a point are far below zero.
+template <int d, class Visit>
+HWY_INLINE void visit_box(const CellBlock<d>& cell, const BoxBlock<d>& box, std::size_t l, Visit visit) {
     const BoxTag tag;
     const hn::RebindToSigned<BoxTag> whole;
     using V = hn::Vec<BoxTag>;
     const std::int32_t columns = cell.last[0][l] - cell.first[0][l], rows = cell.last[1][l] - cell.first[1][l];
     const std::int32_t layers = d == 3 ? cell.last[d - 1][l] - cell.first[d - 1][l] : 1;
     const BoxPattern& pattern = box_patterns[static_cast<std::size_t>(columns - 1)];
-    const V column = hn::Load(tag, pattern.column), error = hn::Set(tag, box.error[l]);
+    const V column = hn::Load(tag, pattern.column), nowhere = hn::Set(tag, -0x1p100F);
     const auto next_layer = hn::Set(whole, 1 << 2 * box_bits);
-    BoxPlaces inside = inside_out, open = open_out;
     for (std::int32_t from = 0; from < rows; from += pattern.rows) {
-        const auto used = hn::FirstN(tag, static_cast<std::size_t>(std::min(pattern.rows, rows - from) * columns));
         const V row = hn::Load(tag, pattern.row) + hn::Set(tag, static_cast<float>(from));
         V weight[d + 1];
         for (int j = 0; j <= d; ++j) {
             weight[j] = hn::MulAdd(hn::Set(tag, box.step[j][1][l]), row,
                                    hn::MulAdd(hn::Set(tag, box.step[j][0][l]), column, hn::Set(tag, box.first[j][l])));
         }
+        const auto used = hn::FirstN(tag, static_cast<std::size_t>(std::min(pattern.rows, rows - from) * columns));
+        weight[0] = hn::IfThenElse(used, weight[0], nowhere);
         auto place = hn::Load(whole, pattern.place) + hn::Set(whole, from << box_bits);
         V layer = hn::Zero(tag);
         for (std::int32_t left = layers; left > 0; --left) {
@@ -151,16 +151,39 @@ HWY_INLINE void find_box_points(const CellBlock<d>& cell, const BoxBlock<d>& box
                 if constexpr (d == 3) here = hn::MulAdd(hn::Set(tag, box.step[j][d - 1][l]), layer, weight[j]);
                 min = hn::Min(min, here);
             }
-            const auto within = hn::And(used, hn::Gt(min, error));
-            const auto maybe = hn::And(used, hn::Le(hn::Abs(min), error));
-            inside.add(whole, place, hn::RebindMask(whole, within));
-            if (HWY_UNLIKELY(!hn::AllFalse(tag, maybe))) open.add(whole, place, hn::RebindMask(whole, maybe));
+            visit(min, place);
             layer = layer + hn::Set(tag, 1.0F);
             place = place + next_layer;
         }
     }
-    inside_out = inside;
-    open_out = open;
+}
+
+/// Adds the points of the box that are certainly in the interior. Returns false if there are some that may be in the
+/// cell or not.
+template <int d>
+HWY_INLINE bool find_box_points(const CellBlock<d>& cell, const BoxBlock<d>& box, std::size_t l, BoxPlaces& out) {
+    const BoxTag tag;
+    const hn::RebindToSigned<BoxTag> whole;
+    const auto error = hn::Set(tag, box.error[l]);
+    auto nearest = hn::Set(tag, 0x1p100F);
+    BoxPlaces inside = out;
+    visit_box<d>(cell, box, l, [&](auto min, auto place) BARYCERT_LANE_LAMBDA {
+        inside.add(whole, place, hn::RebindMask(whole, hn::Gt(min, error)));
+        nearest = hn::Min(nearest, hn::Abs(min));
+    });
+    out = inside;
+    return hn::AllTrue(tag, hn::Gt(nearest, error));
+}
+
+/// Adds those that may be in the cell or not.
+template <int d>
+HWY_NOINLINE void find_open_points(const CellBlock<d>& cell, const BoxBlock<d>& box, std::size_t l, BoxPlaces& out) {
+    const BoxTag tag;
+    const hn::RebindToSigned<BoxTag> whole;
+    const auto error = hn::Set(tag, box.error[l]);
+    visit_box<d>(cell, box, l, [&](auto min, auto place) BARYCERT_LANE_LAMBDA {
+        out.add(whole, place, hn::RebindMask(whole, hn::Le(hn::Abs(min), error)));
+    });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -241,14 +241,14 @@ HWY_INLINE void fill_boxes(D tag, const Filling<d>& to, const FillBlock<Values, 
             if (room - inside.count < box_points) fill();
             const auto l = static_cast<std::size_t>(__builtin_ctz(bits));
             const std::size_t begin = inside.count;
-            BoxPlaces open{opens};
-            find_box_points<d>(b.cells, b.boxes, l, inside, open);
+            const bool decided = find_box_points<d>(b.cells, b.boxes, l, inside);
             const std::size_t end = inside.count;
-            if (HWY_UNLIKELY(open.count != 0)) {
+            if (HWY_UNLIKELY(!decided)) {
                 if (usual) {
-                    std::copy_n(opens, open.count, found + end);
-                    inside.count += open.count;
+                    find_open_points<d>(b.cells, b.boxes, l, inside);
                 } else {
+                    BoxPlaces open{opens};
+                    find_open_points<d>(b.cells, b.boxes, l, open);
                     list_undecided(to, b, l, open);
                 }
             }
@@ -356,7 +356,14 @@ void fill_all(const FillSource& source, std::span<const locate::Place> cells, co
     std::size_t count = 0;
     for (std::size_t at = 0; at < cells.size(); at += width) {
         FillBlock<Values, d>& b = blocks[count];
-        for (std::size_t l = 0; l < width; ++l) b.place[l] = cells[std::min(at + l, cells.size() - 1)];
+        for (std::size_t l = 0; l < width; ++l) {
+            const auto later = [&](std::size_t ahead) {
+                return source.index.cells.data() + cells[std::min(at + ahead * width + l, cells.size() - 1)];
+            };
+            b.place[l] = cells[std::min(at + l, cells.size() - 1)];
+            __builtin_prefetch(later(8));
+            for (std::size_t i = 0; i <= d; ++i) __builtin_prefetch(source.nodes.first + later(2)->node[i]);
+        }
         set_block(tag, to, b, rows);
         std::uint32_t holding = (1U << std::min(width, cells.size() - at)) - 1;
         for (std::size_t l = 0; l < width; ++l) {

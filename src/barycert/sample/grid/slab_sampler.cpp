@@ -9,7 +9,7 @@
 namespace barycert::sample {
 namespace {
 
-constexpr std::size_t cells_at_once = 256;
+constexpr std::size_t cells_at_once = 256, cells_to_fill = 4096;
 
 /// Values that fill_cells finds.
 bool can_fill(const SamplerData& data, const Raster& raster) {
@@ -58,9 +58,9 @@ void SlabSampler::fill(std::span<const locate::Place> cells) {
     const NodeValues nodes = data_.node_values();
     const FillSource source{data_.index(), nodes, raster_, options_.rounding};
     const FillTarget target = this->target();
-    for (std::size_t c = 0; c < cells.size(); c += cells_at_once) {
+    for (std::size_t c = 0; c < cells.size(); c += cells_to_fill) {
         undecided_.clear();
-        fill_cells(source, cells.subspan(c, std::min(cells_at_once, cells.size() - c)), target, undecided_);
+        fill_cells(source, cells.subspan(c, std::min(cells_to_fill, cells.size() - c)), target, undecided_);
         for (const Span& span : undecided_.spans) take(span);
         for (const UndecidedPoint& point : undecided_.points) take(point);
         raster(undecided_.cells);
