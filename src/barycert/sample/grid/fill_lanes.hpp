@@ -29,7 +29,6 @@ struct FillTarget {
     std::size_t stride = 1;  ///< numbers a point in `values`, of which the first are the components of the nodes
     std::size_t columns = 0, rows = 0;
     std::int32_t first_layer = 0, last_layer = 0;
-    bool overlapping = false;  ///< cells may overlap: the lowest keeps a point
 };
 
 /// What cells fill in: the points of a grid, by the components of the nodes (at least 1). Cells are linear.

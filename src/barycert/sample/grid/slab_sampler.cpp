@@ -50,8 +50,7 @@ FillTarget SlabSampler::target() {
             static_cast<std::size_t>(grid_.counts[0]),
             static_cast<std::size_t>(grid_.counts[1]),
             first_,
-            last_,
-            data_.located().method != Method::walk};
+            last_};
 }
 
 void SlabSampler::fill(std::span<const locate::Place> cells) {
