@@ -74,14 +74,17 @@ HWY_INLINE void fill_box_component(D tag, const Filling<d>& to, const FillBlock<
             offset = offset + layer * plane;
             places[2] = hn::PromoteTo(index, layer);
         }
-        std::uint32_t bits;
-        const V value = Values<d>::at_places(tag, b.values[c], l, table, places, bits);
-        HWY_ALIGN double values[max_lanes];
         HWY_ALIGN std::int32_t offsets[max_lanes];
-        hn::Store(value, tag, values);
         hn::Store(offset, whole, offsets);
         const std::size_t used = at < one.end ? std::min(width, one.end - at) : 0;
         const auto point = [&](std::size_t i) { return base + static_cast<std::size_t>(offsets[i]); };
+        if constexpr (one_number) {  // stores fetch late, one after the other
+            for (std::size_t i = 0; i < width; ++i) __builtin_prefetch(target.values + point(i), 1);
+        }
+        std::uint32_t bits;
+        const V value = Values<d>::at_places(tag, b.values[c], l, table, places, bits);
+        HWY_ALIGN double values[max_lanes];
+        hn::Store(value, tag, values);
         if constexpr (one_number) {
             for (std::size_t i = 0; i < used; ++i) {
                 const Mesh::Index before = target.owner[point(i)];
