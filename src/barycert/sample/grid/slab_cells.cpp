@@ -65,6 +65,7 @@ SlabCells::SlabCells(const locate::CellIndex& index, const Raster& raster, std::
         std::vector<SlabRange> ranges(count);
         SlabRange all{~std::uint32_t{0}, 0};
         for (std::size_t i = 0; i < count; ++i) {
+            __builtin_prefetch(index.cells.data() + std::min(first + i + 64, cells - 1));
             const auto& node = index.cells[first + i].node;
             const auto at = [&](std::size_t n) { return index.nodes[static_cast<std::size_t>(node[n])].at[axis]; };
             // In 2D the last corner repeats the first one.
