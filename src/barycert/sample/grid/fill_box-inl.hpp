@@ -120,8 +120,8 @@ struct BoxPlaces {
     }
 };
 
-/// Calls visit(least weights, their places) for all points of the box of cell l, some vectors of them. Weights on lanes
-/// without a point are far below zero.
+/// Calls visit(least weights, their places, first row, layer) for all points of the box of cell l, some vectors of
+/// them: of whole rows. Weights on lanes without a point are far below zero.
 template <int d, class Visit>
 HWY_INLINE void visit_box(const CellBlock<d>& cell, const BoxBlock<d>& box, std::size_t l, Visit visit) {
     const BoxTag tag;
@@ -143,7 +143,7 @@ HWY_INLINE void visit_box(const CellBlock<d>& cell, const BoxBlock<d>& box, std:
         weight[0] = hn::IfThenElse(used, weight[0], nowhere);
         auto place = hn::Load(whole, pattern.place) + hn::Set(whole, from << box_bits);
         V layer = hn::Zero(tag);
-        for (std::int32_t left = layers; left > 0; --left) {
+        for (std::int32_t n = 0; n < layers; ++n) {
             V min = weight[0];
             if constexpr (d == 3) min = hn::MulAdd(hn::Set(tag, box.step[0][d - 1][l]), layer, weight[0]);
             for (int j = 1; j <= d; ++j) {
@@ -151,23 +151,41 @@ HWY_INLINE void visit_box(const CellBlock<d>& cell, const BoxBlock<d>& box, std:
                 if constexpr (d == 3) here = hn::MulAdd(hn::Set(tag, box.step[j][d - 1][l]), layer, weight[j]);
                 min = hn::Min(min, here);
             }
-            visit(min, place);
+            visit(min, place, from, n);
             layer = layer + hn::Set(tag, 1.0F);
             place = place + next_layer;
         }
     }
 }
 
+/// Where the points of a box go: addresses, for what lies behind the end is fetched too, and bytes to the next row and
+/// layer.
+struct BoxTarget {
+    std::uintptr_t values, owners;
+    std::uintptr_t value_line, value_plane, owner_line, owner_plane;
+
+    /// Fetches what most points of a vector are written to: early, as stores do it late, one after the other.
+    HWY_INLINE void fetch(std::int32_t row, std::int32_t layer) const {
+        const auto r = static_cast<std::uintptr_t>(row), n = static_cast<std::uintptr_t>(layer);
+        for (std::uintptr_t i = 0; i < 4; ++i) {
+            __builtin_prefetch(reinterpret_cast<const void*>(values + (r + i) * value_line + n * value_plane), 1);
+            __builtin_prefetch(reinterpret_cast<const void*>(owners + (r + i) * owner_line + n * owner_plane), 1);
+        }
+    }
+};
+
 /// Adds the points of the box that are certainly in the interior. Returns false if there are some that may be in the
 /// cell or not.
 template <int d>
-HWY_INLINE bool find_box_points(const CellBlock<d>& cell, const BoxBlock<d>& box, std::size_t l, BoxPlaces& out) {
+HWY_INLINE bool find_box_points(const CellBlock<d>& cell, const BoxBlock<d>& box, std::size_t l, BoxPlaces& out,
+                                const BoxTarget& target) {
     const BoxTag tag;
     const hn::RebindToSigned<BoxTag> whole;
     const auto error = hn::Set(tag, box.error[l]);
     auto nearest = hn::Set(tag, 0x1p100F);
     BoxPlaces inside = out;
-    visit_box<d>(cell, box, l, [&](auto min, auto place) BARYCERT_LANE_LAMBDA {
+    visit_box<d>(cell, box, l, [&](auto min, auto place, std::int32_t row, std::int32_t layer) BARYCERT_LANE_LAMBDA {
+        target.fetch(row, layer);
         inside.add(whole, place, hn::RebindMask(whole, hn::Gt(min, error)));
         nearest = hn::Min(nearest, hn::Abs(min));
     });
@@ -181,7 +199,7 @@ HWY_NOINLINE void find_open_points(const CellBlock<d>& cell, const BoxBlock<d>& 
     const BoxTag tag;
     const hn::RebindToSigned<BoxTag> whole;
     const auto error = hn::Set(tag, box.error[l]);
-    visit_box<d>(cell, box, l, [&](auto min, auto place) BARYCERT_LANE_LAMBDA {
+    visit_box<d>(cell, box, l, [&](auto min, auto place, std::int32_t, std::int32_t) BARYCERT_LANE_LAMBDA {
         out.add(whole, place, hn::RebindMask(whole, hn::Le(hn::Abs(min), error)));
     });
 }

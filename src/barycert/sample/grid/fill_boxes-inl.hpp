@@ -78,9 +78,6 @@ HWY_INLINE void fill_box_component(D tag, const Filling<d>& to, const FillBlock<
         hn::Store(offset, whole, offsets);
         const std::size_t used = at < one.end ? std::min(width, one.end - at) : 0;
         const auto point = [&](std::size_t i) { return base + static_cast<std::size_t>(offsets[i]); };
-        if constexpr (one_number) {  // stores fetch late, one after the other
-            for (std::size_t i = 0; i < width; ++i) __builtin_prefetch(target.values + point(i), 1);
-        }
         std::uint32_t bits;
         const V value = Values<d>::at_places(tag, b.values[c], l, table, places, bits);
         HWY_ALIGN double values[max_lanes];
@@ -141,6 +138,19 @@ HWY_NOINLINE void list_undecided(const Filling<d>& to, const FillBlock<Values, d
     }
 }
 
+template <int d>
+HWY_INLINE BoxTarget target_of(const Filling<d>& to, std::size_t point) {
+    const FillTarget& target = to.target;
+    const std::size_t plane = target.columns * target.rows, value = sizeof(double) * target.stride;
+    constexpr std::size_t owner = sizeof(Mesh::Index);
+    return {reinterpret_cast<std::uintptr_t>(target.values) + value * point,
+            reinterpret_cast<std::uintptr_t>(target.owner) + owner * point,
+            value * target.columns,
+            value * plane,
+            owner * target.columns,
+            owner * plane};
+}
+
 /// Cells with few points in their boxes. All find their points before the first of these are read: a vector of what was
 /// just stored in parts would have to wait.
 template <template <int> class Values, int d, class D>
@@ -160,7 +170,8 @@ HWY_INLINE void fill_boxes(D tag, const Filling<d>& to, const FillBlock<Values, 
             if (room - inside.count < box_points) fill();
             const auto l = static_cast<std::size_t>(__builtin_ctz(bits));
             const std::size_t begin = inside.count;
-            const bool decided = find_box_points<d>(b.cells, b.boxes, l, inside);
+            const BoxTarget target = target_of(to, to.first_of_box(b.cells, l) + 2);
+            const bool decided = find_box_points<d>(b.cells, b.boxes, l, inside, target);
             const std::size_t end = inside.count;
             if (HWY_UNLIKELY(!decided)) {
                 if (to.one_number()) {
