@@ -51,13 +51,14 @@ Bounds3 bounds_of_cells(const Mesh& mesh);
 // than locating each point.
 
 /// Takes some layers of a grid (2D: some lines), whole, in the order of the grid's points: `first_row` is the number of
-/// the first point, `points` is empty. The view is gone after the call.
+/// the first point, `points` is empty. The view is gone after the call. Calls come one after the other, but from any
+/// thread, while others fill the next layers.
 using GridSink = std::function<Status(const TableView&)>;
 
 /// Passes to `sink` the rows that Sampler::sample returns for the points of the grid, bit for bit, and returns their
 /// counts. (LocationCounts::tests, and which tier decided a value, may differ.) Blocks come in order; memory is that of
-/// a few layers. Works on every mesh without a certificate. Returns the Errors of Sampler::sample, and that of `sink`,
-/// after which it stops.
+/// a few layers for each thread, and once more. Works on every mesh without a certificate. Returns the Errors of
+/// Sampler::sample, and that of `sink`, after which it stops.
 Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const SampleOptions& options,
                               const GridSink& sink);
 

@@ -1,19 +1,11 @@
 // Internal: where each row of a grid enters and leaves a cell.
 //
-// u = 2^-53, rounding to nearest. As in gradient-inl.hpp: o the last vertex, e_j = fl(v_j - o), X_k their extents,
-// a_k = G / X_k, K = G / |d|, n_j the normals, inv = fl(1/d); the cell is not degenerate and K <= 2^36.
-//
-// Inside or not. Weight j < last of a point p in the cell's box, w = fl(p - o), is l_j = sum_k S_jk w_k with
-// S_jk = fl(n_jk inv); the last is 1 + sum_k S_k w_k with S = -sum_j S_j. As |w_k| <= X_k there, refinement-inl.hpp
-// bounds the error of l_j by u B(w)/|d| (98.1 K + 21) 1.002, and B(w)/|d| <= 3 K: 296 K^2 + 64 K, with the rounding of
-// the difference w (2.0001 u B(w)/|d|) below u (300 K^2 + 75 K). Of the last weight: three times that, and three
-// roundings of sums of numbers that are below 3 * 3 K: u (900 K^2 + 300 K + 2). E = u (1000 K^2 + 400 K + 8) bounds all
-// of them, however the sums are arranged. Along a row only w_x changes, as a real number: l_j = a_j + S_jx w_x, so a
+// Notation as in fill_block-inl.hpp. Along a row only w_x changes, as a real number: l_j = a_j + S_jx w_x up to E, so a
 // point with a_j + S_jx w_x < -E for some j is certainly outside, and one with > E for all j certainly inside. Solved
 // for the place along the row, t = (o_x + w_x - origin) / spacing, these are intervals, whose ends are off by less than
 // raster.slack, for where |S_jx| X_x > E no end that matters is more than a few extents from the cell: so much is added
-// outside and taken off inside. Where |S_jx| X_x <= E, the weight is a_j up to E along
-// the row, and nothing is solved: certainly outside below -2 E, certainly inside above 2 E.
+// outside and taken off inside. Where |S_jx| X_x <= E, the weight is a_j up to E along the row, and nothing is solved:
+// certainly outside below -2 E, certainly inside above 2 E.
 //
 // Included once per SIMD target.
 #if defined(BARYCERT_SAMPLE_FILL_ROWS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -23,22 +15,11 @@
 #define BARYCERT_SAMPLE_FILL_ROWS_INL_HPP
 #endif
 
-#include <algorithm>
-#include <cstdint>
-#include <vector>
-
-#include "barycert/core/gradient-inl.hpp"
-#include "barycert/sample/grid/raster_lanes.hpp"
+#include "barycert/sample/grid/fill_block-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::sample {
 namespace HWY_NAMESPACE {
-
-using namespace core::HWY_NAMESPACE;
-
-using sample::Raster;
-
-constexpr std::size_t max_lanes = 8;
 
 /// Of each plane, by cell of a block: the weight along a row at (w_y, w_z) is a = constant + sy w_y + sz w_z at w_x =
 /// 0. It bounds the row from below at t = lower - a * lower_factor -+ lower_width, from above likewise; where it does
@@ -47,14 +28,6 @@ struct PlaneBlock {
     HWY_ALIGN double constant[max_lanes], sy[max_lanes], sz[max_lanes];
     HWY_ALIGN double lower[max_lanes], lower_factor[max_lanes], lower_width[max_lanes];
     HWY_ALIGN double upper[max_lanes], upper_factor[max_lanes], upper_width[max_lanes];
-};
-
-template <int d>
-struct CellBlock {
-    HWY_ALIGN double origin[d][max_lanes], low[d][max_lanes], high[d][max_lanes];
-    HWY_ALIGN double first[d][max_lanes], last[d][max_lanes];  ///< guesses of places
-    HWY_ALIGN double valid[max_lanes];                         ///< 1 or 0
-    PlaneBlock plane[d + 1];
 };
 
 /// Farther than any place along a row.
@@ -84,21 +57,18 @@ HWY_INLINE void set_plane(D tag, const Raster& raster, V constant, const V (&s)[
     hn::Store(hn::IfThenElse(rising, zero, width), tag, out.upper_width);
 }
 
-struct PlaceRange {
-    std::int32_t first, last;
+/// Of the cells of a block, the weights along rows.
+template <int d>
+struct RowsBlock {
+    PlaneBlock plane[d + 1];
 };
 
-/// The places of an axis within [low, high], from guesses that are off by one at most.
-HWY_INLINE PlaceRange places_between(const std::vector<double>& at, double first, double last, double low,
-                                     double high) {
-    const auto size = static_cast<std::int32_t>(at.size());
-    const auto x = [&](std::int32_t i) { return at[static_cast<std::size_t>(i)]; };
-    auto i = static_cast<std::int32_t>(first), j = static_cast<std::int32_t>(last);
-    i -= i > 0 && x(i - 1) >= low ? 1 : 0;
-    i += i < size && x(i) < low ? 1 : 0;
-    j -= j > 0 && x(j - 1) > high ? 1 : 0;
-    j += j < size && x(j) <= high ? 1 : 0;
-    return {i, j};
+template <int d, class D>
+HWY_INLINE void set_planes(D tag, const Raster& raster, const CellBlock<d>& cell, const CellWeights<d, D>& w,
+                           hn::Vec<D> extent, RowsBlock<d>& out) {
+    const auto origin = hn::Load(tag, cell.origin[0]);
+    for (int j = 0; j <= d; ++j)
+        set_plane<d>(tag, raster, w.constant[j], w.slope[j], origin, extent, w.error, out.plane[j]);
 }
 
 /// Rows of a cell, for several vectors: what was stored one by one is loaded as a vector only after a while, or the
@@ -118,15 +88,15 @@ struct RowBlock {
 };
 
 template <int d, class D>
-HWY_INLINE void find_intervals(D tag, const CellBlock<d>& cell, std::size_t l, PlaceRange columns, const Rows& rows,
-                               std::size_t at, RowBlock& out) {
+HWY_INLINE void find_intervals(D tag, const CellBlock<d>& cell, const RowsBlock<d>& planes, std::size_t l,
+                               PlaceRange columns, const Rows& rows, std::size_t at, RowBlock& out) {
     using V = hn::Vec<D>;
     const V wy = hn::Load(tag, rows.y + at) - hn::Set(tag, cell.origin[1][l]);
     V wz = hn::Zero(tag);
     if constexpr (d == 3) wz = hn::Load(tag, rows.z + at) - hn::Set(tag, cell.origin[2][l]);
     V low = hn::Set(tag, -8 * far), high = hn::Set(tag, 8 * far), inner_low = low, inner_high = high;
     for (int j = 0; j <= d; ++j) {
-        const PlaneBlock& p = cell.plane[j];
+        const PlaneBlock& p = planes.plane[j];
         V a = hn::Set(tag, p.constant[l]) + hn::Set(tag, p.sy[l]) * wy;
         if constexpr (d == 3) a = a + hn::Set(tag, p.sz[l]) * wz;
         const V lower = hn::Set(tag, p.lower[l]) - a * hn::Set(tag, p.lower_factor[l]);

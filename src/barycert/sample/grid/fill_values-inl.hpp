@@ -1,15 +1,18 @@
-// Internal: the values of a linear field along the rows of a grid in a cell, from its refined gradient.
+// Internal: the values of a linear field at points of a grid in a cell, correctly rounded, from its refined gradient.
 //
-// Notation as in fill_rows-inl.hpp.
+// Notation as in fill_block-inl.hpp.
 //
-// Values. V(p) = f_o + sum_k g_k (w_k + t_k), where p_k - o_k = w_k + t_k exactly and g_k = y_k + c_k up to eta_k
+// V(p) = f_o + sum_k g_k (w_k + t_k), where p_k - o_k = w_k + t_k exactly and g_k = y_k + c_k up to eta_k
 // (gradient-inl.hpp). Let M = |f_o| + sum |y_k| X_k, C = sum |c_k| X_k. The sum of f_o and the products y_k w_k runs
 // through two_sum and two_product: 3 + 3 remainders of at most 1.001 u M and u M together; y_k t_k, in double, <= u M
-// together, c_k w_k <= C: their plain sum rounds by at most 11 u (5.1 u M + C) 1.001, the products by u^2 M + u C, and
-// c_k t_k, left out, is below u C. Adding the error in the end rounds by u (5.1 u M + C) once more, for each sign. So
+// together, c_k w_k <= C: no one of them meets more than 8 additions, which round by at most 8 u (5.1 u M + C) 1.001,
+// the products by u^2 M + u C, and c_k t_k, left out, is below u C. Adding the error in the end rounds by u (5.1 u M +
+// C) once more, for each sign. So
 //   error = 1.01 sum eta_k X_k + 80 u^2 M + 20 u C
 // bounds all that is lost. Ranges: M <= 2^900, so nothing overflows; and error >= 2^-960, or M = C = 0, as
 // underflow takes at most 2^-1070 in each of some 20 operations.
+//
+// What each axis contributes is found once a place, not once a point.
 //
 // Included once per SIMD target.
 #if defined(BARYCERT_SAMPLE_FILL_VALUES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -19,101 +22,146 @@
 #define BARYCERT_SAMPLE_FILL_VALUES_INL_HPP
 #endif
 
+#include "barycert/sample/grid/fill_box-inl.hpp"
 #include "barycert/sample/grid/fill_rows-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::sample {
 namespace HWY_NAMESPACE {
 
-using namespace core::HWY_NAMESPACE;
-
-/// Of each component.
-struct ValueBlock {
-    HWY_ALIGN double at_origin[max_lanes], plain[3][max_lanes], correction[3][max_lanes], error[max_lanes];
-    HWY_ALIGN double valid[max_lanes];  ///< 1 or 0
-};
-
-template <int d, class D, class V = hn::Vec<D>>
-HWY_INLINE void set_values(D tag, const CellMatrix<d, D>& m, const V (&extent)[d], const V (&f)[d + 1],
-                           ValueBlock& out) {
-    constexpr double u = 0x1p-53;
-    const RefinedGradient<d, D> g = refined_gradient<d>(tag, m, f);
-    V size = hn::Abs(f[d]), corrections = hn::Zero(tag), eta = hn::Zero(tag);
-    for (int k = 0; k < d; ++k) {
-        size = size + hn::Abs(g.plain[k]) * extent[k];
-        corrections = corrections + hn::Abs(g.correction[k]) * extent[k];
-        eta = eta + g.error[k] * extent[k];
-        hn::Store(g.plain[k], tag, out.plain[k]);
-        hn::Store(g.correction[k], tag, out.correction[k]);
-    }
-    const V error = hn::Set(tag, 1.01) * eta + hn::Set(tag, 80 * u * u) * size + hn::Set(tag, 20 * u) * corrections;
-    const auto nothing = hn::Eq(size + corrections, hn::Zero(tag));
-    const auto valid =
-        hn::And(hn::And(m.valid, g.valid),
-                hn::And(hn::Le(size, hn::Set(tag, 0x1p900)), hn::Or(nothing, hn::Ge(error, hn::Set(tag, 0x1p-960)))));
-    hn::Store(f[d], tag, out.at_origin);
-    hn::Store(error, tag, out.error);
-    hn::Store(hn::IfThenElse(valid, hn::Set(tag, 1), hn::Zero(tag)), tag, out.valid);
+/// Lane l: table[index of lane l].
+template <class D>
+HWY_INLINE hn::Vec<D> look_up(D tag, const double (&table)[max_lanes], hn::Vec<hn::RebindToSigned<D>> index) {
+    if constexpr (hn::MaxLanes(D()) == max_lanes)
+        return hn::TableLookupLanes(hn::Load(tag, table), hn::IndicesFromVec(tag, index));
+    return hn::GatherIndex(tag, table, index);
 }
 
-/// Of a component, by row.
-struct RowTerms {
-    HWY_ALIGN double sum[max_lanes], rest[max_lanes];
-};
+/// `count` numbers from `from` on, as many as a vector has at most; zeros behind them.
+template <class D>
+HWY_INLINE hn::Vec<D> load_some(D tag, const double* from, std::int32_t count) {
+    return hn::MaskedLoad(hn::FirstN(tag, static_cast<std::size_t>(std::max(count, 0))), tag, from);
+}
 
-/// Numbers whose exact sum is sum + rest, up to the error that `error` of ValueBlock bounds.
+/// Numbers whose exact sum is sum + rest, up to the error that `error` of CorrectValues::Block bounds.
 template <class V>
 struct Partial {
     V sum, rest;
 };
+template <class V>
+HWY_INLINE Partial<V> added(const Partial<V>& x, const Partial<V>& y) {
+    const TwoTerms<V> s = two_sum(x.sum, y.sum);
+    return {s.high, s.low + (x.rest + y.rest)};
+}
 
-/// What f_o and the terms of y and z give in each row.
-template <int d, class D, class V = hn::Vec<D>>
-HWY_INLINE Partial<V> row_terms(D tag, const CellBlock<d>& cell, const ValueBlock& value, std::size_t l,
-                                const Rows& rows, std::size_t at) {
-    Accumulator<V> sum{hn::Set(tag, value.at_origin[l]), hn::Zero(tag), hn::Zero(tag)};
-    for (int k = 1; k < d; ++k) {
-        const TwoTerms<V> w =
-            two_difference(hn::Load(tag, (k == 1 ? rows.y : rows.z) + at), hn::Set(tag, cell.origin[k][l]));
-        const V plain = hn::Set(tag, value.plain[k][l]);
-        sum.add_product(plain, w.high);
-        sum.product_rest = sum.product_rest + (plain * w.low + hn::Set(tag, value.correction[k][l]) * w.high);
+template <int d>
+struct CorrectValues {
+    /// Of a component, by cell of a block.
+    struct Block {
+        HWY_ALIGN double at_origin[max_lanes], plain[d][max_lanes], correction[d][max_lanes], error[max_lanes];
+        std::uint32_t valid;  ///< bits
+    };
+
+    template <class D, class V = hn::Vec<D>>
+    static HWY_INLINE void set(D tag, const CellMatrix<d, D>& m, const V (&)[d + 1][d], const V (&extent)[d],
+                               const V (&f)[d + 1], Block& out) {
+        constexpr double u = 0x1p-53;
+        const RefinedGradient<d, D> g = refined_gradient<d>(tag, m, f);
+        V size = hn::Abs(f[d]), corrections = hn::Zero(tag), eta = hn::Zero(tag);
+        for (int k = 0; k < d; ++k) {
+            size = size + hn::Abs(g.plain[k]) * extent[k];
+            corrections = corrections + hn::Abs(g.correction[k]) * extent[k];
+            eta = eta + g.error[k] * extent[k];
+            hn::Store(g.plain[k], tag, out.plain[k]);
+            hn::Store(g.correction[k], tag, out.correction[k]);
+        }
+        const V error = hn::Set(tag, 1.01) * eta + hn::Set(tag, 80 * u * u) * size + hn::Set(tag, 20 * u) * corrections;
+        const auto nothing = hn::Eq(size + corrections, hn::Zero(tag));
+        const auto valid = hn::And(
+            hn::And(m.valid, g.valid),
+            hn::And(hn::Le(size, hn::Set(tag, 0x1p900)), hn::Or(nothing, hn::Ge(error, hn::Set(tag, 0x1p-960)))));
+        hn::Store(f[d], tag, out.at_origin);
+        hn::Store(error, tag, out.error);
+        std::uint8_t bits[8] = {};
+        hn::StoreMaskBits(tag, valid, bits);
+        out.valid = bits[0];
     }
-    return {sum.sum, sum.sum_rest + sum.product_rest};
-}
 
-/// The terms of x in `width` columns.
-template <int d, class D, class V = hn::Vec<D>>
-HWY_INLINE Partial<V> column_terms(D tag, const Raster& raster, const CellBlock<d>& cell, const ValueBlock& value,
-                                   std::size_t l, std::int32_t column) {
-    const auto at = static_cast<std::size_t>(column), size = raster.at[0].size();
-    HWY_ALIGN double lanes[max_lanes];
-    const double* from = raster.at[0].data() + at;
-    if (at + hn::MaxLanes(D()) > size) {
-        for (std::size_t i = 0; i < hn::MaxLanes(D()); ++i) lanes[i] = raster.at[0][std::min(at + i, size - 1)];
-        from = lanes;
+    /// What axis k contributes to component `b` of cell l at places `at`; that of the second one with f_o.
+    template <int k, class D, class V = hn::Vec<D>>
+    static HWY_INLINE Partial<V> term(D tag, const CellBlock<d>& cell, const Block& b, std::size_t l, V at) {
+        const TwoTerms<V> w = two_difference(at, hn::Set(tag, cell.origin[k][l]));
+        const V plain = hn::Set(tag, b.plain[k][l]);
+        const TwoTerms<V> p = two_product(plain, w.high);
+        const Partial<V> out{p.high, p.low + (plain * w.low + hn::Set(tag, b.correction[k][l]) * w.high)};
+        if constexpr (k != 1) return out;
+        return added({hn::Set(tag, b.at_origin[l]), hn::Zero(tag)}, out);
     }
-    const V x = hn::LoadU(tag, from);
-    const TwoTerms<V> w = two_difference(x, hn::Set(tag, cell.origin[0][l]));
-    const V plain = hn::Set(tag, value.plain[0][l]);
-    const TwoTerms<V> p = two_product(plain, w.high);
-    return {p.high, p.low + (plain * w.low + hn::Set(tag, value.correction[0][l]) * w.high)};
-}
 
-/// The sum of a row and its columns, and a bit where its rounding is certain.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V value_of(D tag, const ValueBlock& value, std::size_t l, const RowTerms& terms, std::size_t r,
-                      const Partial<V>& column, std::uint32_t& certain) {
-    const TwoTerms<V> sum = two_sum(hn::Set(tag, terms.sum[r]), column.sum);
-    auto mask = hn::Ne(hn::Set(tag, value.valid[l]), hn::Zero(tag));
-    const V out = rounded_if_certain<D>(sum.high, sum.low + (column.rest + hn::Set(tag, terms.rest[r])),
-                                        hn::Set(tag, value.error[l]), mask) +
-                  hn::Zero(tag);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(tag, mask, bits);
-    certain &= bits[0];
-    return out;
-}
+    /// The rounded value, and a bit where that is certain.
+    template <class D, class V = hn::Vec<D>>
+    static HWY_INLINE V rounded(D tag, const Block& b, std::size_t l, const Partial<V>& sum, std::uint32_t& certain) {
+        auto mask = hn::FirstN(tag, hn::MaxLanes(D()));
+        const V out = rounded_if_certain<D>(sum.sum, sum.rest, hn::Set(tag, b.error[l]), mask) + hn::Zero(tag);
+        std::uint8_t bits[8] = {};
+        hn::StoreMaskBits(tag, mask, bits);
+        certain = (b.valid >> l & 1) != 0 ? bits[0] : 0;
+        return out;
+    }
+
+    /// Terms by place of a box.
+    struct Table {
+        HWY_ALIGN double sum[d][max_lanes], rest[d][max_lanes];
+    };
+    template <int k, class D>
+    static HWY_INLINE void set_axis(D tag, const Raster& raster, const CellBlock<d>& cell, const Block& b,
+                                    std::size_t l, Table& out) {
+        const double* const from = raster.at[k].data() + cell.first[k][l];
+        const std::int32_t count = cell.last[k][l] - cell.first[k][l];
+        constexpr auto width = static_cast<std::int32_t>(hn::MaxLanes(D()));
+        for (std::int32_t i = 0; i < box_side; i += width) {
+            const auto t = term<k>(tag, cell, b, l, load_some(tag, from + i, count - i));
+            hn::Store(t.sum, tag, out.sum[k] + i);
+            hn::Store(t.rest, tag, out.rest[k] + i);
+        }
+    }
+    template <class D>
+    static HWY_INLINE void set_table(D tag, const Raster& raster, const CellBlock<d>& cell, const Block& b,
+                                     std::size_t l, Table& out) {
+        set_axis<0>(tag, raster, cell, b, l, out);
+        set_axis<1>(tag, raster, cell, b, l, out);
+        if constexpr (d == 3) set_axis<2>(tag, raster, cell, b, l, out);
+    }
+    template <class D, class I, class V = hn::Vec<D>>
+    static HWY_INLINE V at_places(D tag, const Block& b, std::size_t l, const Table& table, const I (&place)[d],
+                                  std::uint32_t& certain) {
+        const auto at = [&](int k) HWY_ATTR {
+            return Partial<V>{look_up(tag, table.sum[k], place[k]), look_up(tag, table.rest[k], place[k])};
+        };
+        Partial<V> row = at(1);
+        if constexpr (d == 3) row = added(row, at(2));
+        return rounded(tag, b, l, added(row, at(0)), certain);
+    }
+
+    /// Terms by row.
+    struct RowTerms {
+        HWY_ALIGN double sum[max_lanes], rest[max_lanes];
+    };
+    template <class D>
+    static HWY_INLINE void set_rows(D tag, const CellBlock<d>& cell, const Block& b, std::size_t l, const Rows& rows,
+                                    std::size_t at, RowTerms& out) {
+        auto t = term<1>(tag, cell, b, l, hn::Load(tag, rows.y + at));
+        if constexpr (d == 3) t = added(t, term<2>(tag, cell, b, l, hn::Load(tag, rows.z + at)));
+        hn::Store(t.sum, tag, out.sum);
+        hn::Store(t.rest, tag, out.rest);
+    }
+    template <class D, class V = hn::Vec<D>>
+    static HWY_INLINE V at_row(D tag, const CellBlock<d>& cell, const Block& b, std::size_t l, const RowTerms& rows,
+                               std::size_t r, V x, std::uint32_t& certain) {
+        const Partial<V> row{hn::Set(tag, rows.sum[r]), hn::Set(tag, rows.rest[r])};
+        return rounded(tag, b, l, added(row, term<0>(tag, cell, b, l, x)), certain);
+    }
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace barycert::sample

@@ -13,8 +13,8 @@ namespace barycert::sample {
 /// The points of a grid as a raster: columns along x, rows along y (and z). 2D: z has one entry.
 struct Raster {
     std::array<std::vector<double>, 3> at;  ///< coordinates of each axis, ascending
-    /// Place i of an axis is near origin + i / scale.
-    std::array<double, 3> origin{}, scale{};
+    /// Place i of an axis is near origin + i / scale, and near origin + i * spacing.
+    std::array<double, 3> origin{}, scale{}, spacing{};
     /// Places (x - origin) * scale computed in double, of anything in the grid or the mesh, are off by less than half
     /// of `slack`, and so are ends of intervals along x. If that cannot be said, by whatever it takes: rows are then
     /// not cut short, and nothing is certain.

@@ -1,20 +1,20 @@
 #include "barycert/grid.hpp"
 
-#include <tbb/blocked_range.h>
+#include <tbb/parallel_pipeline.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <limits>
+#include <vector>
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
+#include "barycert/sample/grid/slab_cells.hpp"
 #include "barycert/sample/grid/slab_sampler.hpp"
 
 namespace barycert {
 namespace {
-
-using locate::Place;
 
 std::size_t layer_axis(const Grid& grid) {
     return grid.dimension == 3 ? 2 : 1;
@@ -22,8 +22,8 @@ std::size_t layer_axis(const Grid& grid) {
 
 sample::Raster raster_of(const Grid& grid, const locate::CellIndex& index) {
     sample::Raster raster;
-    raster.slack = 0x1p-8;
     raster.precise = true;
+    double worst = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         std::vector<double>& at = raster.at[k];
         at.reserve(static_cast<std::size_t>(grid.counts[k]));
@@ -34,6 +34,7 @@ sample::Raster raster_of(const Grid& grid, const locate::CellIndex& index) {
         // One point alone stands at place 0, whatever the scale: one in which the slack is nothing beside the mesh.
         const double extent = index.high[k] - index.low[k];
         raster.origin[k] = grid.origin[k];
+        raster.spacing[k] = grid.spacing[k];
         raster.scale[k] = grid.counts[k] > 1 ? 1 / grid.spacing[k] : extent > 0 ? 0x1p16 / extent : 1;
         // Ends of intervals: some roundings of numbers up to `largest`; the same for coordinates of the grid. In
         // places: these times the scale, the roundings of that, and how far the last point is from where it were by the
@@ -42,52 +43,26 @@ sample::Raster raster_of(const Grid& grid, const locate::CellIndex& index) {
         const double regular_last = grid.origin[k] + (count - 1) * grid.spacing[k];
         const double error =
             (48 * 0x1p-53 * max + 2 * std::abs(at.back() - regular_last)) * raster.scale[k] + 16 * 0x1p-53 * count;
-        raster.precise = raster.precise && error <= raster.slack / 2 && raster.scale[k] <= 0x1p300 &&
+        worst = std::max(worst, error);
+        raster.precise = raster.precise && error <= 0x1p-9 && raster.scale[k] <= 0x1p300 &&
                          raster.scale[k] >= 0x1p-300 && max <= 0x1p300;
     }
+    raster.slack = std::clamp(64 * worst, 0x1p-30, 0x1p-8);
     return raster;
 }
 
-/// For each slab of `depth` layers the cells that may hold some of its points, in the order of the index.
-struct SlabCells {
-    std::vector<std::size_t> begin;
-    std::vector<locate::Place> cells;
+/// Layers a slab, and how many of them.
+struct Division {
+    std::size_t depth, slabs;
 };
 
-SlabCells cells_of_slabs(const locate::CellIndex& index, const std::vector<double>& layers, std::size_t depth) {
-    const std::size_t slabs = (layers.size() + depth - 1) / depth, axis = index.dimension() - 1;
-    struct Range {
-        std::uint32_t first = 1, last = 0;  ///< slabs, both included
-    };
-    std::vector<Range> ranges(index.cell_count());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ranges.size(), 4096), [&](const auto& block) {
-        for (std::size_t c = block.begin(); c != block.end(); ++c) {
-            double low = std::numeric_limits<double>::infinity(), high = -low;
-            for (std::size_t i = 0; i < index.corners(); ++i) {
-                const double x = index.nodes[static_cast<std::size_t>(index.cells[c].node[i])].at[axis];
-                low = std::min(low, x);
-                high = std::max(high, x);
-            }
-            const auto first = std::lower_bound(layers.begin(), layers.end(), low);
-            if (first == layers.end() || *first > high) continue;
-            const auto last = std::upper_bound(first, layers.end(), high) - 1;
-            ranges[c] = {static_cast<std::uint32_t>(static_cast<std::size_t>(first - layers.begin()) / depth),
-                         static_cast<std::uint32_t>(static_cast<std::size_t>(last - layers.begin()) / depth)};
-        }
-    });
-    SlabCells out;
-    out.begin.assign(slabs + 1, 0);
-    for (const Range& r : ranges) {
-        for (std::size_t s = r.first; s <= r.last && r.first <= r.last; ++s) ++out.begin[s + 1];
-    }
-    for (std::size_t s = 0; s < slabs; ++s) out.begin[s + 1] += out.begin[s];
-    out.cells.resize(out.begin.back());
-    std::vector<std::size_t> next(out.begin.begin(), out.begin.end() - 1);
-    for (std::size_t c = 0; c < ranges.size(); ++c) {
-        for (std::size_t s = ranges[c].first; s <= ranges[c].last && ranges[c].first <= ranges[c].last; ++s)
-            out.cells[next[s]++] = static_cast<locate::Place>(c);
-    }
-    return out;
+/// Few slabs, for a cell that lies in two of them is looked at twice; of `room` points or one layer each; as many for
+/// each thread.
+Division divide(std::size_t layers, std::size_t layer_size, std::size_t room, std::size_t threads) {
+    const auto parts = [](std::size_t all, std::size_t size) { return (all + size - 1) / size; };
+    const std::size_t fewest = parts(layers, std::max<std::size_t>(room / layer_size, 1));
+    const std::size_t depth = parts(layers, std::min(parts(fewest, threads) * threads, layers));
+    return {depth, parts(layers, depth)};
 }
 
 Status check_grid(const sample::SamplerData& data, const Grid& grid) {
@@ -131,31 +106,43 @@ Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const Sa
     SampleCounts all;
     locate::in_arena(options.threads, [&] {
         const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-        const std::size_t share = (layers.size() + threads - 1) / threads;
-        const std::size_t depth = std::clamp<std::size_t>(room / layer, 1, share);
-        const std::size_t slabs = (layers.size() + depth - 1) / depth;
-        const SlabCells cells = cells_of_slabs(data.index(), layers, depth);
-        const std::size_t width = std::min(slabs, threads);
-        std::vector<sample::SlabSampler> samplers(width, sample::SlabSampler(data, grid, raster, options));
-        for (std::size_t wave = 0; wave < slabs && status; wave += width) {
-            const std::size_t count = std::min(width, slabs - wave);
-            tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-                const std::size_t s = wave + i;
-                samplers[i].run(static_cast<std::int32_t>(s * depth),
-                                static_cast<std::int32_t>(std::min(layers.size(), (s + 1) * depth)),
-                                std::span(cells.cells).subspan(cells.begin[s], cells.begin[s + 1] - cells.begin[s]));
-            });
-            for (std::size_t i = 0; i < count && status; ++i) {
-                if (const auto refused = samplers[i].refused()) {
-                    status = Error{.what = "point " + std::to_string(*refused) + " of the grid is outside the mesh",
-                                   .remedy = "choose what points outside get: nan, fill, nearest or extrapolate"};
-                    break;
-                }
-                status = sink(samplers[i].block());
+        const Division division = divide(layers.size(), layer, room, threads);
+        const std::size_t depth = division.depth, slabs = division.slabs;
+        const sample::SlabCells cells(data.index(), raster, depth);
+        // A slab may wait for its turn while others are filled. As they are begun and end in order, those under way
+        // are consecutive.
+        const std::size_t at_once = std::min(threads == 1 ? 1 : threads + 1, slabs);
+        std::vector<sample::SlabSampler> samplers;
+        samplers.reserve(at_once);
+        for (std::size_t i = 0; i < at_once; ++i) samplers.emplace_back(data, grid, raster, options);
+        std::atomic<bool> stopped = false;
+        std::size_t next = 0;
+        const auto begin = [&](tbb::flow_control& control) {
+            if (next == slabs || stopped) control.stop();
+            return next++;
+        };
+        const auto fill = [&](std::size_t s) {
+            samplers[s % at_once].run(static_cast<std::int32_t>(s * depth),
+                                      static_cast<std::int32_t>(std::min(layers.size(), (s + 1) * depth)), cells, s);
+            return s;
+        };
+        const auto pass_on = [&](std::size_t s) {
+            if (!status) return;
+            const sample::SlabSampler& slab = samplers[s % at_once];
+            if (const auto refused = slab.refused()) {
+                status = Error{.what = "point " + std::to_string(*refused) + " of the grid is outside the mesh",
+                               .remedy = "choose what points outside get: nan, fill, nearest or extrapolate"};
+            } else {
+                status = sink(slab.block());
                 ExactEnvironment::renew();
-                all.add(samplers[i].counts());
+                all.add(slab.counts());
             }
-        }
+            if (!status) stopped = true;
+        };
+        using tbb::filter_mode;
+        tbb::parallel_pipeline(at_once, tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, begin) &
+                                            tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, fill) &
+                                            tbb::make_filter<std::size_t, void>(filter_mode::serial_in_order, pass_on));
     });
     if (!status) return status.error();
     return all;

@@ -1,6 +1,7 @@
 #include "barycert/sample/grid/slab_sampler.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/sample/grid/fill_lanes.hpp"
@@ -8,52 +9,59 @@
 namespace barycert::sample {
 namespace {
 
-constexpr std::size_t cells_at_once = 256;
+constexpr std::size_t cells_at_once = 256, cells_to_fill = 4096;
 
 /// Values that fill_cells finds.
-bool can_fill(const SamplerData& data, const Raster& raster, const SampleOptions& options) {
-    return raster.precise && options.rounding == Rounding::correct && !data.quadratic && data.point_components != 0;
+bool can_fill(const SamplerData& data, const Raster& raster) {
+    return raster.precise && !data.quadratic && data.point_components != 0;
 }
 
 }  // namespace
 
-void SlabSampler::run(std::int32_t first, std::int32_t last, std::span<const locate::Place> cells) {
+void SlabSampler::run(std::int32_t first, std::int32_t last, const SlabCells& cells, std::size_t slab) {
     first_ = first;
     last_ = last;
     const std::size_t layer = grid_.dimension == 3 ? grid_.layer_size() : static_cast<std::size_t>(grid_.counts[0]);
     points_ = layer * static_cast<std::size_t>(last - first);
     constexpr std::size_t more = 8;  // FillTarget
-    rows_.cells.assign(points_ + more, -1);
-    rows_.features.assign(points_ + more, Feature::outside);
-    rows_.values.resize((points_ + more) * data_.columns.size());
+    if (owners_.size() < points_ + more) {
+        owners_ = locate::Buffer<Mesh::Index>(points_ + more);
+        found_ = locate::Buffer<Feature>(points_ + more);
+        values_ = locate::Buffer<double>((points_ + more) * data_.columns.size());
+    }
+    std::fill_n(owners_.data(), points_ + more, -1);
+    std::fill_n(found_.data(), points_ + more, Feature::outside);
     const bool distances = options_.outside.kind == Outside::nearest || options_.outside.kind == Outside::extrapolate;
-    rows_.distances.assign(distances ? points_ : 0, 0);
+    distances_.assign(distances ? points_ : 0, 0);
     counts_ = {};
     sampler_.emplace(data_, options_,
-                     BlockRows{rows_.cells.data(), rows_.features.data(), rows_.values.data(),
-                               distances ? rows_.distances.data() : nullptr});
-    can_fill(data_, raster_, options_) ? fill(cells) : raster(cells);
-    evaluate_rest();
-    for (std::size_t point = 0; point < points_; ++point) counts_.locations.add(rows_.features[point]);
+                     BlockRows{owners_.data(), found_.data(), values_.data(), distances ? distances_.data() : nullptr});
+    const bool filled = can_fill(data_, raster_);
+    cells.for_parts(slab, [&](std::span<const locate::Place> some) { filled ? fill(some) : raster(some); });
+    finish();
     counts_.add(sampler_->counts());
+}
+
+FillTarget SlabSampler::target() {
+    return {owners_.data(),
+            found_.data(),
+            values_.data(),
+            data_.columns.size(),
+            static_cast<std::size_t>(grid_.counts[0]),
+            static_cast<std::size_t>(grid_.counts[1]),
+            first_,
+            last_};
 }
 
 void SlabSampler::fill(std::span<const locate::Place> cells) {
     const NodeValues nodes = data_.node_values();
-    const FillSource source{data_.index(), nodes, raster_};
-    const FillTarget target{rows_.cells.data(),
-                            rows_.features.data(),
-                            rows_.values.data(),
-                            data_.columns.size(),
-                            static_cast<std::size_t>(grid_.counts[0]),
-                            static_cast<std::size_t>(grid_.counts[1]),
-                            first_,
-                            last_,
-                            !data_.located().proof.partition};
-    for (std::size_t c = 0; c < cells.size(); c += cells_at_once) {
+    const FillSource source{data_.index(), nodes, raster_, options_.rounding};
+    const FillTarget target = this->target();
+    for (std::size_t c = 0; c < cells.size(); c += cells_to_fill) {
         undecided_.clear();
-        fill_cells(source, cells.subspan(c, std::min(cells_at_once, cells.size() - c)), target, undecided_);
+        fill_cells(source, cells.subspan(c, std::min(cells_to_fill, cells.size() - c)), target, undecided_);
         for (const Span& span : undecided_.spans) take(span);
+        for (const UndecidedPoint& point : undecided_.points) take(point);
         raster(undecided_.cells);
     }
 }
@@ -66,9 +74,9 @@ void SlabSampler::raster(std::span<const locate::Place> cells) {
         for (const Span& span : spans_) {
             take(span);
             const std::size_t line = line_of(span.row, span.layer);
-            const Mesh::Index cell = data_.index().original[static_cast<std::size_t>(span.cell)];
+            const Mesh::Index cell = original(span.cell);
             for (std::int32_t i = span.inner_first; i < span.inner_last; ++i)
-                own(line + static_cast<std::size_t>(i), cell, interior_without_value);
+                own(line + static_cast<std::size_t>(i), cell, without_value(Feature::interior));
         }
     }
 }
@@ -83,42 +91,67 @@ std::size_t SlabSampler::line_of(std::int32_t row, std::int32_t layer) const {
 /// The points of a span of which it is not certain whether they are in the cell.
 void SlabSampler::take(const Span& span) {
     const std::size_t line = line_of(span.row, span.layer);
-    for (std::int32_t i = span.first; i < span.inner_first; ++i) test(span, i, line + static_cast<std::size_t>(i));
-    for (std::int32_t i = span.inner_last; i < span.last; ++i) test(span, i, line + static_cast<std::size_t>(i));
+    const auto test = [&](std::int32_t column) {
+        const std::size_t point = line + static_cast<std::size_t>(column);
+        const auto feature = tested(span.cell, {column, span.row, span.layer}, point);
+        if (feature) own(point, original(span.cell), without_value(*feature));
+    };
+    for (std::int32_t i = span.first; i < span.inner_first; ++i) test(i);
+    for (std::int32_t i = span.inner_last; i < span.last; ++i) test(i);
 }
 
-void SlabSampler::test(const Span& span, std::int32_t column, std::size_t point) {
-    const locate::CellIndex& index = data_.index();
-    const Mesh::Index cell = index.original[static_cast<std::size_t>(span.cell)];
-    if (rows_.cells[point] >= 0 && rows_.cells[point] < cell) return;
-    const std::array<double, 3> at{raster_.at[0][static_cast<std::size_t>(column)],
-                                   raster_.at[1][static_cast<std::size_t>(span.row)],
-                                   raster_.at[2][static_cast<std::size_t>(span.layer)]};
-    const WeightSigns signs = locate::cell_signs(index, span.cell, at.data(), counts_.locations.tests);
-    if (!signs.contains()) return;
-    const Feature feature = signs.feature(index.simplex);
-    own(point, cell, feature == Feature::interior ? interior_without_value : feature);
+void SlabSampler::take(const UndecidedPoint& one) {
+    const std::size_t point = line_of(one.row, one.layer) + static_cast<std::size_t>(one.column);
+    const auto feature = tested(one.cell, {one.column, one.row, one.layer}, point);
+    if (!feature) return;
+    own(point, original(one.cell), one.certain ? *feature : without_value(*feature));
+    values_[point] = one.value;
 }
 
+/// Where the point lies in the cell, exactly; nothing outside of it, or if a lower cell has the point.
+std::optional<Feature> SlabSampler::tested(locate::Place cell, const std::array<std::int32_t, 3>& places,
+                                           std::size_t point) {
+    if (owners_[point] >= 0 && owners_[point] < original(cell)) return std::nullopt;
+    std::array<double, 3> at{};
+    for (std::size_t k = 0; k < 3; ++k) at[k] = raster_.at[k][static_cast<std::size_t>(places[k])];
+    const WeightSigns signs = locate::cell_signs(data_.index(), cell, at.data(), counts_.locations.tests);
+    if (!signs.contains()) return std::nullopt;
+    return signs.feature(data_.index().simplex);
+}
+
+/// Unless a lower cell has the point.
 void SlabSampler::own(std::size_t point, Mesh::Index cell, Feature feature) {
-    if (rows_.cells[point] >= 0 && rows_.cells[point] < cell) return;
-    rows_.cells[point] = cell;
-    rows_.features[point] = feature;
+    if (owners_[point] >= 0 && owners_[point] < cell) return;
+    owners_[point] = cell;
+    found_[point] = feature;
 }
 
-void SlabSampler::evaluate_rest() {
-    std::uint64_t found = 0;
-    for (std::size_t point = 0; point < points_; ++point) {
-        if (rows_.features[point] == Feature::interior) {
-            ++found;
-            if (!data_.cell_fields.empty())
-                copy_cell_values(data_, rows_.cells[point], rows_.values.data() + data_.columns.size() * point);
-        } else {
+/// Some points at a time, while they are in cache: features and numbers of those outside, then what takes longer.
+void SlabSampler::finish() {
+    constexpr std::size_t step = 4096;
+    const FillTarget target = this->target();
+    const double fill =
+        options_.outside.kind == Outside::fill ? options_.outside.fill : std::numeric_limits<double>::quiet_NaN();
+    const bool same = options_.outside.kind == Outside::nan || options_.outside.kind == Outside::fill;
+    finished_ = {};
+    for (std::size_t first = 0; first < points_; first += step) {
+        const std::size_t last = std::min(first + step, points_);
+        finished_.others.clear();
+        finish_points(target, first, last, same ? &fill : nullptr, finished_);
+        for (const std::uint32_t point : finished_.others) {
+            counts_.locations.add(feature_of(point));
             push(point);
+        }
+        for (std::size_t point = first; !data_.cell_fields.empty() && point < last; ++point) {
+            if (owners_[point] >= 0)
+                copy_cell_values(data_, owners_[point], values_.data() + data_.columns.size() * point);
         }
     }
     flush();
-    counts_.values.add(Tier::double_double, found);
+    counts_.locations.add(finished_.locations);
+    counts_.locations.add(Feature::outside, finished_.outside);
+    counts_.without_value += finished_.outside;
+    if (options_.rounding == Rounding::correct) counts_.values.add(Tier::double_double, finished_.with_value);
 }
 
 void SlabSampler::push(std::size_t point) {
@@ -128,10 +161,9 @@ void SlabSampler::push(std::size_t point) {
     const std::size_t layer = grid_.dimension == 3 ? line / ny + static_cast<std::size_t>(first_) : 0;
     records_[pending_].at = {raster_.at[0][point % nx], raster_.at[1][row], raster_.at[2][layer]};
     records_[pending_].number = static_cast<std::uint32_t>(point);
-    const Mesh::Index cell = rows_.cells[point];
+    const Mesh::Index cell = owners_[point];
     cells_[pending_] = cell < 0 ? -1 : data_.located().places()[static_cast<std::size_t>(cell)];
-    const Feature feature = rows_.features[point];
-    features_[pending_] = feature == interior_without_value ? Feature::interior : feature;
+    features_[pending_] = feature_of(point);
     if (++pending_ == locate::chunk_size) flush();
 }
 
@@ -144,10 +176,10 @@ TableView SlabSampler::block() const {
     const std::size_t layer = grid_.dimension == 3 ? grid_.layer_size() : static_cast<std::size_t>(grid_.counts[0]);
     return {.dimension = grid_.dimension,
             .first_row = layer * static_cast<std::size_t>(first_),
-            .cells = std::span(rows_.cells).first(points_),
-            .features = std::span(rows_.features).first(points_),
-            .values = std::span(rows_.values).first(points_ * data_.columns.size()),
-            .distances = rows_.distances};
+            .cells = {owners_.data(), points_},
+            .features = {found_.data(), points_},
+            .values = {values_.data(), points_ * data_.columns.size()},
+            .distances = distances_};
 }
 
 std::optional<std::uint64_t> SlabSampler::refused() const {

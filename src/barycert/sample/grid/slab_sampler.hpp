@@ -7,8 +7,12 @@
 #include <vector>
 
 #include "barycert/grid.hpp"
+#include "barycert/index/buffer.hpp"
+#include "barycert/locate/names.hpp"
 #include "barycert/sample/grid/fill_lanes.hpp"
+#include "barycert/sample/grid/finish_lanes.hpp"
 #include "barycert/sample/grid/raster_lanes.hpp"
+#include "barycert/sample/grid/slab_cells.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"
 
 namespace barycert::sample {
@@ -20,8 +24,8 @@ public:
     SlabSampler(const SamplerData& data, const Grid& grid, const Raster& raster, const SampleOptions& options)
         : data_(data), grid_(grid), raster_(raster), options_(options) {}
 
-    /// `cells`: all that can hold a point of these layers.
-    void run(std::int32_t first, std::int32_t last, std::span<const locate::Place> cells);
+    /// By the cells of slab `slab`, which has these layers.
+    void run(std::int32_t first, std::int32_t last, const SlabCells& cells, std::size_t slab);
 
     TableView block() const;
     const SampleCounts& counts() const { return counts_; }
@@ -29,15 +33,21 @@ public:
     std::optional<std::uint64_t> refused() const;
 
 private:
+    FillTarget target();
     void raster(std::span<const locate::Place> cells);
     void fill(std::span<const locate::Place> cells);
     void take(const Span& span);
-    void test(const Span& span, std::int32_t column, std::size_t point);
+    void take(const UndecidedPoint& one);
+    std::optional<Feature> tested(locate::Place cell, const std::array<std::int32_t, 3>& places, std::size_t point);
     void own(std::size_t point, Mesh::Index cell, Feature feature);
-    void evaluate_rest();
+    void finish();
     void push(std::size_t point);
     void flush();
     std::size_t line_of(std::int32_t row, std::int32_t layer) const;
+    Mesh::Index original(locate::Place cell) const { return data_.index().original[static_cast<std::size_t>(cell)]; }
+    Feature feature_of(std::size_t point) const {
+        return static_cast<Feature>(static_cast<std::uint8_t>(found_[point]) & ~value_missing);
+    }
 
     const SamplerData& data_;
     const Grid& grid_;
@@ -45,11 +55,15 @@ private:
     const SampleOptions& options_;
     std::int32_t first_ = 0, last_ = 0;
     std::size_t points_ = 0;
-    Table rows_;
+    locate::Buffer<Mesh::Index> owners_;
+    locate::Buffer<Feature> found_;
+    locate::Buffer<double> values_;
+    std::vector<double> distances_;
     SampleCounts counts_;
     std::optional<ChunkSampler> sampler_;
     std::vector<Span> spans_;
     UndecidedFill undecided_;
+    FinishedPoints finished_;
     std::array<locate::PointRecord, locate::chunk_size> records_{};
     std::array<locate::Place, locate::chunk_size> cells_{};
     std::array<Feature, locate::chunk_size> features_{};
