@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "barycert/locate/cell_index.hpp"
+#include "barycert/locate/names.hpp"
 
 namespace barycert::locate {
 

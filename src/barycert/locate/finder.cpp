@@ -87,18 +87,30 @@ void Finder::walk(const PointRecord* points, Place* owner, Feature* feature, Tie
         __builtin_prefetch(&data_.index.original[static_cast<std::size_t>(end.cell)]);
     }
     tests.add(Tier::filter, arrived_.count);
+    if (!data_.proof.contested.empty()) ask_contested(points, owner, feature, tests);
     for (const WalkList* const doubtful : {&stuck_, &walking_}) {
         for (std::size_t i = 0; i < doubtful->count; ++i)
             resolve(points[doubtful->walks[i].point], doubtful->walks[i], owner, feature, tests);
     }
 }
 
+void Finder::ask_contested(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests) {
+    std::array<std::uint32_t, chunk_size> contested;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < arrived_.count; ++i) {
+        contested[count] = arrived_.walks[i].point;
+        count += data_.proof.is_contested(arrived_.walks[i].cell) ? 1 : 0;
+    }
+    if (count != 0) data_.contested_cells().find_owners(points, contested.data(), count, owner, feature, tests);
+}
+
 void Finder::resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, TierCounts& tests) {
     const CellIndex& index = data_.index;
-    // At the end of the domain the point may still be in another part of it.
-    WeightSigns signs;
-    if (stuck.cell >= 0) signs = cell_signs(index, stuck.cell, point.at.data(), tests);
-    if (stuck.cell < 0 || !signs.contains()) {
+    // At the end of the domain the point may still be in another part of it, in a contested cell in others as well.
+    WeightSigns signs = WeightSigns::degenerate_simplex();
+    if (stuck.cell >= 0 && !data_.proof.is_contested(stuck.cell))
+        signs = cell_signs(index, stuck.cell, point.at.data(), tests);
+    if (!signs.contains()) {
         asked_[asked_count_++] = stuck.point;
         return;
     }

@@ -9,6 +9,7 @@
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/locate/locator_data.hpp"
 #include "barycert/locate/sorted_points.hpp"
+#include "barycert/locate/tree_lanes.hpp"
 #include "barycert/locate/walk_lanes.hpp"
 
 namespace barycert::locate {
@@ -47,6 +48,8 @@ public:
 
 private:
     void walk(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests);
+    /// Who else holds the points that arrived in contested cells?
+    void ask_contested(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests);
     void resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, TierCounts& tests);
     void ask_candidates(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests);
 

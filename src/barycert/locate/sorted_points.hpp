@@ -6,8 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "barycert/index/buffer.hpp"
 #include "barycert/locate/bin_lanes.hpp"
-#include "barycert/locate/buffer.hpp"
+#include "barycert/locate/names.hpp"
 #include "barycert/locate/walk_lanes.hpp"
 
 namespace barycert::locate {

@@ -11,7 +11,7 @@
 #include "barycert/core/foreach_target.hpp"
 
 #include "barycert/base/strict_math.hpp"
-#include "barycert/locate/records-inl.hpp"
+#include "barycert/index/records-inl.hpp"
 #include "barycert/sample/grid/fill_values-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,7 +19,7 @@ namespace barycert::sample {
 namespace HWY_NAMESPACE {
 
 using namespace core::HWY_NAMESPACE;
-using namespace locate::HWY_NAMESPACE;
+using namespace index::HWY_NAMESPACE;
 
 /// Cells [0, MaxLanes).
 template <Simplex s, class D>

@@ -49,7 +49,7 @@ void SlabSampler::fill(std::span<const locate::Place> cells) {
                             static_cast<std::size_t>(grid_.counts[1]),
                             first_,
                             last_,
-                            data_.located().method != Method::walk};
+                            !data_.located().proof.partition};
     for (std::size_t c = 0; c < cells.size(); c += cells_at_once) {
         undecided_.clear();
         fill_cells(source, cells.subspan(c, std::min(cells_at_once, cells.size() - c)), target, undecided_);
