@@ -19,7 +19,7 @@ public:
     static constexpr int word_bits = 5;  ///< of them, bins along the first axis make a word
 
     /// How much it tells: `coarse`, from the boxes of cells alone, with bins about as large as cells; `fine`, with far
-    /// smaller ones if there are not too many cells, which takes some thirty times as long.
+    /// smaller ones if there are not too many cells, which takes five to ten times as long.
     enum class Detail : std::uint8_t { coarse, fine };
 
     /// `filled`: filled_share(index), below 1. On the threads of the calling arena.
