@@ -48,8 +48,7 @@ void run_growth(std::span<const int> sizes, std::size_t point_count, const Round
         contest.add("locate, " + name, [&size] {
             demand_done(size.locator.locate(size.subject.points, size.rows.cells, size.rows.features, nullptr, 1));
         });
-        contest.add("build, " + name,
-                    [&size] { demand_value(Locator::build(size.subject.mesh)); });
+        contest.add("build, " + name, [&size] { demand_value(Locator::build(size.subject.mesh)); });
     }
     contest.run(how.repetitions);
     const auto points = static_cast<double>(point_count);

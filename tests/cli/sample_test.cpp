@@ -144,10 +144,7 @@ TEST(sample, cells_that_own_nothing_and_values_that_are_none_are_told) {
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_TRUE(contains(r.out, "mesh       3 cells, 5 nodes; 1 cell is degenerate and owns nothing\n")) << r.out;
     EXPECT_TRUE(contains(r.out, "NaN        1 value at points inside: ")) << r.out;
-    EXPECT_TRUE(contains(
-        r.out,
-        "method     walk: cells meet in common faces; degenerate ones are left out"))
-        << r.out;
+    EXPECT_TRUE(contains(r.out, "method     walk: cells meet in common faces; degenerate ones are left out")) << r.out;
     const auto j = parse(read_file(scratch.path("j")));
     EXPECT_EQ(j["degenerate_cells"], 1);
     EXPECT_EQ(j["verdict"], "not certified");

@@ -1,6 +1,9 @@
 #include "barycert/locate/finder.hpp"
 
 #include <algorithm>
+#include <numeric>
+
+#include "barycert/base/random.hpp"
 
 namespace barycert::locate {
 namespace {
@@ -88,10 +91,33 @@ void Finder::walk(const PointRecord* points, Place* owner, Feature* feature, Tie
     }
     tests.add(Tier::filter, arrived_.count);
     if (!data_.proof.contested.empty()) ask_contested(points, owner, feature, tests);
-    for (const WalkList* const doubtful : {&stuck_, &walking_}) {
-        for (std::size_t i = 0; i < doubtful->count; ++i)
-            resolve(points[doubtful->walks[i].point], doubtful->walks[i], owner, feature, tests);
+    for (std::size_t i = 0; i < stuck_.count; ++i)
+        resolve(points[stuck_.walks[i].point], stuck_.walks[i], owner, feature, tests);
+    for (std::size_t i = 0; i < walking_.count; ++i) {
+        const PointRecord& point = points[walking_.walks[i].point];
+        resolve(point, {walking_.walks[i].point, out_of_circle(point, walking_.walks[i].cell, tests)}, owner, feature,
+                tests);
     }
+}
+
+/// Beyond any facet with the point on its other side: which one is as good as by chance, so that no circle lasts.
+Place Finder::out_of_circle(const PointRecord& point, Place cell, TierCounts& tests) const {
+    constexpr int max_steps = 4096;
+    base::Random random(static_cast<std::uint64_t>(cell));
+    for (int step = 0; step < max_steps; ++step) {
+        const WeightSigns signs = cell_signs(data_.index, cell, point.at.data(), tests);
+        if (signs.contains()) return cell;
+        std::array<Place, 4> beyond{};
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < data_.index.corners(); ++i) {
+            if (signs.sign(static_cast<int>(i)) == Sign::negative)
+                beyond[count++] = data_.index.cells[static_cast<std::size_t>(cell)].next[i];
+        }
+        const Place next = count == 0 ? -1 : beyond[random.below(count)];
+        if (next < 0) return ~cell;
+        cell = next;
+    }
+    return ~cell;
 }
 
 void Finder::ask_contested(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests) {

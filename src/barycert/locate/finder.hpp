@@ -48,6 +48,9 @@ public:
 
 private:
     void walk(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests);
+    /// Goes on from a cell where a walk in floating point did not end, by exact signs: the cell that contains the
+    /// point, or ~(a cell that does not, from which there is no way on).
+    Place out_of_circle(const PointRecord& point, Place cell, TierCounts& tests) const;
     /// Who else holds the points that arrived in contested cells?
     void ask_contested(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests);
     void resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, TierCounts& tests);

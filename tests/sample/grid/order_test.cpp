@@ -34,8 +34,7 @@ TEST(ResampleOrder, ThreadsAndTargets) {
             mesh.cell_fields =
                 random_fields(mesh.cell_count(), std::vector<int>(components.size() - 1, 1), false, random);
             for (const bool certified : {true, false}) {
-                const auto locator =
-                    certified ? Locator::build(mesh) : Locator::build(mesh, {.prove = false});
+                const auto locator = certified ? Locator::build(mesh) : Locator::build(mesh, {.prove = false});
                 const auto sampler = Sampler::build(*locator, all_fields(mesh));
                 for (const NamedGrid& g : awkward_grids(mesh, 700, random)) {
                     use_simd_target("");
