@@ -16,11 +16,12 @@
 ///   N2  Its cost does not grow with the distance: a point 1e300 mesh sizes away visits about as many cells as one ten
 ///       sizes away.
 ///
-/// Method. On a certified mesh (check.hpp) the cells form a simplicial complex. Points are sorted along a space-filling
-/// curve; each starts at a cell of its bin and walks, on SIMD lanes, to a cell that certainly contains it. Integers
-/// decide what the filter of signs leaves undecided. The cells around a face, edge or vertex follow from the mesh's
-/// connectivity. Where a walk ends at the boundary, and on meshes without a certificate, every cell whose box contains
-/// the point is tested. Walks are several times faster; both methods return the same results.
+/// Method. While the index is made it is proved of each cell, if it is so, that all others meet it in common faces or
+/// not at all (locate/proof.hpp); on a certified mesh (check.hpp) that is so of every cell. Points are sorted along a
+/// space-filling curve; each starts at a cell of its bin and walks, on SIMD lanes, to a cell that certainly contains
+/// it. Integers decide what the filter of signs leaves undecided. The cells around a face, edge or vertex follow from
+/// the mesh's connectivity. Where a walk ends at the boundary, or in a cell of which it is not proved, every cell whose
+/// box contains the point is tested.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +31,6 @@
 #include <span>
 #include <vector>
 
-#include "barycert/certificate.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"
@@ -43,7 +43,7 @@ struct LocatorData;
 }
 
 enum class Method : std::uint8_t {
-    walk,        ///< walk from cell to cell: the mesh is certified
+    walk,        ///< walk from cell to cell; where cells may overlap, test candidates
     candidates,  ///< test every cell whose box contains the point
 };
 
@@ -70,23 +70,19 @@ struct Nearest {
 
 /// How an index is built.
 struct BuildOptions {
-    bool prove = true;  ///< check whether the cells partition a domain: takes longer, finds points several times faster
-    int threads = 0;    ///< 0: as many as the machine has
+    bool prove = true;  ///< false: find no neighbours, prove nothing, and test candidates everywhere
+    int threads = 0;    ///< 0: as many as the machine has; the index is the same for any number
     std::function<void(const char* stage)> progress = {};  ///< called as each stage begins
 };
 
 /// Thread-safe: any number of threads may locate at the same time.
 class Locator {
 public:
-    /// Proves the mesh while it indexes it (`options.prove`), so that points can be found by walks. The mesh must stay
-    /// as it is and outlive the locator. Returns an Error if the mesh is inconsistent: indices out of range,
-    /// coordinates that are not finite, sizes that do not fit.
+    /// Proves while it indexes where points can be found by walks. The mesh must stay as it is and outlive the locator.
+    /// Time O(n log n); see CheckOptions for what thin cells may cost. Returns an Error if the mesh is inconsistent:
+    /// indices out of range, coordinates that are not finite, sizes that do not fit.
     static Result<Locator> build(const Mesh& mesh, const BuildOptions& options = {});
     static Result<Locator> build(Mesh&&, const BuildOptions& = {}) = delete;
-
-    /// The same with a certificate of check_mesh on this very mesh. Without a certificate, or with one of another mesh,
-    /// every candidate is tested. Time O(cells), one thread.
-    static Result<Locator> build(const Mesh& mesh, const Certificate& certificate);
 
     Locator(Locator&&) noexcept;
     Locator& operator=(Locator&&) noexcept;
@@ -94,6 +90,16 @@ public:
 
     const Mesh& mesh() const;
     Method method() const;
+
+    /// True if it is proved that the cells partition their domain: P1 to P4 of check.hpp hold.
+    bool certified() const;
+
+    /// Cells that may meet others beside common faces (0 if certified): in these every candidate is tested, elsewhere
+    /// walks are enough. Never less than there are; where cells overlap or touch, some more.
+    std::uint64_t contested_cells() const;
+
+    /// Cells of volume exactly zero; 0 if the index was built with `prove` off.
+    std::uint64_t degenerate_cells() const;
 
     /// Bytes of memory besides the mesh, without buffers of points (up to 36 MiB a thread). Grows as parts of the index
     /// are built on first use.

@@ -28,10 +28,6 @@ struct FieldFile {
     std::string name, path;
 };
 
-/// Whether the mesh is checked first, so that points can be found by walks: `automatic`: if there are
-/// enough points that the check saves time.
-enum class Certify : std::uint8_t { automatic, always, never };
-
 /// What a job is doing.
 struct JobProgress {
     std::string_view stage;  ///< such as "reading part.1" or "points"
@@ -45,13 +41,13 @@ struct SamplingJob {
     std::vector<std::string> fields = {};  ///< names, see Sampler::build; empty: all
     std::string output;                    ///< the format goes by the suffix; "-" is CSV on stdout
     SampleOptions options = {};
-    Certify certify = Certify::automatic;
 
     /// Where the caller will write a report: the job makes sure that this is no other file of the job, and can be
     /// written. Empty: nowhere.
     std::string report;
     bool count_degenerate = true;      ///< of SampleSummary: a pass over the cells
     std::string program = "barycert";  ///< how the user calls the program, for commands in messages
+    /// Called by one thread at a time, which need not be the caller's.
     std::function<void(const JobProgress&)> progress = {};
 };
 
@@ -72,11 +68,15 @@ struct ResampleJob : SamplingJob {
     std::optional<std::array<double, 2>> range{};  ///< of the colours of a picture
 };
 
-/// How the owners of points were found.
-enum class FoundBy : std::uint8_t { walk, candidates, map, grid };
+/// How the owners of points were found. `pass`: one look at each cell, and no index of the mesh.
+enum class FoundBy : std::uint8_t { walk, candidates, map, grid, pass };
 
 constexpr std::string_view name(FoundBy f) {
-    return f == FoundBy::walk ? "walk" : f == FoundBy::candidates ? "candidates" : f == FoundBy::map ? "map" : "grid";
+    return f == FoundBy::walk         ? "walk"
+           : f == FoundBy::candidates ? "candidates"
+           : f == FoundBy::map        ? "map"
+           : f == FoundBy::grid       ? "grid"
+                                      : "pass";
 }
 
 /// Where points came from.
@@ -86,13 +86,13 @@ constexpr std::string_view name(PointsFrom f) {
     return f == PointsFrom::points ? "points" : f == PointsFrom::map ? "map" : f == PointsFrom::mesh ? "mesh" : "grid";
 }
 
-/// Wall times of the stages.
+/// Wall times of the stages. Points are read, sampled and written at the same time: of these each has the time in which
+/// somebody was busy with it, divided by the threads where several may be.
 struct SampleSeconds {
-    double mesh = 0;     ///< reading the mesh and the files of fields
-    double certify = 0;  ///< the check of the mesh
-    double build = 0;    ///< of the locator and the sampler
-    double read = 0;     ///< of points
-    double sample = 0;   ///< owners, features and values
+    double mesh = 0;    ///< reading the mesh and the files of fields
+    double build = 0;   ///< of the locator and the sampler
+    double read = 0;    ///< of points
+    double sample = 0;  ///< owners, features and values
     double write = 0;
     double total = 0;
 };
@@ -109,15 +109,17 @@ struct SampleSummary {
     OutsidePolicy outside;
     SampleCounts counts;  ///< locations: one a point
     SampleSeconds seconds;
-    std::uint64_t nodes = 0, cells = 0, degenerate_cells = 0;
+    std::uint64_t nodes = 0, cells = 0;
+    std::uint64_t degenerate_cells = 0;  ///< method `pass`: of the cells near the points
+    std::uint64_t contested_cells = 0;   ///< see Locator::contested_cells
     std::uint64_t rows = 0;
     std::uint64_t nan_values = 0;  ///< of points inside: from values of nodes or cells that are not finite
     int dimension = 3, threads = 1;
     PointsFrom from = PointsFrom::points;
     FoundBy method = FoundBy::walk;
     Rounding rounding = Rounding::correct;
-    Verdict verdict = Verdict::not_checked;
-    bool all = false;  ///< a row for each cell that holds a point
+    Verdict verdict = Verdict::not_checked;  ///< certified: P1 to P4 of check.hpp are proved
+    bool all = false;                        ///< a row for each cell that holds a point
 };
 
 /// Returns an Error, and writes nothing, if the job contradicts itself, an input cannot be read, an output is an input

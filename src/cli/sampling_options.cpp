@@ -95,11 +95,6 @@ void add_sampling_options(CLI::App& sub, SamplingJob& a, bool& quiet) {
            "Value of points outside every cell: nan (default); error: fail; fill=NUMBER; nearest[=DISTANCE]: the value "
            "at the nearest point of the mesh, NaN beyond DISTANCE; extrapolate: the function of the nearest cell")
         ->type_name("nan|error|fill=V|nearest[=D]|extrapolate");
-    choice_option<Certify>(sub, "--certify", a.certify,
-                           {{"auto", Certify::automatic}, {"always", Certify::always}, {"never", Certify::never}},
-                           "auto|always|never",
-                           "Check the mesh first: in a certified mesh points are located faster. auto (default): if "
-                           "there are at least 1.25 points per cell. Results do not depend on it");
     sub.add_option("--threads", a.options.threads, "Number of threads; 0: all")
         ->capture_default_str()
         ->check(CLI::Range(0, 4096).description(""))

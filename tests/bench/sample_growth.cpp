@@ -15,7 +15,7 @@ namespace {
 struct Size {
     Size(int n, std::size_t points)
         : subject("generated", jittered_cube(n, 7), points, 2),
-          locator(demand_value(Locator::build(subject.mesh, subject.certificate))),
+          locator(demand_value(Locator::build(subject.mesh))),
           sampler(demand_value(Sampler::build(locator, {{&subject.linear}}))) {
         require(locator.method() == Method::walk, "no walk on " + subject.name);
         demand_done(sampler.sample(subject.points, options(1), rows));
@@ -49,7 +49,7 @@ void run_growth(std::span<const int> sizes, std::size_t point_count, const Round
             demand_done(size.locator.locate(size.subject.points, size.rows.cells, size.rows.features, nullptr, 1));
         });
         contest.add("build, " + name,
-                    [&size] { demand_value(Locator::build(size.subject.mesh, size.subject.certificate)); });
+                    [&size] { demand_value(Locator::build(size.subject.mesh)); });
     }
     contest.run(how.repetitions);
     const auto points = static_cast<double>(point_count);

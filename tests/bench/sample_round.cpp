@@ -93,7 +93,7 @@ void run_subject(const Subject& subject, const RoundOptions& options_, SampleTab
     round.bytes = round.ours.walk.bytes();
     {
         const std::size_t before = handed_out();
-        const Locator locator = demand_value(Locator::build(subject.mesh, subject.certificate));
+        const Locator locator = demand_value(Locator::build(subject.mesh));
         round.handed_out = handed_out() - before;
     }
     verify_points(subject, round.ours, round.rows);

@@ -42,7 +42,6 @@ Subject::Subject(const std::string& name_, Mesh mesh_, std::size_t point_count, 
     how.threads = 2;
     const CheckReport report = check_mesh(mesh, how);
     require(report.certified(), "the mesh " + name + " is not certified");
-    certificate = report.certificate;
 
     linear.name = "linear";
     three.name = "three";
@@ -61,7 +60,7 @@ Subject::Subject(const std::string& name_, Mesh mesh_, std::size_t point_count, 
 }
 
 Ours::Ours(const Subject& subject)
-    : walk(demand_value(Locator::build(subject.mesh, subject.certificate))),
+    : walk(demand_value(Locator::build(subject.mesh))),
       candidates(demand_value(Locator::build(subject.mesh, {.prove = false}))),
       one(demand_value(Sampler::build(walk, {{&subject.linear}}))),
       three(demand_value(Sampler::build(walk, {{&subject.three}}))),

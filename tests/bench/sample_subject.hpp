@@ -36,7 +36,6 @@ struct Subject {
 
     std::string name;
     Mesh mesh;
-    Certificate certificate;
     Field linear;                ///< 1.5 x + 2.5 y - z at the nodes, rounded
     Field three;                 ///< the same, and two that are not linear
     double max_value = 0;        ///< of `linear`

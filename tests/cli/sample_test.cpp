@@ -39,10 +39,8 @@ TEST(sample, no_row_depends_on_method_threads_or_what_the_points_come_from) {
     const auto rows = [&](const Words& more) {
         return run(plus({"sample", two, "--output", "-", "--fields", "attribute0", "--quiet"}, more)).out;
     };
-    for (const std::string certify : {"auto", "always", "never"}) {
-        for (const std::string threads : {"0", "1", "2", "7"})
-            EXPECT_EQ(rows({"--points", points, "--certify", certify, "--threads", threads}), six_rows);
-    }
+    for (const std::string threads : {"0", "1", "2", "7"})
+        EXPECT_EQ(rows({"--points", points, "--threads", threads}), six_rows);
     EXPECT_EQ(rows({"--points", points, "--rounding", "plain"}), six_rows) << "these are exact in double, too";
     EXPECT_EQ(rows({"--points", scratch.path("p.node")}), six_rows);
     const Ended piped = run_shell("cat p.csv | barycert sample two --points - --output - --fields attribute0 --quiet",
@@ -148,7 +146,7 @@ TEST(sample, cells_that_own_nothing_and_values_that_are_none_are_told) {
     EXPECT_TRUE(contains(r.out, "NaN        1 value at points inside: ")) << r.out;
     EXPECT_TRUE(contains(
         r.out,
-        "method     candidates: the mesh is not certified (checked: 6 points for 3 cells); `barycert check` tells why"))
+        "method     walk: cells meet in common faces; degenerate ones are left out"))
         << r.out;
     const auto j = parse(read_file(scratch.path("j")));
     EXPECT_EQ(j["degenerate_cells"], 1);
@@ -159,20 +157,13 @@ TEST(sample, cells_that_own_nothing_and_values_that_are_none_are_told) {
         nan += line.ends_with(",nan") && !contains(line, "outside") ? 1U : 0U;
     EXPECT_EQ(nan, 1U) << rows;
     EXPECT_EQ(j["values"]["nan"], 1);
-    const Ended unchecked = run({"sample", two, "--points", points, "--output", "-", "--certify", "never"});
-    EXPECT_TRUE(contains(unchecked.err, "1 cell is degenerate and owns nothing")) << unchecked.err;
-    EXPECT_TRUE(contains(unchecked.err, "check skipped: --certify never")) << unchecked.err;
 }
 
-TEST(sample, few_points_do_not_pay_for_a_check) {
+TEST(sample, the_mesh_is_proved_while_it_is_indexed) {
     const Scratch scratch;
     const std::string points = scratch.put("p.csv", "0 0 0\n");
-    const Words line{"sample", mesh("bracket"), "--points", points, "--output", "-"};
-    EXPECT_TRUE(
-        contains(run(line).err, "method     candidates: check skipped: too few points (1 point for 2400 cells)\n"));
-    const Ended always = run(plus(line, {"--certify", "always"}));
-    EXPECT_TRUE(contains(always.err, "walk: the mesh is certified (checked: --certify always)")) << always.err;
-    EXPECT_EQ(always.out, run(line).out);
+    const Ended good = run({"sample", mesh("bracket"), "--points", points, "--output", "-"});
+    EXPECT_TRUE(contains(good.err, "method     walk: the mesh is certified\n")) << good.err;
 }
 
 TEST(sample, nothing_to_sample_is_no_error) {

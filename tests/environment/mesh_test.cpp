@@ -158,12 +158,11 @@ TEST(EveryEnvironment, Check) {
 
 TEST(EveryEnvironment, Locate) {
     for (const Subject& s : subjects()) {
-        const Certificate certificate = check_mesh(s.mesh).certificate;
         const std::vector<double> points = points_around(s, 20000);
         const auto d = static_cast<std::size_t>(s.mesh.dimension);
         for (const int threads : {1, 2}) {
             expect_same_everywhere("locate in " + s.name, [&](Answers& out) {
-                const auto locator = Locator::build(s.mesh, certificate);
+                const auto locator = Locator::build(s.mesh);
                 std::vector<Mesh::Index> cells(points.size() / d);
                 std::vector<Feature> features(cells.size());
                 LocationCounts counts;

@@ -77,6 +77,16 @@ TEST(NpySink, header_and_rows) {
     }
 }
 
+TEST(NpySink, many_rows_at_once) {
+    const TemporaryFolder folder;
+    const RowData data = random_rows(200000, {.fields = {{"a"}, {"b"}}, .distances = true}, 8);
+    ASSERT_TRUE(write_rows(folder / "many.npy", data, 200000));
+    ASSERT_TRUE(write_rows(folder / "few.npy", data, 999));
+    const std::string bytes = get(folder / "many.npy");
+    EXPECT_TRUE(bytes == get(folder / "few.npy"));
+    expect_rows(parts_of(bytes).data, data);
+}
+
 TEST(NpySink, two_dimensions_and_no_rows) {
     const TemporaryFolder folder;
     ASSERT_TRUE(write_rows(folder / "r.npy", random_rows(0, {.dimension = 2}, 3), 1));

@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -62,6 +63,30 @@ TEST(Streams, the_standard_input_is_a_pipe) {
     writer.join();
     ASSERT_TRUE(points) << points.error().message();
     EXPECT_EQ(*points, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
+}
+
+TEST(Streams, a_point_is_given_before_the_next_has_come) {
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    const Redirected in(STDIN_FILENO, ends[0]);
+    write_fully(ends[1], "x,y,z\n1,2,3\n4,5,6\n7,8");
+    // Should it wait for more, it gets the end in time.
+    std::atomic<bool> late{false};
+    std::thread closer([&, descriptor = ends[1]] {
+        for (int i = 0; i < 100 && !late; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        late = true;
+        write_fully(descriptor, ",9\n");
+        ::close(descriptor);
+    });
+    const auto source = open_points("-", 3);
+    ASSERT_TRUE(source);
+    std::vector<double> points;
+    EXPECT_EQ((*source)->read(1, points).value(), 1U);
+    EXPECT_EQ((*source)->read(1, points).value(), 1U);
+    EXPECT_FALSE(late.exchange(true));
+    EXPECT_EQ((*source)->read(5, points).value(), 1U);
+    closer.join();
+    EXPECT_EQ(points, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
 }
 
 TEST(Streams, errors_of_the_standard_input_have_lines) {

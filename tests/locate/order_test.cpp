@@ -46,8 +46,7 @@ TEST(LocateOrder, D1_ManyPoints) {
         std::vector<double> points = awkward_points(mesh, 1200, random);
         const std::vector<double> inner = inner_points(mesh, 30000, random);
         points.insert(points.end(), inner.begin(), inner.end());
-        const Certificate certificate = quick(mesh).certificate;
-        const auto walks = Locator::build(mesh, certificate), asks = Locator::build(mesh, {.prove = false});
+        const auto walks = Locator::build(mesh), asks = Locator::build(mesh, {.prove = false});
         const Answers right = ask(*walks, points, 1);
         EXPECT_TRUE(ask(*asks, points, 1) == right) << stem;
         for (const std::string& target : simd_targets()) {
@@ -88,8 +87,8 @@ TEST(LocateOrder, L1_CellsPermuted) {
                 other.cells[mesh.corners() * c + i] = mesh.cells[mesh.corners() * old[c] + (i + c) % mesh.corners()];
         }
         const std::vector<double> points = awkward_points(mesh, 300, random);
-        const auto first = Locator::build(mesh, quick(mesh).certificate);
-        const auto second = Locator::build(other, quick(other).certificate);
+        const auto first = Locator::build(mesh);
+        const auto second = Locator::build(other);
         EXPECT_EQ(second->method(), Method::walk) << stem;
         const auto all = first->locate_all(points), all_of_other = second->locate_all(points);
         ASSERT_TRUE(all && all_of_other);
@@ -114,7 +113,7 @@ TEST(LocateOrder, D1_Hints) {
         base::Random random(base::hash64(stem));
         const Mesh mesh = own_mesh(stem);
         const std::vector<double> points = awkward_points(mesh, 400, random);
-        const auto locator = Locator::build(mesh, quick(mesh).certificate);
+        const auto locator = Locator::build(mesh);
         const Answers right = ask(*locator, points, 1);
         for (std::size_t i = 0; i < right.cells.size(); ++i) {
             const double* const p = &points[i * static_cast<std::size_t>(mesh.dimension)];

@@ -112,20 +112,23 @@ bool expect_right(const Mesh& mesh, const std::vector<double>& points, base::Ran
     CheckOptions options;
     options.threads = 1;
     options.contacts = 0;
-    const Certificate certificate = check_mesh(mesh, options).certificate;
-    const bool certified = certificate.verdict() == Verdict::certified;
+    const bool certified = check_mesh(mesh, options).certified();
     const std::vector<std::string> targets = ways.targets ? simd_targets() : std::vector<std::string>{simd_target()};
     const std::vector<int> threads = ways.threads ? std::vector<int>{1, 2, 8} : std::vector<int>{1};
     // As many as are asked for, also on a machine with fewer.
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
     Asking asking(mesh, points, what, ways);
     for (const bool with : {true, false}) {
-        const auto locator = with ? Locator::build(mesh, certificate) : Locator::build(mesh, {.prove = false});
+        const auto locator = with ? Locator::build(mesh) : Locator::build(mesh, {.prove = false});
         if (!locator) {
             ADD_FAILURE() << what << ": " << locator.error().message();
             return certified;
         }
-        EXPECT_EQ(locator->method(), with && certified ? Method::walk : Method::candidates) << what;
+        EXPECT_EQ(locator->method(), with ? Method::walk : Method::candidates) << what;
+        EXPECT_EQ(locator->certified(), with && certified) << what;
+        if (certified) {
+            EXPECT_EQ(locator->contested_cells(), 0U) << what;
+        }
         for (const std::string& target : targets) {
             EXPECT_TRUE(use_simd_target(target));
             for (const int n : threads) {

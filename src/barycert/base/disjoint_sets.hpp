@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace barycert::check {
+namespace barycert::base {
 
 class DisjointSets {
 public:
@@ -29,4 +29,4 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace barycert::check
+}  // namespace barycert::base

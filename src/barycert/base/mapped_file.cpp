@@ -45,4 +45,11 @@ MappedFile::~MappedFile() {
     if (mapped_ != 0) ::munmap(const_cast<char*>(begin_), mapped_);
 }
 
+void MappedFile::let_go(std::string_view part) const {
+    const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    const auto offset = static_cast<std::size_t>(part.data() - begin_);
+    const std::size_t first = (offset + page - 1) / page * page, last = (offset + part.size()) / page * page;
+    if (first < last) ::madvise(const_cast<char*>(begin_) + first, last - first, MADV_DONTNEED);
+}
+
 }  // namespace barycert::base

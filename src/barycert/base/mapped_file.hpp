@@ -25,6 +25,9 @@ public:
 
     std::string_view bytes() const { return {begin_, size_}; }
 
+    /// Lets go of the memory of whole pages within `part` of the bytes. They can still be read, and then come back.
+    void let_go(std::string_view part) const;
+
 private:
     const char* begin_ = "";
     std::size_t size_ = 0;

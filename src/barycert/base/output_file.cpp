@@ -130,6 +130,11 @@ OutputFile::~OutputFile() {
 void OutputFile::write(std::string_view bytes) {
     if (descriptor_ < 0) return;
     if (buffer_.capacity() == 0) buffer_.reserve(buffer_size);
+    if (bytes.size() >= buffer_size) {  // gathering it would be a copy for nothing
+        flush();
+        put(bytes);
+        return;
+    }
     while (!bytes.empty()) {
         const std::size_t step = std::min(bytes.size(), buffer_size - buffer_.size());
         buffer_.append(bytes.substr(0, step));
@@ -153,7 +158,11 @@ void OutputFile::replace(std::uint64_t offset, std::string_view bytes) {
 }
 
 void OutputFile::flush() {
-    std::string_view rest = buffer_;
+    put(buffer_);
+    buffer_.clear();
+}
+
+void OutputFile::put(std::string_view rest) {
     while (!rest.empty() && error_.what.empty()) {
         const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
         if (written >= 0) {
@@ -162,7 +171,6 @@ void OutputFile::flush() {
             fail("cannot write the file", errno);
         }
     }
-    buffer_.clear();
 }
 
 Status OutputFile::close() {

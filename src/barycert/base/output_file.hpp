@@ -60,6 +60,7 @@ private:
     void open_beside();
     bool give_name();
     void flush();
+    void put(std::string_view rest);
 
     std::string target_;                      // as the caller named it: for messages
     std::string real_path_;                   // with links resolved

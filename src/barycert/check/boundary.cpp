@@ -163,8 +163,8 @@ private:
     int d_;
     const std::vector<BoundaryFacet>& facets_;
     DefectList& defects_;
-    DisjointSets piece_;
-    DisjointSets fans_;
+    base::DisjointSets piece_;
+    base::DisjointSets fans_;
     std::uint64_t cavities_ = 0;
     BoundaryPieces out_;
 };

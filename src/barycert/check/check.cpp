@@ -29,10 +29,14 @@ using namespace check;
 
 namespace {
 
+bool all_set(const std::vector<std::uint8_t>& flags) {
+    return std::find(flags.begin(), flags.end(), 0) == flags.end();
+}
+
 /// Sets of usable cells connected over facets.
 std::uint64_t count_parts(const Mesh& mesh, const std::vector<std::uint8_t>& usable,
                           const std::vector<Mesh::Index>& neighbours) {
-    DisjointSets parts(usable.size());
+    base::DisjointSets parts(usable.size());
     for (std::size_t i = 0; i < neighbours.size(); ++i) {
         const std::size_t cell = i / mesh.corners();
         if (neighbours[i] > static_cast<Mesh::Index>(cell)) parts.join(cell, static_cast<std::size_t>(neighbours[i]));
@@ -112,13 +116,17 @@ private:
         report.degenerate = cells.degenerate;
         if (enough()) return;
         stage("facets");
-        const Facets facets = check_facets(mesh_, cells.usable, measures, defects_);
+        const bool whole = report.degenerate == 0 && all_set(finite) && all_set(cells.usable);
+        std::optional<Facets> proved;
+        if (whole) proved = facets_of_partition(mesh_, measures.orientation);
+        // Where the proof fails, what is wrong is found by the slower search.
+        const Facets facets = proved ? std::move(*proved) : check_facets(mesh_, cells.usable, measures, defects_);
         if (enough()) return;
         // What one thread does alone is done beside the rest.
         tbb::task_group parts;
         if (!options_.verdict_only)
             parts.run([&] { report.parts = count_parts(mesh_, cells.usable, facets.neighbours); });
-        check_boundary_and_pairs(report, cells, facets, volumes);
+        check_boundary_and_pairs(report, cells, facets, volumes, proved.has_value());
         parts.wait();
         // Last, as it says nothing of where cells lie: what is certified is accepted by all who ask for a whole mesh.
         if (const char* fault = mesh::inconsistency_of_extras(mesh_, mesh::FieldValues::any); fault != nullptr) {
@@ -136,7 +144,7 @@ private:
     }
 
     void check_boundary_and_pairs(CheckReport& report, const Cells& cells, const Facets& facets,
-                                  const ExactVolumes& volumes) {
+                                  const ExactVolumes& volumes, bool proved) {
         CellMeasures& measures = report.measures;
         stage("boundary");
         const BoundaryPieces pieces = check_boundary(mesh_, facets.boundary, volumes, defects_);
@@ -144,11 +152,14 @@ private:
         report.volume = {volumes.rounded(cells.total), volumes.rounded(pieces.enclosed),
                          (cells.total - pieces.enclosed).sign() == 0};
         if (enough()) return;
-        stage("contacts of the boundary");
-        const std::size_t limit = options_.verdict_only ? 1 : pair_limit;
-        std::vector<CellPair> touching = find_boundary_contacts(mesh_, facets.boundary, limit, measures, defects_);
-        if (enough()) return;
-        find_nested_parts(mesh_, facets.boundary, pieces.facets, limit, measures, defects_);
+        std::vector<CellPair> touching;
+        if (!proved) {
+            stage("contacts of the boundary");
+            const std::size_t limit = options_.verdict_only ? 1 : pair_limit;
+            touching = find_boundary_contacts(mesh_, facets.boundary, limit, measures, defects_);
+            if (enough()) return;
+            find_nested_parts(mesh_, facets.boundary, pieces.facets, limit, measures, defects_);
+        }
         check_files(mesh_, cells.usable, facets, defects_);
         if (enough()) return;
         std::vector<CellPair> overlapping;

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "barycert/check.hpp"
-#include "barycert/check/overlap.hpp"
+#include "barycert/check/names.hpp"
+#include "barycert/index/overlap.hpp"
 
 namespace barycert::check {
 

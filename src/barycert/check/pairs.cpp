@@ -5,11 +5,12 @@
 #include <cstddef>
 #include <numeric>
 
-#include "barycert/check/box_tree.hpp"
-#include "barycert/check/candidates.hpp"
 #include "barycert/check/cells.hpp"
-#include "barycert/check/facet_contact.hpp"
-#include "barycert/check/overlap.hpp"
+#include "barycert/check/names.hpp"
+#include "barycert/index/box_tree.hpp"
+#include "barycert/index/candidates.hpp"
+#include "barycert/index/facet_contact.hpp"
+#include "barycert/index/overlap.hpp"
 
 namespace barycert::check {
 namespace {

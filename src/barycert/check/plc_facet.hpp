@@ -5,7 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "barycert/check/box_tree.hpp"
+#include "barycert/check/names.hpp"
+#include "barycert/index/box_tree.hpp"
 #include "barycert/plc.hpp"
 
 namespace barycert::check {

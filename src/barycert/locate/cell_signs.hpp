@@ -1,7 +1,7 @@
 /// The exact signs of one point in one cell, cheaply where points lie on faces along the axes.
 #pragma once
 
-#include "barycert/locate/cell_index.hpp"
+#include "barycert/locate/names.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/tiers.hpp"
 

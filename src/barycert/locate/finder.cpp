@@ -62,16 +62,27 @@ void Finder::walk(const PointRecord* points, std::size_t count, Place* owner, Fe
         arrived += owner[i] >= 0 ? 1 : 0;
     }
     tests.add(Tier::filter, arrived);
+    if (!data_.proof.contested.empty()) {
+        std::array<std::uint32_t, chunk_size> contested;
+        std::size_t contested_count = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            contested[contested_count] = static_cast<std::uint32_t>(i);
+            contested_count += owner[i] >= 0 && data_.proof.is_contested(owner[i]) ? 1 : 0;
+        }
+        if (contested_count != 0)
+            data_.contested_cells().find_owners(points, contested.data(), contested_count, owner, feature, tests);
+    }
     for (std::size_t i = 0; i < stuck; ++i) resolve(points[stuck_[i].point], stuck_[i], owner, feature, tests);
     for (std::size_t i = 0; i < walking_; ++i) resolve(points[walks_[i].point], walks_[i], owner, feature, tests);
 }
 
 void Finder::resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, TierCounts& tests) {
     const CellIndex& index = data_.index;
-    // At the end of the domain the point may still be in another part of it.
-    WeightSigns signs;
-    if (stuck.cell >= 0) signs = cell_signs(index, stuck.cell, point.at.data(), tests);
-    if (stuck.cell < 0 || !signs.contains()) {
+    // At the end of the domain the point may still be in another part of it, in a contested cell in others as well.
+    WeightSigns signs = WeightSigns::degenerate_simplex();
+    if (stuck.cell >= 0 && !data_.proof.is_contested(stuck.cell))
+        signs = cell_signs(index, stuck.cell, point.at.data(), tests);
+    if (!signs.contains()) {
         asked_[asked_count_++] = stuck.point;
         return;
     }

@@ -7,6 +7,7 @@
 
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/locate/locator_data.hpp"
+#include "barycert/locate/tree_lanes.hpp"
 #include "barycert/locate/walk_lanes.hpp"
 
 namespace barycert::locate {

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "barycert/check.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/locator_data.hpp"
@@ -29,25 +28,28 @@ Locator& Locator::operator=(Locator&&) noexcept = default;
 Locator::~Locator() = default;
 
 Result<Locator> Locator::build(const Mesh& mesh, const BuildOptions& options) {
-    if (!options.prove) return build(mesh, Certificate{});
-    CheckOptions check;
-    check.threads = options.threads;
-    check.examples = 0;
-    check.contacts = 0;
-    check.verdict_only = true;
-    check.progress = options.progress;
-    return build(mesh, check_mesh(mesh, check).certificate);
-}
-
-Result<Locator> Locator::build(const Mesh& mesh, const Certificate& certificate) {
     const ExactEnvironment environment;
     if (const char* const wrong = mesh::inconsistency_of_cells(mesh, mesh::FieldValues::any))
         return Error{.what = std::string("the mesh is inconsistent: ") + wrong};
     auto data = std::make_unique<locate::LocatorData>();
     data->mesh = &mesh;
-    const bool certified = certificate.covers(mesh);
-    data->method = certified ? Method::walk : Method::candidates;
-    data->index = locate::make_cell_index(mesh, certified);
+    data->method = options.prove ? Method::walk : Method::candidates;
+    locate::in_arena(options.threads, [&] {
+        const auto stage = [&](const char* name) {
+            if (!options.progress) return;
+            options.progress(name);
+            ExactEnvironment::renew();
+        };
+        stage("ordering cells");
+        data->index = locate::make_cell_index(mesh);
+        if (!options.prove) return;
+        stage("linking cells");
+        data->links = locate::link_facets(data->index);
+        stage("proving the partition");
+        data->proof =
+            locate::prove(data->index, data->links, [&]() -> const locate::CellTree& { return data->tree(); });
+        data->links.open = {};
+    });
     return Locator(std::move(data));
 }
 
@@ -57,6 +59,18 @@ const Mesh& Locator::mesh() const {
 
 Method Locator::method() const {
     return data_->method;
+}
+
+bool Locator::certified() const {
+    return data_->proof.partition;
+}
+
+std::uint64_t Locator::contested_cells() const {
+    return data_->proof.contested_count;
+}
+
+std::uint64_t Locator::degenerate_cells() const {
+    return data_->links.degenerate.size();
 }
 
 std::size_t Locator::bytes() const {

@@ -1,40 +1,21 @@
 /// All that a Locator keeps.
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <mutex>
 #include <vector>
 
-#include "barycert/locate/cell_index.hpp"
-#include "barycert/locate/cell_tree.hpp"
+#include "barycert/index/cell_tree.hpp"
+#include "barycert/index/proof.hpp"
+#include "barycert/locate/contested_cells.hpp"
+#include "barycert/locate/lazy.hpp"
+#include "barycert/locate/names.hpp"
 #include "barycert/locate/nearest_tree.hpp"
 #include "barycert/locate/node_cells.hpp"
 #include "barycert/locate/sorted_points.hpp"
 #include "barycert/locator.hpp"
 
 namespace barycert::locate {
-
-/// Made on first need, by one thread while others wait.
-template <class T>
-class Lazy {
-public:
-    template <class Make>
-    const T& get(Make make) const {
-        std::call_once(once_, [&] {
-            value_ = std::make_unique<T>(make());
-            made_.store(value_.get(), std::memory_order_release);
-        });
-        return *value_;
-    }
-    /// nullptr until it is made.
-    const T* made() const { return made_.load(std::memory_order_acquire); }
-
-private:
-    mutable std::once_flag once_;
-    mutable std::unique_ptr<T> value_;
-    mutable std::atomic<const T*> made_ = nullptr;
-};
 
 /// Things that are dear to make, kept for the next user.
 template <class T>
@@ -66,19 +47,24 @@ struct LocatorData {
     const Mesh* mesh = nullptr;
     Method method = Method::candidates;
     CellIndex index;
+    FacetLinks links;  ///< of the index, if the method is walk; open facets are dropped after the proof
+    Proof proof;       ///< likewise
 
     /// Up to 36 MiB a thread: the system would have to clear as much for every block of points.
     Pool<SortedPoints> sorted;
 
     const CellTree& tree() const {
-        return tree_.get([&] { return CellTree(index); });
+        return tree_.get([&] { return make_cell_tree(index); });
     }
     /// Precondition: there is a cell.
     const NearestTree& nearest_tree() const {
         return nearest_tree_.get([&] { return NearestTree(index); });
     }
     const NodeCells& node_cells() const {
-        return node_cells_.get([&] { return NodeCells(index); });
+        return node_cells_.get([&] { return NodeCells(index, links.degenerate); });
+    }
+    const ContestedCells& contested_cells() const {
+        return contested_cells_.get([&] { return ContestedCells(index, proof, links.degenerate); });
     }
     /// Place of each cell of the mesh.
     const std::vector<Place>& places() const {
@@ -90,9 +76,10 @@ struct LocatorData {
         });
     }
     std::size_t bytes() const {
-        return index.bytes() + (tree_.made() ? tree_.made()->bytes() : 0) +
-               (nearest_tree_.made() ? nearest_tree_.made()->bytes() : 0) +
+        return index.bytes() + proof.contested.size() * sizeof(std::uint64_t) +
+               (tree_.made() ? tree_.made()->bytes() : 0) + (nearest_tree_.made() ? nearest_tree_.made()->bytes() : 0) +
                (node_cells_.made() ? node_cells_.made()->bytes() : 0) +
+               (contested_cells_.made() ? contested_cells_.made()->bytes() : 0) +
                (places_.made() ? places_.made()->size() * sizeof(Place) : 0);
     }
 
@@ -100,6 +87,7 @@ private:
     Lazy<CellTree> tree_;
     Lazy<NearestTree> nearest_tree_;
     Lazy<NodeCells> node_cells_;
+    Lazy<ContestedCells> contested_cells_;
     Lazy<std::vector<Place>> places_;
 };
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "barycert/locate/cell_index.hpp"
+#include "barycert/locate/names.hpp"
 
 namespace barycert::locate {
 

@@ -5,14 +5,15 @@
 #include <span>
 #include <vector>
 
-#include "barycert/locate/cell_index.hpp"
+#include "barycert/locate/names.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert::locate {
 
 class NodeCells {
 public:
-    explicit NodeCells(const CellIndex& index);
+    /// Without the cells `degenerate`, ascending.
+    NodeCells(const CellIndex& index, std::span<const Place> degenerate);
 
     /// Those of a node, by ascending cell of the mesh.
     std::span<const Place> of(Place node) const {

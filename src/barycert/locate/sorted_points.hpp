@@ -6,8 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "barycert/locate/bins.hpp"
-#include "barycert/locate/buffer.hpp"
+#include "barycert/index/bins.hpp"
+#include "barycert/index/buffer.hpp"
+#include "barycert/locate/names.hpp"
 #include "barycert/locate/walk_lanes.hpp"
 
 namespace barycert::locate {

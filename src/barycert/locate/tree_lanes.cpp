@@ -1,4 +1,5 @@
-#include "barycert/locate/cell_tree.hpp"
+#include "barycert/locate/tree_lanes.hpp"
+#include "barycert/locate/names.hpp"
 #include "barycert/locate/walk_lanes.hpp"
 
 #undef HWY_TARGET_INCLUDE

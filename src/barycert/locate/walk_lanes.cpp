@@ -5,13 +5,15 @@
 #include "barycert/core/foreach_target.hpp"
 
 #include "barycert/core/filter-inl.hpp"
-#include "barycert/locate/records-inl.hpp"
+#include "barycert/index/records-inl.hpp"
+#include "barycert/locate/names.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::locate {
 namespace HWY_NAMESPACE {
 
 using namespace core::HWY_NAMESPACE;
+using index::HWY_NAMESPACE::load_records;
 
 using locate::CellRecord;
 using locate::NodeRecord;

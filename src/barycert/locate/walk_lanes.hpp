@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "barycert/locate/cell_index.hpp"
+#include "barycert/locate/names.hpp"
 
 namespace barycert::locate {
 

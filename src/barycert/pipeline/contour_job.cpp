@@ -250,7 +250,7 @@ private:
             return e;
         }
         const auto count = static_cast<std::uint64_t>(pixels->width * pixels->height);
-        if (Status ready = engine_.prepare_for(count, false); !ready) return ready;
+        if (Status ready = engine_.prepare(); !ready) return ready;
         const Result<Sampler> sampler = Sampler::build(engine_.locator(), {column->choice});
         if (!sampler) return sampler.error();
         std::vector<double> values(count);

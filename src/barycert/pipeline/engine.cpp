@@ -4,21 +4,23 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <utility>
 
+#include "barycert/base/finite.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/io.hpp"
+#include "barycert/locate/batch.hpp"
+#include "barycert/locate/cells_at_points.hpp"
+#include "barycert/pipeline/few_points.hpp"
 #include "barycert/pipeline/field_files.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/sample/points/field_choice.hpp"
 
 namespace barycert::pipeline {
 namespace {
-
-/// From so many points a cell on the mesh is checked. On 203,693 cells and one thread the check cost 1.3 to 1.6 us a
-/// cell, and a walk saved 1.0 to 1.3 us a point inside: from so many points on the check saves time.
-constexpr double points_a_cell = 1.25;
 
 bool is_degenerate(const Mesh& mesh, std::size_t cell) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
@@ -39,12 +41,29 @@ std::uint64_t count_degenerate(const Mesh& mesh) {
         std::plus<>());
 }
 
+/// Clearing alone would keep the memory.
+template <class T>
+void give_back(std::vector<T>& numbers) {
+    std::vector<T>().swap(numbers);
+}
+
 bool gives_distances(const OutsidePolicy& policy) {
     return policy.kind == Outside::nearest || policy.kind == Outside::extrapolate;
 }
 
-std::string counted(std::uint64_t n, const char* what, bool at_least = false) {
-    return fmt::format("{}{} {}{}", at_least ? "at least " : "", n, what, n == 1 ? "" : "s");
+std::string counted(std::uint64_t n, const char* what) {
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+/// Why points are found by walks, and where not.
+std::string reason_of(const Locator& locator, std::uint64_t degenerate, const std::string& program) {
+    const std::uint64_t contested = locator.contested_cells();
+    if (locator.certified()) return "the mesh is certified";
+    if (contested == 0 && degenerate != 0) return "cells meet in common faces; degenerate ones are left out";
+    return fmt::format(
+        "{} of {} cells may meet others beside common faces, and there every candidate is tested; "
+        "`{} check` tells more",
+        contested, locator.mesh().cell_count(), program);
 }
 
 }  // namespace
@@ -73,69 +92,94 @@ TableFormat Engine::format() const {
     return {mesh_.dimension, sampler_->fields(), gives_distances(run_.job.options.outside)};
 }
 
-void Engine::prove() {
-    Stopwatch watch;
-    CheckOptions options;
-    options.threads = run_.job.options.threads;
-    options.examples = 0;
-    options.contacts = 0;
-    options.verdict_only = true;
-    options.progress = [&](const char* stage) { run_.stage(fmt::format("checking the mesh: {}", stage)); };
-    const CheckReport report = check_mesh(mesh_, options);
-    certificate_ = report.certificate;
-    run_.summary.verdict = certificate_.verdict();
-    run_.summary.seconds.certify += watch.lap();
+Status Engine::build(bool prove) {
+    return build_on(mesh_, fields_, prove);
 }
 
-Status Engine::build(const Certificate& certificate) {
+Status Engine::build_on(const Mesh& mesh, const std::vector<FieldChoice>& fields, bool prove) {
     Stopwatch watch;
-    run_.stage("building the locator");
-    sampler_.reset();
-    locator_.reset();
-    Result<Locator> locator = Locator::build(mesh_, certificate);
+    BuildOptions options;
+    options.prove = prove;
+    options.threads = run_.job.options.threads;
+    options.progress = [&](const char* stage) { run_.stage(stage); };
+    Result<Locator> locator = Locator::build(mesh, options);
     if (!locator) return locator.error();
     locator_.emplace(std::move(*locator));
-    Result<Sampler> sampler = Sampler::build(*locator_, fields_);
+    Result<Sampler> sampler = Sampler::build(*locator_, fields);
     if (!sampler) return sampler.error();
     sampler_.emplace(std::move(*sampler));
     SampleSummary& summary = run_.summary;
     summary.columns = sampler_->columns();
-    const bool certified = certificate_.verdict() == Verdict::certified;
-    summary.degenerate_cells = certified || !run_.job.count_degenerate ? 0 : count_degenerate(mesh_);
+    if (run_.job.count_degenerate)
+        summary.degenerate_cells = prove ? locator_->degenerate_cells() : count_degenerate(mesh);
     summary.seconds.build += watch.lap();
     return Done{};
 }
 
-Status Engine::prepare_for(std::uint64_t points, bool at_least) {
-    const Certify certify = run_.job.certify;
-    const bool checked = certificate_.verdict() != Verdict::not_checked;
-    const std::size_t cells = mesh_.cell_count();
-    const bool pays = static_cast<double>(points) >= points_a_cell * static_cast<double>(cells);
-    if (locator_ && (checked || certify != Certify::automatic || !pays)) return Done{};
-    const std::string sizes = counted(points, "point", at_least) + " for " + counted(cells, "cell");
+Status Engine::prepare() {
+    if (locator_) return Done{};
+    if (Status built = build(true); !built) return built;
     SampleSummary& summary = run_.summary;
-    if (certify == Certify::never || (certify == Certify::automatic && !pays)) {
-        summary.method = FoundBy::candidates;
-        summary.reason = certify == Certify::never ? "check skipped: --certify never"
-                                                   : "check skipped: too few points (" + sizes + ")";
-        return build({});
-    }
-    prove();
-    if (Status built = build(certificate_); !built) return built;
-    const bool walks = locator_->method() == Method::walk;
-    const std::string why = certify == Certify::always ? "--certify always" : sizes;
-    summary.method = walks ? FoundBy::walk : FoundBy::candidates;
-    summary.reason =
-        walks ? fmt::format("the mesh is certified (checked: {})", why)
-              : fmt::format("the mesh is not certified (checked: {}); `{} check` tells why", why, run_.job.program);
+    summary.method = FoundBy::walk;
+    summary.verdict = locator_->certified() ? Verdict::certified : Verdict::not_certified;
+    summary.contested_cells = locator_->contested_cells();
+    summary.reason = reason_of(*locator_, locator_->degenerate_cells(), run_.job.program);
     return Done{};
+}
+
+Status Engine::prepare_for_all(std::span<const double> points) {
+    const ExactEnvironment environment;
+    const std::size_t count = points.size() / static_cast<std::size_t>(mesh_.dimension), cells = mesh_.cell_count();
+    const bool asked = !gives_distances(run_.job.options.outside);
+    const bool fit = std::all_of(fields_.begin(), fields_.end(), [&](const FieldChoice& choice) {
+        const std::size_t entities = choice.of_cells ? cells : mesh_.point_count();
+        return choice.field->data.size() == entities * static_cast<std::size_t>(choice.field->components);
+    });
+    // What is wrong with fields or points is told by the usual way.
+    if (!asked || !needs_no_index(count, cells) || !fit || !base::all_finite(points)) return prepare();
+    Stopwatch watch;
+    run_.stage("looking for the cells of the points");
+    std::optional<std::vector<Mesh::Index>> near;
+    locate::in_arena(run_.job.options.threads,
+                     [&] { near = locate::cells_at_points(mesh_, points, most_cells(cells)); });
+    if (!near) return prepare();
+    part_ = mesh::part_of(mesh_, std::move(*near));
+    std::vector<FieldChoice> fields;
+    part_->mesh.point_fields.reserve(fields_.size());
+    part_->mesh.cell_fields.reserve(fields_.size());
+    for (const FieldChoice& choice : fields_) {
+        auto& of_part = choice.of_cells ? part_->mesh.cell_fields : part_->mesh.point_fields;
+        of_part.push_back(part_->field(*choice.field, choice.of_cells));
+        fields.push_back({&of_part.back(), choice.of_cells});
+    }
+    SampleSummary& summary = run_.summary;
+    summary.method = FoundBy::pass;
+    summary.reason = fmt::format("no index for {}: {} of {} may hold some", counted(count, "point"),
+                                 part_->cells.size(), counted(cells, "cell"));
+    summary.seconds.build += watch.lap();
+    return build_on(part_->mesh, fields, false);
+}
+
+void Engine::let_go_of_mesh() {
+    if (gives_distances(run_.job.options.outside) || !mesh_.mid_nodes.empty()) return;
+    // The index has corners and coordinates in an order of its own, and so has the sampler the values of nodes.
+    give_back(mesh_.points);
+    give_back(mesh_.cells);
+    give_back(mesh_.point_markers);
+    for (Field& field : mesh_.point_fields) give_back(field.data);
+}
+
+void Engine::name_cells(Table& rows) const {
+    if (!part_) return;
+    for (Mesh::Index& cell : rows.cells) {
+        if (cell >= 0) cell = part_->cells[static_cast<std::size_t>(cell)];
+    }
 }
 
 Status Engine::prepare_without_search(FoundBy method, const std::string& reason) {
     run_.summary.method = method;
     run_.summary.reason = reason;
-    if (run_.job.certify == Certify::always) prove();
-    return build(certificate_);
+    return build(false);
 }
 
 }  // namespace barycert::pipeline

@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "barycert/certificate.hpp"
-#include "barycert/check.hpp"
 #include "barycert/io.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/mesh.hpp"
+#include "barycert/mesh/part.hpp"
 #include "barycert/pipeline/run.hpp"
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
@@ -26,9 +26,12 @@ public:
 
     const Mesh& mesh() const { return mesh_; }
 
-    /// Prepares for points one by one, of which there are to be so many, or at least so many. Checks the mesh first if
-    /// that is asked for or likely to pay. May be called again as more become known.
-    Status prepare_for(std::uint64_t points, bool at_least);
+    /// Prepares for points one by one. A second call does nothing.
+    Status prepare();
+
+    /// The same for points that are all there are. Few of them need no index of the mesh: then it is prepared for these
+    /// points alone.
+    Status prepare_for_all(std::span<const double> points);
 
     /// Prepares where no owner is asked of a point alone: they are known, or the cells find their points.
     Status prepare_without_search(FoundBy method, const std::string& reason);
@@ -37,20 +40,28 @@ public:
     const Locator& locator() const { return *locator_; }
     const Sampler& sampler() const { return *sampler_; }
 
+    /// Gives back what of the mesh sampling does not read again: of linear cells, unless points outside ask for their
+    /// nearest cell, all but the values of cell fields. Precondition: prepared; nobody else reads the mesh any more,
+    /// but for its dimension.
+    void let_go_of_mesh();
+
+    /// Sampled rows name cells as the locator counts them; afterwards, as the mesh does.
+    void name_cells(Table& rows) const;
+
     /// What the rows of this job have.
     TableFormat format() const;
 
 private:
     explicit Engine(Run& run) : run_(run) {}
-    Status build(const Certificate& certificate);
-    void prove();
+    Status build(bool prove);
+    Status build_on(const Mesh& mesh, const std::vector<FieldChoice>& fields, bool prove);
 
     Run& run_;
     Mesh mesh_;
     std::vector<FieldChoice> fields_;
+    std::optional<mesh::Part> part_;  ///< what the locator is of, if not the mesh
     std::optional<Locator> locator_;
     std::optional<Sampler> sampler_;
-    Certificate certificate_;
 };
 
 }  // namespace barycert::pipeline

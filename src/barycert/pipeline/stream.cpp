@@ -6,7 +6,10 @@
 #include <optional>
 #include <utility>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/locate/batch.hpp"
+#include "barycert/pipeline/stages.hpp"
 
 namespace barycert::pipeline {
 namespace {
@@ -79,11 +82,11 @@ private:
     std::array<double, 3> at_{};
 };
 
-/// Samples rows.points; with `all`, each cell that holds a point has a row afterwards. `first`: how many points came
-/// before.
-Status sample_block(Run& run, const Engine& engine, std::uint64_t first, Table& rows) {
-    const SampleOptions options = without_refusal(run.job.options);
-    const bool refuse = run.job.options.outside.kind == Outside::error;
+/// Samples rows.points; with `all`, each cell that holds a point has a row afterwards.
+Status sample_block(const Run& run, const Engine& engine, Block& block) {
+    SampleOptions options = without_refusal(run.job.options);
+    options.threads = 1;  // blocks go side by side
+    Table& rows = block.rows;
     if (run.summary.all) {
         Result<Table> all = engine.locator().locate_all(rows.points, options.threads);
         if (!all) return all.error();
@@ -91,21 +94,9 @@ Status sample_block(Run& run, const Engine& engine, std::uint64_t first, Table& 
         const LocationCounts locations = rows.counts.locations;
         if (Status done = engine.sampler().evaluate(rows.points, options, rows); !done) return done;
         rows.counts.locations = locations;
-    } else {
-        if (Status done = engine.sampler().sample(rows.points, options, rows, first); !done) return done;
+        return Done{};
     }
-    if (const auto row = first_outside(rows.cells); refuse && row) {
-        const auto& begin = rows.point_begin;
-        const std::size_t point =
-            run.summary.all
-                ? static_cast<std::size_t>(std::upper_bound(begin.begin(), begin.end(), *row) - begin.begin()) - 1
-                : *row;
-        return outside_error("point " + std::to_string(first + point), point_of(rows, *row), run.summary.points);
-    }
-    run.summary.counts.add(rows.counts);
-    run.summary.rows += rows.row_count();
-    run.summary.nan_values += count_nan(rows.view());
-    return Done{};
+    return engine.sampler().sample(rows.points, options, rows, block.first);
 }
 
 }  // namespace
@@ -125,7 +116,7 @@ Error outside_error(const std::string& what, std::span<const double> where, cons
 }
 
 std::uint64_t count_nan(const TableView& rows) {
-    if (rows.row_count() == 0) return 0;
+    if (rows.row_count() == 0 || base::all_finite(rows.values)) return 0;
     const std::size_t columns = rows.values.size() / rows.row_count();
     std::uint64_t count = 0;
     for (std::size_t i = 0; i < rows.row_count(); ++i) {
@@ -137,67 +128,151 @@ std::uint64_t count_nan(const TableView& rows) {
 
 Status sample_stream(Run& run, Engine& engine, PointSource& source, const SinkFactory& factory,
                      const std::string& save_map) {
+    SampleSummary& summary = run.summary;
+    SampleSeconds& seconds = summary.seconds;
+    const bool refuse = run.job.options.outside.kind == Outside::error;
     StreamOutput writer(factory, save_map);
-    SampleSeconds& seconds = run.summary.seconds;
-    Table rows;
-    rows.dimension = source.dimension();
-    rows.points.reserve(std::min<std::uint64_t>(block_of_points, source.count().value_or(block_of_points)) *
-                        static_cast<std::size_t>(source.dimension()));
-    std::uint64_t done = 0;
-    Stopwatch watch;
-    for (bool more = true; more;) {
-        rows.points.clear();
-        if (done != 0) run.count("points", done);
-        const Result<std::size_t> count = source.read(block_of_points, rows.points);
-        if (!count) return count.error();
-        more = *count == block_of_points;
+    std::uint64_t taken = 0;
+    std::size_t size = 0;
+    bool more = true;
+    const auto read_next = [&](Block& block) -> Status {
+        Stopwatch watch;
+        block.rows.dimension = source.dimension();
+        block.rows.points.clear();
+        block.first = taken;
+        block.size = 0;
+        if (!more) return Done{};
+        const Result<std::size_t> count = source.read(size, block.rows.points);
         seconds.read += watch.lap();
-        const std::uint64_t known = std::max<std::uint64_t>(source.count().value_or(0), done + *count);
-        if (Status ready = engine.prepare_for(known, more && !source.count()); !ready) return ready;
-        watch.lap();
-        if (Status opened = writer.open(engine, run.summary.all); !opened) return opened;
-        seconds.write += watch.lap();
-        if (Status sampled = sample_block(run, engine, done, rows); !sampled) return sampled;
-        seconds.sample += watch.lap();
-        if (Status written = writer.write(rows.view()); !written) return written;
-        seconds.write += watch.lap();
-        done += *count;
-    }
+        if (!count) return count.error();
+        taken += *count;
+        more = *count == size && source.count() != taken;
+        block.size = *count;
+        block.last = !more;
+        return Done{};
+    };
+    // The first block tells how to go on.
+    Block first;
+    const int threads = run.job.options.threads;
+    locate::in_arena(threads, [&] { size = block_size(source.count()); });
+    if (Status read = read_next(first); !read) return read;
+    Status ready = more ? engine.prepare() : engine.prepare_for_all(first.rows.points);
+    if (!ready) return ready;
+    Stopwatch watch;
+    if (Status opened = writer.open(engine, summary.all); !opened) return opened;
+    seconds.write += watch.lap();
+    engine.let_go_of_mesh();
+
+    bool begun = false;
+    const auto read = [&](Block& block) -> Status {
+        if (begun) return read_next(block);
+        begun = true;
+        block = std::move(first);
+        return Done{};
+    };
+    const auto work = [&](Block& block) -> Status {
+        if (Status sampled = sample_block(run, engine, block); !sampled) return sampled;
+        engine.name_cells(block.rows);
+        block.outside = refuse ? first_outside(block.rows.cells) : std::nullopt;
+        block.nan_values = count_nan(block.rows.view());
+        return Done{};
+    };
+    double sampling = 0;
+    const auto write = [&](Block& block) -> Status {
+        Stopwatch time;
+        const Table& rows = block.rows;
+        if (block.outside) {
+            const auto& begin = rows.point_begin;
+            const std::size_t row = *block.outside;
+            const std::size_t point =
+                summary.all
+                    ? static_cast<std::size_t>(std::upper_bound(begin.begin(), begin.end(), row) - begin.begin()) - 1
+                    : row;
+            return outside_error("point " + std::to_string(block.first + point), point_of(rows, row), summary.points);
+        }
+        summary.counts.add(rows.counts);
+        summary.rows += rows.row_count();
+        summary.nan_values += block.nan_values;
+        sampling += block.seconds;
+        Status written = writer.write(rows.view());
+        seconds.write += time.lap();
+        if (written && !block.last) run.count("points", block.first + block.size);
+        return written;
+    };
+    Status done = Done{};
+    locate::in_arena(threads, [&] {
+        Stages stages;
+        done = stages.run(read, work, write);
+        sampling /= tbb::this_task_arena::max_concurrency();
+    });
+    seconds.sample += sampling;
+    if (!done) return done;
+    watch.lap();
     Status committed = writer.commit();
     seconds.write += watch.lap();
     return committed;
 }
 
 Status sample_map(Run& run, Engine& engine, MapReader& map, const SinkFactory& factory) {
-    const SampleOptions options = without_refusal(run.job.options);
+    SampleSummary& summary = run.summary;
+    SampleSeconds& seconds = summary.seconds;
+    SampleOptions options = without_refusal(run.job.options);
+    options.threads = 1;
     const bool refuse = run.job.options.outside.kind == Outside::error;
     StreamOutput writer(factory, "");
     if (Status opened = writer.open(engine, map.all()); !opened) return opened;
-    SampleSummary& summary = run.summary;
+    engine.let_go_of_mesh();
     PointsOfRows points;
     LocationCounts locations;
-    Table rows;
-    Stopwatch watch;
-    for (;;) {
-        if (summary.rows != 0) run.count("rows", summary.rows);
-        const Result<std::size_t> count = map.read(block_of_points, rows);
+    std::uint64_t taken = 0;
+    std::size_t size = 0;
+    const auto read = [&](Block& block) -> Status {
+        Stopwatch watch;
+        const Result<std::size_t> count = map.read(size, block.rows);
+        seconds.read += watch.lap();
         if (!count) return count.error();
-        if (*count == 0) break;
-        summary.seconds.read += watch.lap();
-        if (const auto row = first_outside(rows.cells); row && refuse)
-            return outside_error("row " + std::to_string(summary.rows + *row), point_of(rows, *row), summary.points);
-        if (Status done = engine.sampler().evaluate(rows.points, options, rows, summary.rows); !done) return done;
-        summary.counts.add(rows.counts);
-        points.count(rows.view(), locations);
-        summary.nan_values += count_nan(rows.view());
-        summary.rows += *count;
-        summary.seconds.sample += watch.lap();
-        if (Status written = writer.write(rows.view()); !written) return written;
-        summary.seconds.write += watch.lap();
-    }
+        block.first = taken;
+        block.size = *count;
+        taken += *count;
+        return Done{};
+    };
+    const auto work = [&](Block& block) -> Status {
+        block.outside = refuse ? first_outside(block.rows.cells) : std::nullopt;
+        if (block.outside) return Done{};
+        if (Status done = engine.sampler().evaluate(block.rows.points, options, block.rows, block.first); !done)
+            return done;
+        block.nan_values = count_nan(block.rows.view());
+        return Done{};
+    };
+    double sampling = 0;
+    const auto write = [&](Block& block) -> Status {
+        Stopwatch watch;
+        if (block.outside)
+            return outside_error("row " + std::to_string(block.first + *block.outside),
+                                 point_of(block.rows, *block.outside), summary.points);
+        summary.counts.add(block.rows.counts);
+        points.count(block.rows.view(), locations);
+        summary.nan_values += block.nan_values;
+        summary.rows += block.size;
+        sampling += block.seconds;
+        Status written = writer.write(block.rows.view());
+        seconds.write += watch.lap();
+        if (written) run.count("rows", summary.rows);
+        return written;
+    };
+    Status done = Done{};
+    locate::in_arena(run.job.options.threads, [&] {
+        size = block_size(map.rows());
+        Stages stages;
+        done = stages.run(read, work, write);
+        sampling /= tbb::this_task_arena::max_concurrency();
+    });
+    seconds.sample += sampling;
+    if (!done) return done;
     summary.counts.locations = locations;
+    Stopwatch watch;
     Status committed = writer.commit();
-    summary.seconds.write += watch.lap();
+    seconds.write += watch.lap();
     return committed;
 }
 

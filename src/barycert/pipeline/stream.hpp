@@ -16,9 +16,6 @@
 
 namespace barycert::pipeline {
 
-/// Points at a time: what memory holds of them at most.
-inline constexpr std::size_t block_of_points = std::size_t{1} << 20;
-
 /// The policy `error` is looked at where the point and its file are known: options without it.
 SampleOptions without_refusal(SampleOptions options);
 
@@ -31,6 +28,8 @@ std::uint64_t count_nan(const TableView& rows);
 /// Opens what takes the rows of that format, which is known when the engine is prepared.
 using SinkFactory = std::function<Result<std::unique_ptr<TableSink>>(const TableFormat&)>;
 
+/// Reading, sampling and writing go on at the same time, block after block; rows come in the order of the points.
+///
 /// All points of the source into rows and, if `save_map` is not empty, into a map. Adds to the summary of the run.
 /// Error besides those of its parts: the policy is `error`, and a point is outside; it names the point and the file.
 Status sample_stream(Run& run, Engine& engine, PointSource& source, const SinkFactory& factory,

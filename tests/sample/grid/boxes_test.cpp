@@ -24,7 +24,7 @@ void expect_law_everywhere(Mesh mesh, int components, const Grid& grid, const st
     if (random.coin()) {  // ties, and values so near to them that integers must decide
         for (double& x : mesh.point_fields[0].data) x = 1 + 0x1p-51 * random.integer(0, 3);
     }
-    const auto locator = Locator::build(mesh, quick(mesh).certificate), asks = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh), asks = Locator::build(mesh, {.prove = false});
     const auto walks = Sampler::build(*locator, all_fields(mesh)), other = Sampler::build(*asks, all_fields(mesh));
     for (const std::string& target : simd_targets()) {
         ASSERT_TRUE(use_simd_target(target));
@@ -114,7 +114,7 @@ TEST(ResampleBoxes, PartsAndSlabs) {
         Mesh mesh = renumbered(box(d, d == 3 ? std::array{18, 19, 20} : std::array{140, 150, 1}), random);
         mesh.point_fields = random_fields(mesh.point_count(), {100}, false, random);
         ASSERT_GT(mesh.cell_count(), 40000U);
-        const Locator locator = Locator::build(mesh, quick(mesh).certificate).value();
+        const Locator locator = Locator::build(mesh).value();
         const Sampler sampler = Sampler::build(locator, all_fields(mesh)).value();
         const Bounds3 bounds = bounds_of_cells(mesh);
         const Grid grid =

@@ -130,25 +130,22 @@ SampleCounts expect_law(const Sampler& sampler, const Grid& grid, const SampleOp
 
 SampleCounts expect_law(const Mesh& mesh, const Grid& grid, const std::string& what, const SampleOptions& options) {
     SampleCounts counts;
-    const auto certificate = quick(mesh).certificate;
-    for (const bool certified : {true, false}) {
-        if (certified && certificate.verdict() != Verdict::certified) continue;
-        const auto locator = certified ? Locator::build(mesh, certificate) : Locator::build(mesh, {.prove = false});
+    for (const bool prove : {true, false}) {
+        const auto locator = Locator::build(mesh, {.prove = prove});
         EXPECT_TRUE(locator) << what;
         if (!locator) return counts;
-        EXPECT_EQ(locator->method(), certified ? Method::walk : Method::candidates) << what;
+        EXPECT_EQ(locator->method(), prove ? Method::walk : Method::candidates) << what;
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         EXPECT_TRUE(sampler) << what;
         if (!sampler) return counts;
-        counts = expect_law(*sampler, grid, options, what + (certified ? ", certified" : ", not certified"));
+        counts = expect_law(*sampler, grid, options, what + (prove ? ", walks" : ", candidates"));
     }
     return counts;
 }
 
 void expect_truth(const Mesh& mesh, const Grid& grid, const std::string& what) {
-    const auto certificate = quick(mesh).certificate;
-    for (const bool certified : {true, false}) {
-        const auto locator = certified ? Locator::build(mesh, certificate) : Locator::build(mesh, {.prove = false});
+    for (const bool prove : {true, false}) {
+        const auto locator = Locator::build(mesh, {.prove = prove});
         ASSERT_TRUE(locator) << what;
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         ASSERT_TRUE(sampler) << what;

@@ -157,7 +157,7 @@ TEST(ResampleFuzz, AnythingGoes) {
         Mesh mesh = any_mesh(random);
         any_fields(mesh, random);
         const std::string what = "round " + std::to_string(round);
-        const auto locator = random.below(3) != 0 ? Locator::build(mesh, quick(mesh).certificate)
+        const auto locator = random.below(3) != 0 ? Locator::build(mesh)
                                                   : Locator::build(mesh, {.prove = false});
         ASSERT_TRUE(locator) << what << locator.error().message();
         certified += locator->method() == Method::walk ? 1 : 0;

@@ -26,7 +26,7 @@ struct Tally {
 /// Every point of the grid, for a mesh of one cell. far(point): it is outside, by the making of the cell.
 template <class Far>
 void judge(const Mesh& mesh, const Grid& grid, Far far, Tally& tally) {
-    const auto locator = Locator::build(mesh, quick(mesh).certificate);
+    const auto locator = Locator::build(mesh);
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     const Table found = resampled(*sampler, grid).samples;
     const std::vector<double> points = points_of(grid);

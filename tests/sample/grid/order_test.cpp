@@ -35,7 +35,7 @@ TEST(ResampleOrder, ThreadsAndTargets) {
                 random_fields(mesh.cell_count(), std::vector<int>(components.size() - 1, 1), false, random);
             for (const bool certified : {true, false}) {
                 const auto locator =
-                    certified ? Locator::build(mesh, quick(mesh).certificate) : Locator::build(mesh, {.prove = false});
+                    certified ? Locator::build(mesh) : Locator::build(mesh, {.prove = false});
                 const auto sampler = Sampler::build(*locator, all_fields(mesh));
                 for (const NamedGrid& g : awkward_grids(mesh, 700, random)) {
                     use_simd_target("");
@@ -57,7 +57,7 @@ TEST(ResampleOrder, ThreadsAndTargets) {
 
 /// The law on a grid that takes several slabs, of at most 2^26 / (16 + 8 columns) points each, or one layer.
 void expect_slabs(const Mesh& mesh, const Grid& grid, std::size_t slabs) {
-    const auto locator = Locator::build(mesh, quick(mesh).certificate);
+    const auto locator = Locator::build(mesh);
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     Table expected;
     const SampleCounts& counts = expected.counts;

@@ -64,7 +64,7 @@ TEST(SampleOrder, D1_ThreadsTargetsMethodsAndEvaluate) {
         base::Random random(base::hash64(stem));
         const Mesh mesh = own_with_fields(stem);
         const std::vector<double> points = awkward_points(mesh, 40, random);
-        const auto walks = Locator::build(mesh, quick(mesh).certificate), asks = Locator::build(mesh, {.prove = false});
+        const auto walks = Locator::build(mesh), asks = Locator::build(mesh, {.prove = false});
         const auto one = Sampler::build(*walks, all_fields(mesh)), other = Sampler::build(*asks, all_fields(mesh));
         for (SampleOptions options : all_options()) {
             const std::string what = std::string(stem) + (options.rounding == Rounding::plain ? ", plain" : "") +
@@ -101,7 +101,7 @@ TEST(SampleOrder, D1_AHundredThousandPointsInAnyOrder) {
         const std::vector<double> more = awkward_points(mesh, 600, random);
         points.insert(points.end(), more.begin(), more.end());
         const auto d = static_cast<std::size_t>(mesh.dimension);
-        const auto locator = Locator::build(mesh, quick(mesh).certificate);
+        const auto locator = Locator::build(mesh);
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         const std::size_t columns = sampler->columns().size(), count = points.size() / d;
         ASSERT_GE(count, 100000U);
@@ -186,7 +186,7 @@ TEST(SampleOrder, PlainRounding) {
         Mesh mesh = own_with_fields(stem);
         mesh.cell_fields.clear();
         const std::vector<double> points = awkward_points(mesh, 150, random);
-        const auto locator = Locator::build(mesh, quick(mesh).certificate);
+        const auto locator = Locator::build(mesh);
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         SampleCounts counts;
         const Table right = sampled(*sampler, points, {}),

@@ -230,7 +230,7 @@ TEST(SampleOutside, E1_NanAndFill) {
 TEST(SampleOutside, E1_ErrorNamesTheFirst) {
     base::Random random(5);
     const Mesh mesh = own_with_field("cube-hole");
-    const auto locator = Locator::build(mesh, quick(mesh).certificate);
+    const auto locator = Locator::build(mesh);
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     const SampleOptions options{.outside = {.kind = Outside::error}, .threads = 2};
     Table samples;

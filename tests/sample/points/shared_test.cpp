@@ -55,7 +55,7 @@ TEST(SampleShared, V1_AtNodes) {
     for (const char* stem : {"cube-hole", "cube-hole-o2", "plate"}) {
         base::Random random(base::hash64(stem));
         Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
-        const auto locator = Locator::build(mesh, quick(mesh).certificate);
+        const auto locator = Locator::build(mesh);
         const auto sampler = Sampler::build(*locator, {{&mesh.point_fields[1], false}});
         Table samples;
         const SampleCounts& counts = samples.counts;

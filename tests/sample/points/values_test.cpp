@@ -15,7 +15,7 @@ namespace {
 void expect_right(const Mesh& mesh, const std::vector<double>& points, const std::string& what) {
     for (const bool certified : {true, false}) {
         const auto locator =
-            certified ? Locator::build(mesh, quick(mesh).certificate) : Locator::build(mesh, {.prove = false});
+            certified ? Locator::build(mesh) : Locator::build(mesh, {.prove = false});
         ASSERT_TRUE(locator) << what;
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         ASSERT_TRUE(sampler) << what << sampler.error().message();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/environment.hpp"
@@ -111,12 +112,15 @@ Status CsvSink::write(const TableView& rows) {
         const std::size_t pieces = std::min(pieces_at_once, (count - row + rows_a_piece_ - 1) / rows_a_piece_);
         while (pieces_.size() < pieces) pieces_.emplace_back(rows_a_piece_ * longest_row_);
         std::array<std::size_t, pieces_at_once> sizes{};
-        tbb::parallel_for(std::size_t{0}, pieces, [&](std::size_t i) {
-            const ExactEnvironment of_task;  // the arena is the caller's
-            const std::size_t first = row + i * rows_a_piece_;
-            char* const begin = pieces_[i].data();
-            sizes[i] =
-                static_cast<std::size_t>(format(rows, first, std::min(first + rows_a_piece_, count), begin) - begin);
+        // Whoever waits here must not begin other work of the caller: its stages wait for this one.
+        tbb::this_task_arena::isolate([&] {
+            tbb::parallel_for(std::size_t{0}, pieces, [&](std::size_t i) {
+                const ExactEnvironment of_task;  // the arena is the caller's
+                const std::size_t first = row + i * rows_a_piece_;
+                char* const begin = pieces_[i].data();
+                sizes[i] = static_cast<std::size_t>(format(rows, first, std::min(first + rows_a_piece_, count), begin) -
+                                                    begin);
+            });
         });
         for (std::size_t i = 0; i < pieces; ++i) file_.write({pieces_[i].data(), sizes[i]});
         row = std::min(count, row + pieces * rows_a_piece_);

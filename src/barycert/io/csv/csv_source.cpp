@@ -1,16 +1,25 @@
+// Points from CSV: lines are read by the megabyte, cut into pieces at line ends and parsed on all threads. Pieces are
+// looked at in their order, so points and errors do not depend on the number of threads.
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
 #include <array>
 #include <utility>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/io/csv/csv_fields.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
+#include "barycert/io/csv/csv_piece.hpp"
 #include "barycert/io/csv/line_reader.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/tetgen/scanner.hpp"
 
 namespace barycert::io {
 namespace {
+
+/// Text that one thread parses at a time: some hundred microseconds of work.
+constexpr std::size_t text_a_piece = std::size_t{1} << 16;
 
 class CsvSource final : public PointSource {
 public:
@@ -24,16 +33,16 @@ public:
     Result<std::size_t> read(std::size_t max, std::vector<double>& out) override;
 
 private:
-    bool parse(std::string_view line, std::array<double, 3>& point);
-    Error row_error(std::string_view line) const;
+    bool parse_more();
+    Error row_error(const CsvPiece& piece) const;
     LinePlace place() const { return {lines_.name(), lines_.number()}; }
-    void append(const std::array<double, 3>& point, std::vector<double>& out) const;
 
     LineReader lines_;
     int dimension_;
     CsvLayout layout_;
-    bool cut_ = false;                            // the last row parsed ended with the file, and within a coordinate
-    std::optional<std::array<double, 3>> first_;  // of a file without header, until it is read
+    std::vector<std::string_view> texts_;
+    std::vector<CsvPiece> pieces_;  // those from `piece_` on have points to give, the first of them from `given_` on
+    std::size_t piece_ = 0, piece_count_ = 0, given_ = 0;
     Error error_;
 };
 
@@ -44,7 +53,12 @@ Status CsvSource::begin() {
         if (!layout) return layout.error();
         layout_ = std::move(*layout);
         if (layout_.header) return Done{};
-        if (!parse(line, first_.emplace())) return row_error(line);
+        // The first point; it is given like all others.
+        const std::string text = std::string(line) + (lines_.line_ended() ? "\n" : "");
+        pieces_.resize(1);
+        parse_csv(text, layout_, dimension_, pieces_.front());
+        if (pieces_.front().failed) return row_error(pieces_.front());
+        piece_count_ = 1;
         return Done{};
     }
     if (lines_.failed()) return lines_.error();
@@ -55,57 +69,65 @@ Status CsvSource::begin() {
                  .remedy = "write the file again; a file with a header only is a file without points"};
 }
 
-/// False if the line is no point, or may be the beginning of another one: 0.2 of 0.25.
-bool CsvSource::parse(std::string_view line, std::array<double, 3>& point) {
-    FieldCutter cutter(line, layout_.separator);
-    const char* const cut = lines_.line_ended() ? nullptr : line.data() + line.size();
-    bool at_cut = false;
-    cut_ = false;
-    const std::size_t fields = layout_.axis_of.size();
-    std::size_t i = 0;
-    for (std::string_view field; cutter.next(field); ++i) {
-        if (i == fields) return false;
-        const int axis = layout_.axis_of[i];
-        if (axis < 0) continue;
-        const char* const end = field.data() + field.size();
-        double value = 0;
-        if (barycert::io::scan_real(field.data(), end, value) != end) return false;
-        point[static_cast<std::size_t>(axis)] = value;
-        at_cut = end == cut;
+/// The bad line has been counted.
+Error CsvSource::row_error(const CsvPiece& piece) const {
+    return piece.cut ? base::unended_number(lines_.name(), lines_.number())
+                     : csv_row_error(piece.bad, layout_, place());
+}
+
+/// Parses the next pieces; false at the end of the file, or at an error, which is kept. Precondition: all pieces have
+/// been given.
+bool CsvSource::parse_more() {
+    piece_ = piece_count_ = given_ = 0;
+    std::string_view text;
+    if (!lines_.next_lines(text)) {
+        if (lines_.failed()) error_ = lines_.error();
+        return false;
     }
-    if (i != fields || cutter.malformed()) return false;
-    cut_ = at_cut;
-    return !cut_;
-}
-
-Error CsvSource::row_error(std::string_view line) const {
-    return cut_ ? base::unended_number(lines_.name(), lines_.number()) : csv_row_error(line, layout_, place());
-}
-
-void CsvSource::append(const std::array<double, 3>& point, std::vector<double>& out) const {
-    for (std::size_t axis = 0; axis < static_cast<std::size_t>(dimension_); ++axis) out.push_back(point[axis]);
+    texts_.clear();
+    while (!text.empty()) {
+        std::size_t size = text.size();
+        if (size > text_a_piece) size = std::min(text.find('\n', text_a_piece - 1), text.size() - 1) + 1;
+        texts_.push_back(text.substr(0, size));
+        text.remove_prefix(size);
+    }
+    piece_count_ = texts_.size();
+    if (pieces_.size() < piece_count_) pieces_.resize(piece_count_);
+    // Whoever waits here must not begin other work of the caller: its stages wait for this one.
+    tbb::this_task_arena::isolate([&] {
+        tbb::parallel_for(std::size_t{0}, piece_count_, [&](std::size_t i) {
+            const ExactEnvironment of_task;  // the arena is the caller's
+            parse_csv(texts_[i], layout_, dimension_, pieces_[i]);
+        });
+    });
+    for (std::size_t i = 0; i < piece_count_; ++i) {
+        lines_.count(pieces_[i].lines);
+        if (!pieces_[i].failed) continue;
+        error_ = row_error(pieces_[i]);
+        piece_count_ = i + 1;
+    }
+    return true;
 }
 
 Result<std::size_t> CsvSource::read(std::size_t max, std::vector<double>& out) {
     const ExactEnvironment environment;
-    if (!error_.what.empty()) return error_;
+    const auto size = static_cast<std::size_t>(dimension_);
     std::size_t taken = 0;
-    if (first_ && max != 0) {
-        append(*first_, out);
-        first_.reset();
-        ++taken;
-    }
-    std::array<double, 3> point{};
-    for (std::string_view line; taken != max && lines_.next(line);) {
-        if (!holds_fields(line, layout_.separator)) continue;
-        if (!parse(line, point)) {
-            error_ = row_error(line);
-            return error_;
+    while (taken != max) {
+        if (piece_ == piece_count_) {
+            if (error_.what.empty() && parse_more()) continue;
+            if (!error_.what.empty()) return error_;
+            break;
         }
-        append(point, out);
-        ++taken;
+        const std::vector<double>& points = pieces_[piece_].points;
+        const std::size_t count = std::min(max - taken, points.size() / size - given_);
+        out.insert(out.end(), points.data() + given_ * size, points.data() + (given_ + count) * size);
+        taken += count;
+        given_ += count;
+        if (given_ * size != points.size()) continue;
+        ++piece_;
+        given_ = 0;
     }
-    if (lines_.failed()) return lines_.error();
     return taken;
 }
 

@@ -1,6 +1,7 @@
 #include "barycert/io/csv/line_reader.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -89,6 +90,11 @@ bool LineReader::refill() {
     return true;
 }
 
+bool LineReader::more_is_there() const {
+    pollfd asked{.fd = descriptor_, .events = POLLIN, .revents = 0};
+    return ::poll(&asked, 1, 0) == 1;
+}
+
 bool LineReader::next(std::string_view& line) {
     if (failed()) return false;
     const char* feed = nullptr;
@@ -105,6 +111,28 @@ bool LineReader::next(std::string_view& line) {
     if (line.ends_with('\r')) line.remove_suffix(1);
     begin_ = searched_ = feed == nullptr ? stop : stop + 1;
     ++number_;
+    return true;
+}
+
+bool LineReader::next_lines(std::string_view& lines) {
+    if (failed()) return false;
+    // As much as there is room for: a pipe gives little at a time. But a line is not kept waiting for others that may
+    // be long in coming.
+    const auto held = [&] { return std::string_view(buffer_.data() + begin_, end_ - begin_); };
+    while (!ended_ && (begin_ != 0 || end_ != longest_line)) {
+        if (held().rfind('\n') != std::string_view::npos && !more_is_there()) break;
+        if (!refill()) return false;
+    }
+    const std::string_view text = held();
+    if (text.empty()) return false;
+    std::size_t size = text.size();
+    if (!ended_) {
+        const std::size_t feed = text.rfind('\n');
+        if (feed == std::string_view::npos) return refill();  // a line too long: refill() says so
+        size = feed + 1;
+    }
+    lines = text.substr(0, size);
+    begin_ = searched_ = begin_ + size;
     return true;
 }
 

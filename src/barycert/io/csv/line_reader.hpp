@@ -27,13 +27,19 @@ public:
     /// False at the end of the file, or after an error: see failed().
     bool next(std::string_view& line);
 
+    /// Several lines at once, whole ones with their ends but for the last of the file, which may lack its own: at least
+    /// one, and as many more as have come, at most longest_line bytes. Valid until the next call, and one byte after
+    /// them may be read. False as above. Whoever has counted the lines tells it by count().
+    bool next_lines(std::string_view& lines);
+    void count(std::size_t lines) { number_ += lines; }
+
     bool failed() const { return !error_.what.empty(); }
     const Error& error() const { return error_; }
 
     /// The last line given ended with LF or CR, and not with the file.
     bool line_ended() const { return line_ended_; }
 
-    /// The number of the last line given, from 1.
+    /// The number of the last line given or counted, from 1.
     std::size_t number() const { return number_; }
 
     /// What messages call the file.
@@ -42,6 +48,8 @@ public:
 private:
     explicit LineReader(std::string name) : name_(std::move(name)) {}
     bool refill();
+    /// Reading would not wait.
+    bool more_is_there() const;
     bool skip_mark();
 
     std::string name_;

@@ -1,4 +1,8 @@
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstring>
@@ -16,8 +20,14 @@ namespace {
 /// NumPy aligns the numbers of a file so.
 constexpr std::size_t alignment = 64;
 
-std::size_t buffered_rows(std::size_t row_size) {
-    return std::max<std::size_t>(1, (std::size_t{1} << 18) / row_size);
+constexpr std::size_t feature_count = static_cast<std::size_t>(Feature::degenerate) + 1;
+
+/// What one thread lays out at a time, and how many of these go to the file together.
+constexpr std::size_t piece_bytes = std::size_t{1} << 18;
+constexpr std::size_t pieces_at_once = 16;
+
+std::size_t rows_a_piece(std::size_t row_size) {
+    return std::max<std::size_t>(1, piece_bytes / row_size);
 }
 
 char* put(char* at, std::uint64_t bits) {
@@ -50,7 +60,8 @@ private:
     std::size_t row_size_ = 0;
     std::uint64_t count_ = 0;
     std::vector<char> buffer_;
-    Error error_;  // rows that do not fit
+    std::array<std::uint64_t, feature_count> features_{};  // as they stand in the file, in the memory of this machine
+    Error error_;                                          // rows that do not fit
 };
 
 Status NpySink::begin() {
@@ -66,7 +77,12 @@ Status NpySink::begin() {
     if (!fields) return fields.error();
     types_ = std::move(fields->descr);
     row_size_ = fields->row_size;
-    buffer_.resize(buffered_rows(row_size_) * row_size_);
+    for (std::size_t f = 0; f < features_.size(); ++f) {
+        std::array<char, npy_feature_size> text{};
+        const std::string_view word = name(static_cast<Feature>(f));
+        std::copy_n(word.begin(), std::min(word.size(), text.size()), text.begin());
+        std::memcpy(&features_[f], text.data(), text.size());
+    }
 
     // Version 1 has 2 bytes for the length and is in Latin-1, version 2 has 4, version 3 is in UTF-8.
     const bool ascii =
@@ -103,8 +119,8 @@ void NpySink::put_row(const TableView& rows, std::size_t row, char* at) const {
     for (const double x : rows.points.subspan(row * dimension, dimension))
         at = put(at, std::bit_cast<std::uint64_t>(x));
     at = put(at, static_cast<std::uint64_t>(static_cast<std::int64_t>(rows.cells[row])));
-    const std::string_view feature = name(rows.features[row]);
-    for (std::size_t i = 0; i < npy_feature_size; ++i) *at++ = i < feature.size() ? feature[i] : '\0';
+    std::memcpy(at, &features_[static_cast<std::size_t>(rows.features[row])], npy_feature_size);
+    at += npy_feature_size;
     for (const double x : rows.values.subspan(row * columns_, columns_)) at = put(at, std::bit_cast<std::uint64_t>(x));
     if (format_.distances) put(at, std::bit_cast<std::uint64_t>(rows.distances[row]));
 }
@@ -114,12 +130,18 @@ Status NpySink::write(const TableView& rows) {
     if (!error_.what.empty()) return error_;
     if (Status fits = check_rows(rows, format_, path_); !fits) return error_ = fits.error();
     const std::size_t count = rows.cells.size();
-    const std::size_t max = buffer_.size() / row_size_;
-    for (std::size_t row = 0; row < count;) {
-        const std::size_t size = std::min(max, count - row);
-        for (std::size_t i = 0; i < size; ++i) put_row(rows, row + i, buffer_.data() + i * row_size_);
+    const std::size_t piece = rows_a_piece(row_size_), at_once = pieces_at_once * piece;
+    buffer_.resize(std::max(buffer_.size(), std::min(count, at_once) * row_size_));
+    for (std::size_t row = 0; row < count && file_.status(); row += at_once) {
+        const std::size_t size = std::min(at_once, count - row);
+        // Whoever waits here must not begin other work of the caller: its stages wait for this one.
+        tbb::this_task_arena::isolate([&] {
+            tbb::parallel_for(std::size_t{0}, (size + piece - 1) / piece, [&](std::size_t p) {
+                for (std::size_t i = p * piece; i < std::min(size, (p + 1) * piece); ++i)
+                    put_row(rows, row + i, buffer_.data() + i * row_size_);
+            });
+        });
         file_.write({buffer_.data(), size * row_size_});
-        row += size;
     }
     count_ += count;
     return file_.status();

@@ -5,8 +5,10 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <utility>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
@@ -50,7 +52,7 @@ private:
                 .found = std::move(found),
                 .remedy = std::move(remedy)};
     }
-    Status read_bytes(std::uint64_t offset, std::size_t size);
+    Status read_bytes(std::uint64_t offset, std::span<char> bytes);
     Status read_numbers(std::uint64_t first, std::size_t count, double* out, std::size_t stride);
 
     std::string path_;
@@ -64,13 +66,12 @@ private:
     Error error_;
 };
 
-Status NpySource::read_bytes(std::uint64_t offset, std::size_t size) {
-    bytes_.resize(size);
-    const Result<std::size_t> got = file_.read_at(offset, bytes_, path_);
+Status NpySource::read_bytes(std::uint64_t offset, std::span<char> bytes) {
+    const Result<std::size_t> got = file_.read_at(offset, bytes, path_);
     if (!got) return got.error();
-    if (*got == size) return Done{};
-    return failure("the file ends too early", "byte " + std::to_string(offset + size - 1), "the end of the file",
-                   "do not change the file while it is read");
+    if (*got == bytes.size()) return Done{};
+    return failure("the file ends too early", "byte " + std::to_string(offset + bytes.size() - 1),
+                   "the end of the file", "do not change the file while it is read");
 }
 
 Status NpySource::begin() {
@@ -79,7 +80,8 @@ Status NpySource::begin() {
     if (!opened) return opened.error();
     file_ = std::move(*opened);
     file_size_ = file_.size();
-    if (Status head = read_bytes(0, std::min<std::uint64_t>(npy_head, file_size_)); !head) return head;
+    bytes_.resize(std::min<std::uint64_t>(npy_head, file_size_));
+    if (Status head = read_bytes(0, bytes_); !head) return head;
     const Result<NpyText> text = find_npy_text({bytes_.data(), bytes_.size()}, path_);
     if (!text) return text.error();
     data_ = text->offset + text->size;
@@ -87,7 +89,8 @@ Status NpySource::begin() {
         return failure("the file ends too early", "a header of " + std::to_string(data_) + " bytes",
                        std::to_string(file_size_), "the file may be cut short: write it again");
     }
-    if (Status read = read_bytes(text->offset, text->size); !read) return read;
+    bytes_.resize(text->size);
+    if (Status read = read_bytes(text->offset, bytes_); !read) return read;
     const Result<NpyHeader> header = parse_npy_text({bytes_.data(), bytes_.size()}, path_);
     if (!header) return header.error();
     const Result<NpyLayout> layout = settle_npy_layout(*header, dimension_, file_size_ - data_, path_);
@@ -98,9 +101,13 @@ Status NpySource::begin() {
 
 /// The `count` numbers of the file from number `first` on, to out[0], out[stride], ...
 Status NpySource::read_numbers(std::uint64_t first, std::size_t count, double* out, std::size_t stride) {
+    const bool as_in_memory = layout_.item == 8 && !layout_.swapped && stride == 1;
+    if (as_in_memory && count != 0)
+        return read_bytes(data_ + first * 8, {reinterpret_cast<char*>(out), count * sizeof(double)});
     for (std::size_t done = 0; done < count;) {
         const std::size_t size = std::min(block_size, count - done);
-        if (Status read = read_bytes(data_ + (first + done) * layout_.item, size * layout_.item); !read) return read;
+        bytes_.resize(size * layout_.item);
+        if (Status read = read_bytes(data_ + (first + done) * layout_.item, bytes_); !read) return read;
         for (std::size_t i = 0; i < size; ++i) {
             const char* const at = bytes_.data() + i * layout_.item;
             out[(done + i) * stride] = layout_.item == 8
@@ -127,7 +134,8 @@ Result<std::size_t> NpySource::read(std::size_t max, std::vector<double>& out) {
     } else {
         read = read_numbers(next_ * dimension_, taken * dimension_, points, 1);
     }
-    for (std::size_t i = 0; i < taken * dimension_ && read; ++i) {
+    const bool finite = read && base::all_finite({points, taken * dimension_});
+    for (std::size_t i = 0; i < taken * dimension_ && read && !finite; ++i) {
         if (std::isfinite(points[i])) continue;
         read = failure("a point that is not finite", "finite coordinates",
                        base::shortest(points[i]) + " at [" + std::to_string(next_ + i / dimension_) + ", " +

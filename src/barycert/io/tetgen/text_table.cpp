@@ -57,6 +57,7 @@ bool parse_blocks(const std::vector<Block>& blocks, int threads) {
             Scanner scanner{block.start, block.table->end()};
             std::size_t row = block.first_row;
             if (!block.table->parse(scanner, block.stop, row, block.last_row)) good = false;
+            block.table->data.let_go({block.start, static_cast<std::size_t>(block.stop - block.start)});
         }
     };
     const auto wanted = std::min(static_cast<std::size_t>(threads), blocks.size());

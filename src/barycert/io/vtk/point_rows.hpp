@@ -31,8 +31,9 @@ struct PointRows {
 /// `vtkValidPointMask` (Int8: 1 inside, 0 outside, as VTK's own probes name it), `distance` (Float64) and the fields
 /// (Float64, any value).
 ///
-/// Made in memory first, as by write_vtu. Error: spans or fields of other lengths; a name that is one of these, appears
-/// twice, is empty, or that XML cannot hold; a coordinate that is not finite; the file cannot be written.
+/// Raw appended and uncompressed, in the order of this machine; nothing is made in memory first. Error: spans or fields
+/// of other lengths; a name that is one of these, appears twice, is empty, or that XML cannot hold; a coordinate that
+/// is not finite; the file cannot be written.
 Status write_vtk_points(const std::string& path, const PointRows& rows);
 
 /// A sink of rows into such a file. It keeps them in memory until commit(), for the format has one array after the

@@ -1,22 +1,17 @@
-#include <vtkCellArray.h>
 #include <vtkCellType.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkSignedCharArray.h>
-#include <vtkTypeInt32Array.h>
-#include <vtkTypeInt64Array.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
-#include <new>
-#include <numeric>
+#include <cstring>
+#include <functional>
+#include <utility>
 
+#include "barycert/base/output_file.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/io/vti/appended.hpp"
 #include "barycert/io/vtk/mesh_to_grid.hpp"
 #include "barycert/io/vtk/point_rows.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
-#include "barycert/io/vtk/vtu_output.hpp"
 
 namespace barycert::io {
 namespace {
@@ -51,41 +46,107 @@ std::string fault_of(const PointRows& rows) {
     return io::fault_of_names(rows.fields, std::move(names), io::Names::xml);
 }
 
-/// Adds a copy of the values, if there are any.
-template <class Array, class Values>
-void add(vtkUnstructuredGrid* grid, const char* name, const Values& values) {
-    if (values.empty()) return;
-    vtkNew<Array> array;
-    array->SetName(name);
-    array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
-    using Number = typename Array::ValueType;
-    std::transform(values.begin(), values.end(), array->GetPointer(0), [](auto x) { return static_cast<Number>(x); });
-    grid->GetPointData()->AddArray(array);
+/// An array, how many numbers it has and what writes them.
+struct ArrayOut {
+    VtiArray array;
+    std::uint64_t count = 0;
+    std::function<void(base::OutputFile&)> write;
+
+    std::uint64_t size() const { return count * number_size(array.type); }
+};
+
+/// count numbers at(0), at(1), ...
+template <class T, class At>
+ArrayOut array_of(VtiArray array, std::size_t count, At at) {
+    return {std::move(array), count, [count, at](base::OutputFile& file) {
+                std::vector<T> some(std::min<std::size_t>(count, std::size_t{1} << 16));
+                for (std::size_t first = 0; first < count; first += some.size()) {
+                    const std::size_t size = std::min(some.size(), count - first);
+                    for (std::size_t i = 0; i < size; ++i) some[i] = static_cast<T>(at(first + i));
+                    file.write({reinterpret_cast<const char*>(some.data()), size * sizeof(T)});
+                }
+            }};
+}
+
+/// The numbers as they are.
+ArrayOut array_of(VtiArray array, std::span<const double> numbers) {
+    return {std::move(array), numbers.size(), [numbers](base::OutputFile& file) {
+                file.write({reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()});
+            }};
+}
+
+/// Arrays below an element such as PointData.
+struct PointSection {
+    std::string element;
+    std::vector<ArrayOut> arrays;
+};
+
+std::vector<PointSection> sections_of(const PointRows& rows) {
+    const std::size_t count = rows.points.size() / static_cast<std::size_t>(rows.dimension);
+    std::vector<ArrayOut> found;
+    if (!rows.cells.empty())
+        found.push_back(array_of<std::int64_t>({cell_name, 1, VtiType::int64}, count,
+                                               [cells = rows.cells](std::size_t i) { return cells[i]; }));
+    if (!rows.features.empty())
+        found.push_back(array_of<std::uint8_t>({feature_name, 1, VtiType::uint8}, count,
+                                               [features = rows.features](std::size_t i) { return features[i]; }));
+    if (!rows.inside.empty())
+        found.push_back(array_of<std::int8_t>({mask_name, 1, VtiType::int8}, count,
+                                              [inside = rows.inside](std::size_t i) { return inside[i]; }));
+    if (!rows.distances.empty()) found.push_back(array_of({distance_name, 1, VtiType::float64}, rows.distances));
+    if (count != 0) {
+        for (const Field& field : rows.fields)
+            found.push_back(array_of({field.name, field.components, VtiType::float64}, field.data));
+    }
+    const VtiArray coordinates{"Points", 3, VtiType::float64};
+    const auto in_plane = [points = rows.points](std::size_t i) {
+        return i % 3 == 2 ? 0.0 : points[i / 3 * 2 + i % 3];
+    };
+    std::vector<PointSection> sections;
+    sections.push_back({"PointData", std::move(found)});
+    sections.push_back({"CellData", {}});
+    sections.push_back({"Points",
+                        {rows.dimension == 3 ? array_of(coordinates, rows.points)
+                                             : array_of<double>(coordinates, 3 * count, in_plane)}});
+    // Each point a cell. Node numbers go up to 2^31 - 1.
+    const auto number = [](std::size_t i) { return i; };
+    const auto next = [](std::size_t i) { return i + 1; };
+    const auto vertex = [](std::size_t) { return VTK_VERTEX; };
+    sections.push_back({"Cells",
+                        {array_of<std::int32_t>({"connectivity", 1, VtiType::int32}, count, number),
+                         array_of<std::int32_t>({"offsets", 1, VtiType::int32}, count, next),
+                         array_of<std::uint8_t>({"types", 1, VtiType::uint8}, count, vertex)}});
+    return sections;
 }
 
 Status write(const std::string& path, const PointRows& rows) {
-    vtkNew<vtkUnstructuredGrid> grid;
-    grid->SetPoints(io::points_of(rows.points, rows.dimension));
-    const std::size_t count = rows.points.size() / static_cast<std::size_t>(rows.dimension);
-    vtkNew<vtkTypeInt32Array> nodes;
-    nodes->SetNumberOfValues(static_cast<vtkIdType>(count));
-    std::iota(nodes->GetPointer(0), nodes->GetPointer(0) + count, 0);
-    vtkNew<vtkCellArray> cells;
-    cells->SetData(1, nodes);
-    grid->SetCells(VTK_VERTEX, cells);
-    add<vtkTypeInt64Array>(grid, cell_name, rows.cells);
-    add<vtkUnsignedCharArray>(grid, feature_name, rows.features);
-    add<vtkSignedCharArray>(grid, mask_name, rows.inside);
-    if (!rows.distances.empty()) {
-        const auto distances = io::view_of(rows.distances, 1);
-        distances->SetName(distance_name);
-        grid->GetPointData()->AddArray(distances);
+    const std::vector<PointSection> sections = sections_of(rows);
+    const std::string count = std::to_string(rows.points.size() / static_cast<std::size_t>(rows.dimension));
+    std::string head = vtk_file_head("UnstructuredGrid") + "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"" +
+                       count + "\" NumberOfCells=\"" + count + "\">\n";
+    std::uint64_t offset = 0;
+    for (const PointSection& section : sections) {
+        head += "      <" + section.element + ">\n";
+        for (const ArrayOut& a : section.arrays) {
+            head += array_element(a.array, offset);
+            offset += appended_header + a.size();
+        }
+        head += "      </" + section.element + ">\n";
     }
-    io::add_fields(grid->GetPointData(), rows.fields, io::Names::xml);
-    // Coordinates, three arrays of cells, and one array of each kind.
-    std::size_t size = 4096 + count * (24 + 9 + 8 + 1 + 1 + 8);
-    for (const Field& field : rows.fields) size += field.data.size() * sizeof(double) + field.name.size() * 6 + 512;
-    return io::write_vtu_grid(grid, path, size);
+    head += "    </Piece>\n  </UnstructuredGrid>\n" + std::string(appended_begin);
+    base::OutputFile file(path);
+    file.write(head);
+    for (const PointSection& section : sections) {
+        for (const ArrayOut& a : section.arrays) {
+            const std::uint64_t size = a.size();
+            char header[appended_header];
+            std::memcpy(header, &size, appended_header);
+            file.write({header, appended_header});
+            a.write(file);
+        }
+    }
+    file.write(appended_tail);
+    return file.commit();
 }
 
 }  // namespace
@@ -93,11 +154,7 @@ Status write(const std::string& path, const PointRows& rows) {
 Status write_vtk_points(const std::string& path, const PointRows& rows) {
     const ExactEnvironment environment;
     if (const std::string fault = fault_of(rows); !fault.empty()) return io::cannot_write("the points", fault, path);
-    try {
-        return write(path, rows);
-    } catch (const std::bad_alloc&) {
-        return io::vtk_failure(path, "too little memory");
-    }
+    return write(path, rows);
 }
 
 }  // namespace barycert::io

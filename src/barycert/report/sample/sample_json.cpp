@@ -77,7 +77,6 @@ Json picture_json(const SliceCounts& n) {
 Json seconds_json(const SampleSeconds& s) {
     Json j;
     j["mesh"] = s.mesh;
-    j["certify"] = s.certify;
     j["build"] = s.build;
     j["read"] = s.read;
     j["sample"] = s.sample;
@@ -98,6 +97,7 @@ std::string sample_json(const SampleSummary& summary, const Environment& environ
     j["nodes"] = summary.nodes;
     j["cells"] = summary.cells;
     j["degenerate_cells"] = summary.degenerate_cells;
+    j["contested_cells"] = summary.contested_cells;
     j["verdict"] = name(summary.verdict);
     j["from"] = name(summary.from);
     if (summary.grid) {

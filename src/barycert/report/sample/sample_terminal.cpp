@@ -75,7 +75,6 @@ std::string times(const SampleSummary& summary) {
     const SampleSeconds& s = summary.seconds;
     std::string text = fmt::format("{:.3g} s on {}: mesh {:.3g}", s.total,
                                    plural(static_cast<std::uint64_t>(summary.threads), "thread", "threads"), s.mesh);
-    if (s.certify != 0) text += fmt::format(", check {:.3g}", s.certify);
     text += fmt::format(", locator {:.3g}", s.build);
     if (summary.from != PointsFrom::grid) text += fmt::format(", points {:.3g}", s.read);
     text += fmt::format(", sampling {:.3g}, writing {:.3g}", s.sample, s.write);

@@ -8,7 +8,7 @@
 #define BARYCERT_SAMPLE_FILL_SETUP_INL_HPP
 #endif
 
-#include "barycert/locate/records-inl.hpp"
+#include "barycert/index/records-inl.hpp"
 #include "barycert/sample/grid/fill_lanes.hpp"
 #include "barycert/sample/grid/fill_values-inl.hpp"
 
@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace barycert::sample {
 namespace HWY_NAMESPACE {
 
-using namespace locate::HWY_NAMESPACE;
+using namespace index::HWY_NAMESPACE;
 
 /// MaxLanes cells.
 template <template <int> class Values, int d>

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "barycert/locate/cell_index.hpp"
+#include "barycert/locate/names.hpp"
 
 namespace barycert::sample {
 

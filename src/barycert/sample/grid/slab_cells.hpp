@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "barycert/locate/cell_index.hpp"
+#include "barycert/locate/names.hpp"
 #include "barycert/sample/grid/raster_lanes.hpp"
 
 namespace barycert::sample {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "barycert/grid.hpp"
-#include "barycert/locate/buffer.hpp"
+#include "barycert/index/buffer.hpp"
 #include "barycert/sample/grid/fill_lanes.hpp"
 #include "barycert/sample/grid/finish_lanes.hpp"
 #include "barycert/sample/grid/raster_lanes.hpp"

@@ -6,14 +6,14 @@
 
 #include "barycert/core/lane_loop-inl.hpp"
 #include "barycert/core/refinement-inl.hpp"
-#include "barycert/locate/records-inl.hpp"
+#include "barycert/index/records-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::sample {
 namespace HWY_NAMESPACE {
 
 using namespace core::HWY_NAMESPACE;
-using namespace locate::HWY_NAMESPACE;
+using namespace index::HWY_NAMESPACE;
 
 /// Values of refined weights, or plain ones: value(f) for the nodal values f of a component, clearing `certain` where
 /// it is not.

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "barycert/locate/cell_index.hpp"
+#include "barycert/locate/names.hpp"
 #include "barycert/locate/walk_lanes.hpp"
 #include "barycert/weights.hpp"
 

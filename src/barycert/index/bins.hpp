@@ -1,0 +1,50 @@
+/// A space-filling curve through the bins of a box.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "barycert/index/quantizer.hpp"
+
+namespace barycert::index {
+
+/// A box cut into 2^bits bins, in the order of Morton's curve: the longest side of a bin is halved until there are
+/// enough, so bins are as near to cubes as can be.
+class Bins {
+public:
+    Bins() = default;
+
+    /// About `bins` of them, at most 2^27.
+    Bins(std::size_t d, const double* low, const double* high, std::size_t bins);
+
+    const Quantizer& quantizer() const { return quantizer_; }
+    std::size_t count() const { return std::size_t{1} << bits_; }
+    int bits() const { return bits_; }
+
+    /// The bin of a point with d coordinates, d as given; the nearest one of a point outside the box.
+    std::uint32_t of(const double* point) const {
+        std::uint32_t bin = 0;
+        for (std::size_t k = 0; k < d_; ++k)
+            bin |= curve_[k][static_cast<std::size_t>(quantizer_.at(k, point[k]) >> shift_[k])];
+        return bin;
+    }
+
+    /// The bin of a point given in whole numbers of the quantizer.
+    template <class T, std::size_t d>
+    std::uint32_t of_quantized(const std::array<T, d>& point) const {
+        std::uint32_t bin = 0;
+        for (std::size_t k = 0; k < d; ++k) bin |= curve_[k][static_cast<std::size_t>(point[k] >> shift_[k])];
+        return bin;
+    }
+
+private:
+    Quantizer quantizer_;
+    std::size_t d_ = 0;
+    int bits_ = 0;
+    std::array<int, 3> shift_{};
+    std::array<std::vector<std::uint32_t>, 3> curve_;  ///< by place on the axis: its bits where they stand in a bin
+};
+
+}  // namespace barycert::index

@@ -1,0 +1,175 @@
+#include "barycert/index/cell_index.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+
+#include "barycert/index/radix_sort.hpp"
+
+namespace barycert::index {
+namespace {
+
+/// Cells or nodes that a task takes at a time.
+constexpr std::size_t grain = std::size_t{1} << 14;
+
+template <class Use>
+void for_ranges(std::size_t count, Use use) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
+                      [&](const tbb::blocked_range<std::size_t>& range) { use(range.begin(), range.end()); });
+}
+
+/// The nodes that cells have, ascending: others may lie anywhere.
+std::vector<Mesh::Index> used_nodes(const Mesh& mesh) {
+    std::vector<std::uint8_t> used(mesh.point_count(), 0);
+    for_ranges(mesh.cells.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            std::atomic_ref(used[static_cast<std::size_t>(mesh.cells[i])]).store(1, std::memory_order_relaxed);
+    });
+    std::vector<Mesh::Index> nodes(used.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        nodes[count] = static_cast<Mesh::Index>(i);
+        count += used[i];
+    }
+    nodes.resize(count);
+    return nodes;
+}
+
+void find_box(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, CellIndex& index) {
+    const std::size_t d = index.dimension();
+    for (std::size_t k = 0; k < d; ++k) {
+        index.low[k] = std::numeric_limits<double>::infinity();
+        index.high[k] = -index.low[k];
+    }
+    for (const Mesh::Index node : nodes) {
+        for (std::size_t k = 0; k < d; ++k) {
+            const double x = mesh.points[d * static_cast<std::size_t>(node) + k];
+            index.low[k] = std::min(index.low[k], x);
+            index.high[k] = std::max(index.high[k], x);
+        }
+    }
+}
+
+/// Copies nodes along the curve; returns the place of each node of the mesh.
+template <std::size_t d>
+Buffer<Place> place_nodes(const Mesh& mesh, const std::vector<Mesh::Index>& used, CellIndex& index) {
+    Buffer<KeyedPlace> order(used.size());
+    for_ranges(order.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            order[i] = {index.bins.of(&mesh.points[d * static_cast<std::size_t>(used[i])]), used[i]};
+    });
+    sort_by_key(order, index.bins.bits());
+    Buffer<Place> place(mesh.point_count());
+    index.nodes = Buffer<NodeRecord>(order.size());
+    index.original_node.resize(order.size());
+    for_ranges(order.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const auto node = static_cast<std::size_t>(order[i].place);
+            place[node] = static_cast<Place>(i);
+            index.original_node[i] = order[i].place;
+            index.nodes[i] = {};
+            for (std::size_t k = 0; k < d; ++k) index.nodes[i].at[k] = mesh.points[d * node + k];
+        }
+    });
+    return place;
+}
+
+/// The cells along the curve, by the middles of their corners in whole numbers of the quantizer.
+template <std::size_t d>
+Buffer<KeyedPlace> order_cells(const Mesh& mesh, const Bins& bins) {
+    Buffer<std::array<std::int32_t, d>> nodes(mesh.point_count());
+    for_ranges(nodes.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            for (std::size_t k = 0; k < d; ++k) nodes[i][k] = bins.quantizer().at(k, mesh.points[d * i + k]);
+        }
+    });
+    Buffer<KeyedPlace> cells(mesh.cell_count());
+    for_ranges(cells.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t c = first; c < last; ++c) {
+            const Mesh::Index* const corner = mesh.cells.data() + (d + 1) * c;
+            std::array<std::int64_t, d> sum{};
+            for (std::size_t i = 0; i <= d; ++i) {
+                const auto& node = nodes[static_cast<std::size_t>(corner[i])];
+                for (std::size_t k = 0; k < d; ++k) sum[k] += node[k];
+            }
+            for (std::size_t k = 0; k < d; ++k) sum[k] /= static_cast<std::int64_t>(d + 1);
+            cells[c] = {bins.of_quantized(sum), static_cast<Place>(c)};
+        }
+    });
+    sort_by_key(cells, bins.bits());
+    return cells;
+}
+
+template <std::size_t d>
+void place_cells(const Mesh& mesh, const Buffer<KeyedPlace>& order, const Buffer<Place>& place_of_node,
+                 CellIndex& index) {
+    // Cells that are near in space are anywhere in the file: they are asked for some cells ahead.
+    constexpr std::size_t ahead = 32;
+    const auto corners_at = [&](std::size_t place) {
+        return mesh.cells.data() + (d + 1) * static_cast<std::size_t>(order[place].place);
+    };
+    const auto bin_at = [&](std::size_t place) { return order[place].key >> CellIndex::part_bits; };
+    for_ranges(order.size(), [&](std::size_t first, std::size_t last) {
+        std::size_t bin = first == 0 ? 0 : std::size_t{bin_at(first - 1)} + 1;
+        for (std::size_t place = first; place < last; ++place) {
+            if (place + ahead < last) __builtin_prefetch(corners_at(place + ahead));
+            while (bin <= bin_at(place)) index.first[bin++] = static_cast<Place>(place);
+            const Mesh::Index* const corner = corners_at(place);
+            CellRecord& record = index.cells[place];
+            for (std::size_t i = 0; i <= d; ++i) record.node[i] = place_of_node[static_cast<std::size_t>(corner[i])];
+            if constexpr (d == 2) record.node[3] = record.node[0];
+            record.next = {-1, -1, -1, -1};
+            index.original[place] = order[place].place;
+        }
+    });
+    const std::size_t end = std::size_t{bin_at(order.size() - 1)} + 1;
+    std::fill(index.first.begin() + static_cast<std::ptrdiff_t>(end), index.first.end(),
+              static_cast<Place>(order.size()));
+}
+
+template <std::size_t d>
+void build(const Mesh& mesh, const std::vector<Mesh::Index>& used, CellIndex& index) {
+    const Buffer<Place> place_of_node = place_nodes<d>(mesh, used, index);
+    place_cells<d>(mesh, order_cells<d>(mesh, index.bins), place_of_node, index);
+}
+
+}  // namespace
+
+std::size_t CellIndex::bytes() const {
+    return cells.bytes() + original.bytes() + nodes.bytes() + original_node.size() * sizeof(Mesh::Index) +
+           first.size() * sizeof(Place);
+}
+
+std::array<double, 12> vertices_of(const CellIndex& index, Place cell) {
+    std::array<double, 12> vertices{};
+    const CellRecord& record = index.cells[static_cast<std::size_t>(cell)];
+    const std::size_t d = index.dimension();
+    for (std::size_t i = 0; i <= d; ++i) {
+        const auto& at = index.nodes[static_cast<std::size_t>(record.node[i])].at;
+        for (std::size_t k = 0; k < d; ++k) vertices[d * i + k] = at[k];
+    }
+    return vertices;
+}
+
+CellIndex make_cell_index(const Mesh& mesh) {
+    CellIndex index;
+    index.simplex = mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron;
+    const std::vector<Mesh::Index> used = used_nodes(mesh);
+    find_box(mesh, used, index);
+    index.cells = Buffer<CellRecord>(mesh.cell_count());
+    index.original = Buffer<Mesh::Index>(mesh.cell_count());
+    if (mesh.cell_count() == 0) {
+        index.first.assign(2, 0);
+        return index;
+    }
+    index.bins =
+        Bins(index.dimension(), index.low.data(), index.high.data(), mesh.cell_count() << CellIndex::part_bits);
+    index.first.resize((index.bins.count() >> CellIndex::part_bits) + 2);
+    mesh.dimension == 2 ? build<2>(mesh, used, index) : build<3>(mesh, used, index);
+    return index;
+}
+
+}  // namespace barycert::index

@@ -1,0 +1,74 @@
+/// The cells of a mesh in the order of a space-filling curve, ready to be walked through.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "barycert/index/bins.hpp"
+#include "barycert/index/buffer.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
+
+namespace barycert::index {
+
+/// A cell or node as it is numbered here: what lies near in space mostly has near numbers, so that points in the same
+/// order find what they need in cache.
+using Place = std::int32_t;
+
+/// What a step of a walk reads of a cell: half of a cache line. In 2D the last corner repeats the first one.
+struct alignas(32) CellRecord {
+    std::array<Place, 4> node;
+    std::array<Place, 4> next;  ///< the cell across the facet opposite to each corner, -1 where there is none
+};
+
+/// One aligned load: coordinates (2D: z = 0), and room for a value.
+struct alignas(32) NodeRecord {
+    std::array<double, 3> at;
+    double value;
+};
+
+struct CellIndex {
+    Simplex simplex = Simplex::tetrahedron;
+    std::array<double, 3> low{}, high{};  ///< the box of all cells, exactly
+    Bins bins;                            ///< of which several make a bin of `first`: by them cells are ordered there
+    static constexpr int part_bits = 3;
+    Buffer<CellRecord> cells;
+    Buffer<Mesh::Index> original;  ///< cell of the mesh by place
+    Buffer<NodeRecord> nodes;
+    std::vector<Mesh::Index> original_node;  ///< node of the mesh by place; those of no cell have none
+    /// By bin, without its last part_bits bits: the first cell there or later; one more at the end.
+    std::vector<Place> first;
+
+    std::size_t dimension() const { return static_cast<std::size_t>(space_dimension(simplex)); }
+    std::size_t corners() const { return dimension() + 1; }
+    std::size_t cell_count() const { return cells.size(); }
+    std::size_t bytes() const;
+
+    /// A cell near the points of a bin: where it would stand among the cells of its bin of `first`, or the next cell.
+    /// Precondition: there is a cell.
+    Place start(std::uint32_t bin) const {
+        const Place begin = first[bin >> part_bits], count = first[(bin >> part_bits) + 1] - begin;
+        constexpr std::uint32_t parts = 1U << part_bits;
+        const auto before = static_cast<std::int64_t>(2 * (bin & (parts - 1)) + 1) * count / (2 * parts);
+        return std::min(begin + static_cast<Place>(before), static_cast<Place>(cells.size()) - 1);
+    }
+
+    bool box_holds(const double* p) const {
+        for (std::size_t k = 0; k < dimension(); ++k) {
+            if (!(low[k] <= p[k] && p[k] <= high[k])) return false;
+        }
+        return true;
+    }
+};
+
+/// The vertices of a cell, vertex after vertex (see Case).
+std::array<double, 12> vertices_of(const CellIndex& index, Place cell);
+
+/// Without neighbours, see link_facets. Precondition: the mesh is consistent. Time O(cells), on the threads of the
+/// calling arena, which do not change the outcome.
+CellIndex make_cell_index(const Mesh& mesh);
+
+}  // namespace barycert::index

@@ -1,0 +1,42 @@
+#include "barycert/index/cell_tree.hpp"
+
+namespace barycert::index {
+
+CellBox box_of(const CellIndex& index, const double* const* points, std::size_t count) {
+    CellBox box;
+    for (std::size_t i = 0; i < count; ++i) {
+        CellBox at{{}, {}};
+        for (std::size_t k = 0; k < index.dimension(); ++k)
+            at.low[k] = at.high[k] = index.bins.quantizer().at(k, points[i][k]);
+        box.add(at);
+    }
+    return box;
+}
+
+CellBox box_of(const CellIndex& index, Place cell) {
+    const auto& node = index.cells[static_cast<std::size_t>(cell)].node;
+    std::array<const double*, 4> at{};
+    for (std::size_t i = 0; i < index.corners(); ++i) at[i] = index.nodes[static_cast<std::size_t>(node[i])].at.data();
+    return box_of(index, at.data(), index.corners());
+}
+
+CellTree make_cell_tree(const CellIndex& index) {
+    std::vector<std::array<std::int32_t, 3>> nodes(index.original_node.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes.size(), 8192), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            nodes[i] = {};
+            for (std::size_t k = 0; k < index.dimension(); ++k)
+                nodes[i][k] = index.bins.quantizer().at(k, index.nodes[i].at[k]);
+        }
+    });
+    return CellTree(index.cell_count(), [&](std::size_t cell) {
+        CellBox box;
+        for (std::size_t i = 0; i < index.corners(); ++i) {
+            const auto& at = nodes[static_cast<std::size_t>(index.cells[cell].node[i])];
+            box.add({at, at});
+        }
+        return box;
+    });
+}
+
+}  // namespace barycert::index

@@ -1,0 +1,25 @@
+/// Do two boundary facets meet where they must not? Exactly, by signs of orientations alone.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "barycert/mesh.hpp"
+
+namespace barycert::index {
+
+/// A facet with proper extent: a triangle in 3-space of which no side projection is needed to be non-zero but one, or a
+/// segment in the plane.
+struct PlacedFacet {
+    std::array<Mesh::Index, 3> nodes{-1, -1, -1};
+    std::array<const double*, 3> at{};
+};
+
+/// True if the facet is not degenerate: a triangle with an area, a segment with a length.
+bool proper(int d, const PlacedFacet& f);
+
+/// True if the two closed facets have a point in common that is not in the face which they share by their nodes (which
+/// may be empty, a node or an edge). Preconditions: both proper, not of the same nodes, coordinates finite.
+bool facets_conflict(int d, const PlacedFacet& f, const PlacedFacet& g);
+
+}  // namespace barycert::index

@@ -1,0 +1,32 @@
+/// Cells linked over their facets, and what that leaves open.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+#include "barycert/index/cell_index.hpp"
+
+namespace barycert::index {
+
+/// The facet of a cell opposite to one of its corners.
+struct CellFacet {
+    Place cell;
+    std::int32_t corner;
+
+    friend auto operator<=>(const CellFacet&, const CellFacet&) = default;
+};
+
+struct FacetLinks {
+    /// Facets without a partner, by cell, then corner. Where facets have at most two cells, on opposite sides, this is
+    /// the boundary.
+    std::vector<CellFacet> open;
+    std::vector<Place> degenerate;  ///< cells of volume exactly zero, ascending: they have no links
+};
+
+/// Sets `next` of all cells. Two facets of the same nodes are partners if their cells, neither degenerate, certainly
+/// lie on opposite sides; each facet has at most one partner. The outcome does not depend on threads. Uses those of the
+/// calling arena.
+FacetLinks link_facets(CellIndex& index);
+
+}  // namespace barycert::index

@@ -1,0 +1,150 @@
+#include "barycert/index/open_sheets.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <utility>
+
+#include "barycert/base/disjoint_sets.hpp"
+#include "barycert/index/candidates.hpp"
+#include "barycert/index/cell_tree.hpp"
+#include "barycert/index/overlapped.hpp"
+
+namespace barycert::index {
+namespace {
+
+struct Ridge {
+    std::uint64_t nodes;
+    std::uint32_t facet;
+};
+
+/// Of all facets, equal ones side by side.
+std::vector<Ridge> ridges_of(int d, const std::vector<PlacedFacet>& facets) {
+    const auto n = static_cast<std::size_t>(d);
+    std::vector<Ridge> ridges(facets.size() * n);
+    tbb::parallel_for(std::size_t{0}, facets.size(), [&](std::size_t f) {
+        const auto node = [&](std::size_t i) { return static_cast<std::uint64_t>(facets[f].nodes[i]); };
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::uint64_t nodes = d == 2 ? node(i) : node(i == 0 ? 1 : 0) << 32 | node(i == 2 ? 1 : 2);
+            ridges[n * f + i] = {nodes, static_cast<std::uint32_t>(f)};
+        }
+    });
+    tbb::parallel_sort(ridges.begin(), ridges.end(), [](const Ridge& a, const Ridge& b) {
+        return a.nodes != b.nodes ? a.nodes < b.nodes : a.facet < b.facet;
+    });
+    return ridges;
+}
+
+}  // namespace
+
+Item item_of(const PlacedFacet& facet, int d) {
+    Item item{.count = d};
+    std::copy(facet.nodes.begin(), facet.nodes.end(), item.nodes.begin());
+    std::copy(facet.at.begin(), facet.at.end(), item.at.begin());
+    return item;
+}
+
+PlacedFacet placed(const CellIndex& index, const CellFacet& facet) {
+    const auto& node = index.cells[static_cast<std::size_t>(facet.cell)].node;
+    PlacedFacet placed;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < index.corners(); ++i) {
+        if (i != static_cast<std::size_t>(facet.corner)) placed.nodes[count++] = node[i];
+    }
+    std::sort(placed.nodes.begin(), placed.nodes.begin() + static_cast<std::ptrdiff_t>(count));
+    for (std::size_t i = 0; i < count; ++i)
+        placed.at[i] = index.nodes[static_cast<std::size_t>(placed.nodes[i])].at.data();
+    return placed;
+}
+
+namespace {
+
+/// Flags that threads raise.
+class Conflicts {
+public:
+    Conflicts(int d, const std::vector<PlacedFacet>& facets) : d_(d), facets_(facets), flags_(facets.size(), 0) {}
+
+    void ask(std::size_t i, std::size_t j) {
+        if (raised(i) && raised(j)) return;
+        if (facets_[i].nodes != facets_[j].nodes && !facets_conflict(d_, facets_[i], facets_[j])) return;
+        raise(i);
+        raise(j);
+    }
+    std::vector<std::uint8_t> take() { return std::move(flags_); }
+
+private:
+    bool raised(std::size_t i) { return std::atomic_ref(flags_[i]).load(std::memory_order_relaxed) != 0; }
+    void raise(std::size_t i) { std::atomic_ref(flags_[i]).store(1, std::memory_order_relaxed); }
+
+    int d_;
+    const std::vector<PlacedFacet>& facets_;
+    std::vector<std::uint8_t> flags_;
+};
+
+/// The most facets that one node has.
+std::size_t largest_fan(std::size_t nodes, const std::vector<PlacedFacet>& facets) {
+    std::vector<std::uint32_t> count(nodes, 0);
+    std::uint32_t largest = 0;
+    for (const PlacedFacet& facet : facets) {
+        for (const Mesh::Index node : facet.nodes) {
+            if (node >= 0) largest = std::max(largest, ++count[static_cast<std::size_t>(node)]);
+        }
+    }
+    return largest;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> find_conflicts(const CellIndex& index, const std::vector<PlacedFacet>& facets) {
+    const auto d = static_cast<int>(index.dimension());
+    Conflicts conflicts(d, facets);
+    if (largest_fan(index.original_node.size(), facets) <= crowd) {
+        // Facets are in the order of their cells, which is that of space.
+        const BoxGroups boxes(facets.size(),
+                              [&](std::size_t f) { return box_of(index, facets[f].at.data(), index.dimension()); });
+        tbb::parallel_for(std::size_t{0}, (facets.size() + 7) / 8, [&](std::size_t g) {
+            boxes.for_each_pair(g, [&](std::size_t i, std::size_t j) { conflicts.ask(i, j); });
+        });
+        return conflicts.take();
+    }
+    std::vector<Item> items(facets.size());
+    for (std::size_t i = 0; i < facets.size(); ++i) items[i] = item_of(facets[i], d);
+    const Candidates candidates(d, items, crowd);
+    tbb::parallel_for(std::size_t{0}, facets.size(), [&](std::size_t i) {
+        candidates.for_each(items[i], [&](std::uint32_t j) {
+            if (j > i) conflicts.ask(i, j);
+            return true;
+        });
+    });
+    return conflicts.take();
+}
+
+std::vector<std::vector<std::uint32_t>> find_sheets(int d, const std::vector<PlacedFacet>& facets,
+                                                    const std::vector<std::uint8_t>& conflict) {
+    const std::vector<Ridge> ridges = ridges_of(d, facets);
+    base::DisjointSets sets(facets.size());
+    for (std::size_t i = 0; i < ridges.size();) {
+        std::size_t next = i + 1;
+        while (next < ridges.size() && ridges[next].nodes == ridges[i].nodes) ++next;
+        const std::uint32_t a = ridges[i].facet, b = ridges[next - 1].facet;
+        if (next - i == 2 && conflict[a] == 0 && conflict[b] == 0) sets.join(a, b);
+        i = next;
+    }
+    std::vector<std::vector<std::uint32_t>> sheets;
+    std::vector<std::uint32_t> sheet_of(facets.size());
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+        if (conflict[f] != 0) continue;
+        const std::uint32_t root = sets.find(f);  // the lowest of its set, so it came by before
+        if (root == f) {
+            sheet_of[f] = static_cast<std::uint32_t>(sheets.size());
+            sheets.emplace_back();
+        }
+        sheets[sheet_of[root]].push_back(static_cast<std::uint32_t>(f));
+    }
+    return sheets;
+}
+
+}  // namespace barycert::index

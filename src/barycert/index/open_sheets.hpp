@@ -1,0 +1,26 @@
+/// Open facets, as places in space: which conflict, which belong to one sheet (proof.hpp).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "barycert/index/candidates.hpp"
+#include "barycert/index/cell_index.hpp"
+#include "barycert/index/facet_contact.hpp"
+#include "barycert/index/facet_links.hpp"
+
+namespace barycert::index {
+
+/// Nodes ascending, by place.
+PlacedFacet placed(const CellIndex& index, const CellFacet& facet);
+
+Item item_of(const PlacedFacet& facet, int d);
+
+/// 1 for each facet that conflicts with another one.
+std::vector<std::uint8_t> find_conflicts(const CellIndex& index, const std::vector<PlacedFacet>& facets);
+
+/// The facets of each sheet, those without conflicts alone.
+std::vector<std::vector<std::uint32_t>> find_sheets(int d, const std::vector<PlacedFacet>& facets,
+                                                    const std::vector<std::uint8_t>& conflict);
+
+}  // namespace barycert::index

@@ -1,0 +1,107 @@
+#include "barycert/index/orientation_lanes.hpp"
+#include "barycert/predicates.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "barycert/index/orientation_lanes.cpp"
+#include "barycert/core/foreach_target.hpp"
+
+#include "barycert/core/filter-inl.hpp"
+#include "barycert/index/records-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace barycert::index {
+namespace HWY_NAMESPACE {
+
+using namespace core::HWY_NAMESPACE;
+
+/// The determinant of the edges from the last vertex: a numerator of filter-inl.hpp with that vertex as its point, and
+/// with the bound of one.
+template <Simplex s, class D, class V = hn::Vec<D>>
+HWY_INLINE V determinant(D tag, const V (&v)[4][4], V& bound, hn::Mask<D>& valid) {
+    constexpr int d = space_dimension(s);
+    V edge[d][d], extent[d];
+    for (int i = 0; i < d; ++i) {
+        for (int k = 0; k < d; ++k) edge[i][k] = v[i][k] - v[d][k];
+    }
+    for (int k = 0; k < d; ++k) {
+        extent[k] = max_magnitude(edge[0][k], edge[1][k]);
+        if constexpr (d == 3) extent[k] = hn::Max(extent[k], hn::Abs(edge[2][k]));
+    }
+    valid = all_within(tag, extent, 0x1p-300, 0x1p300);
+    if constexpr (d == 2) {
+        bound = hn::Set(tag, 8.5 * filter_epsilon) * (extent[0] * extent[1]);
+        return cross(edge[0], edge[1]);
+    } else {
+        bound = hn::Set(tag, 49 * filter_epsilon) * (extent[0] * extent[1] * extent[2]);
+        V normal[3];
+        cross(edge[1], edge[0], normal);  // as orient3d: counter-clockwise seen from the last vertex
+        return dot(edge[2], normal);
+    }
+}
+
+/// In bits: which of the cells are certainly positive, certainly negative.
+struct SignBits {
+    std::uint8_t positive, negative;
+};
+
+template <Simplex s, class D>
+HWY_INLINE SignBits signs_of_cells(D tag, const CellRecord* cells, const NodeRecord* nodes) {
+    using V = hn::Vec<D>;
+    V v[4][4], bound;
+    hn::Mask<D> valid;
+    for (int i = 0; i < vertex_count(s); ++i) {
+        load_records(
+            tag, [&](std::size_t l) HWY_ATTR { return nodes[cells[l].node[static_cast<std::size_t>(i)]].at.data(); },
+            v[i]);
+    }
+    const V value = determinant<s>(tag, v, bound, valid);
+    std::uint8_t positive[8] = {}, negative[8] = {};
+    hn::StoreMaskBits(tag, hn::And(valid, hn::Gt(value, bound)), positive);
+    hn::StoreMaskBits(tag, hn::And(valid, hn::Lt(value, hn::Neg(bound))), negative);
+    return {positive[0], negative[0]};
+}
+
+template <Simplex s>
+void filter_cells(const CellRecord* cells, const NodeRecord* nodes, std::size_t count, std::int8_t* out) {
+    std::size_t at = 0;
+    const auto run = [&](auto tag) HWY_ATTR {
+        constexpr std::size_t width = hn::MaxLanes(decltype(tag)());
+        for (; at + width <= count; at += width) {
+            const SignBits bits = signs_of_cells<s>(tag, cells + at, nodes);
+            for (std::size_t l = 0; l < width; ++l)
+                out[at + l] = static_cast<std::int8_t>((bits.positive >> l & 1) - (bits.negative >> l & 1));
+        }
+    };
+    run(hn::ScalableTag<double>());
+    run(hn::CappedTag<double, 1>());
+}
+
+void filter_orientations(const CellIndex& index, std::size_t first, std::size_t count, std::int8_t* out) {
+    const CellRecord* const cells = index.cells.data() + first;
+    index.simplex == Simplex::triangle ? filter_cells<Simplex::triangle>(cells, index.nodes.data(), count, out)
+                                       : filter_cells<Simplex::tetrahedron>(cells, index.nodes.data(), count, out);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace barycert::index
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace barycert::index {
+
+HWY_EXPORT(filter_orientations);
+
+void find_orientations(const CellIndex& index, std::size_t first, std::size_t count, std::int8_t* out) {
+    HWY_DYNAMIC_DISPATCH(filter_orientations)(index, first, count, out);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (out[i] != 0) continue;
+        const double* at[4];
+        const CellRecord& record = index.cells[first + i];
+        for (std::size_t c = 0; c < 4; ++c) at[c] = index.nodes[static_cast<std::size_t>(record.node[c])].at.data();
+        out[i] = static_cast<std::int8_t>(index.simplex == Simplex::triangle ? orient2d(at[0], at[1], at[2])
+                                                                             : orient3d(at[0], at[1], at[2], at[3]));
+    }
+}
+
+}  // namespace barycert::index
+#endif

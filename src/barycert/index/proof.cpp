@@ -1,0 +1,167 @@
+#include "barycert/index/proof.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cstddef>
+
+#include "barycert/base/disjoint_sets.hpp"
+#include "barycert/index/crossing.hpp"
+#include "barycert/index/open_sheets.hpp"
+#include "barycert/index/overlapped.hpp"
+
+namespace barycert::index {
+namespace {
+
+class Prover {
+public:
+    Prover(const CellIndex& index, const FacetLinks& links, const std::function<const CellTree&()>& tree)
+        : index_(index), links_(links), tree_(tree), facets_(links.open.size()) {
+        tbb::parallel_for(std::size_t{0}, facets_.size(),
+                          [&](std::size_t f) { facets_[f] = placed(index_, links_.open[f]); });
+    }
+
+    bool is_partition() const { return links_.degenerate.empty() && bad_facets().empty(); }
+
+    Proof run() {
+        Proof proof;
+        const std::vector<PlacedFacet> bad = bad_facets();
+        proof.partition = bad.empty() && links_.degenerate.empty();
+        if (bad.empty()) return proof;
+        contested_.assign((index_.cell_count() + 63) / 64, 0);
+        mark_crossed(bad);
+        mark_overlapped();
+        for (const std::uint64_t bits : contested_)
+            proof.contested_count += static_cast<std::uint64_t>(std::popcount(bits));
+        proof.contested = std::move(contested_);
+        return proof;
+    }
+
+private:
+    int d() const { return static_cast<int>(index_.dimension()); }
+
+    /// All open facets that do not conflict and whose sheet is good are good. A few cells of each sheet are asked:
+    /// others may cross some of them.
+    std::vector<PlacedFacet> bad_facets() const {
+        std::vector<std::uint8_t> bad = find_conflicts(index_, facets_);
+        std::vector<std::vector<std::uint32_t>> sheets = find_sheets(d(), facets_, bad);
+        if (sheets.size() == 1 && sheets.front().size() == facets_.size()) return {};
+        constexpr std::size_t tries = 4;
+        for (std::size_t n = 0; n < tries && !sheets.empty(); ++n) {
+            std::vector<Place> asked(sheets.size());
+            for (std::size_t s = 0; s < sheets.size(); ++s)
+                asked[s] = links_.open[sheets[s][n * sheets[s].size() / tries]].cell;
+            const std::vector<std::uint8_t> overlapped = find_overlapped(index_, asked, links_.degenerate, tree_);
+            std::size_t left = 0;
+            for (std::size_t s = 0; s < sheets.size(); ++s) {
+                if (overlapped[s] != 0) sheets[left++].swap(sheets[s]);
+            }
+            sheets.resize(left);
+        }
+        for (const std::vector<std::uint32_t>& sheet : sheets) {
+            for (const std::uint32_t f : sheet) bad[f] = 1;
+        }
+        std::vector<PlacedFacet> out;
+        for (std::size_t f = 0; f < facets_.size(); ++f) {
+            if (bad[f] != 0) out.push_back(facets_[f]);
+        }
+        return out;
+    }
+
+    bool contested(Place cell) {
+        const auto i = static_cast<std::size_t>(cell);
+        return (std::atomic_ref(contested_[i / 64]).load(std::memory_order_relaxed) >> (i % 64) & 1) != 0;
+    }
+    void contest(Place cell) {
+        const auto i = static_cast<std::size_t>(cell);
+        std::atomic_ref(contested_[i / 64]).fetch_or(std::uint64_t{1} << (i % 64), std::memory_order_relaxed);
+    }
+
+    void mark_crossed(const std::vector<PlacedFacet>& bad) {
+        for (const Place cell : links_.degenerate) contest(cell);
+        const auto ask = [&](Place cell, const PlacedFacet& facet) {
+            if (!contested(cell) && may_cross(index_, cell, facet)) contest(cell);
+        };
+        if (!is_crowded(index_)) {
+            const CellTree& tree = tree_();
+            tbb::parallel_for(std::size_t{0}, bad.size(), [&](std::size_t f) {
+                tree.for_each_meeting(box_of(index_, bad[f].at.data(), index_.dimension()), [&](std::size_t cell) {
+                    ask(static_cast<Place>(cell), bad[f]);
+                    return true;
+                });
+            });
+            return;
+        }
+        std::vector<Item> items(bad.size());
+        for (std::size_t f = 0; f < bad.size(); ++f) items[f] = item_of(bad[f], d());
+        const Candidates candidates(d(), items, crowd);
+        std::vector<std::array<Mesh::Index, 3>> nodes(bad.size());
+        for (std::size_t f = 0; f < bad.size(); ++f) nodes[f] = bad[f].nodes;
+        std::sort(nodes.begin(), nodes.end());
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, index_.cell_count(), 1 << 10), [&](const auto& range) {
+            for (std::size_t c = range.begin(); c < range.end(); ++c) {
+                const auto cell = static_cast<Place>(c);
+                candidates.for_each(item_of(index_, cell), [&](std::uint32_t f) {
+                    ask(cell, bad[f]);
+                    return !contested(cell);
+                });
+                // A facet of the cell's own nodes meets it in a common face, so it is no candidate.
+                for (std::size_t i = 0; i < index_.corners(); ++i) {
+                    if (index_.cells[c].next[i] < 0) continue;
+                    const auto own = placed(index_, {cell, static_cast<std::int32_t>(i)}).nodes;
+                    if (std::binary_search(nodes.begin(), nodes.end(), own)) contest(cell);
+                }
+            }
+        });
+    }
+
+    /// Sets of linked cells that are not crossed, of which one is overlapped, or which are too small to be asked for.
+    void mark_overlapped() {
+        constexpr std::uint32_t smallest = 8;
+        base::DisjointSets sets(index_.cell_count());
+        for (std::size_t c = 0; c < index_.cell_count(); ++c) {
+            if (contested(static_cast<Place>(c))) continue;
+            for (const Place next : index_.cells[c].next) {
+                if (next > static_cast<Place>(c) && !contested(next)) sets.join(c, static_cast<std::size_t>(next));
+            }
+        }
+        std::vector<std::uint32_t> size(index_.cell_count(), 0);
+        std::vector<Place> roots;
+        for (std::size_t c = 0; c < index_.cell_count(); ++c) {
+            if (contested(static_cast<Place>(c))) continue;
+            const std::uint32_t root = sets.find(c);
+            if (root == c) roots.push_back(static_cast<Place>(c));
+            ++size[root];
+        }
+        std::vector<Place> asked;
+        for (const Place root : roots) {
+            if (size[static_cast<std::size_t>(root)] >= smallest) asked.push_back(root);
+        }
+        const std::vector<std::uint8_t> overlapped = find_overlapped(index_, asked, links_.degenerate, tree_);
+        std::vector<std::uint8_t> good(index_.cell_count(), 0);  // of roots
+        for (std::size_t i = 0; i < asked.size(); ++i) good[static_cast<std::size_t>(asked[i])] = 1 - overlapped[i];
+        for (std::size_t c = 0; c < index_.cell_count(); ++c) {
+            if (!contested(static_cast<Place>(c)) && good[sets.find(c)] == 0) contest(static_cast<Place>(c));
+        }
+    }
+
+    const CellIndex& index_;
+    const FacetLinks& links_;
+    const std::function<const CellTree&()>& tree_;
+    std::vector<PlacedFacet> facets_;
+    std::vector<std::uint64_t> contested_;
+};
+
+}  // namespace
+
+Proof prove(const CellIndex& index, const FacetLinks& links, const std::function<const CellTree&()>& tree) {
+    return Prover(index, links, tree).run();
+}
+
+bool is_partition(const CellIndex& index, const FacetLinks& links, const std::function<const CellTree&()>& tree) {
+    return Prover(index, links, tree).is_partition();
+}
+
+}  // namespace barycert::index

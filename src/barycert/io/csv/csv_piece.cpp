@@ -1,0 +1,86 @@
+#include "barycert/io/csv/csv_piece.hpp"
+
+#include <array>
+#include <cstring>
+
+#include "barycert/io/csv/csv_fields.hpp"
+#include "barycert/io/tetgen/scanner.hpp"
+
+namespace barycert::io {
+namespace {
+
+enum class Verdict : std::uint8_t { point, bad, cut };
+
+/// `whole`: the line has an end.
+Verdict parse_line(std::string_view line, bool whole, const CsvLayout& layout, std::array<double, 3>& point) {
+    FieldCutter cutter(line, layout.separator);
+    const char* const cut = whole ? nullptr : line.data() + line.size();
+    bool at_cut = false;
+    const std::size_t fields = layout.axis_of.size();
+    std::size_t i = 0;
+    for (std::string_view field; cutter.next(field); ++i) {
+        if (i == fields) return Verdict::bad;
+        const int axis = layout.axis_of[i];
+        if (axis < 0) continue;
+        const char* const end = field.data() + field.size();
+        double value = 0;
+        if (scan_real(field.data(), end, value) != end) return Verdict::bad;
+        point[static_cast<std::size_t>(axis)] = value;
+        at_cut = end == cut;
+    }
+    if (i != fields || cutter.malformed()) return Verdict::bad;
+    return at_cut ? Verdict::cut : Verdict::point;
+}
+
+/// The common case: nothing but numbers, each with the separator or the end of the line right behind it. Then
+/// parse_line finds the same fields and the same values. False: nothing is known.
+bool parse_plain(std::string_view line, const CsvLayout& layout, std::array<double, 3>& point) {
+    const char* at = line.data();
+    const char* const end = at + line.size();
+    const std::size_t fields = layout.axis_of.size();
+    for (std::size_t i = 0; i < fields; ++i) {
+        const int axis = layout.axis_of[i];
+        double value = 0;
+        const char* const after = scan_real(at, end, value);
+        if (after == nullptr) return false;
+        if (i + 1 == fields ? after != end : after == end || *after != layout.separator) return false;
+        if (axis >= 0) point[static_cast<std::size_t>(axis)] = value;
+        at = after + 1;
+    }
+    return true;
+}
+
+}  // namespace
+
+void parse_csv(std::string_view text, const CsvLayout& layout, int dimension, CsvPiece& piece) {
+    piece.points.clear();
+    piece.lines = 0;
+    piece.failed = false;
+    // Blanks come in runs.
+    const bool may_be_plain = layout.separator != ' ';
+    std::array<double, 3> point{};
+    while (!text.empty()) {
+        const void* const feed = std::memchr(text.data(), '\n', text.size());
+        const std::size_t size =
+            feed == nullptr ? text.size() : static_cast<std::size_t>(static_cast<const char*>(feed) - text.data());
+        std::string_view line = text.substr(0, size);
+        const bool whole = feed != nullptr || line.ends_with('\r');
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        text.remove_prefix(feed == nullptr ? size : size + 1);
+        ++piece.lines;
+        if (!(may_be_plain && whole && parse_plain(line, layout, point))) {
+            if (!holds_fields(line, layout.separator)) continue;
+            const Verdict verdict = parse_line(line, whole, layout, point);
+            if (verdict != Verdict::point) {
+                piece.failed = true;
+                piece.bad = line;
+                piece.cut = verdict == Verdict::cut;
+                return;
+            }
+        }
+        for (std::size_t axis = 0; axis < static_cast<std::size_t>(dimension); ++axis)
+            piece.points.push_back(point[axis]);
+    }
+}
+
+}  // namespace barycert::io

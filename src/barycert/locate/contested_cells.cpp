@@ -1,0 +1,101 @@
+#include "barycert/locate/contested_cells.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+#include "barycert/index/crossing.hpp"
+#include "barycert/index/proof.hpp"
+#include "barycert/locate/cell_signs.hpp"
+#include "barycert/locate/names.hpp"
+#include "barycert/locate/tree_lanes.hpp"
+#include "barycert/locate/walk_lanes.hpp"
+
+namespace barycert::locate {
+namespace {
+
+std::vector<Place> list_of(const CellIndex& index, const Proof& proof, std::span<const Place> degenerate) {
+    std::vector<Place> cells;
+    cells.reserve(proof.contested_count);
+    for (std::size_t c = 0; c < index.cell_count(); ++c) {
+        const auto place = static_cast<Place>(c);
+        if (proof.is_contested(place) && !std::binary_search(degenerate.begin(), degenerate.end(), place))
+            cells.push_back(place);
+    }
+    return cells;
+}
+
+}  // namespace
+
+ContestedCells::ContestedCells(const CellIndex& index, const Proof& proof, std::span<const Place> degenerate)
+    : index_(index),
+      cells_(list_of(index, proof, degenerate)),
+      tree_(cells_.size(), [&](std::size_t i) { return box_of(index, cells_[i]); }) {}
+
+ContestedCells::Lists ContestedCells::make_lists() const {
+    const std::size_t most = 64 * cells_.size();  // pairs whose boxes meet
+    const std::size_t groups = (cells_.size() + 7) / 8;
+    using Pair = std::pair<std::uint32_t, Place>;  // which cell, and a lower one
+    std::vector<std::vector<Pair>> found(groups);
+    std::atomic<std::size_t> count = 0;
+    tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t g) {
+        if (count.load(std::memory_order_relaxed) > most) return;
+        std::size_t pairs = 0;
+        tree_.for_each_pair(g, [&](std::size_t i, std::size_t j) {
+            const auto original = [&](std::size_t c) { return index_.original[static_cast<std::size_t>(cells_[c])]; };
+            if (original(i) < original(j)) std::swap(i, j);
+            ++pairs;
+            if (may_overlap(index_, cells_[i], cells_[j]))
+                found[g].push_back({static_cast<std::uint32_t>(i), cells_[j]});
+        });
+        count.fetch_add(pairs, std::memory_order_relaxed);
+    });
+    Lists lists;
+    if (count.load() > most) return lists;
+    lists.begin.assign(cells_.size() + 1, 0);
+    for (const auto& pairs : found) {
+        for (const Pair& pair : pairs) ++lists.begin[pair.first + 1];
+    }
+    for (std::size_t i = 1; i < lists.begin.size(); ++i) lists.begin[i] += lists.begin[i - 1];
+    lists.lower.resize(lists.begin.back());
+    std::vector<std::uint32_t> next(lists.begin.begin(), lists.begin.end() - 1);
+    for (const auto& pairs : found) {
+        for (const Pair& pair : pairs) lists.lower[next[pair.first]++] = pair.second;
+    }
+    return lists;
+}
+
+void ContestedCells::find_owners(const PointRecord* points, const std::uint32_t* which, std::size_t count, Place* owner,
+                                 Feature* feature, TierCounts& tests) const {
+    const auto original = [&](Place place) { return index_.original[static_cast<std::size_t>(place)]; };
+    const auto ask = [&](std::uint32_t i, Place cell) {
+        const double* const point = points[i].at.data();
+        if (original(cell) >= original(owner[i]) || !box_holds(index_, cell, point)) return;
+        const WeightSigns signs = cell_signs(index_, cell, point, tests);
+        if (!signs.contains()) return;
+        owner[i] = cell;
+        feature[i] = signs.feature(index_.simplex);
+    };
+    // A list costs about as much as asking the tree for four points.
+    const std::size_t asked = asked_.fetch_add(count, std::memory_order_relaxed);
+    const Lists* const lists = 4 * asked > cells_.size() ? &lists_.get([&] { return make_lists(); }) : lists_.made();
+    if (lists != nullptr && !lists->begin.empty()) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto found = std::lower_bound(cells_.begin(), cells_.end(), owner[which[i]]);
+            const auto at = static_cast<std::size_t>(found - cells_.begin());
+            for (std::uint32_t k = lists->begin[at]; k < lists->begin[at + 1]; ++k) ask(which[i], lists->lower[k]);
+        }
+        return;
+    }
+    constexpr std::size_t points_at_once = 16;
+    std::vector<Candidate> candidates;
+    for (std::size_t at = 0; at < count; at += points_at_once) {
+        candidates.clear();
+        find_candidates(index_, tree_, points, which + at, std::min(points_at_once, count - at), candidates);
+        for (const Candidate& c : candidates) ask(c.point, cells_[static_cast<std::size_t>(c.cell)]);
+    }
+}
+
+}  // namespace barycert::locate

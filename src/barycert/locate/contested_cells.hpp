@@ -1,0 +1,58 @@
+/// The cells that others may meet beside common faces (proof.hpp), to find who else holds a point.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "barycert/index/box_groups.hpp"
+#include "barycert/index/proof.hpp"
+#include "barycert/locate/lazy.hpp"
+#include "barycert/locate/names.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/tiers.hpp"
+
+namespace barycert::locate {
+
+struct PointRecord;
+
+class ContestedCells {
+public:
+    /// The contested cells that are not degenerate. `index` must stay.
+    ContestedCells(const CellIndex& index, const Proof& proof, std::span<const Place> degenerate);
+
+    /// For points[which[i]], i < count, each inside the contested cell owner[which[i]], certainly not on its faces:
+    /// sets the owner and the feature. Others that hold the point are contested, for in one that is not, every cell
+    /// that holds a point has the face on which it lies.
+    void find_owners(const PointRecord* points, const std::uint32_t* which, std::size_t count, Place* owner,
+                     Feature* feature, TierCounts& tests) const;
+
+    std::size_t bytes() const {
+        const std::size_t lists = lists_.made() ? lists_.made()->bytes() : 0;
+        return cells_.size() * sizeof(Place) + tree_.bytes() + lists;
+    }
+
+private:
+    /// For cells_[i], those of lower number in the mesh that may overlap it: lower[begin[i] .. begin[i + 1]). Empty if
+    /// there would be too many.
+    struct Lists {
+        std::vector<std::uint32_t> begin;
+        std::vector<Place> lower;
+
+        std::size_t bytes() const { return begin.size() * sizeof(std::uint32_t) + lower.size() * sizeof(Place); }
+    };
+
+    Lists make_lists() const;
+
+    const CellIndex& index_;
+    std::vector<Place> cells_;  ///< ascending
+    BoxGroups tree_;            ///< of their boxes
+    /// Made when so many points were asked for that they pay.
+    Lazy<Lists> lists_;
+    mutable std::atomic<std::size_t> asked_ = 0;
+};
+
+}  // namespace barycert::locate

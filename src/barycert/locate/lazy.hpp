@@ -1,0 +1,34 @@
+/// Parts of an index that are made on first need.
+#pragma once
+
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+
+namespace barycert::locate {
+
+/// Made on first need, by one thread while others wait.
+template <class T>
+class Lazy {
+public:
+    template <class Make>
+    const T& get(Make make) const {
+        std::call_once(once_, [&] {
+            // A thread that waits for others while it makes this must not take up work that would ask for it again.
+            tbb::this_task_arena::isolate([&] { value_.reset(new T(make())); });
+            made_.store(value_.get(), std::memory_order_release);
+        });
+        return *value_;
+    }
+    /// nullptr until it is made.
+    const T* made() const { return made_.load(std::memory_order_acquire); }
+
+private:
+    mutable std::once_flag once_;
+    mutable std::unique_ptr<T> value_;
+    mutable std::atomic<const T*> made_ = nullptr;
+};
+
+}  // namespace barycert::locate

@@ -1,0 +1,118 @@
+/// Reading, work and writing at the same time, block after block.
+#pragma once
+
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "barycert/environment.hpp"
+#include "barycert/pipeline/run.hpp"
+#include "barycert/result.hpp"
+#include "barycert/table.hpp"
+
+namespace barycert::pipeline {
+
+/// Points of a block at most.
+inline constexpr std::size_t block_of_points = std::size_t{1} << 17;
+
+/// Rows on their way from the source to the sink, and what became of them.
+struct Block {
+    Table rows;
+    std::uint64_t first = 0;  ///< points, or rows of a map, that came before
+    std::uint64_t size = 0;   ///< points
+    bool last = false;        ///< as far as was known when it was read
+    std::uint64_t nan_values = 0;
+    std::optional<std::size_t> outside;  ///< the first row without a cell, where there may be none
+    std::optional<Error> error;
+    double seconds = 0;  ///< of the work
+};
+
+/// How many points a block has: few enough that all threads have some, enough that sorting them brings near ones
+/// together. `count`: of all, if that is known.
+inline std::size_t block_size(std::optional<std::uint64_t> count) {
+    constexpr std::uint64_t min = std::uint64_t{1} << 12, blocks_a_thread = 4;
+    if (!count) return block_of_points;
+    const auto threads = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
+    return static_cast<std::size_t>(
+        std::clamp<std::uint64_t>(*count / (blocks_a_thread * threads), min, block_of_points));
+}
+
+/// Three stages at once: blocks are read one after the other, worked on side by side, and written in the order in which
+/// they were read. At most one block a thread, and two more, are in memory.
+class Stages {
+public:
+    /// read(block) fills the next one, of which `size` > 0 unless it is the end; work(block) and write(block) follow.
+    /// All tell errors by the block or by what they return. The first error in the order of blocks ends it all.
+    template <class Read, class Work, class Write>
+    Status run(Read read, Work work, Write write) {
+        const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+        const auto reading = [&](tbb::flow_control& control) -> Block* {
+            const ExactEnvironment of_task;  // the arena is the caller's
+            if (ended_ || stopped_) {
+                control.stop();
+                return nullptr;
+            }
+            Block* const block = take();
+            block->error.reset();
+            if (Status done = read(*block); !done) block->error = done.error();
+            ended_ = block->error || block->size == 0;
+            return block;
+        };
+        const auto working = [&](Block* block) {
+            const ExactEnvironment of_task;
+            if (block->error || block->size == 0 || stopped_) return block;
+            Stopwatch watch;
+            if (Status done = work(*block); !done) block->error = done.error();
+            block->seconds = watch.lap();
+            return block;
+        };
+        const auto writing = [&](Block* block) {
+            const ExactEnvironment of_task;
+            if (!stopped_ && !block->error && block->size != 0) {
+                if (Status done = write(*block); !done) block->error = done.error();
+            }
+            if (!stopped_ && block->error) {
+                error_ = std::move(block->error);
+                stopped_ = true;
+            }
+            put(block);
+        };
+        tbb::parallel_pipeline(threads + 2,
+                               tbb::make_filter<void, Block*>(tbb::filter_mode::serial_in_order, reading) &
+                                   tbb::make_filter<Block*, Block*>(tbb::filter_mode::parallel, working) &
+                                   tbb::make_filter<Block*, void>(tbb::filter_mode::serial_in_order, writing));
+        if (error_) return *error_;
+        return Done{};
+    }
+
+private:
+    Block* take() {
+        const std::lock_guard lock(mutex_);
+        if (free_.empty()) return &blocks_.emplace_back();
+        Block* const block = free_.back();
+        free_.pop_back();
+        return block;
+    }
+    void put(Block* block) {
+        const std::lock_guard lock(mutex_);
+        free_.push_back(block);
+    }
+
+    std::mutex mutex_;
+    std::deque<Block> blocks_;
+    std::vector<Block*> free_;
+    bool ended_ = false;                // of the reading stage alone
+    std::atomic<bool> stopped_{false};  // by the writing stage
+    std::optional<Error> error_;
+};
+
+}  // namespace barycert::pipeline

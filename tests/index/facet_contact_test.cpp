@@ -1,0 +1,84 @@
+// Do boundary facets conflict? With CGAL's exact kernel as the judge.
+#include <CGAL/Gmpq.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/intersections.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "barycert/base/random.hpp"
+#include "barycert/index/facet_contact.hpp"
+
+namespace barycert::testing {
+namespace {
+
+using Kernel = CGAL::Simple_cartesian<CGAL::Gmpq>;
+using Point = Kernel::Point_3;
+using Triangle = Kernel::Triangle_3;
+using Segment = Kernel::Segment_3;
+using Coordinates = std::array<std::array<double, 3>, 3>;
+
+Point point(const std::array<double, 3>& p) {
+    return {CGAL::Gmpq(p[0]), CGAL::Gmpq(p[1]), CGAL::Gmpq(p[2])};
+}
+
+/// What the two have in common is more than the vertices or the edge they share, which are first in both.
+bool judged(const Coordinates& f, const Coordinates& g, std::size_t common) {
+    const Triangle t(point(f[0]), point(f[1]), point(f[2])), u(point(g[0]), point(g[1]), point(g[2]));
+    if (common == 0) return CGAL::do_intersect(t, u);
+    const auto meet = CGAL::intersection(t, u);
+    if (!meet) return true;  // they share a vertex: it cannot be
+    if (const Point* p = boost::get<Point>(&*meet)) return common != 1 || *p != point(f[0]);
+    if (const Segment* s = boost::get<Segment>(&*meet)) {
+        const Segment edge(point(f[0]), point(f[1]));
+        return common != 2 || (*s != edge && *s != edge.opposite());
+    }
+    return true;  // a triangle or polygon
+}
+
+index::PlacedFacet placed(const Coordinates& f, std::array<Mesh::Index, 3> nodes) {
+    index::PlacedFacet placed{nodes, {}};
+    for (std::size_t i = 0; i < 3; ++i) placed.at[i] = f[i].data();
+    return placed;
+}
+
+TEST(FacetContact, AsCgalsExactKernelHasIt) {
+    std::array<std::array<int, 2>, 3> seen{};  // by common nodes: not, in conflict
+    for (std::uint64_t seed = 0; seed < 30000; ++seed) {
+        base::Random random = base::Random::stream(11, seed, 0);
+        const auto common = static_cast<std::size_t>(random.integer(0, 2));
+        // Few lattice points, or those of one slanted plane: most ways to touch occur. Now and then far apart in scale.
+        const bool plane = random.coin();
+        const double scale = seed % 5 == 0 ? 0x1p-1000 : seed % 5 == 1 ? 0x1p900 : 1;
+        const auto place = [&] {
+            const double x = random.integer(-2, 2), y = random.integer(-2, 2),
+                         z = plane ? x + 2 * y : random.integer(-2, 2);
+            return std::array<double, 3>{x * scale, y * scale, z * scale};
+        };
+        Coordinates f{place(), place(), place()}, g{place(), place(), place()};
+        for (std::size_t i = 0; i < common; ++i) g[i] = f[i];
+        std::array<Mesh::Index, 3> fn{0, 1, 2}, gn{3, 4, 5};
+        for (std::size_t i = 0; i < common; ++i) gn[i] = fn[i];
+        index::PlacedFacet a = placed(f, fn), b = placed(g, gn);
+        if (!index::proper(3, a) || !index::proper(3, b)) continue;
+        const bool expected = judged(f, g, common);
+        ++seen[common][expected ? 1 : 0];
+        for (int turn = 0; turn < 3; ++turn) {  // in any order of nodes and facets
+            EXPECT_EQ(index::facets_conflict(3, a, b), expected) << seed;
+            EXPECT_EQ(index::facets_conflict(3, b, a), expected) << seed;
+            std::rotate(a.nodes.begin(), a.nodes.begin() + 1, a.nodes.end());
+            std::rotate(a.at.begin(), a.at.begin() + 1, a.at.end());
+            std::swap(b.nodes[0], b.nodes[2]);
+            std::swap(b.at[0], b.at[2]);
+        }
+    }
+    for (const auto& counts : seen) {
+        EXPECT_GT(counts[0], 500);
+        EXPECT_GT(counts[1], 500);
+    }
+}
+
+}  // namespace
+}  // namespace barycert::testing
