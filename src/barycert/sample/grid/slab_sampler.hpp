@@ -8,7 +8,6 @@
 
 #include "barycert/grid.hpp"
 #include "barycert/index/buffer.hpp"
-#include "barycert/locate/names.hpp"
 #include "barycert/sample/grid/fill_lanes.hpp"
 #include "barycert/sample/grid/finish_lanes.hpp"
 #include "barycert/sample/grid/raster_lanes.hpp"
