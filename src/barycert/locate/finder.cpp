@@ -26,7 +26,7 @@ void Finder::find(const PointRecord* points, std::size_t count, Place* owner, Fe
     }
     if (asked_count_ != 0) ask_candidates(points, owner, feature, counts.tests);
     std::uint64_t interior = arrived_.count;
-    if (interior != count) {
+    if (interior != count || !data_.proof.contested.empty()) {  // in contested cells an owner may be another one
         interior = 0;
         for (std::size_t i = 0; i < count; ++i) {
             if (feature[i] == Feature::interior) {

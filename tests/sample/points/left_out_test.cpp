@@ -42,7 +42,7 @@ TEST(SampleLeftOut, E1_D1_SameRowsAsByFewPoints) {
         mesh.point_fields = random_fields(mesh.point_count(), {1, 2}, false, random);
         mesh.cell_fields = random_fields(mesh.cell_count(), {1}, false, random);
         const auto d = static_cast<std::size_t>(mesh.dimension);
-        const std::vector<double> points = points_in_box(mesh, 12000, random);
+        const std::vector<double> points = points_in_box(mesh, 24000, random);
         for (const bool prove : {true, false}) {
             // Few points at once, so that nothing is prepared; then many.
             const Sampler few = Sampler::build(mesh, {}, {.prove = prove}).value();
