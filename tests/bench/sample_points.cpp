@@ -126,9 +126,9 @@ void tell(const Round& round, const Contest& contest, const std::string& best, c
                .ratio = with_unit(contest.wall_ratio("sample", "two threads"), "x") + " one thread"});
     table.add({.what = name + ": 3 components", .ours = ns("three")});
     table.add({.what = name + ": interpolated alone, owners known", .ours = ns("evaluate")});
-    table.add({.what = name + ": found and interpolated, mesh not certified",
+    table.add({.what = name + ": found and interpolated by candidates everywhere",
                .ours = ns("candidates"),
-               .ratio = "certified " + times_as_long(contest, "", "candidates", "sample")});
+               .ratio = "walks " + times_as_long(contest, "", "candidates", "sample")});
 }
 
 }  // namespace
