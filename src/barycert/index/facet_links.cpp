@@ -55,7 +55,7 @@ void link_block(CellIndex& index, std::size_t first, std::size_t last, Memory<d>
     for (std::size_t place = first; place < last; ++place) {
         if (place >= first + ahead) finish(place - ahead);
         cells[place].next = {-1, -1, -1, -1};
-        const int sign = orientation[place - first];
+        const std::int8_t sign = orientation[place - first];
         if (sign == 0) block.degenerate.push_back(static_cast<Place>(place));
         auto& facets = soon[place % ahead];
         facets = facets_of<d>(cells, static_cast<Place>(place), sign);
@@ -108,7 +108,9 @@ FacetLinks link(CellIndex& index) {
             }
         }
     }
-    std::sort(links.open.begin(), links.open.end());
+    std::sort(links.open.begin(), links.open.end(), [](const CellFacet& a, const CellFacet& b) {
+        return a.cell != b.cell ? a.cell < b.cell : a.corner < b.corner;
+    });
     return links;
 }
 

@@ -1,7 +1,6 @@
 /// Cells linked over their facets, and what that leaves open.
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -13,8 +12,6 @@ namespace barycert::index {
 struct CellFacet {
     Place cell;
     std::int32_t corner;
-
-    friend auto operator<=>(const CellFacet&, const CellFacet&) = default;
 };
 
 struct FacetLinks {

@@ -33,7 +33,7 @@ struct HashedFacet {
 /// lies on the positive side of the others, in their order, if s (-1)^r has one certain sign, the same for all cells:
 /// moving the vertex to the front takes r transpositions.
 template <std::size_t d>
-std::array<HashedFacet, d + 1> facets_of(const CellRecord* cells, Place cell, int orientation) {
+std::array<HashedFacet, d + 1> facets_of(const CellRecord* cells, Place cell, std::int8_t orientation) {
     const CellRecord& record = cells[cell];
     std::array<std::uint64_t, d + 1> hash;
     std::uint64_t sum = 0;

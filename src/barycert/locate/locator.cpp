@@ -103,7 +103,7 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
         Worker worker{data_->index, data_->locations, data_->locations.take()};
         worker.found->resize(std::max(worker.found->size(), size + 1));
         return worker;
-    };
+    };  // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks): a unique_ptr owns it
     const auto write = [&](std::size_t first, const locate::SortedPoints& sorted, Worker& worker) {
         Location* const found = worker.found->data();
         found[sorted.size()] = {};  // of those left out

@@ -50,9 +50,10 @@ constexpr std::array<BoxPattern, box_side> make_box_patterns() {
     for (std::size_t columns = 1; columns <= box_side; ++columns) {
         BoxPattern& p = all[columns - 1];
         for (std::size_t l = 0; l < box_lanes; ++l) {
-            p.column[l] = static_cast<float>(l % columns);
-            p.row[l] = static_cast<float>(l / columns);
-            p.place[l] = static_cast<std::int32_t>(l % columns + (l / columns << box_bits));
+            const std::size_t column = l % columns, row = l / columns;
+            p.column[l] = static_cast<float>(column);
+            p.row[l] = static_cast<float>(row);
+            p.place[l] = static_cast<std::int32_t>(column + (row << box_bits));
         }
         p.rows = static_cast<std::int32_t>(box_lanes / columns);
     }
@@ -167,10 +168,12 @@ struct BoxTarget {
     /// Fetches what most points of a vector are written to: early, as stores do it late, one after the other.
     HWY_INLINE void fetch(std::int32_t row, std::int32_t layer) const {
         const auto r = static_cast<std::uintptr_t>(row), n = static_cast<std::uintptr_t>(layer);
+        // NOLINTBEGIN(performance-no-int-to-ptr): nothing is read or written through them
         for (std::uintptr_t i = 0; i < 4; ++i) {
             __builtin_prefetch(reinterpret_cast<const void*>(values + (r + i) * value_line + n * value_plane), 1);
             __builtin_prefetch(reinterpret_cast<const void*>(owners + (r + i) * owner_line + n * owner_plane), 1);
         }
+        // NOLINTEND(performance-no-int-to-ptr)
     }
 };
 
