@@ -100,7 +100,8 @@ std::unique_ptr<PointSource> memory_points(std::vector<double> points, int dimen
 struct TableFormat {
     int dimension = 3;
     std::vector<TableField> fields = {};
-    bool distances = false;  ///< a last column `distance`
+    bool distances = false;                  ///< a column `distance` after the fields
+    std::vector<ColumnFormat> carried = {};  ///< columns that are carried through: the last ones
 
     std::vector<std::string> columns() const { return column_names(fields); }
 };

@@ -9,6 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "barycert/column.hpp"
+#include "barycert/notes.hpp"
+
 namespace barycert {
 
 /// One value of `components` numbers at each node or cell: entity i, component c stands at data[i * components + c].
@@ -40,6 +43,7 @@ struct Mesh {
 
     std::vector<Field> point_fields;          ///< attributes of a .node file are attribute0, attribute1, ...
     std::vector<Field> cell_fields;           ///< likewise of an .ele file
+    std::vector<Column> cell_labels;          ///< of cells, and no fields: texts, integers that no double represents
     std::vector<std::int64_t> point_markers;  ///< empty, or one a node
 
     std::vector<Index> faces;                ///< 3 corners a face of the .face file; empty in 2D or if there is none
@@ -49,8 +53,16 @@ struct Mesh {
     /// Cell across the facet opposite to each corner, -1 where there is none: dimension + 1 a cell, or empty.
     std::vector<Index> neighbours;
 
+    /// The number in the file, from 0, of each cell, ascending. Empty if no cell of the file was left out.
+    std::vector<Index> cell_numbers;
+    Notes notes;  ///< what its readers left out, converted or guessed
+
     int index_base = 0;  ///< 0 or 1: the base of the file it came from, used again by the writer
 
+    /// What users know the cell as.
+    Index cell_number(Index cell) const {
+        return cell_numbers.empty() || cell < 0 ? cell : cell_numbers[static_cast<std::size_t>(cell)];
+    }
     std::size_t corners() const { return static_cast<std::size_t>(dimension) + 1; }
     std::size_t point_count() const { return points.size() / static_cast<std::size_t>(dimension); }
     std::size_t cell_count() const { return cells.size() / corners(); }

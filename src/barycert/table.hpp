@@ -10,16 +10,30 @@
 #include <string>
 #include <vector>
 
+#include "barycert/column.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"
 #include "barycert/tiers.hpp"
 
 namespace barycert {
 
+/// How a locator found the owners of points; points whose owners were known, or that are those of a grid, are not
+/// counted.
+struct WayCounts {
+    std::uint64_t no_cell_near = 0;  ///< outside at once: no cell is near
+    std::uint64_t walk = 0;          ///< a walk ended in the owner, or at a cell that has the point on its boundary
+    std::uint64_t contested = 0;     ///< a walk ended in a contested cell; the others that may overlap it were asked
+    std::uint64_t candidates = 0;    ///< every cell whose box contains the point was asked
+
+    std::uint64_t points() const { return no_cell_near + walk + contested + candidates; }
+    void add(const WayCounts& other);
+};
+
 /// Where points lie. Functions that take counts add to them, unless they fail.
 struct LocationCounts {
     std::uint64_t interior = 0, face = 0, edge = 0, vertex = 0, outside = 0;
     TierCounts tests;  ///< point-in-cell tests, by the tier that decided them
+    WayCounts ways;
 
     std::uint64_t points() const { return interior + face + edge + vertex + outside; }
     std::uint64_t inside() const { return points() - outside; }
@@ -48,6 +62,7 @@ struct TableView {
     std::span<const Feature> features = {};   ///< of the point in that cell
     std::span<const double> values = {};      ///< as many a row as there are columns, row after row
     std::span<const double> distances = {};   ///< from the point to the mesh: see Table
+    std::span<const Column> carried = {};     ///< columns that were carried through
 
     std::size_t row_count() const { return cells.size(); }
 };
@@ -62,6 +77,7 @@ struct Table {
     /// From the point to the mesh: 0 inside, NaN where a point outside got no value. Empty unless the policy for
     /// points outside is nearest or extrapolate.
     std::vector<double> distances;
+    std::vector<Column> carried;  ///< columns that were carried through: of points, or of their owners
     /// Where points have any number of rows (Locator::locate_all): the rows of point i are point_begin[i] to
     /// point_begin[i + 1] - 1. Empty where row i is for point i.
     std::vector<std::size_t> point_begin;
@@ -69,7 +85,7 @@ struct Table {
 
     std::size_t row_count() const { return cells.size(); }
     double value(std::size_t row, std::size_t column) const { return values[columns.size() * row + column]; }
-    TableView view() const { return {dimension, 0, points, cells, features, values, distances}; }
+    TableView view() const { return {dimension, 0, points, cells, features, values, distances, carried}; }
 };
 
 /// Consecutive columns of one field.

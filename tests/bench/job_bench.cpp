@@ -254,9 +254,16 @@ void print(const Row& row, int threads) {
                 with_unit(ratio(*best, &Spent::cpu), "x").c_str());
 }
 
+/// A run must not pay for what the one before it still has to write, nor for replacing its file.
+void settle_disk(const std::string& out) {
+    if (!out.empty()) fs::remove(out);
+    ::sync();
+}
+
 void run(Row& row, const Arguments& arguments, int threads, bool look) {
     for (int repetition = 0; repetition <= arguments.repetitions; ++repetition) {
         for (Contender& c : row.contenders) {
+            settle_disk(c.out);
             const Spent spent = run_process(c.words);
             if (repetition != 0) c.spent.push_back(spent);  // the first round reads files into memory
         }

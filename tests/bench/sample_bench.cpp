@@ -5,9 +5,10 @@
 // exact ones, and differences told. All is timed in turn, in the same run, on one thread if nothing else is said:
 // medians of the processor's time; two threads by the clock. At the end: each demand as met or not, and one table.
 //
-//     bench_sample [--quick] [--repetitions N] [cube] [flange] [bracket] [generated] [growth]
+//     bench_sample [--quick] [--repetitions N] [cube] [flange] [bracket] [generated] [growth] [counters]
 //
-// Without names all of them: about 15 minutes, of which VTK's image takes most, and 4 GiB of memory. --quick: small
+// counters: cache lines, instructions and branches of a query, counted by valgrind.
+// Without names all of them: about 20 minutes, of which VTK's image takes most, and 4 GiB of memory. --quick: small
 // meshes and few points, to see that all of it works.
 
 #include <cstdio>
@@ -20,6 +21,7 @@
 #include "barycert/io.hpp"
 #include "generated_mesh.hpp"
 #include "peak_memory.hpp"
+#include "sample_counters.hpp"
 #include "sample_rounds.hpp"
 #ifdef BARYCERT_WITH_TETGEN
 #include "large_mesh.hpp"
@@ -40,13 +42,14 @@ struct Arguments {
 
 [[noreturn]] void usage() {
     std::fprintf(stderr,
-                 "usage: bench_sample [--quick] [--repetitions N] [cube] [flange] [bracket] [generated] [growth]\n");
+                 "usage: bench_sample [--quick] [--repetitions N] [cube] [flange] [bracket] [generated] [growth] "
+                 "[counters]\n");
     std::exit(2);
 }
 
 Arguments parse(int count, char** text) {
     Arguments out;
-    const std::set<std::string> names{"cube", "flange", "bracket", "generated", "growth"};
+    const std::set<std::string> names{"cube", "flange", "bracket", "generated", "growth", "counters"};
     for (int i = 1; i < count; ++i) {
         const std::string_view word = text[i];
         if (word == "--quick") {
@@ -63,7 +66,10 @@ Arguments parse(int count, char** text) {
     return out;
 }
 
-Mesh large_cube() {
+}  // namespace
+
+Mesh barycert::bench::bench_cube(bool quick) {
+    if (quick) return jittered_cube(12, 7);
 #ifdef BARYCERT_WITH_TETGEN
     return demand_value(read_tetgen(large_mesh_stem()));
 #else
@@ -71,6 +77,8 @@ Mesh large_cube() {
     return jittered_cube(68, 7);
 #endif
 }
+
+namespace {
 
 Mesh part(const char* name) {
     Mesh mesh = demand_value(read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + name));
@@ -82,6 +90,8 @@ Mesh part(const char* name) {
 
 int main(int count, char** text) {
     std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // what is known so far shows in a file, too
+    if (count > 1 && std::string_view(text[1]) == "count")
+        return count_work({text + 2, static_cast<std::size_t>(count - 2)});
     const Arguments arguments = parse(count, text);
     const bool quick = arguments.quick;
     const std::size_t points = quick ? 20'000 : 1'000'000;
@@ -95,7 +105,7 @@ int main(int count, char** text) {
     std::printf("SIMD %s\n", simd_target().c_str());
     if (arguments.wants("cube")) {
         how.two_threads = true;
-        run_subject(Subject("cube", quick ? jittered_cube(12, 7) : large_cube(), points, quick ? 24 : 256), how, table);
+        run_subject(Subject("cube", bench_cube(quick), points, quick ? 24 : 256), how, table);
         how.two_threads = false;
     }
     for (const char* const name : {"flange", "bracket"}) {
@@ -110,6 +120,7 @@ int main(int count, char** text) {
         constexpr int few[]{4, 8, 16}, many[]{32, 69, 150};
         run_growth(quick ? few : many, points, how, table);
     }
+    if (arguments.wants("counters")) run_counters("/proc/self/exe", quick, table);
     std::printf("peak of memory: %.0f MiB\n\n", peak_mib());
     table.print_demands();
     if (quick) std::printf("(a quick run: these times and ratios say nothing)\n");

@@ -83,7 +83,8 @@ bool for_chunks(const LocatorData& data, const NodeRecord* nodes, std::span<cons
                 finder.find(records.data(), n, owner.data(), feature.data(), parts[b]);
                 worker(records.data(), n, owner.data(), feature.data());
             }
-            parts[b].add(Feature::outside, size - sorted->size());
+            parts[b].add(Feature::outside, sorted->left_out());
+            parts[b].ways.no_cell_near += sorted->left_out();
             done(first, *sorted, worker);
         } else {
             finite = false;

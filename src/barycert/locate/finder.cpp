@@ -19,12 +19,14 @@ void Finder::find(const PointRecord* points, std::size_t count, Place* owner, Fe
     std::fill(feature, feature + count, Feature::outside);
     asked_count_ = arrived_.count = 0;
     if (data_.method == Method::walk) {
-        walk(points, owner, feature, counts.tests);
+        walk(points, owner, feature, counts);
     } else {
         std::iota(asked_.begin(), asked_.begin() + static_cast<std::ptrdiff_t>(count), 0);
         asked_count_ = count;
     }
     if (asked_count_ != 0) ask_candidates(points, owner, feature, counts.tests);
+    counts.ways.walk += count - asked_count_;
+    counts.ways.candidates += asked_count_;
     std::uint64_t interior = arrived_.count;
     if (interior != count || !data_.proof.contested.empty()) {  // in contested cells an owner may be another one
         interior = 0;
@@ -78,7 +80,8 @@ void Finder::begin() {
     walking_.count = upcoming_.count;
 }
 
-void Finder::walk(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests) {
+void Finder::walk(const PointRecord* points, Place* owner, Feature* feature, LocationCounts& counts) {
+    TierCounts& tests = counts.tests;
     stuck_.count = 0;
     for (int round = 0; walking_.count > 0 && round < max_rounds; ++round)
         walking_.count = step_walks(data_.index, nodes_, points, walking_.walks.data(), walking_.count, fetch_,
@@ -90,7 +93,7 @@ void Finder::walk(const PointRecord* points, Place* owner, Feature* feature, Tie
         __builtin_prefetch(&data_.index.original[static_cast<std::size_t>(end.cell)]);
     }
     tests.add(Tier::filter, arrived_.count);
-    if (!data_.proof.contested.empty()) ask_contested(points, owner, feature, tests);
+    if (!data_.proof.contested.empty()) ask_contested(points, owner, feature, counts);
     for (std::size_t i = 0; i < stuck_.count; ++i)
         resolve(points[stuck_.walks[i].point], stuck_.walks[i], owner, feature, tests);
     for (std::size_t i = 0; i < walking_.count; ++i) {
@@ -120,14 +123,17 @@ Place Finder::out_of_circle(const PointRecord& point, Place cell, TierCounts& te
     return ~cell;
 }
 
-void Finder::ask_contested(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests) {
+void Finder::ask_contested(const PointRecord* points, Place* owner, Feature* feature, LocationCounts& counts) {
     std::array<std::uint32_t, chunk_size> contested;
     std::size_t count = 0;
     for (std::size_t i = 0; i < arrived_.count; ++i) {
         contested[count] = arrived_.walks[i].point;
         count += data_.proof.is_contested(arrived_.walks[i].cell) ? 1 : 0;
     }
-    if (count != 0) data_.contested_cells().find_owners(points, contested.data(), count, owner, feature, tests);
+    if (count == 0) return;
+    data_.contested_cells().find_owners(points, contested.data(), count, owner, feature, counts.tests);
+    counts.ways.contested += count;
+    counts.ways.walk -= count;  // find() adds all that walked
 }
 
 void Finder::resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, TierCounts& tests) {

@@ -37,6 +37,7 @@ public:
     /// as of find().
     template <class F>
     void find_all(const PointRecord* points, std::size_t count, LocationCounts& counts, F found) {
+        counts.ways.candidates += count;
         std::array<std::uint32_t, chunk_size> which;
         std::iota(which.begin(), which.begin() + static_cast<std::ptrdiff_t>(count), 0);
         for_candidates(points, which.data(), count, counts.tests, [&](const Candidate& c, WeightSigns signs) {
@@ -47,12 +48,12 @@ public:
     }
 
 private:
-    void walk(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests);
+    void walk(const PointRecord* points, Place* owner, Feature* feature, LocationCounts& counts);
     /// Goes on from a cell where a walk in floating point did not end, by exact signs: the cell that contains the
     /// point, or ~(a cell that does not, from which there is no way on).
     Place out_of_circle(const PointRecord& point, Place cell, TierCounts& tests) const;
     /// Who else holds the points that arrived in contested cells?
-    void ask_contested(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests);
+    void ask_contested(const PointRecord* points, Place* owner, Feature* feature, LocationCounts& counts);
     void resolve(const PointRecord& point, Walk stuck, Place* owner, Feature* feature, TierCounts& tests);
     void ask_candidates(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests);
 

@@ -166,6 +166,7 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads) c
                                     found[b].push_back({number[at + point], cell, feature});
                                 });
             }
+            parts[b].ways.no_cell_near += sorted.left_out();
             std::sort(found[b].begin(), found[b].end(), [](const Found& x, const Found& y) {
                 return std::pair(x.point, x.cell) < std::pair(y.point, y.cell);
             });
@@ -191,6 +192,7 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads) c
             table.point_begin.push_back(table.cells.size());
         }
         table.counts.locations.tests.add(parts[b].tests);
+        table.counts.locations.ways.add(parts[b].ways);
         found[b] = {};
     }
     return table;

@@ -5,6 +5,13 @@
 
 namespace barycert {
 
+void WayCounts::add(const WayCounts& other) {
+    no_cell_near += other.no_cell_near;
+    walk += other.walk;
+    contested += other.contested;
+    candidates += other.candidates;
+}
+
 void LocationCounts::add(Feature f, std::uint64_t count) {
     switch (f) {
         case Feature::interior:
@@ -32,6 +39,7 @@ void LocationCounts::add(const LocationCounts& other) {
     vertex += other.vertex;
     outside += other.outside;
     tests.add(other.tests);
+    ways.add(other.ways);
 }
 
 void SampleCounts::add(const SampleCounts& other) {

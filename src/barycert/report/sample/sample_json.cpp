@@ -40,6 +40,15 @@ Json inside_json(const LocationCounts& n) {
     return j;
 }
 
+Json ways_json(const WayCounts& n) {
+    Json j;
+    j["no_cell_near"] = n.no_cell_near;
+    j["walk"] = n.walk;
+    j["contested"] = n.contested;
+    j["candidates"] = n.candidates;
+    return j;
+}
+
 Json outside_json(const SampleSummary& summary) {
     const SampleCounts& n = summary.counts;
     Json j;
@@ -116,6 +125,7 @@ std::string sample_json(const SampleSummary& summary, const Environment& environ
     if (summary.picture) j["picture"] = picture_json(*summary.picture);
     j["method"] = name(summary.method);
     j["reason"] = summary.reason;
+    if (summary.counts.locations.ways.points() != 0) j["ways"] = ways_json(summary.counts.locations.ways);
     j["seconds"] = seconds_json(summary.seconds);
     j["threads"] = summary.threads;
     j["environment"] = environment_json(environment);

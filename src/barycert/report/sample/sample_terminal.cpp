@@ -29,6 +29,19 @@ std::string inside(const LocationCounts& n) {
     return text;
 }
 
+/// How many points were found in which way.
+std::string ways(const WayCounts& n) {
+    std::vector<std::string> all;
+    const auto add = [&](std::uint64_t count, std::string_view how) {
+        if (count != 0) all.push_back(fmt::format("{} {}", count, how));
+    };
+    add(n.walk, "by a walk");
+    add(n.contested, "in contested cells");
+    add(n.candidates, "by testing every candidate");
+    add(n.no_cell_near, "outside at once, no cell is near");
+    return fmt::format("{}", fmt::join(all, "; "));
+}
+
 /// What became of points outside.
 std::string outside(const SampleSummary& summary, const Colours& paint) {
     const SampleCounts& n = summary.counts;
@@ -126,6 +139,7 @@ std::string sample_text(const SampleSummary& summary, bool colour) {
                                         summary.degenerate_cells == 1 ? "s" : ""));
     out += line("mesh", cells);
     out += line("method", fmt::format("{}: {}", name(summary.method), summary.reason));
+    if (summary.counts.locations.ways.points() != 0) out += line("found", ways(summary.counts.locations.ways));
     out += line("time", times(summary));
     return out;
 }
