@@ -35,9 +35,7 @@
 #ifdef BARYCERT_WITH_TETGEN
 #include "large_mesh.hpp"
 #endif
-#ifdef BARYCERT_WITH_VTK
 #include "barycert/vtk.hpp"
-#endif
 
 namespace {
 
@@ -209,9 +207,6 @@ void compare_peer(const Contender& peer, const std::vector<double>& right) {
 
 void verify(const Row& row) {
     apart([&] {
-#ifdef BARYCERT_WITH_VTK
-        use_vtk_files();
-#endif
         const Contender& us = row.contenders.front();
         if (!with_vtk() && !us.out.ends_with(".npy") && !us.out.ends_with(".csv")) {
             std::printf("%s: no VTK to read the output\n", row.what.c_str());
