@@ -1,0 +1,95 @@
+/// The error of one value, and where it is counted.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "barycert/base/strict_math.hpp"
+#include "barycert/base/ulp.hpp"
+#include "barycert/verify.hpp"
+
+namespace barycert::verify {
+
+enum class Compared : std::uint8_t { both_nan, missing, spurious, identical, different };
+
+struct ValueError {
+    Compared compared = Compared::identical;
+    double ulps = 0, relative = 0;
+
+    /// Whether the value is wrong under these options.
+    bool over(const VerifyOptions& options) const {
+        if (compared == Compared::missing || compared == Compared::spurious) return true;
+        if (compared != Compared::different) return false;
+        return options.exact || !(relative <= options.tolerance);
+    }
+};
+
+/// |a - b| / range, without overflow on the way. Precondition: range > 0, finite.
+inline double relative_error(double a, double b, double range) {
+    const double difference = std::fabs(a - b);
+    if (!std::isinf(difference)) return difference / range;
+    return std::fabs(a * 0.5 - b * 0.5) / (range * 0.5);  // infinite still, if one of them is
+}
+
+inline ValueError compare(double claimed, double exact, double range) {
+    const bool no_claim = std::isnan(claimed), no_value = std::isnan(exact);
+    if (no_claim && no_value) return {Compared::both_nan};
+    if (no_claim) return {Compared::missing, 0, std::numeric_limits<double>::infinity()};
+    if (no_value) return {Compared::spurious, 0, std::numeric_limits<double>::infinity()};
+    if (claimed == exact) return {Compared::identical};
+    ValueError error{Compared::different};
+    error.relative = relative_error(claimed, exact, range);
+    if (std::isinf(claimed) || std::isinf(exact)) {
+        error.ulps = std::numeric_limits<double>::max();
+    } else if (exact != 0) {
+        error.ulps = base::ulp_error(claimed, exact);
+    } else {
+        error.ulps =
+            std::min(std::ldexp(std::fabs(claimed), -base::ulp_exponent(range)), std::numeric_limits<double>::max());
+    }
+    return error;
+}
+
+/// Where in ValueErrors::by_ulps an error that is not 0 counts.
+inline std::size_t bin_of_ulps(double ulps, std::size_t bins) {
+    const int exponent = std::ilogb(std::max(ulps, 0.5));
+    return static_cast<std::size_t>(std::clamp(exponent + 2, 1, static_cast<int>(bins) - 1));
+}
+
+inline std::size_t bin_of_relative(double relative, std::size_t bins) {
+    std::size_t bin = 1;
+    for (double upper = 1e-17; bin + 1 < bins && !(relative < upper); upper *= 10) ++bin;
+    return bin;
+}
+
+inline void count(const ValueError& error, double claimed, const VerifyOptions& options, ValueErrors& to) {
+    switch (error.compared) {
+        case Compared::both_nan:
+            return;
+        case Compared::missing:
+            ++to.missing;
+            return;
+        case Compared::spurious:
+            ++to.spurious;
+            return;
+        default:
+            break;
+    }
+    ++to.values;
+    to.floats += static_cast<double>(static_cast<float>(claimed)) == claimed ? 1 : 0;
+    if (error.compared == Compared::identical) {
+        ++to.identical;
+        ++to.by_ulps[0];
+        ++to.by_relative[0];
+        return;
+    }
+    to.over += error.over(options) ? 1 : 0;
+    to.max_ulps = std::max(to.max_ulps, error.ulps);
+    to.max_relative = std::max(to.max_relative, error.relative);
+    ++to.by_ulps[bin_of_ulps(error.ulps, to.by_ulps.size())];
+    ++to.by_relative[bin_of_relative(error.relative, to.by_relative.size())];
+}
+
+}  // namespace barycert::verify

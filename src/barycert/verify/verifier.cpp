@@ -1,0 +1,264 @@
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "barycert/environment.hpp"
+#include "barycert/locate/batch.hpp"
+#include "barycert/locate/cell_signs.hpp"
+#include "barycert/sample/points/sampler_data.hpp"
+#include "barycert/verify.hpp"
+#include "barycert/verify/errors.hpp"
+#include "barycert/verify/holders.hpp"
+
+namespace barycert {
+namespace {
+
+using verify::Compared;
+using verify::ValueError;
+
+/// max - min of the finite numbers of a component; what else errors can be relative to, where that is 0.
+double range_of(const Field& field, std::size_t component) {
+    const auto components = static_cast<std::size_t>(field.components);
+    double low = std::numeric_limits<double>::infinity(), high = -low, size = 0;
+    for (std::size_t i = component; i < field.data.size(); i += components) {
+        const double x = field.data[i];
+        if (!std::isfinite(x)) continue;
+        low = std::min(low, x);
+        high = std::max(high, x);
+        size = std::max(size, std::fabs(x));
+    }
+    const double range = std::min(high - low, std::numeric_limits<double>::max());
+    return range > 0 ? range : size > 0 ? size : 1;
+}
+
+Status wrong_size(const char* what, std::size_t expected, std::size_t found) {
+    return Error{
+        .what = std::string("size of ") + what, .expected = std::to_string(expected), .found = std::to_string(found)};
+}
+
+/// One block of rows.
+class BlockVerifier {
+public:
+    BlockVerifier(const Sampler& sampler, const Verifier& verifier, const ClaimedRows& claimed)
+        : sampler_(sampler), options_(verifier.options()), ranges_(verifier.ranges()), claimed_(claimed) {}
+
+    Result<Verdicts> run() {
+        const auto d = static_cast<std::size_t>(sampler_.locator().mesh().dimension);
+        const std::size_t rows = claimed_.points.size() / d;
+        found_.rows = rows;
+        found_.columns.resize(ranges_.size());
+        SampleOptions exact;
+        exact.threads = 1;
+        if (Status done = sampler_.sample(claimed_.points, exact, table_, claimed_.first_row); !done)
+            return done.error();
+        for (std::size_t row = 0; row < rows; ++row) look_at(row);
+        if (Status done = look_again(); !done) return done.error();
+        Verdicts none;
+        none.add(found_, options_.examples);  // orders examples
+        return none;
+    }
+
+private:
+    std::size_t columns() const { return ranges_.size(); }
+    const double* values(std::size_t row) const { return table_.values.data() + columns() * row; }
+    const double* claims(std::size_t row) const { return claimed_.values.data() + columns() * row; }
+
+    bool has_no_value(std::size_t row) const {
+        if (columns() == 0) return false;
+        const double* const v = claims(row);
+        const bool all_nan = std::all_of(v, v + columns(), [](double x) { return std::isnan(x); });
+        if (all_nan) return true;
+        return options_.outside_value &&
+               std::all_of(v, v + columns(), [&](double x) { return x == *options_.outside_value; });
+    }
+
+    /// Does the row say that the point is inside?
+    bool says_inside(std::size_t row) const {
+        if (!claimed_.inside.empty()) return claimed_.inside[row] != 0;
+        if (!claimed_.cells.empty()) return claimed_.cells[row] >= 0;
+        if (!has_no_value(row)) return true;
+        // Where the exact values are NaN themselves, NaN says nothing.
+        const double* const v = values(row);
+        return table_.cells[row] >= 0 && std::all_of(v, v + columns(), [](double x) { return std::isnan(x); });
+    }
+
+    bool names_wrong_cell(std::size_t row) {
+        if (claimed_.cells.empty() || claimed_.cells[row] < 0 || claimed_.cells[row] == table_.cells[row]) return false;
+        const Mesh& mesh = sampler_.locator().mesh();
+        if (static_cast<std::uint64_t>(claimed_.cells[row]) >= sampler_.data().index().original.size()) return true;
+        const auto d = static_cast<std::size_t>(mesh.dimension);
+        std::array<double, 3> at{};
+        std::copy_n(claimed_.points.data() + d * row, d, at.begin());
+        const locate::LocatorData& data = sampler_.locator().data();
+        const locate::Place place = data.places()[static_cast<std::size_t>(claimed_.cells[row])];
+        return !locate::cell_signs(data.index, place, at.data(), tests_).contains();
+    }
+
+    void look_at(std::size_t row) {
+        const bool inside = table_.cells[row] >= 0, said = says_inside(row);
+        ++(inside ? found_.inside : found_.outside);
+        if (inside && table_.features[row] != Feature::interior) ++found_.on_boundary;
+        if (!inside && !said) {
+            ++found_.right;
+        } else if (inside && !said) {
+            ++found_.missed;
+            const bool boundary = table_.features[row] != Feature::interior;
+            found_.missed_on_boundary += boundary ? 1 : 0;
+            keep(row, RowVerdict::missed, boundary ? 0 : 1);
+        } else if (!inside) {
+            ++found_.invented;
+            const double* const v = claims(row);
+            found_.invented_zero += columns() != 0 && std::all_of(v, v + columns(), [](double x) { return x == 0; });
+            keep(row, RowVerdict::invented, 0);
+        } else if (over(row, values(row)) && may_be_in_several(row)) {
+            again_.push_back(row);
+        } else {
+            settle(row, values(row), 1);
+        }
+    }
+
+    bool over(std::size_t row, const double* exact) const {
+        for (std::size_t c = 0; c < columns(); ++c) {
+            if (verify::compare(claims(row)[c], exact[c], ranges_[c]).over(options_)) return true;
+        }
+        return false;
+    }
+
+    bool may_be_in_several(std::size_t row) const {
+        return table_.features[row] != Feature::interior || !sampler_.locator().certified();
+    }
+
+    /// A row inside that says so, held against `exact`.
+    void settle(std::size_t row, const double* exact, std::uint64_t cells) {
+        ValueError worst;
+        std::size_t column = 0;
+        bool wrong = false;
+        for (std::size_t c = 0; c < columns(); ++c) {
+            const ValueError error = verify::compare(claims(row)[c], exact[c], ranges_[c]);
+            verify::count(error, claims(row)[c], options_, found_.columns[c]);
+            wrong = wrong || error.over(options_);
+            if (c != 0 && !(error.relative > worst.relative)) continue;
+            worst = error;
+            column = c;
+        }
+        const RowVerdict verdict = names_wrong_cell(row) ? RowVerdict::wrong_cell
+                                   : wrong               ? RowVerdict::wrong_value
+                                                         : RowVerdict::right;
+        ++(verdict == RowVerdict::wrong_cell    ? found_.wrong_cell
+           : verdict == RowVerdict::wrong_value ? found_.wrong_value
+                                                : found_.right);
+        if (verdict == RowVerdict::right) return;
+        WrongRow& kept = keep(row, verdict, worst.relative);
+        kept.cells = cells;
+        if (columns() == 0) return;
+        kept.column = column;
+        kept.claimed = claims(row)[column];
+        kept.value = exact[column];
+        kept.ulps = worst.ulps;
+        kept.relative = worst.relative;
+    }
+
+    Status look_again() {
+        const auto best = verify::best_holders(sampler_, claimed_, again_, ranges_);
+        if (!best) return best.error();
+        for (std::size_t i = 0; i < again_.size(); ++i) {
+            const verify::BestHolder& holder = (*best)[i];
+            found_.several += holder.cells > 1 ? 1 : 0;
+            const std::uint64_t right = found_.right;
+            settle(again_[i], holder.values.data(), holder.cells);
+            found_.by_other_cell += holder.other && found_.right != right ? 1 : 0;
+        }
+        return Done{};
+    }
+
+    WrongRow& keep(std::size_t row, RowVerdict verdict, double severity) {
+        WrongRow wrong;
+        wrong.verdict = verdict;
+        wrong.row = claimed_.first_row + row;
+        wrong.severity = severity;
+        const auto d = static_cast<std::size_t>(sampler_.locator().mesh().dimension);
+        std::copy_n(claimed_.points.data() + d * row, d, wrong.point.begin());
+        if (!claimed_.cells.empty()) wrong.claimed_cell = claimed_.cells[row];
+        wrong.exact = {table_.cells[row], table_.features[row]};
+        wrong.cells = table_.cells[row] >= 0 ? 1 : 0;
+        if (columns() != 0) {
+            wrong.claimed = claims(row)[0];
+            wrong.value = values(row)[0];
+        }
+        found_.examples.push_back(wrong);
+        return found_.examples.back();
+    }
+
+    const Sampler& sampler_;
+    const VerifyOptions& options_;
+    const std::vector<double>& ranges_;
+    const ClaimedRows& claimed_;
+    Table table_;
+    TierCounts tests_;
+    std::vector<std::size_t> again_;
+    Verdicts found_;
+};
+
+Status check_claims(const Sampler& sampler, const ClaimedRows& rows) {
+    const auto d = static_cast<std::size_t>(sampler.locator().mesh().dimension);
+    if (rows.points.size() % d != 0) return wrong_size("the points", d, rows.points.size() % d);
+    const std::size_t count = rows.points.size() / d, columns = sampler.columns().size();
+    if (!rows.cells.empty() && rows.cells.size() != count) return wrong_size("the cells", count, rows.cells.size());
+    if (!rows.inside.empty() && rows.inside.size() != count)
+        return wrong_size("inside or outside", count, rows.inside.size());
+    if (rows.values.size() != count * columns) return wrong_size("the values", count * columns, rows.values.size());
+    return locate::check_finite(rows.points, d, rows.first_row);
+}
+
+ClaimedRows part_of(const ClaimedRows& rows, std::size_t d, std::size_t columns, std::size_t first, std::size_t size) {
+    ClaimedRows part;
+    part.points = rows.points.subspan(d * first, d * size);
+    if (!rows.cells.empty()) part.cells = rows.cells.subspan(first, size);
+    if (!rows.inside.empty()) part.inside = rows.inside.subspan(first, size);
+    part.values = rows.values.subspan(columns * first, columns * size);
+    part.first_row = rows.first_row + first;
+    return part;
+}
+
+}  // namespace
+
+Verifier::Verifier(const Sampler& sampler, const VerifyOptions& options) : sampler_(sampler), options_(options) {
+    const ExactEnvironment environment;
+    for (const auto* fields : {&sampler.data().point_fields, &sampler.data().cell_fields}) {
+        for (const Field* field : *fields) {
+            for (std::size_t c = 0; c < static_cast<std::size_t>(field->components); ++c)
+                ranges_.push_back(range_of(*field, c));
+        }
+    }
+}
+
+Result<Verdicts> Verifier::verify(const ClaimedRows& rows) const {
+    const ExactEnvironment environment;
+    if (Status ok = check_claims(sampler_, rows); !ok) return ok.error();
+    const auto d = static_cast<std::size_t>(sampler_.locator().mesh().dimension);
+    const std::size_t count = rows.points.size() / d, columns = sampler_.columns().size();
+    constexpr std::size_t block = std::size_t{1} << 17;
+    const std::size_t blocks = (count + block - 1) / block;
+    std::vector<std::optional<Result<Verdicts>>> parts(blocks);
+    locate::in_arena(options_.threads, [&] {
+        tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+            const ExactEnvironment of_task;
+            const std::size_t first = b * block;
+            const ClaimedRows part = part_of(rows, d, columns, first, std::min(block, count - first));
+            parts[b].emplace(BlockVerifier(sampler_, *this, part).run());
+        });
+    });
+    Verdicts all;
+    all.columns.resize(columns);
+    for (auto& part : parts) {
+        if (!*part) return part->error();
+        all.add(**part, options_.examples);
+    }
+    return all;
+}
+
+}  // namespace barycert
