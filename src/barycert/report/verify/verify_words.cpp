@@ -1,0 +1,111 @@
+#include "barycert/report/verify/verify_words.hpp"
+
+#include <fmt/format.h>
+
+#include "barycert/base/text.hpp"
+#include "barycert/report/common/terminal_text.hpp"
+
+namespace barycert::report {
+namespace {
+
+/// The doubles of a point, with commas.
+std::string coordinates(const VerifySummary& summary, const WrongRow& row) {
+    std::string text;
+    for (int k = 0; k < summary.dimension; ++k)
+        text += (k == 0 ? "" : ",") + base::shortest(row.point[static_cast<std::size_t>(k)]);
+    return text;
+}
+
+std::string where(const WrongRow& row) {
+    if (row.exact.cell < 0) return "outside";
+    if (row.exact.feature == Feature::interior) return fmt::format("inside cell {}", row.exact.cell);
+    return fmt::format("on {} {} of cell {}", row.exact.feature == Feature::edge ? "an" : "a",
+                       name(row.exact.feature), row.exact.cell);
+}
+
+std::string value_clause(const VerifySummary& summary, const WrongRow& row) {
+    if (summary.columns.empty()) return "";
+    return fmt::format("{} is {}, should be {}", base::printable(summary.columns[row.column]),
+                       base::shortest(row.claimed), base::shortest(row.value));
+}
+
+}  // namespace
+
+std::string verdict_sentence(const VerifySummary& summary) {
+    const Verdicts& v = summary.verdicts;
+    if (v.rows == 0) return "no rows";
+    if (v.wrong() == 0) return v.rows == 1 ? "the row is right" : fmt::format("all {} rows are right", v.rows);
+    return fmt::format("WRONG: {} of {} rows", v.wrong(), v.rows);
+}
+
+std::vector<VerdictLine> verdict_table(const VerifySummary& summary) {
+    const Verdicts& v = summary.verdicts;
+    const bool named = !summary.cell_column.empty();
+    std::string right = summary.exact ? "the exact value, rounded once" : "values off by at most the tolerance";
+    if (v.by_other_cell != 0)
+        right += fmt::format("; {} by another cell that contains the point, not by the lowest", v.by_other_cell);
+    std::string missed = "in a cell, and said to be outside";
+    if (v.missed_on_boundary != 0)
+        missed += fmt::format("; {} on a face, an edge or a vertex of the cell", v.missed_on_boundary);
+    std::string invented = "in no cell, and said to be inside";
+    if (v.invented_zero != 0) invented += fmt::format("; {} have the value 0", v.invented_zero);
+    return {{"right", v.right, summary.columns.empty() ? "" : right},
+            {"missed", v.missed, missed},
+            {"invented", v.invented, invented},
+            {"wrong cell", v.wrong_cell,
+             named ? "inside, but not in the cell that column " + base::quoted(summary.cell_column) + " names"
+                   : "not compared: the results name no cells"},
+            {"wrong value", v.wrong_value,
+             summary.columns.empty() ? "not compared: no column of values"
+             : summary.exact         ? "not the exact value, rounded once"
+                                     : fmt::format("off by more than {} of the range, or NaN",
+                                                   base::shortest(summary.tolerance))}};
+}
+
+std::pair<std::size_t, std::size_t> used_bins(const ValueErrors& errors) {
+    std::size_t first = 0, last = errors.by_relative.size() - 1;
+    while (first < last && errors.by_relative[first] == 0) ++first;
+    while (last > first && errors.by_relative[last] == 0) --last;
+    return {first, last};
+}
+
+std::string bin_label(std::size_t bin) {
+    if (bin == 0) return "right";
+    if (bin == 21) return ">= 100";
+    return fmt::format("< 1e{:+03d}", static_cast<int>(bin) - 18);
+}
+
+std::string example_sentence(const VerifySummary& summary, const WrongRow& row) {
+    std::string text = "point (" + coordinates(summary, row) + ") is " + where(row);
+    switch (row.verdict) {
+        case RowVerdict::missed:
+            return text + ", and said to be outside";
+        case RowVerdict::invented:
+            return text + (summary.columns.empty() ? ", and said to be inside"
+                                                   : fmt::format(", and {} is {}", base::printable(summary.columns[0]),
+                                                                 base::shortest(row.claimed)));
+        case RowVerdict::wrong_cell:
+            return text + fmt::format(", not in cell {}", row.claimed_cell) +
+                   (summary.columns.empty() ? "" : "; " + value_clause(summary, row));
+        default:
+            return text + "; " + value_clause(summary, row) +
+                   (row.relative > 0 && row.relative < 1e300
+                        ? fmt::format(": {} of the range", brief(row.relative))
+                        : std::string());
+    }
+}
+
+std::string example_command(const VerifySummary& summary, const WrongRow& row) {
+    return fmt::format("echo {} | {} sample {} --columns 1,2{} --on-boundary all --points - --output -",
+                       coordinates(summary, row), summary.program, shell_word(summary.mesh),
+                       summary.dimension == 3 ? ",3" : "");
+}
+
+std::string mesh_sentence(const VerifySummary& summary) {
+    if (summary.certified) return "certified, no two cells overlap";
+    if (summary.contested_cells == 0) return "cells meet in common faces";
+    return fmt::format("{} cells may meet others beside common faces; any cell that contains a point counts as right",
+                       summary.contested_cells);
+}
+
+}  // namespace barycert::report

@@ -1,0 +1,37 @@
+/// The words of reports on verified results: the same on the terminal and in HTML.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "barycert/verification.hpp"
+
+namespace barycert::report {
+
+/// "every row is right", or how many are wrong.
+std::string verdict_sentence(const VerifySummary& summary);
+
+struct VerdictLine {
+    std::string name;
+    std::uint64_t count = 0;
+    std::string what;  ///< what such rows are
+};
+/// A line for each RowVerdict.
+std::vector<VerdictLine> verdict_table(const VerifySummary& summary);
+
+/// The first and the last bin of ValueErrors::by_relative that has an entry. Precondition: some bin has.
+std::pair<std::size_t, std::size_t> used_bins(const ValueErrors& errors);
+/// What is in a bin: "right", "< 1e-16".
+std::string bin_label(std::size_t bin);
+
+/// What is wrong with a row.
+std::string example_sentence(const VerifySummary& summary, const WrongRow& row);
+/// A command that shows what the exact answer is.
+std::string example_command(const VerifySummary& summary, const WrongRow& row);
+
+std::string mesh_sentence(const VerifySummary& summary);
+
+}  // namespace barycert::report
