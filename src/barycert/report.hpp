@@ -17,6 +17,7 @@
 #include "barycert/rendering.hpp"
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
+#include "barycert/verification.hpp"
 
 namespace barycert {
 
@@ -72,6 +73,17 @@ std::string sample_text(const SampleSummary& summary, bool colour);
 inline constexpr int sample_schema = 1;
 
 std::string sample_json(const SampleSummary& summary, const Environment& environment);
+
+// What a verification of results found, for people and as JSON and HTML. JSON is documented in SCHEMA.md.
+
+inline constexpr int verify_schema = 1;
+
+/// The verdict, a table, errors, the worst rows with commands. At most 120 columns, names and rows aside.
+std::string verify_text(const VerifySummary& summary, bool colour);
+std::string verify_json(const VerifySummary& summary, const Environment& environment);
+/// One self-contained page without scripts, for screens of any width, light and dark, and for paper; it is well-formed
+/// XML, too.
+std::string verify_html(const VerifySummary& summary, const Environment& environment);
 
 // What a run of cutting did, for people and as JSON.
 

@@ -22,8 +22,8 @@ struct VerifyJob {
     std::string results;
     std::vector<std::string> columns = {};  ///< those of the coordinates: PointOptions::columns
 
-    /// Columns of values by the columns of the sampler (T, v.0, ...). Those that are not named here are looked for under
-    /// their own name, and as NAME:0 and NAME_0, as ParaView writes them.
+    /// Columns of values by the columns of the sampler (T, v.0, ...). Those that are not named here are looked for
+    /// under their own name, and as NAME:0 and NAME_0, as ParaView writes them.
     std::map<std::string, std::string> values = {};
     /// The column that names cells, from cell_base. Empty: `cell`, if there is one; "none": none.
     std::string cell_column;
@@ -48,8 +48,8 @@ struct VerifySummary {
     bool certified = false;
     std::uint64_t contested_cells = 0;
 
-    std::vector<std::string> columns;   ///< of the sampler: what was compared
-    std::vector<std::string> found_in;  ///< the column of the results for each
+    std::vector<std::string> columns;      ///< of the sampler: what was compared
+    std::vector<std::string> found_in;     ///< the column of the results for each
     std::string cell_column, mask_column;  ///< empty: none
     std::vector<double> ranges;            ///< what errors are relative to
     double tolerance = 0;

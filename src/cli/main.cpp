@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
     cli::add_check(app, exit_code);
     cli::add_sample(app, exit_code);
     cli::add_resample(app, exit_code);
+    cli::add_verify(app, exit_code);
     cli::add_render(app, exit_code);
 #ifdef BARYCERT_WITH_AUDIT
     cli::add_replay(app, exit_code);

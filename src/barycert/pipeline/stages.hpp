@@ -47,8 +47,10 @@ inline std::size_t block_size(std::optional<std::uint64_t> count) {
 }
 
 /// Three stages at once: blocks are read one after the other, worked on side by side, and written in the order in which
-/// they were read. At most one block a thread, and two more, are in memory.
-class Stages {
+/// they were read. At most one block a thread, and two more, are in memory. A block has `size`, `error` and `seconds` as
+/// Block has.
+template <class Block>
+class StagesOf {
 public:
     /// read(block) fills the next one, of which `size` > 0 unless it is the end; work(block) and write(block) follow.
     /// All tell errors by the block or by what they return. The first error in the order of blocks ends it all.
@@ -114,5 +116,7 @@ private:
     std::atomic<bool> stopped_{false};  // by the writing stage
     std::optional<Error> error_;
 };
+
+using Stages = StagesOf<Block>;
 
 }  // namespace barycert::pipeline

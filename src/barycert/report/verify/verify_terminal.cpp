@@ -22,7 +22,8 @@ std::string verdict_lines(const VerifySummary& s, const Colours& paint) {
     out += fmt::format("{} rows: {} inside the mesh, {} of them on a face, an edge or a vertex; {} outside\n\n", v.rows,
                        v.inside, v.on_boundary, v.outside);
     for (const VerdictLine& line : verdict_table(s))
-        out += fmt::format("{:<12} {:>12} {:>7} %  {}\n", line.name, line.count, percent(line.count, v.rows), line.what);
+        out +=
+            fmt::format("{:<12} {:>12} {:>7} %  {}\n", line.name, line.count, percent(line.count, v.rows), line.what);
     return out;
 }
 
@@ -77,14 +78,15 @@ std::string verify_text(const VerifySummary& summary, bool colour) {
     const Colours paint(colour);
     std::string out = verdict_lines(summary, paint) + value_lines(summary, paint) + histogram_lines(summary) +
                       example_lines(summary, paint);
-    out += fmt::format("\n{:<10} {} cells, {} nodes: {}\n", "mesh", summary.cells, summary.nodes, mesh_sentence(summary));
+    out +=
+        fmt::format("\n{:<10} {} cells, {} nodes: {}\n", "mesh", summary.cells, summary.nodes, mesh_sentence(summary));
     for (const Note& note : summary.notes)
         out += fmt::format("{:<10} {}{}\n", name(note.kind), base::printable(note.text),
                            note.file.empty() ? "" : " (" + base::printable(note.file) + ")");
     const SampleSeconds& t = summary.seconds;
-    out += fmt::format("{:<10} {:.3g} s on {} thread{}: mesh {:.3g}, locator {:.3g}, results {:.3g}, comparing {:.3g}\n",
-                       "time", t.total, summary.threads, summary.threads == 1 ? "" : "s", t.mesh, t.build, t.read,
-                       t.sample);
+    out += fmt::format(
+        "{:<10} {:.3g} s on {} thread{}: mesh {:.3g}, locator {:.3g}, results {:.3g}, comparing {:.3g}\n", "time",
+        t.total, summary.threads, summary.threads == 1 ? "" : "s", t.mesh, t.build, t.read, t.sample);
     return out;
 }
 

@@ -19,8 +19,8 @@ std::string coordinates(const VerifySummary& summary, const WrongRow& row) {
 std::string where(const WrongRow& row) {
     if (row.exact.cell < 0) return "outside";
     if (row.exact.feature == Feature::interior) return fmt::format("inside cell {}", row.exact.cell);
-    return fmt::format("on {} {} of cell {}", row.exact.feature == Feature::edge ? "an" : "a",
-                       name(row.exact.feature), row.exact.cell);
+    return fmt::format("on {} {} of cell {}", row.exact.feature == Feature::edge ? "an" : "a", name(row.exact.feature),
+                       row.exact.cell);
 }
 
 std::string value_clause(const VerifySummary& summary, const WrongRow& row) {
@@ -49,17 +49,17 @@ std::vector<VerdictLine> verdict_table(const VerifySummary& summary) {
         missed += fmt::format("; {} on a face, an edge or a vertex of the cell", v.missed_on_boundary);
     std::string invented = "in no cell, and said to be inside";
     if (v.invented_zero != 0) invented += fmt::format("; {} have the value 0", v.invented_zero);
-    return {{"right", v.right, summary.columns.empty() ? "" : right},
-            {"missed", v.missed, missed},
-            {"invented", v.invented, invented},
-            {"wrong cell", v.wrong_cell,
-             named ? "inside, but not in the cell that column " + base::quoted(summary.cell_column) + " names"
-                   : "not compared: the results name no cells"},
-            {"wrong value", v.wrong_value,
-             summary.columns.empty() ? "not compared: no column of values"
-             : summary.exact         ? "not the exact value, rounded once"
-                                     : fmt::format("off by more than {} of the range, or NaN",
-                                                   base::shortest(summary.tolerance))}};
+    return {
+        {"right", v.right, summary.columns.empty() ? "" : right},
+        {"missed", v.missed, missed},
+        {"invented", v.invented, invented},
+        {"wrong cell", v.wrong_cell,
+         named ? "inside, but not in the cell that column " + base::quoted(summary.cell_column) + " names"
+               : "not compared: the results name no cells"},
+        {"wrong value", v.wrong_value,
+         summary.columns.empty() ? "not compared: no column of values"
+         : summary.exact         ? "not the exact value, rounded once"
+                         : fmt::format("off by more than {} of the range, or NaN", base::shortest(summary.tolerance))}};
 }
 
 std::pair<std::size_t, std::size_t> used_bins(const ValueErrors& errors) {
@@ -89,9 +89,8 @@ std::string example_sentence(const VerifySummary& summary, const WrongRow& row) 
                    (summary.columns.empty() ? "" : "; " + value_clause(summary, row));
         default:
             return text + "; " + value_clause(summary, row) +
-                   (row.relative > 0 && row.relative < 1e300
-                        ? fmt::format(": {} of the range", brief(row.relative))
-                        : std::string());
+                   (row.relative > 0 && row.relative < 1e300 ? fmt::format(": {} of the range", brief(row.relative))
+                                                             : std::string());
     }
 }
 

@@ -1,0 +1,248 @@
+// Results of a tool held against the exact ones.
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "barycert/io.hpp"
+#include "barycert/locate/batch.hpp"
+#include "barycert/locate/locator_data.hpp"
+#include "barycert/pipeline/claimed_columns.hpp"
+#include "barycert/pipeline/field_files.hpp"
+#include "barycert/pipeline/job_files.hpp"
+#include "barycert/pipeline/run.hpp"
+#include "barycert/pipeline/stages.hpp"
+#include "barycert/sample/points/field_choice.hpp"
+#include "barycert/verification.hpp"
+
+namespace barycert {
+namespace {
+
+using pipeline::ClaimedColumns;
+using pipeline::Claims;
+using pipeline::Stopwatch;
+
+constexpr double tolerance_of_floats = 1e-6;
+
+/// Rows on their way through the stages.
+struct ResultBlock {
+    std::vector<double> points;
+    std::vector<Column> columns;
+    std::uint64_t first = 0, size = 0;
+    Verdicts found;
+    std::optional<Error> error;
+    double seconds = 0;
+};
+
+Status check_job(const VerifyJob& job) {
+    if (job.cell_base != 0 && job.cell_base != 1)
+        return Error{.what = "--cell-base", .expected = "0 or 1", .found = std::to_string(job.cell_base)};
+    std::vector<base::NamedFile> inputs = base::named_files("the mesh", mesh_files(job.mesh));
+    inputs.push_back({"--results", job.results});
+    for (const FieldFile& file : job.field_files) inputs.push_back({"--field", file.path});
+    std::vector<base::NamedFile> outputs;
+    if (!job.report.empty()) outputs.push_back({"--json", job.report});
+    if (!job.html.empty()) outputs.push_back({"--html", job.html});
+    return base::check_outputs(inputs, std::move(outputs));
+}
+
+/// All that was read of a file, to be read again with fewer columns.
+Result<std::unique_ptr<PointSource>> open_results(const VerifyJob& job, int dimension,
+                                                  const std::vector<std::string>& keep) {
+    PointOptions options;
+    options.columns = job.columns;
+    options.keep = keep;
+    return open_points(job.results, dimension, options);
+}
+
+/// Is every number of the columns of values single precision? False if there is none.
+bool are_floats(const Claims& claims) {
+    std::size_t numbers = 0;
+    for (const double x : claims.values) {
+        if (std::isnan(x) || x == 0) continue;
+        if (static_cast<double>(static_cast<float>(x)) != x) return false;
+        ++numbers;
+    }
+    return numbers > 0;
+}
+
+class Verification {
+public:
+    explicit Verification(const VerifyJob& job) : job_(job) {}
+
+    Result<VerifySummary> run() {
+        Stopwatch whole;
+        if (Status ok = read_all(); !ok) return ok.error();
+        if (Status ok = build(); !ok) return ok.error();
+        if (Status ok = compare(); !ok) return ok.error();
+        for (WrongRow& row : summary_.verdicts.examples) {
+            row.exact.cell = mesh_.cell_number(row.exact.cell);
+            if (row.claimed_cell >= static_cast<std::int64_t>(mesh_.cell_count())) continue;
+            row.claimed_cell = mesh_.cell_number(static_cast<Mesh::Index>(row.claimed_cell));
+        }
+        summary_.seconds.total = whole.lap();
+        return std::move(summary_);
+    }
+
+private:
+    void stage(const std::string& text) const {
+        if (job_.progress) job_.progress({.stage = text});
+    }
+
+    Status read_all() {
+        Stopwatch watch;
+        stage("reading " + job_.mesh);
+        const int threads = job_.options.threads;
+        Result<Mesh> mesh = read_mesh(job_.mesh, {.faces = false, .neighbours = false, .threads = threads});
+        if (!mesh) return mesh.error();
+        mesh_ = std::move(*mesh);
+        if (Status added = pipeline::add_fields(job_.field_files, mesh_); !added) return added;
+        auto fields = sample::fields_named(mesh_, job_.fields);
+        if (!fields) return fields.error();
+        summary_.seconds.mesh = watch.lap();
+        summary_.mesh = job_.mesh;
+        summary_.results = job_.results;
+        summary_.program = job_.program;
+        summary_.nodes = mesh_.point_count();
+        summary_.cells = mesh_.cell_count();
+        summary_.dimension = mesh_.dimension;
+        summary_.notes = mesh_.notes;
+        summary_.threads = threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+        auto all = open_results(job_, mesh_.dimension, {"all"});
+        if (!all) return all.error();
+        auto columns = pipeline::claimed_columns(job_, mesh_, *fields, (*all)->carried(), summary_.notes);
+        if (!columns) return columns.error();
+        columns_ = std::move(*columns);
+        // Standard input cannot be read twice.
+        source_ = std::move(*all);
+        if (job_.results == "-") return Done{};
+        auto some = open_results(job_, mesh_.dimension, columns_.names());
+        if (!some) return some.error();
+        source_ = std::move(*some);
+        return Done{};
+    }
+
+    Status build() {
+        Stopwatch watch;
+        BuildOptions options;
+        options.threads = job_.options.threads;
+        options.progress = [&](const char* text) { stage(text); };
+        Result<Locator> locator = Locator::build(mesh_, options);
+        if (!locator) return locator.error();
+        locator_.emplace(std::move(*locator));
+        Result<Sampler> sampler = Sampler::build(*locator_, columns_.fields);
+        if (!sampler) return sampler.error();
+        sampler_.emplace(std::move(*sampler));
+        summary_.certified = locator_->certified();
+        summary_.contested_cells = locator_->contested_cells();
+        summary_.columns = sampler_->columns();
+        summary_.found_in = columns_.values;
+        summary_.cell_column = columns_.cell;
+        summary_.mask_column = columns_.mask;
+        summary_.seconds.build = watch.lap();
+        return Done{};
+    }
+
+    Result<std::size_t> read(ResultBlock& block, std::size_t size) {
+        Stopwatch watch;
+        block.points.clear();
+        block.columns.clear();
+        block.first = taken_;
+        Result<std::size_t> count = source_->read(size, block.points);
+        if (!count) return count;
+        source_->take_carried(block.columns);
+        taken_ += *count;
+        block.size = *count;
+        summary_.seconds.read += watch.lap();
+        return count;
+    }
+
+    /// Single precision is told by the first block.
+    void choose_tolerance(const ResultBlock& first, VerifyOptions& options) {
+        if (job_.tolerance_given || options.exact) return;
+        const auto claims = pipeline::claims_of(columns_, first.columns, mesh_, job_, 0);
+        if (!claims || !are_floats(*claims)) return;
+        options.tolerance = tolerance_of_floats;
+        summary_.notes.push_back({Note::Kind::guessed,
+                                  "values are single precision: errors up to 1e-6 of the range count as right; "
+                                  "--tolerance says otherwise",
+                                  job_.results, true});
+    }
+
+    Status compare() {
+        const int threads = job_.options.threads;
+        std::size_t size = 0;
+        locate::in_arena(threads, [&] { size = pipeline::block_size(source_->count()); });
+        ResultBlock first;
+        if (const auto read_first = read(first, size); !read_first) return read_first.error();
+        VerifyOptions options = job_.options;
+        options.threads = 1;  // blocks go side by side
+        choose_tolerance(first, options);
+        const Verifier verifier(*sampler_, options);
+        summary_.ranges = verifier.ranges();
+        summary_.tolerance = options.tolerance;
+        summary_.exact = options.exact;
+        summary_.outside_value = options.outside_value;
+        summary_.verdicts.columns.resize(summary_.columns.size());
+        locate::in_arena(threads, [&] { locator_->data().prepare(source_->count().value_or(taken_)); });
+        bool begun = false;
+        double comparing = 0;
+        const auto next = [&](ResultBlock& block) -> Status {
+            if (!begun) {
+                begun = true;
+                block = std::move(first);
+                return Done{};
+            }
+            const auto count = read(block, size);
+            return count ? Status(Done{}) : Status(count.error());
+        };
+        const auto work = [&](ResultBlock& block) -> Status {
+            const auto claims = pipeline::claims_of(columns_, block.columns, mesh_, job_, block.first);
+            if (!claims) return claims.error();
+            auto found = verifier.verify({block.points, claims->cells, claims->inside, claims->values, block.first});
+            if (!found) return found.error();
+            block.found = std::move(*found);
+            return Done{};
+        };
+        const auto keep = [&](ResultBlock& block) -> Status {
+            summary_.verdicts.add(block.found, options.examples);
+            comparing += block.seconds;
+            if (job_.progress) job_.progress({.stage = "rows", .done = block.first + block.size});
+            return Done{};
+        };
+        Status done = Done{};
+        locate::in_arena(threads, [&] {
+            pipeline::StagesOf<ResultBlock> stages;
+            done = stages.run(next, work, keep);
+            comparing /= tbb::this_task_arena::max_concurrency();
+        });
+        for (const Note& note : source_->notes()) summary_.notes.push_back(note);
+        summary_.seconds.sample = comparing;
+        return done;
+    }
+
+    const VerifyJob& job_;
+    Mesh mesh_;
+    ClaimedColumns columns_;
+    std::unique_ptr<PointSource> source_;
+    std::optional<Locator> locator_;
+    std::optional<Sampler> sampler_;
+    std::uint64_t taken_ = 0;
+    VerifySummary summary_;
+};
+
+}  // namespace
+
+Result<VerifySummary> verify_files(const VerifyJob& job) {
+    if (Status ok = check_job(job); !ok) return ok.error();
+    std::optional<tbb::global_control> limit;
+    if (job.options.threads > 0)
+        limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(job.options.threads));
+    return Verification(job).run();
+}
+
+}  // namespace barycert
