@@ -14,6 +14,7 @@
 #include "barycert/report/check/check_html_picture.hpp"
 #include "barycert/report/check/check_html_style.hpp"
 #include "barycert/report/check/check_words.hpp"
+#include "barycert/report/common/html_text.hpp"
 
 namespace barycert {
 

@@ -10,6 +10,7 @@
 #include "barycert/report/check/check_html_cells.hpp"
 #include "barycert/report/check/check_html_picture.hpp"
 #include "barycert/report/check/check_html_view.hpp"
+#include "barycert/report/common/html_text.hpp"
 
 namespace barycert::report {
 namespace {

@@ -9,6 +9,7 @@
 #include "barycert/check.hpp"
 #include "barycert/report/check/check_html_picture.hpp"
 #include "barycert/report/check/check_words.hpp"
+#include "barycert/report/common/html_text.hpp"
 #include "barycert/report/common/svg.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 

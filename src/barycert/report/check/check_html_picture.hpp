@@ -11,9 +11,6 @@
 
 namespace barycert::report {
 
-/// As xml_escaped, and bytes that are no UTF-8 (a file's name may be anything) become U+FFFD.
-std::string html_escaped(std::string_view text);
-
 struct Pixel {
     double x = 0, y = 0;
 };

@@ -7,6 +7,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report.hpp"
+#include "barycert/report/common/html_text.hpp"
 #include "barycert/report/common/page_style.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 #include "barycert/report/verify/verify_words.hpp"
