@@ -31,7 +31,7 @@ std::optional<double> number_of(std::string_view field) {
 }
 
 bool is_inexact(std::string_view text, double value) {
-    if (std::fabs(value) <= 0x1p53) return false;
+    if (std::fabs(value) < 0x1p53) return false;
     if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
     if (text.find_first_not_of("0123456789") != std::string_view::npos) return false;
     text.remove_prefix(std::min(text.find_first_not_of('0'), text.size()));

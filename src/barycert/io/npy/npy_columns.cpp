@@ -68,7 +68,7 @@ private:
         }
         std::uint64_t whole = 0, after = 0;
         if (__builtin_mul_overflow(count, item, &whole) || __builtin_add_overflow(size, whole, &after)) return false;
-        if (depth == 0 && !name.empty()) add(name, type, size, shape.empty() ? 0 : count);
+        if (depth == 0 && !name.empty()) add(name, type, size, !shape.empty(), count);
         size = after;
         return columns_.size() <= most_npy_columns;
     }
@@ -80,16 +80,15 @@ private:
                literals_.accept(')');
     }
 
-    /// `count`: of the values of a field that is an array, 0 if it is none.
-    void add(const std::string& name, const NpyType& type, std::uint64_t at, std::uint64_t count) {
-        if (count == 0 || count > most_values || type.size == 0) {
-            NpyType known = type;
-            if (count != 0) known.kind = 'V';
-            columns_.push_back({name, known, at, 0});
+    /// `array`: the field is one of `count` values.
+    void add(const std::string& name, NpyType type, std::uint64_t at, bool array, std::uint64_t count) {
+        if (array && count != 0 && count <= most_values) {
+            for (std::uint64_t i = 0; i < count; ++i)
+                columns_.push_back({name + "." + std::to_string(i), type, at + i * type.size, 0});
             return;
         }
-        for (std::uint64_t i = 0; i < count; ++i)
-            columns_.push_back({name + "." + std::to_string(i), type, at + i * type.size, 0});
+        if (array) type.kind = 'V';
+        columns_.push_back({name, std::move(type), at, 0});
     }
 
     Literals literals_;

@@ -70,12 +70,12 @@ Status NodeSource::begin(const PointOptions& options) {
     const std::int64_t dimension = header_field(table_, 1, 3);
     const std::int64_t attributes = header_field(table_, 2, 0);
     const std::int64_t markers = header_field(table_, 3, 0);
-    if ((dimension != dimension_ && options.columns.empty()) || dimension < 2 || dimension > 3) {
+    // Points in space may lie in the plane of a mesh.
+    if ((dimension < dimension_ && options.columns.empty()) || dimension < 2 || dimension > 3) {
         const std::string asked = std::to_string(dimension_);
         return header_error(table_, "bad dimension in the header",
                             asked + ", for the mesh is " + asked + "-dimensional", std::to_string(dimension),
-                            dimension_ == 2 && dimension == 3 ? "--columns x,y leaves z out of account"
-                                                              : "give points of the dimension of the mesh");
+                            "give points of the dimension of the mesh");
     }
     if (markers > 1) {
         return header_error(table_, "bad number of markers in the header", "0 or 1", std::to_string(markers),
