@@ -52,8 +52,8 @@ TEST_F(Tables, columns_are_carried_through) {
 }
 
 TEST_F(Tables, many_blocks_keep_their_columns) {
-    ASSERT_EQ(run_shell("awk 'BEGIN { print \"n,x,y,z\"; for (i = 0; i < 300000; ++i) print i, (i % 97) / 90, (i % 89) / 88, "
-                        "(i % 83) / 82 }' OFS=, > p.csv",
+    ASSERT_EQ(run_shell("awk -v OFS=, 'BEGIN { print \"n,x,y,z\"; for (i = 0; i < 300000; ++i) print i, (i % 97) / 90, (i % 89) / 88, "
+                        "(i % 83) / 82 }' > p.csv",
                         {.folder = scratch.folder()})
                   .code,
               0);
