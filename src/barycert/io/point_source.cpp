@@ -8,7 +8,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/point_table.hpp"
-#include "barycert/io/vtk_files.hpp"
+#include "barycert/io/vtk_points.hpp"
 
 namespace barycert {
 namespace {
@@ -54,16 +54,6 @@ bool names_a_mesh(const std::string& path) {
                        [&](const std::string& file) { return std::filesystem::exists(file, ignored); });
 }
 
-/// Its points and point arrays, with or without cells.
-Result<std::unique_ptr<PointSource>> open_vtk_points(const std::string& path, int dimension,
-                                                     const PointOptions& options) {
-    const VtkFiles* const vtk = vtk_files();
-    if (vtk == nullptr) return vtk_missing(path);
-    Result<std::vector<double>> all = vtk->read_points(path, 3);
-    if (!all) return all.error();
-    return points_of_table({.dimension = 3, .points = std::move(*all)}, path, dimension, options);
-}
-
 /// The nodes of a mesh.
 Result<std::unique_ptr<PointSource>> open_nodes(const std::string& path, int dimension, const PointOptions& options) {
     Result<Mesh> mesh = read_mesh(path, {.faces = false, .neighbours = false});
@@ -87,7 +77,7 @@ Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int di
                      .found = std::to_string(dimension),
                      .remedy = {}};
     }
-    if (io::is_vtk_file(path)) return io::open_vtk_points(path, dimension, options);
+    if (io::is_vtk_points_file(path)) return io::open_vtk_points(path, dimension, options);
     const Result<io::FileFormat> format = io::format_of(path);
     if (!format) {
         // A stem, or the file of a mesh; what is neither is told as a file of points that is not known.

@@ -65,6 +65,7 @@ public:
             for (std::size_t c = 0; c < names.size(); ++c) add(names[c], {&field, c});
         }
         for (std::size_t i = 0; i < table.labels.size(); ++i) add(table.labels[i].name, {nullptr, i, true});
+        for (const std::string& name : table.unread) add(name, {});
     }
 
     Result<std::unique_ptr<PointSource>> source(int dimension, const PointOptions& options) {

@@ -17,6 +17,7 @@ struct PointTable {
     std::vector<double> points;  ///< `dimension` coordinates a point
     std::vector<Field> fields{};
     std::vector<Column> labels{};
+    std::vector<std::string> unread{};  ///< columns that nobody asked for, by name
     Notes notes{};
 };
 

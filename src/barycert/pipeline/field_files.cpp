@@ -8,6 +8,7 @@
 #include "barycert/io.hpp"
 #include "barycert/io/fields/field_file.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/vtk_points.hpp"
 #include "barycert/sample/points/field_choice.hpp"
 
 namespace barycert::pipeline {
@@ -42,7 +43,7 @@ Result<bool> is_of_cells(const FieldFile& file, std::size_t rows, const Mesh& me
 
 bool is_file_of_a_mesh(const std::string& path) {
     constexpr std::array<std::string_view, 3> suffixes{".msh", ".node", ".ele"};
-    return io::is_vtk_file(path) || std::any_of(suffixes.begin(), suffixes.end(), [&](std::string_view suffix) {
+    return io::is_vtk_points_file(path) || std::any_of(suffixes.begin(), suffixes.end(), [&](std::string_view suffix) {
                return io::has_suffix(path, suffix);
            });
 }
@@ -53,9 +54,40 @@ std::string names_of(const std::vector<Field>& fields) {
     return text.empty() ? "none" : text;
 }
 
+/// The points of a VTK file that has no cells, such as rows of `sample`, with their arrays.
+Result<Mesh> points_as_mesh(const std::string& path, int dimension, const Error& fault) {
+    if (!io::is_vtk_points_file(path)) return fault;
+    Result<io::PointTable> table = io::read_vtk_table(path, true);
+    if (!table) return fault;
+    Mesh mesh;
+    mesh.points = std::move(table->points);
+    if (dimension == 2) {
+        std::size_t to = 0;
+        for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+            if (i % 3 != 2) mesh.points[to++] = mesh.points[i];
+        }
+        mesh.points.resize(to);
+        mesh.dimension = 2;
+    }
+    mesh.point_fields = std::move(table->fields);
+    for (const Column& label : table->labels) {
+        const auto* const integers = std::get_if<std::vector<std::int64_t>>(&label.values);
+        if (integers == nullptr) continue;
+        Field field{label.name, 1, {}};
+        for (const std::int64_t i : *integers) {
+            const auto x = static_cast<double>(i);
+            if (x >= 0x1p63 || static_cast<std::int64_t>(x) != i) break;
+            field.data.push_back(x);
+        }
+        if (field.data.size() == integers->size()) mesh.point_fields.push_back(std::move(field));
+    }
+    return mesh;
+}
+
 /// The array file.column of the mesh in the file; file.of becomes what it is of.
 Result<Field> read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
     Result<Mesh> other = read_mesh(file.path, {.faces = false, .neighbours = false});
+    if (!other) other = points_as_mesh(file.path, mesh.dimension, other.error());
     if (!other) return other.error();
     const bool may_be_points = file.of != FieldFile::Of::cells, may_be_cells = file.of != FieldFile::Of::points;
     const Field* const of_points = may_be_points ? sample::field_named(other->point_fields, file.column) : nullptr;
@@ -74,8 +106,9 @@ Result<Field> read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
                      .remedy = "name one: --field " + file.name + "=" + file.path + ":ARRAY"};
     file.of = of_points != nullptr ? FieldFile::Of::points : FieldFile::Of::cells;
     const bool same = other->points == mesh.points && (of_points != nullptr || other->cells == mesh.cells);
-    const bool fits = of_points != nullptr ? other->point_count() == mesh.point_count()
-                                           : other->cell_count() == mesh.cell_count();
+    const std::size_t components = static_cast<std::size_t>((of_points != nullptr ? of_points : of_cells)->components);
+    const std::size_t rows = (of_points != nullptr ? of_points : of_cells)->data.size() / components;
+    const bool fits = rows == (of_points != nullptr ? mesh.point_count() : mesh.cell_count());
     if (fits && !same)
         notes.push_back({Note::Kind::guessed,
                          "the " + std::string(of_points != nullptr ? "nodes" : "cells") +

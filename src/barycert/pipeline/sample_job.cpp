@@ -1,5 +1,7 @@
 // Fields at points.
 
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "barycert/io.hpp"
@@ -32,9 +34,14 @@ Status check_job(const SampleJob& job) {
     if (job.map == "-" || job.save_map == "-")
         return Error{.what = "a map cannot come from stdin or go to stdout", .remedy = "name a file"};
     if (Status known = pipeline::check_rows_format(job.output); !known) return known;
-    return pipeline::check_files(
-        job, {job.map.empty() ? base::NamedFile{"--points", job.points} : base::NamedFile{"--map", job.map}},
-        {{"--output", job.output}, {"--save-map", job.save_map}});
+    std::vector<base::NamedFile> inputs{{"--map", job.map}};
+    if (job.map.empty()) inputs = {{"--points", job.points}};
+    std::error_code ignored;
+    // Not the file itself, but the stem of a mesh.
+    if (job.map.empty() && job.points != "-" && !std::filesystem::exists(job.points, ignored) &&
+        !io::format_of(job.points))
+        inputs = base::named_files("the mesh of --points", mesh_files(job.points));
+    return pipeline::check_files(job, inputs, {{"--output", job.output}, {"--save-map", job.save_map}});
 }
 
 /// Opens the output of the job; `carried`: columns of the points.
