@@ -59,7 +59,7 @@ public:
             const bool integer = column.type == Column::Type::integer;
             arrays.push_back({column.name, 1, integer ? io::VtiType::int64 : io::VtiType::float64});
         }
-        auto file = io::VtiWriter::open(path, {grid.counts, grid.origin, grid.spacing}, arrays);
+        auto file = io::VtiWriter::open(path, {grid.counts, grid.origin, grid.spacing}, arrays, format.vtk_data);
         if (!file) return file.error();
         out->file_ = std::move(*file);
         return std::unique_ptr<TableSink>(std::move(out));

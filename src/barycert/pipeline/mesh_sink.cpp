@@ -17,10 +17,10 @@ namespace {
 /// The other mesh with what was sampled at its nodes, written when all is there.
 class MeshSink final : public TableSink {
 public:
-    MeshSink(Mesh mesh, std::string path, const std::vector<TableField>& fields)
-        : mesh_(std::move(mesh)), path_(std::move(path)) {
+    MeshSink(Mesh mesh, std::string path, const TableFormat& format)
+        : mesh_(std::move(mesh)), path_(std::move(path)), data_(format.vtk_data) {
         mesh_.point_fields.clear();
-        for (const TableField& f : fields) mesh_.point_fields.push_back({f.name, f.components, {}});
+        for (const TableField& f : format.fields) mesh_.point_fields.push_back({f.name, f.components, {}});
         mask_ = {"vtkValidPointMask", 1, {}};
         cell_ = {"cell", 1, {}};
         distance_ = {"distance", 1, {}};
@@ -62,7 +62,7 @@ private:
 
     Mesh mesh_;
     std::string path_;
-    VtkData data_ = VtkData::raw;
+    VtkData data_;
     Field mask_, cell_, distance_;
 };
 
@@ -99,7 +99,7 @@ Result<std::unique_ptr<TableSink>> mesh_sink(Mesh mesh, const std::string& path,
                      .expected = "fields",
                      .found = "label " + base::quoted(format.carried.front().name),
                      .remedy = "leave labels out of --fields, or write rows: .csv or .npy"};
-    return std::unique_ptr<TableSink>(std::make_unique<MeshSink>(std::move(mesh), path, format.fields));
+    return std::unique_ptr<TableSink>(std::make_unique<MeshSink>(std::move(mesh), path, format));
 }
 
 }  // namespace barycert::pipeline
