@@ -220,7 +220,10 @@ private:
             done = stages.run(next, work, keep);
             comparing /= tbb::this_task_arena::max_concurrency();
         });
-        for (const Note& note : source_->notes()) summary_.notes.push_back(note);
+        for (const Note& note : source_->notes()) {
+            // Which columns are not compared has been told.
+            if (note.kind != Note::Kind::left_out) summary_.notes.push_back(note);
+        }
         summary_.seconds.sample = comparing;
         return done;
     }

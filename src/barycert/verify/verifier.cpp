@@ -186,8 +186,12 @@ private:
         wrong.exact = {table_.cells[row], table_.features[row]};
         wrong.cells = table_.cells[row] >= 0 ? 1 : 0;
         if (columns() != 0) {
-            wrong.claimed = claims(row)[0];
-            wrong.value = values(row)[0];
+            // The first value that says something.
+            const double* const told = verdict == RowVerdict::invented ? claims(row) : values(row);
+            const double* const first = std::find_if(told, told + columns(), [](double x) { return !std::isnan(x); });
+            wrong.column = first == told + columns() ? 0 : static_cast<std::size_t>(first - told);
+            wrong.claimed = claims(row)[wrong.column];
+            wrong.value = values(row)[wrong.column];
         }
         found_.examples.push_back(wrong);
         return found_.examples.back();

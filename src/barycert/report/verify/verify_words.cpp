@@ -81,12 +81,13 @@ std::string example_sentence(const VerifySummary& summary, const WrongRow& row) 
         case RowVerdict::missed:
             return text + ", and said to be outside";
         case RowVerdict::invented:
-            return text + (summary.columns.empty() ? ", and said to be inside"
-                                                   : fmt::format(", and {} is {}", base::printable(summary.columns[0]),
-                                                                 base::shortest(row.claimed)));
+            return text + (summary.columns.empty()
+                               ? ", and said to be inside"
+                               : fmt::format(", and {} is {}", base::printable(summary.columns[row.column]),
+                                             base::shortest(row.claimed)));
         case RowVerdict::wrong_cell:
             return text + fmt::format(", not in cell {}", row.claimed_cell) +
-                   (summary.columns.empty() ? "" : "; " + value_clause(summary, row));
+                   (row.relative > 0 ? "; " + value_clause(summary, row) : "");
         default:
             return text + "; " + value_clause(summary, row) +
                    (row.relative > 0 && row.relative < 1e300 ? fmt::format(": {} of the range", brief(row.relative))

@@ -1,0 +1,143 @@
+// barycert verify: results as tools write them, verdicts, exit codes, reports.
+
+#include <gtest/gtest.h>
+
+#include "process.hpp"
+#include "sample_meshes.hpp"
+
+namespace barycert::cli_test {
+namespace {
+
+nlohmann::json report_of(const Words& arguments, int code) {
+    const Ended r = run(plus(arguments, {"--json", "-"}));
+    EXPECT_EQ(r.code, code) << r.err;
+    return parse(r.out);
+}
+
+TEST(verify, what_sample_wrote_is_right) {
+    const Scratch scratch;
+    const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", six_points);
+    for (const std::string suffix : {".csv", ".npy", ".vtu"}) {
+        const std::string rows = scratch.path("rows" + suffix);
+        ASSERT_EQ(run({"sample", two, "--points", points, "--output", rows, "--quiet"}).code, 0);
+        const auto j = report_of({"verify", two, "--results", rows, "--exact"}, 0);
+        EXPECT_EQ(j["right"], 6) << suffix;
+        EXPECT_EQ(j["rows"], 6) << suffix;
+        EXPECT_EQ(j["inside"], 5) << suffix;
+        EXPECT_EQ(j["values"].size(), 2U) << suffix;
+        EXPECT_EQ(j["values"][0]["identical"], 5) << suffix;
+    }
+    const Ended piped =
+        run_shell("barycert sample two --points p.csv --output - --quiet | barycert verify two --results -",
+                  {.folder = scratch.folder()});
+    EXPECT_EQ(piped.code, 0) << piped.err;
+    EXPECT_TRUE(contains(piped.out, "-: all 6 rows are right\n")) << piped.out;
+}
+
+TEST(verify, each_kind_of_error_is_named) {
+    const Scratch scratch;
+    const std::string two = put_two_cells(scratch);
+    const std::string bad = scratch.put("bad.csv",
+                                        "x,y,z,cell,attribute0\n"
+                                        ".25,.25,.25,0,4.5\n"
+                                        ".5,.5,.5,-1,nan\n"      // missed
+                                        ".25,.25,.5,1,6.5\n"     // right: the face belongs to both
+                                        ".5,.5,0,1,4.0000001\n"  // wrong value
+                                        ".1,.1,.1,1,2.4\n"       // wrong cell
+                                        "2,2,2,1,0\n");          // invented
+    const auto j = report_of({"verify", two, "--results", bad}, 1);
+    EXPECT_EQ(j["right"], 2);
+    EXPECT_EQ(j["missed"], 1);
+    EXPECT_EQ(j["invented"], 1);
+    EXPECT_EQ(j["invented_zero"], 1);
+    EXPECT_EQ(j["wrong_cell"], 1);
+    EXPECT_EQ(j["wrong_value"], 1);
+    EXPECT_EQ(j["examples"].size(), 4U);
+    const Ended text = run({"verify", two, "--results", bad});
+    EXPECT_EQ(text.code, 1);
+    EXPECT_TRUE(contains(text.out, "bad.csv: WRONG: 4 of 6 rows\n")) << text.out;
+    // The commands that it shows run.
+    for (const auto& example : j["examples"]) {
+        const Ended shown = run_shell(example["command"].get<std::string>());
+        EXPECT_EQ(shown.code, 0) << shown.err;
+        EXPECT_TRUE(contains(shown.out, "x,y,z,cell,feature")) << shown.out;
+    }
+    // Thresholds.
+    EXPECT_EQ(run({"verify", two, "--results", bad, "--fail-on", "missed=1"}).code, 0);
+    EXPECT_EQ(run({"verify", two, "--results", bad, "--fail-on", "missed=1,wrong-value"}).code, 1);
+    EXPECT_EQ(run({"verify", two, "--results", bad, "--fail-on", "wrong-value", "--tolerance", "1e-6"}).code, 0);
+    expect_error({"verify", two, "--results", bad, "--fail-on", "bad"}, "expected missed, invented");
+    // Nothing is compared that the user takes out.
+    EXPECT_EQ(report_of({"verify", two, "--results", bad, "--cell-column", "none"}, 1)["wrong_cell"], 0);
+}
+
+TEST(verify, columns_by_other_names_and_zero_for_outside) {
+    const Scratch scratch;
+    const std::string two = put_two_cells(scratch);
+    const std::string rows = scratch.put("rows.csv", "lon,lat,depth,Temperature,id\n.25,.25,.25,4.5,1\n2,2,2,0,\n");
+    expect_error({"verify", two, "--results", rows, "--columns", "lon,lat,depth"}, "no column to compare");
+    const Words line{
+        "verify", two, "--results", rows, "--columns", "lon,lat,depth", "--value", "attribute0=Temperature"};
+    EXPECT_EQ(report_of(line, 1)["invented"], 1);
+    EXPECT_EQ(report_of(plus(line, {"--outside-value", "0"}), 0)["right"], 2);
+    EXPECT_EQ(report_of(plus(line, {"--cell-column", "id", "--cell-base", "1"}), 0)["right"], 2);
+    expect_error(plus(line, {"--cell-column", "ID"}), "\"ID\"");
+    expect_error({"verify", two, "--results", rows, "--columns", "lon,lat,depth", "--value", "T=Temperature"}, "\"T\"");
+}
+
+TEST(verify, the_mask_of_vtk_says_what_is_outside) {
+    const Scratch scratch;
+    const std::string two = put_two_cells(scratch);
+    const std::string rows =
+        scratch.put("rows.csv",
+                    "\"attribute0\",\"vtkValidPointMask\",\"Points:0\",\"Points:1\",\"Points:2\"\n4.5,1,.25,.25,.25\n"
+                    "0,0,2,2,2\n0,0,.5,.5,.5\n");
+    const auto j = report_of({"verify", two, "--results", rows}, 1);
+    EXPECT_EQ(j["mask_column"], "vtkValidPointMask");
+    EXPECT_EQ(j["right"], 2);
+    EXPECT_EQ(j["missed"], 1);
+}
+
+TEST(verify, single_precision_is_told) {
+    const Scratch scratch;
+    scratch.put("one.node", "4 3 1 0\n0 0 0 0 0\n1 1 0 0 1\n2 0 1 0 0\n3 0 0 1 0\n");
+    scratch.put("one.ele", "1 4 0\n0 0 1 2 3\n");
+    // 0.1 and 0.3 as float32, in double.
+    const std::string rows =
+        scratch.put("rows.csv", "x,y,z,attribute0\n.1,.1,.1,0.10000000149011612\n.3,.1,.1,0.30000001192092896\n");
+    const Ended r = run({"verify", scratch.path("one"), "--results", rows});
+    EXPECT_EQ(r.code, 0) << r.out;
+    EXPECT_TRUE(contains(r.err, "note: ")) << r.err;
+    EXPECT_TRUE(contains(r.err, "single precision")) << r.err;
+    EXPECT_EQ(run({"verify", scratch.path("one"), "--results", rows, "--tolerance", "1e-9", "--quiet"}).code, 1);
+}
+
+TEST(verify, the_page_holds_what_the_json_holds) {
+    const Scratch scratch;
+    const std::string two = put_two_cells(scratch);
+    const std::string bad = scratch.put("<b>.csv", "x,y,z,attribute0\n.25,.25,.25,4.5\n.5,.5,.5,1\n");
+    const std::string page = scratch.path("page.html");
+    EXPECT_EQ(run({"verify", two, "--results", bad, "--html", page, "--quiet"}).code, 1);
+    const std::string html = read_file(page);
+    EXPECT_TRUE(contains(html, "WRONG: 1 of 2 rows"));
+    EXPECT_TRUE(contains(html, "&lt;b&gt;.csv"));
+    EXPECT_FALSE(contains(html, "<b>.csv"));
+    EXPECT_FALSE(contains(html, "<script"));
+    EXPECT_FALSE(contains(html, "http"));
+}
+
+TEST(verify, bad_input) {
+    const Scratch scratch;
+    const std::string two = put_two_cells(scratch);
+    expect_error({"verify", two}, "--results is required");
+    expect_error({"verify", two, "--results", scratch.path("none.csv")}, "none.csv");
+    expect_error({"verify", two, "--results", scratch.put("a.csv", "x,y,z,attribute0\n0,0,0,many\n")}, "\"many\"");
+    expect_error({"verify", two, "--results", scratch.put("b.csv", "x,y,z,cell\n0,0,0,1.5\n")}, "an integer");
+    expect_error({"verify", two, "--results", scratch.put("c.csv", "x,y,z,attribute0\n0,0,inf,1\n")}, "finite");
+    const std::string rows = scratch.put("d.csv", "x,y,z,attribute0\n0,0,0,1\n");
+    expect_error({"verify", two, "--results", rows, "--json", rows}, "d.csv");
+    EXPECT_EQ(read_file(rows), "x,y,z,attribute0\n0,0,0,1\n");
+}
+
+}  // namespace
+}  // namespace barycert::cli_test
