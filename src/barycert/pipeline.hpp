@@ -28,8 +28,8 @@ struct FieldFile {
     enum class Of : std::uint8_t { either, points, cells };
     Of of = Of::either;
     std::string name, path;
-    /// Of a CSV file the name or number (from 1) of the column, of a structured NPY file the field, of a mesh the array.
-    /// Empty: all that a text or NPY file holds.
+    /// Of a CSV file the name or number (from 1) of the column, of a structured NPY file the field, of a mesh the
+    /// array. Empty: all that a text or NPY file holds.
     std::string column = {};
 };
 
@@ -59,11 +59,11 @@ struct SamplingJob {
 
 /// Fields at points: rows to CSV, NPY or VTU files.
 struct SampleJob : SamplingJob {
-    std::string points;         ///< as for open_points; or
+    std::string points;                     ///< as for open_points; or
     std::vector<std::string> columns = {};  ///< PointOptions::columns
     std::vector<std::string> keep = {};     ///< PointOptions::keep: columns of the points that rows have, too
-    std::string map;            ///< a map (map.hpp) in place of points
-    std::string save_map;       ///< where to write one; empty: nowhere
+    std::string map;                        ///< a map (map.hpp) in place of points
+    std::string save_map;                   ///< where to write one; empty: nowhere
     std::optional<bool> all{};  ///< a row for each cell that holds a point; not set: no, or as the map has it
 };
 

@@ -81,7 +81,8 @@ void add_field_files(CLI::App& sub, std::vector<FieldFile>& files, const std::st
     };
     for (const Option& o :
          {Option{either, FieldFile::Of::either,
-                 "Add a field: one row of numbers per node or per cell (text with blanks or commas, or .npy); FILE:COLUMN: "
+                 "Add a field: one row of numbers per node or per cell (text with blanks or commas, or .npy); "
+                 "FILE:COLUMN: "
                  "a column of a CSV or structured .npy file, or an array of another mesh"},
           Option{"--point-field", FieldFile::Of::points, "Like " + either + "; the rows belong to nodes"},
           Option{"--cell-field", FieldFile::Of::cells, "Like " + either + "; the rows belong to cells"}}) {

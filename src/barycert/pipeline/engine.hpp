@@ -41,8 +41,8 @@ public:
     const Sampler& sampler() const { return *sampler_; }
 
     /// Gives back what of the mesh sampling does not read again: of linear cells, unless points outside ask for their
-    /// nearest cell, all but the values of cell fields, labels and numbers of cells. Precondition: prepared; nobody else reads the mesh any more,
-    /// but for its dimension.
+    /// nearest cell, all but the values of cell fields, labels and numbers of cells. Precondition: prepared; nobody
+    /// else reads the mesh any more, but for its dimension.
     void let_go_of_mesh();
 
     /// Sampled rows name cells as the locator counts them; afterwards, as the mesh does.

@@ -98,12 +98,12 @@ Result<Field> read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
                      .found = base::quoted(file.column),
                      .remedy = "say which: --point-field or --cell-field instead of --field"};
     if (of_points == nullptr && of_cells == nullptr)
-        return Error{.what = file.column.empty() ? "it is not said which array of the file is meant" : "no such array",
-                     .file = file.path,
-                     .expected = file.column.empty() ? "" : base::quoted(file.column),
-                     .found = "of nodes " + names_of(other->point_fields) + "; of cells " +
-                              names_of(other->cell_fields),
-                     .remedy = "name one: --field " + file.name + "=" + file.path + ":ARRAY"};
+        return Error{
+            .what = file.column.empty() ? "it is not said which array of the file is meant" : "no such array",
+            .file = file.path,
+            .expected = file.column.empty() ? "" : base::quoted(file.column),
+            .found = "of nodes " + names_of(other->point_fields) + "; of cells " + names_of(other->cell_fields),
+            .remedy = "name one: --field " + file.name + "=" + file.path + ":ARRAY"};
     file.of = of_points != nullptr ? FieldFile::Of::points : FieldFile::Of::cells;
     const bool same = other->points == mesh.points && (of_points != nullptr || other->cells == mesh.cells);
     const std::size_t components = static_cast<std::size_t>((of_points != nullptr ? of_points : of_cells)->components);

@@ -164,8 +164,8 @@ Status onto_mesh(Run& run, const ResampleJob& job, Engine& engine) {
     const auto open = [&](const TableFormat&) -> Result<std::unique_ptr<TableSink>> {
         const Result<TableFormat> format = user_format(run, engine);
         if (!format) return format.error();
-        auto sink = to_rows ? pipeline::open_rows(job, *format)
-                            : pipeline::mesh_sink(std::move(*other), job.output, *format);
+        auto sink =
+            to_rows ? pipeline::open_rows(job, *format) : pipeline::mesh_sink(std::move(*other), job.output, *format);
         if (!sink) return sink;
         return pipeline::user_rows(engine, std::move(*sink));
     };

@@ -47,8 +47,8 @@ Status check_job(const SampleJob& job) {
 /// Opens the output of the job; `carried`: columns of the points.
 pipeline::SinkFactory rows_of(Run& run, const SampleJob& job, const Engine& engine,
                               std::vector<ColumnFormat> carried = {}) {
-    return [&run, &job, &engine, carried = std::move(carried)](
-               const TableFormat& format) -> Result<std::unique_ptr<TableSink>> {
+    return [&run, &job, &engine,
+            carried = std::move(carried)](const TableFormat& format) -> Result<std::unique_ptr<TableSink>> {
         const Result<TableFormat> shown = pipeline::user_format(engine, format, carried);
         if (!shown) return shown.error();
         for (const ColumnFormat& column : shown->carried) run.summary.carried.push_back(column.name);
@@ -60,14 +60,15 @@ pipeline::SinkFactory rows_of(Run& run, const SampleJob& job, const Engine& engi
 
 Status at_points(Run& run, const SampleJob& job, Engine& engine) {
     const bool csv = job.output == "-" || io::has_suffix(job.output, ".csv");
-    auto source = open_points(job.points, engine.mesh().dimension,
-                              {.columns = job.columns, .keep = job.keep, .typed = !csv});
+    auto source =
+        open_points(job.points, engine.mesh().dimension, {.columns = job.columns, .keep = job.keep, .typed = !csv});
     if (!source) return source.error();
     const Notes notes = (*source)->notes();
     run.summary.notes.insert(run.summary.notes.end(), notes.begin(), notes.end());
     run.summary.points = job.points;
     run.summary.all = job.all.value_or(false);
-    return pipeline::sample_stream(run, engine, **source, rows_of(run, job, engine, (*source)->carried()), job.save_map);
+    return pipeline::sample_stream(run, engine, **source, rows_of(run, job, engine, (*source)->carried()),
+                                   job.save_map);
 }
 
 Status at_points_of_map(Run& run, const SampleJob& job, Engine& engine) {
