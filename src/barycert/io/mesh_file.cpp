@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "barycert/gmsh.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/vtk_files.hpp"
@@ -35,13 +36,14 @@ Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
         if (vtk == nullptr) return io::vtk_missing(path);
         return vtk->read_mesh(path);
     }
+    if (io::has_suffix(path, ".msh")) return read_gmsh(path, {.step = {}, .threads = options.threads});
     Result<Mesh> mesh = read_tetgen(path, options);
     if (!mesh) return with_hint(mesh.error(), path);
     return mesh;
 }
 
 std::vector<std::string> mesh_files(const std::string& path) {
-    if (io::is_vtk_file(path)) return {path};
+    if (io::is_vtk_file(path) || io::has_suffix(path, ".msh")) return {path};
     return tetgen_files(path);
 }
 
