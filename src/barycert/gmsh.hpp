@@ -25,8 +25,9 @@ struct GmshReadOptions {
 /// - Elements of a lower dimension are left out, with a Note; `cell_numbers` are positions among all elements.
 /// - Nodes stand in the order of the file whatever their tags, those of no cell included.
 /// - Cell fields "gmsh:physical" (the tag of the cell's physical group, 0 for none; absent if no cell has one) and
-///   "gmsh:geometrical" (that of its entity). Cell labels "gmsh:physical_name", if a group of cells has a name, and
-///   "gmsh:tag", the elements' tags, unless they are 1, 2, 3, ... in the order of the file.
+///   "gmsh:geometrical" (that of its entity; absent if it is 1 for all cells, or 0 for all). Cell labels
+///   "gmsh:physical_name", if a group of cells has a name, and "gmsh:tag", the elements' tags, unless they are 1, 2, 3,
+///   ... in the order of the file.
 /// - $NodeData and $ElementData become fields of the view's name. Nodes and cells without a value have NaN.
 /// - What else there is (values at the nodes of each element, interpolation schemes, periodic nodes) is left out, with
 /// a

@@ -1,50 +1,48 @@
-#include <algorithm>
-#include <array>
-#include <filesystem>
-#include <system_error>
-
 #include "barycert/gmsh.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/formats.hpp"
+#include "barycert/io/mesh_format.hpp"
 #include "barycert/io/vtk_files.hpp"
-#include "barycert/plc.hpp"
 
 namespace barycert {
-namespace {
-
-namespace fs = std::filesystem;
-
-/// A mesh that is not there is often a PLC, a folder or a mistyped stem.
-Error with_hint(Error error, const fs::path& path) {
-    std::error_code ignored;
-    const std::string extension = path.extension().string();
-    if (std::find(plc_extensions.begin(), plc_extensions.end(), extension) != plc_extensions.end()) {
-        error.remedy = "this is a PLC, not a mesh: mesh it first with `barycert mesh " + path.string() + "`";
-    } else if (!fs::exists(path, ignored) && !fs::exists(path.string() + ".node", ignored)) {
-        error.remedy = "MESH is the stem of TetGen's files, or one of them: part.1 for part.1.node and part.1.ele";
-    } else if (fs::is_directory(path, ignored) && !fs::exists(path.string() + ".node", ignored)) {
-        error.remedy = "this is a folder: name the stem of TetGen's files in it";
-    }
-    return error;
-}
-
-}  // namespace
 
 Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
-    if (io::is_vtk_file(path)) {
-        const io::VtkFiles* const vtk = io::vtk_files();
-        if (vtk == nullptr) return io::vtk_missing(path);
-        return vtk->read_mesh(path);
+    const Result<io::MeshFormat> format = io::mesh_format(path);
+    if (!format) return format.error();
+    switch (*format) {
+        case io::MeshFormat::gmsh:
+            return read_gmsh(path, {.step = {}, .threads = options.threads});
+        case io::MeshFormat::vtk: {
+            const io::VtkFiles* const vtk = io::vtk_files();
+            if (vtk == nullptr) return io::vtk_missing(path);
+            return vtk->read_mesh(path);
+        }
+        default:
+            return read_tetgen(path, options);
     }
-    if (io::has_suffix(path, ".msh")) return read_gmsh(path, {.step = {}, .threads = options.threads});
-    Result<Mesh> mesh = read_tetgen(path, options);
-    if (!mesh) return with_hint(mesh.error(), path);
-    return mesh;
 }
 
 std::vector<std::string> mesh_files(const std::string& path) {
-    if (io::is_vtk_file(path) || io::has_suffix(path, ".msh")) return {path};
-    return tetgen_files(path);
+    const Result<io::MeshFormat> format = io::mesh_format(path);
+    if (format && *format != io::MeshFormat::tetgen) return {path};
+    std::vector<std::string> files = tetgen_files(path);
+    if (!format) files.push_back(path);  // nothing will be read: what it might have been
+    return files;
+}
+
+Status write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options) {
+    const Result<io::MeshFormat> format = io::mesh_output_format(path);
+    if (!format) return format.error();
+    switch (*format) {
+        case io::MeshFormat::gmsh:
+            return write_gmsh(mesh, path);
+        case io::MeshFormat::vtk: {
+            const io::VtkFiles* const vtk = io::vtk_files();
+            if (vtk == nullptr) return io::vtk_missing(path);
+            return vtk->write_mesh(mesh, path);
+        }
+        default:
+            return write_tetgen(mesh, tetgen_stem(path), options);
+    }
 }
 
 }  // namespace barycert

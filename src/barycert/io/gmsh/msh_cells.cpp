@@ -168,6 +168,43 @@ Status read_chosen(const Target& to, std::span<const Run> runs) {
     return status;
 }
 
+/// In 2.x Gmsh writes an element of several groups once for each, one after the other. All but the first go.
+void drop_repeats(MshCells& cells, std::size_t corners, std::size_t mids) {
+    const std::size_t count = cells.tags.size();
+    const auto same_nodes = [&](std::size_t i) {
+        const Mesh::Index* const c = &cells.corners[i * corners];
+        return std::equal(c, c + corners, c - corners);
+    };
+    const auto repeats = [&](std::size_t i) {
+        return same_nodes(i) && cells.geometrical[i] == cells.geometrical[i - 1] &&
+               cells.physical[i] != cells.physical[i - 1];
+    };
+    std::size_t first = 1;
+    while (first < count && !repeats(first)) ++first;
+    if (first >= count) return;
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i == 0 || !repeats(i)) kept.push_back(i);
+    }
+    const bool numbered = !cells.numbers.empty();
+    if (!numbered) cells.numbers.resize(kept.size());
+    for (std::size_t to = 0; to < kept.size(); ++to) {
+        const std::size_t from = kept[to];
+        std::copy_n(&cells.corners[from * corners], corners, &cells.corners[to * corners]);
+        if (mids != 0) std::copy_n(&cells.mid_nodes[from * mids], mids, &cells.mid_nodes[to * mids]);
+        cells.tags[to] = cells.tags[from];
+        cells.physical[to] = cells.physical[from];
+        cells.geometrical[to] = cells.geometrical[from];
+        cells.numbers[to] = numbered ? cells.numbers[from] : static_cast<Mesh::Index>(from);
+    }
+    cells.repeated = count - kept.size();
+    cells.corners.resize(kept.size() * corners);
+    cells.mid_nodes.resize(kept.size() * mids);
+    for (std::vector<double>* values : {&cells.physical, &cells.geometrical}) values->resize(kept.size());
+    cells.tags.resize(kept.size());
+    cells.numbers.resize(kept.size());
+}
+
 /// Marks the nodes of cells; counts the others.
 std::vector<std::uint8_t> mark_nodes(const MshFile& file, MshCells& cells, std::size_t node_count) {
     std::vector<std::uint8_t> used(node_count);
@@ -245,6 +282,7 @@ Result<MshCells> read_msh_cells(const MshFile& file, const MshElements& elements
             cells.numbers.push_back(static_cast<Mesh::Index>(block.first + i));
         }
     }
+    if (file.version() == 22) drop_repeats(cells, corners, target.mids);
     const std::vector<std::uint8_t> used = mark_nodes(file, cells, node_count);
     cells.left_out = elements.counts;
     cells.left_out[static_cast<std::size_t>(type.number)] = 0;

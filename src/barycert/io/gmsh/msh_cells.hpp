@@ -21,6 +21,7 @@ struct MshCells {
     bool apart = false;                           ///< one of these has a node that no cell has
     bool partitioned = false;                     ///< there are further tags; 2.x only
     std::size_t unused_nodes = 0;
+    std::size_t repeated = 0;  ///< elements of further groups; 2.x only
 };
 
 /// Tetrahedra, or triangles where there is nothing of dimension 3. Error: other cells of that dimension, cells of both

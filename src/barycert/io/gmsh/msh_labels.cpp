@@ -80,6 +80,13 @@ void note_cells(const MshCells& cells, const MshGroups& groups, const std::strin
              "elements of a lower dimension: " + others + (cells.apart ? "; some have nodes that no cell has" : ""),
              path, cells.apart});
     }
+    if (cells.repeated != 0) {
+        notes.push_back({Note::Kind::left_out,
+                         std::to_string(cells.repeated) +
+                             " elements that repeat the one before them for a further physical group: gmsh:physical "
+                             "has the first group of each cell",
+                         path, true});
+    }
     if (cells.unused_nodes != 0) {
         notes.push_back({Note::Kind::left_out,
                          std::to_string(cells.unused_nodes) +
@@ -106,7 +113,10 @@ void label_cells(const MshFile& file, const MshElements& elements, MshCells cell
     if (!in_sequence) mesh.cell_labels.push_back({"gmsh:tag", std::move(cells.tags)});
     if (grouped && !has_field(mesh, "gmsh:physical"))
         mesh.cell_fields.push_back({"gmsh:physical", 1, std::move(cells.physical)});
-    if (!has_field(mesh, "gmsh:geometrical"))
+    const auto all_are = [&](double tag) {
+        return std::all_of(cells.geometrical.begin(), cells.geometrical.end(), [&](double t) { return t == tag; });
+    };
+    if (!has_field(mesh, "gmsh:geometrical") && !all_are(1) && !all_are(0))
         mesh.cell_fields.push_back({"gmsh:geometrical", 1, std::move(cells.geometrical)});
 }
 
