@@ -153,6 +153,12 @@ const OtherFormat* other_format_by_content(std::string_view head, std::string_vi
     return nullptr;
 }
 
+std::string gmsh_command(const std::string& path, const std::string& more) {
+    const std::size_t dot = path.find_last_of("./");
+    const std::string stem = dot != std::string::npos && path[dot] == '.' ? path.substr(0, dot) : path;
+    return "`gmsh " + shell_word(path) + more + " -save -format msh41 -o " + shell_word(stem + "-new.msh") + "`";
+}
+
 std::string shell_word(const std::string& path) {
     const bool plain = !path.empty() && path.front() != '-' && std::all_of(path.begin(), path.end(), [](char c) {
         return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
@@ -194,7 +200,8 @@ Error other_format_error(const OtherFormat& format, const std::string& path) {
             remedy = format.remedy;
             break;
     }
-    return {.what = std::string("this is ") + format.what + ", which is not read",
+    const bool mesh = std::string_view(format.what).find("not a mesh") == std::string_view::npos;
+    return {.what = std::string("this is ") + format.what + (mesh ? ", which is not read" : ""),
             .file = path,
             .expected = formats_read,
             .remedy = std::move(remedy)};

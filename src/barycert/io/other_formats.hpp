@@ -36,6 +36,9 @@ const OtherFormat* other_format_by_content(std::string_view head, std::string_vi
 /// That the file is not read, and what to do.
 Error other_format_error(const OtherFormat& format, const std::string& path);
 
+/// The command that writes a file of Gmsh anew, in version 4.1, with `more` arguments; in backquotes.
+std::string gmsh_command(const std::string& path, const std::string& more = {});
+
 /// `path` as a word of a shell's command line.
 std::string shell_word(const std::string& path);
 

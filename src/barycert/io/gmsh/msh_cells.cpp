@@ -4,9 +4,16 @@
 #include <string>
 
 #include "barycert/base/large_pages.hpp"
+#include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
 namespace {
+
+/// What makes all cells second-order ones.
+std::string order_remedy(const MshFile& file) {
+    return "make them cells of order 2 (or 1): `echo 'SetOrder 2;' > order2.geo`, then " +
+           gmsh_command(file.path(), " order2.geo");
+}
 
 Error no_cells(const MshFile& file, std::string what, std::string expected, std::string found, std::string remedy) {
     return {.what = std::move(what),
@@ -47,15 +54,14 @@ Result<const ElementType*> choose(const MshFile& file, const TypeCounts& counts)
         return no_cells(file, dimension == 3 ? "cells that are no tetrahedra" : "cells that are no triangles", expected,
                         found,
                         "cut them into simplices, in ParaView with the filter Tetrahedralize, or with `python3 -c "
-                        "\"import pyvista; pyvista.read('IN.msh').triangulate().save('OUT.vtu')\"`");
+                        "\"import pyvista; pyvista.read('" +
+                            file.path() + "').triangulate().save('OUT.vtu')\"`");
     }
     if (max_order > 2) {
-        return no_cells(file, "cells of a higher order", expected, found,
-                        "make them cells of order 2 with `gmsh IN.msh -order 2 -save -o OUT.msh` (or of order 1)");
+        return no_cells(file, "cells of a higher order", expected, found, order_remedy(file));
     }
     if (kinds > 1) {
-        return no_cells(file, "cells of both orders in one mesh", "cells of one order", found,
-                        "make them cells of order 2 with `gmsh IN.msh -order 2 -save -o OUT.msh` (or of order 1)");
+        return no_cells(file, "cells of both orders in one mesh", "cells of one order", found, order_remedy(file));
     }
     return chosen;
 }

@@ -5,11 +5,10 @@
 #include <cstring>
 
 #include "barycert/base/text.hpp"
+#include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
 namespace {
-
-constexpr const char* convert_remedy = "convert it with `gmsh IN.msh -save -format msh41 -o OUT.msh`";
 
 bool is_space(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
@@ -78,6 +77,7 @@ Error MshFile::error_at(const char* at, std::string what, std::string expected, 
 }
 
 Status MshFile::read_format() {
+    const std::string convert_remedy = "convert it with " + gmsh_command(path_);
     const char* at = data_.bytes().data() + byte_order_mark(data_.bytes());
     const char* const end = data_.bytes().data() + data_.bytes().size();
     const char* const first = at;

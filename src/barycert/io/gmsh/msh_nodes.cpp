@@ -10,6 +10,7 @@
 #include "barycert/base/large_pages.hpp"
 #include "barycert/io/gmsh/rows.hpp"
 #include "barycert/io/gmsh/walk.hpp"
+#include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
 namespace {
@@ -125,7 +126,7 @@ Result<MshNodes> read_msh_nodes(const MshFile& file) {
     if (parametric) {
         if (file.layout() == MshLayout::binary) {
             return file.error_at(section->name.data(), "binary $ParametricNodes", "$Nodes", "nodes with parameters",
-                                 "convert it with `gmsh IN.msh -save -format msh41 -o OUT.msh`");
+                                 "convert it with " + gmsh_command(file.path()));
         }
         // Rows differ in length: they are found as lines, or read as they come.
         std::int64_t count = 0;
@@ -161,7 +162,7 @@ Result<MshNodes> read_msh_nodes(const MshFile& file) {
     if (twice) {
         return file.error_at(section->name.data(), "two nodes with the tag " + std::to_string(tags[*twice]),
                              "each tag once", "it again at node " + std::to_string(*twice) + " from 0",
-                             "number the nodes anew: `gmsh IN.msh -save -o OUT.msh` does");
+                             "number the nodes anew: Gmsh itself cannot read such a file");
     }
     return nodes;
 }

@@ -75,6 +75,7 @@ public:
             note(Note::Kind::left_out, std::to_string(lost_) + " values of " + name + ", of what is no " + targets_.one,
                  placed_ == 0);
         }
+        if (lost_ == 0 && placed_ == 0) note(Note::Kind::left_out, "view " + name + ", which has no values", false);
         if (placed_ == 0) return;
         if (placed_ != targets_.count) {
             note(Note::Kind::guessed,

@@ -97,11 +97,10 @@ Result<Mesh> read_whole(const MshFile& file, const GmshReadOptions& options) {
         std::optional<std::size_t> twice;
         const TagIndex index(cells->tags, twice);
         if (twice) {
-            return file.error_at(file.find("Elements")->name.data(),
-                                 "two cells with the tag " + std::to_string(cells->tags[*twice]),
-                                 "each tag once, for $ElementData refers to them",
-                                 "it again at cell " + std::to_string(*twice) + " from 0",
-                                 "number the elements anew: `gmsh IN.msh -save -o OUT.msh` does");
+            return file.error_at(
+                file.find("Elements")->name.data(), "two cells with the tag " + std::to_string(cells->tags[*twice]),
+                "each tag once, for $ElementData refers to them",
+                "it again at cell " + std::to_string(*twice) + " from 0", "give each element a tag of its own");
         }
         const ViewTargets targets{index, mesh.cell_count(), "cell", "cells"};
         status =
