@@ -19,7 +19,7 @@ void expect_whole(const Mesh& mesh) {
     if (written) {
         EXPECT_TRUE(read_gmsh(folder / "again.msh"));
     } else {  // names may have got quotes, or be gone
-        EXPECT_EQ(written.error().what, "a name of a field that cannot be written");
+        EXPECT_TRUE(written.error().what.starts_with("a name of ")) << written.error().what;
     }
 }
 

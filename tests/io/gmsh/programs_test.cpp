@@ -167,6 +167,17 @@ TEST(GmshPrograms, what_else_gmsh_writes) {
     }
 }
 
+/// The coordinates of each of these nodes.
+std::vector<double> by_cells(const Mesh& mesh, const std::vector<Mesh::Index>& nodes) {
+    std::vector<double> points;
+    const auto size = static_cast<std::size_t>(mesh.dimension);
+    for (const Mesh::Index node : nodes) {
+        const double* const at = &mesh.points[static_cast<std::size_t>(node) * size];
+        points.insert(points.end(), at, at + size);
+    }
+    return points;
+}
+
 /// What stands between backquotes.
 std::vector<std::string> commands_in(const std::string& text) {
     std::vector<std::string> commands;
@@ -221,9 +232,9 @@ TEST(GmshPrograms, gmsh_reads_what_is_written) {
             ASSERT_TRUE(runs("gmsh " + folder / "m.msh " + folder / "views.geo" + " -"));
             const Result<Mesh> again = read_gmsh(folder / "again.msh");
             ASSERT_TRUE(again) << again.error().message();
-            EXPECT_EQ(bits_of(again->points), bits_of(mesh.points));
-            EXPECT_EQ(again->cells, mesh.cells);
-            EXPECT_EQ(again->mid_nodes, mesh.mid_nodes);
+            // Gmsh may number nodes anew.
+            EXPECT_EQ(bits_of(by_cells(*again, again->cells)), bits_of(by_cells(mesh, mesh.cells)));
+            EXPECT_EQ(bits_of(by_cells(*again, again->mid_nodes)), bits_of(by_cells(mesh, mesh.mid_nodes)));
             EXPECT_EQ(again->cell_fields.at(0).data, mesh.cell_fields.at(1).data);
             EXPECT_EQ(again->cell_labels.at(0).values, mesh.cell_labels.at(0).values);
             for (int i = 0; i < 3; ++i) {

@@ -40,6 +40,13 @@ TEST(GmshWrite, random_meshes_come_back) {
             mesh = second_order_mesh(dimension, dimension == 3 ? MidEdgeOrder::gmsh : MidEdgeOrder::vtk,
                                      1 + random.below(5), seed, 1e-3);
         }
+        // Equal cells one after the other are, in 2.2, one cell in two groups.
+        for (std::size_t i = mesh.corners(); i < mesh.cells.size(); i += mesh.corners()) {
+            const auto at = mesh.cells.begin() + static_cast<std::ptrdiff_t>(i);
+            const auto corners = static_cast<std::ptrdiff_t>(mesh.corners());
+            if (std::equal(at, at + corners, at - corners)) *at = static_cast<Mesh::Index>(*at == 0);
+        }
+        if (mesh.point_count() == 1) continue;
         const std::size_t cells = mesh.cell_count();
         mesh.index_base = 1;
         mesh.faces.clear(), mesh.face_mid_nodes.clear(), mesh.face_markers.clear(), mesh.neighbours.clear();
@@ -130,8 +137,11 @@ TEST(GmshWrite, what_cannot_be_written) {
     mesh.cells[0] = 6;
     EXPECT_EQ(what(mesh), "cannot write the mesh: a vertex of a cell is not a node");
     mesh = good;
+    mesh.cell_labels[0].values = std::vector<std::string>{"a", "b"};
     mesh.cell_fields[0].data = {7, 7};
-    EXPECT_EQ(what(mesh), "") << "a cell of the group without a name";
+    EXPECT_EQ(what(mesh), "a name of physical group 7 that cannot be written") << "two names for one group";
+    mesh.cell_labels[0].values = std::vector<std::string>{"a", ""};
+    EXPECT_TRUE(write_gmsh(mesh, folder / "m.msh")) << "a cell of the group without a name";
 }
 
 }  // namespace

@@ -101,6 +101,12 @@ bool take_head(Row& row, int version, const ElementBlock& block, Head& head) {
         std::int64_t type = 0;
         if (!row.integer(type, "the type of an element") || !row.integer(tags, "the number of tags")) return false;
     }
+    if (tags < 0) {
+        return row.refuse({.what = "bad number",
+                           .expected = "the number of tags of an element",
+                           .has_number = true,
+                           .number = tags});
+    }
     head.more = tags > 2;
     for (std::int64_t k = 0; k < tags; ++k) {
         std::int64_t value = 0;

@@ -110,21 +110,22 @@ bool Walk::count_line(std::int64_t& value, const char* name) {
     return true;
 }
 
-bool Walk::skip_numbers(std::uint64_t count) {
+std::uint64_t Walk::skip_numbers(std::uint64_t count) {
     const char* at = place_.at;
     for (std::uint64_t i = 0; i < count; ++i) {
         while (at != end_ && static_cast<unsigned char>(*at) <= ' ') ++at;
-        if (at == end_) return false;
+        if (at == end_) return i;
         while (at != end_ && static_cast<unsigned char>(*at) > ' ') ++at;
     }
     place_.at = at;
-    return true;
+    return count;
 }
 
 bool Walk::skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, const char* name) {
     const auto count = static_cast<std::uint64_t>(rows);
     const auto room = static_cast<std::uint64_t>(end_ - place_.at);
     bool good = count <= room;  // in any layout a row has a byte or more, so that products do not overflow below
+    std::string found = "fewer";
     if (good && layout_ == MshLayout::binary) {
         good = count * bytes <= room;
         if (good) place_.at += count * bytes;
@@ -133,9 +134,11 @@ bool Walk::skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, 
         good = at != nullptr && at <= end_;
         if (good) place_ = {at, place_.line + count};
     } else if (good) {
-        good = skip_numbers(count * numbers);
+        const std::uint64_t skipped = skip_numbers(count * numbers);
+        good = skipped == count * numbers;
+        if (!good) found = std::to_string(skipped / numbers);
     }
-    return good || refuse("the section ends too early", std::to_string(rows) + " " + name, "fewer",
+    return good || refuse("the section ends too early", std::to_string(rows) + " " + name, found,
                           "the file may be cut short: write it again, or mend the number");
 }
 

@@ -41,7 +41,7 @@ private:
     void skip();
     bool take(const char* after, const char* name);
     bool number(std::int64_t& value, std::size_t bytes, const char* name);
-    bool skip_numbers(std::uint64_t count);
+    std::uint64_t skip_numbers(std::uint64_t count);  ///< how many there were
 
     const MshFile& file_;
     std::string_view name_;
