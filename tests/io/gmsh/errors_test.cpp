@@ -75,7 +75,7 @@ TEST(GmshErrors, with_line_and_remedy) {
         {old + "1\n1 4 2 0 0 1 1 1 2\n$EndElements\n", 10, "an unknown node in $Elements", nullptr, "2"},
         {old + "1\n1 4 -1 1 1 1 1\n$EndElements\n", 10, "bad number in $Elements", nullptr, "-1"},
         {old + "2\n1 4 2 0 0 1 1 1 1\n$EndElements\n", 11, "bad number in $Elements", "the tag of an element", nullptr},
-        {good + "$NodeData\n1\n\"T\"\n0\n2\n0\n1\n$EndNodeData\n", 28, "bad header of $NodeData",
+        {good + "$NodeData\n1\n\"T\"\n0\n2\n0\n1\n$EndNodeData\n", 27, "bad header of $NodeData",
          "the number of values", "-1"},
         {good + "$NodeData\n1\n\"T\"\n0\n3\n0\n1\n1\n1 x\n$EndNodeData\n", 29, "bad number in $NodeData", "a number",
          "\"x\""},

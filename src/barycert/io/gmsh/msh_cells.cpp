@@ -102,10 +102,8 @@ bool take_head(Row& row, int version, const ElementBlock& block, Head& head) {
         if (!row.integer(type, "the type of an element") || !row.integer(tags, "the number of tags")) return false;
     }
     if (tags < 0) {
-        return row.refuse({.what = "bad number",
-                           .expected = "the number of tags of an element",
-                           .has_number = true,
-                           .number = tags});
+        return row.refuse(
+            {.what = "bad number", .expected = "the number of tags of an element", .has_number = true, .number = tags});
     }
     head.more = tags > 2;
     for (std::int64_t k = 0; k < tags; ++k) {
@@ -278,20 +276,18 @@ Result<MshCells> read_msh_cells(const MshFile& file, const MshElements& elements
     base::resize_large(cells.corners, count * corners);
     base::resize_large(cells.mid_nodes, count * target.mids);
     base::resize_large(cells.tags, count);
-    base::resize_large(cells.geometrical, count);
-    if (file.version() == 22) base::resize_large(cells.physical, count);
+    if (file.version() == 22) {
+        base::resize_large(cells.geometrical, count);
+        base::resize_large(cells.physical, count);
+    }
 
     Status status = corners == 4 ? read_chosen<4>(target, runs) : read_chosen<3>(target, runs);
     if (!status) return status.error();
-    if (count != elements.count) cells.numbers.reserve(count);
-    for (const Run& run : runs) {
-        const ElementBlock& block = elements.blocks[run.id];
-        if (file.version() != 22) {
-            std::fill_n(cells.geometrical.begin() + static_cast<std::ptrdiff_t>(run.first), run.count,
-                        static_cast<double>(block.entity));
-        }
-        for (std::size_t i = 0; count != elements.count && i < run.count; ++i) {
-            cells.numbers.push_back(static_cast<Mesh::Index>(block.first + i));
+    if (count != elements.count) {
+        cells.numbers.reserve(count);
+        for (const Run& run : runs) {
+            for (std::size_t i = 0; i < run.count; ++i)
+                cells.numbers.push_back(static_cast<Mesh::Index>(elements.blocks[run.id].first + i));
         }
     }
     if (file.version() == 22) drop_repeats(cells, corners, target.mids);

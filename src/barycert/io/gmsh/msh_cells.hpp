@@ -16,7 +16,7 @@ struct MshCells {
     std::vector<Mesh::Index> corners, mid_nodes;  ///< in Gmsh's order
     std::vector<std::int64_t> tags;               ///< of elements
     std::vector<Mesh::Index> numbers;             ///< among all elements; empty if all are cells
-    std::vector<double> physical, geometrical;    ///< tags of groups and of entities; `physical` in 2.x only
+    std::vector<double> physical, geometrical;    ///< tags of groups and of entities; in 2.x only
     TypeCounts left_out{};                        ///< of a lower dimension
     bool apart = false;                           ///< one of these has a node that no cell has
     bool partitioned = false;                     ///< there are further tags; 2.x only

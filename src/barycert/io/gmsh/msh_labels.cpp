@@ -2,50 +2,69 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <set>
 
 #include "barycert/base/text.hpp"
 
 namespace barycert::io {
 namespace {
 
+/// The tag of an entity: 1, or 0 for none, throughout says nothing.
+bool says_something(std::int64_t tag, std::int64_t first) {
+    return tag != first || (tag != 0 && tag != 1);
+}
+
 bool has_field(const Mesh& mesh, const char* name) {
     return std::any_of(mesh.cell_fields.begin(), mesh.cell_fields.end(),
                        [&](const Field& field) { return field.name == name; });
 }
 
-/// 4.x: groups of cells by way of their entities.
+/// 4.x: groups of cells by way of their entities. Nothing is filled in that would say nothing.
 void fill_from_entities(const MshFile& file, const MshElements& elements, const MshGroups& groups, MshCells& cells,
                         Notes& notes) {
-    cells.physical.assign(cells.tags.size(), 0);
-    std::size_t cell = 0, entities = 0;
-    std::string example;
-    std::map<std::int64_t, bool> told;
+    struct Piece {
+        std::size_t count;
+        std::int64_t physical, whole;
+    };
+    std::vector<Piece> pieces;
+    std::set<std::int64_t> in_several;
+    bool grouped = false, any_entity = false;
     for (const ElementBlock& block : elements.blocks) {
         if (cells.left_out[static_cast<std::size_t>(block.type->number)] != 0 || block.run.count == 0) continue;
+        Piece piece{block.run.count, 0, block.entity};
         const auto found = groups.entities.find({cells.dimension, block.entity});
         if (found != groups.entities.end()) {
-            const MshEntity& entity = found->second;
-            const auto begin = static_cast<std::ptrdiff_t>(cell);
-            if (!entity.physical.empty()) {
-                std::fill_n(cells.physical.begin() + begin, block.run.count,
-                            static_cast<double>(entity.physical.front()));
-            }
-            std::fill_n(cells.geometrical.begin() + begin, block.run.count, static_cast<double>(entity.whole));
-            if (entity.physical.size() > 1 && told.emplace(block.entity, true).second) {
-                ++entities;
-                if (example.empty()) {
-                    example = "entity " + std::to_string(block.entity) + " is in " +
-                              std::to_string(entity.physical.size()) + " groups";
-                }
-            }
+            const std::vector<std::int64_t>& physical = found->second.physical;
+            piece.whole = found->second.whole;
+            if (!physical.empty()) piece.physical = physical.front();
+            if (physical.size() > 1) in_several.insert(block.entity);
         }
-        cell += block.run.count;
+        grouped = grouped || piece.physical != 0;
+        any_entity = any_entity || says_something(piece.whole, pieces.empty() ? piece.whole : pieces.front().whole);
+        pieces.push_back(piece);
     }
-    if (entities == 0) return;
+    const auto fill = [&](std::vector<double>& values, std::int64_t Piece::*tag) {
+        values.reserve(cells.tags.size());
+        for (const Piece& piece : pieces) values.insert(values.end(), piece.count, static_cast<double>(piece.*tag));
+    };
+    if (grouped) fill(cells.physical, &Piece::physical);
+    if (any_entity) fill(cells.geometrical, &Piece::whole);
+    if (in_several.empty()) return;
     notes.push_back({Note::Kind::left_out,
-                     "physical groups of cells in several (" + example + "): gmsh:physical has the first of them",
+                     "further physical groups of " + std::to_string(in_several.size()) + " entities, the first being " +
+                         std::to_string(*in_several.begin()) + ": gmsh:physical has the first group of each cell",
                      file.path(), true});
+}
+
+/// 2.x: the same for what was read with each cell.
+void drop_what_says_nothing(MshCells& cells) {
+    if (std::all_of(cells.physical.begin(), cells.physical.end(), [](double tag) { return tag == 0; }))
+        cells.physical.clear();
+    const std::vector<double>& tags = cells.geometrical;
+    const bool any = std::any_of(tags.begin(), tags.end(), [&](double tag) {
+        return says_something(static_cast<std::int64_t>(tag), static_cast<std::int64_t>(tags.front()));
+    });
+    if (!any) cells.geometrical.clear();
 }
 
 /// The name of the group of each cell; empty where it has none.
@@ -99,8 +118,12 @@ void note_cells(const MshCells& cells, const MshGroups& groups, const std::strin
 
 void label_cells(const MshFile& file, const MshElements& elements, MshCells cells, const MshGroups& groups,
                  Mesh& mesh) {
-    if (file.version() != 22) fill_from_entities(file, elements, groups, cells, mesh.notes);
-    const bool grouped = std::any_of(cells.physical.begin(), cells.physical.end(), [](double tag) { return tag != 0; });
+    if (file.version() == 22) {
+        drop_what_says_nothing(cells);
+    } else {
+        fill_from_entities(file, elements, groups, cells, mesh.notes);
+    }
+    const bool grouped = !cells.physical.empty();
     bool in_sequence = true;
     for (std::size_t i = 0; i < cells.tags.size() && in_sequence; ++i) {
         in_sequence = cells.tags[i] == std::int64_t{mesh.cell_number(static_cast<Mesh::Index>(i))} + 1;
@@ -113,10 +136,7 @@ void label_cells(const MshFile& file, const MshElements& elements, MshCells cell
     if (!in_sequence) mesh.cell_labels.push_back({"gmsh:tag", std::move(cells.tags)});
     if (grouped && !has_field(mesh, "gmsh:physical"))
         mesh.cell_fields.push_back({"gmsh:physical", 1, std::move(cells.physical)});
-    const auto all_are = [&](double tag) {
-        return std::all_of(cells.geometrical.begin(), cells.geometrical.end(), [&](double t) { return t == tag; });
-    };
-    if (!has_field(mesh, "gmsh:geometrical") && !all_are(1) && !all_are(0))
+    if (!cells.geometrical.empty() && !has_field(mesh, "gmsh:geometrical"))
         mesh.cell_fields.push_back({"gmsh:geometrical", 1, std::move(cells.geometrical)});
 }
 
