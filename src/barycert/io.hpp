@@ -12,6 +12,7 @@
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 #include "barycert/table.hpp"
+#include "barycert/vtk_data.hpp"
 
 namespace barycert {
 
@@ -23,10 +24,10 @@ struct ReadOptions {
     int threads = 0;         ///< 0: as many as the machine has
 };
 
-/// Reads a mesh: TetGen's or Triangle's files by their stem or any one of them; a file of Gmsh (gmsh.hpp); and a .vtu,
-/// .vtk or .vtp file once use_vtk_files() was called (vtk.hpp). The format is told by the first bytes, or else by the
-/// suffix. Returns an Error if it cannot be read: a file of another format is named as what it is, with the command that
-/// converts it.
+/// Reads a mesh: TetGen's or Triangle's files by their stem or any one of them; a file of Gmsh, .msh (gmsh.hpp); and
+/// VTK's .vtu, .vtk, .vtp, .pvtu, .vtm and .pvd (vtk.hpp). The format is told by the first bytes, or else by the
+/// suffix. Returns an Error if it cannot be read: a file of another format is named as what it is, with the command
+/// that converts it.
 Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options = {});
 
 /// The paths of all files that read_mesh(path) may read.
@@ -42,15 +43,16 @@ std::vector<std::string> tetgen_files(const std::string& path);
 Result<Mesh> read_tetgen(const std::string& path, const ReadOptions& options = {});
 
 struct WriteOptions {
-    std::string comment;  ///< the last line of each file, after "# "; empty: none
+    std::string comment = {};     ///< TetGen's files: the last line of each, after "# "; empty: none
+    VtkData data = VtkData::raw;  ///< VTK's files
 };
 
 /// Writes STEM.node and STEM.ele, and STEM.face and STEM.neigh where the mesh has faces and neighbours. Every double
 /// reads back to the same bits. No file is left half-written.
 Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOptions& options = {});
 
-/// Writes the mesh as its path ends: .msh (gmsh.hpp), .vtu and .vtk (vtk.hpp, once use_vtk_files() was called), and all
-/// of TetGen's by .node, .ele or a stem. The options are for TetGen's files. Error: another suffix; as the writers.
+/// Writes the mesh as its path ends: .msh (gmsh.hpp), .vtu and .vtk (vtk.hpp), and TetGen's files by .node, .ele or a
+/// stem. Error: another suffix; as these writers.
 Status write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options = {});
 
 // Streams of points: CSV, NPY and .node files, block by block, so that memory does not grow with their number.
@@ -86,8 +88,8 @@ public:
     virtual Result<std::size_t> read(std::size_t max_points, std::vector<double>& out) = 0;
 };
 
-/// Opens the points of a CSV, NPY or .node file, or, once use_vtk_files() was called, of a .vtu, .vtp or .vtk file; "-"
-/// is CSV from the standard input. `dimension`: 2 or 3; of a CSV only the columns that are asked for are read. Returns
+/// Opens the points of a CSV, NPY or .node file, or of VTK's files (read_vtk_points in vtk.hpp); "-" is CSV from the
+/// standard input. `dimension`: 2 or 3; of a CSV only the columns that are asked for are read. Returns
 /// an Error if the suffix is another one, the file cannot be read, or has another dimension.
 Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int dimension);
 
@@ -108,6 +110,7 @@ struct TableFormat {
     std::vector<TableField> fields = {};
     bool distances = false;                  ///< a column `distance` after the fields
     std::vector<ColumnFormat> carried = {};  ///< columns that are carried through: the last ones
+    VtkData vtk_data = VtkData::raw;         ///< of a .vtu file
 
     std::vector<std::string> columns() const { return column_names(fields); }
 };
@@ -125,9 +128,8 @@ public:
     virtual Status commit() = 0;
 };
 
-/// Opens a CSV or NPY file, or, once use_vtk_files() was called, a .vtu file, by the suffix of the path; "-" is CSV on
-/// the standard output. Returns an Error if the suffix is another one, the path cannot be written, or NPY names would
-/// be refused by NumPy.
+/// Opens a CSV, NPY or .vtu file by the suffix of the path; "-" is CSV on the standard output. Returns an Error if the
+/// suffix is another one, the path cannot be written, or NPY names would be refused by NumPy.
 Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const TableFormat& format);
 
 }  // namespace barycert

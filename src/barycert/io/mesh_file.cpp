@@ -1,7 +1,7 @@
 #include "barycert/gmsh.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/mesh_format.hpp"
-#include "barycert/io/vtk_files.hpp"
+#include "barycert/vtk.hpp"
 
 namespace barycert {
 
@@ -11,11 +11,8 @@ Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
     switch (*format) {
         case io::MeshFormat::gmsh:
             return read_gmsh(path, {.step = {}, .threads = options.threads});
-        case io::MeshFormat::vtk: {
-            const io::VtkFiles* const vtk = io::vtk_files();
-            if (vtk == nullptr) return io::vtk_missing(path);
-            return vtk->read_mesh(path);
-        }
+        case io::MeshFormat::vtk:
+            return read_vtk(path);
         default:
             return read_tetgen(path, options);
     }
@@ -23,7 +20,8 @@ Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
 
 std::vector<std::string> mesh_files(const std::string& path) {
     const Result<io::MeshFormat> format = io::mesh_format(path);
-    if (format && *format != io::MeshFormat::tetgen) return {path};
+    if (format && *format == io::MeshFormat::vtk) return vtk_mesh_files(path);
+    if (format && *format == io::MeshFormat::gmsh) return {path};
     std::vector<std::string> files = tetgen_files(path);
     if (!format) files.push_back(path);  // nothing will be read: what it might have been
     return files;
@@ -35,11 +33,8 @@ Status write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions&
     switch (*format) {
         case io::MeshFormat::gmsh:
             return write_gmsh(mesh, path);
-        case io::MeshFormat::vtk: {
-            const io::VtkFiles* const vtk = io::vtk_files();
-            if (vtk == nullptr) return io::vtk_missing(path);
-            return vtk->write_mesh(mesh, path);
-        }
+        case io::MeshFormat::vtk:
+            return write_vtk(mesh, path, options.data);
         default:
             return write_tetgen(mesh, tetgen_stem(path), options);
     }

@@ -35,7 +35,7 @@ constexpr std::array formats{
     OtherFormat{" .obj ", "a surface, not a mesh", Way::other,
                 "convert it with `meshio convert IN.obj OUT.stl`, then mesh it with `barycert mesh OUT.stl`"},
     OtherFormat{" .geo .geo_unrolled .brep .step .stp .iges .igs ", "a geometry, not a mesh", Way::mesher, ""},
-    OtherFormat{" .vtkhdf .vtpd ", "a VTKHDF file", Way::pyvista, ""},
+    OtherFormat{" .vtkhdf ", "a VTKHDF file", Way::pyvista, ""},
     OtherFormat{" .h5 .hdf5 .hdf ", "an HDF5 file", Way::other,
                 "if it belongs to an .xdmf file, convert that: `meshio convert IN.xdmf OUT.vtu`"},
     OtherFormat{" .nc ", "a NetCDF file", Way::meshio, ""},

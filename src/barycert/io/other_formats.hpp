@@ -42,6 +42,7 @@ std::string gmsh_command(const std::string& path, const std::string& more = {});
 /// `path` as a word of a shell's command line.
 std::string shell_word(const std::string& path);
 
-inline constexpr const char* formats_read = "a file of Gmsh (.msh), VTK (.vtu .vtk), TetGen or Triangle (.node .ele)";
+inline constexpr const char* formats_read =
+    "a file of Gmsh (.msh), VTK (.vtu .vtk .pvtu .vtm .pvd), TetGen or Triangle (.node .ele)";
 
 }  // namespace barycert::io

@@ -8,8 +8,8 @@
 
 #include "barycert/io/formats.hpp"
 #include "barycert/io/mesh_format.hpp"
-#include "barycert/io/vtk_files.hpp"
 #include "barycert/pipeline/job_files.hpp"
+#include "barycert/vtk.hpp"
 
 namespace barycert::pipeline {
 namespace {
@@ -49,7 +49,7 @@ private:
         if (!distance_.data.empty()) mesh_.point_fields.push_back(std::move(distance_));
         if (format == io::MeshFormat::vtk) mesh_.point_fields.push_back(std::move(mask_));
         mesh_.point_fields.push_back(std::move(cell_));
-        return write_mesh(mesh_, path_);
+        return write_mesh(mesh_, path_, {.comment = {}, .data = data_});
     }
 
     Status write_tetgen_files() {
@@ -68,6 +68,7 @@ private:
 
     Mesh mesh_;
     std::string path_;
+    VtkData data_ = VtkData::raw;
     Field mask_, cell_, distance_;
 };
 
@@ -88,9 +89,7 @@ Status check_mesh_output(const ResampleJob& job) {
     if (job.range)
         return Error{.what = "--range cannot be combined with --onto", .remedy = "it is for pictures: leave it out"};
     if (is_rows_output(job.output)) return Done{};
-    const Result<io::MeshFormat> format = io::mesh_output_format(job.output);
-    if (format && *format == io::MeshFormat::vtk && io::vtk_files() == nullptr) return io::vtk_missing(job.output);
-    if (format) return Done{};
+    if (io::mesh_output_format(job.output)) return Done{};
     return unknown_output(job.output,
                           ".vtu, .vtk, .msh, .node, .csv or .npy, a stem of TetGen's files, or - for CSV on stdout");
 }
