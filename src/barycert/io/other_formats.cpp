@@ -19,13 +19,13 @@ constexpr std::array formats{
     OtherFormat{" .mesh .meshb ", "a mesh of Medit", Way::gmsh, ""},
     OtherFormat{" .inp ", "a mesh of Abaqus", Way::meshio, ""},
     OtherFormat{" .xdmf .xmf ", "an XDMF file", Way::meshio, ""},
-    OtherFormat{" .med .rmed .mmed ", "a MED file of Salome or Code_Aster", Way::gmsh, ""},
+    OtherFormat{" .med .rmed .mmed ", "a MED file of Salome or Code_Aster", Way::meshio, ""},
     OtherFormat{" .cgns ", "a CGNS file", Way::pyvista, ""},
     OtherFormat{" .exo .e .ex2 .exii .g ", "an Exodus file", Way::meshio, ""},
     OtherFormat{" .vol ", "a mesh of Netgen", Way::meshio, ""},
     OtherFormat{" .su2 ", "a mesh of SU2", Way::meshio, ""},
     OtherFormat{" .unv .universal ", "a universal file of I-deas", Way::gmsh, ""},
-    OtherFormat{" .bdf .nas .fem ", "a file of Nastran", Way::meshio, ""},
+    OtherFormat{" .bdf .nas .fem ", "a file of Nastran", Way::gmsh, ""},
     OtherFormat{" .foam .openfoam ", "a case of OpenFOAM", Way::other, foam_remedy},
     OtherFormat{" .xml ", "an XML file, perhaps a mesh of DOLFIN", Way::meshio, ""},
     OtherFormat{" .avs .ugrid .mdpa .f3grid .h5m .hmf .post .dato .tec .dat ", "a mesh of another program", Way::meshio,
@@ -50,9 +50,9 @@ constexpr std::array formats{
 };
 
 const OtherFormat* by_suffix(std::string_view suffix) {
+    const std::string word = " " + std::string(suffix) + " ";
     for (const OtherFormat& format : formats) {
-        const std::size_t at = format.suffixes.find(suffix);
-        if (at != std::string_view::npos && format.suffixes[at + suffix.size()] == ' ') return &format;
+        if (format.suffixes.find(word) != std::string_view::npos) return &format;
     }
     return nullptr;
 }
