@@ -18,6 +18,7 @@
 #include "barycert/picture.hpp"
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
+#include "barycert/vtk_data.hpp"
 
 namespace barycert {
 
@@ -41,6 +42,7 @@ struct SamplingJob {
     std::vector<std::string> fields = {};  ///< names, see Sampler::build; empty: all
     std::string output;                    ///< the format goes by the suffix; "-" is CSV on stdout
     SampleOptions options = {};
+    std::optional<VtkData> vtk_data = {};  ///< of an output in a format of VTK; not set: raw
 
     /// Where the caller will write a report: the job makes sure that this is no other file of the job, and can be
     /// written. Empty: nowhere.

@@ -140,7 +140,7 @@ Status onto_mesh(Run& run, const ResampleJob& job, Engine& engine) {
     run.summary.seconds.read = watch.lap();
     const auto open = [&](const TableFormat& format) -> Result<std::unique_ptr<TableSink>> {
         if (to_rows) return pipeline::open_rows(job, format);
-        return pipeline::mesh_sink(std::move(*other), job.output, format.fields);
+        return pipeline::mesh_sink(std::move(*other), job.output, format);
     };
     return pipeline::sample_stream(run, engine, *source, open, "");
 }
