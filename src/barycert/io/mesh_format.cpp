@@ -62,7 +62,8 @@ Error missing(const std::string& path) {
     if (const std::string found = with_another_suffix(path); !found.empty()) {
         error.remedy = "there is " + found + ": name it with its suffix";
     } else if (other != nullptr) {
-        error.remedy = std::string("check the path; ") + other->what + " would not be read: MESH is " + formats_read;
+        error.remedy = std::string("check the path; ") + other->what +
+                       " would not be read: " + other_format_error(*other, path).remedy;
     } else if (format_by_suffix(path) && !is_tetgen_file(path)) {
         error.remedy = "check the path";
     } else {
