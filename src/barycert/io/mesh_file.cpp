@@ -22,9 +22,7 @@ std::vector<std::string> mesh_files(const std::string& path) {
     const Result<io::MeshFormat> format = io::mesh_format(path);
     if (format && *format == io::MeshFormat::vtk) return vtk_mesh_files(path);
     if (format && *format == io::MeshFormat::gmsh) return {path};
-    std::vector<std::string> files = tetgen_files(path);
-    if (!format) files.push_back(path);  // nothing will be read: what it might have been
-    return files;
+    return tetgen_files(path);
 }
 
 Status write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options) {

@@ -81,6 +81,8 @@ TEST(GmshErrors, with_line_and_remedy) {
          "\"x\""},
         {good + "$NodeData\n1\n\"T\"\n0\n3\n0\n1\n9\n1 2\n$EndNodeData\n", 29,
          "the section ends too early in $NodeData", "9 values", "fewer"},
+        {good + "$NodeData\n1\n\"T\"\n0\n3\n0\n100\n30000\n" + std::string(30000, '\n') + "$EndNodeData\n", 29,
+         "the section ends too early in $NodeData", "30000 values", "0"},
         {good + "$PhysicalNames\n1\n3 1 inner\n$EndPhysicalNames\n", 23, "bad line in $PhysicalNames", nullptr,
          "\"3\""},
         {good + "$Entities\n0 0 0 1\n1 0 0 0 1 1\n$EndEntities\n", 24, "bad number in $Entities", "a coordinate",

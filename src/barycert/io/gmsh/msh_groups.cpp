@@ -75,7 +75,7 @@ bool take_entity(Walk& walk, std::int64_t dimension, int reals, bool parts, MshG
         return false;
     if (dimension > 0 && !take_integers(walk, "the number of boundaries", "the tag of an entity", nullptr))
         return false;
-    groups.entities[{dimension, tag}] = std::move(entity);
+    if (!entity.physical.empty() || entity.whole != tag) groups.entities[{dimension, tag}] = std::move(entity);
     return true;
 }
 

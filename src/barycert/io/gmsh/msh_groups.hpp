@@ -22,7 +22,7 @@ struct MshEntity {
 
 struct MshGroups {
     std::map<GmshKey, std::string> names;   ///< of physical groups
-    std::map<GmshKey, MshEntity> entities;  ///< 4.x
+    std::map<GmshKey, MshEntity> entities;  ///< 4.x; those that are in a group or a part of another
     bool partitioned = false;               ///< there are parts of entities
 };
 

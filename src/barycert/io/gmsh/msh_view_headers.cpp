@@ -46,8 +46,7 @@ public:
             if (i < 3) values[static_cast<std::size_t>(i)] = value;
         }
         view.step = values[0];
-        if (values[1] < 1 || values[1] > max_components)
-            return refuse("the number of components, 1 to 1000", values[1]);
+        if (values[1] < 1 || values[1] > max_components) return refuse("the number of components, 1 to 100", values[1]);
         if (values[2] < 0 || values[2] > INT32_MAX) return refuse("the number of values", values[2]);
         view.components = static_cast<int>(values[1]);
         const std::string_view rest = take_line(at_, end_);
@@ -63,7 +62,7 @@ public:
     }
 
 private:
-    static constexpr std::int64_t max_components = 1000;
+    static constexpr std::int64_t max_components = 100;
 
     bool integer(std::int64_t& value, const char* name) {
         wanted_ = name;

@@ -130,10 +130,14 @@ bool Walk::skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, 
         good = count * bytes <= room;
         if (good) place_.at += count * bytes;
     } else if (good && layout_ == MshLayout::lines) {
+        // A number takes a character and one that ends it: memory for the rows is a multiple of what is there.
+        good = count * numbers * 2 <= room + 1;
+    }
+    if (good && layout_ == MshLayout::lines) {
         const char* const at = file_.lines().start(place_.line + count, place_);
         good = at != nullptr && at <= end_;
         if (good) place_ = {at, place_.line + count};
-    } else if (good) {
+    } else if (good && layout_ == MshLayout::free) {
         const std::uint64_t skipped = skip_numbers(count * numbers);
         good = skipped == count * numbers;
         if (!good) found = std::to_string(skipped / numbers);
