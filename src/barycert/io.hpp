@@ -24,8 +24,10 @@ struct ReadOptions {
     int threads = 0;         ///< 0: as many as the machine has
 };
 
-/// Reads a mesh: TetGen's or Triangle's files by their stem or any one of them, and VTK's .vtu, .vtk, .vtp, .pvtu, .vtm
-/// and .pvd (vtk.hpp). Returns an Error, with a hint at what may be meant, if it cannot be read.
+/// Reads a mesh: TetGen's or Triangle's files by their stem or any one of them; a file of Gmsh, .msh (gmsh.hpp); and
+/// VTK's .vtu, .vtk, .vtp, .pvtu, .vtm and .pvd (vtk.hpp). The format is told by the first bytes, or else by the
+/// suffix. Returns an Error if it cannot be read: a file of another format is named as what it is, with the command
+/// that converts it.
 Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options = {});
 
 /// The paths of all files that read_mesh(path) may read.
@@ -41,12 +43,17 @@ std::vector<std::string> tetgen_files(const std::string& path);
 Result<Mesh> read_tetgen(const std::string& path, const ReadOptions& options = {});
 
 struct WriteOptions {
-    std::string comment;  ///< the last line of each file, after "# "; empty: none
+    std::string comment = {};     ///< TetGen's files: the last line of each, after "# "; empty: none
+    VtkData data = VtkData::raw;  ///< VTK's files
 };
 
 /// Writes STEM.node and STEM.ele, and STEM.face and STEM.neigh where the mesh has faces and neighbours. Every double
 /// reads back to the same bits. No file is left half-written.
 Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOptions& options = {});
+
+/// Writes the mesh as its path ends: .msh (gmsh.hpp), .vtu and .vtk (vtk.hpp), and TetGen's files by .node, .ele or a
+/// stem. Error: another suffix; as these writers.
+Status write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options = {});
 
 // Streams of points: CSV, NPY and .node files, block by block, so that memory does not grow with their number; the
 // nodes of meshes.

@@ -25,7 +25,7 @@ void add_sample(CLI::App& app, int& exit_code) {
         "error.");
     const auto a = std::make_shared<SampleJob>();
     const auto quiet = std::make_shared<bool>(false);
-    file_option(*sub, "MESH", a->mesh, "A TetGen mesh (.node/.ele; Triangle's for 2D), or a VTK file (.vtu .vtk)")
+    file_option(*sub, "MESH", a->mesh, "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, VTK's .vtu .vtk")
         ->required();
     file_option(*sub, "--points", a->points,
                 "Points: .csv .npy .node .vtu .vtp .vtk, or the nodes of another mesh; - is CSV from stdin");

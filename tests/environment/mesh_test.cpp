@@ -15,6 +15,7 @@
 #include "barycert/check.hpp"
 #include "barycert/contour.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/gmsh.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/vti/vti.hpp"
@@ -305,6 +306,12 @@ TEST(EveryEnvironment, Files) {
                 out.add((*sink)->write({s.mesh.dimension, 0, points, cells, features, points, {}}).has_value());
                 out.add((*sink)->commit().has_value());
                 out.add(std::string_view(folder.bytes(name)));
+            }
+            for (const bool binary : {true, false}) {
+                out.add(write_gmsh(s.mesh, folder.path("mesh.msh"), {.binary = binary}).has_value());
+                out.add(std::string_view(folder.bytes("mesh.msh")));
+                add(out, *read_gmsh(folder.path("mesh.msh")));
+                out.add_all(*read_gmsh_points(folder.path("mesh.msh"), s.mesh.dimension));
             }
             out.add(mesh_fingerprint(s.mesh));
             io::VtiGrid grid;
