@@ -38,8 +38,16 @@ struct JobProgress {
 struct SamplingJob {
     std::string mesh;  ///< as for read_mesh
     std::vector<FieldFile> field_files = {};
+    /// Fields that change from step to step: each path has one *, and each file that it matches is a step, in natural
+    /// order (2 before 10). Where the output has {step} in its name, each step has an output of its own, in which what
+    /// the * stood for takes that place; points are located once, and values of one step at a time are in memory. Else
+    /// the steps of NAME, 256 at most, are columns NAME@STEP.
+    std::vector<FieldFile> series = {};
     std::vector<std::string> fields = {};  ///< names, see Sampler::build; empty: all
     std::string output;                    ///< the format goes by the suffix; "-" is CSV on stdout
+    /// Where to write the weights of the points on the nodes of the mesh (node_weights.hpp): .npz, a matrix that
+    /// scipy.sparse.load_npz reads. Empty: nowhere. Not for grids. A SampleJob with weights needs no output.
+    std::string weights = {};
     SampleOptions options = {};
 
     /// Where the caller will write a report: the job makes sure that this is no other file of the job, and can be
@@ -113,7 +121,8 @@ struct SampleSummary {
     std::uint64_t degenerate_cells = 0;  ///< method `pass`: of the cells near the points
     std::uint64_t contested_cells = 0;   ///< see Locator::contested_cells
     std::uint64_t rows = 0;
-    std::uint64_t nan_values = 0;  ///< of points inside: from values of nodes or cells that are not finite
+    std::uint64_t nan_values = 0;    ///< of points inside: from values of nodes or cells that are not finite
+    std::vector<std::string> steps;  ///< of series, in order; all else but nan_values and seconds is of one of them
     int dimension = 3, threads = 1;
     PointsFrom from = PointsFrom::points;
     FoundBy method = FoundBy::walk;

@@ -26,7 +26,7 @@ void add_sample(CLI::App& app, int& exit_code) {
     file_option(*sub, "MESH", a->mesh, "A TetGen mesh (.node/.ele; Triangle's for 2D), or a VTK file (.vtu .vtk)")
         ->required();
     file_option(*sub, "--points", a->points, "Points: .csv .npy .node .vtu .vtp .vtk; - is CSV from stdin");
-    file_option(*sub, "--output", a->output, "Rows: .csv .npy .vtu; - is CSV on stdout")->required();
+    file_option(*sub, "--output", a->output, "Rows: .csv .npy .vtu; - is CSV on stdout");
     add_sampling_options(*sub, *a, *quiet);
     sub->add_option_function<std::string>(
            "--on-boundary", [a](const std::string& text) { a->all = text == "all"; },

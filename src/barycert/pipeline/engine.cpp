@@ -12,12 +12,16 @@
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
+#include "barycert/io/fields/field_file.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/cells_at_points.hpp"
+#include "barycert/mesh/consistency.hpp"
 #include "barycert/pipeline/few_points.hpp"
 #include "barycert/pipeline/field_files.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/sample/points/field_choice.hpp"
+#include "barycert/sample/quantity/expression.hpp"
+#include "barycert/sample/quantity/made_fields.hpp"
 
 namespace barycert::pipeline {
 namespace {
@@ -76,16 +80,103 @@ Result<std::unique_ptr<Engine>> Engine::open(Run& run) {
     if (!mesh) return mesh.error();
     std::unique_ptr<Engine> engine(new Engine(run));
     engine->mesh_ = std::move(*mesh);
-    if (Status added = add_fields(run.job.field_files, engine->mesh_); !added) return added.error();
-    Result<std::vector<FieldChoice>> fields = sample::fields_named(engine->mesh_, run.job.fields);
-    if (!fields) return fields.error();
-    engine->fields_ = std::move(*fields);
+    if (Status added = engine->add_fields_of_job(); !added) return added.error();
+    if (Status chosen = engine->choose_fields(); !chosen) return chosen.error();
     SampleSummary& summary = run.summary;
     summary.dimension = engine->mesh_.dimension;
     summary.nodes = engine->mesh_.point_count();
     summary.cells = engine->mesh_.cell_count();
     summary.seconds.mesh = watch.lap();
     return engine;
+}
+
+Status Engine::add_fields_of_job() {
+    if (Status added = add_fields(run_.job.field_files, mesh_); !added) return added;
+    for (const Step& step : run_.steps) {
+        for (FieldFile file : step.files) {
+            if (!run_.step_by_step()) file.name = name_of_step(file.name, step);
+            const std::size_t cell_fields = mesh_.cell_fields.size();
+            if (Status added = add_fields({file}, mesh_); !added) return added;
+            const bool of_cells = mesh_.cell_fields.size() != cell_fields;
+            places_of_series_.push_back({of_cells, (of_cells ? cell_fields : mesh_.point_fields.size() - 1)});
+        }
+        if (run_.step_by_step()) break;
+    }
+    return Done{};
+}
+
+Status Engine::go_to(const Step& step) {
+    Stopwatch watch;
+    for (std::size_t i = 0; i < step.files.size(); ++i) {
+        const FieldPlace place = places_of_series_[i];
+        Field& field = (place.of_cells ? mesh_.cell_fields : mesh_.point_fields)[place.number];
+        Result<Field> read = io::read_field_file(step.files[i].name, step.files[i].path);
+        if (!read) return read.error();
+        const auto shape = [](const Field& f) {
+            const auto components = static_cast<std::size_t>(f.components);
+            return fmt::format("{} rows of {}", f.data.size() / components, counted(components, "component"));
+        };
+        if (read->data.size() != field.data.size() || read->components != field.components)
+            return Error{.what = "the steps of field \"" + step.files[i].name + "\" differ",
+                         .file = step.files[i].path,
+                         .expected = shape(field) + ", as in the first step",
+                         .found = shape(*read)};
+        field.data = std::move(read->data);
+    }
+    run_.summary.seconds.mesh += watch.lap();
+    sampler_.reset();
+    made_.clear();
+    if (Status chosen = choose_fields(); !chosen) return chosen;
+    Status built = build_sampler(part_ ? fields_of_part() : fields_);
+    run_.summary.seconds.build += watch.lap();
+    return built;
+}
+
+/// With columns for all steps, what is asked of a series is asked of each step.
+std::vector<std::string> Engine::names_of_fields() const {
+    if (run_.step_by_step() || run_.steps.empty()) return run_.job.fields;
+    std::vector<std::string> names;
+    const auto of_steps = [&](const std::string& text) {
+        for (std::size_t s = 0; s < run_.steps.front().files.size(); ++s) {
+            const std::string& series = run_.steps.front().files[s].name;
+            if (!sample::with_other_name(text, series, series)) continue;
+            for (const Step& step : run_.steps)
+                names.push_back(*sample::with_other_name(text, series, name_of_step(series, step)));
+            return true;
+        }
+        return false;
+    };
+    for (const std::string& text : run_.job.fields) {
+        if (of_steps(text)) continue;
+        bool some = false;
+        const std::size_t before = names.size();
+        sample::for_names(text, [&](const std::string& name) {
+            const bool series = of_steps(name);
+            if (!series) names.push_back(name);
+            some = some || series;
+            return true;
+        });
+        if (some) continue;
+        names.resize(before);  // one name may hold commas
+        names.push_back(text);
+    }
+    return names;
+}
+
+Status Engine::choose_fields() {
+    if (run_.job.output.empty() && !run_.job.weights.empty()) return Done{};
+    Result<std::vector<FieldChoice>> fields = sample::quantities_named(mesh_, names_of_fields());
+    if (!fields) return fields.error();
+    fields_ = std::move(*fields);
+    // What depends on all cells is made before some of them are looked at.
+    for (FieldChoice& choice : fields_) {
+        const std::size_t steps = sample::steps_of_whole_mesh(choice);
+        if (steps == 0) continue;
+        if (const char* const wrong = mesh::inconsistency_of_cells(mesh_, mesh::FieldValues::any); wrong != nullptr)
+            return Error{.what = std::string("the mesh is inconsistent: ") + wrong, .file = run_.job.mesh};
+        if (Status done = sample::make_fields(mesh_, choice, steps, made_); !done) return done;
+    }
+    return Done{};
 }
 
 TableFormat Engine::format() const {
@@ -105,15 +196,34 @@ Status Engine::build_on(const Mesh& mesh, const std::vector<FieldChoice>& fields
     Result<Locator> locator = Locator::build(mesh, options);
     if (!locator) return locator.error();
     locator_.emplace(std::move(*locator));
-    Result<Sampler> sampler = Sampler::build(*locator_, fields);
-    if (!sampler) return sampler.error();
-    sampler_.emplace(std::move(*sampler));
+    if (Status built = build_sampler(fields); !built) return built;
     SampleSummary& summary = run_.summary;
-    summary.columns = sampler_->columns();
     if (run_.job.count_degenerate)
         summary.degenerate_cells = prove ? locator_->degenerate_cells() : count_degenerate(mesh);
     summary.seconds.build += watch.lap();
     return Done{};
+}
+
+Status Engine::build_sampler(const std::vector<FieldChoice>& fields) {
+    Result<Sampler> sampler = Sampler::build(*locator_, fields);
+    if (!sampler) return sampler.error();
+    sampler_.emplace(std::move(*sampler));
+    run_.summary.columns = sampler_->columns();
+    return Done{};
+}
+
+std::vector<FieldChoice> Engine::fields_of_part() {
+    std::vector<FieldChoice> fields;
+    part_->mesh.point_fields.clear();
+    part_->mesh.cell_fields.clear();
+    part_->mesh.point_fields.reserve(fields_.size());
+    part_->mesh.cell_fields.reserve(fields_.size());
+    for (const FieldChoice& choice : fields_) {
+        auto& of_part = choice.of_cells ? part_->mesh.cell_fields : part_->mesh.point_fields;
+        of_part.push_back(part_->field(*choice.field, choice.of_cells));
+        fields.push_back({&of_part.back(), choice.of_cells, choice.steps, choice.name});
+    }
+    return fields;
 }
 
 Status Engine::prepare() {
@@ -144,14 +254,7 @@ Status Engine::prepare_for_all(std::span<const double> points) {
                      [&] { near = locate::cells_at_points(mesh_, points, most_cells(cells)); });
     if (!near) return prepare();
     part_ = mesh::part_of(mesh_, std::move(*near));
-    std::vector<FieldChoice> fields;
-    part_->mesh.point_fields.reserve(fields_.size());
-    part_->mesh.cell_fields.reserve(fields_.size());
-    for (const FieldChoice& choice : fields_) {
-        auto& of_part = choice.of_cells ? part_->mesh.cell_fields : part_->mesh.point_fields;
-        of_part.push_back(part_->field(*choice.field, choice.of_cells));
-        fields.push_back({&of_part.back(), choice.of_cells});
-    }
+    const std::vector<FieldChoice> fields = fields_of_part();
     SampleSummary& summary = run_.summary;
     summary.method = FoundBy::pass;
     summary.reason = fmt::format("no index for {}: {} of {} may hold some", counted(count, "point"),
@@ -161,12 +264,21 @@ Status Engine::prepare_for_all(std::span<const double> points) {
 }
 
 void Engine::let_go_of_mesh() {
-    if (gives_distances(run_.job.options.outside) || !mesh_.mid_nodes.empty()) return;
+    if (gives_distances(run_.job.options.outside) || !mesh_.mid_nodes.empty() || run_.step_by_step()) return;
     // The index has corners and coordinates in an order of its own, and so has the sampler the values of nodes.
     give_back(mesh_.points);
     give_back(mesh_.cells);
     give_back(mesh_.point_markers);
     for (Field& field : mesh_.point_fields) give_back(field.data);
+}
+
+Result<NodeWeights> Engine::weights_of(const TableView& rows, const OutsidePolicy& outside) const {
+    Result<NodeWeights> weights = node_weights(*locator_, rows, outside);
+    // Nodes of a part are in the order of the mesh.
+    if (weights && part_) {
+        for (Mesh::Index& node : weights->nodes) node = part_->nodes[static_cast<std::size_t>(node)];
+    }
+    return weights;
 }
 
 void Engine::name_cells(Table& rows) const {

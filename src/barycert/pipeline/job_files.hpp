@@ -8,14 +8,16 @@
 #include "barycert/base/named_file.hpp"
 #include "barycert/io.hpp"
 #include "barycert/pipeline.hpp"
+#include "barycert/pipeline/series.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::pipeline {
 
 /// What can be known of files before the work: of a job with those outputs and, besides the common ones, those inputs.
-/// Errors: an output is an input or another output, or cannot be written; an input cannot be read.
-Status check_files(const SamplingJob& job, const std::vector<base::NamedFile>& more_inputs,
-                   std::vector<base::NamedFile> outputs);
+/// Those that are called --output are one for each step, where they have a place for it. Errors: an output is an input
+/// or another output, or cannot be written; an input cannot be read; more steps than can be columns.
+Status check_files(const SamplingJob& job, const std::vector<Step>& steps,
+                   const std::vector<base::NamedFile>& more_inputs, std::vector<base::NamedFile> outputs);
 
 /// That the suffix of the output is none of those `expected`.
 Error unknown_output(const std::string& path, const std::string& expected);

@@ -1,5 +1,10 @@
 // Fields at points.
 
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
 #include "barycert/io.hpp"
 #include "barycert/map.hpp"
 #include "barycert/pipeline/engine.hpp"
@@ -12,7 +17,7 @@ namespace {
 using pipeline::Engine;
 using pipeline::Run;
 
-Status check_job(const SampleJob& job) {
+Status check_job(const SampleJob& job, const std::vector<pipeline::Step>& steps) {
     if (job.points.empty() == job.map.empty())
         return Error{.what = job.points.empty() ? "no points" : "--points and --map",
                      .expected = "one of --points FILE and --map FILE",
@@ -23,15 +28,41 @@ Status check_job(const SampleJob& job) {
             .what = "--save-map cannot be combined with --map", .file = job.save_map, .remedy = "copy the map"};
     if (job.map == "-" || job.save_map == "-")
         return Error{.what = "a map cannot come from stdin or go to stdout", .remedy = "name a file"};
-    if (Status known = pipeline::check_rows_format(job.output); !known) return known;
+    if (job.output.empty()) {
+        if (job.weights.empty())
+            return Error{.what = "no output", .expected = "--output FILE, --weights FILE, or both", .found = "neither"};
+        if (!job.fields.empty() || !job.field_files.empty() || !job.series.empty())
+            return Error{.what = "fields without --output",
+                         .remedy = "weights depend on no field: leave fields out, or name --output too"};
+    } else if (Status known = pipeline::check_rows_format(job.output); !known) {
+        return known;
+    }
     return pipeline::check_files(
-        job, {job.map.empty() ? base::NamedFile{"--points", job.points} : base::NamedFile{"--map", job.map}},
+        job, steps, {job.map.empty() ? base::NamedFile{"--points", job.points} : base::NamedFile{"--map", job.map}},
         {{"--output", job.output}, {"--save-map", job.save_map}});
 }
 
-/// Opens the output of the job.
-pipeline::SinkFactory rows_of(const SampleJob& job) {
-    return [&job](const TableFormat& format) { return pipeline::open_rows(job, format); };
+/// Opens an output of the job.
+pipeline::SinkFactory rows_to(const SampleJob& job, const std::string& output) {
+    return [&job, output](const TableFormat& format) -> Result<std::unique_ptr<TableSink>> {
+        if (output.empty()) return std::unique_ptr<TableSink>();
+        SampleJob one = job;
+        one.output = output;
+        return pipeline::open_rows(one, format);
+    };
+}
+
+/// What is done with the first rows, and then with those of further steps.
+Status in_steps(Run& run, const SampleJob& job, Engine& engine,
+                const std::function<Status(const pipeline::StreamTargets&)>& first) {
+    pipeline::KnownRows known;
+    const bool further = run.step_by_step() && run.steps.size() > 1;
+    const std::string output = run.step_by_step() ? output_of_step(job.output, run.steps.front()) : job.output;
+    if (Status done = first({rows_to(job, output), job.save_map, job.weights, further ? &known : nullptr}); !done)
+        return done;
+    if (!further) return Done{};
+    return pipeline::sample_further_steps(run, engine, known,
+                                          [&](const std::string& path) { return rows_to(job, path); });
 }
 
 Status at_points(Run& run, const SampleJob& job, Engine& engine) {
@@ -39,7 +70,9 @@ Status at_points(Run& run, const SampleJob& job, Engine& engine) {
     if (!source) return source.error();
     run.summary.points = job.points;
     run.summary.all = job.all.value_or(false);
-    return pipeline::sample_stream(run, engine, **source, rows_of(job), job.save_map);
+    return in_steps(run, job, engine, [&](const pipeline::StreamTargets& targets) {
+        return pipeline::sample_stream(run, engine, **source, targets);
+    });
 }
 
 Status at_points_of_map(Run& run, const SampleJob& job, Engine& engine) {
@@ -55,14 +88,18 @@ Status at_points_of_map(Run& run, const SampleJob& job, Engine& engine) {
     run.summary.points = job.map;
     run.summary.all = map->all();
     if (Status ready = engine.prepare_without_search(FoundBy::map, "cells are those of the map"); !ready) return ready;
-    return pipeline::sample_map(run, engine, *map, rows_of(job));
+    return in_steps(run, job, engine, [&](const pipeline::StreamTargets& targets) {
+        return pipeline::sample_map(run, engine, *map, targets);
+    });
 }
 
 }  // namespace
 
 Result<SampleSummary> sample_files(const SampleJob& job) {
-    if (Status ok = check_job(job); !ok) return ok.error();
-    return pipeline::run_job("sample", job, [&](Run& run, Engine& engine) {
+    auto steps = pipeline::find_steps(job.series);
+    if (!steps) return steps.error();
+    if (Status ok = check_job(job, *steps); !ok) return ok.error();
+    return pipeline::run_job("sample", job, std::move(*steps), [&](Run& run, Engine& engine) {
         return job.map.empty() ? at_points(run, job, engine) : at_points_of_map(run, job, engine);
     });
 }

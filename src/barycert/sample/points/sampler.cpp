@@ -6,9 +6,10 @@
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"
-#include "barycert/sample/points/field_choice.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
 #include "barycert/sample/points/sorted_rows.hpp"
+#include "barycert/sample/quantity/expression.hpp"
+#include "barycert/sample/quantity/made_fields.hpp"
 #include "barycert/sampler.hpp"
 
 namespace barycert {
@@ -74,6 +75,68 @@ void arrange_by_node(SamplerData& data) {
                 data.values[all * node + first + c] = values[components * node + c];
         }
     });
+}
+
+std::size_t components_of(const Field* field) {
+    return static_cast<std::size_t>(field->components);
+}
+
+/// What is computed for each point, by what is left of the steps of a choice.
+sample::AtPoint at_points(const Mesh& mesh, const FieldChoice& choice) {
+    using Kind = QuantityStep::Kind;
+    sample::AtPoint late{choice.field, 0, components_of(choice.field)};
+    for (const QuantityStep& step : choice.steps) {
+        if (step.kind == Kind::gradient) {
+            late.gradient = true;
+            late.components *= static_cast<std::size_t>(mesh.dimension);
+        }
+        // Of one component none but the first can be asked for again.
+        if (step.kind == Kind::component && late.component < 0) late.component = step.component;
+        if (step.kind == Kind::length) late.length = true;
+    }
+    return late;
+}
+
+/// Makes the fields that are to be made, and tells each number its place in a row.
+Status arrange_columns(const Mesh& mesh, const std::vector<FieldChoice>& fields, SamplerData& data) {
+    std::vector<TableField> of_points, of_cells, late;
+    for (const FieldChoice& asked : fields) {
+        if (Status fits = check_field(mesh, asked); !fits) return fits;
+        const Result<sample::QuantityShape> shape = sample::shape_of(mesh, asked);
+        if (!shape) return shape.error();
+        FieldChoice choice = asked;
+        if (Status made = sample::make_fields(mesh, choice, choice.steps.size(), data.made); !made) return made;
+        const TableField column{asked.name.empty() ? asked.field->name : asked.name,
+                                static_cast<int>(shape->components)};
+        if (shape->at_points) {
+            late.push_back(column);
+            data.at_points.push_back(at_points(mesh, choice));
+        } else {
+            (choice.of_cells ? of_cells : of_points).push_back(column);
+            (choice.of_cells ? data.cell_fields : data.point_fields).push_back(choice.field);
+        }
+    }
+    // Fields that nobody asked for but by their lengths come first, where they can be left out.
+    std::vector<const Field*> hidden;
+    for (const sample::AtPoint& one : data.at_points) {
+        const bool known = std::count(data.point_fields.begin(), data.point_fields.end(), one.field) != 0 ||
+                           std::count(hidden.begin(), hidden.end(), one.field) != 0;
+        if (one.gradient || known) continue;
+        hidden.push_back(one.field);
+        data.hidden += components_of(one.field);
+    }
+    data.point_fields.insert(data.point_fields.begin(), hidden.begin(), hidden.end());
+    for (const Field* field : data.point_fields) {
+        for (sample::AtPoint& one : data.at_points) {
+            if (one.field == field) one.first = data.point_components;
+        }
+        data.point_components += components_of(field);
+    }
+    for (const auto* group : {&of_points, &of_cells, &late})
+        data.fields.insert(data.fields.end(), group->begin(), group->end());
+    data.columns = column_names(data.fields);
+    data.width = data.hidden + data.columns.size();
+    return Done{};
 }
 
 /// What is wrong with the call, before anything is done.
@@ -142,20 +205,13 @@ Result<Sampler> Sampler::build(const Locator& locator, const std::vector<FieldCh
     auto data = std::make_unique<SamplerData>();
     data->locator = &locator;
     data->quadratic = !locator.mesh().mid_nodes.empty();
-    for (const FieldChoice& choice : fields) {
-        if (Status status = check_field(locator.mesh(), choice); !status) return status.error();
-        (choice.of_cells ? data->cell_fields : data->point_fields).push_back(choice.field);
-    }
-    for (const Field* field : data->point_fields) data->fields.push_back({field->name, field->components});
-    data->point_components = column_names(data->fields).size();
-    for (const Field* field : data->cell_fields) data->fields.push_back({field->name, field->components});
-    data->columns = column_names(data->fields);
+    if (Status arranged = arrange_columns(locator.mesh(), fields, *data); !arranged) return arranged.error();
     if (data->point_components != 0) data->quadratic ? arrange_by_node(*data) : arrange_by_place(*data);
     return Sampler(std::move(data));
 }
 
 Result<Sampler> Sampler::build(const Mesh& mesh, const std::vector<std::string>& fields, const BuildOptions& options) {
-    Result<std::vector<FieldChoice>> chosen = sample::fields_named(mesh, fields);
+    Result<std::vector<FieldChoice>> chosen = sample::quantities_named(mesh, fields);
     if (!chosen) return chosen.error();
     Result<Locator> locator = Locator::build(mesh, options);
     if (!locator) return locator.error();
@@ -238,7 +294,13 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     locate::in_arena(options.threads, [&] {
         tbb::parallel_for(std::size_t{0}, (count + block - 1) / block, [&](std::size_t b) {
             const std::size_t first = b * block, last = std::min(count, first + block);
-            sample::ChunkSampler sampler(*data_, options, rows_from(*data_, first, out));
+            sample::BlockRows rows = rows_from(*data_, first, out);
+            std::vector<double> whole;  // rows with what is hidden
+            if (data_->hidden != 0) {
+                whole.resize(data_->width * (last - first));
+                rows.values = whole.data();
+            }
+            sample::ChunkSampler sampler(*data_, options, rows);
             std::array<locate::PointRecord, locate::chunk_size> records{};
             std::array<locate::Place, locate::chunk_size> owner;
             for (std::size_t at = first; at < last; at += locate::chunk_size) {
@@ -250,6 +312,9 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
                 }
                 sampler(records.data(), n, owner.data(), features.data() + at);
             }
+            if (data_->hidden != 0)
+                sample::leave_out_hidden(*data_, whole.data(), last - first,
+                                         out.values.data() + first * data_->columns.size());
             outcome.set(b, first, sampler, out);
         });
     });
