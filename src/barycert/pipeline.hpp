@@ -108,7 +108,7 @@ struct SampleSeconds {
 /// What a job did: what its reports are made of.
 struct SampleSummary {
     std::string command;  ///< "sample" or "resample"
-    std::string mesh, output;
+    std::string mesh, output, weights;
     std::string points;                ///< the file they came from; empty for a grid
     std::vector<std::string> columns;  ///< of values
     std::string reason;                ///< why `method`: a clause

@@ -24,6 +24,7 @@ Result<SampleSummary> run_job(const std::string& command, const SamplingJob& job
     for (const Step& step : run.steps) summary.steps.push_back(step.label);
     summary.mesh = job.mesh;
     summary.output = job.output;
+    summary.weights = job.weights;
     summary.rounding = job.options.rounding;
     summary.outside = job.options.outside;
     summary.threads = threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));

@@ -71,6 +71,7 @@ TEST_F(QuantityNames, that_mean_nothing_are_refused) {
     refused("mean(T)", "the mean over cells of what is not a field of cells");
     refused("grad(|v|)", "nothing is made of a length at points");
     refused("|v|.x", "nothing is made of a length at points");
+    refused("v,v.0", "two columns have the same name: found \"v.0\"");
     refused("v.x,point:v.0", "a column is chosen twice: found \"point:v.0\"");
     refused("|v|,T,|v|", "a column is chosen twice: found \"|v|\"");
     refused("grad(T),|T|,grad(U)", "no field of that name: found \"U\"");

@@ -65,6 +65,20 @@ bool choose_quantity(const Mesh& mesh, std::string_view text, bool cells_first, 
     return true;
 }
 
+/// A name that two columns have, if one of them is made of a field.
+std::optional<std::string> common_column(const Mesh& mesh, const std::vector<FieldChoice>& chosen) {
+    if (std::all_of(chosen.begin(), chosen.end(), [](const FieldChoice& c) { return c.steps.empty(); }))
+        return std::nullopt;
+    std::vector<TableField> fields;
+    for (const FieldChoice& choice : chosen)
+        fields.push_back({choice.name.empty() ? choice.field->name : choice.name,
+                          static_cast<int>(shape_of(mesh, choice)->components)});
+    std::vector<std::string> names = column_names(fields);
+    std::sort(names.begin(), names.end());
+    const auto twice = std::adjacent_find(names.begin(), names.end());
+    return twice == names.end() ? std::nullopt : std::optional(*twice);
+}
+
 Error wrong_step(std::string what, const FieldChoice& choice, std::string remedy) {
     return {.what = std::move(what),
             .found = '"' + (choice.name.empty() ? choice.field->name : choice.name) + '"',
@@ -139,6 +153,11 @@ Result<std::vector<FieldChoice>> quantities_named(const Mesh& mesh, const std::v
                              .found = '"' + (chosen[i].name.empty() ? chosen[i].field->name : chosen[i].name) + '"',
                              .remedy = "name it once in --fields"};
         }
+    }
+    if (const auto name = common_column(mesh, chosen)) {
+        return Error{.what = "two columns have the same name",
+                     .found = '"' + *name + '"',
+                     .remedy = "choose one of them in --fields"};
     }
     std::stable_sort(chosen.begin(), chosen.end(),
                      [&](const FieldChoice& a, const FieldChoice& b) { return rank(a) < rank(b); });
