@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <bit>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -176,13 +178,20 @@ public:
         refused_[block] = static_cast<std::size_t>(std::find(begin, out.cells.end(), -1) - out.cells.begin());
     }
 
+    /// The same where the sampler knows points by the numbers of their rows in `out`.
+    void set(std::size_t block, const sample::ChunkSampler& sampler) {
+        counts_[block] = sampler.counts();
+        refused_[block] = sampler.refused();
+    }
+
     Status status(std::size_t first_point) const {
+        std::optional<std::size_t> first;
         for (const auto& refused : refused_) {
-            if (refused)
-                return Error{.what = "point " + std::to_string(first_point + *refused) + " is outside the mesh",
-                             .remedy = "choose what points outside get: nan, fill, nearest or extrapolate"};
+            if (refused) first = std::min(first.value_or(*refused), *refused);
         }
-        return Done{};
+        if (!first) return Done{};
+        return Error{.what = "point " + std::to_string(first_point + *first) + " is outside the mesh",
+                     .remedy = "choose what points outside get: nan, fill, nearest or extrapolate"};
     }
     void add_to(SampleCounts& counts) const {
         for (const SampleCounts& part : counts_) counts.add(part);
@@ -192,6 +201,30 @@ private:
     std::vector<SampleCounts> counts_;
     std::vector<std::optional<std::size_t>> refused_;
 };
+
+/// The rows in the order in which the index has their cells, roughly: what is near is then read together.
+std::vector<std::uint32_t> order_by_place(std::span<const Mesh::Index> cells, const std::vector<Place>& places,
+                                          std::size_t cell_count) {
+    std::vector<std::uint32_t> order(cells.size());
+    constexpr int bucket_bits = 12;
+    constexpr std::size_t buckets = std::size_t{1} << bucket_bits;
+    if (cells.size() < buckets) {
+        std::iota(order.begin(), order.end(), 0);
+        return order;
+    }
+    const int shift = std::max(0, static_cast<int>(std::bit_width(cell_count)) - bucket_bits);
+    std::vector<std::uint32_t> next(buckets + 1, 0), bucket(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        // Those outside come first.
+        bucket[i] =
+            cells[i] < 0 ? 0 : 1 + (static_cast<std::uint32_t>(places[static_cast<std::size_t>(cells[i])]) >> shift);
+        ++next[bucket[i]];
+    }
+    std::uint32_t sum = 0;
+    for (std::uint32_t& n : next) sum += std::exchange(n, sum);
+    for (std::size_t i = 0; i < cells.size(); ++i) order[next[bucket[i]]++] = static_cast<std::uint32_t>(i);
+    return order;
+}
 
 }  // namespace
 
@@ -289,35 +322,37 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     }
     resize(*data_, options, count, out);
     const std::vector<locate::Place>& places = data_->located().places();
+    const std::vector<std::uint32_t> order = order_by_place(cells, places, data_->index().cell_count());
+    std::vector<double> whole;  // rows with what is hidden
+    sample::BlockRows rows = rows_from(*data_, 0, out);
+    if (data_->hidden != 0) {
+        whole.resize(data_->width * count);
+        rows.values = whole.data();
+    }
     constexpr std::size_t block = std::size_t{1} << 13;
     Outcome outcome((count + block - 1) / block);
     locate::in_arena(options.threads, [&] {
         tbb::parallel_for(std::size_t{0}, (count + block - 1) / block, [&](std::size_t b) {
             const std::size_t first = b * block, last = std::min(count, first + block);
-            sample::BlockRows rows = rows_from(*data_, first, out);
-            std::vector<double> whole;  // rows with what is hidden
-            if (data_->hidden != 0) {
-                whole.resize(data_->width * (last - first));
-                rows.values = whole.data();
-            }
             sample::ChunkSampler sampler(*data_, options, rows);
             std::array<locate::PointRecord, locate::chunk_size> records{};
             std::array<locate::Place, locate::chunk_size> owner;
+            std::array<Feature, locate::chunk_size> feature;
             for (std::size_t at = first; at < last; at += locate::chunk_size) {
                 const std::size_t n = std::min(locate::chunk_size, last - at);
                 for (std::size_t i = 0; i < n; ++i) {
-                    for (std::size_t k = 0; k < d; ++k) records[i].at[k] = points[d * (at + i) + k];
-                    records[i].number = static_cast<std::uint32_t>(at + i - first);
-                    owner[i] = cells[at + i] < 0 ? -1 : places[static_cast<std::size_t>(cells[at + i])];
+                    const std::size_t row = order[at + i];
+                    for (std::size_t k = 0; k < d; ++k) records[i].at[k] = points[d * row + k];
+                    records[i].number = static_cast<std::uint32_t>(row);
+                    owner[i] = cells[row] < 0 ? -1 : places[static_cast<std::size_t>(cells[row])];
+                    feature[i] = features[row];
                 }
-                sampler(records.data(), n, owner.data(), features.data() + at);
+                sampler(records.data(), n, owner.data(), feature.data());
             }
-            if (data_->hidden != 0)
-                sample::leave_out_hidden(*data_, whole.data(), last - first,
-                                         out.values.data() + first * data_->columns.size());
-            outcome.set(b, first, sampler, out);
+            outcome.set(b, sampler);
         });
     });
+    if (data_->hidden != 0) sample::leave_out_hidden(*data_, whole.data(), count, out.values.data());
     if (Status status = outcome.status(first_point); !status) return status;
     outcome.add_to(out.counts);
     for (const Feature feature : features) out.counts.locations.add(feature);
