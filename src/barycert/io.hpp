@@ -12,6 +12,7 @@
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 #include "barycert/table.hpp"
+#include "barycert/vtk_data.hpp"
 
 namespace barycert {
 
@@ -23,8 +24,8 @@ struct ReadOptions {
     int threads = 0;         ///< 0: as many as the machine has
 };
 
-/// Reads a mesh: TetGen's or Triangle's files by their stem or any one of them, and a .vtu, .vtk or .vtp file once
-/// use_vtk_files() was called (vtk.hpp). Returns an Error, with a hint at what may be meant, if it cannot be read.
+/// Reads a mesh: TetGen's or Triangle's files by their stem or any one of them, and VTK's .vtu, .vtk, .vtp, .pvtu, .vtm
+/// and .pvd (vtk.hpp). Returns an Error, with a hint at what may be meant, if it cannot be read.
 Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options = {});
 
 /// The paths of all files that read_mesh(path) may read.
@@ -80,8 +81,8 @@ public:
     virtual Result<std::size_t> read(std::size_t max_points, std::vector<double>& out) = 0;
 };
 
-/// Opens the points of a CSV, NPY or .node file, or, once use_vtk_files() was called, of a .vtu, .vtp or .vtk file; "-"
-/// is CSV from the standard input. `dimension`: 2 or 3; of a CSV only the columns that are asked for are read. Returns
+/// Opens the points of a CSV, NPY or .node file, or of VTK's files (read_vtk_points in vtk.hpp); "-" is CSV from the
+/// standard input. `dimension`: 2 or 3; of a CSV only the columns that are asked for are read. Returns
 /// an Error if the suffix is another one, the file cannot be read, or has another dimension.
 Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int dimension);
 
@@ -102,6 +103,7 @@ struct TableFormat {
     std::vector<TableField> fields = {};
     bool distances = false;                  ///< a column `distance` after the fields
     std::vector<ColumnFormat> carried = {};  ///< columns that are carried through: the last ones
+    VtkData vtk_data = VtkData::raw;         ///< of a .vtu file
 
     std::vector<std::string> columns() const { return column_names(fields); }
 };
@@ -119,9 +121,8 @@ public:
     virtual Status commit() = 0;
 };
 
-/// Opens a CSV or NPY file, or, once use_vtk_files() was called, a .vtu file, by the suffix of the path; "-" is CSV on
-/// the standard output. Returns an Error if the suffix is another one, the path cannot be written, or NPY names would
-/// be refused by NumPy.
+/// Opens a CSV, NPY or .vtu file by the suffix of the path; "-" is CSV on the standard output. Returns an Error if the
+/// suffix is another one, the path cannot be written, or NPY names would be refused by NumPy.
 Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const TableFormat& format);
 
 }  // namespace barycert

@@ -43,6 +43,7 @@
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 #include "barycert/tiers.hpp"
+#include "barycert/vtk_data.hpp"
 
 namespace barycert {
 
@@ -127,7 +128,7 @@ struct SurfaceFile {
 };
 
 /// Returns an Error if the suffix is another one, the surface is inconsistent, the format cannot hold it (.off holds
-/// triangles only) or the file cannot be written. The file appears whole or not at all.
-Result<SurfaceFile> write_surface(const Surface& surface, const std::string& path);
+/// triangles only) or the file cannot be written. The file appears whole or not at all. `data`: of a .vtp file.
+Result<SurfaceFile> write_surface(const Surface& surface, const std::string& path, VtkData data = VtkData::raw);
 
 }  // namespace barycert

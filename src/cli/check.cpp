@@ -13,13 +13,10 @@
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "barycert/report.hpp"
+#include "barycert/vtk.hpp"
 #include "command.hpp"
 #include "files.hpp"
 #include "progress.hpp"
-
-#ifdef BARYCERT_WITH_VTK
-#include "barycert/vtk.hpp"
-#endif
 
 namespace barycert::cli {
 namespace {
@@ -63,14 +60,6 @@ std::vector<base::NamedFile> outputs(const CheckArguments& a) {
 Status check_files(const CheckArguments& a, bool table) {
     if (a.vtu == "-")
         return Error{.what = "--vtu cannot write to stdout", .remedy = "name a file: its data are binary"};
-#ifndef BARYCERT_WITH_VTK
-    if (!a.vtu.empty())
-        return Error{.what = "this barycert was built without VTK and cannot write VTU files",
-                     .file = a.vtu,
-                     .remedy =
-                         "install VTK's development package (Debian: libvtk9-dev), then configure and build "
-                         "barycert again"};
-#endif
     std::vector<base::NamedFile> inputs = base::named_files("the mesh", mesh_files(a.mesh));
     if (!a.plc.empty()) {
         for (base::NamedFile& file : base::named_files("the PLC of --conforms-to", plc_files(a.plc)))
@@ -94,7 +83,6 @@ Status check_nothing_in_the_way(const Mesh& mesh, const std::string& stem) {
     return Done{};
 }
 
-#ifdef BARYCERT_WITH_VTK
 /// The mesh with the measures of its cells as fields.
 Status write_measures(const CheckReport& report, Mesh mesh, const std::string& path) {
     const CellMeasures& m = report.measures;
@@ -109,11 +97,6 @@ Status write_measures(const CheckReport& report, Mesh mesh, const std::string& p
     mesh.cell_fields.push_back({"problems", 1, {m.defects.begin(), m.defects.end()}});
     return write_vtu(mesh, path);
 }
-#else
-Status write_measures(const CheckReport&, const Mesh&, const std::string&) {
-    return Done{};  // refused before the work
-}
-#endif
 
 int run_check(const CheckArguments& a) {
     const bool table = !a.quiet && std::none_of(text_outputs.begin(), text_outputs.end(),

@@ -15,10 +15,6 @@
 #include "command.hpp"
 #include "files.hpp"
 
-#ifdef BARYCERT_WITH_VTK
-#include "barycert/vtk.hpp"
-#endif
-
 // What is thrown is told below; telling it may fail for want of memory. NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
     using namespace barycert;
@@ -29,9 +25,6 @@ int main(int argc, char** argv) {
     base::remove_begun_files_on_signals();
     // What was compiled in cannot be set.
     if (const Status exact = check_environment(measure_environment()); !exact) return cli::fail(exact.error());
-#ifdef BARYCERT_WITH_VTK
-    use_vtk_files();
-#endif
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, like a full disk
 
     CLI::App app("barycert: barycentric interpolation at the speed of floating point, audited against exact arithmetic",

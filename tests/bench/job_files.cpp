@@ -16,11 +16,9 @@
 #include "barycert/base/text.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
+#include "barycert/vtk.hpp"
 #include "job_process.hpp"
 #include "sample_subject.hpp"
-#ifdef BARYCERT_WITH_VTK
-#include "barycert/vtk.hpp"
-#endif
 
 namespace barycert::bench {
 namespace {
@@ -129,9 +127,7 @@ void make_mesh_files(const JobFiles& files, Mesh mesh) {
     for (std::size_t i = 0; i < mesh.point_count(); ++i)
         mesh.point_fields.front().data.push_back(field_at(mesh.points.data() + 3 * i));
     if (!fs::exists(files.stem + ".ele")) demand_done(write_tetgen(mesh, files.stem));
-#ifdef BARYCERT_WITH_VTK
     if (!fs::exists(files.vtu())) demand_done(write_vtu(mesh, files.vtu()));
-#endif
 }
 
 void make_point_files(const JobFiles& files, const Mesh& mesh, std::size_t count) {

@@ -250,7 +250,6 @@ TEST(check, vtu_is_written_or_it_is_told_how_to_get_it) {
     const Scratch scratch;
     const std::string over = put_overlapping(scratch), vtu = scratch.path("m.vtu");
     const Ended r = run(check(over, {"--vtu", vtu}));
-#ifdef BARYCERT_WITH_VTK
     EXPECT_EQ(r.code, 1) << r.err;
     EXPECT_EQ(r.err, "");
     const std::string written = read_file(vtu);
@@ -263,13 +262,6 @@ TEST(check, vtu_is_written_or_it_is_told_how_to_get_it) {
     EXPECT_EQ(run(check(mesh("cube-hole-o2"), {"--vtu", vtu, "--quiet"})).code, 0);
     EXPECT_EQ(run(check(mesh("plate"), {"--vtu", vtu, "--quiet"})).code, 0);
     EXPECT_EQ(scratch.names(), (Words{"flat.ele", "flat.node", "m.vtu", "over.ele", "over.node"}));
-#else
-    EXPECT_EQ(r.code, 2);
-    EXPECT_EQ(r.out, "");
-    EXPECT_TRUE(contains(r.err, "built without VTK")) << r.err;
-    EXPECT_TRUE(contains(r.err, "libvtk9-dev")) << r.err;
-    EXPECT_FALSE(std::filesystem::exists(vtu));
-#endif
 }
 
 TEST(check, one_place_for_two_files_is_refused) {
@@ -286,11 +278,9 @@ TEST(check, one_place_for_two_files_is_refused) {
         {{"--fix-orientation", "m"}, "--fix-orientation would overwrite the mesh"},
         {{"--json", "none/r"}, "cannot make a file beside the target"},
         {{"--fix-orientation", "none/c"}, "cannot make a file beside the target"},
-#ifdef BARYCERT_WITH_VTK
         {{"--json", "r", "--vtu", "./r"}, "--vtu and --json name the same output"},
         {{"--vtu", "m.ele"}, "--vtu would overwrite the mesh"},
         {{"--vtu", "none/r"}, "cannot make a file beside the target"},
-#endif
     };
     for (const auto& [more, says] : refusals) {
         const Ended r = run(check("m", more), here);

@@ -118,21 +118,15 @@ TEST(resample, onto_another_mesh) {
     }
     for (const std::string name : {"v.vtu", "v.vtk"}) {
         const Ended r = run(plus(line, {scratch.path(name), "--outside", "fill=-2"}));
-#ifdef BARYCERT_WITH_VTK
         EXPECT_EQ(r.code, 0) << r.err;
         // Read again at its own nodes: what was written there.
         const std::string points = scratch.put("p.csv", points_of(rows, 3));
         EXPECT_EQ(run({"sample", scratch.path(name), "--points", points, "--output", "-", "--quiet"}).out,
                   "x,y,z,cell,feature,attribute0,point:vtkValidPointMask,point:cell\n0,0,0,0,vertex,1,1,0\n"
                   "0,0.5,0,0,vertex,3,1,0\n0.25,0.25,0.5,0,vertex,6.5,1,0\n2,2,2,0,vertex,-2,0,-1\n");
-#else
-        EXPECT_EQ(r.code, 2);
-        EXPECT_TRUE(contains(r.err, "this build has no VTK")) << r.err;
-#endif
     }
 }
 
-#ifdef BARYCERT_WITH_VTK
 TEST(resample, vtk_files_are_meshes_and_points_and_rows) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), mesh = scratch.path("m.vtu"), points = scratch.path("q.vtu");
@@ -144,7 +138,6 @@ TEST(resample, vtk_files_are_meshes_and_points_and_rows) {
     EXPECT_EQ(run(plus(plus({"sample", two, "--points", points}, fields), {"-"})).out, six_rows);
     expect_error({"sample", mesh, "--points", csv, "--output", mesh}, "--output would overwrite the mesh");
 }
-#endif
 
 TEST(resample, what_is_not_understood_is_refused) {
     const Scratch scratch;

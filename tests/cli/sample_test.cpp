@@ -163,6 +163,22 @@ TEST(sample, the_mesh_is_proved_while_it_is_indexed) {
     EXPECT_TRUE(contains(good.err, "method     walk: the mesh is certified\n")) << good.err;
 }
 
+TEST(sample, how_points_were_found_is_counted) {
+    const Scratch scratch;
+    const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", six_points);
+    // The second cell again, with a node of its own inside the first: they overlap.
+    scratch.put("two.ele", "3 4 0\n0 0 1 2 3\n1 1 2 3 4\n2 0 1 2 4\n");
+    const Ended r = run({"sample", two, "--points", points, "--output", "-", "--json", scratch.path("j")});
+    EXPECT_EQ(r.code, 0) << r.err;
+    const auto ways = parse(read_file(scratch.path("j")))["ways"];
+    const auto number = [&](const char* way) { return ways[way].get<int>(); };
+    EXPECT_EQ(number("no_cell_near") + number("walk") + number("contested") + number("candidates"), 6) << ways;
+    EXPECT_GT(number("contested") + number("candidates"), 0) << ways;
+    EXPECT_TRUE(contains(r.err, "found      ")) << r.err;
+    const Ended good = run({"sample", mesh("bracket"), "--points", scratch.put("q.csv", "0 0 0\n"), "--output", "-"});
+    EXPECT_TRUE(contains(good.err, "found      1 ")) << good.err;
+}
+
 TEST(sample, nothing_to_sample_is_no_error) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), none = scratch.put("p.csv", "x,y,z\n");

@@ -25,9 +25,7 @@
 #include "barycert/plc.hpp"
 #include "barycert/report.hpp"
 #include "barycert/surface.hpp"
-#ifdef BARYCERT_WITH_VTK
 #include "barycert/vtk.hpp"
-#endif
 #include "check/meshes.hpp"
 #include "core/same_everywhere.hpp"
 
@@ -374,13 +372,11 @@ TEST(EveryEnvironment, Files) {
                 out.add((*vti)->commit().has_value());
                 out.add(std::string_view(folder.bytes("grid.vti")));
             }
-#ifdef BARYCERT_WITH_VTK
             for (const char* const name : {"mesh.vtu", "mesh.vtk"}) {
                 out.add(write_vtk(s.mesh, folder.path(name)).has_value());
                 out.add(std::string_view(folder.bytes(name)));
                 add(out, *read_vtk(folder.path(name)));
             }
-#endif
         });
     }
 }

@@ -94,6 +94,9 @@ private:
         EXPECT_EQ(counts.vertex, right.vertex) << what_ << how;
         EXPECT_EQ(counts.outside, right.outside) << what_ << how;
         EXPECT_EQ(counts.points(), count()) << what_ << how;
+        EXPECT_EQ(counts.ways.points(), count()) << what_ << how;
+        EXPECT_LE(counts.ways.no_cell_near, right.outside) << what_ << how;
+        EXPECT_LE(counts.ways.contested, right.inside()) << what_ << how;
     }
 
     const Mesh& mesh_;

@@ -5,8 +5,6 @@
 #include <cctype>
 #include <cstddef>
 
-#include "barycert/io/vtk_files.hpp"
-
 namespace barycert::io {
 namespace {
 
@@ -18,8 +16,6 @@ struct Suffix {
 constexpr std::array<Suffix, 4> suffixes{
     {{".csv", FileFormat::csv}, {".npy", FileFormat::npy}, {".node", FileFormat::node}, {".vtu", FileFormat::vtu}}};
 
-const VtkFiles* installed = nullptr;
-
 }  // namespace
 
 bool has_suffix(std::string_view path, std::string_view suffix) {
@@ -30,7 +26,10 @@ bool has_suffix(std::string_view path, std::string_view suffix) {
 }
 
 bool is_vtk_file(std::string_view path) {
-    return has_suffix(path, ".vtu") || has_suffix(path, ".vtk") || has_suffix(path, ".vtp");
+    constexpr std::array<std::string_view, 9> suffixes_of_vtk{".vtu", ".vtk",  ".vtp",  ".pvtu", ".pvtp",
+                                                              ".vtm", ".vtpd", ".vtpc", ".pvd"};
+    return std::any_of(suffixes_of_vtk.begin(), suffixes_of_vtk.end(),
+                       [&](std::string_view suffix) { return has_suffix(path, suffix); });
 }
 
 Result<FileFormat> format_of(const std::string& path) {
@@ -47,20 +46,8 @@ Result<FileFormat> format_of(const std::string& path) {
                  .remedy = "rename the file, or convert it"};
 }
 
-const VtkFiles* vtk_files() {
-    return installed;
-}
-
-void set_vtk_files(const VtkFiles* files) {
-    installed = files;
-}
-
-Error vtk_missing(const std::string& path) {
-    return {.what = "this build has no VTK, which reads and writes .vtu, .vtk and .vtp files",
-            .file = path,
-            .remedy =
-                "install libvtk9-dev and configure with -DBARYCERT_VTK=ON, or convert the mesh with `meshio convert "
-                "IN.vtu OUT.node`, which keeps linear tetrahedra but not every field"};
+bool is_vtk_points_file(std::string_view path) {
+    return is_vtk_file(path) || has_suffix(path, ".vti") || has_suffix(path, ".vtr") || has_suffix(path, ".vts");
 }
 
 }  // namespace barycert::io

@@ -18,8 +18,11 @@ Result<FileFormat> format_of(const std::string& path);
 /// True if the path ends so, in any case. `suffix` is in lower case.
 bool has_suffix(std::string_view path, std::string_view suffix);
 
-/// True if the path ends as those of VTK's files do: .vtu .vtk .vtp.
+/// True if the path ends as those of VTK's files with meshes do: .vtu .vtk .vtp, .pvtu .pvtp .vtm .vtpd .vtpc .pvd.
 bool is_vtk_file(std::string_view path);
+
+/// True for these and grids, whose points can be read: .vti .vtr .vts.
+bool is_vtk_points_file(std::string_view path);
 
 // `path` and `format` are as for open_points and open_table.
 Result<std::unique_ptr<PointSource>> open_csv_source(const std::string& path, int dimension);

@@ -5,8 +5,8 @@
 
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/vtk_files.hpp"
 #include "barycert/plc.hpp"
+#include "barycert/vtk.hpp"
 
 namespace barycert {
 namespace {
@@ -30,18 +30,14 @@ Error with_hint(Error error, const fs::path& path) {
 }  // namespace
 
 Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
-    if (io::is_vtk_file(path)) {
-        const io::VtkFiles* const vtk = io::vtk_files();
-        if (vtk == nullptr) return io::vtk_missing(path);
-        return vtk->read_mesh(path);
-    }
+    if (io::is_vtk_file(path)) return read_vtk(path);
     Result<Mesh> mesh = read_tetgen(path, options);
     if (!mesh) return with_hint(mesh.error(), path);
     return mesh;
 }
 
 std::vector<std::string> mesh_files(const std::string& path) {
-    if (io::is_vtk_file(path)) return {path};
+    if (io::is_vtk_file(path)) return vtk_mesh_files(path);
     return tetgen_files(path);
 }
 

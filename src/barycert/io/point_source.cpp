@@ -5,7 +5,7 @@
 
 #include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/vtk_files.hpp"
+#include "barycert/vtk.hpp"
 
 namespace barycert {
 namespace {
@@ -49,10 +49,8 @@ Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int di
                      .found = std::to_string(dimension),
                      .remedy = {}};
     }
-    if (io::is_vtk_file(path)) {
-        const io::VtkFiles* const vtk = io::vtk_files();
-        if (vtk == nullptr) return io::vtk_missing(path);
-        Result<std::vector<double>> all = vtk->read_points(path, dimension);
+    if (io::is_vtk_points_file(path)) {
+        Result<std::vector<double>> all = read_vtk_points(path, dimension);
         if (!all) return all.error();
         return memory_points(std::move(*all), dimension);
     }

@@ -3,7 +3,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/vtk_files.hpp"
+#include "barycert/io/vtk/point_rows.hpp"
 
 namespace barycert {
 namespace io {
@@ -51,11 +51,7 @@ Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const Tab
     const Result<io::FileFormat> kind = io::format_of(path);
     if (kind && *kind == io::FileFormat::csv) return io::open_csv_sink(path, format);
     if (kind && *kind == io::FileFormat::npy) return io::open_npy_sink(path, format);
-    if (kind && *kind == io::FileFormat::vtu) {
-        const io::VtkFiles* const vtk = io::vtk_files();
-        if (vtk == nullptr) return io::vtk_missing(path);
-        return vtk->open_table(path, format);
-    }
+    if (kind && *kind == io::FileFormat::vtu) return io::open_vtu_sink(path, format);
     return Error{.what = "cannot write rows in the format of that suffix",
                  .file = path,
                  .expected = ".csv, .npy or .vtu, or - for CSV on the standard output",

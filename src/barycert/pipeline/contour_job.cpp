@@ -73,17 +73,17 @@ SamplingJob sampling_of(const ContourJob& job) {
 }
 
 /// A column: one component of a field.
-struct Column {
+struct ShownColumn {
     FieldChoice choice;
     int component = 0;
 };
 
 /// By its name as a column: NAME, or NAME.0, NAME.1, ...
-Result<Column> column_named(const Mesh& mesh, const std::string& name) {
+Result<ShownColumn> column_named(const Mesh& mesh, const std::string& name) {
     const Result<std::vector<FieldChoice>> whole = sample::fields_named(mesh, {name});
     if (whole && whole->size() == 1) {
         const FieldChoice& choice = whole->front();
-        if (choice.field->components == 1) return Column{choice, 0};
+        if (choice.field->components == 1) return ShownColumn{choice, 0};
         return Error{.what = "field \"" + name + "\" has several components",
                      .expected = fmt::format("one of {0}.0 to {0}.{1}", name, choice.field->components - 1),
                      .found = name};
@@ -98,7 +98,7 @@ Result<Column> column_named(const Mesh& mesh, const std::string& name) {
     if (component >= 0) {
         const auto part = sample::fields_named(mesh, {name.substr(0, dot)});
         if (part && part->size() == 1 && component < part->front().field->components)
-            return Column{part->front(), component};
+            return ShownColumn{part->front(), component};
     }
     if (!whole) return whole.error();
     return Error{.what = "--field", .expected = "the name of one field", .found = base::quoted(name)};
@@ -190,7 +190,7 @@ private:
         auto chosen = sample::fields_named(mesh(), job_.fields);
         if (!chosen) return chosen.error();
         if (job_.plane && !job_.field.empty()) {
-            const Result<Column> column = column_named(mesh(), job_.field);
+            const Result<ShownColumn> column = column_named(mesh(), job_.field);
             if (!column) return column.error();
             *chosen = {column->choice};
         }
@@ -204,7 +204,7 @@ private:
         if (is_picture(job_)) {
             if (Status good = choose_colours(options); !good) return good.error();
         }
-        const Result<Column> column = column_named(mesh(), job_.field);
+        const Result<ShownColumn> column = column_named(mesh(), job_.field);
         if (!column) return column.error();
         const Field& field = *column->choice.field;
         if (column->choice.of_cells)
@@ -238,7 +238,7 @@ private:
 
     Status draw(const Surface& section) {
         Stopwatch watch;
-        const Result<Column> column = column_named(mesh(), job_.field);
+        const Result<ShownColumn> column = column_named(mesh(), job_.field);
         if (!column) return column.error();
         Result<PixelGrid> pixels = pipeline::pixels_over(*job_.plane, section.points, job_.width);
         if (!pixels) {
@@ -281,7 +281,7 @@ private:
         options.cell_fields.clear();
         summary_.fields.clear();
         if (job_.colours.empty()) return Done{};
-        const Result<Column> column = column_named(mesh(), job_.colours);
+        const Result<ShownColumn> column = column_named(mesh(), job_.colours);
         if (!column) return column.error();
         (column->choice.of_cells ? options.cell_fields : options.point_fields).push_back(column->choice.field);
         colour_component_ = static_cast<std::size_t>(column->component);

@@ -65,7 +65,7 @@ std::string reason_of(const Locator& locator, std::uint64_t degenerate, const st
     if (locator.certified()) return "the mesh is certified";
     if (contested == 0 && degenerate != 0) return "cells meet in common faces; degenerate ones are left out";
     return fmt::format(
-        "{} of {} cells may meet others beside common faces, and there every candidate is tested; "
+        "{} of {} cells may meet others beside common faces, and there other such cells are tested, too; "
         "`{} check` tells more",
         contested, locator.mesh().cell_count(), program);
 }

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "barycert/io/formats.hpp"
-#include "barycert/io/vtk_files.hpp"
 #include "barycert/pipeline/job_files.hpp"
+#include "barycert/vtk.hpp"
 
 namespace barycert::pipeline {
 namespace {
@@ -42,8 +42,7 @@ private:
         if (!distance_.data.empty()) mesh_.point_fields.push_back(std::move(distance_));
         mesh_.point_fields.push_back(std::move(mask_));
         mesh_.point_fields.push_back(std::move(cell_));
-        const io::VtkFiles* const vtk = io::vtk_files();
-        return vtk == nullptr ? Status(io::vtk_missing(path_)) : vtk->write_mesh(mesh_, path_);
+        return write_vtk(mesh_, path_, data_);
     }
 
     Status write_tetgen_files() {
@@ -62,6 +61,7 @@ private:
 
     Mesh mesh_;
     std::string path_;
+    VtkData data_ = VtkData::raw;
     Field mask_, cell_, distance_;
 };
 
@@ -81,10 +81,7 @@ Status check_mesh_output(const ResampleJob& job) {
     if (job.range)
         return Error{.what = "--range cannot be combined with --onto", .remedy = "it is for pictures: leave it out"};
     if (is_rows_output(job.output)) return Done{};
-    if (io::has_suffix(job.output, ".vtu") || io::has_suffix(job.output, ".vtk")) {
-        if (io::vtk_files() == nullptr) return io::vtk_missing(job.output);
-        return Done{};
-    }
+    if (io::has_suffix(job.output, ".vtu") || io::has_suffix(job.output, ".vtk")) return Done{};
     const std::size_t dot = job.output.find_last_of("./");
     const std::string suffix = dot == std::string::npos || job.output[dot] == '/' ? "" : job.output.substr(dot);
     // part.1 is a stem: only what others use as a suffix is refused.

@@ -1,14 +1,10 @@
-// barycert::vtk: one cell to a file, whose first line is printed.
+// One cell to a file, whose first line is printed.
 
 #include <cstdio>
 #include <fstream>
 #include <string>
 
 #include <barycert/vtk.hpp>
-
-#ifndef BARYCERT_WITH_VTK
-#error "who links barycert::vtk is told so"
-#endif
 
 int main(int argc, char** argv) {
     const std::string path = argc > 1 ? argv[1] : "";

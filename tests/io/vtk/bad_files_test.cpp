@@ -130,7 +130,7 @@ TEST(BadVtkFiles, xml) {
              {"byte_order", "compressor='zip' byte_order", "the attribute compressor of the file",
               "vtkZLibDataCompressor, vtkLZ4DataCompressor, vtkLZMADataCompressor", "\"zip\"", 1},
              {"type='UnstructuredGrid'", "type='PUnstructuredGrid'", "the kind of the file",
-              "a VTKFile of type UnstructuredGrid", "no element of its type \"PUnstructuredGrid\"", 1},
+              "a VTKFile of type UnstructuredGrid or PolyData", "no element of its type \"PUnstructuredGrid\"", 1},
          }) {
         expect_refusal(xml, change);
     }

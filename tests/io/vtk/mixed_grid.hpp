@@ -69,18 +69,22 @@ inline vtkSmartPointer<vtkUnstructuredGrid> mixed_grid() {
 
 /// `digits`: how far a number of the array of doubles may be off, as a share of it.
 inline void expect_mixed(const std::string& path, double digits) {
-    VtkLeftOut left_out;
-    const Result<Mesh> read = read_quietly(path, &left_out);
+    const Result<Mesh> read = read_quietly(path);
     ASSERT_TRUE(read) << read.error().message();
     EXPECT_EQ(read->dimension, 3);
     EXPECT_EQ(read->cells, (std::vector<Mesh::Index>{0, 1, 2, 3, 1, 2, 3, 4}));
-    EXPECT_EQ(left_out.cells, 4U);
+    EXPECT_EQ(read->cell_numbers, (std::vector<Mesh::Index>{1, 4}));
+    EXPECT_EQ(notes_of(*read),
+              (std::vector<std::string>{
+                  "4 cells that are no tetrahedra: 1 vtkVertex, 1 vtkPolyLine, 1 vtkTriangle, 1 vtkQuadraticEdge",
+                  "point array \"words\": it holds text, which points of a mesh cannot carry"}));
+    EXPECT_TRUE(read->notes[0].important);
+    EXPECT_EQ(read->notes[0].file, path);
     ASSERT_EQ(read->cell_fields.size(), 1U);
     EXPECT_EQ(read->cell_fields[0].name, "cell");
     EXPECT_EQ(read->cell_fields[0].data, (std::vector<double>{1, 10, 4, 40}));
-    ASSERT_EQ(left_out.point_arrays.size(), 1U);
-    EXPECT_EQ(left_out.point_arrays[0].name, "words");
-    EXPECT_EQ(left_out.point_arrays[0].why, "it holds no numbers");
+    EXPECT_EQ(notes_of(*read, Note::Kind::converted),
+              (std::vector<std::string>{"float32 to double: point array \"float\""}));
     const auto grid = mixed_grid();
     ASSERT_EQ(read->point_fields.size(), 14U);
     for (const Field& field : read->point_fields) {

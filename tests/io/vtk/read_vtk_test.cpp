@@ -19,13 +19,11 @@ namespace fs = std::filesystem;
 void expect_round_trip(const Mesh& mesh) {
     const TemporaryFolder folder;
     ASSERT_TRUE(write_vtu(mesh, folder / "m.vtu"));
-    VtkLeftOut left_out;
-    const Result<Mesh> read = read_quietly(folder / "m.vtu", &left_out);
+    const Result<Mesh> read = read_quietly(folder / "m.vtu");
     ASSERT_TRUE(read) << read.error().message();
     expect_same(*read, as_in_vtk(mesh));
-    EXPECT_EQ(left_out.cells, 0U);
-    EXPECT_TRUE(left_out.point_arrays.empty());
-    EXPECT_TRUE(left_out.cell_arrays.empty());
+    EXPECT_TRUE(read->notes.empty());
+    EXPECT_TRUE(read->cell_numbers.empty());
 }
 
 TEST(ReadVtk, meshes_of_the_data_folder) {
@@ -144,16 +142,14 @@ TEST(ReadVtk, pieces_are_put_together) {
     const std::string empty = "<Piece NumberOfPoints='0' NumberOfCells='0'></Piece>";
     put(folder / "m.vtu", "<VTKFile type='UnstructuredGrid'><UnstructuredGrid>" + empty + with("a") + with("b") +
                               empty + "</UnstructuredGrid></VTKFile>");
-    VtkLeftOut left_out;
-    const Result<Mesh> read = read_quietly(folder / "m.vtu", &left_out);
+    const Result<Mesh> read = read_quietly(folder / "m.vtu");
     ASSERT_TRUE(read) << read.error().message();
     EXPECT_EQ(read->cells, (std::vector<Mesh::Index>{0, 1, 2, 3, 4, 5}));
     EXPECT_EQ(read->point_count(), 6U);
     ASSERT_EQ(read->point_fields.size(), 1U);
     EXPECT_EQ(read->point_fields[0].data, (std::vector<double>{1, 2, 3, 1, 2, 3}));
-    ASSERT_EQ(left_out.point_arrays.size(), 2U);
-    EXPECT_EQ(left_out.point_arrays[1].name, "b");
-    EXPECT_EQ(left_out.point_arrays[1].why, "it is missing in a piece of the file");
+    EXPECT_EQ(notes_of(*read), (std::vector<std::string>{"point array \"a\": it is missing in a piece of the file",
+                                                         "point array \"b\": it is missing in a piece of the file"}));
 }
 
 TEST(ReadVtk, integers_that_are_no_doubles) {
@@ -166,13 +162,12 @@ TEST(ReadVtk, integers_that_are_no_doubles) {
         "<DataArray type='Int32' Name='connectivity'>0 1 2</DataArray><DataArray type='Int32' Name='offsets'>3"
         "</DataArray><DataArray type='UInt8' Name='types'>5</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>";
     put(folder / "m.vtu", text);
-    VtkLeftOut left_out;
-    const Result<Mesh> read = read_quietly(folder / "m.vtu", &left_out);
+    const Result<Mesh> read = read_quietly(folder / "m.vtu");
     ASSERT_TRUE(read) << read.error().message();
     ASSERT_EQ(read->point_fields.size(), 1U);
     EXPECT_EQ(read->point_fields[0].data, (std::vector<double>{0x1p64 - 2048, 0x1p53 + 2, 0}));
-    ASSERT_EQ(left_out.point_arrays.size(), 1U);
-    EXPECT_EQ(left_out.point_arrays[0].why, "it holds 9007199254740993, which is not exactly a double");
+    EXPECT_EQ(notes_of(*read), (std::vector<std::string>{"point array \"id\": it holds 9007199254740993, which is not "
+                                                         "exactly a double"}));
 }
 
 TEST(ReadVtk, files_of_others) {

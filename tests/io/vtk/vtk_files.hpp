@@ -30,11 +30,20 @@ public:
     std::string text() { return ::testing::internal::GetCapturedStdout() + ::testing::internal::GetCapturedStderr(); }
 };
 
-inline Result<Mesh> read_quietly(const std::string& path, VtkLeftOut* left_out = nullptr) {
+inline Result<Mesh> read_quietly(const std::string& path) {
     Printed printed;
-    Result<Mesh> mesh = read_vtk(path, left_out);
+    Result<Mesh> mesh = read_vtk(path);
     EXPECT_EQ(printed.text(), "");
     return mesh;
+}
+
+/// The texts of the notes of that kind.
+inline std::vector<std::string> notes_of(const Mesh& mesh, Note::Kind kind = Note::Kind::left_out) {
+    std::vector<std::string> texts;
+    for (const Note& note : mesh.notes) {
+        if (note.kind == kind) texts.push_back(note.text);
+    }
+    return texts;
 }
 
 /// The mesh as a VTK file holds it: what has no place in the format is gone.

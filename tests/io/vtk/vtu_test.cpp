@@ -25,10 +25,6 @@
 #include "io/tetgen/random_mesh.hpp"
 #include "io/vtk/vtk_files.hpp"
 
-#ifndef BARYCERT_WITH_VTK
-#error "who links barycert::vtk is told so"
-#endif
-
 namespace barycert::testing {
 namespace {
 

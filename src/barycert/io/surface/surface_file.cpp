@@ -33,11 +33,11 @@ const char* fault_of(const Surface& s) {
 
 }  // namespace
 
-Result<SurfaceFile> write_surface(const Surface& surface, const std::string& path) {
+Result<SurfaceFile> write_surface(const Surface& surface, const std::string& path, VtkData data) {
     const ExactEnvironment environment;
     if (const char* const fault = fault_of(surface); fault != nullptr)
         return Error{.what = "the surface is inconsistent", .file = path, .found = fault};
-    if (io::has_suffix(path, ".vtp")) return io::write_vtp(surface, path);
+    if (io::has_suffix(path, ".vtp")) return io::write_vtp(surface, path, data);
     if (io::has_suffix(path, ".ply")) return io::write_ply(surface, path);
     if (io::has_suffix(path, ".off")) return io::write_off(surface, path);
     const std::size_t dot = path.find_last_of("./");

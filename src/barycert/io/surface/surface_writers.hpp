@@ -5,12 +5,13 @@
 
 #include "barycert/result.hpp"
 #include "barycert/surface.hpp"
+#include "barycert/vtk_data.hpp"
 
 namespace barycert::io {
 
 /// VTK's PolyData: polygons, or lines at z = 0; fields as arrays of doubles; the cells of the mesh as the array "cell",
 /// where no field has that name. Error: a name that XML cannot hold, or is there twice.
-Result<SurfaceFile> write_vtp(const Surface& surface, const std::string& path);
+Result<SurfaceFile> write_vtp(const Surface& surface, const std::string& path, VtkData data);
 
 /// Binary, little-endian: vertices with coordinates and fields as double properties; faces, or edges (vertex1,
 /// vertex2) at z = 0, with fields of cells. Names of properties have letters, digits and underscores only, and differ.

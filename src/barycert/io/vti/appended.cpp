@@ -14,8 +14,8 @@ struct TypeName {
     std::string_view name;
     std::uint64_t bytes;
 };
-constexpr std::array<TypeName, 6> type_names{
-    {{"Int8", 1}, {"UInt8", 1}, {"Int32", 4}, {"Int64", 8}, {"Float32", 4}, {"Float64", 8}}};
+constexpr std::array<TypeName, 7> type_names{
+    {{"Int8", 1}, {"UInt8", 1}, {"Int32", 4}, {"Int64", 8}, {"Float32", 4}, {"Float64", 8}, {"String", 1}}};
 
 }  // namespace
 
@@ -28,22 +28,28 @@ Error wrong_in_memory(const std::string& path, std::string what, std::string exp
             .remedy = "correct what is to be written, or its arrays, in memory"};
 }
 
-std::string vtk_file_head(std::string_view data_set) {
+std::string vtk_file_head(std::string_view data_set, std::string_view compressor) {
     const bool big = std::endian::native == std::endian::big;
     return "<VTKFile type=\"" + std::string(data_set) + "\" version=\"1.0\" byte_order=\"" +
-           (big ? "BigEndian" : "LittleEndian") + "\" header_type=\"UInt64\">\n";
+           (big ? "BigEndian" : "LittleEndian") + "\" header_type=\"UInt64\"" +
+           (compressor.empty() ? "" : " compressor=\"" + std::string(compressor) + '"') + ">\n";
 }
 
 std::uint64_t number_size(VtiType type) {
     return type_names[static_cast<std::size_t>(type)].bytes;
 }
 
+std::string array_begin(const VtiArray& array) {
+    const bool text = array.type == VtiType::text;
+    std::string element = std::string("        <") + (text ? "Array" : "DataArray") + " type=\"" +
+                          std::string(type_names[static_cast<std::size_t>(array.type)].name) + "\" Name=\"" +
+                          *xml_attribute(array.name) + "\"";
+    if (array.components != 1) element += " NumberOfComponents=\"" + std::to_string(array.components) + "\"";
+    return element;
+}
+
 std::string array_element(const VtiArray& array, std::uint64_t offset) {
-    std::string text = "        <DataArray type=\"" +
-                       std::string(type_names[static_cast<std::size_t>(array.type)].name) + "\" Name=\"" +
-                       *xml_attribute(array.name) + "\"";
-    if (array.components != 1) text += " NumberOfComponents=\"" + std::to_string(array.components) + "\"";
-    return text + " format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
+    return array_begin(array) + " format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
 }
 
 Status check_arrays(const std::string& path, const std::vector<VtiArray>& arrays) {

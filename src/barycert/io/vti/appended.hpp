@@ -20,11 +20,14 @@ inline constexpr std::uint64_t appended_header = 8;
 /// Before the arrays: their offsets count from behind the underscore.
 inline constexpr std::string_view appended_begin = "  <AppendedData encoding=\"raw\">\n    _";
 
-/// The first line, for a data set such as "ImageData".
-std::string vtk_file_head(std::string_view data_set);
+/// The first line, for a data set such as "ImageData". `compressor`: VTK's name of it; empty: none.
+std::string vtk_file_head(std::string_view data_set, std::string_view compressor = {});
 
 /// Bytes of a number.
 std::uint64_t number_size(VtiType type);
+
+/// The beginning of the element of an array: all but its format. Precondition: check_arrays passes it.
+std::string array_begin(const VtiArray& array);
 
 /// A line with the element of the array. Precondition: check_arrays passes it.
 std::string array_element(const VtiArray& array, std::uint64_t offset);

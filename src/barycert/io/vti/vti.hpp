@@ -23,8 +23,8 @@ struct VtiGrid {
     std::array<double, 3> spacing{1, 1, 1};  ///< > 0; along an axis of one point 0 stands for 1
 };
 
-/// Types of numbers, named as in the file. VTK's `vtkValidPointMask` is an int8.
-enum class VtiType : std::uint8_t { int8, uint8, int32, int64, float32, float64 };
+/// Types of numbers, named as in the file. VTK's `vtkValidPointMask` is an int8. A text is bytes up to a zero byte.
+enum class VtiType : std::uint8_t { int8, uint8, int32, int64, float32, float64, text };
 
 /// An array with `components` numbers a point, those of a point side by side.
 struct VtiArray {

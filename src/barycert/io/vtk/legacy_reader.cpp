@@ -4,33 +4,16 @@
 
 #include "barycert/io/vtk/legacy_text.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
+#include "barycert/io/vtk/xml_grids.hpp"
+#include "barycert/io/vtk/xml_reader.hpp"
 
 namespace barycert::io {
 namespace {
-
-/// Cells of polygon data: VTK numbers the cells of all sections in this order, whatever the order in the file.
-enum Section : std::size_t { vertices, lines, polygons, strips, section_count };
 
 struct Cells {
     std::vector<std::int32_t> connectivity;
     std::vector<std::int64_t> ends;
 };
-
-/// VTK's numbers of cell types by section and number of nodes.
-std::uint8_t type_in(Section section, std::int64_t nodes) {
-    constexpr std::uint8_t vertex = 1, poly_vertex = 2, line = 3, poly_line = 4, triangle = 5, strip = 6, polygon = 7,
-                           quad = 9;
-    switch (section) {
-        case vertices:
-            return nodes == 1 ? vertex : poly_vertex;
-        case lines:
-            return nodes == 2 ? line : poly_line;
-        case polygons:
-            return nodes == 3 ? triangle : nodes == 4 ? quad : polygon;
-        default:
-            return strip;
-    }
-}
 
 class LegacyReader {
 public:
@@ -44,8 +27,8 @@ public:
             if (keyword.empty()) break;
             if (Status s = read_section(keyword); !s) return s.error();
         }
-        if (part_ == Part::points) {
-            if (!done_) return text_.error("the file has no points", "POINTS", "none");
+        if (part_ != Part::all) {
+            if (!has_points_) return text_.error("the file has no points", "POINTS", "none");
             return std::move(grid_);
         }
         if (Status s = gather_cells(); !s) return s.error();
@@ -60,7 +43,7 @@ private:
             polydata_ = true;
         } else if (keyword != "UNSTRUCTURED_GRID" && (part_ == Part::all || keyword != "STRUCTURED_GRID")) {
             return text_.error("the kind of the data set", "UNSTRUCTURED_GRID or POLYDATA", in_quotes(keyword),
-                               "convert it to an unstructured grid, with ParaView or VTK");
+                               to_simplices(text_.path()));
         }
         return Done{};
     }
@@ -88,7 +71,9 @@ private:
         if (!count) return count.error();
         const Result<NumberType> type = text_.number_type("the points");
         if (!type) return type.error();
-        if (!grid_.points.empty()) return text_.error("a second section POINTS", "one", "two");
+        if (has_points_) return text_.error("a second section POINTS", "one", "two");
+        has_points_ = true;
+        grid_.narrow_points = *type == NumberType::float32;
         done_ = part_ == Part::points;
         point_count_ = *count;
         return text_.numbers("the coordinates", *type, std::uint64_t{3} * *count, grid_.points);
@@ -284,6 +269,7 @@ private:
             if (Status s = read_array(name, type, *components, *tuples, arrays != nullptr ? *arrays : unused); !s) {
                 return s;
             }
+            if (!unused.empty() && !is_time(name)) grid_.loose_arrays.push_back(name);
             unused.clear();
         }
         return Done{};
@@ -302,8 +288,15 @@ private:
         array.field = {name, static_cast<int>(components), {}};
         const std::uint64_t numbers = static_cast<std::uint64_t>(components) * rows;
         if (LegacyText::is_text(type)) {
-            array.fault = "it holds no numbers";
-            if (Status s = text_.skip_strings(what, type, numbers); !s) return s;
+            const bool of_cells = &arrays == &grid_.cell_arrays;
+            std::vector<std::string> texts;
+            if (Status s = text_.strings(what, type, numbers, of_cells && components == 1 ? &texts : nullptr); !s)
+                return s;
+            array.has_labels = of_cells && components == 1;
+            array.labels = std::move(texts);
+            if (!array.has_labels)
+                array.fault = of_cells ? "it holds texts of several components"
+                                       : "it holds text, which points of a mesh cannot carry";
         } else {
             const std::optional<NumberType> known = LegacyText::number_type_named(type);
             if (known == NumberType::bit && components > 1 && text_.binary()) {
@@ -317,15 +310,36 @@ private:
             if (!known.has_value()) {
                 return text_.error("the type of " + what, "double, float, int and the like", in_quotes(type));
             }
-            if (&arrays == &grid_.point_arrays && name == marker_name && *known == NumberType::int64 &&
-                components == 1) {
-                return text_.numbers(what, *known, numbers, grid_.point_markers);
-            }
-            NumberFault fault;
-            if (Status s = text_.numbers(what, *known, numbers, array.field.data, &fault); !s) return s;
-            if (fault) array.fault = inexact(fault);
+            if (Status s = read_numbers(what, *known, numbers, arrays, array); !s) return s;
         }
         arrays.push_back(std::move(array));
+        return Done{};
+    }
+
+    Status read_numbers(const std::string& what, NumberType type, std::uint64_t numbers,
+                        const std::vector<RawArray>& arrays, RawArray& array) {
+        array.is_narrow = type == NumberType::float32;
+        array.is_integer = type == NumberType::int64 || type == NumberType::uint64;
+        const bool markers = &arrays == &grid_.point_arrays && array.field.name == marker_name &&
+                             type == NumberType::int64 && array.field.components == 1;
+        const bool may_label = &arrays == &grid_.cell_arrays && array.is_integer && array.field.components == 1;
+        const LegacyText before = text_;
+        NumberFault fault;
+        if (!markers) {
+            if (Status s = text_.numbers(what, type, numbers, array.field.data, &fault); !s) return s;
+            if (!fault) return Done{};
+            array.field.data = {};
+            array.fault = inexact(fault);
+            if (!may_label) return Done{};
+            text_ = before;
+        }
+        std::vector<std::int64_t> labels;
+        NumberFault wide;
+        if (Status s = text_.numbers(what, type, numbers, labels, &wide); !s) return s;
+        if (wide) return Done{};
+        array.fault.clear();
+        array.labels = std::move(labels);
+        array.has_labels = true;
         return Done{};
     }
 
@@ -359,7 +373,7 @@ private:
     RawGrid grid_;
     std::array<Cells, section_count> sections_;
     std::size_t point_count_ = 0;
-    bool polydata_ = false;
+    bool polydata_ = false, has_points_ = false;
     bool done_ = false;
 };
 

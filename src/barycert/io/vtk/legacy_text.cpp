@@ -28,6 +28,22 @@ std::string shown(std::string_view word) {
     return in_quotes(word.substr(0, 60));
 }
 
+/// %20 and the like are one byte.
+std::string decoded(std::string_view word) {
+    std::string text;
+    for (std::size_t i = 0; i < word.size(); ++i) {
+        unsigned code = 0;
+        if (word[i] == '%' && i + 2 < word.size() &&
+            std::from_chars(&word[i + 1], &word[i + 1] + 2, code, 16).ptr == &word[i + 1] + 2) {
+            text += static_cast<char>(code);
+            i += 2;
+        } else {
+            text += word[i];
+        }
+    }
+    return text;
+}
+
 }  // namespace
 
 Error LegacyText::error(std::string what, std::string expected, std::string found, std::string remedy) const {
@@ -71,19 +87,7 @@ std::string LegacyText::keyword() {
 }
 
 std::string LegacyText::name() {
-    const std::string_view word = next_word(rest_);
-    std::string text;
-    for (std::size_t i = 0; i < word.size(); ++i) {
-        unsigned code = 0;
-        if (word[i] == '%' && i + 2 < word.size() &&
-            std::from_chars(&word[i + 1], &word[i + 1] + 2, code, 16).ptr == &word[i + 1] + 2) {
-            text += static_cast<char>(code);
-            i += 2;
-        } else {
-            text += word[i];
-        }
-    }
-    return text;
+    return decoded(next_word(rest_));
 }
 
 std::string_view LegacyText::rest_of_line() {
@@ -175,9 +179,9 @@ Status LegacyText::numbers(const std::string& what, NumberType type, std::uint64
         if (!size.has_value() || *size > rest_.size()) {
             return error(what, std::to_string(count) + " numbers", "the end of the file before that", cut_off);
         }
-        PlainStream stream(rest_.substr(0, static_cast<std::size_t>(*size)));
-        rest_.remove_prefix(static_cast<std::size_t>(*size));
-        found = read_binary(stream, type, swap_bytes, static_cast<std::size_t>(count), values);
+        const std::string_view bytes = rest_.substr(0, static_cast<std::size_t>(*size));
+        rest_.remove_prefix(bytes.size());
+        found = read_binary(bytes, type, swap_bytes, static_cast<std::size_t>(count), values);
     }
     if (fault != nullptr && found.kind == NumberFault::Kind::not_exact) {
         *fault = std::move(found);
@@ -202,12 +206,14 @@ Status LegacyText::skip_colors(std::uint64_t count) {
     return colors("a lookup table", count, unused);
 }
 
-Status LegacyText::skip_strings(const std::string& what, std::string_view type, std::uint64_t count) {
+Status LegacyText::strings(const std::string& what, std::string_view type, std::uint64_t count,
+                           std::vector<std::string>* texts) {
     rest_of_line();
     for (std::uint64_t i = 0; i < count; ++i) {
         if (rest_.empty()) return error(what, std::to_string(count) + " strings", std::to_string(i), cut_off);
         if (!binary_ || capitals(type) == "VARIANT") {
-            rest_of_line();
+            const std::string_view text = rest_of_line();
+            if (texts != nullptr) texts->push_back(decoded(text));
             continue;
         }
         // The two highest bits say how many bytes the length takes: 8, 4, 2 or 1.
@@ -219,6 +225,7 @@ Status LegacyText::skip_strings(const std::string& what, std::string_view type, 
         rest_.remove_prefix(width);
         if (length > rest_.size())
             return error(what, "a string of " + std::to_string(length) + " bytes", "less", cut_off);
+        if (texts != nullptr) texts->emplace_back(rest_.substr(0, static_cast<std::size_t>(length)));
         rest_.remove_prefix(static_cast<std::size_t>(length));
     }
     return Done{};

@@ -18,6 +18,7 @@ public:
 
     /// The first three lines: version, title, ASCII or BINARY.
     Status read_head();
+    const std::string& path() const { return *path_; }
     int major_version() const { return major_version_; }
     bool binary() const { return binary_; }
 
@@ -48,7 +49,9 @@ public:
     Status colors(const std::string& what, std::uint64_t count, std::vector<double>& values);
     Status skip_colors(std::uint64_t count);
     /// Strings of an array: a line each, or in a binary file their length and bytes.
-    Status skip_strings(const std::string& what, std::string_view type, std::uint64_t count);
+    /// `texts`: where they go, if they are wanted.
+    Status strings(const std::string& what, std::string_view type, std::uint64_t count,
+                   std::vector<std::string>* texts);
 
     /// An error at this place.
     Error error(std::string what, std::string expected, std::string found, std::string remedy = {}) const;

@@ -8,8 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "barycert/io/vtk/byte_stream.hpp"
-
 namespace barycert::io {
 
 enum class NumberType : std::uint8_t {
@@ -25,6 +23,9 @@ enum class NumberType : std::uint8_t {
     float32,
     float64
 };
+
+/// Bytes of a number; 1 for bit.
+std::size_t number_bytes(NumberType type);
 
 /// Bytes that `count` numbers take; nothing if they do not fit in 64 bits.
 std::optional<std::uint64_t> byte_count(NumberType type, std::uint64_t count);
@@ -44,15 +45,26 @@ struct NumberFault {
     explicit operator bool() const { return kind != Kind::none; }
 };
 
-/// Appends `count` numbers to `values`, which are double, std::int64_t, std::int32_t or std::uint8_t. Reads on after a
-/// number that is not exact (which then stands for another), so that what follows can be read. float32 becomes double
-/// exactly. Memory grows with what has been read.
+/// Writes `count` numbers to `to`, whose type is double, std::int64_t, std::int32_t or std::uint8_t, from their bytes;
+/// not those of type bit. Returns the first that is not exact (another number then stands there), or `count`.
 template <class To>
-NumberFault read_binary(ByteStream& stream, NumberType type, bool swap_bytes, std::size_t count,
+std::size_t convert_numbers(std::string_view bytes, NumberType type, bool swap_bytes, std::size_t count, To* to);
+
+/// Whether numbers of that type and order have the bytes of a `To`.
+template <class To>
+bool are_as_they_stand(NumberType type, bool swap_bytes);
+
+/// That number `index` of those bytes is not exact.
+NumberFault inexact_number(std::string_view bytes, NumberType type, bool swap_bytes, std::size_t index);
+
+/// Appends `count` numbers to `values`, as convert_numbers does, of bytes that may be too few. Goes on after a number
+/// that is not exact, so that what follows can be read. float32 becomes double exactly.
+template <class To>
+NumberFault read_binary(std::string_view bytes, NumberType type, bool swap_bytes, std::size_t count,
                         std::vector<To>& values);
 
 /// The same from text, separated by white space; what has been read is taken off `text`. Decimal numbers are rounded to
-/// the nearest of their type, as VTK does.
+/// the nearest of their type, as VTK does. Memory grows with what has been read.
 template <class To>
 NumberFault read_text(std::string_view& text, NumberType type, std::size_t count, std::vector<To>& values);
 

@@ -3,34 +3,48 @@
 #include <string>
 
 #include "barycert/environment.hpp"
-#include "barycert/io/vtk/mesh_to_grid.hpp"
-#include "barycert/io/vtk/vtu_output.hpp"
+#include "barycert/io/vtk/mesh_arrays.hpp"
+#include "barycert/io/vtk/xml_writer.hpp"
 #include "barycert/vtk.hpp"
 
 namespace barycert {
 namespace {
 
-/// Bytes of the file but for its head, and room for a head: the stream then takes no more than the file does.
-std::size_t file_size(const Mesh& mesh, std::size_t index_size) {
-    std::size_t bytes = 24 * mesh.point_count() + 8 * mesh.point_markers.size();
-    bytes += mesh.cell_count() * (index_size + 1) + (mesh.cells.size() + mesh.mid_nodes.size()) * index_size;
-    for (const auto* fields : {&mesh.point_fields, &mesh.cell_fields}) {
-        for (const Field& field : *fields) bytes += field.data.size() * sizeof(double) + field.name.size() * 6 + 512;
-    }
-    return bytes + 4096;
+template <class Offset>
+io::OutArray offsets_of(const Mesh& mesh, io::VtiType type) {
+    const std::size_t nodes = io::nodes_a_cell(mesh);
+    return io::array_made<Offset>({"offsets", 1, type}, mesh.cell_count(),
+                                  [nodes](std::size_t i) { return nodes * (i + 1); });
+}
+
+Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data) {
+    std::vector<std::string> room;
+    io::OutFile file{.data_set = "UnstructuredGrid", .attributes = {}, .piece = {}, .sections = {}};
+    file.piece = " NumberOfPoints=\"" + std::to_string(mesh.point_count()) + "\" NumberOfCells=\"" +
+                 std::to_string(mesh.cell_count()) + "\"";
+    const std::uint8_t type = io::cell_type_of(mesh);
+    file.sections.push_back({"PointData", io::point_arrays_of(mesh)});
+    file.sections.push_back({"CellData", io::cell_arrays_of(mesh, room)});
+    file.sections.push_back({"Points", {io::array_of_points(mesh.points, mesh.dimension)}});
+    file.sections.push_back({"Cells",
+                             {io::connectivity_of(mesh),
+                              io::needs_wide_indices(mesh) ? offsets_of<std::int64_t>(mesh, io::VtiType::int64)
+                                                           : offsets_of<std::int32_t>(mesh, io::VtiType::int32),
+                              io::array_made<std::uint8_t>({"types", 1, io::VtiType::uint8}, mesh.cell_count(),
+                                                           [type](std::size_t) { return type; })}});
+    return io::write_xml(file, path, data);
 }
 
 }  // namespace
 
-Status write_vtu(const Mesh& mesh, const std::string& path) {
+Status write_vtu(const Mesh& mesh, const std::string& path, VtkData data) {
     const ExactEnvironment environment;
     if (const std::string fault = io::fault_of_mesh(mesh, io::Names::xml); !fault.empty())
         return io::cannot_write("the mesh", fault, path);
     try {
-        const std::size_t size = file_size(mesh, io::needs_wide_indices(mesh) ? 8 : 4);
-        return io::write_vtu_grid(io::grid_of(mesh, io::Names::xml), path, size);
+        return write_mesh(mesh, path, data);
     } catch (const std::bad_alloc&) {
-        return io::vtk_failure(path, "too little memory");
+        return Error{.what = "too little memory to write the mesh", .file = path, .remedy = "free some memory"};
     }
 }
 

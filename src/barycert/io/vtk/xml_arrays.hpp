@@ -1,17 +1,17 @@
 /// The numbers of DataArray elements.
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "barycert/io/vtk/codec.hpp"
+#include "barycert/io/vtk/encoded.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/io/vtk/xml_tree.hpp"
 
 namespace barycert::io {
-
-enum class Compressor : std::uint8_t { none, zlib, lz4, lzma };
 
 /// What the attributes of the root say of all arrays.
 struct XmlLayout {
@@ -38,13 +38,18 @@ public:
     Status read(const XmlElement& array, const std::string& what, std::uint64_t count, std::vector<To>& values,
                 NumberFault* fault = nullptr) const;
 
+    /// The texts of an array of strings, exactly `count`.
+    Status read_texts(const XmlElement& array, const std::string& what, std::uint64_t count,
+                      std::vector<std::string>& texts) const;
+
     Error error(const XmlElement& element, std::string what, std::string expected, std::string found,
                 std::string remedy = {}) const;
 
 private:
-    Result<std::unique_ptr<ByteStream>> encoded(const XmlElement& array, const std::string& what) const;
-    Result<std::unique_ptr<ByteStream>> content(const XmlElement& array, const std::string& what,
-                                                std::uint64_t size) const;
+    Result<Encoded> encoded(const XmlElement& array, const std::string& what) const;
+    template <class To>
+    Status read_encoded(const XmlElement& array, const std::string& what, NumberType type,
+                        std::optional<std::uint64_t> count, std::vector<To>& values, NumberFault& fault) const;
 
     std::string_view bytes_;
     const XmlTree& tree_;

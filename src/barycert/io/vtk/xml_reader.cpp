@@ -1,69 +1,76 @@
+#include "barycert/io/vtk/xml_reader.hpp"
+
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
 
-#include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/io/vtk/xml_arrays.hpp"
-#include "barycert/io/vtk/xml_tree.hpp"
+#include "barycert/io/vtk/xml_grids.hpp"
 
 namespace barycert::io {
+
+std::uint8_t type_in(Section section, std::int64_t nodes) {
+    constexpr std::uint8_t vertex = 1, poly_vertex = 2, line = 3, poly_line = 4, triangle = 5, strip = 6, polygon = 7,
+                           quad = 9;
+    switch (section) {
+        case vertices:
+            return nodes == 1 ? vertex : poly_vertex;
+        case lines:
+            return nodes == 2 ? line : poly_line;
+        case polygons:
+            return nodes == 3 ? triangle : nodes == 4 ? quad : polygon;
+        default:
+            return strip;
+    }
+}
+
 namespace {
 
-constexpr const char* missing = "it is missing in a piece of the file";
-
-/// Collects the pieces of a file one after the other.
+/// Reads the pieces of a file one after the other.
 class XmlReader {
 public:
     XmlReader(std::string_view bytes, const XmlTree& tree, const XmlLayout& layout, const std::string& path, Part part)
-        : tree_(tree), arrays_(bytes, tree, layout, path), part_(part) {}
+        : tree_(tree), arrays_(bytes, tree, layout, path), path_(path), part_(part) {}
 
     Result<RawGrid> read() {
-        const XmlElement* const data = data_set();
-        if (data == nullptr) {
-            return arrays_.error(tree_.root(), "the kind of the file",
-                                 part_ == Part::all ? "a VTKFile of type UnstructuredGrid"
-                                                    : "a VTKFile of type UnstructuredGrid or PolyData",
-                                 found_kind(),
-                                 "convert it to an unstructured grid in one .vtu file, with ParaView or VTK");
-        }
+        const std::string type(tree_.root().attribute("type").value_or(""));
+        const bool mesh = type == "UnstructuredGrid" || type == "PolyData";
+        const XmlElement* const data = tree_.root().name == "VTKFile" ? tree_.child(tree_.root(), type) : nullptr;
+        if (data == nullptr || !(mesh || (part_ != Part::all && is_structured(type)))) return wrong_kind(data, type);
+        if (!mesh) return read_structured(*data, type);
+        is_polygons_ = type == "PolyData";
+        RawGrid grid;
         for (const std::size_t i : data->children) {
-            if (tree_.elements[i].name != "Piece") continue;
-            if (Status s = read_piece(tree_.elements[i]); !s) return s.error();
+            const XmlElement& element = tree_.elements[i];
+            if (element.name == "FieldData") note_loose(element, grid);
+            if (element.name != "Piece") continue;
+            RawGrid piece;
+            if (Status s = read_piece(element, grid, piece); !s) return s.error();
+            if (Status s = append_piece(grid, std::move(piece), path_); !s) return s.error();
         }
-        settle_markers();
-        return std::move(grid_);
+        return grid;
     }
 
 private:
-    /// The array of markers is no field, unless its type differs between pieces.
-    void settle_markers() {
-        if (grid_.point_markers.empty()) return;
-        const auto array = std::find_if(grid_.point_arrays.begin(), grid_.point_arrays.end(),
-                                        [](const RawArray& a) { return a.field.name == marker_name; });
-        if (grid_.point_markers.size() == grid_.points.size() / 3) {
-            grid_.point_arrays.erase(array);
-        } else {
-            array->fault = array->fault.empty() ? "its type differs between pieces" : array->fault;
-            grid_.point_markers.clear();
+    Error wrong_kind(const XmlElement* data, const std::string& type) const {
+        std::string found = "type " + in_quotes(type);
+        if (tree_.root().name != "VTKFile") {
+            found = "an element " + in_quotes(tree_.root().name);
+        } else if (data == nullptr) {
+            found = "no element of its type " + in_quotes(type);
         }
+        return arrays_.error(tree_.root(), "the kind of the file",
+                             part_ == Part::all ? "a VTKFile of type UnstructuredGrid or PolyData"
+                                                : "a VTKFile of type UnstructuredGrid, PolyData, ImageData, "
+                                                  "RectilinearGrid or StructuredGrid",
+                             found, to_simplices(path_));
     }
 
-    const XmlElement* data_set() const {
-        const std::string_view type = tree_.root().attribute("type").value_or("");
-        const bool known = type == "UnstructuredGrid" || (type == "PolyData" && part_ == Part::points);
-        return tree_.root().name == "VTKFile" && known ? tree_.child(tree_.root(), type) : nullptr;
-    }
-
-    std::string found_kind() const {
-        if (tree_.root().name != "VTKFile") return "an element " + in_quotes(tree_.root().name);
-        const std::string type(tree_.root().attribute("type").value_or(""));
-        if (tree_.child(tree_.root(), type) == nullptr) return "no element of its type " + in_quotes(type);
-        return in_quotes(type);
-    }
-
-    Result<std::size_t> count_of(const XmlElement& piece, const char* key, std::size_t before) const {
+    Result<std::size_t> count_of(const XmlElement& piece, std::string_view key, std::size_t before) const {
         const std::optional<std::string_view> text = piece.attribute(key);
-        const std::optional<std::uint64_t> count = parse_count(text.value_or(""));
+        const std::optional<std::uint64_t> count =
+            text.has_value() ? parse_count(*text) : std::optional<std::uint64_t>();
         if (!count.has_value() || *count > max_entities - before) {
             return arrays_.error(piece, "the attribute " + std::string(key),
                                  "a count, at most " + std::to_string(max_entities) + " in all pieces",
@@ -72,19 +79,27 @@ private:
         return static_cast<std::size_t>(*count);
     }
 
-    Status read_piece(const XmlElement& piece) {
-        const std::size_t points_before = grid_.points.size() / 3, cells_before = grid_.types.size();
-        const Result<std::size_t> points = count_of(piece, "NumberOfPoints", points_before);
+    Status read_piece(const XmlElement& piece, const RawGrid& before, RawGrid& grid) {
+        const Result<std::size_t> points = count_of(piece, "NumberOfPoints", before.point_count());
         if (!points) return points.error();
-        if (Status s = read_points(piece, *points); !s || part_ == Part::points) return s;
-        const Result<std::size_t> cells = count_of(piece, "NumberOfCells", cells_before);
-        if (!cells) return cells.error();
-        if (Status s = read_cells(piece, *cells, points_before); !s) return s;
-        if (Status s = read_fields(piece, "PointData", *points, points_before == 0, grid_.point_arrays); !s) return s;
-        return read_fields(piece, "CellData", *cells, cells_before == 0, grid_.cell_arrays);
+        if (Status s = read_points(piece, *points, grid); !s) return s;
+        if (part_ == Part::points) return Done{};
+        if (Status s = read_arrays(piece, "PointData", *points, grid.has_steps, grid.point_arrays); !s) return s;
+        if (const XmlElement* const data = tree_.child(piece, "PointData"); data != nullptr)
+            grid.global_ids = data->attribute("GlobalIds").value_or("");
+        if (part_ != Part::all) return Done{};
+        if (is_polygons_) {
+            if (Status s = read_polygons(piece, before.types.size(), grid); !s) return s;
+        } else {
+            const Result<std::size_t> cells = count_of(piece, "NumberOfCells", before.types.size());
+            if (!cells) return cells.error();
+            if (Status s = read_cells(piece, "Cells", *cells, grid); !s) return s;
+        }
+        grid.checked_nodes = true;
+        return read_arrays(piece, "CellData", grid.types.size(), grid.has_steps, grid.cell_arrays);
     }
 
-    Status read_points(const XmlElement& piece, std::size_t count) {
+    Status read_points(const XmlElement& piece, std::size_t count, RawGrid& grid) {
         if (count == 0) return Done{};
         const XmlElement* const points = tree_.child(piece, "Points");
         const XmlElement* const array = points != nullptr ? tree_.child(*points, "DataArray") : nullptr;
@@ -93,123 +108,162 @@ private:
             return arrays_.error(*array, "the components of the points", "3",
                                  in_quotes(array->attribute("NumberOfComponents").value_or("")));
         }
-        return arrays_.read(*array, "the coordinates", std::uint64_t{3} * count, grid_.points);
+        grid.narrow_points = XmlArrays::type_of(*array) == NumberType::float32;
+        return arrays_.read(*array, "the coordinates", std::uint64_t{3} * count, grid.points);
     }
 
-    Status read_cells(const XmlElement& piece, std::size_t count, std::size_t points_before) {
-        if (count == 0) return Done{};
-        const XmlElement* const cells = tree_.child(piece, "Cells");
-        const auto array_named = [&](std::string_view name) -> const XmlElement* {
-            if (cells == nullptr) return nullptr;
-            for (const std::size_t i : cells->children) {
-                if (tree_.elements[i].attribute("Name") == name) return &tree_.elements[i];
-            }
-            return nullptr;
-        };
-        const XmlElement* const connectivity = array_named("connectivity");
-        const XmlElement* const offsets = array_named("offsets");
-        const XmlElement* const types = array_named("types");
-        if (connectivity == nullptr || offsets == nullptr || types == nullptr) {
-            return arrays_.error(piece, "the cells of a piece", "arrays connectivity, offsets and types",
-                                 "not all three");
+    const XmlElement* array_named(const XmlElement* in, std::string_view name) const {
+        if (in == nullptr) return nullptr;
+        for (const std::size_t i : in->children) {
+            if (tree_.elements[i].attribute("Name") == name) return &tree_.elements[i];
         }
-        if (Status s = arrays_.read(*types, "the types of cells", count, grid_.types); !s) return s;
-        const std::size_t cells_before = grid_.ends.size(), nodes_before = grid_.connectivity.size();
-        if (Status s = arrays_.read(*offsets, "the offsets of cells", count, grid_.ends); !s) return s;
+        return nullptr;
+    }
+
+    /// The cells of a section, behind those that there are. Types are read where the section has them.
+    Status read_cells(const XmlElement& piece, const char* section, std::size_t count, RawGrid& grid) {
+        if (count == 0) return Done{};
+        const XmlElement* const cells = tree_.child(piece, section);
+        const XmlElement* const connectivity = array_named(cells, "connectivity");
+        const XmlElement* const offsets = array_named(cells, "offsets");
+        const XmlElement* const types = array_named(cells, "types");
+        if (connectivity == nullptr || offsets == nullptr || (types == nullptr && !is_polygons_)) {
+            return arrays_.error(
+                piece, "the cells of a piece",
+                is_polygons_ ? "arrays connectivity and offsets" : "arrays connectivity, offsets and types",
+                is_polygons_ ? "not both" : "not all three");
+        }
+        if (!is_polygons_) {
+            if (Status s = arrays_.read(*types, "the types of cells", count, grid.types); !s) return s;
+        }
+        const std::size_t cells_before = grid.ends.size(), nodes_before = grid.connectivity.size();
+        if (Status s = arrays_.read(*offsets, "the offsets of cells", count, grid.ends); !s) return s;
         std::int64_t end = 0;
-        for (std::size_t i = cells_before; i < grid_.ends.size(); ++i) {
-            if (grid_.ends[i] < end) {
+        for (std::size_t i = cells_before; i < grid.ends.size(); ++i) {
+            if (grid.ends[i] < end) {
                 return arrays_.error(*offsets, "the offsets of cells", "none below the one before it",
-                                     std::to_string(grid_.ends[i]) + " after " + std::to_string(end));
+                                     std::to_string(grid.ends[i]) + " after " + std::to_string(end));
             }
-            end = grid_.ends[i];
-            grid_.ends[i] += static_cast<std::int64_t>(nodes_before);
+            end = grid.ends[i];
+            grid.ends[i] += static_cast<std::int64_t>(nodes_before);
         }
         if (Status s =
-                arrays_.read(*connectivity, "the connectivity", static_cast<std::uint64_t>(end), grid_.connectivity);
+                arrays_.read(*connectivity, "the connectivity", static_cast<std::uint64_t>(end), grid.connectivity);
             !s) {
             return s;
         }
-        return to_all_points(*connectivity, nodes_before, points_before);
+        const std::size_t wrong = first_wrong_node(grid.connectivity, nodes_before, grid.point_count());
+        if (wrong == grid.connectivity.size()) return Done{};
+        return arrays_.error(*connectivity, "a node of a cell", "a point below " + std::to_string(grid.point_count()),
+                             std::to_string(grid.connectivity[wrong]));
     }
 
-    /// A piece counts its own points from 0.
-    Status to_all_points(const XmlElement& array, std::size_t nodes_before, std::size_t points_before) {
-        const std::size_t own = grid_.points.size() / 3 - points_before;
-        for (std::size_t i = nodes_before; i < grid_.connectivity.size(); ++i) {
-            std::int32_t& node = grid_.connectivity[i];
-            if (node < 0 || static_cast<std::size_t>(node) >= own) {
-                return arrays_.error(array, "a node of a cell", "a point below " + std::to_string(own),
-                                     std::to_string(node));
+    Status read_polygons(const XmlElement& piece, std::size_t before, RawGrid& grid) {
+        constexpr std::array<std::pair<const char*, const char*>, section_count> sections{
+            {{"Verts", "NumberOfVerts"},
+             {"Lines", "NumberOfLines"},
+             {"Polys", "NumberOfPolys"},
+             {"Strips", "NumberOfStrips"}}};
+        for (std::size_t i = 0; i < section_count; ++i) {
+            const auto& [name, key] = sections[i];
+            if (!piece.attribute(key).has_value()) continue;
+            const Result<std::size_t> count = count_of(piece, key, before + grid.types.size());
+            if (!count) return count.error();
+            std::size_t cell = grid.ends.size();
+            auto end = static_cast<std::int64_t>(grid.connectivity.size());
+            if (Status s = read_cells(piece, name, *count, grid); !s) return s;
+            for (; cell < grid.ends.size(); ++cell) {
+                grid.types.push_back(type_in(static_cast<Section>(i), grid.ends[cell] - end));
+                end = grid.ends[cell];
             }
-            node += static_cast<std::int32_t>(points_before);
         }
         return Done{};
     }
 
-    /// Arrays of the same name in all pieces make one field.
-    Status read_fields(const XmlElement& piece, const char* section, std::size_t count, bool first,
-                       std::vector<RawArray>& fields) {
-        if (count == 0) return Done{};
+    void note_loose(const XmlElement& data, RawGrid& grid) const {
+        for (const std::size_t i : data.children) {
+            const std::string name(tree_.elements[i].attribute("Name").value_or(""));
+            if (!name.empty() && !is_time(name)) grid.loose_arrays.push_back(name);
+        }
+    }
+
+    Status read_arrays(const XmlElement& piece, const char* section, std::size_t count, bool& has_steps,
+                       std::vector<RawArray>& arrays) {
+        const XmlElement* const data = tree_.child(piece, section);
+        if (count == 0 || data == nullptr) return Done{};
         std::set<std::string> seen;
-        if (const XmlElement* const data = tree_.child(piece, section); data != nullptr) {
-            for (const std::size_t i : data->children) {
-                const XmlElement& array = tree_.elements[i];
-                // Arrays of several time steps stand side by side; the first step is read.
-                const std::optional<std::string_view> step = array.attribute("TimeStep");
-                if (step.has_value() && !has_word(*step, "0")) continue;
-                const std::string name(array.attribute("Name").value_or(""));
-                if (!seen.insert(name).second) {
-                    return arrays_.error(array, "two arrays in one " + std::string(section), "different names",
-                                         in_quotes(name) + " twice", "give them different names");
-                }
-                if (Status s = read_array(array, name, section, count, first, fields); !s) return s;
+        for (const std::size_t i : data->children) {
+            const XmlElement& array = tree_.elements[i];
+            if (array.name != "DataArray" && array.name != "Array") continue;
+            // Arrays of several time steps stand side by side; the first step is read.
+            const std::optional<std::string_view> step = array.attribute("TimeStep");
+            if (step.has_value() && !has_word(*step, "0")) {
+                has_steps = true;
+                continue;
             }
-        }
-        for (RawArray& field : fields) {
-            if (!seen.contains(field.field.name)) field.fault = missing;
+            RawArray read;
+            read.field.name = array.attribute("Name").value_or("");
+            if (!seen.insert(read.field.name).second) {
+                return arrays_.error(array, "two arrays in one " + std::string(section), "different names",
+                                     in_quotes(read.field.name) + " twice", "give them different names");
+            }
+            if (Status s = read_array(array, std::string_view(section) == "CellData", count, read); !s) return s;
+            arrays.push_back(std::move(read));
         }
         return Done{};
     }
 
-    Status read_array(const XmlElement& array, const std::string& name, std::string_view section, std::size_t count,
-                      bool first, std::vector<RawArray>& fields) {
-        const std::string what = "array " + in_quotes(name);
+    Status read_array(const XmlElement& array, bool of_cells, std::size_t count, RawArray& to) {
+        const std::string what = "array " + in_quotes(to.field.name);
         const std::string_view text = array.attribute("NumberOfComponents").value_or("1");
         const std::uint64_t components = parse_count(text).value_or(0);
         if (components == 0 || components > max_entities) {
             return arrays_.error(array, "the components of " + what, "a count of 1 or more", in_quotes(text));
         }
-        auto known =
-            std::find_if(fields.begin(), fields.end(), [&](const RawArray& f) { return f.field.name == name; });
-        if (known == fields.end()) {
-            RawArray& added = fields.emplace_back();
-            added.field = {name, static_cast<int>(components), {}};
-            if (!first) added.fault = missing;
-            known = fields.end() - 1;
+        to.field.components = static_cast<int>(components);
+        const std::uint64_t numbers = components * count;
+        const std::optional<NumberType> type = XmlArrays::type_of(array);
+        if (to.field.name.empty()) {
+            to.fault = "it has no name";
+            return Done{};
         }
-        if (known->field.components != static_cast<int>(components)) {
-            return arrays_.error(array, "the components of " + what,
-                                 std::to_string(known->field.components) + " as in the pieces before",
-                                 std::to_string(components));
+        if (!type.has_value()) return read_text_array(array, what, of_cells, count, to);
+        to.is_narrow = *type == NumberType::float32;
+        to.is_integer = *type == NumberType::int64 || *type == NumberType::uint64;
+        const bool markers = !of_cells && to.field.name == marker_name && *type == NumberType::int64 && components == 1;
+        NumberFault fault;
+        if (!markers) {
+            if (Status s = arrays_.read(array, what, numbers, to.field.data, &fault); !s) return s;
+            if (!fault) return Done{};
         }
-        return read_field(array, what, count, section == "PointData", *known);
+        to.field.data = {};
+        NumberFault wide;
+        std::vector<std::int64_t> labels;
+        if (markers || (of_cells && components == 1 && to.is_integer)) {
+            if (Status s = arrays_.read(array, what, numbers, labels, &wide); !s) return s;
+        }
+        if (wide || labels.empty()) {
+            to.fault = inexact(fault);
+        } else {
+            to.labels = std::move(labels);
+            to.has_labels = true;
+        }
+        return Done{};
     }
 
-    Status read_field(const XmlElement& array, const std::string& what, std::size_t count, bool of_points,
-                      RawArray& to) {
-        const std::optional<NumberType> type = XmlArrays::type_of(array);
-        const std::uint64_t numbers = static_cast<std::uint64_t>(to.field.components) * count;
-        if (!type.has_value()) {
+    Status read_text_array(const XmlElement& array, const std::string& what, bool of_cells, std::size_t count,
+                           RawArray& to) {
+        if (array.attribute("type") != "String") {
             to.fault = "it holds no numbers";
-        } else if (to.field.name.empty()) {
-            to.fault = "it has no name";
-        } else if (of_points && to.field.name == marker_name && *type == NumberType::int64 && numbers == count) {
-            return arrays_.read(array, what, numbers, grid_.point_markers);
+        } else if (!of_cells) {
+            to.fault = "it holds text, which points of a mesh cannot carry";
+        } else if (to.field.components != 1) {
+            to.fault = "it holds texts of several components";
         } else {
-            NumberFault fault;
-            if (Status s = arrays_.read(array, what, numbers, to.field.data, &fault); !s) return s;
-            if (fault) to.fault = inexact(fault);
+            std::vector<std::string> texts;
+            if (Status s = arrays_.read_texts(array, what, count, texts); !s) return s;
+            to.labels = std::move(texts);
+            to.has_labels = true;
         }
         return Done{};
     }
@@ -221,20 +275,40 @@ private:
         return false;
     }
 
+    /// Grids have one piece, or the points on the borders of pieces would be there twice.
+    Result<RawGrid> read_structured(const XmlElement& data, const std::string& type) {
+        RawGrid grid;
+        const XmlElement* piece = nullptr;
+        for (const std::size_t i : data.children) {
+            if (tree_.elements[i].name == "FieldData") note_loose(tree_.elements[i], grid);
+            if (tree_.elements[i].name != "Piece") continue;
+            if (piece != nullptr) {
+                return arrays_.error(tree_.elements[i], "a grid in several pieces", "one piece", "more",
+                                     "write it again in one piece, as ParaView's Merge Blocks or VTK's writer do");
+            }
+            piece = &tree_.elements[i];
+        }
+        if (piece == nullptr) return grid;
+        if (Status s = read_grid_points(tree_, arrays_, data, *piece, type, grid); !s) return s.error();
+        if (part_ == Part::points) return grid;
+        if (Status s = read_arrays(*piece, "PointData", grid.point_count(), grid.has_steps, grid.point_arrays); !s)
+            return s.error();
+        return grid;
+    }
+
     const XmlTree& tree_;
     XmlArrays arrays_;
+    const std::string& path_;
     Part part_;
-    RawGrid grid_;
+    bool is_polygons_ = false;
 };
 
 }  // namespace
 
-Result<RawGrid> read_xml(std::string_view bytes, const std::string& path, Part part) {
-    const Result<XmlTree> tree = parse_xml(bytes, path);
-    if (!tree) return tree.error();
-    const Result<XmlLayout> layout = layout_of(*tree, bytes, path);
+Result<RawGrid> read_xml(std::string_view bytes, const XmlTree& tree, const std::string& path, Part part) {
+    const Result<XmlLayout> layout = layout_of(tree, bytes, path);
     if (!layout) return layout.error();
-    return XmlReader(bytes, *tree, *layout, path, part).read();
+    return XmlReader(bytes, tree, *layout, path, part).read();
 }
 
 }  // namespace barycert::io

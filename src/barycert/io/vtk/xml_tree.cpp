@@ -1,12 +1,10 @@
 #include "barycert/io/vtk/xml_tree.hpp"
 
-#include <vtkNew.h>
-#include <vtkObjectFactory.h>
-#include <vtkXMLParser.h>
+#include <expat.h>
 
 #include <algorithm>
-
-#include "barycert/io/vtk/messages.hpp"
+#include <cstring>
+#include <new>
 
 namespace barycert::io {
 namespace {
@@ -14,49 +12,90 @@ namespace {
 constexpr std::string_view appended_tag = "<AppendedData";
 
 /// Collects elements in the order of their opening tags.
-class ElementParser : public vtkXMLParser {
+class ElementParser {
 public:
-    static ElementParser* New();
+    ElementParser() : parser_(XML_ParserCreate(nullptr)) {
+        if (parser_ == nullptr) throw std::bad_alloc();
+        XML_SetUserData(parser_, this);
+        XML_SetElementHandler(parser_, &ElementParser::start, &ElementParser::end);
+        XML_SetStartDoctypeDeclHandler(parser_, &ElementParser::doctype);
+    }
+    ~ElementParser() { XML_ParserFree(parser_); }
     ElementParser(const ElementParser&) = delete;
     ElementParser& operator=(const ElementParser&) = delete;
 
     std::vector<XmlElement> elements;
 
-    /// VTK's interface takes lengths of 32 bits.
-    bool parse(std::string_view text) {
-        while (!text.empty()) {
-            const std::size_t step = std::min(text.size(), std::size_t{1} << 24);
-            if (ParseChunk(text.data(), static_cast<unsigned>(step)) == 0) return false;
-            text.remove_prefix(step);
+    /// Bytes `first` to `last` - 1 of the file, which may leave out text between tags. False where it ends: at an
+    /// error, or at appended data.
+    bool parse(std::string_view file, std::size_t first, std::size_t last) {
+        jumps_.push_back({fed_, first});
+        constexpr std::size_t chunk = std::size_t{1} << 24;  // expat takes lengths of 31 bits
+        for (std::size_t at = first; at < last; at += chunk) {
+            const std::size_t size = std::min(chunk, last - at);
+            fed_ += size;
+            if (XML_Parse(parser_, file.data() + at, static_cast<int>(size), XML_FALSE) != XML_STATUS_OK) return false;
         }
         return true;
     }
+    bool finish() { return XML_Parse(parser_, nullptr, 0, XML_TRUE) == XML_STATUS_OK; }
 
-protected:
-    ElementParser() { IgnoreCharacterData = 1; }
-    ~ElementParser() override = default;
-
-    void StartElement(const char* name, const char** attributes) override {
-        XmlElement element;
-        element.name = name;
-        element.begin = element.end = static_cast<std::size_t>(GetXMLByteIndex());
-        for (; attributes[0] != nullptr; attributes += 2) element.attributes.emplace_back(attributes[0], attributes[1]);
-        if (!open_.empty()) elements[open_.back()].children.push_back(elements.size());
-        open_.push_back(elements.size());
-        elements.push_back(std::move(element));
-    }
-    void EndElement(const char*) override {
-        elements[open_.back()].end = static_cast<std::size_t>(GetXMLByteIndex());
-        open_.pop_back();
+    bool at_appended_data() const { return at_appended_data_; }
+    bool has_doctype() const { return has_doctype_; }
+    bool out_of_memory() const { return out_of_memory_ || XML_GetErrorCode(parser_) == XML_ERROR_NO_MEMORY; }
+    /// What is wrong, and where in the file.
+    std::string fault() const { return XML_ErrorString(XML_GetErrorCode(parser_)); }
+    std::size_t place() const {
+        const auto index = static_cast<std::size_t>(std::max<XML_Index>(XML_GetCurrentByteIndex(parser_), 0));
+        const auto behind = std::upper_bound(jumps_.begin(), jumps_.end(), index,
+                                             [](std::size_t i, const Jump& jump) { return i < jump.fed; });
+        return behind == jumps_.begin() ? index : index - (behind - 1)->fed + (behind - 1)->place;
     }
 
 private:
-    std::vector<std::size_t> open_;
-};
+    struct Jump {
+        std::size_t fed, place;  // the byte that expat counts so, and where it stands in the file
+    };
 
-ElementParser* ElementParser::New() {
-    VTK_STANDARD_NEW_BODY(ElementParser);
-}
+    static void XMLCALL start(void* data, const XML_Char* name, const XML_Char** attributes) {
+        auto& self = *static_cast<ElementParser*>(data);
+        try {
+            self.start_element(name, attributes);
+        } catch (const std::bad_alloc&) {  // no exception may pass through expat
+            self.out_of_memory_ = true;
+            XML_StopParser(self.parser_, XML_FALSE);
+        }
+    }
+    static void XMLCALL end(void* data, const XML_Char*) {
+        auto& self = *static_cast<ElementParser*>(data);
+        if (self.at_appended_data_ || self.out_of_memory_) return;
+        self.elements[self.open_.back()].end = self.place();
+        self.open_.pop_back();
+    }
+    static void XMLCALL doctype(void* data, const XML_Char*, const XML_Char*, const XML_Char*, int) {
+        auto& self = *static_cast<ElementParser*>(data);
+        self.has_doctype_ = true;
+        XML_StopParser(self.parser_, XML_FALSE);
+    }
+
+    void start_element(const XML_Char* name, const XML_Char** attributes) {
+        XmlElement element;
+        element.name = name;
+        element.begin = element.end = place();
+        for (; attributes[0] != nullptr; attributes += 2) element.attributes.emplace_back(attributes[0], attributes[1]);
+        if (!open_.empty()) elements[open_.back()].children.push_back(elements.size());
+        at_appended_data_ = element.name == "AppendedData" && open_.size() == 1;
+        open_.push_back(elements.size());
+        elements.push_back(std::move(element));
+        if (at_appended_data_) XML_StopParser(parser_, XML_FALSE);
+    }
+
+    XML_Parser parser_;
+    std::vector<std::size_t> open_;
+    std::vector<Jump> jumps_;
+    std::size_t fed_ = 0;
+    bool at_appended_data_ = false, has_doctype_ = false, out_of_memory_ = false;
+};
 
 /// Behind the tag that begins at `at`. Values in quotes may hold a closing bracket.
 std::size_t behind_tag(std::string_view bytes, std::size_t at) {
@@ -108,45 +147,84 @@ std::string_view text_of(std::string_view bytes, const XmlTree& tree, const XmlE
     return up_to_tag(bytes.substr(behind, element.end > behind ? element.end - behind : 0));
 }
 
+namespace {
+
+std::size_t find_tag(std::string_view bytes, std::size_t from) {
+    if (from >= bytes.size()) return bytes.size();
+    const void* const found = std::memchr(bytes.data() + from, '<', bytes.size() - from);
+    return found == nullptr ? bytes.size() : static_cast<std::size_t>(static_cast<const char*>(found) - bytes.data());
+}
+
+/// Hands the file to the parser up to appended data, without the long texts between tags: numbers, which XML does not
+/// concern. They are found by their first and last bytes, many times faster than expat reads them. False where it ends.
+bool parse_tags(std::string_view bytes, ElementParser& parser) {
+    constexpr std::size_t long_text = std::size_t{1} << 14;
+    std::size_t first = 0;  // not yet handed over
+    for (std::size_t tag = find_tag(bytes, 0); tag < bytes.size();) {
+        const bool appended = bytes.substr(tag, appended_tag.size()) == appended_tag;
+        std::size_t next = tag + 1;
+        if (appended) {
+            // What follows may be anything: the tag alone.
+            next = behind_tag(bytes, tag);
+            if (!parser.parse(bytes, first, next)) return false;
+            first = next;
+            next = find_tag(bytes, next);
+        } else {
+            next = find_tag(bytes, next);
+            const char kind = tag + 1 < bytes.size() ? bytes[tag + 1] : '!';
+            // Comments and the like are no elements, and all their text counts.
+            if (next - tag > long_text && kind != '!' && kind != '?') {
+                const std::size_t text = behind_tag(bytes.substr(0, next), tag);
+                if (next - text > long_text && bytes[text - 1] == '>') {
+                    if (!parser.parse(bytes, first, text)) return false;
+                    first = next;
+                }
+            }
+        }
+        tag = next;
+    }
+    return parser.parse(bytes, first, bytes.size()) && parser.finish();
+}
+
+Error not_well_formed(std::string_view bytes, const std::string& path, const ElementParser& parser) {
+    if (parser.has_doctype()) {
+        return {.what = "a document type in an XML file of VTK",
+                .file = path,
+                .line = line_of(bytes, std::min(parser.place(), bytes.size())),
+                .expected = "none: entities that it defines could grow without bound",
+                .found = "<!DOCTYPE",
+                .remedy = "remove it"};
+    }
+    return {.what = "not a well-formed XML file",
+            .file = path,
+            .line = line_of(bytes, std::min(parser.place(), bytes.size())),
+            .expected = {},
+            .found = parser.fault(),
+            .remedy = "write it again: it may be cut off"};
+}
+
+}  // namespace
+
 Result<XmlTree> parse_xml(std::string_view bytes, const std::string& path) {
     XmlTree tree;
-    Messages messages;
-    vtkNew<ElementParser> parser;
-    messages.listen_to(parser);
-    // Raw appended data are no XML: the document is brought to an end before them.
-    const std::size_t appended = bytes.find(appended_tag);
-    bool parsed = parser->InitializeParser() != 0;
-    if (appended == std::string_view::npos) {
-        parsed = parsed && parser->parse(bytes);
-    } else {
-        const std::size_t data = behind_tag(bytes, appended);
-        std::string tag(bytes.substr(appended, data - appended));
-        if (tag.ends_with('>')) tag.insert(tag.size() - 1, tag.ends_with("/>") ? "" : "/");
-        parsed = parsed && parser->parse(bytes.substr(0, appended)) && parser->parse(tag + "</VTKFile>");
-        tree.appended = bytes.substr(data);
-        const std::size_t mark = tree.appended.find_first_not_of(" \t\r\n");
-        if (mark != std::string_view::npos && tree.appended[mark] == '_') tree.appended.remove_prefix(mark + 1);
-    }
-    parsed = parser->CleanupParser() != 0 && parsed;
-    if (!parsed || parser->elements.empty() || !messages.first().empty()) {
-        return Error{.what = "not a well-formed XML file",
+    ElementParser parser;
+    const bool whole = parse_tags(bytes, parser);
+    if (parser.out_of_memory()) throw std::bad_alloc();
+    if (!whole && !parser.at_appended_data()) return not_well_formed(bytes, path, parser);
+    tree.elements = std::move(parser.elements);
+    if (!parser.at_appended_data()) return tree;
+    const XmlElement& element = tree.elements.back();
+    tree.appended = bytes.substr(behind_tag(bytes, element.begin));
+    const std::size_t mark = tree.appended.find_first_not_of(" \t\r\n");
+    if (mark != std::string_view::npos && tree.appended[mark] == '_') tree.appended.remove_prefix(mark + 1);
+    const std::optional<std::string_view> encoding = element.attribute("encoding");
+    tree.appended_raw = encoding == "raw";
+    if (encoding.has_value() && encoding != "raw" && encoding != "base64") {
+        return Error{.what = "the encoding of the appended data",
                      .file = path,
-                     .line = 0,
-                     .expected = {},
-                     .found = messages.first(),
-                     .remedy = "write it again: it may be cut off"};
-    }
-    tree.elements = std::move(parser->elements);
-    if (const XmlElement* const element = tree.child(tree.root(), "AppendedData"); element != nullptr) {
-        const std::optional<std::string_view> encoding = element->attribute("encoding");
-        tree.appended_raw = encoding == "raw";
-        if (encoding.has_value() && encoding != "raw" && encoding != "base64") {
-            return Error{.what = "the encoding of the appended data",
-                         .file = path,
-                         .line = line_of(bytes, element->begin),
-                         .expected = "raw or base64",
-                         .found = std::string(*encoding)};
-        }
+                     .line = line_of(bytes, element.begin),
+                     .expected = "raw or base64",
+                     .found = std::string(*encoding)};
     }
     return tree;
 }

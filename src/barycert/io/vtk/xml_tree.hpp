@@ -1,4 +1,4 @@
-/// The elements of a VTK XML file, through VTK's XML parser.
+/// The elements of a VTK XML file, through expat.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,9 @@ struct XmlTree {
     const XmlElement* child(const XmlElement& of, std::string_view name) const;
 };
 
-/// `bytes` is all of the file. What follows appended data is not looked at.
+/// `bytes` is all of the file. What follows the tag of appended data is not looked at, nor are the numbers in elements.
+/// Error: no well-formed XML, a document type (whose entities might expand without bound), another encoding of appended
+/// data.
 Result<XmlTree> parse_xml(std::string_view bytes, const std::string& path);
 
 /// The text of an element: what stands before its first child or, if that is blank, behind its last one.

@@ -1,0 +1,90 @@
+#include "barycert/io/vtk/codec.hpp"
+
+#include <lz4.h>
+#include <lzma.h>
+#include <zlib.h>
+
+#include <limits>
+
+namespace barycert::io {
+namespace {
+
+bool fits_int(std::size_t size) {
+    return size <= static_cast<std::size_t>(std::numeric_limits<int>::max());
+}
+
+}  // namespace
+
+bool unpack(Compressor compressor, std::string_view packed, char* to, std::size_t size) {
+    switch (compressor) {
+        case Compressor::zlib: {
+            auto filled = static_cast<uLongf>(size);
+            const int result = ::uncompress(reinterpret_cast<Bytef*>(to), &filled,
+                                            reinterpret_cast<const Bytef*>(packed.data()), packed.size());
+            return result == Z_OK && filled == size;
+        }
+        case Compressor::lz4:
+            return fits_int(packed.size()) && fits_int(size) &&
+                   static_cast<std::size_t>(LZ4_decompress_safe(packed.data(), to, static_cast<int>(packed.size()),
+                                                                static_cast<int>(size))) == size;
+        case Compressor::lzma: {
+            // Level 9 takes 65 MiB; a damaged header may ask for gigabytes.
+            std::uint64_t memory = std::uint64_t{128} << 20U;
+            std::size_t read = 0, filled = 0;
+            const lzma_ret result =
+                lzma_stream_buffer_decode(&memory, 0, nullptr, reinterpret_cast<const std::uint8_t*>(packed.data()),
+                                          &read, packed.size(), reinterpret_cast<std::uint8_t*>(to), &filled, size);
+            return result == LZMA_OK && filled == size;
+        }
+        default:
+            return false;
+    }
+}
+
+std::string pack(Compressor compressor, std::string_view plain) {
+    std::string packed;
+    std::size_t size = 0;
+    bool good = false;
+    switch (compressor) {
+        case Compressor::zlib: {
+            // The fastest level: on the numbers of meshes the others gain a few per cent.
+            packed.resize(::compressBound(plain.size()));
+            auto filled = static_cast<uLongf>(packed.size());
+            good = ::compress2(reinterpret_cast<Bytef*>(packed.data()), &filled,
+                               reinterpret_cast<const Bytef*>(plain.data()), plain.size(), 1) == Z_OK;
+            size = filled;
+            break;
+        }
+        case Compressor::lz4: {
+            if (!fits_int(plain.size())) return {};
+            packed.resize(static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(plain.size()))));
+            const int filled = LZ4_compress_default(plain.data(), packed.data(), static_cast<int>(plain.size()),
+                                                    static_cast<int>(packed.size()));
+            good = filled > 0;
+            size = static_cast<std::size_t>(filled);
+            break;
+        }
+        case Compressor::lzma: {
+            packed.resize(lzma_stream_buffer_bound(plain.size()));
+            good = lzma_easy_buffer_encode(
+                       1, LZMA_CHECK_CRC32, nullptr, reinterpret_cast<const std::uint8_t*>(plain.data()), plain.size(),
+                       reinterpret_cast<std::uint8_t*>(packed.data()), &size, packed.size()) == LZMA_OK;
+            break;
+        }
+        default:
+            break;
+    }
+    packed.resize(good ? size : 0);
+    return packed;
+}
+
+std::uint64_t max_unpacked(Compressor compressor, std::uint64_t packed) {
+    // Deflate gives at most 1032 bytes for one (258 for two bits), LZ4 255.
+    const std::uint64_t ratio = compressor == Compressor::zlib  ? 1040
+                                : compressor == Compressor::lz4 ? 256
+                                                                : std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t most = 0;
+    return __builtin_mul_overflow(packed, ratio, &most) ? std::numeric_limits<std::uint64_t>::max() : most;
+}
+
+}  // namespace barycert::io

@@ -1,0 +1,22 @@
+/// The compressors of VTK's XML files, block by block.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace barycert::io {
+
+enum class Compressor : std::uint8_t { none, zlib, lz4, lzma };
+
+/// Fills `size` bytes from those of a block. False if it gives fewer, or is damaged.
+bool unpack(Compressor compressor, std::string_view packed, char* to, std::size_t size);
+
+/// The block compressed; empty where memory is short.
+std::string pack(Compressor compressor, std::string_view plain);
+
+/// No block of that size unpacks to more: a header that says so lies. Of lzma nothing like that is known.
+std::uint64_t max_unpacked(Compressor compressor, std::uint64_t packed);
+
+}  // namespace barycert::io

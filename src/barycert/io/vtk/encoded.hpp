@@ -1,0 +1,36 @@
+/// Bytes of a file as they stand, or written in base64.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace barycert::io {
+
+/// Base64 is RFC 4648's, white space passed over. After padding it goes on with the next quadruple: VTK encodes the
+/// head of compressed data apart from the data. It ends at any other character.
+class Encoded {
+public:
+    Encoded(std::string_view bytes, bool base64) : left_(bytes), base64_(base64) {}
+
+    /// The next `count` bytes: of the file itself, or decoded into `room`, which must live as long as the view.
+    /// Nothing if there are fewer.
+    std::optional<std::string_view> take(std::uint64_t count, std::vector<char>& room);
+
+    /// That many bytes are left at most.
+    std::uint64_t left() const { return base64_ ? left_.size() / 4 * 3 + 3 + held_ : left_.size(); }
+
+private:
+    bool next_quadruple();
+    std::size_t take_quadruples(char* to, std::size_t count);
+
+    std::string_view left_;
+    bool base64_;
+    char bytes_[3] = {};
+    std::size_t first_ = 0;  // of the bytes not yet given
+    std::size_t held_ = 0;   // how many they are
+};
+
+}  // namespace barycert::io

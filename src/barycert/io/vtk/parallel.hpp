@@ -1,0 +1,47 @@
+/// Work on the numbers of files, on all threads.
+#pragma once
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "barycert/base/large_pages.hpp"
+#include "barycert/environment.hpp"
+
+namespace barycert::io {
+
+/// work(i) for i = 0 to count - 1, in any order.
+template <class Work>
+void in_parallel(std::size_t count, Work work) {
+    if (count == 1) {
+        work(std::size_t{0});
+    } else if (count != 0) {
+        // Isolated: while this thread waits, it must not begin other work of its caller's.
+        tbb::this_task_arena::isolate([&] {
+            tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+                const ExactEnvironment of_task;  // the arena is the caller's
+                work(i);
+            });
+        });
+    }
+}
+
+/// work(first, last) for parts of [0, count) of `part` at most.
+template <class Work>
+void in_parts(std::size_t count, std::size_t part, Work work) {
+    in_parallel((count + part - 1) / part, [&](std::size_t i) { work(i * part, std::min(count, (i + 1) * part)); });
+}
+
+/// Room for `count` more values, and at least twice what there was where it has to move.
+template <class T>
+void make_room(std::vector<T>& values, std::size_t count) {
+    const std::size_t wanted = values.size() + count;
+    if (wanted <= values.capacity()) return;
+    values.reserve(std::max(wanted, 2 * values.capacity()));
+    base::ask_for_large_pages(values.data(), values.capacity() * sizeof(T));
+}
+
+}  // namespace barycert::io

@@ -1,0 +1,44 @@
+/// Columns that are gathered before they are written: their number of rows is known at the end only.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "barycert/result.hpp"
+
+namespace barycert::io {
+
+/// Bytes, in memory while they are few, then in a file without a name beside the target, or else in the folder for
+/// temporary files. They are gone with the object.
+class Spool {
+public:
+    /// `target`: of what is to be written in the end.
+    explicit Spool(std::string target) : target_(std::move(target)) {}
+    Spool(Spool&& other) noexcept;
+    ~Spool();
+
+    template <class T>
+    Status append(std::span<const T> values) {
+        return append_bytes({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
+    }
+
+    /// All of them, until the object is gone. Nothing is appended from then on.
+    Status finish();
+    template <class T>
+    std::span<const T> values() const {
+        return {reinterpret_cast<const T*>(mapped_ != nullptr ? mapped_ : held_.data()), size_ / sizeof(T)};
+    }
+
+private:
+    Status append_bytes(std::string_view bytes);
+    Status spill();
+    Error failure(const char* what, int error_number) const;
+
+    std::string target_, held_;
+    int descriptor_ = -1;
+    std::size_t size_ = 0;
+    const char* mapped_ = nullptr;
+};
+
+}  // namespace barycert::io

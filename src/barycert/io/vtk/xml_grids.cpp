@@ -1,0 +1,143 @@
+#include "barycert/io/vtk/xml_grids.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "barycert/base/text.hpp"
+#include "barycert/io/vtk/parallel.hpp"
+
+namespace barycert::io {
+namespace {
+
+using Counts = std::array<std::size_t, 3>;
+
+/// "0 9 0 19 0 0": first and last index along each axis.
+std::optional<std::array<std::int64_t, 6>> parse_extent(std::string_view text) {
+    std::array<std::int64_t, 6> extent{};
+    for (std::int64_t& bound : extent) {
+        const std::string_view word = next_word(text);
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), bound);
+        if (word.empty() || error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+        if (bound < -static_cast<std::int64_t>(max_entities) || bound > static_cast<std::int64_t>(max_entities))
+            return std::nullopt;
+    }
+    if (!next_word(text).empty()) return std::nullopt;
+    return extent;
+}
+
+template <std::size_t count>
+std::optional<std::array<double, count>> parse_doubles(std::string_view text) {
+    std::array<double, count> numbers{};
+    for (double& x : numbers) {
+        const std::optional<double> number = base::parse_double(next_word(text));
+        if (!number || !std::isfinite(*number)) return std::nullopt;
+        x = *number;
+    }
+    if (!next_word(text).empty()) return std::nullopt;
+    return numbers;
+}
+
+Status read_image_points(const XmlArrays& arrays, const XmlElement& data, const std::array<std::int64_t, 6>& extent,
+                         const Counts& counts, RawGrid& grid) {
+    const std::string_view origin_text = data.attribute("Origin").value_or("0 0 0"),
+                           spacing_text = data.attribute("Spacing").value_or("1 1 1");
+    const auto origin = parse_doubles<3>(origin_text), spacing = parse_doubles<3>(spacing_text);
+    if (!origin || !spacing) {
+        return arrays.error(data, "the origin and spacing of the grid", "three finite numbers each",
+                            in_quotes(origin_text) + " and " + in_quotes(spacing_text));
+    }
+    if (const auto direction = data.attribute("Direction"); direction.has_value()) {
+        if (parse_doubles<9>(*direction) != std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1}) {
+            return arrays.error(data, "the direction of the grid", "1 0 0 0 1 0 0 0 1", in_quotes(*direction),
+                                "write its points as a structured or unstructured grid");
+        }
+    }
+    grid.points.resize(3 * counts[0] * counts[1] * counts[2]);
+    in_parallel(counts[2], [&](std::size_t k) {
+        std::size_t at = 3 * k * counts[0] * counts[1];
+        const std::array<std::size_t, 3> first{0, 0, k};
+        std::array<std::size_t, 3> i = first;
+        for (i[1] = 0; i[1] < counts[1]; ++i[1]) {
+            for (i[0] = 0; i[0] < counts[0]; ++i[0]) {
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    const auto index = static_cast<double>(extent[2 * axis] + static_cast<std::int64_t>(i[axis]));
+                    grid.points[at++] = (*origin)[axis] + (*spacing)[axis] * index;
+                }
+            }
+        }
+    });
+    return Done{};
+}
+
+Status read_rectilinear_points(const XmlTree& tree, const XmlArrays& arrays, const XmlElement& piece,
+                               const Counts& counts, RawGrid& grid) {
+    const XmlElement* const coordinates = tree.child(piece, "Coordinates");
+    std::array<std::vector<double>, 3> axes;
+    std::size_t found = 0;
+    if (coordinates != nullptr) {
+        for (const std::size_t i : coordinates->children) {
+            const XmlElement& array = tree.elements[i];
+            if (array.name != "DataArray" || found == 3) continue;
+            if (Status s = arrays.read(array, "the coordinates along an axis", counts[found], axes[found]); !s)
+                return s;
+            grid.narrow_points = grid.narrow_points || XmlArrays::type_of(array) == NumberType::float32;
+            ++found;
+        }
+    }
+    if (found != 3)
+        return arrays.error(piece, "the points of a piece", "three arrays in Coordinates", std::to_string(found));
+    grid.points.reserve(3 * counts[0] * counts[1] * counts[2]);
+    for (const double z : axes[2]) {
+        for (const double y : axes[1]) {
+            for (const double x : axes[0]) grid.points.insert(grid.points.end(), {x, y, z});
+        }
+    }
+    return Done{};
+}
+
+}  // namespace
+
+bool is_structured(std::string_view type) {
+    return type == "ImageData" || type == "RectilinearGrid" || type == "StructuredGrid";
+}
+
+std::string to_simplices(const std::string& path) {
+    return "cut it into simplices with Tetrahedralize in ParaView, or with pyvista: python3 -c \"import pyvista; "
+           "pyvista.read('" +
+           path + "').triangulate().save('simplices.vtu')\"";
+}
+
+Status read_grid_points(const XmlTree& tree, const XmlArrays& arrays, const XmlElement& data, const XmlElement& piece,
+                        const std::string& type, RawGrid& grid) {
+    const std::string_view whole_text = data.attribute("WholeExtent").value_or(""),
+                           text = piece.attribute("Extent").value_or("");
+    const auto whole = parse_extent(whole_text), extent = parse_extent(text);
+    if (!extent || whole != extent) {
+        return arrays.error(piece, "the extent of the piece", "that of the whole, six integers",
+                            in_quotes(text) + " of " + in_quotes(whole_text));
+    }
+    Counts counts{};
+    std::uint64_t points = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::int64_t count = (*extent)[2 * axis + 1] - (*extent)[2 * axis] + 1;
+        counts[axis] = count > 0 ? static_cast<std::size_t>(count) : 0;
+        if (__builtin_mul_overflow(points, counts[axis], &points)) points = max_entities + 1;
+        points = std::min(points, max_entities + 1);
+    }
+    if (points > max_entities) {
+        return arrays.error(piece, "the points of the grid", "at most " + std::to_string(max_entities),
+                            "the extent " + in_quotes(text));
+    }
+    if (points == 0) return Done{};
+    if (type == "ImageData") return read_image_points(arrays, data, *extent, counts, grid);
+    if (type == "RectilinearGrid") return read_rectilinear_points(tree, arrays, piece, counts, grid);
+    const XmlElement* const section = tree.child(piece, "Points");
+    const XmlElement* const array = section != nullptr ? tree.child(*section, "DataArray") : nullptr;
+    if (array == nullptr) return arrays.error(piece, "the points of a piece", "an array in Points", "none");
+    grid.narrow_points = XmlArrays::type_of(*array) == NumberType::float32;
+    return arrays.read(*array, "the coordinates", std::uint64_t{3} * points, grid.points);
+}
+
+}  // namespace barycert::io
