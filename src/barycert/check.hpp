@@ -167,6 +167,17 @@ struct CheckReport {
     std::optional<DelaunayReport> delaunay;
     std::optional<ConformityReport> conformity;
 
+    /// What users know the cells as, and what the reader of the mesh has told: those of Mesh. All other members count
+    /// cells from 0 as in memory; reports translate.
+    std::vector<Mesh::Index> cell_numbers;
+    Notes notes;
+    std::int64_t cell_number(std::int64_t cell) const {
+        return cell_numbers.empty() || cell < 0 ? cell : cell_numbers[static_cast<std::size_t>(cell)];
+    }
+    std::array<Mesh::Index, 2> cell_number(const std::array<Mesh::Index, 2>& cells) const {
+        return {static_cast<Mesh::Index>(cell_number(cells[0])), static_cast<Mesh::Index>(cell_number(cells[1]))};
+    }
+
     bool certified() const { return certificate.verdict() == Verdict::certified; }
     /// Null if there is no such defect.
     const Defect* find(DefectKind kind) const;

@@ -35,8 +35,9 @@ struct ContourJob {
     ViewOptions view = {};                         ///< of a picture of an iso-surface, but for its range
     std::string colours;  ///< the field, of nodes or cells, that colours it; named as `field`; empty: grey
 
-    int threads = 0;     ///< 0: as many as the machine has
-    std::string report;  ///< as SamplingJob::report
+    std::optional<VtkData> vtk_data = {};  ///< of a .vtp file; not set: raw
+    int threads = 0;                       ///< 0: as many as the machine has
+    std::string report;                    ///< as SamplingJob::report
     std::string program = "barycert";
     std::function<void(const JobProgress&)> progress = {};
 };
@@ -72,6 +73,7 @@ struct ContourSummary {
     CutCounts counts;
     std::vector<std::string> fields;  ///< in the file
     SurfaceFile file;
+    Notes notes;  ///< of the mesh
     /// Of what is cut, the field or normal.x: its least and greatest number at nodes of cells. NaN if there is none.
     double low = 0, high = 0;
 

@@ -27,4 +27,7 @@ constexpr std::string_view name(Note::Kind kind) {
     return kind == Note::Kind::left_out ? "left out" : kind == Note::Kind::converted ? "converted" : "guessed";
 }
 
+/// `file: kind: text`, in one line: safe to show, see printable() in base/text.hpp.
+std::string message(const Note& note);
+
 }  // namespace barycert

@@ -18,6 +18,7 @@
 #include "barycert/picture.hpp"
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
+#include "barycert/vtk_data.hpp"
 
 namespace barycert {
 
@@ -49,6 +50,7 @@ struct SamplingJob {
     /// scipy.sparse.load_npz reads. Empty: nowhere. Not for grids. A SampleJob with weights needs no output.
     std::string weights = {};
     SampleOptions options = {};
+    std::optional<VtkData> vtk_data = {};  ///< of an output in a format of VTK; not set: raw
 
     /// Where the caller will write a report: the job makes sure that this is no other file of the job, and can be
     /// written. Empty: nowhere.

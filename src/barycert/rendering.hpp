@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "barycert/notes.hpp"
 #include "barycert/pipeline.hpp"
 #include "barycert/result.hpp"
 #include "barycert/view.hpp"
@@ -38,6 +39,7 @@ struct RenderSummary {
     Rounding rounding = Rounding::plain;
     std::optional<ColourRange> colours;
     std::optional<TexelError> texel_error;
+    Notes notes;         ///< of the mesh
     double seconds = 0;  ///< from the options to the file
 };
 

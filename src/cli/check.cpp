@@ -16,6 +16,7 @@
 #include "barycert/vtk.hpp"
 #include "command.hpp"
 #include "files.hpp"
+#include "options.hpp"
 #include "progress.hpp"
 
 namespace barycert::cli {
@@ -23,6 +24,7 @@ namespace {
 
 struct CheckArguments {
     std::string mesh, plc, json, html, vtu, fixed;
+    std::optional<VtkData> vtk_data;
     std::uint64_t examples = 10, contacts = 20;
     int threads = 0;
     bool delaunay = false, quiet = false;
@@ -60,6 +62,8 @@ std::vector<base::NamedFile> outputs(const CheckArguments& a) {
 Status check_files(const CheckArguments& a, bool table) {
     if (a.vtu == "-")
         return Error{.what = "--vtu cannot write to stdout", .remedy = "name a file: its data are binary"};
+    if (a.vtk_data && a.vtu.empty())
+        return Error{.what = "--vtk-data is for the file of --vtu", .remedy = "leave it out, or give --vtu FILE"};
     std::vector<base::NamedFile> inputs = base::named_files("the mesh", mesh_files(a.mesh));
     if (!a.plc.empty()) {
         for (base::NamedFile& file : base::named_files("the PLC of --conforms-to", plc_files(a.plc)))
@@ -83,9 +87,15 @@ Status check_nothing_in_the_way(const Mesh& mesh, const std::string& stem) {
     return Done{};
 }
 
-/// The mesh with the measures of its cells as fields.
-Status write_measures(const CheckReport& report, Mesh mesh, const std::string& path) {
+/// The mesh with the measures of its cells as fields, and their numbers in the file where those are others.
+Status write_measures(const CheckReport& report, Mesh mesh, const std::string& path, VtkData data) {
     const CellMeasures& m = report.measures;
+    if (!mesh.cell_numbers.empty()) {
+        const bool taken = std::any_of(mesh.cell_fields.begin(), mesh.cell_fields.end(),
+                                       [](const Field& field) { return field.name == "cell"; });
+        mesh.cell_fields.push_back(
+            {taken ? "cell in file" : "cell", 1, {mesh.cell_numbers.begin(), mesh.cell_numbers.end()}});
+    }
     mesh.cell_fields.push_back({"orientation", 1, {m.orientation.begin(), m.orientation.end()}});
     const std::array<std::pair<const char*, const std::vector<double>*>, 6> measures{{{"volume", &m.volume},
                                                                                       {"condition", &m.condition},
@@ -95,7 +105,7 @@ Status write_measures(const CheckReport& report, Mesh mesh, const std::string& p
                                                                                       {"max_angle", &m.max_angle}}};
     for (const auto& [name, values] : measures) mesh.cell_fields.push_back({name, 1, *values});
     mesh.cell_fields.push_back({"problems", 1, {m.defects.begin(), m.defects.end()}});
-    return write_vtu(mesh, path);
+    return write_vtu(mesh, path, data);
 }
 
 int run_check(const CheckArguments& a) {
@@ -137,13 +147,14 @@ int run_check(const CheckArguments& a) {
     for (const TextOutput& t : text_outputs) {
         if (!(a.*t.path).empty()) written.push_back(write_output(a.*t.path, t.text(report, *mesh, a)));
     }
-    if (!a.vtu.empty()) written.push_back(write_measures(report, *mesh, a.vtu));
+    if (!a.vtu.empty()) written.push_back(write_measures(report, *mesh, a.vtu, a.vtk_data.value_or(VtkData::raw)));
     if (!a.fixed.empty())
         written.push_back(write_tetgen(with_positive_cells(*mesh, report.measures.orientation), a.fixed));
     if (table) {
         const TerminalStyle style{.colour = colour_on_stdout(), .command = command_name()};
         written.push_back(write_output("-", check_text(report, *mesh, name, style)));
     }
+    if (!a.quiet) tell_important(mesh->notes);
     for (const Status& status : written) {
         if (!status) return fail(status.error());
     }
@@ -161,7 +172,9 @@ void add_check(CLI::App& app, int& exit_code) {
         "checked with straight sides.");
     const auto a = std::make_shared<CheckArguments>();
     file_option(*sub, "MESH", a->mesh,
-                "A TetGen mesh (.node/.ele, .face and .neigh if present) or a mesh of Triangle (2D)")
+                "A TetGen mesh (.node/.ele, .face and .neigh if present), a mesh of Triangle (2D), or a VTK file (.vtu "
+                ".vtk .vtp "
+                ".pvtu .vtm .pvd)")
         ->required();
     sub->add_flag("--delaunay", a->delaunay, "Also test exactly whether every interior facet is locally Delaunay");
     file_option(*sub, "--conforms-to", a->plc,
@@ -184,6 +197,7 @@ void add_check(CLI::App& app, int& exit_code) {
     file_option(*sub, "--fix-orientation", a->fixed,
                 "Write a copy in which no cell has negative volume: STEM.node, STEM.ele (.face, .neigh)")
         ->type_name("STEM");
+    vtk_data_option(*sub, a->vtk_data);
     sub->add_flag("--quiet", a->quiet, "Print no table and no progress");
     sub->callback([a, &exit_code] { exit_code = run_check(*a); });
 }

@@ -21,6 +21,12 @@ int fail(const Error& error) {
     return exit_error;
 }
 
+void tell_important(const Notes& notes) {
+    for (const Note& note : notes) {
+        if (note.important) tell(fmt::format("note: {}\n", message(note)));
+    }
+}
+
 std::string command_name() {
     const char* wrapper = std::getenv("BARYCERT_COMMAND");
     return wrapper == nullptr || *wrapper == '\0' ? "barycert" : base::printable(wrapper);

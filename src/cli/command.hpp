@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "barycert/notes.hpp"
 #include "barycert/result.hpp"
 
 namespace CLI {
@@ -38,6 +39,9 @@ void tell(std::string_view text);
 
 /// "error: ..." on stderr; returns exit_error.
 int fail(const Error& error);
+
+/// "note: ..." on stderr for each that may change what results mean.
+void tell_important(const Notes& notes);
 
 /// True if text for people on that stream may be coloured: a terminal, and NO_COLOR is not set.
 bool colour_on_stdout();

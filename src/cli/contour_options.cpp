@@ -9,6 +9,7 @@
 #include "command.hpp"
 #include "files.hpp"
 #include "progress.hpp"
+#include "options.hpp"
 #include "sampling_options.hpp"
 
 namespace barycert::cli {
@@ -34,6 +35,7 @@ void add_contour_options(CLI::App& sub, ContourJob& job, bool& quiet) {
         ->capture_default_str()
         ->check(CLI::Range(0, 4096).description(""))
         ->type_name("N");
+    vtk_data_option(sub, job.vtk_data);
     file_option(sub, "--json", job.report, "Write the summary as JSON; - is stdout");
     sub.add_flag("--quiet", quiet, "Print no summary and no progress");
 }
@@ -48,6 +50,7 @@ int run_contour(ContourJob& job, bool quiet) {
     progress.clear();
     if (!summary) return fail(summary.error());
     Status json = Done{}, told = Done{};
+    if (!quiet) tell_important(summary->notes);
     if (!job.report.empty()) json = write_output(job.report, contour_json(*summary, measure_environment()));
     if (!quiet && job.report == "-") tell(contour_text(*summary, false));
     if (!quiet && job.report != "-") told = write_output("-", contour_text(*summary, colour_on_stdout()));

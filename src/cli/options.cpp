@@ -13,6 +13,13 @@ void refuse_option(const std::string& option, const std::string& expected, std::
     throw CLI::ValidationError(option, fmt::format("expected {}, found \"{}\"", expected, found));
 }
 
+void vtk_data_option(CLI::App& sub, std::optional<VtkData>& data) {
+    std::map<std::string, std::optional<VtkData>> words;
+    for (const std::string_view word : vtk_data_names) words.emplace(word, vtk_data_named(word));
+    choice_option(sub, "--vtk-data", data, words, "HOW",
+                  "Numbers in an output of VTK's formats: raw (default), zlib, lz4, lzma (compressed), ascii (text)");
+}
+
 std::optional<std::int64_t> count_of(std::string_view text) {
     std::int64_t n = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "barycert/vtk_data.hpp"
+
 namespace barycert::cli {
 
 /// An option of a few words, each of which stands for a value.
@@ -37,6 +39,9 @@ std::vector<Number> numbers_of(const std::string& option, std::string_view text,
         rest.remove_prefix(end + 1);
     }
 }
+
+/// --vtk-data, how the numbers of VTK's files are written.
+void vtk_data_option(CLI::App& sub, std::optional<VtkData>& data);
 
 /// An integer of at least 1.
 std::optional<std::int64_t> count_of(std::string_view text);

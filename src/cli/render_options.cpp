@@ -80,6 +80,7 @@ int run_picture(const PictureOptions& o, const std::vector<base::NamedFile>& inp
     Result<RenderSummary> summary = work();
     if (!summary) return fail(summary.error());
     summary->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (!o.quiet) tell_important(summary->notes);
     const Status told = tell_summary(o, *summary);
     return told ? exit_clean : fail(told.error());
 }

@@ -125,6 +125,7 @@ void add_sampling_options(CLI::App& sub, SamplingJob& a, bool& quiet) {
         ->capture_default_str()
         ->check(CLI::Range(0, 4096).description(""))
         ->type_name("N");
+    vtk_data_option(sub, a.vtk_data);
     file_option(sub, "--json", a.report, "Write the summary as JSON; - is stdout");
     sub.add_flag("--quiet", quiet, "Print no summary and no progress");
 }

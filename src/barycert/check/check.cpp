@@ -213,7 +213,9 @@ CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options) {
     if (mesh.dimension == 2 || mesh.dimension == 3) {
         report.nodes = mesh.point_count();
         report.cells = mesh.cell_count();
+        if (mesh.cell_numbers.size() == mesh.cell_count()) report.cell_numbers = mesh.cell_numbers;
     }
+    report.notes = mesh.notes;
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report;
 }

@@ -64,6 +64,7 @@ SamplingJob sampling_of(const ContourJob& job) {
     s.mesh = job.mesh;
     s.field_files = job.field_files;
     s.output = job.output;
+    s.vtk_data = job.vtk_data;
     s.options.threads = job.threads;
     s.report = job.report;
     s.count_degenerate = false;
@@ -143,6 +144,7 @@ public:
         s.nodes = mesh().point_count();
         s.cells = mesh().cell_count();
         s.dimension = mesh().dimension;
+        s.notes = mesh().notes;
         s.seconds.mesh = run_.summary.seconds.mesh;
         if (job_.plane && mesh().dimension == 2)
             return Error{.what = "a plane cuts meshes of tetrahedra",
@@ -222,10 +224,11 @@ private:
                                      : isosurface(mesh(), field, *job_.value, options, column->component);
     }
 
-    Status write(const Surface& surface) {
+    Status write(Surface& surface) {
         Stopwatch watch;
+        for (Mesh::Index& cell : surface.mesh_cells) cell = mesh().cell_number(cell);
         run_.stage("writing " + job_.output);
-        Result<SurfaceFile> file = write_surface(surface, job_.output);
+        Result<SurfaceFile> file = write_surface(surface, job_.output, job_.vtk_data.value_or(VtkData::raw));
         if (!file) return file.error();
         summary_.file = std::move(*file);
         std::erase_if(summary_.fields, [&](const std::string& name) {

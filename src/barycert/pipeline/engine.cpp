@@ -180,7 +180,9 @@ Status Engine::choose_fields() {
 }
 
 TableFormat Engine::format() const {
-    return {mesh_.dimension, sampler_->fields(), gives_distances(run_.job.options.outside)};
+    TableFormat format{mesh_.dimension, sampler_->fields(), gives_distances(run_.job.options.outside)};
+    format.vtk_data = run_.job.vtk_data.value_or(VtkData::raw);
+    return format;
 }
 
 Status Engine::build(bool prove) {

@@ -43,7 +43,7 @@ public:
         if (format.distances) arrays.push_back({"distance", 1, io::VtiType::float64});
         arrays.push_back({"vtkValidPointMask", 1, io::VtiType::int8});
         arrays.push_back({"cell", 1, io::VtiType::int32});
-        auto file = io::VtiWriter::open(path, {grid.counts, grid.origin, grid.spacing}, arrays);
+        auto file = io::VtiWriter::open(path, {grid.counts, grid.origin, grid.spacing}, arrays, format.vtk_data);
         if (!file) return file.error();
         out->file_ = std::move(*file);
         return std::unique_ptr<TableSink>(std::move(out));

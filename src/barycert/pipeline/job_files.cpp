@@ -29,6 +29,7 @@ Status check_files(const SamplingJob& job, const std::vector<Step>& steps,
                      .file = job.weights,
                      .expected = ".npz",
                      .remedy = "choose another name"};
+    if (Status data = check_vtk_data(job.vtk_data, job.output); !data) return data;
     std::vector<base::NamedFile> to_read = more_inputs;
     // The reader of meshes has hints at what may be meant.
     std::erase_if(to_read, [](const base::NamedFile& f) { return f.what.starts_with("the mesh"); });
@@ -51,6 +52,24 @@ Status check_files(const SamplingJob& job, const std::vector<Step>& steps,
     outputs.push_back({"--json", job.report});
     if (Status readable = base::check_inputs(to_read); !readable) return readable;
     return base::check_outputs(inputs, std::move(outputs));
+}
+
+Status check_vtk_data(std::optional<VtkData> data, const std::string& path) {
+    if (!data) return Done{};
+    const bool legacy = io::has_suffix(path, ".vtk");
+    if (legacy && *data != VtkData::raw && *data != VtkData::ascii) {
+        return Error{.what = "--vtk-data: legacy files of VTK know no compression",
+                     .file = path,
+                     .expected = "raw or ascii",
+                     .found = std::string(name(*data)),
+                     .remedy = "name a .vtu file"};
+    }
+    if (legacy || io::has_suffix(path, ".vtu") || io::has_suffix(path, ".vtp") || io::has_suffix(path, ".vti"))
+        return Done{};
+    return Error{.what = "--vtk-data is for files of VTK",
+                 .file = path,
+                 .expected = ".vtu, .vtk, .vtp or .vti",
+                 .remedy = "leave it out, or name such a file"};
 }
 
 Error unknown_output(const std::string& path, const std::string& expected) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ namespace barycert::pipeline {
 /// or another output, or cannot be written; an input cannot be read; more steps than can be columns.
 Status check_files(const SamplingJob& job, const std::vector<Step>& steps,
                    const std::vector<base::NamedFile>& more_inputs, std::vector<base::NamedFile> outputs);
+
+/// Refuses a choice of data for an output that is no file of VTK, and one that its format does not know.
+Status check_vtk_data(std::optional<VtkData> data, const std::string& path);
 
 /// That the suffix of the output is none of those `expected`.
 Error unknown_output(const std::string& path, const std::string& expected);

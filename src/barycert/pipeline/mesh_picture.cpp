@@ -143,6 +143,7 @@ Result<RenderSummary> render_mesh_file(const MeshPictureJob& job) {
     summary.method = job.view.method;
     summary.rounding = job.view.rounding;
     if (!job.field.empty()) summary.colours = {job.field, counts.low, counts.high, counts.without_value};
+    summary.notes = mesh->notes;
     summary.seconds = time.lap();
     return summary;
 }

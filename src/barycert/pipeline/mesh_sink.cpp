@@ -16,10 +16,10 @@ namespace {
 /// The other mesh with what was sampled at its nodes, written when all is there.
 class MeshSink final : public TableSink {
 public:
-    MeshSink(Mesh mesh, std::string path, const std::vector<TableField>& fields)
-        : mesh_(std::move(mesh)), path_(std::move(path)) {
+    MeshSink(Mesh mesh, std::string path, const TableFormat& format)
+        : mesh_(std::move(mesh)), path_(std::move(path)), data_(format.vtk_data) {
         mesh_.point_fields.clear();
-        for (const TableField& f : fields) mesh_.point_fields.push_back({f.name, f.components, {}});
+        for (const TableField& f : format.fields) mesh_.point_fields.push_back({f.name, f.components, {}});
         mask_ = {"vtkValidPointMask", 1, {}};
         cell_ = {"cell", 1, {}};
         distance_ = {"distance", 1, {}};
@@ -61,7 +61,7 @@ private:
 
     Mesh mesh_;
     std::string path_;
-    VtkData data_ = VtkData::raw;
+    VtkData data_;
     Field mask_, cell_, distance_;
 };
 
@@ -91,8 +91,8 @@ Status check_mesh_output(const ResampleJob& job) {
                           ".vtu, .vtk, .node, .csv or .npy, a stem of TetGen's files, or - for CSV on stdout");
 }
 
-std::unique_ptr<TableSink> mesh_sink(Mesh mesh, const std::string& path, const std::vector<TableField>& fields) {
-    return std::make_unique<MeshSink>(std::move(mesh), path, fields);
+std::unique_ptr<TableSink> mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format) {
+    return std::make_unique<MeshSink>(std::move(mesh), path, format);
 }
 
 }  // namespace barycert::pipeline

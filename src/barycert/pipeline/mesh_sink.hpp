@@ -20,6 +20,6 @@ Status check_mesh_output(const ResampleJob& job);
 bool is_rows_output(const std::string& path);
 
 /// Takes one row a node, and writes the mesh when all is there: VTK's files, or TetGen's by their stem.
-std::unique_ptr<TableSink> mesh_sink(Mesh mesh, const std::string& path, const std::vector<TableField>& fields);
+std::unique_ptr<TableSink> mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format);
 
 }  // namespace barycert::pipeline

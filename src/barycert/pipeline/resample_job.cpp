@@ -168,7 +168,7 @@ Status onto_mesh(Run& run, const ResampleJob& job, Engine& engine) {
             ResampleJob step = job;
             step.output = output;
             if (to_rows) return pipeline::open_rows(step, format);
-            return pipeline::mesh_sink(further ? *other : std::move(*other), output, format.fields);
+            return pipeline::mesh_sink(further ? *other : std::move(*other), output, format);
         };
     };
     pipeline::KnownRows known;

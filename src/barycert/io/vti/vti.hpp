@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "barycert/base/output_file.hpp"
+#include "barycert/io/vtk/spool.hpp"
 #include "barycert/result.hpp"
+#include "barycert/vtk_data.hpp"
 
 namespace barycert::io {
 
@@ -40,14 +42,15 @@ struct VtiArray {
 ///
 /// The file appears whole on commit(), or not at all. Arrays that take turns go to their places in the file, block by
 /// block: blocks below some 64 KiB cost a system call each. On a pipe or device only one array after the other can be
-/// written.
+/// written. Data that are not raw are kept in files without names up to the commit, and then compressed or written as
+/// text.
 class VtiWriter {
 public:
     /// Error: counts, origin or spacing that are none; more than 2^63 bytes; a name that is empty, twice there, or that
     /// XML cannot hold (not UTF-8, or control characters but for tab and line breaks); fewer than one component; the
     /// file cannot be made.
     static Result<std::unique_ptr<VtiWriter>> open(const std::string& path, const VtiGrid& grid,
-                                                   const std::vector<VtiArray>& arrays);
+                                                   const std::vector<VtiArray>& arrays, VtkData data = VtkData::raw);
 
     /// The next bytes of arrays[array], in the order of this machine.
     /// Error: there is no such array; more bytes than it has; on a pipe, not its turn; the file cannot be written.
@@ -65,10 +68,14 @@ private:
     VtiWriter(const std::string& path, std::vector<VtiArray> arrays)
         : path_(path), arrays_(std::move(arrays)), file_(path) {}
     bool put(std::uint64_t at, std::string_view bytes);
+    Status commit_spools();
     Error error(std::string what, std::string expected, std::string found) const;
 
     std::string path_;
+    VtiGrid grid_;
+    VtkData data_ = VtkData::raw;
     std::vector<VtiArray> arrays_;
+    std::vector<Spool> spools_;  // of the arrays, where data are not raw
     std::vector<ArrayPlace> places_;
     std::uint64_t tail_ = 0;  // where the end of the XML goes
     std::uint64_t end_ = 0;   // of what was written in order

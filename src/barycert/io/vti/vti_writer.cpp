@@ -9,6 +9,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/io/vti/appended.hpp"
 #include "barycert/io/vti/vti.hpp"
+#include "barycert/io/vtk/xml_writer.hpp"
 
 namespace barycert::io {
 namespace {
@@ -45,18 +46,27 @@ std::string three(const std::array<double, 3>& values) {
     return base::shortest(values[0]) + " " + base::shortest(values[1]) + " " + base::shortest(values[2]);
 }
 
+std::string extent_of(const VtiGrid& grid) {
+    std::string extent;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        extent += (axis == 0 ? "0 " : " 0 ") + std::to_string(grid.counts[axis] - 1);
+    return extent;
+}
+
+std::string image_attributes(const VtiGrid& grid) {
+    VtiGrid own = grid;
+    for (double& spacing : own.spacing) {
+        if (spacing == 0) spacing = 1;
+    }
+    return " WholeExtent=\"" + extent_of(grid) + "\" Origin=\"" + three(own.origin) + "\" Spacing=\"" +
+           three(own.spacing) + '"';
+}
+
 /// All up to the underscore, behind which the arrays stand one after the other: their offsets count from there.
 std::string head_of(const VtiGrid& grid, const std::vector<VtiArray>& arrays,
                     const std::vector<std::uint64_t>& offsets) {
-    std::string extent;
-    VtiGrid own = grid;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        extent += (axis == 0 ? "0 " : " 0 ") + std::to_string(grid.counts[axis] - 1);
-        if (own.spacing[axis] == 0) own.spacing[axis] = 1;
-    }
-    std::string text = vtk_file_head("ImageData") + "  <ImageData WholeExtent=\"" + extent + "\" Origin=\"" +
-                       three(own.origin) + "\" Spacing=\"" + three(own.spacing) + "\">\n    <Piece Extent=\"" + extent +
-                       "\">\n      <PointData>\n";
+    std::string text = vtk_file_head("ImageData") + "  <ImageData" + image_attributes(grid) +
+                       ">\n    <Piece Extent=\"" + extent_of(grid) + "\">\n      <PointData>\n";
     for (std::size_t i = 0; i < arrays.size(); ++i) text += array_element(arrays[i], offsets[i]);
     return text + "      </PointData>\n      <CellData>\n      </CellData>\n    </Piece>\n  </ImageData>\n" +
            std::string(appended_begin);
@@ -65,7 +75,7 @@ std::string head_of(const VtiGrid& grid, const std::vector<VtiArray>& arrays,
 }  // namespace
 
 Result<std::unique_ptr<VtiWriter>> VtiWriter::open(const std::string& path, const VtiGrid& grid,
-                                                   const std::vector<VtiArray>& arrays) {
+                                                   const std::vector<VtiArray>& arrays, VtkData data) {
     const ExactEnvironment environment;
     if (Status s = check_grid(path, grid); !s) return s.error();
     if (Status s = check_arrays(path, arrays); !s) return s.error();
@@ -86,7 +96,13 @@ Result<std::unique_ptr<VtiWriter>> VtiWriter::open(const std::string& path, cons
     for (ArrayPlace& place : places) place.begin += head.size();
     writer->places_ = std::move(places);
     writer->tail_ = head.size() + end;
-    writer->put(0, head);
+    writer->grid_ = grid;
+    writer->data_ = data;
+    if (data == VtkData::raw) {
+        writer->put(0, head);
+    } else {
+        for (std::size_t i = 0; i < arrays.size(); ++i) writer->spools_.emplace_back(path);
+    }
     if (Status s = writer->file_.status(); !s) return s.error();
     return writer;
 }
@@ -121,6 +137,10 @@ Status VtiWriter::write(std::size_t array, std::span<const std::byte> bytes) {
     if (bytes.size() > place.size - place.done) {
         return error("the bytes of " + name, std::to_string(place.size) + " in all", "more");
     }
+    if (data_ != VtkData::raw) {
+        place.done += bytes.size();
+        return spools_[array].append(bytes);
+    }
     bool fits = true;
     if (place.done == 0) {
         std::array<char, appended_header> header{};
@@ -139,6 +159,19 @@ Status VtiWriter::write(std::size_t array, std::span<const std::byte> bytes) {
     return file_.status();
 }
 
+Status VtiWriter::commit_spools() {
+    OutFile out{.data_set = "ImageData",
+                .attributes = image_attributes(grid_),
+                .piece = " Extent=\"" + extent_of(grid_) + '"',
+                .sections = {{"PointData", {}}, {"CellData", {}}}};
+    for (std::size_t i = 0; i < arrays_.size(); ++i) {
+        if (Status done = spools_[i].finish(); !done) return done;
+        const std::span<const char> bytes = spools_[i].values<char>();
+        out.sections.front().arrays.push_back({arrays_[i], bytes.size() / number_size(arrays_[i].type), bytes.data()});
+    }
+    return write_xml(out, path_, data_);
+}
+
 Status VtiWriter::commit() {
     for (std::size_t i = 0; i < places_.size(); ++i) {
         if (places_[i].done != places_[i].size) {
@@ -146,6 +179,7 @@ Status VtiWriter::commit() {
                          std::to_string(places_[i].done));
         }
     }
+    if (data_ != VtkData::raw) return commit_spools();
     put(tail_, appended_tail);
     return file_.commit();
 }

@@ -122,7 +122,8 @@ std::string defects(const CheckReport& r, bool breaking) {
         if (t.breaks != breaking) continue;
         std::string where;
         const std::size_t shown = std::min(f.places.size(), max_places);
-        for (std::size_t i = 0; i < shown; ++i) where += (i == 0 ? "" : "; ") + html_escaped(place_text(f.places[i]));
+        for (std::size_t i = 0; i < shown; ++i)
+            where += (i == 0 ? "" : "; ") + html_escaped(place_text(r, f.places[i]));
         if (shown > 0 && shown < f.count)
             where += f.at_least ? "; and more" : fmt::format("; and {} more", grouped(f.count - shown));
         rows += fmt::format("<tr><td class=\"k\"><b>{}</b></td><td>{}{}</td><td>{}</td><td class=\"n\">{}</td></tr>\n",
@@ -148,6 +149,7 @@ std::string contacts(const CheckReport& r) {
     const std::size_t shown = std::min(r.contacts.size(), max_contacts);
     for (std::size_t i = 0; i < shown; ++i) {
         const CellContact& c = r.contacts[i];
+        const auto cells = r.cell_number(c.cells);
         std::vector<std::string> decimal, exact;
         for (std::size_t k = 0; k < static_cast<std::size_t>(r.dimension); ++k) {
             const double x = c.common.point[k];
@@ -159,7 +161,7 @@ std::string contacts(const CheckReport& r) {
         out += fmt::format(
             "<tr><td class=\"k\">{} and {}</td><td class=\"k\">{}</td><td "
             "class=\"witness-at\">({}){}<br/><code>{}</code></td></tr>\n",
-            c.cells[0], c.cells[1], meeting_text(c), fmt::join(decimal, ", "), c.common.exact ? "" : ", rounded",
+            cells[0], cells[1], meeting_text(c), fmt::join(decimal, ", "), c.common.exact ? "" : ", rounded",
             fmt::join(exact, c.common.exact ? ", " : "<br/>"));
     }
     out += "</table>\n";
@@ -177,36 +179,36 @@ std::string histograms(const CheckReport& r) {
     std::string out = "<h2>Shapes and sizes of the cells</h2>\n<div class=\"figures\">\n";
     // From flat to regular: 70.53 degrees, in 2D 60.
     out += histogram_figure(
-        m.min_angle, {Kind::given, 0, plane ? 60.0 : 72.0, plane ? 1.5 : 2.0},
+        r, m.min_angle, {Kind::given, 0, plane ? 60.0 : 72.0, plane ? 1.5 : 2.0},
         {.title = plane ? "Smallest angle" : "Smallest dihedral angle",
          .axis = plane ? "smallest angle, degrees (regular: 60)" : "smallest dihedral angle, degrees (regular: 70.5)",
          .infinite = "",
          .zero = "",
          .max_is_worst = false});
     out += histogram_figure(
-        m.max_angle, {Kind::given, plane ? 60.0 : 70.0, 180, plane ? 3.0 : 2.5},
+        r, m.max_angle, {Kind::given, plane ? 60.0 : 70.0, 180, plane ? 3.0 : 2.5},
         {.title = plane ? "Largest angle" : "Largest dihedral angle",
          .axis = plane ? "largest angle, degrees (regular: 60)" : "largest dihedral angle, degrees (regular: 70.5)",
          .infinite = "",
          .zero = ""});
     const std::string_view degenerate = "infinite (degenerate cells)";
-    out += histogram_figure(m.radius_edge, {.kind = Kind::chosen},
+    out += histogram_figure(r, m.radius_edge, {.kind = Kind::chosen},
                             {.title = "Circumradius over shortest edge",
                              .axis = plane ? "circumradius / shortest edge (regular: 0.577)"
                                            : "circumradius / shortest edge (regular: 0.612)",
                              .infinite = degenerate,
                              .zero = ""});
-    out += histogram_figure(m.aspect, {.kind = Kind::chosen},
+    out += histogram_figure(r, m.aspect, {.kind = Kind::chosen},
                             {.title = "Aspect",
                              .axis = "longest edge / inradius, scaled (regular: 1)",
                              .infinite = degenerate,
                              .zero = ""});
-    out += histogram_figure(lost_bits(m), {Kind::linear, 0, 10, 0},
+    out += histogram_figure(r, lost_bits(m), {Kind::linear, 0, 10, 0},
                             {.title = "Accuracy lost to the cell's shape, of 53 bits",
                              .axis = "log2 of the condition number, bits",
                              .infinite = degenerate,
                              .zero = ""});
-    out += histogram_figure(cell_sizes(m), {.kind = Kind::logarithmic},
+    out += histogram_figure(r, cell_sizes(m), {.kind = Kind::logarithmic},
                             {.title = plane ? "Area" : "Volume",
                              .axis = (plane ? "area, unit of coordinates " : "volume, unit of coordinates ") + unit,
                              .infinite = "overflow",
@@ -250,8 +252,9 @@ std::string check_html(const CheckReport& r, const Mesh& mesh, const std::string
     if (looked_at) out += tiles(r);
     if (cells) out += whole_mesh(r);
     if (!r.defects.empty() || r.cells != 0)
-        out += fmt::format("<p class=\"small\">Cells and nodes are numbered from 0 in file order{}.</p>\n",
-                           mesh.index_base == 1 ? " (the file itself numbers from 1)" : "");
+        out += fmt::format("<p class=\"small\">{}</p>\n", numbering_sentence(r, mesh));
+    for (const std::string& note : note_sentences(r))
+        out += fmt::format("<p class=\"small\">{}</p>\n", html_escaped(note));
     out += conditions(r, mesh) + defects(r, true) + contacts(r);
     if (cells) out += exhibits(r, mesh) + histograms(r);
     out += defects(r, false);

@@ -190,7 +190,8 @@ std::string facts(const CheckReport& r, const Mesh& mesh, Mesh::Index cell, std:
     const auto c = static_cast<std::size_t>(cell);
     std::vector<Mesh::Index> nodes(mesh.cells.begin() + static_cast<std::ptrdiff_t>(c * mesh.corners()),
                                    mesh.cells.begin() + static_cast<std::ptrdiff_t>((c + 1) * mesh.corners()));
-    std::string out = fmt::format("<p>{}<b>cell {}</b>, nodes {}<br/>", swatch, cell, fmt::join(nodes, " "));
+    std::string out =
+        fmt::format("<p>{}<b>cell {}</b>, nodes {}<br/>", swatch, r.cell_number(cell), fmt::join(nodes, " "));
     if (std::isnan(m.volume[c])) return out + "not measured: it has a node twice</p>\n";
     out += fmt::format("angles {}° to {}°, {} {}<br/>", figure(m.min_angle[c]), figure(m.max_angle[c]),
                        r.dimension == 2 ? "area" : "volume",
@@ -214,8 +215,9 @@ std::string exhibit_card(const CheckReport& r, const Mesh& mesh, const Exhibit& 
         fmt::format("<figure class=\"half card\"><h3><span class=\"badge{}\">{}</span> {}</h3>\n<div class=\"views\">",
                     e.defect ? " problem" : "", number, e.what);
     const bool pair = e.cells[1] >= 0;
+    const auto cells = r.cell_number(e.cells);
     const std::string title =
-        pair ? fmt::format("cells {} and {}", e.cells[0], e.cells[1]) : fmt::format("cell {}", e.cells[0]);
+        pair ? fmt::format("cells {} and {}", cells[0], cells[1]) : fmt::format("cell {}", cells[0]);
     for (const Shown& v : views) out += draw(scene, v, scale, title + ", " + v.title);
     out += "</div>\n";
     if (e.cells[0] >= 0) out += facts(r, mesh, e.cells[0], pair ? "<i class=\"swatch a\"></i>" : "");

@@ -198,14 +198,16 @@ Histogram histogram(const std::vector<double>& values, const BinRule& rule) {
     return h;
 }
 
-std::string histogram_figure(const std::vector<double>& values, const BinRule& rule, const HistogramText& text) {
+std::string histogram_figure(const CheckReport& r, const std::vector<double>& values, const BinRule& rule,
+                             const HistogramText& text) {
     const Histogram h = histogram(values, rule);
     const Distribution d = distribution(values);
     std::string out = fmt::format("<figure class=\"half\"><h3>{}</h3>\n", html_escaped(text.title));
     if (d.min_cell >= 0) {
         const auto figure = [](double x) { return std::isinf(x) ? "∞" : fmt::format("{:.4g}", x + 0.0); };
         out += fmt::format("<p class=\"small\">least {} · median {} · most {} · worst in cell <b>{}</b></p>\n",
-                           figure(d.min), figure(d.median), figure(d.max), text.max_is_worst ? d.max_cell : d.min_cell);
+                           figure(d.min), figure(d.median), figure(d.max),
+                           r.cell_number(text.max_is_worst ? d.max_cell : d.min_cell));
     }
     Picture svg(chart_width, chart_height, std::string(text.title) + ": number of cells");
     draw(svg, h, text);

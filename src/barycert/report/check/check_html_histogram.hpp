@@ -45,6 +45,7 @@ struct HistogramText {
 
 /// A figure: title, least, median, most, the bars, what was counted apart. Counts are on a logarithmic axis if the
 /// smallest bar would else be lower than 1 % of the tallest one.
-std::string histogram_figure(const std::vector<double>& values, const BinRule& rule, const HistogramText& text);
+std::string histogram_figure(const CheckReport& report, const std::vector<double>& values, const BinRule& rule,
+                             const HistogramText& text);
 
 }  // namespace barycert::report

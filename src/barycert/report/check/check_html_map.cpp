@@ -260,11 +260,12 @@ std::vector<Pixel> problem_marks(const CheckReport& r, const Mesh& mesh, const M
 }
 
 /// The exhibits by their numbers, and the middle of the first cell of each.
-std::string legend(const Mesh& mesh, const std::vector<Exhibit>& exhibits) {
+std::string legend(const CheckReport& r, const Mesh& mesh, const std::vector<Exhibit>& exhibits) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
     std::string out = "<table><tr><th></th><th>cells</th><th>middle of the first one</th></tr>\n";
     for (std::size_t i = 0; i < exhibits.size(); ++i) {
         const Exhibit& e = exhibits[i];
+        const auto cells = r.cell_number(e.cells);
         std::vector<std::string> middle;
         for (std::size_t k = 0; k < d; ++k) {
             double x = 0;
@@ -275,8 +276,8 @@ std::string legend(const Mesh& mesh, const std::vector<Exhibit>& exhibits) {
             middle.push_back(fmt::format("{:.4g}", x + 0.0));
         }
         out += fmt::format("<tr><td><span class=\"badge{}\">{}</span></td><td>{}{}</td><td>({})</td></tr>\n",
-                           e.defect ? " problem" : "", i + 1, e.cells[0],
-                           e.cells[1] < 0 ? "" : fmt::format(", {}", e.cells[1]), fmt::join(middle, ", "));
+                           e.defect ? " problem" : "", i + 1, cells[0],
+                           cells[1] < 0 ? "" : fmt::format(", {}", cells[1]), fmt::join(middle, ", "));
     }
     return out + "</table>\n";
 }
@@ -312,8 +313,9 @@ std::string exhibit_map(const CheckReport& r, const Mesh& mesh, const std::vecto
     for (std::size_t i = exhibits.size(); i-- > 0;) {  // the first on top
         const Exhibit& e = exhibits[i];
         const Pixel at = map.cell(e.cells[0]);
+        const auto cells = r.cell_number(e.cells);
         svg.dot(at, 4, e.defect ? "spot problem" : "spot",
-                fmt::format("cell {}{}", e.cells[0], e.cells[1] < 0 ? "" : fmt::format(" and {}", e.cells[1])));
+                fmt::format("cell {}{}", cells[0], cells[1] < 0 ? "" : fmt::format(" and {}", cells[1])));
         labels.push_back({at, std::to_string(i + 1), e.defect ? "number bad" : "number"});
     }
     std::reverse(labels.begin(), labels.end());
@@ -326,7 +328,7 @@ std::string exhibit_map(const CheckReport& r, const Mesh& mesh, const std::vecto
             : fmt::format("Grey: the edges of its {} boundary facets.", grouped(outline.boundary));
     if (!problems.empty()) drawn += " Red: cells with problems, some of them where they are many.";
     return fmt::format("<figure><div class=\"map\">{}<div>{}</div></div>\n", std::move(svg).finish(),
-                       legend(mesh, exhibits)) +
+                       legend(r, mesh, exhibits)) +
            fmt::format("<p class=\"small\">The box of the cells: {}. {}</p></figure>\n", extent(box, mesh.dimension),
                        drawn);
 }

@@ -10,6 +10,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/report/check/check_words.hpp"
 #include "barycert/report/common/environment_json.hpp"
+#include "barycert/report/common/notes_json.hpp"
 
 namespace barycert {
 
@@ -50,7 +51,7 @@ Json indices(const auto& all) {
     return j;
 }
 
-Json finding_json(const Defect& f) {
+Json finding_json(const CheckReport& r, const Defect& f) {
     const DefectText& t = defect_text(f.kind);
     Json j;
     j["name"] = t.name;
@@ -63,7 +64,7 @@ Json finding_json(const Defect& f) {
     j["places"] = Json::array();
     for (const DefectPlace& p : f.places) {
         Json place;
-        place["cells"] = indices(p.cells);
+        place["cells"] = indices(r.cell_number(p.cells));
         place["nodes"] = indices(p.nodes);
         if (*p.detail != '\0') place["detail"] = p.detail;
         j["places"].push_back(std::move(place));
@@ -82,34 +83,36 @@ Json boundary_json(const BoundaryReport& b) {
     return j;
 }
 
-Json distribution_json(const std::vector<double>& values) {
+Json distribution_json(const CheckReport& r, const std::vector<double>& values) {
     const Distribution d = distribution(values);
     if (d.min_cell < 0) return nullptr;
     Json j;
     j["least"] = figure(d.min);
     j["median"] = figure(d.median);
     j["most"] = figure(d.max);
-    j["least_cell"] = d.min_cell;
-    j["most_cell"] = d.max_cell;
+    j["least_cell"] = r.cell_number(d.min_cell);
+    j["most_cell"] = r.cell_number(d.max_cell);
     return j;
 }
 
-Json measures_json(const CellMeasures& m) {
+Json measures_json(const CheckReport& r) {
+    const CellMeasures& m = r.measures;
     std::vector<double> size(m.volume);
     for (double& x : size) x = std::fabs(x);
     Json j;
-    j["volume"] = distribution_json(size);
-    j["condition"] = distribution_json(m.condition);
-    j["radius_edge"] = distribution_json(m.radius_edge);
-    j["aspect"] = distribution_json(m.aspect);
-    j["min_angle"] = distribution_json(m.min_angle);
-    j["max_angle"] = distribution_json(m.max_angle);
+    j["volume"] = distribution_json(r, size);
+    j["condition"] = distribution_json(r, m.condition);
+    j["radius_edge"] = distribution_json(r, m.radius_edge);
+    j["aspect"] = distribution_json(r, m.aspect);
+    j["min_angle"] = distribution_json(r, m.min_angle);
+    j["max_angle"] = distribution_json(r, m.max_angle);
     return j;
 }
 
-Json contact_json(const CellContact& c, int d) {
+Json contact_json(const CheckReport& r, const CellContact& c) {
+    const int d = r.dimension;
     Json j;
-    j["cells"] = indices(c.cells);
+    j["cells"] = indices(r.cell_number(c.cells));
     j["overlap"] = c.overlap;
     j["dimension"] = std::max(c.dimension, 0);
     Json& w = j["witness"];
@@ -123,13 +126,14 @@ Json contact_json(const CellContact& c, int d) {
     return j;
 }
 
-Json delaunay_json(const DelaunayReport& d) {
+Json delaunay_json(const CheckReport& r) {
+    const DelaunayReport& d = *r.delaunay;
     Json j;
     j["facets"] = d.facets;
     j["violations"] = d.violations;
     j["cospherical"] = d.cospherical;
     j["worst_depth"] = figure(d.worst_depth);
-    j["worst_cell"] = d.worst_cell < 0 ? Json(nullptr) : Json(d.worst_cell);
+    j["worst_cell"] = d.worst_cell < 0 ? Json(nullptr) : Json(r.cell_number(d.worst_cell));
     j["worst_node"] = d.worst_node < 0 ? Json(nullptr) : Json(d.worst_node);
     return j;
 }
@@ -160,11 +164,12 @@ std::string check_json(const CheckReport& r, const std::string& name, const Envi
     j["dimension"] = r.dimension;
     j["nodes"] = r.nodes;
     j["cells"] = r.cells;
+    j["notes"] = notes_json(r.notes);
     j["conditions"] = conditions_json(r, Mesh());  // whether files came changes no count
     j["findings"] = Json::array();
-    for (const Defect& f : r.defects) j["findings"].push_back(finding_json(f));
+    for (const Defect& f : r.defects) j["findings"].push_back(finding_json(r, f));
     j["contacts"] = Json::array();
-    for (const CellContact& c : r.contacts) j["contacts"].push_back(contact_json(c, r.dimension));
+    for (const CellContact& c : r.contacts) j["contacts"].push_back(contact_json(r, c));
     j["orientation"]["positive"] = r.positive;
     j["orientation"]["negative"] = r.negative;
     j["orientation"]["degenerate"] = r.degenerate;
@@ -173,8 +178,8 @@ std::string check_json(const CheckReport& r, const std::string& name, const Envi
     j["volume"]["cells"] = figure(r.volume.cells);
     j["volume"]["boundary"] = figure(r.volume.boundary);
     j["volume"]["equal"] = r.volume.equal;
-    j["measures"] = measures_json(r.measures);
-    if (r.delaunay) j["delaunay"] = delaunay_json(*r.delaunay);
+    j["measures"] = measures_json(r);
+    if (r.delaunay) j["delaunay"] = delaunay_json(r);
     if (r.conformity) j["conformity"] = conformity_json(*r.conformity);
     j["problem_bits"] = Json::array();
     for (const DefectText& t : defect_texts) j["problem_bits"].push_back(t.name);

@@ -109,7 +109,7 @@ std::string wrapped(const std::vector<std::string>& pieces, char between) {
 }
 
 /// The listed places of a defect. Where each is just one cell or one node, "cells" or "nodes" is said once.
-std::string places(const Defect& f) {
+std::string places(const CheckReport& r, const Defect& f) {
     if (f.places.empty()) return "";
     const auto plain = [&](bool cells) {
         return std::all_of(f.places.begin(), f.places.end(), [&](const DefectPlace& p) {
@@ -120,7 +120,7 @@ std::string places(const Defect& f) {
     const bool cells = plain(true), nodes = !cells && plain(false);
     std::vector<std::string> pieces;
     for (const DefectPlace& p : f.places) {
-        std::string text = place_text(p);
+        std::string text = place_text(r, p);
         if (cells || nodes) {
             const std::string number = text.substr(text.find(' ') + 1);
             const std::string what = cells ? "cell" : "node";
@@ -137,7 +137,7 @@ std::string defect_lines(const CheckReport& r, const Defect& f, const Colours& p
     const DefectText& t = defect_text(f.kind);
     const std::string count = (f.at_least ? ">= " : "") + std::to_string(f.count);
     std::string out = fmt::format("{} {:>11}  {}\n", paint.bold(fmt::format("{:<18}", t.name)), count, t.text);
-    out += places(f);
+    out += places(r, f);
     // That remedy repairs no folded cell.
     const bool folded = f.kind == DefectKind::mixed_orientation && r.find(DefectKind::same_side) != nullptr;
     return t.remedy.empty()
@@ -156,13 +156,15 @@ std::string defect_list(const CheckReport& r, bool breaking, const Colours& pain
 
 constexpr std::size_t max_fraction = 80;
 
-std::string contact(const CellContact& c, int d, bool& cut) {
+std::string contact(const CheckReport& r, const CellContact& c, bool& cut) {
+    const int d = r.dimension;
+    const auto cells = r.cell_number(c.cells);
     std::vector<std::string> decimal, hex;
     for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) {
         decimal.push_back(base::shortest(c.common.point[k]));
         hex.push_back(base::hexadecimal(c.common.point[k]));
     }
-    std::string out = fmt::format("cells {} and {} {}:", c.cells[0], c.cells[1], meeting_text(c));
+    std::string out = fmt::format("cells {} and {} {}:", cells[0], cells[1], meeting_text(c));
     const std::string point = fmt::format("({}){}", fmt::join(decimal, ", "), c.common.exact ? "" : ", rounded");
     out += (out.size() + 1 + point.size() <= columns ? " " : "\n    ") + point + "\n";
     if (c.common.exact) return out + fmt::format("    ({})\n", fmt::join(hex, ", "));
@@ -181,7 +183,7 @@ std::string contact_list(const CheckReport& r, const Colours& paint) {
                                  " of cells that meet where they must not, each with a common point") +
                       "\n";
     bool cut = false;
-    for (const CellContact& c : r.contacts) out += contact(c, r.dimension, cut);
+    for (const CellContact& c : r.contacts) out += contact(r, c, cut);
     if (cut) out += "--json FILE writes the fractions in full.\n";
     return out;
 }
@@ -190,11 +192,12 @@ std::string rounded(double x) {
     return fmt::format("{:.4g}", x == 0 ? 0.0 : x);
 }
 
-std::string measure_row(std::string_view name, const std::vector<double>& values, bool max_is_worst) {
+std::string measure_row(const CheckReport& r, std::string_view name, const std::vector<double>& values,
+                        bool max_is_worst) {
     const Distribution d = distribution(values);
     if (d.min_cell < 0) return fmt::format("{:<31}{:>12}{:>12}{:>12}{:>12}", name, "-", "-", "-", "-");
     return fmt::format("{:<31}{:>12}{:>12}{:>12}{:>12}", name, rounded(d.min), rounded(d.median), rounded(d.max),
-                       max_is_worst ? d.max_cell : d.min_cell);
+                       r.cell_number(max_is_worst ? d.max_cell : d.min_cell));
 }
 
 std::string measure_table(const CheckReport& r, const Colours& paint) {
@@ -204,12 +207,13 @@ std::string measure_table(const CheckReport& r, const Colours& paint) {
                       paint.bold(fmt::format("{:<31}{:>12}{:>12}{:>12}{:>12}", "measure of a cell", "min", "median",
                                              "max", "worst cell")) +
                       "\n";
-    out += measure_row(plane ? "area" : "volume", cell_sizes(m), false) + "\n";
-    out += measure_row("accuracy lost to shape, bits", lost_bits(m), true) + "\n";
-    out += measure_row("circumradius / shortest edge", m.radius_edge, true) + "\n";
-    out += measure_row("aspect (regular cell: 1)", m.aspect, true) + "\n";
-    out += measure_row(plane ? "smallest angle, degrees" : "smallest dihedral angle, deg", m.min_angle, false) + "\n";
-    out += measure_row(plane ? "largest angle, degrees" : "largest dihedral angle, deg", m.max_angle, true) + "\n";
+    out += measure_row(r, plane ? "area" : "volume", cell_sizes(m), false) + "\n";
+    out += measure_row(r, "accuracy lost to shape, bits", lost_bits(m), true) + "\n";
+    out += measure_row(r, "circumradius / shortest edge", m.radius_edge, true) + "\n";
+    out += measure_row(r, "aspect (regular cell: 1)", m.aspect, true) + "\n";
+    out +=
+        measure_row(r, plane ? "smallest angle, degrees" : "smallest dihedral angle, deg", m.min_angle, false) + "\n";
+    out += measure_row(r, plane ? "largest angle, degrees" : "largest dihedral angle, deg", m.max_angle, true) + "\n";
     return out +
            paint.dim(
                "Bits: log2 of the condition number; of the 53 bits of a double, plain weights may lose so many.") +
@@ -248,13 +252,13 @@ std::string check_text(const CheckReport& r, const Mesh& mesh, const std::string
     const std::string name = base::printable(path);
     std::string out = r.certified() ? certified(r, name, paint) : not_certified(r, name, paint);
     if (!r.defects.empty() || r.cells != 0) {
-        out += fmt::format("Cells and nodes are numbered from 0 in file order{}.\n",
-                           mesh.index_base == 1 ? " (the file itself numbers from 1)" : "");
+        out += numbering_sentence(r, mesh) + "\n";
     }
     out += "\n" + condition_table(r, mesh, paint);
     out += defect_list(r, true, paint) + contact_list(r, paint);
     if (r.cells != 0) out += whole_mesh(r) + measure_table(r, paint);
     out += defect_list(r, false, paint);
+    out += named_lines("\nread", note_sentences(r));
     return out + fmt::format("\n{}\n", words(r).checked());
 }
 

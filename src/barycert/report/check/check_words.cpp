@@ -58,14 +58,28 @@ std::string_view left_out_sentence(const CheckReport& report) {
     return some ? "P2 to P5 leave out cells with an invalid index, a non-finite coordinate or a repeated node." : "";
 }
 
-std::string place_text(const DefectPlace& p) {
-    const auto cells = used(p.cells), nodes = used(p.nodes);
+std::string place_text(const CheckReport& report, const DefectPlace& p) {
+    const auto cells = used(report.cell_number(p.cells));
+    const auto nodes = used(p.nodes);
     std::string out;
     if (!cells.empty()) out += fmt::format("cell{} {}", cells.size() == 1 ? "" : "s", fmt::join(cells, " and "));
     if (!nodes.empty())
         out += fmt::format("{}node{} {}", out.empty() ? "" : ", ", nodes.size() == 1 ? "" : "s", fmt::join(nodes, " "));
     if (*p.detail != '\0') out += fmt::format("{}({})", out.empty() ? "" : " ", p.detail);
     return out;
+}
+
+std::string numbering_sentence(const CheckReport& report, const Mesh& mesh) {
+    return fmt::format("Cells and nodes are numbered from 0 in file order{}{}.",
+                       report.cell_numbers.empty() ? "" : ", cells that were left out included",
+                       mesh.index_base == 1 ? " (the file itself numbers from 1)" : "");
+}
+
+std::vector<std::string> note_sentences(const CheckReport& report) {
+    std::vector<std::string> all;
+    all.reserve(report.notes.size());
+    for (const Note& note : report.notes) all.push_back(message(note));
+    return all;
 }
 
 std::string_view meeting_text(const CellContact& c) {
@@ -161,7 +175,8 @@ std::vector<std::string> CheckWords::delaunay() const {
     std::vector<std::string> all{std::move(outcome)};
     if (d.violations != 0)
         all.push_back(fmt::format("worst: node {} lies inside the circum{} of cell {}, {:.3g} of its radius deep",
-                                  d.worst_node, r_.dimension == 2 ? "circle" : "sphere", d.worst_cell, d.worst_depth));
+                                  d.worst_node, r_.dimension == 2 ? "circle" : "sphere", r_.cell_number(d.worst_cell),
+                                  d.worst_depth));
     return all;
 }
 

@@ -29,7 +29,7 @@ inline constexpr std::string_view breaking_heading = "Defects and remedies";
 inline constexpr std::string_view harmless_heading = "Notes: these do not affect the certificate";
 
 /// "cells 3 and 17, nodes 4 5 6 (coplanar)".
-std::string place_text(const DefectPlace& place);
+std::string place_text(const CheckReport& report, const DefectPlace& place);
 
 /// "overlap", "touch in a point", "touch along a segment" or "touch in an area".
 std::string_view meeting_text(const CellContact& contact);
@@ -41,6 +41,10 @@ std::string shortened_fraction(const std::string& fraction, std::size_t longest)
 /// The measures that reports show in another form: |volume|, and the bits of accuracy that the cell's shape may cost.
 std::vector<double> cell_sizes(const CellMeasures& measures);
 std::vector<double> lost_bits(const CellMeasures& measures);
+
+/// How cells and nodes are numbered, and what the reader of the mesh has told, a line each.
+std::string numbering_sentence(const CheckReport& report, const Mesh& mesh);
+std::vector<std::string> note_sentences(const CheckReport& report);
 
 /// "1,234,567".
 std::string grouped(std::uint64_t n);

@@ -4,6 +4,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/common/environment_json.hpp"
+#include "barycert/report/common/notes_json.hpp"
 
 namespace barycert {
 
@@ -96,6 +97,7 @@ std::string contour_json(const ContourSummary& s, const Environment& environment
     j["fields"] = s.fields;
     j["left_out"] = s.file.left_out;
     j["renamed"] = s.file.renamed;
+    j["notes"] = notes_json(s.notes);
     if (s.pixels) j["picture"] = pixels_json(s);
     if (s.view) j["view"] = view_json(s);
     j["seconds"] = seconds_json(s.seconds);

@@ -71,6 +71,7 @@ std::vector<std::string> notes(const ContourSummary& s) {
                                   plural(n.tiers.not_finite, "point", "points")));
     if (!s.file.left_out.empty()) all.push_back("fields that the format cannot hold: " + names(s.file.left_out));
     if (!s.file.renamed.empty()) all.push_back("fields that the format names otherwise: " + names(s.file.renamed));
+    for (const Note& note : s.notes) all.push_back(message(note));
     return all;
 }
 

@@ -4,6 +4,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/common/environment_json.hpp"
+#include "barycert/report/common/notes_json.hpp"
 #include "barycert/report/render/render_words.hpp"
 
 namespace barycert {
@@ -66,6 +67,7 @@ std::string render_json(const RenderSummary& summary, const Environment& environ
     j["pixels"] = pixels_json(summary.counts);
     if (summary.colours) j["colours"] = colours_json(*summary.colours);
     if (summary.texel_error) j["texel_error"] = texel_error_json(*summary.texel_error);
+    j["notes"] = report::notes_json(summary.notes);
     j["seconds"] = summary.seconds;
     j["environment"] = report::environment_json(environment);
     // Names of fields and files may hold any bytes: JSON is UTF-8.

@@ -61,6 +61,7 @@ std::string render_text(const RenderSummary& s, bool colour) {
         out += row("error", fmt::format("at most {:.3g} texels, in column {}, row {} from the bottom", e.texels,
                                         e.column, e.row));
     }
+    for (const Note& note : s.notes) out += row("note", message(note));
     return out + row("time", fmt::format("{:.3g} s", s.seconds));
 }
 
