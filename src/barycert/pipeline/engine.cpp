@@ -12,10 +12,10 @@
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/fields/field_file.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/cells_at_points.hpp"
 #include "barycert/mesh/consistency.hpp"
+#include "barycert/pipeline/cell_labels.hpp"
 #include "barycert/pipeline/few_points.hpp"
 #include "barycert/pipeline/field_files.hpp"
 #include "barycert/predicates.hpp"
@@ -83,6 +83,8 @@ Result<std::unique_ptr<Engine>> Engine::open(Run& run) {
     if (Status added = engine->add_fields_of_job(); !added) return added.error();
     if (Status chosen = engine->choose_fields(); !chosen) return chosen.error();
     SampleSummary& summary = run.summary;
+    summary.notes = engine->mesh_.notes;
+    note_labels(engine->mesh_, run.job.fields, summary.notes);
     summary.dimension = engine->mesh_.dimension;
     summary.nodes = engine->mesh_.point_count();
     summary.cells = engine->mesh_.cell_count();
@@ -95,22 +97,25 @@ Status Engine::add_fields_of_job() {
     for (const Step& step : run_.steps) {
         for (FieldFile file : step.files) {
             if (!run_.step_by_step()) file.name = name_of_step(file.name, step);
-            const std::size_t cell_fields = mesh_.cell_fields.size();
-            if (Status added = add_fields({file}, mesh_); !added) return added;
-            const bool of_cells = mesh_.cell_fields.size() != cell_fields;
-            places_of_series_.push_back({of_cells, (of_cells ? cell_fields : mesh_.point_fields.size() - 1)});
+            const Result<FieldPlace> place = add_field(file, mesh_, run_.step_by_step());
+            if (!place) return place.error();
+            places_of_series_.push_back(*place);
         }
         if (run_.step_by_step()) break;
     }
+    give_each_a_name(mesh_);
     return Done{};
 }
 
 Status Engine::go_to(const Step& step) {
     Stopwatch watch;
+    Notes notes;
     for (std::size_t i = 0; i < step.files.size(); ++i) {
         const FieldPlace place = places_of_series_[i];
         Field& field = (place.of_cells ? mesh_.cell_fields : mesh_.point_fields)[place.number];
-        Result<Field> read = io::read_field_file(step.files[i].name, step.files[i].path);
+        FieldFile file = step.files[i];
+        file.of = place.of_cells ? FieldFile::Of::cells : FieldFile::Of::points;
+        Result<Field> read = read_field(mesh_, file, notes);
         if (!read) return read.error();
         const auto shape = [](const Field& f) {
             const auto components = static_cast<std::size_t>(f.components);
@@ -122,6 +127,14 @@ Status Engine::go_to(const Step& step) {
                          .expected = shape(field) + ", as in the first step",
                          .found = shape(*read)};
         field.data = std::move(read->data);
+    }
+    // What is told of every step is told once.
+    for (Note& note : notes) {
+        Notes& told = run_.summary.notes;
+        const bool known = std::any_of(told.begin(), told.end(), [&](const Note& other) {
+            return other.kind == note.kind && other.text == note.text;
+        });
+        if (!known) told.push_back(std::move(note));
     }
     run_.summary.seconds.mesh += watch.lap();
     sampler_.reset();
@@ -164,8 +177,15 @@ std::vector<std::string> Engine::names_of_fields() const {
 }
 
 Status Engine::choose_fields() {
+    fields_.clear();
     if (run_.job.output.empty() && !run_.job.weights.empty()) return Done{};
-    Result<std::vector<FieldChoice>> fields = sample::quantities_named(mesh_, names_of_fields());
+    std::vector<std::string> names = names_of_fields();
+    Result<std::vector<const Column*>> of_cells = take_labels(mesh_, names);
+    if (!of_cells) return of_cells.error();
+    labels_ = std::move(*of_cells);
+    // No name at all means every field; labels alone mean none.
+    if (!labels_.empty() && names.empty()) return Done{};
+    Result<std::vector<FieldChoice>> fields = sample::quantities_named(mesh_, names);
     if (!fields) return fields.error();
     fields_ = std::move(*fields);
     // What depends on all cells is made before some of them are looked at.

@@ -14,17 +14,12 @@
 #include "barycert/mesh.hpp"
 #include "barycert/mesh/part.hpp"
 #include "barycert/node_weights.hpp"
+#include "barycert/pipeline/field_files.hpp"
 #include "barycert/pipeline/run.hpp"
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
 
 namespace barycert::pipeline {
-
-/// Where a field of the mesh is.
-struct FieldPlace {
-    bool of_cells = false;
-    std::size_t number = 0;
-};
 
 /// Writes what it does into the summary of the run. Holds the mesh, and therefore stays where it is.
 class Engine {
@@ -53,8 +48,8 @@ public:
     Status go_to(const Step& step);
 
     /// Gives back what of the mesh sampling does not read again: of linear cells, unless points outside ask for their
-    /// nearest cell or other steps follow, all but the values of cell fields. Precondition: prepared; nobody else reads
-    /// the mesh any more, but for its dimension.
+    /// nearest cell or other steps follow, all but the values of cell fields, labels and numbers of cells.
+    /// Precondition: prepared; nobody else reads the mesh any more, but for its dimension.
     void let_go_of_mesh();
 
     /// The weights of rows as the locator names their cells, on the nodes of the mesh. Not after let_go_of_mesh().
@@ -63,8 +58,11 @@ public:
     /// Sampled rows name cells as the locator counts them; afterwards, as the mesh does.
     void name_cells(Table& rows) const;
 
-    /// What the rows of this job have.
+    /// What the rows of this job have, without labels.
     TableFormat format() const;
+
+    /// Those of cells that the job asked for.
+    const std::vector<const Column*>& labels() const { return labels_; }
 
 private:
     explicit Engine(Run& run) : run_(run) {}
@@ -81,6 +79,7 @@ private:
     std::vector<FieldPlace> places_of_series_;
     std::deque<Field> made_;  ///< of fields of the mesh
     std::vector<FieldChoice> fields_;
+    std::vector<const Column*> labels_;
     std::optional<mesh::Part> part_;  ///< what the locator is of, if not the mesh
     std::optional<Locator> locator_;
     std::optional<Sampler> sampler_;

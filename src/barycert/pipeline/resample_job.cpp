@@ -15,6 +15,7 @@
 #include "barycert/pipeline/job_files.hpp"
 #include "barycert/pipeline/mesh_sink.hpp"
 #include "barycert/pipeline/stream.hpp"
+#include "barycert/pipeline/user_rows.hpp"
 
 namespace barycert {
 namespace {
@@ -89,13 +90,35 @@ Status check_job(const ResampleJob& job, const std::vector<pipeline::Step>& step
                                  base::named_files("--output", pipeline::files_of_mesh_output(job)));
 }
 
+Result<TableFormat> user_format(Run& run, const Engine& engine, const TableFormat& of_rows) {
+    Result<TableFormat> format = pipeline::user_format(engine, of_rows, {});
+    if (!format) return format;
+    run.summary.carried.clear();
+    for (const ColumnFormat& column : format->carried) run.summary.carried.push_back(column.name);
+    return format;
+}
+
+/// What its reader told, and the fields of nodes that the sampled ones replace.
+void note_the_other(Run& run, const ResampleJob& job, const Mesh& other) {
+    Notes& notes = run.summary.notes;
+    notes.insert(notes.end(), other.notes.begin(), other.notes.end());
+    if (other.point_fields.empty()) return;
+    std::string text = other.point_fields.size() == 1 ? "field " : "fields ";
+    for (std::size_t i = 0; i < other.point_fields.size(); ++i)
+        text += (i == 0 ? "" : ", ") + other.point_fields[i].name;
+    notes.push_back({Note::Kind::left_out, text + " of its nodes", job.onto});
+}
+
 /// The fields as they are now.
 Status onto_grid(Run& run, const ResampleJob& job, Engine& engine) {
     SampleSummary& summary = run.summary;
     const std::optional<Grid>& grid = summary.grid;
     Stopwatch watch, within;
-    auto output = pipeline::open_grid_sink(job, engine.format(), *grid);
+    const Result<TableFormat> format = user_format(run, engine, engine.format());
+    if (!format) return format.error();
+    auto output = pipeline::open_grid_sink(job, *format, *grid);
     if (!output) return output.error();
+    output->sink = pipeline::user_rows(engine, std::move(output->sink));
     double writing = 0;
     const bool refuse = job.options.outside.kind == Outside::error;
     const std::string what = fmt::format("points of {}", grid->point_count());
@@ -162,13 +185,18 @@ Status onto_mesh(Run& run, const ResampleJob& job, Engine& engine) {
     run.summary.points = job.onto;
     const auto source = memory_points(other->points, d);
     run.summary.seconds.read = watch.lap();
+    note_the_other(run, job, *other);
     const bool further = run.step_by_step() && run.steps.size() > 1;
     const auto sink_to = [&](const std::string& output) -> pipeline::SinkFactory {
-        return [&, output](const TableFormat& format) -> Result<std::unique_ptr<TableSink>> {
+        return [&, output](const TableFormat& of_rows) -> Result<std::unique_ptr<TableSink>> {
+            const Result<TableFormat> format = user_format(run, engine, of_rows);
+            if (!format) return format.error();
             ResampleJob step = job;
             step.output = output;
-            if (to_rows) return pipeline::open_rows(step, format);
-            return pipeline::mesh_sink(further ? *other : std::move(*other), output, format);
+            auto sink = to_rows ? pipeline::open_rows(step, *format)
+                                : pipeline::mesh_sink(further ? *other : std::move(*other), output, *format);
+            if (!sink) return sink;
+            return pipeline::user_rows(engine, std::move(*sink));
         };
     };
     pipeline::KnownRows known;

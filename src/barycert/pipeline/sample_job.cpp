@@ -1,15 +1,19 @@
 // Fields at points.
 
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "barycert/io.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/map.hpp"
 #include "barycert/pipeline/engine.hpp"
 #include "barycert/pipeline/job_files.hpp"
 #include "barycert/pipeline/stream.hpp"
+#include "barycert/pipeline/user_rows.hpp"
 
 namespace barycert {
 namespace {
@@ -26,51 +30,70 @@ Status check_job(const SampleJob& job, const std::vector<pipeline::Step>& steps)
     if (!job.map.empty() && !job.save_map.empty())
         return Error{
             .what = "--save-map cannot be combined with --map", .file = job.save_map, .remedy = "copy the map"};
+    if (!job.map.empty() && !(job.columns.empty() && job.keep.empty()))
+        return Error{.what = std::string(job.keep.empty() ? "--columns" : "--keep") + " cannot be combined with --map",
+                     .file = job.map,
+                     .remedy = "a map has points and cells alone: name the file of the points by --points"};
     if (job.map == "-" || job.save_map == "-")
         return Error{.what = "a map cannot come from stdin or go to stdout", .remedy = "name a file"};
     if (job.output.empty()) {
         if (job.weights.empty())
             return Error{.what = "no output", .expected = "--output FILE, --weights FILE, or both", .found = "neither"};
-        if (!job.fields.empty() || !job.field_files.empty() || !job.series.empty())
-            return Error{.what = "fields without --output",
+        if (!job.fields.empty() || !job.field_files.empty() || !job.series.empty() || !job.keep.empty())
+            return Error{.what = "fields or columns without --output",
                          .remedy = "weights depend on no field: leave fields out, or name --output too"};
     } else if (Status known = pipeline::check_rows_format(job.output); !known) {
         return known;
     }
-    return pipeline::check_files(
-        job, steps, {job.map.empty() ? base::NamedFile{"--points", job.points} : base::NamedFile{"--map", job.map}},
-        {{"--output", job.output}, {"--save-map", job.save_map}});
+    std::vector<base::NamedFile> inputs{{"--map", job.map}};
+    if (job.map.empty()) inputs = {{"--points", job.points}};
+    std::error_code ignored;
+    // Not the file itself, but the stem of a mesh.
+    if (job.map.empty() && job.points != "-" && !std::filesystem::exists(job.points, ignored) &&
+        !io::format_of(job.points))
+        inputs = base::named_files("the mesh of --points", mesh_files(job.points));
+    return pipeline::check_files(job, steps, inputs, {{"--output", job.output}, {"--save-map", job.save_map}});
 }
 
-/// Opens an output of the job.
-pipeline::SinkFactory rows_to(const SampleJob& job, const std::string& output) {
-    return [&job, output](const TableFormat& format) -> Result<std::unique_ptr<TableSink>> {
+/// Opens an output of the job; `carried`: columns of the points.
+pipeline::SinkFactory rows_to(Run& run, const SampleJob& job, const Engine& engine, const std::string& output,
+                              const std::vector<ColumnFormat>& carried) {
+    return [&run, &job, &engine, output, carried](const TableFormat& format) -> Result<std::unique_ptr<TableSink>> {
         if (output.empty()) return std::unique_ptr<TableSink>();
+        const Result<TableFormat> shown = pipeline::user_format(engine, format, carried);
+        if (!shown) return shown.error();
+        run.summary.carried.clear();
+        for (const ColumnFormat& column : shown->carried) run.summary.carried.push_back(column.name);
         SampleJob one = job;
         one.output = output;
-        return pipeline::open_rows(one, format);
+        Result<std::unique_ptr<TableSink>> sink = pipeline::open_rows(one, *shown);
+        if (!sink) return sink;
+        return pipeline::user_rows(engine, std::move(*sink));
     };
 }
 
 /// What is done with the first rows, and then with those of further steps.
-Status in_steps(Run& run, const SampleJob& job, Engine& engine,
+Status in_steps(Run& run, const SampleJob& job, Engine& engine, const std::vector<ColumnFormat>& carried,
                 const std::function<Status(const pipeline::StreamTargets&)>& first) {
     pipeline::KnownRows known;
     const bool further = run.step_by_step() && run.steps.size() > 1;
+    const auto sink_to = [&](const std::string& path) { return rows_to(run, job, engine, path, carried); };
     const std::string output = run.step_by_step() ? output_of_step(job.output, run.steps.front()) : job.output;
-    if (Status done = first({rows_to(job, output), job.save_map, job.weights, further ? &known : nullptr}); !done)
+    if (Status done = first({sink_to(output), job.save_map, job.weights, further ? &known : nullptr}); !done)
         return done;
-    if (!further) return Done{};
-    return pipeline::sample_further_steps(run, engine, known,
-                                          [&](const std::string& path) { return rows_to(job, path); });
+    return further ? pipeline::sample_further_steps(run, engine, known, sink_to) : Status(Done{});
 }
 
 Status at_points(Run& run, const SampleJob& job, Engine& engine) {
-    auto source = open_points(job.points, engine.mesh().dimension);
+    const bool csv = job.output == "-" || io::has_suffix(job.output, ".csv");
+    auto source =
+        open_points(job.points, engine.mesh().dimension, {.columns = job.columns, .keep = job.keep, .typed = !csv});
     if (!source) return source.error();
+    const Notes notes = (*source)->notes();
+    run.summary.notes.insert(run.summary.notes.end(), notes.begin(), notes.end());
     run.summary.points = job.points;
     run.summary.all = job.all.value_or(false);
-    return in_steps(run, job, engine, [&](const pipeline::StreamTargets& targets) {
+    return in_steps(run, job, engine, (*source)->carried(), [&](const pipeline::StreamTargets& targets) {
         return pipeline::sample_stream(run, engine, **source, targets);
     });
 }
@@ -88,7 +111,7 @@ Status at_points_of_map(Run& run, const SampleJob& job, Engine& engine) {
     run.summary.points = job.map;
     run.summary.all = map->all();
     if (Status ready = engine.prepare_without_search(FoundBy::map, "cells are those of the map"); !ready) return ready;
-    return in_steps(run, job, engine, [&](const pipeline::StreamTargets& targets) {
+    return in_steps(run, job, engine, {}, [&](const pipeline::StreamTargets& targets) {
         return pipeline::sample_map(run, engine, *map, targets);
     });
 }

@@ -4,12 +4,15 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/npz/weights_file.hpp"
 #include "barycert/locate/batch.hpp"
+#include "barycert/mesh/columns.hpp"
 #include "barycert/node_weights.hpp"
 #include "barycert/pipeline/stages.hpp"
 
@@ -25,6 +28,30 @@ std::optional<std::size_t> first_outside(std::span<const Mesh::Index> cells) {
 std::span<const double> point_of(const Table& rows, std::size_t row) {
     const auto d = static_cast<std::size_t>(rows.dimension);
     return std::span(rows.points).subspan(d * row, d);
+}
+
+/// Adds the values of columns to those of columns of the same formats, which are made where there are none.
+void append(std::span<const Column> columns, std::vector<Column>& to) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        if (i == to.size()) to.push_back(empty_column({columns[i].name, columns[i].type()}));
+        std::visit(
+            [&](auto& values) {
+                const auto& more = std::get<std::decay_t<decltype(values)>>(columns[i].values);
+                values.insert(values.end(), more.begin(), more.end());
+            },
+            to[i].values);
+    }
+}
+
+/// Values [begin, end) of a column.
+Column part_of(const Column& column, std::size_t begin, std::size_t end) {
+    return std::visit(
+        [&](const auto& values) {
+            const auto first = values.begin() + static_cast<std::ptrdiff_t>(begin);
+            return Column{column.name,
+                          std::decay_t<decltype(values)>(first, first + static_cast<std::ptrdiff_t>(end - begin))};
+        },
+        column.values);
 }
 
 /// Where rows go: into a sink, a map, a matrix of weights, memory.
@@ -48,6 +75,7 @@ public:
             weights_ = std::move(*weights);
         }
         sink_ = std::move(*sink);
+        mesh_ = &engine.mesh();
         opened_ = true;
         return Done{};
     }
@@ -74,6 +102,7 @@ public:
             known->points.insert(known->points.end(), rows.points.begin(), rows.points.end());
             known->cells.insert(known->cells.end(), block.located.begin(), block.located.end());
             known->features.insert(known->features.end(), rows.features.begin(), rows.features.end());
+            append(rows.carried, known->carried);
         }
         return sink_ ? sink_->write(rows) : Status(Done{});
     }
@@ -92,11 +121,15 @@ private:
         std::vector<std::uint8_t> counts(weights.row_count());
         for (std::size_t i = 0; i < counts.size(); ++i)
             counts[i] = static_cast<std::uint8_t>(weights.begin[i + 1] - weights.begin[i]);
-        weights_->write(counts, weights.nodes, weights.weights, rows.cells);
+        // The cells as users know them.
+        std::vector<Mesh::Index> cells(rows.cells.begin(), rows.cells.end());
+        for (Mesh::Index& cell : cells) cell = mesh_->cell_number(cell);
+        weights_->write(counts, weights.nodes, weights.weights, cells);
         return weights_->status();
     }
 
     const StreamTargets& targets_;
+    const Mesh* mesh_ = nullptr;
     bool opened_ = false;
     std::unique_ptr<TableSink> sink_;
     std::optional<MapWriter> map_;
@@ -130,6 +163,7 @@ Status sample_block(const Run& run, const Engine& engine, Block& block) {
     if (run.summary.all) {
         Result<Table> all = engine.locator().locate_all(rows.points, options.threads);
         if (!all) return all.error();
+        for (const Column& column : rows.carried) all->carried.push_back(mesh::repeated(column, all->point_begin));
         rows = std::move(*all);
         const LocationCounts locations = rows.counts.locations;
         if (Status done = engine.sampler().evaluate(rows.points, options, rows); !done) return done;
@@ -184,6 +218,7 @@ Status sample_stream(Run& run, Engine& engine, PointSource& source, const Stream
         const Result<std::size_t> count = source.read(size, block.rows.points);
         seconds.read += watch.lap();
         if (!count) return count.error();
+        source.take_carried(block.rows.carried);
         taken += *count;
         more = *count == size && source.count() != taken;
         block.size = *count;
@@ -338,6 +373,8 @@ Status sample_known(Run& run, Engine& engine, const KnownRows& known, const Sink
         part(known.points, d, block.rows.points);
         part(known.cells, 1, block.rows.cells);
         part(known.features, 1, block.rows.features);
+        block.rows.carried.clear();
+        for (const Column& column : known.carried) block.rows.carried.push_back(part_of(column, begin, end));
         block.first = begin;
         block.size = end - begin;
         taken = end;

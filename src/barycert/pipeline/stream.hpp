@@ -34,6 +34,7 @@ struct KnownRows {
     std::vector<double> points;
     std::vector<Mesh::Index> cells;
     std::vector<Feature> features;
+    std::vector<Column> carried;
 };
 
 /// Where rows go.
