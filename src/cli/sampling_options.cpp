@@ -43,8 +43,8 @@ OutsidePolicy policy_of(const std::string& text) {
 std::optional<FieldFile> series_of(FieldFile::Of of, const std::string& text) {
     const std::size_t sign = text.find('@'), equals = text.find('=');
     if (sign == std::string::npos || sign == 0 || sign + 1 == text.size()) return std::nullopt;
-    if (equals != std::string::npos && (equals < sign || text.find('*', sign) == std::string::npos))
-        return std::nullopt;
+    const bool of_steps = text.find('*', sign) != std::string::npos || text.find(".pvd", sign) != std::string::npos;
+    if (equals != std::string::npos && (equals < sign || !of_steps)) return std::nullopt;
     return FieldFile{of, text.substr(0, sign), text.substr(sign + 1)};
 }
 

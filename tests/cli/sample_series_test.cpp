@@ -130,6 +130,53 @@ TEST_F(Series, of_folders_and_names_with_signs) {
               "x,y,z,cell,feature,T@5");
 }
 
+// Meshes with arrays are steps, too: by a pattern, or by a .pvd file, whose times are their names.
+TEST_F(Series, of_vtk_files) {
+    put_steps({1, 2});
+    for (const std::string step : {"1", "2"}) {
+        const Ended made = run({"resample", two, "--onto", two, "--field", "T=" + scratch.path("step-" + step + ".txt"),
+                                "--fields", "T", "--output", scratch.path("m-" + step + ".vtu"), "--quiet"});
+        ASSERT_EQ(made.code, 0) << made.err;
+    }
+    scratch.put("all.pvd",
+                "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\"><Collection>\n"
+                "<DataSet timestep=\"0.5\" file=\"m-1.vtu\"/>\n<DataSet timestep=\"2\" file=\"m-2.vtu\"/>\n"
+                "</Collection></VTKFile>\n");
+    const std::string ends = "0.25,0.25,0.25,0,interior,";
+    for (const std::string series : {"m-*.vtu", "m-*.vtu:T", "all.pvd", "all.pvd:T"}) {
+        const Ended r = run_there({"--field", "T@" + series, "--fields", "T", "--output", "-"});
+        ASSERT_EQ(r.code, 0) << series << r.err;
+        const bool times = contains(series, "pvd");
+        EXPECT_EQ(lines_of(r.out)[0], std::string("x,y,z,cell,feature,T@") + (times ? "0.5,T@2" : "1,T@2")) << series;
+        EXPECT_EQ(lines_of(r.out)[1], ends + "4.5,9") << series;
+    }
+    // The field of the mesh makes place for the series.
+    const Ended r =
+        run({"sample", scratch.path("m-1.vtu"), "--points", points, "--field", "T@" + scratch.path("all.pvd"),
+             "--fields", "T", "--output", scratch.path("t-{step}.csv"), "--quiet"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(lines_of(read_file(scratch.path("t-0.5.csv")))[1], ends + "4.5");
+    EXPECT_EQ(lines_of(read_file(scratch.path("t-2.csv")))[1], ends + "9");
+    expect_error(sample({"--field", "T@" + scratch.path("none.pvd"), "--output", "-"}), "none.pvd");
+    expect_error(sample({"--field", "T@" + scratch.path("m-*.vtu:U"), "--output", "-"}), "no such array");
+}
+
+// Columns of the points are there in every step.
+TEST_F(Series, keep_columns_of_points) {
+    put_steps({1, 2});
+    const std::string named = scratch.put("named.csv", "x,y,z,id\n.25,.25,.25,a\n2,2,2,b\n");
+    const Ended r = run({"sample", two, "--points", named, "--keep", "id", "--field", "T@" + scratch.path("step-*.txt"),
+                         "--fields", "T", "--output", scratch.path("k-{step}.csv"), "--quiet"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    for (const std::string step : {"1", "2"}) {
+        const Words lines = lines_of(read_file(scratch.path("k-" + step + ".csv")));
+        ASSERT_EQ(lines.size(), 3U);
+        EXPECT_EQ(lines[0], "x,y,z,cell,feature,T,id");
+        EXPECT_EQ(lines[1], "0.25,0.25,0.25,0,interior," + std::string(step == "1" ? "4.5" : "9") + ",a");
+        EXPECT_EQ(lines[2], "2,2,2,-1,outside,nan,b");
+    }
+}
+
 TEST_F(Series, that_cannot_be_are_refused) {
     put_steps({1, 2});
     put_steps({1, 3}, "other-");
@@ -214,7 +261,8 @@ assert (abs(values - rows['T'])[inside] <= 8 * np.spacing(100.0)).all()
 TEST_F(WeightFiles, that_cannot_be_are_refused) {
     expect_error(sample({}), "no output: expected --output FILE, --weights FILE, or both, found neither");
     expect_error(sample({"--weights", scratch.path("w.npy")}), "unknown suffix of --weights: expected .npz");
-    expect_error(sample({"--weights", scratch.path("w.npz"), "--fields", "attribute0"}), "fields without --output");
+    expect_error(sample({"--weights", scratch.path("w.npz"), "--fields", "attribute0"}),
+                 "fields or columns without --output");
     expect_error({"resample", two, "--grid", "2x2x2", "--weights", scratch.path("w.npz"), "--output", "-"},
                  "--weights needs --onto here");
     expect_error(sample({"--weights", scratch.path("no/w.npz")}), "no/w.npz");

@@ -41,13 +41,6 @@ Result<bool> is_of_cells(const FieldFile& file, std::size_t rows, const Mesh& me
                  .remedy = "use a file made for this mesh"};
 }
 
-bool is_file_of_a_mesh(const std::string& path) {
-    constexpr std::array<std::string_view, 3> suffixes{".msh", ".node", ".ele"};
-    return io::is_vtk_points_file(path) || std::any_of(suffixes.begin(), suffixes.end(), [&](std::string_view suffix) {
-               return io::has_suffix(path, suffix);
-           });
-}
-
 std::string names_of(const std::vector<Field>& fields) {
     std::string text;
     for (const Field& field : fields) text += (text.empty() ? "" : ", ") + base::quoted(field.name);
@@ -120,6 +113,13 @@ Result<Field> read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
 }
 
 }  // namespace
+
+bool is_file_of_a_mesh(const std::string& path) {
+    constexpr std::array<std::string_view, 3> suffixes{".msh", ".node", ".ele"};
+    return io::is_vtk_points_file(path) || std::any_of(suffixes.begin(), suffixes.end(), [&](std::string_view suffix) {
+               return io::has_suffix(path, suffix);
+           });
+}
 
 bool is_name_of_rows(const std::string& name) {
     constexpr std::array<std::string_view, 7> taken{"x", "y", "z", "cell", "feature", "distance", "vtkValidPointMask"};

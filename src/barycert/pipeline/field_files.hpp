@@ -15,6 +15,9 @@ namespace barycert::pipeline {
 /// vtkValidPointMask.
 bool is_name_of_rows(const std::string& name);
 
+/// Whether fields are read from such a file as arrays of a mesh, by its suffix.
+bool is_file_of_a_mesh(const std::string& path);
+
 /// Where a field of the mesh is.
 struct FieldPlace {
     bool of_cells = false;

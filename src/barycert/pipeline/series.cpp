@@ -7,8 +7,14 @@
 #include <cctype>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <system_error>
 #include <utility>
+
+#include "barycert/base/text.hpp"
+#include "barycert/io/formats.hpp"
+#include "barycert/pipeline/field_files.hpp"
+#include "barycert/vtk.hpp"
 
 namespace barycert::pipeline {
 namespace {
@@ -43,13 +49,45 @@ bool naturally_before(std::string_view a, std::string_view b) {
     return a.size() != b.size() ? a.size() < b.size() : a < b;
 }
 
+/// A step of one series.
+using LabelledFile = std::pair<std::string, FieldFile>;
+
+/// The array has the name of the field, unless another one is given.
+LabelledFile labelled(const std::string& label, const FieldFile& series, const std::string& path) {
+    LabelledFile step{label, series};
+    step.second.path = path;
+    if (series.column.empty() && is_file_of_a_mesh(path)) step.second.column = series.name;
+    return step;
+}
+
+/// The steps of a .pvd file, by their times.
+Result<std::vector<LabelledFile>> steps_of_pvd(const FieldFile& series) {
+    const auto steps = read_series(series.path);
+    if (!steps) return steps.error();
+    std::vector<LabelledFile> found;
+    for (const SeriesStep& step : *steps) {
+        const std::string label = base::shortest(step.time);
+        const bool twice =
+            std::any_of(found.begin(), found.end(), [&](const LabelledFile& other) { return other.first == label; });
+        if (step.files.size() != 1 || twice)
+            return Error{.what = "step " + label + " of the series \"" + series.name + '"',
+                         .file = series.path,
+                         .expected = "one file",
+                         .found = twice ? "another one of the same time" : std::to_string(step.files.size()) + " files",
+                         .remedy = "gather the parts of a step in a .pvtu file"};
+        found.push_back(labelled(label, series, step.files.front()));
+    }
+    if (found.empty()) return Error{.what = "no step in the series \"" + series.name + '"', .file = series.path};
+    return found;
+}
+
 /// Label and path of each file that the pattern matches.
-Result<std::vector<std::pair<std::string, std::string>>> matches_of(const FieldFile& series) {
+Result<std::vector<LabelledFile>> matches_of(const FieldFile& series) {
     const std::string& pattern = series.path;
     if (std::count(pattern.begin(), pattern.end(), '*') != 1)
         return Error{.what = "pattern of the series \"" + series.name + '"',
                      .file = pattern,
-                     .expected = "one *, where the files of the steps differ, such as 'step-*.npy'",
+                     .expected = "one *, where the files of the steps differ, such as 'step-*.npy', or a .pvd file",
                      .found = fmt::format("{}", std::count(pattern.begin(), pattern.end(), '*')),
                      .remedy = "quote the pattern, so that the shell leaves it as it is; for one file write NAME=FILE"};
     // FOLDER/BEFORE*AFTER/REST: entries of one folder are looked at.
@@ -58,7 +96,7 @@ Result<std::vector<std::pair<std::string, std::string>>> matches_of(const FieldF
     const std::string before = pattern.substr(folder.size(), star - folder.size());
     const std::string after = pattern.substr(star + 1, next == std::string::npos ? next : next - star - 1);
     const std::string rest = next == std::string::npos ? "" : pattern.substr(next);
-    std::vector<std::pair<std::string, std::string>> found;
+    std::vector<LabelledFile> found;
     std::error_code failed;
     fs::directory_iterator entries(folder.empty() ? "." : folder, failed);
     for (const fs::directory_iterator end; !failed && entries != end; entries.increment(failed)) {
@@ -69,7 +107,18 @@ Result<std::vector<std::pair<std::string, std::string>>> matches_of(const FieldF
         std::error_code unknown;
         const std::string path = folder + entry + rest;
         if (!rest.empty() && !fs::exists(path, unknown)) continue;
-        found.emplace_back(entry.substr(before.size(), entry.size() - before.size() - after.size()), path);
+        found.push_back(
+            labelled(entry.substr(before.size(), entry.size() - before.size() - after.size()), series, path));
+    }
+    if (found.empty() && failed.value() == 0) {
+        // FILE:COLUMN, behind the *.
+        const std::size_t colon = pattern.rfind(':');
+        if (series.column.empty() && colon != std::string::npos && colon > star && colon + 1 != pattern.size()) {
+            FieldFile split = series;
+            split.path = pattern.substr(0, colon);
+            split.column = pattern.substr(colon + 1);
+            return matches_of(split);
+        }
     }
     if (found.empty())
         return Error{.what = "no file of the series \"" + series.name + '"',
@@ -82,12 +131,25 @@ Result<std::vector<std::pair<std::string, std::string>>> matches_of(const FieldF
     return found;
 }
 
+/// FILE.pvd, or FILE.pvd:COLUMN.
+std::optional<FieldFile> pvd_of(const FieldFile& series) {
+    FieldFile file = series;
+    if (io::has_suffix(file.path, ".pvd")) return file;
+    const std::size_t colon = file.path.rfind(':');
+    if (colon == std::string::npos || colon + 1 == file.path.size()) return std::nullopt;
+    file.column = file.path.substr(colon + 1);
+    file.path.resize(colon);
+    if (!io::has_suffix(file.path, ".pvd")) return std::nullopt;
+    return file;
+}
+
 }  // namespace
 
 Result<std::vector<Step>> find_steps(const std::vector<FieldFile>& series) {
     std::vector<Step> steps;
     for (std::size_t s = 0; s < series.size(); ++s) {
-        auto found = matches_of(series[s]);
+        const auto pvd = pvd_of(series[s]);
+        auto found = pvd ? steps_of_pvd(*pvd) : matches_of(series[s]);
         if (!found) return found.error();
         if (s == 0) steps.resize(found->size());
         for (std::size_t i = 0; i < std::max(found->size(), steps.size()); ++i) {
@@ -105,7 +167,7 @@ Result<std::vector<Step>> find_steps(const std::vector<FieldFile>& series) {
                     .found = name(i < found->size(), i < found->size() ? (*found)[i].first : ""),
                     .remedy = "name files that differ alike"};
             }
-            steps[i].files.push_back({series[s].of, series[s].name, (*found)[i].second});
+            steps[i].files.push_back((*found)[i].second);
         }
     }
     return steps;

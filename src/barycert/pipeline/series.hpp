@@ -17,14 +17,16 @@ inline constexpr std::string_view step_place = "{step}";
 /// At most so many steps stand side by side as columns: they are all in memory.
 inline constexpr std::size_t most_steps_of_columns = 256;
 
-/// One step: what the * of its files stands for, and the file of each series, in their order.
+/// One step: what the * of its files stands for, or its time in a .pvd file; and the file of each series, in their
+/// order.
 struct Step {
     std::string label;
     std::vector<FieldFile> files;
 };
 
-/// The steps of all series of a job in natural order (2 before 10); none if there is no series. Errors: a pattern
-/// without exactly one *, or that no file matches; a step that not all series have.
+/// The steps of all series of a job in natural order (2 before 10), or that of a .pvd file; none if there is no series.
+/// A path may end in :COLUMN; of a mesh file the array of the field's name is read without it. Errors: a pattern
+/// without exactly one *, or that no file matches; those of read_series; a step that not all series have.
 Result<std::vector<Step>> find_steps(const std::vector<FieldFile>& series);
 
 /// Whether each step has outputs of its own.
