@@ -59,7 +59,7 @@ TEST_F(Tables, many_blocks_keep_their_columns) {
               0);
     for (const std::string all : {"lowest", "all"}) {
         const Ended r = run_shell("barycert sample two --points p.csv --keep n --fields attribute0 --on-boundary " + all +
-                                      " --output r.csv --quiet && awk -F, 'NR > 1 && $7 != last { if ($7 != k++) bad = 1 } "
+                                      " --output r.csv --quiet && awk -F, -v last=-1 'NR > 1 && $7 != last { if ($7 != k++) bad = 1 } "
                                       "NR > 1 { last = $7; if ($1 - ($7 % 97) / 90 > 1e-6) bad = 1 } END { print k, bad + 0 }' "
                                       "r.csv",
                                   {.folder = scratch.folder()});

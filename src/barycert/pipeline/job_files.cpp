@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <set>
+#include <string>
 #include <utility>
 
 #include "barycert/base/text.hpp"
@@ -37,6 +39,16 @@ private:
 namespace {
 
 Status check_steps(const SamplingJob& job, const std::vector<Step>& steps) {
+    std::set<std::string> names;
+    for (const std::vector<FieldFile>* const files : {&job.field_files, &job.series}) {
+        for (const FieldFile& file : *files) {
+            if (names.insert(file.name).second || files == &job.field_files) continue;
+            return Error{.what = "a field of this name exists already",
+                         .file = file.path,
+                         .found = '"' + file.name + '"',
+                         .remedy = "give it another name: --field OTHER@" + file.path};
+        }
+    }
     if (has_step_place(job.output) || steps.size() <= most_steps_of_columns) return Done{};
     return Error{.what = "too many steps for columns of one output",
                  .file = job.output,
