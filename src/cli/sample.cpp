@@ -40,7 +40,7 @@ void add_sample(CLI::App& app, int& exit_code) {
                     "gives a column another name")
         ->allow_extra_args(false)
         ->type_name("NAMES|all");
-    file_option(*sub, "--output", a->output, "Rows: .csv .npy .vtu; - is CSV on stdout")->required();
+    file_option(*sub, "--output", a->output, "Rows: .csv .npy .vtu; - is CSV on stdout");
     add_sampling_options(*sub, *a, *quiet);
     sub->add_option_function<std::string>(
            "--on-boundary", [a](const std::string& text) { a->all = text == "all"; },
