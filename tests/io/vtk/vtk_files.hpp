@@ -17,6 +17,7 @@
 
 #include "barycert/vtk.hpp"
 #include "io/tetgen/mesh_files.hpp"
+#include "io/vtk/mesh_notes.hpp"
 
 namespace barycert::testing {
 
@@ -37,33 +38,9 @@ inline Result<Mesh> read_quietly(const std::string& path) {
     return mesh;
 }
 
-/// The texts of the notes of that kind.
-inline std::vector<std::string> notes_of(const Mesh& mesh, Note::Kind kind = Note::Kind::left_out) {
-    std::vector<std::string> texts;
-    for (const Note& note : mesh.notes) {
-        if (note.kind == kind) texts.push_back(note.text);
-    }
-    return texts;
-}
-
-/// The mesh as a VTK file holds it: what has no place in the format is gone.
-inline Mesh as_in_vtk(Mesh mesh) {
-    mesh.mid_edge_order = mesh.mid_nodes.empty() ? MidEdgeOrder::none : MidEdgeOrder::vtk;
-    mesh.faces.clear();
-    mesh.face_mid_nodes.clear();
-    mesh.face_markers.clear();
-    mesh.neighbours.clear();
-    mesh.index_base = 0;
-    return mesh;
-}
-
 inline std::string bits_of(vtkDataArray* array) {
     return {static_cast<const char*>(array->GetVoidPointer(0)),
             static_cast<std::size_t>(array->GetNumberOfValues()) * sizeof(double)};
-}
-
-inline Mesh mesh_of_data(const char* name) {
-    return read_tetgen(std::string(BARYCERT_DATA_DIR) + "/meshes/" + name, {.threads = 1}).value();
 }
 
 template <class Array>
