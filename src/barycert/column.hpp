@@ -26,6 +26,8 @@ struct Column {
 struct ColumnFormat {
     std::string name;
     Column::Type type = Column::Type::integer;
+    /// Of text: the longest that may come, in bytes; and in characters, if all are UTF-8, else 0. NPY files need them.
+    std::size_t max_bytes = 0, max_characters = 0;
 
     friend bool operator==(const ColumnFormat&, const ColumnFormat&) = default;
 };

@@ -48,21 +48,42 @@ struct WriteOptions {
 /// reads back to the same bits. No file is left half-written.
 Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOptions& options = {});
 
-// Streams of points: CSV, NPY and .node files, block by block, so that memory does not grow with their number.
+// Streams of points: CSV, NPY and .node files, block by block, so that memory does not grow with their number; the nodes
+// of meshes.
 //
 // Coordinates are finite doubles in the file's own unit; decimal numbers are rounded to nearest, ties to even.
 // What cannot be read without a guess is an Error, with file, line (of text), what was expected and found, a remedy.
 //
+// Which columns are the coordinates: those that PointOptions names; or x, y, z; Points:0, Points:1, Points:2; or
+// Points_0, Points_1, Points_2, in any case and any place; or, in a file that names none, all columns, if they are as
+// many as the dimension. Beside a mesh in the plane a column z must be 0 throughout.
+//
 // CSV    One point a line, in UTF-8. The first line settles the separator: the first of semicolon, comma and tab that
-//        it holds outside quotes, or else blanks. It is a header if it names the coordinates: x, y, z; Points:0,
-//        Points:1, Points:2; or Points_0, Points_1, Points_2, in any case and any place. Other columns are passed
-//        over. Without a header the first columns are the coordinates. Every line has as many fields as the first.
-//        Fields may stand in double quotes. Blank lines, and lines that begin with #, are passed over. Lines end in
-//        LF or CR LF; the last may lack its end, but not where the file would end within a coordinate: 0.2 may be the
-//        beginning of 0.25. At most 1 MiB a line. A named pipe is waited for.
-// NPY    Versions 1 to 3; one array of shape (n, dimension), float64 or float32 of either byte order, in C or Fortran
-//        order.
-// .node  TetGen's and Triangle's grammar, see io/tetgen/tetgen_reader.cpp; attributes and markers are passed over.
+//        it holds outside quotes, or else blanks. It is a header if it names the coordinates, or if none of its fields
+//        is a number. Every line has as many fields as the first. Fields may stand in double quotes. Blank lines, and
+//        lines that begin with #, are passed over. Lines end in LF or CR LF; the last may lack its end, but not where
+//        the file would end within a value that is read: 0.2 may be the beginning of 0.25. At most 1 MiB a line. A
+//        named pipe is waited for.
+// NPY    Versions 1 to 3; numbers of any integer or floating type up to 64 bits, of either byte order. One array of
+//        shape (n, columns), in C or Fortran order, or a structured one of shape (n,): a field of several numbers is the
+//        columns NAME.0, NAME.1, ... An integer that no double represents is an Error.
+// .node  TetGen's and Triangle's grammar, see io/tetgen/tetgen_reader.cpp. Columns: attribute0, attribute1, ..., marker.
+// meshes Any file that read_mesh takes. Columns: the fields of nodes, and marker. All of it is in memory.
+
+/// Which columns of a file of points are taken for what.
+struct PointOptions {
+    /// Those of the coordinates, in the order of the axes: names, or numbers from 1. One text may hold several, with
+    /// commas between them. Empty: see above.
+    std::vector<std::string> columns = {};
+
+    /// Those that are carried through: names, or "all" of the others; NEW=NAME gives a column another name. Columns of
+    /// files that name none are column1, column2, ... One text may hold several, with commas between them.
+    std::vector<std::string> keep = {};
+
+    /// Of CSV: columns that are carried through become integers or numbers, if all their values are; texts otherwise.
+    /// The file is read twice, and must not be a pipe. Without it they are texts, as they stand in the file.
+    bool typed = false;
+};
 
 /// Points, block by block.
 class PointSource {
@@ -79,23 +100,35 @@ public:
     /// than `max_points` only at the end, 0 after it. On an Error the points before the fault may have been appended;
     /// the source gives nothing but that Error from then on.
     virtual Result<std::size_t> read(std::size_t max_points, std::vector<double>& out) = 0;
+
+    /// The columns that are carried through.
+    virtual std::vector<ColumnFormat> carried() const { return {}; }
+
+    /// Puts the carried columns of the points of the last read() into `columns`, a value a point; afterwards they are
+    /// the source's no more. The memory of what was in `columns` may be used again.
+    virtual void take_carried(std::vector<Column>& columns) { columns.clear(); }
+
+    /// What of the file is left out, converted or guessed. Known when opened.
+    virtual Notes notes() const { return {}; }
 };
 
-/// Opens the points of a CSV, NPY or .node file, or of VTK's files (read_vtk_points in vtk.hpp); "-" is CSV from the
-/// standard input. `dimension`: 2 or 3; of a CSV only the columns that are asked for are read. Returns
-/// an Error if the suffix is another one, the file cannot be read, or has another dimension.
-Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int dimension);
+/// Opens the points of a CSV, NPY or .node file, of a mesh, or of VTK's files with or without cells (read_vtk_points in
+/// vtk.hpp); "-" is CSV from the standard input. `dimension`: 2 or 3. Returns an Error if the file cannot be read, is of
+/// an unknown kind, or has another dimension, or if there are no such columns.
+Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int dimension,
+                                                 const PointOptions& options = {});
 
 /// Points from memory, as they are. An incomplete last point is left out.
 std::unique_ptr<PointSource> memory_points(std::vector<double> points, int dimension);
 
 // Sampled values, row by row, into CSV and NPY files that appear whole or not at all.
 //
-// CSV  A header line x,y[,z],cell,feature,NAME...[,distance], then a line a row. Numbers are in the shortest decimal
-//      form that reads back to the same bits; nan, inf, -inf. Names that hold a comma, a quote or a line end are
-//      quoted, and quotes in them doubled.
+// CSV  A header line x,y[,z],cell,feature,NAME...[,distance][,CARRIED...], then a line a row. Numbers are in the shortest
+//      decimal form that reads back to the same bits; nan, inf, -inf. Names and texts that hold a comma, a quote or a
+//      line end, or that begin or end with a blank, are quoted, and quotes in them doubled.
 // NPY  One structured array: x, y[, z] float64, cell int64, feature bytes of 8, each column float64, [distance
-//      float64]; all little-endian. Names must differ from one another; UTF-8.
+//      float64], carried columns int64, float64, or text: U, characters, if ColumnFormat::max_characters is not 0, else
+//      S, bytes; all little-endian. Names must differ from one another; UTF-8.
 
 /// What a file of rows has: points, cell, feature, the columns of the fields, and perhaps distances.
 struct TableFormat {

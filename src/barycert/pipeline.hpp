@@ -15,6 +15,7 @@
 
 #include "barycert/certificate.hpp"
 #include "barycert/grid.hpp"
+#include "barycert/notes.hpp"
 #include "barycert/picture.hpp"
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
@@ -27,6 +28,9 @@ struct FieldFile {
     enum class Of : std::uint8_t { either, points, cells };
     Of of = Of::either;
     std::string name, path;
+    /// Of a CSV file the name or number (from 1) of the column, of a structured NPY file the field, of a mesh the array.
+    /// Empty: all that a text or NPY file holds.
+    std::string column = {};
 };
 
 /// What a job is doing.
@@ -56,6 +60,8 @@ struct SamplingJob {
 /// Fields at points: rows to CSV, NPY or VTU files.
 struct SampleJob : SamplingJob {
     std::string points;         ///< as for open_points; or
+    std::vector<std::string> columns = {};  ///< PointOptions::columns
+    std::vector<std::string> keep = {};     ///< PointOptions::keep: columns of the points that rows have, too
     std::string map;            ///< a map (map.hpp) in place of points
     std::string save_map;       ///< where to write one; empty: nowhere
     std::optional<bool> all{};  ///< a row for each cell that holds a point; not set: no, or as the map has it
@@ -105,6 +111,8 @@ struct SampleSummary {
     std::string mesh, output;
     std::string points;                ///< the file they came from; empty for a grid
     std::vector<std::string> columns;  ///< of values
+    std::vector<std::string> carried;  ///< columns that were carried through: labels of cells, columns of points
+    Notes notes;                       ///< what was left out, converted or guessed: of the mesh, of fields, of points
     std::string reason;                ///< why `method`: a clause
     std::optional<Grid> grid;          ///< of ResampleJob::counts and spacing
     std::optional<SliceCounts> picture;

@@ -25,7 +25,18 @@ void add_sample(CLI::App& app, int& exit_code) {
     const auto quiet = std::make_shared<bool>(false);
     file_option(*sub, "MESH", a->mesh, "A TetGen mesh (.node/.ele; Triangle's for 2D), or a VTK file (.vtu .vtk)")
         ->required();
-    file_option(*sub, "--points", a->points, "Points: .csv .npy .node .vtu .vtp .vtk; - is CSV from stdin");
+    file_option(*sub, "--points", a->points,
+                "Points: .csv .npy .node .vtu .vtp .vtk, or the nodes of another mesh; - is CSV from stdin");
+    sub->add_option("--columns", a->columns,
+                    "The columns of the coordinates, by name or by number from 1, such as 2,3,4 or lon,lat,depth; needed "
+                    "where the file does not name x,y,z and has more columns than the mesh has dimensions")
+        ->allow_extra_args(false)
+        ->type_name("A,B,C");
+    sub->add_option("--keep", a->keep,
+                    "Columns of the points that rows are to have, as they are: names, or all of the others; NEW=NAME "
+                    "gives a column another name")
+        ->allow_extra_args(false)
+        ->type_name("NAMES|all");
     file_option(*sub, "--output", a->output, "Rows: .csv .npy .vtu; - is CSV on stdout")->required();
     add_sampling_options(*sub, *a, *quiet);
     sub->add_option_function<std::string>(

@@ -5,7 +5,9 @@
 #include <CLI/CLI.hpp>
 
 #include <cmath>
+#include <filesystem>
 #include <optional>
+#include <system_error>
 
 #include "barycert/base/text.hpp"
 #include "barycert/report.hpp"
@@ -41,13 +43,26 @@ FieldFile field_file_of(const std::string& option, FieldFile::Of of, const std::
     const std::size_t sign = text.find('=');
     if (sign == std::string::npos || sign == 0 || sign + 1 == text.size())
         throw CLI::ValidationError(option, "expected NAME=FILE, found \"" + text + '"');
-    return {of, text.substr(0, sign), text.substr(sign + 1)};
+    FieldFile file{of, text.substr(0, sign), text.substr(sign + 1)};
+    // FILE:COLUMN, where the file is the shortest beginning that there is; a file may have a colon in its name, and a
+    // column, too.
+    std::error_code ignored;
+    const auto is_there = [&](const std::string& path) { return std::filesystem::exists(path, ignored); };
+    std::size_t colon = is_there(file.path) ? std::string::npos : file.path.find(':');
+    while (colon != std::string::npos && !is_there(file.path.substr(0, colon))) colon = file.path.find(':', colon + 1);
+    if (colon == std::string::npos && !is_there(file.path)) colon = file.path.rfind(':');  // for the message
+    if (colon != std::string::npos && colon != 0 && colon + 1 != file.path.size()) {
+        file.column = file.path.substr(colon + 1);
+        file.path.resize(colon);
+    }
+    return file;
 }
 
 Status write_reports(const SamplingJob& job, bool quiet, const SampleSummary& summary) {
     Status json = Done{};
     if (!job.report.empty()) json = write_output(job.report, sample_json(summary, measure_environment()));
     if (quiet) return json;
+    tell_important(summary.notes);
     if (job.output == "-" || job.report == "-") {
         tell(sample_text(summary, false));
         return json;
@@ -66,7 +81,8 @@ void add_field_files(CLI::App& sub, std::vector<FieldFile>& files, const std::st
     };
     for (const Option& o :
          {Option{either, FieldFile::Of::either,
-                 "Add a field: one row of numbers per node or per cell (text with blanks or commas, or .npy)"},
+                 "Add a field: one row of numbers per node or per cell (text with blanks or commas, or .npy); FILE:COLUMN: "
+                 "a column of a CSV or structured .npy file, or an array of another mesh"},
           Option{"--point-field", FieldFile::Of::points, "Like " + either + "; the rows belong to nodes"},
           Option{"--cell-field", FieldFile::Of::cells, "Like " + either + "; the rows belong to cells"}}) {
         sub.add_option_function<std::vector<std::string>>(
@@ -76,7 +92,7 @@ void add_field_files(CLI::App& sub, std::vector<FieldFile>& files, const std::st
                },
                o.help)
             ->allow_extra_args(false)
-            ->type_name("NAME=FILE");
+            ->type_name("NAME=FILE[:COLUMN]");
     }
 }
 
@@ -101,7 +117,7 @@ void add_sampling_options(CLI::App& sub, SamplingJob& a, bool& quiet) {
         ->type_name("N");
     vtk_data_option(sub, a.vtk_data);
     file_option(sub, "--json", a.report, "Write the summary as JSON; - is stdout");
-    sub.add_flag("--quiet", quiet, "Print no summary and no progress");
+    sub.add_flag("--quiet", quiet, "Print no summary, no notes and no progress");
 }
 
 int run_sampling(SamplingJob& job, bool quiet, const std::function<Result<SampleSummary>()>& run) {

@@ -164,11 +164,11 @@ void run_counters(const std::string& self, bool quick, SampleTable& table) {
         const Counters after = count(self, counted.subject, counted.many / scale, quick);
         const auto queries = static_cast<double>(counted.many / scale - counted.few / scale);
         const auto each = [&](double Counters::*what) { return (after.*what - before.*what) / queries; };
-        const std::string text = with_unit(each(&Counters::lines), "lines") + " (from the first cache " +
-                                 with_unit(each(&Counters::first), ")") + ", " +
-                                 with_unit(each(&Counters::instructions), "instructions") + ", " +
-                                 with_unit(each(&Counters::branches), "branches") + ", missed " +
-                                 with_unit(each(&Counters::missed), "");
+        const std::string text = with_unit(each(&Counters::lines), "lines") + " (" +
+                                 with_unit(each(&Counters::first), "from the first cache), ") +
+                                 with_unit(each(&Counters::instructions), "instructions, ") +
+                                 with_unit(each(&Counters::branches), "branches, ") +
+                                 with_unit(each(&Counters::missed), "missed");
         SampleTable::Line line{.what = std::string("cube, counted: ") + counted.what};
         (counted.column == Counted::Column::ours  ? line.ours
          : counted.column == Counted::Column::vtk ? line.vtk

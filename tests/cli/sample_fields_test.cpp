@@ -130,9 +130,9 @@ TEST_F(Fields, that_cannot_be_are_refused) {
     bad_npy("no array", "t.npy");
     bad_npy(npy("<c16", "5,", std::string(80, '\0')), "the type of field \"t\": expected floats");
     bad_npy(npy("<f8", "5, 1, 1", std::string(40, '\0')), "the shape of field \"t\"");
-    bad_npy(npy("<f8", "5,", std::string(39, '\0')), "does not fit its header");
-    bad_npy(npy("<f8", "5,", std::string(41, '\0')), "does not fit its header");
-    bad_npy(npy("<f8", "2305843009213693957,", std::string(40, '\0')), "does not fit its header");
+    bad_npy(npy("<f8", "5,", std::string(39, '\0')), "expected 5 rows of 8 bytes, as its header tells, found 39 bytes");
+    bad_npy(npy("<f8", "5,", std::string(41, '\0')), "expected 40, as the header tells, found 41");
+    bad_npy(npy("<f8", "2305843009213693957,", std::string(40, '\0')), "as its header tells, found 40 bytes");
     bad_npy(npy("<i8", "5,", bytes(std::vector<std::int64_t>{1, 2, (1LL << 53) + 1, 3, 4})),
             "row 2 of field \"t\": expected an integer that a double holds exactly");
     // As many nodes as cells: it has to be said.

@@ -90,7 +90,7 @@ TEST(sample_files, what_is_not_understood_is_refused) {
         {{"sample", two, "--points", scratch.path("no.csv"), "--output", "-"},
          "error: " + scratch.path("no.csv") + ": cannot read the file"},
         {{"sample", scratch.path("no"), "--points", points, "--output", "-"}, "MESH is the stem of TetGen's files"},
-        {{"sample", mesh("plate"), "--points", scratch.put("p.node", "1 3 0 0\n1 0 0 0\n"), "--output", "-"}, "p.node"},
+        {{"sample", mesh("plate"), "--points", scratch.put("p.node", "1 3 0 0\n1 0 0 1\n"), "--output", "-"}, "p.node"},
         {{"sample", two, "--points", scratch.put("bad.csv", "x,y,z\n0,0,0\n0,zero,0\n"), "--output", "-"},
          "bad.csv:3: "},
         {{"sample", two, "--points", scratch.put("nan.csv", "0,0,0\n0,nan,0\n"), "--output", "-"}, "nan.csv:2: "}};

@@ -53,18 +53,19 @@ TEST(CsvErrors, numbers_of_fields) {
     expect_csv_refused("1,2,3\n1,2,3,\n", 3,
                        {2, "too many fields in a line", "3, separated by commas, as in the first line", "4", nullptr});
     expect_csv_refused(
-        "1 2 3 a\n1 2 3 a b\n", 3,
+        "x y z n\n1 2 3 a b\n", 3,
         {2, "too many fields in a line", "4, separated by blanks, as in the first line", "5", "double quotes"});
-    expect_csv_refused("1\t2\t3\ta\n\n1\t2\t3\n", 3,
+    expect_csv_refused("x\ty\tz\tn\n\n1\t2\t3\n", 3,
                        {3, "too few fields in a line", "4, separated by tabs, as in the first line", "3", nullptr});
     expect_csv_refused(
         "1;2\n1;2;3;4\n", 2,
         {2, "too many fields in a line", "2, separated by semicolons, as in the first line", "4", nullptr});
     expect_csv_refused("# c\n1,2\n", 3,
-                       {2, "too few columns for a point", "3 numbers, for the mesh is 3-dimensional", "\"1\", \"2\"",
-                        "one point a line"});
+                       {2, "too few columns for a point", "3, for the mesh is 3-dimensional",
+                        "2 columns without names", "one point a line"});
     expect_csv_refused(
-        "5\n", 2, {1, "too few columns for a point", "2 numbers, for the mesh is 2-dimensional", "\"5\"", nullptr});
+        "5\n", 2,
+        {1, "too few columns for a point", "2, for the mesh is 2-dimensional", "1 columns without names", nullptr});
 }
 
 TEST(CsvErrors, headers) {
@@ -73,7 +74,7 @@ TEST(CsvErrors, headers) {
         "x,y\n1,2\n", 3,
         {1, unnamed, "columns x, y, z (or Points:0, Points:1, Points:2)", "\"x\", \"y\"", "use these column names"});
     expect_csv_refused("\n#\nlon,lat,h\n1,2,3\n", 3,
-                       {3, unnamed, nullptr, "\"lon\", \"lat\", \"h\"", "use these column names"});
+                       {3, unnamed, nullptr, "\"lon\", \"lat\", \"h\"", "--columns lon,lat,h, or use these names"});
     expect_csv_refused("a,b,c,d,e,f,g,h,i\n", 2,
                        {1, unnamed, "columns x, y (or Points:0, Points:1)",
                         "\"a\", \"b\", \"c\", \"d\", \"e\", \"f\", \"g\", \"h\", ...", nullptr});
@@ -84,11 +85,11 @@ TEST(CsvErrors, headers) {
 
 TEST(CsvErrors, quotes) {
     const char* const what = "a quoted field is not closed";
-    expect_csv_refused("1,2,3,\"a\n4,5,6,b\"\n", 3, {1, what, nullptr, "\"1,2,3,\"a\"", "close the quote"});
-    expect_csv_refused("1,2,3,a\n4,5,6,\"b\"c\n", 3, {2, what, nullptr, nullptr, nullptr});
+    expect_csv_refused("x,y,z,n\n1,2,3,\"a\n4,5,6,b\"\n", 3, {2, what, nullptr, "\"1,2,3,\"a\"", "close the quote"});
+    expect_csv_refused("x,y,z,n\n4,5,6,\"b\"c\n", 3, {2, what, nullptr, nullptr, nullptr});
     expect_csv_refused("1,2,3\n4,5,6,\"b\n", 3, {2, what, nullptr, nullptr, nullptr});  // beyond the fields
-    expect_csv_refused("1 2 3 a\n4 5 6 \"b\"c\n", 3, {2, what, nullptr, nullptr, nullptr});
-    expect_csv_refused("1,2,3,a\n4,5,6,\"\"\"\n", 3, {2, what, nullptr, nullptr, nullptr});
+    expect_csv_refused("x y z n\n4 5 6 \"b\"c\n", 3, {2, what, nullptr, nullptr, nullptr});
+    expect_csv_refused("x,y,z,n\n4,5,6,\"\"\"\n", 3, {2, what, nullptr, nullptr, nullptr});
 }
 
 TEST(CsvErrors, nothing_to_read) {

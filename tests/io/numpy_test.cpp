@@ -1,6 +1,7 @@
 // Against NumPy itself, where there is one.
 #include <cstdlib>
 
+#include "barycert/mesh/columns.hpp"
 #include "io/row_data.hpp"
 
 namespace barycert::io::testing {
@@ -79,13 +80,81 @@ np.savetxt('blanks.csv', a)
     EXPECT_TRUE(read_file(folder / "empty.npy", 3).value().empty());
     EXPECT_EQ(bits_of(read_file(folder / "single.npy", 3).value()), get(folder / "singles"));
     EXPECT_EQ(bits_of(read_file(folder / "plane.npy", 2).value()), get(folder / "plane"));
-    EXPECT_FALSE(read_file(folder / "int.npy", 3));
+    EXPECT_EQ(read_file(folder / "int.npy", 3).value(), std::vector<double>(6));
     EXPECT_FALSE(read_file(folder / "row.npy", 3));
     expect_error(read_file(folder / "zip.npy", 3), "zip.npy",
                  {0, "cannot read the header of the NPY file", "one array", nullptr, nullptr});
     // 19 digits: enough for every double.
     EXPECT_EQ(bits_of(read_file(folder / "t.csv", 3, 1000).value()), bits_of(points));
     EXPECT_EQ(bits_of(read_file(folder / "blanks.csv", 3, 1000).value()), bits_of(points));
+}
+
+TEST(NumPy, columns_are_carried_through_as_they_are) {
+    if (!numpy_is_there()) GTEST_SKIP() << "python3 has no numpy";
+    const TemporaryFolder folder;
+    ASSERT_TRUE(python(folder, R"(
+import numpy as np
+n = 500
+rng = np.random.default_rng(5)
+names = np.array(['', 'steel', 'Stahl \u00e4\u20ac', '\U0001f600 x', "it's, \"b\""])
+types = {'x': '>f4', 'y': 'i2', 'z': 'f2', 'b': '?', 'i1': 'i1', 'u1': 'u1', 'i8': '>i8', 'u8': 'u8', 'f8': 'f8',
+         'f2': '>f2', 'S': 'S7', 'U': 'U9', 'V': '>U9', 'pos': ('f8', (2,)), 'a "b"\n': 'i4', 'ä': 'u4'}
+a = np.zeros(n, dtype=np.dtype([(k, t) if not isinstance(t, tuple) else (k,) + t for k, t in types.items()], align=True))
+for k in a.dtype.names:
+    t = a.dtype[k]
+    if t.kind == 'b': a[k] = rng.integers(0, 2, n)
+    elif t.kind in 'iu':
+        i = np.iinfo(t)
+        a[k] = rng.integers(i.min, min(i.max, 2**63 - 1), n, dtype=t.newbyteorder('='), endpoint=True)
+    elif t.kind == 'f': a[k] = rng.standard_normal(n)
+    elif t.kind == 'S': a[k] = rng.choice(np.array([b'', b'\xff\x00a', b'steel']), n)
+    elif t.kind == 'U': a[k] = rng.choice(names, n)
+a['pos'] = rng.standard_normal((n, 2))
+a['f8'][:3] = [np.nan, np.inf, -0.0]
+np.save('a.npy', a)
+np.save('part.npy', a[['x', 'y', 'z', 'U']])   # with holes
+)"));
+    PointOptions options;
+    options.keep = {"all"};
+    for (const char* name : {"a.npy", "part.npy"}) {
+        auto source = open_points(folder / name, 3, options);
+        ASSERT_TRUE(source) << source.error().message();
+        Table rows;
+        rows.dimension = 3;
+        std::vector<Column> some;
+        while ((*source)->read(170, rows.points).value() != 0) {
+            (*source)->take_carried(some);
+            if (rows.carried.empty()) rows.carried = some;
+            else for (std::size_t k = 0; k < some.size(); ++k) mesh::move_values(some[k], 0, some[k].size(), rows.carried[k]);
+        }
+        rows.cells.assign(500, 3);
+        rows.features.assign(500, Feature::edge);
+        TableFormat format{.dimension = 3};
+        format.carried = (*source)->carried();
+        auto sink = open_table(folder / (std::string("out-") + name), format);
+        ASSERT_TRUE(sink) << sink.error().message();
+        const Status written = (*sink)->write(rows.view());
+        ASSERT_TRUE(written) << written.error().message();
+        ASSERT_TRUE((*sink)->commit());
+    }
+    EXPECT_TRUE(python(folder, R"(
+import numpy as np
+for name in ['a.npy', 'part.npy']:
+    a, b = np.load(name), np.load('out-' + name)
+    assert len(b) == 500
+    for k in a.dtype.names:
+        t, want = a.dtype[k], a[k]
+        if k == 'pos':
+            assert (np.stack([b['pos.0'], b['pos.1']], axis=1) == want).all()
+            continue
+        got = b[k]
+        kind = 'f' if k in 'xyz' else 'i' if t.kind in 'iub' else t.kind
+        assert got.dtype.kind == kind, (k, got.dtype)
+        assert kind in 'SU' or got.dtype.itemsize == 8
+        assert np.array_equal(got, want.astype(got.dtype), equal_nan=kind == 'f'), k
+        if kind == 'U': assert got.dtype == np.dtype('<U9')
+assert (np.signbit(np.load('out-a.npy')['f8'][:3]) == [False, False, True]).all()
+)"));
 }
 
 }  // namespace

@@ -38,6 +38,8 @@ void check_reports(Schema& schema) {
 void sample_reports(Schema& schema) {
     SampleSummary run;
     run.columns = {"t"};
+    run.carried = {"id"};
+    run.notes = {{Note::Kind::guessed, "the order", "a file"}};
     for (const double low : {0.25, std::numeric_limits<double>::quiet_NaN()}) {
         run.picture = SliceCounts{.drawn = 3, .below = 1, .above = 2, .low = low, .high = low};
         schema.check("Sample", Json::parse(sample_json(run, measure_environment())), "sample");

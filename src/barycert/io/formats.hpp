@@ -24,15 +24,18 @@ bool is_vtk_file(std::string_view path);
 /// True for these and grids, whose points can be read: .vti .vtr .vts.
 bool is_vtk_points_file(std::string_view path);
 
-// `path` and `format` are as for open_points and open_table.
-Result<std::unique_ptr<PointSource>> open_csv_source(const std::string& path, int dimension);
-Result<std::unique_ptr<PointSource>> open_npy_source(const std::string& path, int dimension);
-Result<std::unique_ptr<PointSource>> open_node_source(const std::string& path, int dimension);
+// `path`, `options` and `format` are as for open_points and open_table.
+Result<std::unique_ptr<PointSource>> open_csv_source(const std::string& path, int dimension,
+                                                     const PointOptions& options);
+Result<std::unique_ptr<PointSource>> open_npy_source(const std::string& path, int dimension,
+                                                     const PointOptions& options);
+Result<std::unique_ptr<PointSource>> open_node_source(const std::string& path, int dimension,
+                                                      const PointOptions& options);
 
 Result<std::unique_ptr<TableSink>> open_csv_sink(const std::string& path, const TableFormat& format);
 Result<std::unique_ptr<TableSink>> open_npy_sink(const std::string& path, const TableFormat& format);
 
-/// Refuses rows whose spans do not fit together and the format, and the feature degenerate.
+/// Refuses rows whose spans and columns do not fit together and the format, and the feature degenerate.
 Status check_rows(const TableView& rows, const TableFormat& format, const std::string& path);
 
 }  // namespace barycert::io

@@ -11,7 +11,11 @@ namespace io {
 Status check_rows(const TableView& rows, const TableFormat& format, const std::string& path) {
     const std::size_t count = rows.cells.size();
     const std::size_t columns = format.columns().size();
-    const bool good = rows.dimension == format.dimension &&
+    const bool carried = std::equal(rows.carried.begin(), rows.carried.end(), format.carried.begin(),
+                                    format.carried.end(), [&](const Column& column, const ColumnFormat& of) {
+                                        return column.type() == of.type && column.size() == count;
+                                    });
+    const bool good = carried && rows.dimension == format.dimension &&
                       rows.points.size() == count * static_cast<std::size_t>(format.dimension) &&
                       rows.features.size() == count && rows.values.size() == count * columns &&
                       rows.distances.size() == (format.distances ? count : 0);
@@ -28,10 +32,12 @@ Status check_rows(const TableView& rows, const TableFormat& format, const std::s
     return Error{.what = "the parts of a block of rows have different sizes",
                  .file = path,
                  .expected = "for each cell " + std::to_string(format.dimension) + " coordinates, a feature, " +
-                             std::to_string(columns) + " values" + (format.distances ? ", a distance" : ""),
+                             std::to_string(columns) + " values" + (format.distances ? ", a distance" : "") + ", " +
+                             std::to_string(format.carried.size()) + " carried values of the types that were told",
                  .found = std::to_string(count) + " cells, " + std::to_string(rows.points.size()) + " coordinates, " +
                           std::to_string(rows.features.size()) + " features, " + std::to_string(rows.values.size()) +
-                          " values, " + std::to_string(rows.distances.size()) + " distances",
+                          " values, " + std::to_string(rows.distances.size()) + " distances" +
+                          (carried ? "" : ", other carried columns"),
                  .remedy = "pass whole rows in the format of the sink"};
 }
 

@@ -14,6 +14,7 @@
 #include "barycert/io.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/cells_at_points.hpp"
+#include "barycert/pipeline/cell_labels.hpp"
 #include "barycert/pipeline/few_points.hpp"
 #include "barycert/pipeline/field_files.hpp"
 #include "barycert/predicates.hpp"
@@ -77,10 +78,19 @@ Result<std::unique_ptr<Engine>> Engine::open(Run& run) {
     std::unique_ptr<Engine> engine(new Engine(run));
     engine->mesh_ = std::move(*mesh);
     if (Status added = add_fields(run.job.field_files, engine->mesh_); !added) return added.error();
-    Result<std::vector<FieldChoice>> fields = sample::fields_named(engine->mesh_, run.job.fields);
-    if (!fields) return fields.error();
-    engine->fields_ = std::move(*fields);
+    std::vector<std::string> names = run.job.fields;
+    Result<std::vector<const Column*>> of_cells = take_labels(engine->mesh_, names);
+    if (!of_cells) return of_cells.error();
+    engine->labels_ = std::move(*of_cells);
+    // No name at all means every field; labels alone mean none.
+    if (engine->labels_.empty() || !names.empty()) {
+        Result<std::vector<FieldChoice>> fields = sample::fields_named(engine->mesh_, names);
+        if (!fields) return fields.error();
+        engine->fields_ = std::move(*fields);
+    }
     SampleSummary& summary = run.summary;
+    summary.notes = engine->mesh_.notes;
+    note_labels(engine->mesh_, run.job.fields, summary.notes);
     summary.dimension = engine->mesh_.dimension;
     summary.nodes = engine->mesh_.point_count();
     summary.cells = engine->mesh_.cell_count();

@@ -41,15 +41,18 @@ public:
     const Sampler& sampler() const { return *sampler_; }
 
     /// Gives back what of the mesh sampling does not read again: of linear cells, unless points outside ask for their
-    /// nearest cell, all but the values of cell fields. Precondition: prepared; nobody else reads the mesh any more,
+    /// nearest cell, all but the values of cell fields, labels and numbers of cells. Precondition: prepared; nobody else reads the mesh any more,
     /// but for its dimension.
     void let_go_of_mesh();
 
     /// Sampled rows name cells as the locator counts them; afterwards, as the mesh does.
     void name_cells(Table& rows) const;
 
-    /// What the rows of this job have.
+    /// What the rows of this job have, without labels.
     TableFormat format() const;
+
+    /// Those of cells that the job asked for.
+    const std::vector<const Column*>& labels() const { return labels_; }
 
 private:
     explicit Engine(Run& run) : run_(run) {}
@@ -59,6 +62,7 @@ private:
     Run& run_;
     Mesh mesh_;
     std::vector<FieldChoice> fields_;
+    std::vector<const Column*> labels_;
     std::optional<mesh::Part> part_;  ///< what the locator is of, if not the mesh
     std::optional<Locator> locator_;
     std::optional<Sampler> sampler_;

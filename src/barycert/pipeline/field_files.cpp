@@ -4,7 +4,11 @@
 #include <array>
 #include <string_view>
 
+#include "barycert/base/text.hpp"
+#include "barycert/io.hpp"
 #include "barycert/io/fields/field_file.hpp"
+#include "barycert/io/formats.hpp"
+#include "barycert/io/vtk_points.hpp"
 #include "barycert/sample/points/field_choice.hpp"
 
 namespace barycert::pipeline {
@@ -37,19 +41,99 @@ Result<bool> is_of_cells(const FieldFile& file, std::size_t rows, const Mesh& me
                  .remedy = "use a file made for this mesh"};
 }
 
-/// What rows, grids and meshes have besides fields.
-bool is_taken(const std::string& name) {
-    constexpr std::array<std::string_view, 7> taken{"x", "y", "z", "cell", "feature", "distance", "vtkValidPointMask"};
-    return std::find(taken.begin(), taken.end(), name) != taken.end();
+bool is_file_of_a_mesh(const std::string& path) {
+    constexpr std::array<std::string_view, 3> suffixes{".msh", ".node", ".ele"};
+    return io::is_vtk_points_file(path) || std::any_of(suffixes.begin(), suffixes.end(), [&](std::string_view suffix) {
+               return io::has_suffix(path, suffix);
+           });
+}
+
+std::string names_of(const std::vector<Field>& fields) {
+    std::string text;
+    for (const Field& field : fields) text += (text.empty() ? "" : ", ") + base::quoted(field.name);
+    return text.empty() ? "none" : text;
+}
+
+/// The points of a VTK file that has no cells, such as rows of `sample`, with their arrays.
+Result<Mesh> points_as_mesh(const std::string& path, int dimension, const Error& fault) {
+    if (!io::is_vtk_points_file(path)) return fault;
+    Result<io::PointTable> table = io::read_vtk_table(path, true);
+    if (!table) return fault;
+    Mesh mesh;
+    mesh.points = std::move(table->points);
+    if (dimension == 2) {
+        std::size_t to = 0;
+        for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+            if (i % 3 != 2) mesh.points[to++] = mesh.points[i];
+        }
+        mesh.points.resize(to);
+        mesh.dimension = 2;
+    }
+    mesh.point_fields = std::move(table->fields);
+    for (const Column& label : table->labels) {
+        const auto* const integers = std::get_if<std::vector<std::int64_t>>(&label.values);
+        if (integers == nullptr) continue;
+        Field field{label.name, 1, {}};
+        for (const std::int64_t i : *integers) {
+            const auto x = static_cast<double>(i);
+            if (x >= 0x1p63 || static_cast<std::int64_t>(x) != i) break;
+            field.data.push_back(x);
+        }
+        if (field.data.size() == integers->size()) mesh.point_fields.push_back(std::move(field));
+    }
+    return mesh;
+}
+
+/// The array file.column of the mesh in the file; file.of becomes what it is of.
+Result<Field> read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
+    Result<Mesh> other = read_mesh(file.path, {.faces = false, .neighbours = false});
+    if (!other) other = points_as_mesh(file.path, mesh.dimension, other.error());
+    if (!other) return other.error();
+    const bool may_be_points = file.of != FieldFile::Of::cells, may_be_cells = file.of != FieldFile::Of::points;
+    const Field* const of_points = may_be_points ? sample::field_named(other->point_fields, file.column) : nullptr;
+    const Field* const of_cells = may_be_cells ? sample::field_named(other->cell_fields, file.column) : nullptr;
+    if (of_points != nullptr && of_cells != nullptr)
+        return Error{.what = "there is an array of nodes and one of cells of that name",
+                     .file = file.path,
+                     .found = base::quoted(file.column),
+                     .remedy = "say which: --point-field or --cell-field instead of --field"};
+    if (of_points == nullptr && of_cells == nullptr)
+        return Error{.what = file.column.empty() ? "it is not said which array of the file is meant" : "no such array",
+                     .file = file.path,
+                     .expected = file.column.empty() ? "" : base::quoted(file.column),
+                     .found = "of nodes " + names_of(other->point_fields) + "; of cells " +
+                              names_of(other->cell_fields),
+                     .remedy = "name one: --field " + file.name + "=" + file.path + ":ARRAY"};
+    file.of = of_points != nullptr ? FieldFile::Of::points : FieldFile::Of::cells;
+    const bool same = other->points == mesh.points && (of_points != nullptr || other->cells == mesh.cells);
+    const std::size_t components = static_cast<std::size_t>((of_points != nullptr ? of_points : of_cells)->components);
+    const std::size_t rows = (of_points != nullptr ? of_points : of_cells)->data.size() / components;
+    const bool fits = rows == (of_points != nullptr ? mesh.point_count() : mesh.cell_count());
+    if (fits && !same)
+        notes.push_back({Note::Kind::guessed,
+                         "the " + std::string(of_points != nullptr ? "nodes" : "cells") +
+                             " are in the order of the mesh, whose coordinates or cells are others: field " + file.name,
+                         file.path, true});
+    Field field = of_points != nullptr ? *of_points : *of_cells;
+    field.name = file.name;
+    return field;
 }
 
 }  // namespace
 
+bool is_name_of_rows(const std::string& name) {
+    constexpr std::array<std::string_view, 7> taken{"x", "y", "z", "cell", "feature", "distance", "vtkValidPointMask"};
+    return std::find(taken.begin(), taken.end(), name) != taken.end();
+}
+
 Status add_fields(const std::vector<FieldFile>& files, Mesh& mesh) {
     for (const FieldFile& file : files) {
-        Result<Field> field = io::read_field_file(file.name, file.path);
+        FieldFile of = file;
+        Result<Field> field = is_file_of_a_mesh(file.path)
+                                  ? read_array(mesh, of, mesh.notes)
+                                  : io::read_field_file(file.name, file.path, file.column, mesh.notes);
         if (!field) return field.error();
-        const auto cells = is_of_cells(file, field->data.size() / static_cast<std::size_t>(field->components), mesh);
+        const auto cells = is_of_cells(of, field->data.size() / static_cast<std::size_t>(field->components), mesh);
         if (!cells) return cells.error();
         std::vector<Field>& fields = *cells ? mesh.cell_fields : mesh.point_fields;
         if (sample::field_named(fields, file.name) != nullptr)
@@ -60,11 +144,16 @@ Status add_fields(const std::vector<FieldFile>& files, Mesh& mesh) {
         fields.push_back(std::move(*field));
     }
     for (Field& field : mesh.point_fields) {
-        if (is_taken(field.name)) field.name = std::string(of_points) + field.name;
+        if (is_name_of_rows(field.name)) field.name = std::string(of_points) + field.name;
     }
     for (Field& field : mesh.cell_fields) {
-        if (sample::field_named(mesh.point_fields, field.name) != nullptr || is_taken(field.name))
+        if (sample::field_named(mesh.point_fields, field.name) != nullptr || is_name_of_rows(field.name))
             field.name = std::string(of_cells) + field.name;
+    }
+    for (Column& label : mesh.cell_labels) {
+        if (sample::field_named(mesh.point_fields, label.name) != nullptr ||
+            sample::field_named(mesh.cell_fields, label.name) != nullptr || is_name_of_rows(label.name))
+            label.name = std::string(of_cells) + label.name;
     }
     return Done{};
 }

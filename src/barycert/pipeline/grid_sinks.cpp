@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "barycert/base/output_file.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/vti/vti.hpp"
 #include "barycert/pipeline/job_files.hpp"
@@ -26,6 +27,15 @@ static_assert(std::endian::native == std::endian::little, "NPY files are written
 template <class T>
 std::span<const std::byte> bytes_of(const std::vector<T>& numbers) {
     return std::as_bytes(std::span(numbers));
+}
+
+/// That the format holds no such column.
+Error no_place(const ColumnFormat& column, const std::string& path, const char* expected, const char* remedy) {
+    return {.what = "the format has no place for a label of cells",
+            .file = path,
+            .expected = expected,
+            .found = base::quoted(column.name) + (column.type == Column::Type::text ? ", texts" : ", integers"),
+            .remedy = remedy};
 }
 
 /// VTK's image data: an array for each field, and what VTK's own probes give besides.
@@ -43,6 +53,12 @@ public:
         if (format.distances) arrays.push_back({"distance", 1, io::VtiType::float64});
         arrays.push_back({"vtkValidPointMask", 1, io::VtiType::int8});
         arrays.push_back({"cell", 1, io::VtiType::int32});
+        for (const ColumnFormat& column : format.carried) {
+            if (column.type == Column::Type::text)
+                return no_place(column, path, "numbers", "write .csv, or leave the label out of --fields");
+            const bool integer = column.type == Column::Type::integer;
+            arrays.push_back({column.name, 1, integer ? io::VtiType::int64 : io::VtiType::float64});
+        }
         auto file = io::VtiWriter::open(path, {grid.counts, grid.origin, grid.spacing}, arrays, format.vtk_data);
         if (!file) return file.error();
         out->file_ = std::move(*file);
@@ -69,7 +85,14 @@ public:
         mask_.resize(rows.cells.size());
         for (std::size_t i = 0; i < mask_.size(); ++i) mask_[i] = rows.cells[i] >= 0 ? 1 : 0;
         if (Status done = file_->write(array++, bytes_of(mask_)); !done) return done;
-        return file_->write(array, std::as_bytes(rows.cells));
+        Status done = file_->write(array++, std::as_bytes(rows.cells));
+        for (const Column& column : rows.carried) {
+            if (!done) break;
+            const auto* const integers = std::get_if<std::vector<std::int64_t>>(&column.values);
+            done = file_->write(array++, integers != nullptr ? bytes_of(*integers)
+                                                             : bytes_of(std::get<std::vector<double>>(column.values)));
+        }
+        return done;
     }
 
     Status commit() override { return file_->commit(); }
@@ -225,7 +248,11 @@ Status check_grid_output(const ResampleJob& job) {
 
 Result<GridOutput> open_grid_sink(const ResampleJob& job, const TableFormat& format, const Grid& grid) {
     const std::vector<std::string> columns = format.columns();
-    if (io::has_suffix(job.output, ".png")) return open_picture(job, columns, grid);
+    const bool picture = io::has_suffix(job.output, ".png");
+    if (!format.carried.empty() && (picture || io::has_suffix(job.output, ".npy")))
+        return no_place(format.carried.front(), job.output, "fields",
+                        "write .csv, or integers to .vti, or leave the label out of --fields");
+    if (picture) return open_picture(job, columns, grid);
     const bool array = io::has_suffix(job.output, ".npy");
     if (array && columns.empty())
         return Error{.what = "no field to write",

@@ -8,6 +8,31 @@
 #include "barycert/io/formats.hpp"
 
 namespace barycert::pipeline {
+namespace {
+
+/// Rows on a terminal: their texts move no cursor.
+class PrintableTexts final : public TableSink {
+public:
+    explicit PrintableTexts(std::unique_ptr<TableSink> sink) : sink_(std::move(sink)) {}
+
+    Status write(const TableView& rows) override {
+        std::vector<Column> carried(rows.carried.begin(), rows.carried.end());
+        for (Column& column : carried) {
+            auto* const texts = std::get_if<std::vector<std::string>>(&column.values);
+            if (texts == nullptr) continue;
+            for (std::string& text : *texts) text = base::printable(text);
+        }
+        TableView shown = rows;
+        shown.carried = carried;
+        return sink_->write(shown);
+    }
+    Status commit() override { return sink_->commit(); }
+
+private:
+    std::unique_ptr<TableSink> sink_;
+};
+
+}  // namespace
 
 Status check_files(const SamplingJob& job, const std::vector<base::NamedFile>& more_inputs,
                    std::vector<base::NamedFile> outputs) {
@@ -64,7 +89,10 @@ Result<std::unique_ptr<TableSink>> open_rows(const SamplingJob& job, const Table
     if (job.output != "-" || isatty(STDOUT_FILENO) != 1) return open_table(job.output, format);
     TableFormat shown = format;
     for (TableField& field : shown.fields) field.name = base::printable(field.name);
-    return open_table(job.output, shown);
+    for (ColumnFormat& column : shown.carried) column.name = base::printable(column.name);
+    Result<std::unique_ptr<TableSink>> sink = open_table(job.output, shown);
+    if (!sink || shown.carried.empty()) return sink;
+    return std::unique_ptr<TableSink>(std::make_unique<PrintableTexts>(std::move(*sink)));
 }
 
 }  // namespace barycert::pipeline

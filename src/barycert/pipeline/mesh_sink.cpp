@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/pipeline/job_files.hpp"
 #include "barycert/vtk.hpp"
@@ -91,8 +92,14 @@ Status check_mesh_output(const ResampleJob& job) {
                           ".vtu, .vtk, .node, .csv or .npy, a stem of TetGen's files, or - for CSV on stdout");
 }
 
-std::unique_ptr<TableSink> mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format) {
-    return std::make_unique<MeshSink>(std::move(mesh), path, format);
+Result<std::unique_ptr<TableSink>> mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format) {
+    if (!format.carried.empty())
+        return Error{.what = "a mesh has no labels of nodes",
+                     .file = path,
+                     .expected = "fields",
+                     .found = "label " + base::quoted(format.carried.front().name),
+                     .remedy = "leave labels out of --fields, or write rows: .csv or .npy"};
+    return std::unique_ptr<TableSink>(std::make_unique<MeshSink>(std::move(mesh), path, format));
 }
 
 }  // namespace barycert::pipeline

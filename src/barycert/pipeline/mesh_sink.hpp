@@ -19,7 +19,8 @@ Status check_mesh_output(const ResampleJob& job);
 /// True if the output is rows: CSV or NPY.
 bool is_rows_output(const std::string& path);
 
-/// Takes one row a node, and writes the mesh when all is there: VTK's files, or TetGen's by their stem.
-std::unique_ptr<TableSink> mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format);
+/// Takes one row a node, and writes the mesh when all is there: VTK's files, or TetGen's by their stem. Error: columns
+/// that are carried through, for which meshes have no place.
+Result<std::unique_ptr<TableSink>> mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format);
 
 }  // namespace barycert::pipeline

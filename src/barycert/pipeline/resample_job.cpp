@@ -13,6 +13,7 @@
 #include "barycert/pipeline/job_files.hpp"
 #include "barycert/pipeline/mesh_sink.hpp"
 #include "barycert/pipeline/stream.hpp"
+#include "barycert/pipeline/user_rows.hpp"
 
 namespace barycert {
 namespace {
@@ -81,6 +82,24 @@ Status check_job(const ResampleJob& job) {
                                  base::named_files("--output", pipeline::files_of_mesh_output(job)));
 }
 
+Result<TableFormat> user_format(Run& run, const Engine& engine) {
+    Result<TableFormat> format = pipeline::user_format(engine, engine.format(), {});
+    if (!format) return format;
+    for (const ColumnFormat& column : format->carried) run.summary.carried.push_back(column.name);
+    return format;
+}
+
+/// What its reader told, and the fields of nodes that the sampled ones replace.
+void note_the_other(Run& run, const ResampleJob& job, const Mesh& other) {
+    Notes& notes = run.summary.notes;
+    notes.insert(notes.end(), other.notes.begin(), other.notes.end());
+    if (other.point_fields.empty()) return;
+    std::string text = other.point_fields.size() == 1 ? "field " : "fields ";
+    for (std::size_t i = 0; i < other.point_fields.size(); ++i)
+        text += (i == 0 ? "" : ", ") + other.point_fields[i].name;
+    notes.push_back({Note::Kind::left_out, text + " of its nodes", job.onto});
+}
+
 Status onto_grid(Run& run, const ResampleJob& job, Engine& engine) {
     const Result<Grid> grid = grid_of(job, engine.mesh());
     if (!grid) return grid.error();
@@ -90,8 +109,11 @@ Status onto_grid(Run& run, const ResampleJob& job, Engine& engine) {
     if (Status ready = engine.prepare_without_search(FoundBy::grid, "each cell finds the points that it holds"); !ready)
         return ready;
     Stopwatch watch, within;
-    auto output = pipeline::open_grid_sink(job, engine.format(), *grid);
+    const Result<TableFormat> format = user_format(run, engine);
+    if (!format) return format.error();
+    auto output = pipeline::open_grid_sink(job, *format, *grid);
     if (!output) return output.error();
+    output->sink = pipeline::user_rows(engine, std::move(output->sink));
     double writing = 0;
     const bool refuse = job.options.outside.kind == Outside::error;
     const std::string what = fmt::format("points of {}", grid->point_count());
@@ -138,9 +160,14 @@ Status onto_mesh(Run& run, const ResampleJob& job, Engine& engine) {
     run.summary.points = job.onto;
     const auto source = memory_points(other->points, d);
     run.summary.seconds.read = watch.lap();
-    const auto open = [&](const TableFormat& format) -> Result<std::unique_ptr<TableSink>> {
-        if (to_rows) return pipeline::open_rows(job, format);
-        return pipeline::mesh_sink(std::move(*other), job.output, format);
+    note_the_other(run, job, *other);
+    const auto open = [&](const TableFormat&) -> Result<std::unique_ptr<TableSink>> {
+        const Result<TableFormat> format = user_format(run, engine);
+        if (!format) return format.error();
+        auto sink = to_rows ? pipeline::open_rows(job, *format)
+                            : pipeline::mesh_sink(std::move(*other), job.output, *format);
+        if (!sink) return sink;
+        return pipeline::user_rows(engine, std::move(*sink));
     };
     return pipeline::sample_stream(run, engine, *source, open, "");
 }

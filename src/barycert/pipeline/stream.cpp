@@ -9,6 +9,7 @@
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/locate/batch.hpp"
+#include "barycert/mesh/columns.hpp"
 #include "barycert/pipeline/stages.hpp"
 
 namespace barycert::pipeline {
@@ -90,6 +91,7 @@ Status sample_block(const Run& run, const Engine& engine, Block& block) {
     if (run.summary.all) {
         Result<Table> all = engine.locator().locate_all(rows.points, options.threads);
         if (!all) return all.error();
+        for (const Column& column : rows.carried) all->carried.push_back(mesh::repeated(column, all->point_begin));
         rows = std::move(*all);
         const LocationCounts locations = rows.counts.locations;
         if (Status done = engine.sampler().evaluate(rows.points, options, rows); !done) return done;
@@ -145,6 +147,7 @@ Status sample_stream(Run& run, Engine& engine, PointSource& source, const SinkFa
         const Result<std::size_t> count = source.read(size, block.rows.points);
         seconds.read += watch.lap();
         if (!count) return count.error();
+        source.take_carried(block.rows.carried);
         taken += *count;
         more = *count == size && source.count() != taken;
         block.size = *count;

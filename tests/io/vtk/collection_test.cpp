@@ -154,7 +154,8 @@ TEST(VtkCollections, points_of_grids) {
     EXPECT_EQ(image->points, (std::vector<double>{0.1 + 0.1, 0, 0.1 + 0.1 * 2, 0, 0.1 + 0.1, 2, 0.1 + 0.1 * 2, 2}));
     ASSERT_EQ(image->fields.size(), 1U);
     EXPECT_EQ(image->fields[0].data, (std::vector<double>{1, 2, 3, 4}));
-    EXPECT_EQ(image->notes.size(), 1U);
+    ASSERT_EQ(image->labels.size(), 1U);
+    EXPECT_EQ(image->labels[0].size(), 4U);
     EXPECT_TRUE(read_vtk_point_data(folder / "g.vti", 2, std::vector<std::string>{"x"}).value().fields.empty());
     put(folder / "g.vtr",
         "<VTKFile type='RectilinearGrid'><RectilinearGrid WholeExtent='0 1 0 1 0 0'><Piece "

@@ -75,7 +75,15 @@ TEST(VtkRows, of_every_kind_come_back) {
         EXPECT_EQ(field("vtkValidPointMask")[1], 1);
         EXPECT_EQ(field("time").size(), t.size());
         EXPECT_EQ(field("distance").size(), t.size());
-        ASSERT_EQ(read->notes.size(), 2U);  // ids that no double holds, texts
+        EXPECT_TRUE(read->notes.empty());
+        ASSERT_EQ(read->labels.size(), 2U);  // ids that no double holds, texts
+        const auto& kept = std::get<std::vector<std::int64_t>>(read->labels[0].values);
+        const auto& names = std::get<std::vector<std::string>>(read->labels[1].values);
+        ASSERT_EQ(kept.size(), t.size());
+        ASSERT_EQ(names.size(), t.size());
+        EXPECT_EQ(kept[5001], (std::int64_t{1} << 60U) + 1);
+        EXPECT_EQ(names[5001], "p1");
+        EXPECT_EQ(names[5002], "");
         std::filesystem::remove(folder / "r.vtu");
     }
 }

@@ -1,29 +1,19 @@
 // Why a row of a CSV file is refused, in words.
 #include <algorithm>
 #include <cctype>
+#include <optional>
 #include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/csv/csv_fields.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
+#include "barycert/io/csv/csv_types.hpp"
+#include "barycert/io/point_columns.hpp"
 #include "barycert/io/tetgen/row_errors.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
 
 namespace barycert::io {
 namespace {
-
-std::string separator_name(char separator) {
-    switch (separator) {
-        case ',':
-            return "commas";
-        case ';':
-            return "semicolons";
-        case '\t':
-            return "tabs";
-        default:
-            return "blanks";
-    }
-}
 
 struct Complaint {
     std::string expected;
@@ -61,20 +51,62 @@ Complaint about_coordinate(std::string_view field, char separator) {
                             " throughout, as in the first line; put # before lines that are no points"};
 }
 
+/// Why a value of a carried column is refused, if it is: the columns had their types from an earlier look at the file.
+std::optional<Complaint> about_value(std::string_view field, Column::Type type) {
+    const char* const remedy = "do not change the file while it is read";
+    if (type == Column::Type::integer && !integer_of(field)) return Complaint{"an integer, as in a first pass", remedy};
+    if (type == Column::Type::number && !number_of(field)) return Complaint{"a number, as in a first pass", remedy};
+    return std::nullopt;
+}
+
 }  // namespace
+
+std::string separator_name(char separator) {
+    switch (separator) {
+        case ',':
+            return "commas";
+        case ';':
+            return "semicolons";
+        case '\t':
+            return "tabs";
+        default:
+            return "blanks";
+    }
+}
 
 Error csv_row_error(std::string_view line, const CsvLayout& layout, const LinePlace& place) {
     Error error{.file = place.file, .line = place.line};
     FieldCutter cutter(line, layout.separator);
     std::size_t count = 0;
     for (std::string_view field; cutter.next(field); ++count) {
-        if (count >= layout.axis_of.size()) continue;
-        const int axis = layout.axis_of[count];
+        if (count >= layout.role_of.size()) continue;
+        const int role = layout.role_of[count];
+        if (role == CsvLayout::must_be_empty && !field.empty()) {
+            error.what = "a value behind the last separator";
+            error.expected = "none, as in the first line";
+            error.found = base::quoted(field);
+            error.remedy = "say which columns are the coordinates, such as --columns 1,2,3";
+            return error;
+        }
+        if (role < 0) continue;
+        if (role >= CsvLayout::first_kept) {
+            const ColumnFormat& column = layout.kept[static_cast<std::size_t>(role - CsvLayout::first_kept)];
+            std::optional<Complaint> complaint = about_value(field, column.type);
+            if (!complaint) continue;
+            error.what = "bad value of column " + base::quoted(column.name);
+            error.expected = std::move(complaint->expected);
+            error.found = base::quoted(field);
+            error.remedy = std::move(complaint->remedy);
+            return error;
+        }
         double value = 0;
         const char* const end = field.data() + field.size();
-        if (axis < 0 || barycert::io::scan_real(field.data(), end, value) == end) continue;
+        if (barycert::io::scan_real(field.data(), end, value) == end) {
+            if (layout.flat && role == 2 && value != 0) return off_plane(place.file, place.line, "", base::quoted(field));
+            continue;
+        }
         Complaint complaint = about_coordinate(field, layout.separator);
-        error.what = std::string("bad coordinate ") + "xyz"[axis];
+        error.what = std::string("bad coordinate ") + "xyz"[role];
         error.expected = std::move(complaint.expected);
         error.found = field.empty() ? "nothing" : base::quoted(field);
         error.remedy = std::move(complaint.remedy);
@@ -87,8 +119,9 @@ Error csv_row_error(std::string_view line, const CsvLayout& layout, const LinePl
         error.remedy = "close the quote on the same line; double the quotes inside";
         return error;
     }
-    error.what = std::string("too ") + (count < layout.axis_of.size() ? "few" : "many") + " fields in a line";
-    error.expected = std::to_string(layout.axis_of.size()) + ", separated by " + separator_name(layout.separator) +
+    const std::size_t fields = layout.role_of.size();
+    error.what = std::string("too ") + (count < fields ? "few" : "many") + " fields in a line";
+    error.expected = std::to_string(fields) + ", separated by " + separator_name(layout.separator) +
                      ", as in the first line";
     error.found = std::to_string(count);
     error.remedy = "give every line the same columns; put fields that hold a separator in double quotes";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace barycert::io {
@@ -21,7 +22,8 @@ public:
         if (!more_) return false;
         skip_blanks();
         if (separator_ == ' ' && at_ == end_) return more_ = false;
-        if (at_ != end_ && *at_ == '"') return next_quoted(field);
+        quoted_ = at_ != end_ && *at_ == '"';
+        if (quoted_) return next_quoted(field);
         const char* const start = at_;
         if (separator_ == ' ') {
             while (at_ != end_ && !is_blank(*at_)) ++at_;
@@ -35,7 +37,25 @@ public:
 
     bool malformed() const { return malformed_; }
 
+    /// The last field stood in quotes.
+    bool quoted() const { return quoted_; }
+
+    /// The last field as a text: what stands between quotes with its blanks, and with doubled quotes made one.
+    std::string text(std::string_view field) const { return quoted_ ? undoubled(inside_) : std::string(field); }
+
+    /// The same without blanks around it.
+    std::string name(std::string_view field) const { return quoted_ ? undoubled(field) : std::string(field); }
+
 private:
+    static std::string undoubled(std::string_view inside) {
+        std::string out;
+        for (std::size_t i = 0; i < inside.size(); ++i) {
+            out += inside[i];
+            if (inside[i] == '"') ++i;
+        }
+        return out;
+    }
+
     bool is_blank(char c) const { return c == ' ' || (c == '\t' && separator_ != '\t'); }
 
     void skip_blanks() {
@@ -61,6 +81,7 @@ private:
         if (separator_ != ' ') skip_blanks();
         if (separator_ != ' ' && at_ != end_ && *at_ != separator_) return fail();
         pass_separator();
+        inside_ = {start, static_cast<std::size_t>(stop - start)};
         const char* first = start;
         while (first != stop && is_blank(*first)) ++first;
         field = without_blanks_after(first, stop);
@@ -78,6 +99,8 @@ private:
     char separator_;
     bool more_ = true;
     bool malformed_ = false;
+    bool quoted_ = false;
+    std::string_view inside_;  // of the last quoted field
 };
 
 }  // namespace barycert::io

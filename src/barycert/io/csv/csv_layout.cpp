@@ -1,20 +1,17 @@
 #include "barycert/io/csv/csv_layout.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
+#include <charconv>
 #include <optional>
+#include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/csv/csv_fields.hpp"
-#include "barycert/io/tetgen/row_errors.hpp"
+#include "barycert/io/point_columns.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
 
 namespace barycert::io {
 namespace {
-
-constexpr std::array<std::array<std::string_view, 3>, 3> coordinate_names{
-    {{"x", "y", "z"}, {"points:0", "points:1", "points:2"}, {"points_0", "points_1", "points_2"}}};
 
 /// The first of ; , tab outside quotes, by rank: a semicolon stands beside decimal commas, a comma beside blanks.
 char separator_of(std::string_view line) {
@@ -28,7 +25,40 @@ char separator_of(std::string_view line) {
     return best < ranked.size() ? ranked[best] : ' ';
 }
 
-/// Begins as numbers do, or is a word for one. What is meant as a number must not make its line a header.
+/// Whether the first line is a header.
+Result<bool> is_header(const TableColumns& all, int dimension, const PointOptions& options) {
+    const std::vector<std::string> asked = parts_of(options.columns, static_cast<std::size_t>(dimension));
+    if (asked.empty()) {
+        const auto found = find_coordinates(all, dimension);
+        if (!found) return found.error();
+        return *found || std::none_of(all.names.begin(), all.names.end(), looks_numeric);
+    }
+    if (!are_places(asked)) return true;
+    return std::none_of(asked.begin(), asked.end(), [&](const std::string& text) {
+        std::size_t place = 0;
+        std::from_chars(text.data(), text.data() + text.size(), place);
+        return place <= all.names.size() && looks_numeric(all.names[place - 1]);
+    });
+}
+
+/// Where lines end with a separator, the field after it is empty in every line.
+std::size_t empty_at_the_end(const TableColumns& all, int dimension) {
+    const auto first = all.names.begin() + std::min<std::ptrdiff_t>(dimension, std::ssize(all.names));
+    const bool empty = std::all_of(first, all.names.end(), [](const std::string& name) { return name.empty(); });
+    return empty ? static_cast<std::size_t>(all.names.end() - first) : 0;
+}
+
+void note_the_guesses(const TableColumns& all, CsvLayout& layout) {
+    if (layout.separator != ',')
+        layout.notes.push_back({Note::Kind::guessed, "columns are separated by " + separator_name(layout.separator),
+                                all.file});
+    if (!layout.header)
+        layout.notes.push_back(
+            {Note::Kind::guessed, "there is no header: the first line is a point", all.file});
+}
+
+}  // namespace
+
 bool looks_numeric(std::string_view field) {
     if (base::parse_double(field)) return true;
     if (field.starts_with('+') || field.starts_with('-')) field.remove_prefix(1);
@@ -36,34 +66,13 @@ bool looks_numeric(std::string_view field) {
     return !field.empty() && barycert::io::is_digit(field.front());
 }
 
-bool same_but_for_case(std::string_view field, std::string_view lower) {
-    return std::equal(field.begin(), field.end(), lower.begin(), lower.end(), [](char a, char b) {
-        return std::tolower(static_cast<unsigned char>(a)) == static_cast<unsigned char>(b);
-    });
-}
-
-std::string listed_names(int dimension) {
-    return dimension == 2 ? "columns x, y (or Points:0, Points:1)"
-                          : "columns x, y, z (or Points:0, Points:1, Points:2)";
-}
-
-std::string listed(const std::vector<std::string_view>& fields) {
-    constexpr std::size_t max = 8;
-    std::string text;
-    for (std::size_t i = 0; i < std::min(max, fields.size()); ++i)
-        text += (i != 0 ? ", " : "") + base::quoted(fields[i]);
-    return text + (fields.size() > max ? ", ..." : "");
-}
-
-}  // namespace
-
 bool holds_fields(std::string_view line, char separator) {
     const std::size_t at = line.find_first_not_of(" \t");
     if (at == std::string_view::npos) return separator == '\t' && line.find('\t') != std::string_view::npos;
     return line[at] != '#';
 }
 
-Result<CsvLayout> settle_csv_layout(std::string_view line, int dimension, const LinePlace& place) {
+Result<CsvLine> cut_first_line(std::string_view line, const LinePlace& place) {
     if (line.find('\r') != std::string_view::npos) {
         return Error{.what = "lines end with CR alone",
                      .file = place.file,
@@ -72,59 +81,48 @@ Result<CsvLayout> settle_csv_layout(std::string_view line, int dimension, const 
                      .found = "CR alone",
                      .remedy = "save the file with LF or CR LF as line ends"};
     }
+    CsvLine out{.separator = separator_of(line)};
+    FieldCutter cutter(line, out.separator);
+    for (std::string_view field; cutter.next(field);) out.fields.push_back(cutter.name(field));
+    if (!cutter.malformed()) return out;
     CsvLayout layout;
-    layout.separator = separator_of(line);
-    std::vector<std::string_view> fields;
-    FieldCutter cutter(line, layout.separator);
-    for (std::string_view field; cutter.next(field);) fields.push_back(field);
-    if (cutter.malformed()) return csv_row_error(line, layout, place);
+    layout.separator = out.separator;
+    return csv_row_error(line, layout, place);
+}
 
-    const auto axes = static_cast<std::size_t>(dimension);
-    for (const auto& names : coordinate_names) {
-        layout.axis_of.assign(fields.size(), -1);
-        std::size_t named = 0;
-        for (std::size_t axis = 0; axis < axes; ++axis) {
-            std::optional<std::size_t> at;
-            for (std::size_t i = 0; i < fields.size(); ++i) {
-                if (!same_but_for_case(fields[i], names[axis])) continue;
-                if (at) {
-                    return Error{.what = "two columns have the same name",
-                                 .file = place.file,
-                                 .line = place.line,
-                                 .expected = "one column " + std::string(names[axis]),
-                                 .found = base::quoted(fields[*at]) + " and " + base::quoted(fields[i]),
-                                 .remedy = "rename the column that is not a coordinate"};
-                }
-                at = i;
-            }
-            if (!at) break;
-            layout.axis_of[*at] = static_cast<int>(axis);
-            ++named;
-        }
-        layout.header = named == axes;
-        if (layout.header) return layout;
+Result<CsvLayout> settle_csv_layout(std::string_view line, int dimension, const PointOptions& options,
+                                    const LinePlace& place) {
+    const Result<CsvLine> cut = cut_first_line(line, place);
+    if (!cut) return cut.error();
+    TableColumns all{.names = cut->fields, .named = true, .file = place.file, .line = place.line};
+    const Result<bool> header = is_header(all, dimension, options);
+    if (!header) return header.error();
+    CsvLayout layout;
+    layout.separator = cut->separator;
+    layout.header = all.named = *header;
+    layout.role_of.assign(all.names.size(), CsvLayout::passed_over);
+    if (!*header && options.columns.empty()) {
+        const std::size_t empty = empty_at_the_end(all, dimension);
+        all.names.resize(all.names.size() - empty);
+        std::fill_n(layout.role_of.rbegin(), empty, CsvLayout::must_be_empty);
+        layout.plain = empty == 0;
     }
-
-    if (std::none_of(fields.begin(), fields.end(), looks_numeric)) {
-        return Error{.what = "the header does not name the coordinates",
-                     .file = place.file,
-                     .line = place.line,
-                     .expected = listed_names(dimension),
-                     .found = listed(fields),
-                     .remedy = "use these column names, or start the file with numbers"};
+    for (std::size_t i = 0; i < all.names.size(); ++i) {
+        if (!*header || all.names[i].empty()) all.names[i] = column_number(i);
     }
-    layout.axis_of.assign(fields.size(), -1);
-    if (fields.size() < axes) {
-        return Error{
-            .what = "too few columns for a point",
-            .file = place.file,
-            .line = place.line,
-            .expected =
-                std::to_string(dimension) + " numbers, for the mesh is " + std::to_string(dimension) + "-dimensional",
-            .found = listed(fields),
-            .remedy = "write one point a line, its coordinates separated by commas, semicolons, tabs or blanks"};
+    Result<PointColumns> columns = choose_columns(all, dimension, options);
+    if (!columns) return columns.error();
+    for (std::size_t axis = 0; axis < columns->axes.size(); ++axis)
+        layout.role_of[columns->axes[axis]] = static_cast<int>(axis);
+    if (columns->zero) layout.role_of[*columns->zero] = 2;
+    layout.flat = columns->zero.has_value();
+    for (PointColumns::Kept& kept : columns->kept) {
+        layout.role_of[kept.column] = CsvLayout::first_kept + static_cast<int>(layout.kept.size());
+        layout.kept.push_back({std::move(kept.name), Column::Type::text});
+        layout.plain = false;
     }
-    for (std::size_t axis = 0; axis < axes; ++axis) layout.axis_of[axis] = static_cast<int>(axis);
+    note_the_guesses(all, layout);
+    layout.notes.insert(layout.notes.end(), columns->notes.begin(), columns->notes.end());
     return layout;
 }
 

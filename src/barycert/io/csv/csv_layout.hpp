@@ -6,14 +6,23 @@
 #include <string_view>
 #include <vector>
 
+#include "barycert/io.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {
 
 struct CsvLayout {
-    char separator = ',';        ///< ',' ';' '\t', or ' ' for blanks
-    std::vector<int> axis_of{};  ///< one a field: the coordinate it holds, or -1
-    bool header = false;         ///< the first line is a header
+    /// What a field is: a coordinate (0, 1, 2; in the plane 2 is a z that must be 0), one of these, or first_kept + k
+    /// for the carried column k.
+    enum Role : int { passed_over = -1, must_be_empty = -2, first_kept = 3 };
+
+    char separator = ',';               ///< ',' ';' '\t', or ' ' for blanks
+    std::vector<int> role_of{};         ///< one a field
+    bool header = false;                ///< the first line is a header
+    bool flat = false;                  ///< there is a z that must be 0
+    bool plain = true;                  ///< fields are coordinates or passed over
+    std::vector<ColumnFormat> kept{};   ///< the carried columns
+    Notes notes{};
 };
 
 /// Where a line stands.
@@ -25,8 +34,21 @@ struct LinePlace {
 /// Not blank and no comment. With tabs as separator a line of tabs is a row without values, and so not blank.
 bool holds_fields(std::string_view line, char separator);
 
-/// From the first line that holds fields.
-Result<CsvLayout> settle_csv_layout(std::string_view line, int dimension, const LinePlace& place);
+/// The separator and the fields of the first line that holds fields.
+struct CsvLine {
+    char separator = ',';
+    std::vector<std::string> fields{};
+};
+Result<CsvLine> cut_first_line(std::string_view line, const LinePlace& place);
+
+/// Begins as numbers do, or is a word for one. What is meant as a number must not make its line a header.
+bool looks_numeric(std::string_view field);
+
+/// From the first line that holds fields. Carried columns are texts.
+Result<CsvLayout> settle_csv_layout(std::string_view line, int dimension, const PointOptions& options,
+                                    const LinePlace& place);
+
+std::string separator_name(char separator);
 
 /// Why the row was refused. Slow: called once.
 Error csv_row_error(std::string_view line, const CsvLayout& layout, const LinePlace& place);

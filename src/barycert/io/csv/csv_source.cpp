@@ -6,14 +6,18 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
 #include "barycert/io/csv/csv_piece.hpp"
+#include "barycert/io/csv/csv_types.hpp"
 #include "barycert/io/csv/line_reader.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/mesh/columns.hpp"
 
 namespace barycert::io {
 namespace {
@@ -25,12 +29,16 @@ class CsvSource final : public PointSource {
 public:
     CsvSource(LineReader lines, int dimension) : lines_(std::move(lines)), dimension_(dimension) {}
 
-    /// Reads up to the header or over the first point.
-    Status begin();
+    /// Reads up to the header or over the first point. `kept`: the formats of the carried columns, where they are known.
+    Status begin(const PointOptions& options, const std::vector<ColumnFormat>* kept);
 
     int dimension() const override { return dimension_; }
     std::optional<std::uint64_t> count() const override { return std::nullopt; }
     Result<std::size_t> read(std::size_t max, std::vector<double>& out) override;
+    std::vector<ColumnFormat> carried() const override { return layout_.kept; }
+    void take_carried(std::vector<Column>& columns) override { std::swap(columns, carried_); }
+    Notes notes() const override { return layout_.notes; }
+    void add_notes(const Notes& more) { layout_.notes.insert(layout_.notes.end(), more.begin(), more.end()); }
 
 private:
     bool parse_more();
@@ -43,15 +51,17 @@ private:
     std::vector<std::string_view> texts_;
     std::vector<CsvPiece> pieces_;  // those from `piece_` on have points to give, the first of them from `given_` on
     std::size_t piece_ = 0, piece_count_ = 0, given_ = 0;
+    std::vector<Column> carried_;  // of the last points given
     Error error_;
 };
 
-Status CsvSource::begin() {
+Status CsvSource::begin(const PointOptions& options, const std::vector<ColumnFormat>* kept) {
     for (std::string_view line; lines_.next(line);) {
         if (!holds_fields(line, ' ')) continue;
-        Result<CsvLayout> layout = settle_csv_layout(line, dimension_, place());
+        Result<CsvLayout> layout = settle_csv_layout(line, dimension_, options, place());
         if (!layout) return layout.error();
         layout_ = std::move(*layout);
+        if (kept != nullptr && kept->size() == layout_.kept.size()) layout_.kept = *kept;
         if (layout_.header) return Done{};
         // The first point; it is given like all others.
         const std::string text = std::string(line) + (lines_.line_ended() ? "\n" : "");
@@ -111,6 +121,7 @@ bool CsvSource::parse_more() {
 
 Result<std::size_t> CsvSource::read(std::size_t max, std::vector<double>& out) {
     const ExactEnvironment environment;
+    mesh::begin_columns(layout_.kept, carried_);
     const auto size = static_cast<std::size_t>(dimension_);
     std::size_t taken = 0;
     while (taken != max) {
@@ -122,6 +133,8 @@ Result<std::size_t> CsvSource::read(std::size_t max, std::vector<double>& out) {
         const std::vector<double>& points = pieces_[piece_].points;
         const std::size_t count = std::min(max - taken, points.size() / size - given_);
         out.insert(out.end(), points.data() + given_ * size, points.data() + (given_ + count) * size);
+        for (std::size_t k = 0; k < carried_.size(); ++k)
+            mesh::move_values(pieces_[piece_].carried[k], given_, count, carried_[k]);
         taken += count;
         given_ += count;
         if (given_ * size != points.size()) continue;
@@ -131,14 +144,77 @@ Result<std::size_t> CsvSource::read(std::size_t max, std::vector<double>& out) {
     return taken;
 }
 
-}  // namespace
-
-Result<std::unique_ptr<PointSource>> open_csv_source(const std::string& path, int dimension) {
+Result<std::unique_ptr<CsvSource>> open_as(const std::string& path, int dimension, const PointOptions& options,
+                                           const std::vector<ColumnFormat>* kept) {
     Result<LineReader> lines = LineReader::open(path);
     if (!lines) return lines.error();
     auto source = std::make_unique<CsvSource>(std::move(*lines), dimension);
-    if (Status begun = source->begin(); !begun) return begun.error();
-    return std::unique_ptr<PointSource>(std::move(source));
+    if (Status begun = source->begin(options, kept); !begun) return begun.error();
+    return source;
+}
+
+/// The formats of the carried columns, from all their values: a first pass over the file.
+Result<std::vector<ColumnFormat>> formats_of_all(CsvSource& source, const std::string& path, Notes& notes) {
+    constexpr std::size_t block = std::size_t{1} << 15;
+    std::vector<ColumnFormat> formats = source.carried();
+    std::vector<TypeOfTexts> types(formats.size());
+    std::vector<bool> utf8(formats.size(), true);
+    std::vector<double> points;
+    std::vector<Column> columns;
+    while (true) {
+        points.clear();
+        const Result<std::size_t> taken = source.read(block, points);
+        if (!taken) return taken.error();
+        if (*taken == 0) break;
+        source.take_carried(columns);
+        for (std::size_t k = 0; k < formats.size(); ++k) {
+            for (const std::string& text : std::get<std::vector<std::string>>(columns[k].values)) types[k].see(text);
+            const ColumnFormat some = mesh::format_of(columns[k]);
+            formats[k].max_bytes = std::max(formats[k].max_bytes, some.max_bytes);
+            formats[k].max_characters = std::max(formats[k].max_characters, some.max_characters);
+            utf8[k] = utf8[k] && some.max_characters != 0;
+        }
+    }
+    for (std::size_t k = 0; k < formats.size(); ++k) {
+        formats[k].type = types[k].type();
+        if (!utf8[k]) formats[k].max_characters = 0;
+        if (formats[k].type != Column::Type::text) formats[k] = {formats[k].name, formats[k].type};
+        if (types[k].has_missing_numbers())
+            notes.push_back(
+                {Note::Kind::converted, "empty fields of column " + formats[k].name + " to NaN", path});
+    }
+    return formats;
+}
+
+Error cannot_be_read_twice(const std::string& path) {
+    return {.what = "the types of columns cannot be found in a stream",
+            .file = path == "-" ? "standard input" : path,
+            .expected = "a regular file, which can be read twice",
+            .found = "a pipe or device",
+            .remedy = "write CSV, which carries columns as they are, or save the points to a file first"};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<PointSource>> open_csv_source(const std::string& path, int dimension,
+                                                     const PointOptions& options) {
+    if (!options.typed || options.keep.empty()) {
+        auto source = open_as(path, dimension, options, nullptr);
+        if (!source) return source.error();
+        return std::unique_ptr<PointSource>(std::move(*source));
+    }
+    std::error_code ignored;
+    if (path == "-" || (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)))
+        return cannot_be_read_twice(path);
+    auto first = open_as(path, dimension, options, nullptr);
+    if (!first) return first.error();
+    Notes notes;
+    const auto formats = formats_of_all(**first, path, notes);
+    if (!formats) return formats.error();
+    auto source = open_as(path, dimension, options, &*formats);
+    if (!source) return source.error();
+    (*source)->add_notes(notes);
+    return std::unique_ptr<PointSource>(std::move(*source));
 }
 
 }  // namespace barycert::io

@@ -1,15 +1,19 @@
 #include "barycert/io/fields/field_file.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cctype>
-#include <cstring>
 #include <string_view>
+#include <utility>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/mapped_file.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/io/npy/npy_header.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/io/csv/csv_layout.hpp"
+#include "barycert/io/csv/csv_types.hpp"
+#include "barycert/io/fields/csv_column.hpp"
+#include "barycert/io/formats.hpp"
+#include "barycert/io/npy/npy_file.hpp"
+#include "barycert/io/point_columns.hpp"
 
 namespace barycert::io {
 namespace {
@@ -69,6 +73,13 @@ Result<Field> read_text(Field field, const std::string& path, std::string_view b
                              .expected = "numbers",
                              .found = base::quoted(word),
                              .remedy = "write one row of numbers per node or cell; start header lines with #"};
+            if (is_inexact(word, *x))
+                return Error{.what = "a row of field \"" + field.name + '"',
+                             .file = path,
+                             .line = line_number,
+                             .expected = "an integer that a double holds exactly",
+                             .found = base::quoted(word),
+                             .remedy = "write it with a decimal point to round it"};
             if (word.data() + word.size() == file_end) return base::unended_number(path, line_number);
             field.data.push_back(*x);
         } while (!words.at_end() || words.separated());
@@ -86,123 +97,92 @@ Result<Field> read_text(Field field, const std::string& path, std::string_view b
     return field;
 }
 
-/// How one number stands in an NPY file: 'f', 'i', 'u' or 'b' and its bytes.
-struct NpyNumber {
-    char kind = 'f';
-    std::size_t size = 8;
-    bool swapped = false;
-};
-
-std::optional<NpyNumber> number_of(const std::string& descr) {
-    static constexpr std::string_view known[]{"f8", "f4", "i8", "i4", "i2", "i1", "u8", "u4", "u2", "u1", "b1"};
-    if (descr.size() != 3 || std::find(std::begin(known), std::end(known), descr.substr(1)) == std::end(known))
-        return std::nullopt;
-    const bool big = descr[0] == '>';
-    if (!big && descr[0] != '<' && descr[0] != '|' && descr[0] != '=') return std::nullopt;
-    return NpyNumber{descr[1], static_cast<std::size_t>(descr[2] - '0'),
-                     big == (std::endian::native == std::endian::little)};
+/// The columns of the array that are the components.
+Result<std::vector<std::size_t>> components_of(const NpyTable& table, const Field& field, const std::string& path,
+                                               const std::string& column) {
+    std::vector<std::string> names;
+    for (const NpyColumn& c : table.columns) names.push_back(c.name);
+    std::vector<std::size_t> columns;
+    if (!table.structured && column.empty()) {
+        for (std::size_t c = 0; c < names.size(); ++c) columns.push_back(c);
+        if (!columns.empty()) return columns;
+    }
+    if (!column.empty())
+        columns = columns_of_field(names, are_places({column}) && !table.structured ? "column" + column : column);
+    if (!columns.empty()) return columns;
+    return Error{.what = column.empty() ? "the type of field \"" + field.name + '"' : "no such column",
+                 .file = path,
+                 .expected = column.empty() ? "an array of numbers" : base::quoted(column),
+                 .found = table.structured && column.empty() ? "a structured array of " + listed(names) : listed(names),
+                 .remedy = "name one of them: --field " + field.name + "=" + path + ":NAME"};
 }
 
-/// The number at `at`; nothing if it is an integer that is no double.
-std::optional<double> value_at(const char* at, const NpyNumber& type) {
-    char bytes[8] = {};
-    for (std::size_t i = 0; i < type.size; ++i) bytes[i] = at[type.swapped ? type.size - 1 - i : i];
-    const auto as = [&]<class T>(T x) {
-        std::memcpy(&x, bytes, sizeof x);
-        return x;
-    };
-    if (type.kind == 'f') return type.size == 8 ? as(0.0) : static_cast<double>(as(0.0F));
-    if (type.kind == 'b') return bytes[0] != 0 ? 1 : 0;
-    const auto exactly = [](auto x) -> std::optional<double> {
-        const auto y = static_cast<double>(x);
-        // 2^64 and 2^63, to which the largest round, cannot be cast back.
-        if (y >= (std::is_signed_v<decltype(x)> ? 0x1p63 : 0x1p64) || static_cast<decltype(x)>(y) != x)
-            return std::nullopt;
-        return y;
-    };
-    if (type.kind == 'i') {
-        switch (type.size) {
-            case 8:
-                return exactly(as(std::int64_t{0}));
-            case 4:
-                return static_cast<double>(as(std::int32_t{0}));
-            case 2:
-                return static_cast<double>(as(std::int16_t{0}));
-            default:
-                return static_cast<double>(as(std::int8_t{0}));
-        }
-    }
-    switch (type.size) {
-        case 8:
-            return exactly(as(std::uint64_t{0}));
-        case 4:
-            return static_cast<double>(as(std::uint32_t{0}));
-        case 2:
-            return static_cast<double>(as(std::uint16_t{0}));
-        default:
-            return static_cast<double>(as(std::uint8_t{0}));
-    }
-}
-
-Result<Field> read_npy(Field field, const std::string& path, std::string_view bytes) {
-    const auto text = find_npy_text(bytes.substr(0, npy_head), path);
-    if (!text) return text.error();
-    if (text->size > bytes.size() - std::min(bytes.size(), text->offset))
-        return Error{.what = "the file ends inside its header", .file = path, .remedy = "write it again"};
-    const auto header = parse_npy_text(bytes.substr(text->offset, text->size), path);
-    if (!header) return header.error();
-    const auto type = number_of(header->descr);
-    if (!type || header->structured)
-        return Error{.what = "the type of field \"" + field.name + '"',
-                     .file = path,
-                     .expected = "floats of 4 or 8 bytes, or integers",
-                     .found = header->structured ? "a structured array" : base::quoted(header->descr),
-                     .remedy = "save a.astype('f8')"};
-    const auto& shape = header->shape;
-    constexpr std::uint64_t max_components = 1U << 20;
-    if (shape.empty() || shape.size() > 2 || (shape.size() == 2 && (shape[1] < 1 || shape[1] > max_components)))
+Result<Field> read_npy(Field field, const std::string& path, const std::string& column, Notes& notes) {
+    Result<NpyFile> file = NpyFile::open(path);
+    if (!file) return file.error();
+    const auto& shape = file->header().shape;
+    constexpr std::uint64_t max_components = 1U << 16;
+    if (!file->header().structured &&
+        (shape.empty() || shape.size() > 2 || (shape.size() == 2 && (shape[1] < 1 || shape[1] > max_components))))
         return Error{.what = "the shape of field \"" + field.name + '"',
                      .file = path,
                      .expected = "(rows,) or (rows, components)",
-                     .found = std::to_string(shape.size()) + " axes" + (shape.size() == 2 ? " of another size" : ""),
+                     .found = as_tuple(shape),
                      .remedy = "save a.reshape(len(a), -1)"};
-    const std::uint64_t rows = shape[0], components = shape.size() == 2 ? shape[1] : 1;
-    const std::string_view body = bytes.substr(text->offset + text->size);
-    if (rows > body.size() / (components * type->size) || rows * components * type->size != body.size())
-        return Error{
-            .what = "the size of the file does not fit its header",
-            .file = path,
-            .expected = std::to_string(rows) + " rows of " + std::to_string(components * type->size) + " bytes",
-            .found = std::to_string(body.size()) + " bytes",
-            .remedy = "write it again"};
+    const Result<NpyTable> table = file->table();
+    if (!table) return table.error();
+    const auto columns = components_of(*table, field, path, column);
+    if (!columns) return columns.error();
+    for (const std::size_t c : *columns) {
+        const NpyType& type = table->columns[c].type;
+        if (!type.is_number())
+            return Error{.what = "the type of field \"" + field.name + '"',
+                         .file = path,
+                         .expected = "floats of 2, 4 or 8 bytes, or integers",
+                         .found = base::quoted(type.text),
+                         .remedy = "save a.astype('f8')"};
+    }
+    const NpyType& type = table->columns[columns->front()].type;
+    if (type.kind != 'f' || type.size != 8)
+        notes.push_back({Note::Kind::converted,
+                         "field " + field.name + " of type " + type.text + " to double, exactly", path});
+    const std::size_t components = columns->size(), at_once = NpyFile::rows_at_once(*table);
     field.components = static_cast<int>(components);
-    field.data.resize(rows * components);
-    for (std::size_t i = 0; i < rows; ++i) {
-        for (std::size_t c = 0; c < components; ++c) {
-            const std::size_t at = header->fortran_order ? c * rows + i : i * components + c;
-            const auto x = value_at(body.data() + at * type->size, *type);
-            if (!x)
-                return Error{.what = "row " + std::to_string(i) + " of field \"" + field.name + '"',
-                             .file = path,
-                             .expected = "an integer that a double holds exactly",
-                             .found = "a larger one",
-                             .remedy = "save a.astype('f8') to round it"};
-            field.data[i * components + c] = *x;
-        }
+    field.data.resize(table->rows * components);
+    for (std::uint64_t row = 0; row < table->rows; row += at_once) {
+        const std::size_t count = std::min<std::uint64_t>(at_once, table->rows - row);
+        Status done = file->go_to(*table, row, count);
+        for (std::size_t c = 0; c < components && done; ++c)
+            done = file->numbers(table->columns[(*columns)[c]], "field \"" + field.name + '"',
+                                 field.data.data() + row * components + c, components);
+        if (!done) return done.error();
     }
     return field;
 }
 
+/// A column of the CSV file that might be meant.
+Error with_columns(Error error, const std::string& name, const std::string& path, std::string_view bytes) {
+    const std::string_view first = bytes.substr(0, bytes.find('\n'));
+    const Result<CsvLine> line = cut_first_line(first.substr(0, first.find('\r')), {path, 1});
+    if (!line || error.line != 1) return error;
+    if (std::none_of(line->fields.begin(), line->fields.end(), looks_numeric))
+        error.remedy = "name a column of the header: --field " + name + "=" + path + ":" + line->fields.front();
+    return error;
+}
+
 }  // namespace
 
-Result<Field> read_field_file(const std::string& name, const std::string& path) {
+Result<Field> read_field_file(const std::string& name, const std::string& path, const std::string& column,
+                              Notes& notes) {
+    const ExactEnvironment environment;
+    Field field{.name = name, .components = 1, .data = {}};
+    if (has_suffix(path, ".npy")) return read_npy(std::move(field), path, column, notes);
+    if (!column.empty()) return read_csv_column(std::move(field), path, column);
     const auto file = base::MappedFile::open(path);
     if (!file) return file.error();
-    std::string lower = path;
-    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    Field field{.name = name, .components = 1, .data = {}};
-    return lower.ends_with(".npy") ? read_npy(std::move(field), path, file->bytes())
-                                   : read_text(std::move(field), path, file->bytes());
+    Result<Field> read = read_text(std::move(field), path, file->bytes());
+    if (!read) return with_columns(read.error(), name, path, file->bytes());
+    return read;
 }
 
 }  // namespace barycert::io

@@ -1,34 +1,15 @@
 #include "barycert/io/npy/npy_fields.hpp"
 
-#include <cstdint>
+#include <algorithm>
 #include <set>
 #include <string_view>
 #include <vector>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/tetgen/row_errors.hpp"
+#include "barycert/mesh/columns.hpp"
 
 namespace barycert::io {
 namespace {
-
-/// Well-formed UTF-8: no stray or missing continuation, no longer form than needed, no surrogate, nothing above
-/// U+10FFFF.
-bool is_utf8(std::string_view text) {
-    for (std::size_t i = 0; i < text.size();) {
-        const auto lead = static_cast<unsigned char>(text[i++]);
-        if (lead < 0x80) continue;
-        const int more = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : 1;
-        if (lead < 0xC2 || lead > 0xF4) return false;
-        std::uint32_t code = lead & (0x3FU >> more);
-        for (int k = 0; k < more; ++k, ++i) {
-            if (i == text.size() || (static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U) return false;
-            code = code << 6 | (static_cast<unsigned char>(text[i]) & 0x3FU);
-        }
-        if (more == 2 && (code < 0x800 || (code >= 0xD800 && code < 0xE000))) return false;
-        if (more == 3 && (code < 0x10000 || code > 0x10FFFF)) return false;
-    }
-    return true;
-}
 
 /// As a string of Python.
 std::string as_literal(std::string_view name) {
@@ -47,9 +28,20 @@ std::string as_literal(std::string_view name) {
     return text + "'";
 }
 
+/// NumPy has no texts of length zero that every function takes.
+std::size_t length_of(const ColumnFormat& text) {
+    return std::max<std::size_t>(1, text.max_characters != 0 ? text.max_characters : text.max_bytes);
+}
+
+std::string type_of(const ColumnFormat& column) {
+    if (column.type == Column::Type::integer) return "<i8";
+    if (column.type == Column::Type::number) return "<f8";
+    return (column.max_characters != 0 ? "<U" : "|S") + std::to_string(length_of(column));
+}
+
 const char* fault_of(const std::string& name, std::set<std::string>& seen) {
     if (name.empty()) return "a name";
-    if (!is_utf8(name)) return "a name in UTF-8";
+    if (mesh::count_characters(name) < 0) return "a name in UTF-8";
     if (!seen.insert(name).second)
         return "a name that differs from the others and from x, y, z, cell, feature, distance";
     return nullptr;
@@ -57,10 +49,15 @@ const char* fault_of(const std::string& name, std::set<std::string>& seen) {
 
 }  // namespace
 
+std::size_t npy_size(const ColumnFormat& column) {
+    if (column.type != Column::Type::text) return 8;
+    return length_of(column) * (column.max_characters != 0 ? 4 : 1);
+}
+
 Result<NpyFields> npy_fields(const TableFormat& format, const std::string& path) {
     struct NpyColumn {
         std::string name;
-        const char* type = "<f8";
+        std::string type = "<f8";
     };
     std::vector<NpyColumn> fields{{"x"}, {"y"}};
     if (format.dimension == 3) fields.push_back({"z"});
@@ -70,6 +67,11 @@ Result<NpyFields> npy_fields(const TableFormat& format, const std::string& path)
     if (format.distances) fields.push_back({"distance"});
 
     NpyFields result{.descr = "[", .row_size = 8 * fields.size()};  // each has 8 bytes
+    for (const ColumnFormat& column : format.carried) {
+        fields.push_back({column.name, type_of(column)});
+        result.carried.push_back(npy_size(column));
+        result.row_size += result.carried.back();
+    }
     std::set<std::string> seen;
     for (const NpyColumn& field : fields) {
         if (const char* const expected = fault_of(field.name, seen); expected != nullptr) {

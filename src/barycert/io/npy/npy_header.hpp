@@ -29,24 +29,16 @@ struct NpyHeader {
 struct NpyText {
     std::size_t offset = 0;
     std::size_t size = 0;
+    bool latin1 = false;  ///< else in UTF-8
 };
 
 /// From the first npy_head bytes of the file, or all of them. Errors: not an NPY file, another version.
 Result<NpyText> find_npy_text(std::string_view head, const std::string& file);
 
+/// Latin-1 text in UTF-8.
+std::string utf8_of_latin1(std::string_view text);
+
 /// From the text of the header: a Python dictionary of descr, fortran_order and shape.
 Result<NpyHeader> parse_npy_text(std::string_view text, const std::string& file);
-
-/// How the numbers of an array of points stand in the file.
-struct NpyLayout {
-    std::uint64_t count = 0;     ///< points
-    std::size_t item = 8;        ///< bytes a number: 8 or 4
-    bool swapped = false;        ///< in the byte order that is not this machine's
-    bool fortran_order = false;  ///< all x, then all y, then all z
-};
-
-/// `room`: the bytes after the header. Errors: another type or shape; more or fewer bytes than the shape tells.
-Result<NpyLayout> settle_npy_layout(const NpyHeader& header, std::size_t dimension, std::uint64_t room,
-                                    const std::string& file);
 
 }  // namespace barycert::io

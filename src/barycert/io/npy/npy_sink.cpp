@@ -9,10 +9,12 @@
 #include <utility>
 
 #include "barycert/base/output_file.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy_fields.hpp"
 #include "barycert/io/npy/npy_header.hpp"
+#include "barycert/io/npy/npy_types.hpp"
 
 namespace barycert::io {
 namespace {
@@ -48,6 +50,7 @@ public:
 private:
     std::string header(std::uint64_t count) const;
     void put_row(const TableView& rows, std::size_t row, char* at) const;
+    Status check_texts(const TableView& rows) const;
 
     std::string path_;
     TableFormat format_;
@@ -58,6 +61,7 @@ private:
     std::size_t head_size_ = 0;
     char version_ = 1;
     std::size_t row_size_ = 0;
+    std::vector<std::size_t> carried_;  // bytes of each carried column
     std::uint64_t count_ = 0;
     std::vector<char> buffer_;
     std::array<std::uint64_t, feature_count> features_{};  // as they stand in the file, in the memory of this machine
@@ -77,6 +81,7 @@ Status NpySink::begin() {
     if (!fields) return fields.error();
     types_ = std::move(fields->descr);
     row_size_ = fields->row_size;
+    carried_ = std::move(fields->carried);
     for (std::size_t f = 0; f < features_.size(); ++f) {
         std::array<char, npy_feature_size> text{};
         const std::string_view word = name(static_cast<Feature>(f));
@@ -122,13 +127,46 @@ void NpySink::put_row(const TableView& rows, std::size_t row, char* at) const {
     std::memcpy(at, &features_[static_cast<std::size_t>(rows.features[row])], npy_feature_size);
     at += npy_feature_size;
     for (const double x : rows.values.subspan(row * columns_, columns_)) at = put(at, std::bit_cast<std::uint64_t>(x));
-    if (format_.distances) put(at, std::bit_cast<std::uint64_t>(rows.distances[row]));
+    if (format_.distances) at = put(at, std::bit_cast<std::uint64_t>(rows.distances[row]));
+    for (std::size_t k = 0; k < carried_.size(); ++k) {
+        const auto& values = rows.carried[k].values;
+        if (const auto* const integers = std::get_if<std::vector<std::int64_t>>(&values)) {
+            put(at, static_cast<std::uint64_t>((*integers)[row]));
+        } else if (const auto* const numbers = std::get_if<std::vector<double>>(&values)) {
+            put(at, std::bit_cast<std::uint64_t>((*numbers)[row]));
+        } else {
+            put_npy_text(at, carried_[k], std::get<std::vector<std::string>>(values)[row],
+                         format_.carried[k].max_characters != 0);
+        }
+        at += carried_[k];
+    }
+}
+
+/// What the types of the file cannot hold.
+Status NpySink::check_texts(const TableView& rows) const {
+    for (std::size_t k = 0; k < carried_.size(); ++k) {
+        const auto* const texts = std::get_if<std::vector<std::string>>(&rows.carried[k].values);
+        if (texts == nullptr) continue;
+        const bool characters = format_.carried[k].max_characters != 0;
+        for (const std::string& text : *texts) {
+            if (fits_npy_text(text, carried_[k], characters)) continue;
+            return Error{.what = "a text of column " + base::quoted(format_.carried[k].name) + " does not fit the file",
+                         .file = path_,
+                         .expected = std::to_string(carried_[k] / (characters ? 4 : 1)) +
+                                     (characters ? " characters of UTF-8" : " bytes") +
+                                     " at most, as the column was told, and no zero byte at its end",
+                         .found = base::quoted(text),
+                         .remedy = "write CSV"};
+        }
+    }
+    return Done{};
 }
 
 Status NpySink::write(const TableView& rows) {
     const ExactEnvironment environment;
     if (!error_.what.empty()) return error_;
     if (Status fits = check_rows(rows, format_, path_); !fits) return error_ = fits.error();
+    if (Status fits = check_texts(rows); !fits) return error_ = fits.error();
     const std::size_t count = rows.cells.size();
     const std::size_t piece = rows_a_piece(row_size_), at_once = pieces_at_once * piece;
     buffer_.resize(std::max(buffer_.size(), std::min(count, at_once) * row_size_));

@@ -1,119 +1,165 @@
-// Points from an NPY file, read by blocks and not mapped: memory is bounded, and a file that shrinks meanwhile is told.
+// Points from an NPY file.
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
-#include <span>
 #include <utility>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/npy/npy_header.hpp"
+#include "barycert/io/npy/npy_file.hpp"
+#include "barycert/io/point_columns.hpp"
+#include "barycert/mesh/columns.hpp"
 
 namespace barycert::io {
 namespace {
-
-/// Numbers read at a time.
-constexpr std::size_t block_size = std::size_t{1} << 15;
-
-/// Floating-point numbers of 8 or 4 bytes as they stand in the file.
-template <class Number, class Bits>
-double number_at(const char* at, bool swapped) {
-    Bits bits = 0;
-    std::memcpy(&bits, at, sizeof bits);
-    if (swapped)
-        bits = sizeof bits == 8 ? static_cast<Bits>(__builtin_bswap64(bits))
-                                : static_cast<Bits>(__builtin_bswap32(static_cast<std::uint32_t>(bits)));
-    return std::bit_cast<Number>(bits);
-}
 
 class NpySource final : public PointSource {
 public:
     NpySource(std::string path, int dimension)
         : path_(std::move(path)), dimension_(static_cast<std::size_t>(dimension)) {}
 
-    Status begin();
+    Status begin(const PointOptions& options);
 
     int dimension() const override { return static_cast<int>(dimension_); }
-    std::optional<std::uint64_t> count() const override { return layout_.count; }
+    std::optional<std::uint64_t> count() const override { return table_.rows; }
     Result<std::size_t> read(std::size_t max, std::vector<double>& out) override;
+    std::vector<ColumnFormat> carried() const override { return formats_; }
+    void take_carried(std::vector<Column>& columns) override { std::swap(columns, carried_); }
+    Notes notes() const override { return notes_; }
 
 private:
-    Error failure(const char* what, std::string expected, std::string found, std::string remedy) const {
-        return {.what = what,
+    Error failure(std::string what, std::string expected, std::string found, std::string remedy) const {
+        return {.what = std::move(what),
                 .file = path_,
                 .line = 0,
                 .expected = std::move(expected),
                 .found = std::move(found),
                 .remedy = std::move(remedy)};
     }
-    Status read_bytes(std::uint64_t offset, std::span<char> bytes);
-    Status read_numbers(std::uint64_t first, std::size_t count, double* out, std::size_t stride);
+    Status choose(const PointOptions& options);
+    Status keep(const NpyColumn& column, std::string name);
+    Error shape_error(const std::vector<std::uint64_t>& shape) const;
+    Status check_heights(std::uint64_t first) const;
+    Status read_rows(std::size_t taken, double* points);
 
     std::string path_;
     std::size_t dimension_;
-    base::InputFile file_;
-    std::uint64_t file_size_ = 0;
-    std::uint64_t data_ = 0;  // where the numbers begin
-    NpyLayout layout_;
+    NpyFile file_;
+    NpyTable table_;
+    bool as_in_memory_ = false;   // the array is what is asked for, number by number
+    std::vector<NpyColumn> axes_;  // and perhaps a z that must be 0
+    std::vector<NpyColumn> kept_;
+    std::vector<ColumnFormat> formats_;  // of these
+    std::vector<Column> carried_;        // of the last points given
+    std::vector<double> heights_;
+    Notes notes_;
     std::uint64_t next_ = 0;
-    std::vector<char> bytes_;
     Error error_;
 };
 
-Status NpySource::read_bytes(std::uint64_t offset, std::span<char> bytes) {
-    const Result<std::size_t> got = file_.read_at(offset, bytes, path_);
-    if (!got) return got.error();
-    if (*got == bytes.size()) return Done{};
-    return failure("the file ends too early", "byte " + std::to_string(offset + bytes.size() - 1),
-                   "the end of the file", "do not change the file while it is read");
+Error NpySource::shape_error(const std::vector<std::uint64_t>& shape) const {
+    const std::string d = std::to_string(dimension_);
+    std::string remedy = "save an array with a row of " + d + " coordinates for each point";
+    if (shape.size() == 1) remedy = "if it holds the coordinates point after point, save a.reshape(-1, " + d + ")";
+    if (shape.size() == 2 && shape[1] > dimension_)
+        remedy = "say which columns are the coordinates, such as --columns 1,2" + std::string(dimension_ == 3 ? ",3" : "");
+    if (shape.size() == 2 && shape[0] == dimension_ && shape[1] != dimension_ + 1)
+        remedy = "if it has a column for each point, save a.T";
+    return failure("an array of another shape", "(n, " + d + "), for the mesh is " + d + "-dimensional",
+                   as_tuple(shape), std::move(remedy));
 }
 
-Status NpySource::begin() {
-    Result<base::InputFile> opened =
-        base::InputFile::open(path_, "save the array to a regular file first; CSV can be read from a pipe");
-    if (!opened) return opened.error();
-    file_ = std::move(*opened);
-    file_size_ = file_.size();
-    bytes_.resize(std::min<std::uint64_t>(npy_head, file_size_));
-    if (Status head = read_bytes(0, bytes_); !head) return head;
-    const Result<NpyText> text = find_npy_text({bytes_.data(), bytes_.size()}, path_);
-    if (!text) return text.error();
-    data_ = text->offset + text->size;
-    if (data_ > file_size_) {
-        return failure("the file ends too early", "a header of " + std::to_string(data_) + " bytes",
-                       std::to_string(file_size_), "the file may be cut short: write it again");
+Status NpySource::begin(const PointOptions& options) {
+    Result<NpyFile> file = NpyFile::open(path_);
+    if (!file) return file.error();
+    file_ = std::move(*file);
+    const NpyHeader& header = file_.header();
+    const bool asked = header.structured || !options.columns.empty();
+    Result<NpyTable> table = file_.table();
+    if (!asked && (header.shape.size() != 2 || header.shape[1] != dimension_)) return shape_error(header.shape);
+    if (!table) return table.error();
+    table_ = std::move(*table);
+    return choose(options);
+}
+
+/// Which columns are what.
+Status NpySource::choose(const PointOptions& options) {
+    TableColumns all{.names = {}, .named = table_.structured, .file = path_};
+    for (const NpyColumn& column : table_.columns) all.names.push_back(column.name);
+    Result<PointColumns> columns = choose_columns(all, static_cast<int>(dimension_), options);
+    if (!columns) return columns.error();
+    notes_ = std::move(columns->notes);
+    std::vector<std::size_t> places = columns->axes;
+    if (columns->zero) places.push_back(*columns->zero);
+    std::string widened;
+    for (const std::size_t place : places) {
+        const NpyColumn& column = table_.columns[place];
+        if (!column.type.is_number())
+            return failure("cannot read points of that type", "integers or floating-point numbers of at most 64 bits",
+                           base::quoted(column.type.text), "save a.astype('f8')");
+        if (column.type.kind != 'f' || column.type.size != 8) widened = column.type.text;
+        axes_.push_back(column);
     }
-    bytes_.resize(text->size);
-    if (Status read = read_bytes(text->offset, bytes_); !read) return read;
-    const Result<NpyHeader> header = parse_npy_text({bytes_.data(), bytes_.size()}, path_);
-    if (!header) return header.error();
-    const Result<NpyLayout> layout = settle_npy_layout(*header, dimension_, file_size_ - data_, path_);
-    if (!layout) return layout.error();
-    layout_ = *layout;
+    if (!widened.empty())
+        notes_.push_back({Note::Kind::converted, "coordinates of type " + widened + " to double, exactly", path_});
+    for (PointColumns::Kept& kept : columns->kept) {
+        if (Status can = keep(table_.columns[kept.column], std::move(kept.name)); !can) return can;
+    }
+    const NpyType& type = axes_.front().type;
+    as_in_memory_ = !table_.structured && !table_.by_columns && kept_.empty() && type.kind == 'f' && type.size == 8 &&
+                    !type.swapped && table_.columns.size() == dimension_;
+    for (std::size_t i = 0; i < places.size(); ++i) as_in_memory_ = as_in_memory_ && places[i] == i;
     return Done{};
 }
 
-/// The `count` numbers of the file from number `first` on, to out[0], out[stride], ...
-Status NpySource::read_numbers(std::uint64_t first, std::size_t count, double* out, std::size_t stride) {
-    const bool as_in_memory = layout_.item == 8 && !layout_.swapped && stride == 1;
-    if (as_in_memory && count != 0)
-        return read_bytes(data_ + first * 8, {reinterpret_cast<char*>(out), count * sizeof(double)});
-    for (std::size_t done = 0; done < count;) {
-        const std::size_t size = std::min(block_size, count - done);
-        bytes_.resize(size * layout_.item);
-        if (Status read = read_bytes(data_ + (first + done) * layout_.item, bytes_); !read) return read;
-        for (std::size_t i = 0; i < size; ++i) {
-            const char* const at = bytes_.data() + i * layout_.item;
-            out[(done + i) * stride] = layout_.item == 8
-                                           ? number_at<double, std::uint64_t>(at, layout_.swapped)
-                                           : static_cast<double>(number_at<float, std::uint32_t>(at, layout_.swapped));
+Status NpySource::keep(const NpyColumn& column, std::string name) {
+    const NpyType& type = column.type;
+    ColumnFormat format{std::move(name), Column::Type::text};
+    if (type.is_integer()) format.type = Column::Type::integer;
+    if (type.kind == 'f') format.type = Column::Type::number;
+    if (type.is_number() && (type.size != 8 || type.kind == 'u'))
+        notes_.push_back({Note::Kind::converted,
+                          "column " + column.name + " of type " + type.text +
+                              (type.kind == 'f' ? " to double, exactly" : " to int64, exactly"),
+                          path_});
+    if (type.is_text()) format.max_bytes = type.size;
+    if (type.kind == 'U') format.max_characters = std::max<std::size_t>(1, type.size / 4);
+    if (!type.is_number() && !type.is_text())
+        return failure("column " + base::quoted(column.name) + " cannot be carried through",
+                       "integers, floating-point numbers or texts", base::quoted(type.text),
+                       "leave it out of --keep, or save it as another type");
+    kept_.push_back(column);
+    formats_.push_back(std::move(format));
+    return Done{};
+}
+
+/// Beside a mesh in the plane.
+Status NpySource::check_heights(std::uint64_t first) const {
+    const auto high = std::find_if(heights_.begin(), heights_.end(), [](double z) { return z != 0; });
+    if (high == heights_.end()) return Done{};
+    const std::uint64_t row = first + static_cast<std::uint64_t>(high - heights_.begin());
+    return off_plane(path_, 0, "row " + std::to_string(row) + ", counted from 0", base::shortest(*high));
+}
+
+/// The next `taken` points, and what is carried through with them.
+Status NpySource::read_rows(std::size_t taken, double* points) {
+    const std::size_t at_once = NpyFile::rows_at_once(table_);
+    for (std::size_t done = 0; done < taken;) {
+        const std::size_t size = std::min(at_once, taken - done);
+        Status read = file_.go_to(table_, next_ + done, size);
+        for (std::size_t axis = 0; axis < dimension_ && read; ++axis)
+            read = file_.numbers(axes_[axis], "column " + base::quoted(axes_[axis].name),
+                                 points + done * dimension_ + axis, dimension_);
+        if (axes_.size() > dimension_ && read) {
+            heights_.resize(size);
+            read = file_.numbers(axes_.back(), "column " + base::quoted(axes_.back().name), heights_.data(), 1);
+            if (read) read = check_heights(next_ + done);
         }
+        for (std::size_t k = 0; k < kept_.size() && read; ++k)
+            read = file_.values(kept_[k], "column " + base::quoted(kept_[k].name), carried_[k]);
+        if (!read) return read;
         done += size;
     }
     return Done{};
@@ -122,17 +168,17 @@ Status NpySource::read_numbers(std::uint64_t first, std::size_t count, double* o
 Result<std::size_t> NpySource::read(std::size_t max, std::vector<double>& out) {
     const ExactEnvironment environment;
     if (!error_.what.empty()) return error_;
-    const std::size_t taken = std::min<std::uint64_t>(max, layout_.count - next_);
+    mesh::begin_columns(formats_, carried_);
+    const std::size_t taken = std::min<std::uint64_t>(max, table_.rows - next_);
     const std::size_t before = out.size();
     out.resize(before + taken * dimension_);
     double* const points = out.data() + before;
     Status read = Done{};
-    if (layout_.fortran_order) {
-        for (std::size_t axis = 0; axis < dimension_ && read; ++axis) {
-            read = read_numbers(axis * layout_.count + next_, taken, points + axis, dimension_);
-        }
+    if (as_in_memory_ && taken != 0) {
+        read = file_.read(next_ * dimension_ * sizeof(double),
+                          {reinterpret_cast<char*>(points), taken * dimension_ * sizeof(double)});
     } else {
-        read = read_numbers(next_ * dimension_, taken * dimension_, points, 1);
+        read = read_rows(taken, points);
     }
     const bool finite = read && base::all_finite({points, taken * dimension_});
     for (std::size_t i = 0; i < taken * dimension_ && read && !finite; ++i) {
@@ -152,9 +198,10 @@ Result<std::size_t> NpySource::read(std::size_t max, std::vector<double>& out) {
 
 }  // namespace
 
-Result<std::unique_ptr<PointSource>> open_npy_source(const std::string& path, int dimension) {
+Result<std::unique_ptr<PointSource>> open_npy_source(const std::string& path, int dimension,
+                                                     const PointOptions& options) {
     auto source = std::make_unique<NpySource>(path, dimension);
-    if (Status begun = source->begin(); !begun) return begun.error();
+    if (Status begun = source->begin(options); !begun) return begun.error();
     return std::unique_ptr<PointSource>(std::move(source));
 }
 

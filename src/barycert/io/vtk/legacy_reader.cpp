@@ -300,6 +300,11 @@ private:
         return Done{};
     }
 
+    /// Of cells; of points, where no mesh has to carry them.
+    bool may_label(const std::vector<RawArray>& arrays) const {
+        return &arrays == &grid_.cell_arrays || (&arrays == &grid_.point_arrays && part_ == Part::point_arrays);
+    }
+
     Status read_array(const std::string& name, const std::string& type, std::size_t components, std::size_t rows,
                       std::vector<RawArray>& arrays) {
         const std::string what = "array " + in_quotes(name);
@@ -313,14 +318,14 @@ private:
         array.field = {name, static_cast<int>(components), {}};
         const std::uint64_t numbers = static_cast<std::uint64_t>(components) * rows;
         if (LegacyText::is_text(type)) {
-            const bool of_cells = &arrays == &grid_.cell_arrays;
+            const bool label = may_label(arrays);
             std::vector<std::string> texts;
-            if (Status s = text_.strings(what, type, numbers, of_cells && components == 1 ? &texts : nullptr); !s)
+            if (Status s = text_.strings(what, type, numbers, label && components == 1 ? &texts : nullptr); !s)
                 return s;
-            array.has_labels = of_cells && components == 1;
+            array.has_labels = label && components == 1;
             array.labels = std::move(texts);
             if (!array.has_labels)
-                array.fault = of_cells ? "it holds texts of several components"
+                array.fault = label ? "it holds texts of several components"
                                        : "it holds text, which points of a mesh cannot carry";
         } else {
             const std::optional<NumberType> known = LegacyText::number_type_named(type);
@@ -347,7 +352,8 @@ private:
         array.is_integer = type == NumberType::int64 || type == NumberType::uint64;
         const bool markers = &arrays == &grid_.point_arrays && array.field.name == marker_name &&
                              type == NumberType::int64 && array.field.components == 1;
-        const bool may_label = &arrays == &grid_.cell_arrays && array.is_integer && array.field.components == 1;
+        array.is_whole = type != NumberType::float32 && type != NumberType::float64;
+        const bool label = may_label(arrays) && array.is_integer && array.field.components == 1;
         const LegacyText before = text_;
         NumberFault fault;
         if (!markers) {
@@ -355,7 +361,7 @@ private:
             if (!fault) return Done{};
             array.field.data = {};
             array.fault = inexact(fault);
-            if (!may_label) return Done{};
+            if (!label) return Done{};
             text_ = before;
         }
         std::vector<std::int64_t> labels;

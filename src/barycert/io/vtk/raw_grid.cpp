@@ -104,6 +104,7 @@ void append_array(RawArray& to, RawArray& from) {
                    to.labels);
     } else {
         to.is_integer = to.is_integer && from.is_integer;
+        to.is_whole = to.is_whole && from.is_whole;
         move_behind(to.field.data, from.field.data);
     }
 }
@@ -147,6 +148,10 @@ Status append_piece(RawGrid& grid, RawGrid piece, const std::string& path) {
     for (std::string& name : piece.loose_arrays) {
         if (std::find(grid.loose_arrays.begin(), grid.loose_arrays.end(), name) == grid.loose_arrays.end())
             grid.loose_arrays.push_back(std::move(name));
+    }
+    for (std::string& name : piece.unread_arrays) {
+        if (std::find(grid.unread_arrays.begin(), grid.unread_arrays.end(), name) == grid.unread_arrays.end())
+            grid.unread_arrays.push_back(std::move(name));
     }
     if (piece.point_count() != 0) {
         append_arrays(grid.point_arrays, piece.point_arrays, points);

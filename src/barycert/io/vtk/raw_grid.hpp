@@ -17,6 +17,7 @@ struct RawArray {
     Column::Values labels;  ///< where has_labels: what stands in place of the field's numbers
     bool has_labels = false;
     bool is_integer = false;  ///< of 64 bits in the file
+    bool is_whole = false;    ///< integers of any size in the file
     bool is_narrow = false;   ///< float32 in the file
     std::string fault;        ///< why it is neither a field nor labels; empty: it is
 };
@@ -27,6 +28,7 @@ struct RawGrid {
     std::vector<std::int64_t> ends;          ///< where the nodes of each cell end in the connectivity
     std::vector<std::uint8_t> types;         ///< VTK's number of each cell's type
     std::vector<RawArray> point_arrays;
+    std::vector<std::string> unread_arrays;  ///< of points, by name, where only points were asked for (XML)
     std::vector<RawArray> cell_arrays;
     bool narrow_points = false;                   ///< float32 in the file
     bool checked_nodes = false;                   ///< the connectivity names points that there are
@@ -39,7 +41,8 @@ struct RawGrid {
     std::size_t point_count() const { return points.size() / 3; }
 };
 
-/// How much of a file is wanted.
+/// How much of a file is wanted. Texts of points, and integers of theirs that no doubles represent, are labels only where
+/// there is no mesh that would have to carry them: with point_arrays.
 enum class Part : std::uint8_t { points, point_arrays, all };
 
 /// Name of the array in which write_vtu keeps point markers: 64-bit integers of one component.

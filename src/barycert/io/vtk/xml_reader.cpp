@@ -83,7 +83,10 @@ private:
         const Result<std::size_t> points = count_of(piece, "NumberOfPoints", before.point_count());
         if (!points) return points.error();
         if (Status s = read_points(piece, *points, grid); !s) return s;
-        if (part_ == Part::points) return Done{};
+        if (part_ == Part::points) {
+            list_arrays(piece, grid);
+            return Done{};
+        }
         if (Status s = read_arrays(piece, "PointData", *points, grid.has_steps, grid.point_arrays); !s) return s;
         if (const XmlElement* const data = tree_.child(piece, "PointData"); data != nullptr)
             grid.global_ids = data->attribute("GlobalIds").value_or("");
@@ -97,6 +100,16 @@ private:
         }
         grid.checked_nodes = true;
         return read_arrays(piece, "CellData", grid.types.size(), grid.has_steps, grid.cell_arrays);
+    }
+
+    /// The names of point arrays that are not read.
+    void list_arrays(const XmlElement& piece, RawGrid& grid) const {
+        const XmlElement* const data = tree_.child(piece, "PointData");
+        if (data == nullptr) return;
+        for (const std::size_t i : data->children) {
+            const std::string name(tree_.elements[i].attribute("Name").value_or(""));
+            if (!name.empty()) grid.unread_arrays.push_back(name);
+        }
     }
 
     Status read_points(const XmlElement& piece, std::size_t count, RawGrid& grid) {
@@ -207,7 +220,8 @@ private:
                 return arrays_.error(array, "two arrays in one " + std::string(section), "different names",
                                      in_quotes(read.field.name) + " twice", "give them different names");
             }
-            if (Status s = read_array(array, std::string_view(section) == "CellData", count, read); !s) return s;
+            const bool of_cells = std::string_view(section) == "CellData";
+            if (Status s = read_array(array, of_cells, count, read); !s) return s;
             arrays.push_back(std::move(read));
         }
         return Done{};
@@ -227,9 +241,11 @@ private:
             to.fault = "it has no name";
             return Done{};
         }
-        if (!type.has_value()) return read_text_array(array, what, of_cells, count, to);
+        const bool may_label = of_cells || part_ == Part::point_arrays;
+        if (!type.has_value()) return read_text_array(array, what, may_label, count, to);
         to.is_narrow = *type == NumberType::float32;
         to.is_integer = *type == NumberType::int64 || *type == NumberType::uint64;
+        to.is_whole = *type != NumberType::float32 && *type != NumberType::float64;
         const bool markers = !of_cells && to.field.name == marker_name && *type == NumberType::int64 && components == 1;
         NumberFault fault;
         if (!markers) {
@@ -239,7 +255,7 @@ private:
         to.field.data = {};
         NumberFault wide;
         std::vector<std::int64_t> labels;
-        if (markers || (of_cells && components == 1 && to.is_integer)) {
+        if (markers || (may_label && components == 1 && to.is_integer)) {
             if (Status s = arrays_.read(array, what, numbers, labels, &wide); !s) return s;
         }
         if (wide || labels.empty()) {
@@ -251,11 +267,11 @@ private:
         return Done{};
     }
 
-    Status read_text_array(const XmlElement& array, const std::string& what, bool of_cells, std::size_t count,
+    Status read_text_array(const XmlElement& array, const std::string& what, bool may_label, std::size_t count,
                            RawArray& to) {
         if (array.attribute("type") != "String") {
             to.fault = "it holds no numbers";
-        } else if (!of_cells) {
+        } else if (!may_label) {
             to.fault = "it holds text, which points of a mesh cannot carry";
         } else if (to.field.components != 1) {
             to.fault = "it holds texts of several components";
@@ -290,7 +306,10 @@ private:
         }
         if (piece == nullptr) return grid;
         if (Status s = read_grid_points(tree_, arrays_, data, *piece, type, grid); !s) return s.error();
-        if (part_ == Part::points) return grid;
+        if (part_ == Part::points) {
+            list_arrays(*piece, grid);
+            return grid;
+        }
         if (Status s = read_arrays(*piece, "PointData", grid.point_count(), grid.has_steps, grid.point_arrays); !s)
             return s.error();
         return grid;

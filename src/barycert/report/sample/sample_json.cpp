@@ -7,6 +7,7 @@
 
 #include "barycert/environment.hpp"
 #include "barycert/report/common/environment_json.hpp"
+#include "barycert/report/common/notes_json.hpp"
 
 namespace barycert {
 
@@ -116,6 +117,7 @@ std::string sample_json(const SampleSummary& summary, const Environment& environ
     }
     j["output"] = summary.output;
     j["columns"] = summary.columns;
+    j["carried"] = summary.carried;
     j["points"] = summary.counts.locations.points();
     j["rows"] = summary.rows;
     j["on_boundary"] = summary.all ? "all" : "lowest";
@@ -126,6 +128,7 @@ std::string sample_json(const SampleSummary& summary, const Environment& environ
     j["method"] = name(summary.method);
     j["reason"] = summary.reason;
     if (summary.counts.locations.ways.points() != 0) j["ways"] = ways_json(summary.counts.locations.ways);
+    j["notes"] = notes_json(summary.notes);
     j["seconds"] = seconds_json(summary.seconds);
     j["threads"] = summary.threads;
     j["environment"] = environment_json(environment);

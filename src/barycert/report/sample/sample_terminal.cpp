@@ -140,6 +140,7 @@ std::string sample_text(const SampleSummary& summary, bool colour) {
     out += line("mesh", cells);
     out += line("method", fmt::format("{}: {}", name(summary.method), summary.reason));
     if (summary.counts.locations.ways.points() != 0) out += line("found", ways(summary.counts.locations.ways));
+    for (const Note& note : summary.notes) out += line("note", message(note));
     out += line("time", times(summary));
     return out;
 }

@@ -1,0 +1,285 @@
+#include "barycert/io/point_columns.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <set>
+#include <utility>
+
+#include "barycert/base/text.hpp"
+
+namespace barycert::io {
+namespace {
+
+constexpr std::array<std::array<std::string_view, 3>, 3> coordinate_names{
+    {{"x", "y", "z"}, {"points:0", "points:1", "points:2"}, {"points_0", "points_1", "points_2"}}};
+
+constexpr std::size_t most_listed = 8;
+
+bool same_but_for_case(std::string_view name, std::string_view lower) {
+    return std::equal(name.begin(), name.end(), lower.begin(), lower.end(), [](char a, char b) {
+        return std::tolower(static_cast<unsigned char>(a)) == static_cast<unsigned char>(b);
+    });
+}
+
+std::string listed_names(int dimension) {
+    return dimension == 2 ? "columns x, y (or Points:0, Points:1)"
+                          : "columns x, y, z (or Points:0, Points:1, Points:2)";
+}
+
+/// An example of --columns: the names, or the places from `first` on.
+std::string example(const TableColumns& all, int dimension, std::size_t first) {
+    std::string text = "--columns ";
+    for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i) {
+        const bool name = all.named && all.names[first + i].find_first_of(", \"'") == std::string::npos;
+        text += (i == 0 ? "" : ",") + (name ? base::printable(all.names[first + i]) : std::to_string(first + i + 1));
+    }
+    return text;
+}
+
+Error fault(const TableColumns& all, std::string what, std::string expected, std::string found, std::string remedy) {
+    return {.what = std::move(what),
+            .file = all.file,
+            .line = all.line,
+            .expected = std::move(expected),
+            .found = std::move(found),
+            .remedy = std::move(remedy)};
+}
+
+/// The column of exactly that name; names.size() if there is none.
+Result<std::size_t> column_named(const TableColumns& all, std::string_view name) {
+    const auto at = std::find(all.names.begin(), all.names.end(), name);
+    if (at != all.names.end() && std::find(at + 1, all.names.end(), name) != all.names.end())
+        return fault(all, "two columns have the same name", "one column " + base::quoted(name), "two",
+                     "rename one of them");
+    return static_cast<std::size_t>(at - all.names.begin());
+}
+
+Error no_such_column(const TableColumns& all, const std::string& name, const std::string& remedy) {
+    return fault(all, "no such column", base::quoted(name), listed(all.names), remedy);
+}
+
+Result<std::vector<std::size_t>> axes_asked_for(const TableColumns& all, int dimension, const PointOptions& options) {
+    const auto count = static_cast<std::size_t>(dimension);
+    const std::vector<std::string> names = parts_of(options.columns, count);
+    if (names.size() != count)
+        return fault(all, "--columns does not fit the mesh",
+                     std::to_string(count) + " columns, for the mesh is " + std::to_string(count) + "-dimensional",
+                     std::to_string(names.size()), "name a column for each axis, in their order");
+    const bool places = are_places(names);
+    std::vector<std::size_t> axes;
+    for (const std::string& name : names) {
+        std::size_t column = all.names.size();
+        if (places) {
+            std::from_chars(name.data(), name.data() + name.size(), column);
+            --column;
+        } else {
+            const auto found = column_named(all, name);
+            if (!found) return found.error();
+            column = *found;
+        }
+        if (column >= all.names.size())
+            return no_such_column(all, name, "name columns that are there, or say their places, from 1");
+        if (std::find(axes.begin(), axes.end(), column) != axes.end())
+            return fault(all, "a column is named twice in --columns", "a column for each axis", base::quoted(name),
+                         "name a column for each axis, in their order");
+        axes.push_back(column);
+    }
+    return axes;
+}
+
+Error not_clear(const TableColumns& all, int dimension) {
+    const auto count = static_cast<std::size_t>(dimension);
+    const std::string d = std::to_string(dimension);
+    if (all.named) {
+        if (all.names.size() >= count)
+            return fault(all, "the header does not name the coordinates", listed_names(dimension), listed(all.names),
+                         "say which they are, such as " + example(all, dimension, 0) + ", or use these names");
+        return fault(all, "the header does not name the coordinates", listed_names(dimension), listed(all.names),
+                     "use these column names, or start the file with numbers");
+    }
+    const std::string found = std::to_string(all.names.size()) + " columns without names";
+    if (all.names.size() < count)
+        return fault(all, "too few columns for a point", d + ", for the mesh is " + d + "-dimensional", found,
+                     "write one point a line, with a coordinate for each axis");
+    return fault(all, "it is not clear which columns are the coordinates", d + " columns, or names for them", found,
+                 "say which: " + example(all, dimension, 0) + ", or " +
+                     example(all, dimension, all.names.size() - count) + ", ..., or put a header line x,y" +
+                     (dimension == 3 ? ",z" : "") + ",... first");
+}
+
+/// Adds the column NAME of NAME or NEW=NAME; false if there is none.
+Result<bool> keep_one(const TableColumns& all, const std::string& text, PointColumns& out) {
+    std::string name = text;
+    auto column = column_named(all, text);
+    if (!column) return column.error();
+    if (const std::size_t sign = text.find('='); *column == all.names.size() && sign != std::string::npos && sign != 0 && sign < text.find(',')) {
+        name = text.substr(0, sign);
+        column = column_named(all, text.substr(sign + 1));
+        if (!column) return column.error();
+    }
+    if (*column == all.names.size()) return false;
+    if (std::find(out.axes.begin(), out.axes.end(), *column) != out.axes.end() || out.zero == *column)
+        return fault(all, "a column to keep is a coordinate", "another column", base::quoted(text),
+                     "leave it out of --keep: rows begin with the coordinates");
+    out.kept.push_back({*column, std::move(name)});
+    return true;
+}
+
+Status keep_columns(const TableColumns& all, const std::vector<std::string>& keep, PointColumns& out) {
+    const auto is_axis = [&](std::size_t c) {
+        return out.zero == c || std::find(out.axes.begin(), out.axes.end(), c) != out.axes.end();
+    };
+    const auto missing = [&](const std::string& name) {
+        return no_such_column(all, name, "name columns that are there, or --keep all");
+    };
+    for (const std::string& text : keep) {
+        if (text == "all") {
+            for (std::size_t c = 0; c < all.names.size(); ++c) {
+                if (!is_axis(c)) out.kept.push_back({c, all.names[c]});
+            }
+            continue;
+        }
+        const auto kept = keep_one(all, text, out);  // a name may hold commas
+        if (!kept) return kept.error();
+        if (*kept) continue;
+        for (const std::string& part : parts_of({text}, 0)) {
+            const auto one = keep_one(all, part, out);
+            if (!one) return one.error();
+            if (!*one) return missing(part);
+        }
+    }
+    std::set<std::string> names;
+    std::set<std::size_t> columns;
+    for (const PointColumns::Kept& kept : out.kept) {
+        if (!columns.insert(kept.column).second)
+            return fault(all, "a column to keep is named twice", "each once", base::quoted(all.names[kept.column]),
+                         "name it once in --keep");
+        if (!names.insert(kept.name).second)
+            return fault(all, "two columns to keep have the same name", "different names", base::quoted(kept.name),
+                         "name each once; --keep NEW=NAME gives a column another name");
+    }
+    return Done{};
+}
+
+/// What nobody asked for.
+void note_the_others(const TableColumns& all, PointColumns& out) {
+    if (out.zero && all.coordinates == 0)
+        out.notes.push_back({Note::Kind::left_out,
+                             "column " + all.names[*out.zero] + ", which must be 0 throughout, for the mesh is 2D",
+                             all.file});
+    std::vector<std::size_t> others;
+    for (std::size_t c = 0; c < all.names.size(); ++c) {
+        const bool kept = std::any_of(out.kept.begin(), out.kept.end(), [&](const auto& k) { return k.column == c; });
+        if (!kept && out.zero != c && std::find(out.axes.begin(), out.axes.end(), c) == out.axes.end())
+            others.push_back(c);
+    }
+    if (others.empty()) return;
+    std::string text = others.size() == 1 ? "column " : "columns ", names;
+    for (std::size_t i = 0; i < std::min(others.size(), most_listed); ++i) {
+        text += (i == 0 ? "" : ", ") + all.names[others[i]];
+        names += (i == 0 ? "" : ",") + all.names[others[i]];
+    }
+    if (others.size() > most_listed) {
+        text += " and " + std::to_string(others.size() - most_listed) + " more";
+        names = "all";
+    }
+    text += "; --keep " + names + (others.size() == 1 ? " carries it through" : " carries them through");
+    out.notes.push_back({Note::Kind::left_out, std::move(text), all.file});
+}
+
+}  // namespace
+
+std::string column_number(std::size_t column) {
+    return "column" + std::to_string(column + 1);
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(most_listed, names.size()); ++i)
+        text += (i != 0 ? ", " : "") + base::quoted(names[i]);
+    return names.empty() ? "none" : text + (names.size() > most_listed ? ", ..." : "");
+}
+
+std::vector<std::string> parts_of(const std::vector<std::string>& texts, std::size_t count) {
+    if (texts.size() == count) return texts;
+    std::vector<std::string> parts;
+    for (const std::string& text : texts) {
+        for (std::size_t begin = 0;;) {
+            const std::size_t comma = text.find(',', begin);
+            parts.push_back(text.substr(begin, comma - begin));
+            if (comma == std::string::npos) break;
+            begin = comma + 1;
+        }
+    }
+    return parts;
+}
+
+bool are_places(const std::vector<std::string>& columns) {
+    return std::all_of(columns.begin(), columns.end(), [](const std::string& text) {
+        std::size_t place = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), place);
+        return error == std::errc{} && end == text.data() + text.size() && place != 0;
+    });
+}
+
+Result<std::optional<PointColumns>> find_coordinates(const TableColumns& all, int dimension) {
+    for (const auto& names : coordinate_names) {
+        std::array<std::optional<std::size_t>, 3> at{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            for (std::size_t i = 0; i < all.names.size(); ++i) {
+                if (!same_but_for_case(all.names[i], names[axis])) continue;
+                if (at[axis])
+                    return fault(all, "two columns have the same name", "one column " + std::string(names[axis]),
+                                 base::quoted(all.names[*at[axis]]) + " and " + base::quoted(all.names[i]),
+                                 "rename the column that is not a coordinate, or say which by --columns");
+                at[axis] = i;
+            }
+            if (!at[axis] && axis < static_cast<std::size_t>(dimension)) break;
+        }
+        if (!at[0] || !at[1] || (dimension == 3 && !at[2])) continue;
+        PointColumns found{.axes = {*at[0], *at[1]}};
+        if (dimension == 3) found.axes.push_back(*at[2]);
+        if (dimension == 2) found.zero = at[2];
+        return std::optional(std::move(found));
+    }
+    return std::optional<PointColumns>();
+}
+
+Result<PointColumns> choose_columns(const TableColumns& all, int dimension, const PointOptions& options) {
+    PointColumns out;
+    if (!options.columns.empty()) {
+        auto axes = axes_asked_for(all, dimension, options);
+        if (!axes) return axes.error();
+        out.axes = std::move(*axes);
+    } else if (all.coordinates != 0) {
+        if (all.coordinates < static_cast<std::size_t>(dimension))
+            return fault(all, "the points have another dimension", "3, for the mesh is 3-dimensional", "2",
+                         "give points of the dimension of the mesh");
+        for (std::size_t axis = 0; axis < static_cast<std::size_t>(dimension); ++axis) out.axes.push_back(axis);
+        if (all.coordinates > out.axes.size()) out.zero = out.axes.size();
+    } else if (all.named) {
+        auto found = find_coordinates(all, dimension);
+        if (!found) return found.error();
+        if (!*found) return not_clear(all, dimension);
+        out = std::move(**found);
+    } else {
+        if (all.names.size() != static_cast<std::size_t>(dimension)) return not_clear(all, dimension);
+        for (std::size_t axis = 0; axis < all.names.size(); ++axis) out.axes.push_back(axis);
+    }
+    if (Status kept = keep_columns(all, options.keep, out); !kept) return kept.error();
+    note_the_others(all, out);
+    return out;
+}
+
+Error off_plane(const std::string& file, std::size_t line, const std::string& row, const std::string& found) {
+    return {.what = "a point off the plane z = 0" + (row.empty() ? row : ": " + row),
+            .file = file,
+            .line = line,
+            .expected = "z = 0, for the mesh is 2D",
+            .found = found,
+            .remedy = "--columns x,y leaves z out of account"};
+}
+
+}  // namespace barycert::io

@@ -1,0 +1,146 @@
+#include "barycert/io/point_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "barycert/base/text.hpp"
+#include "barycert/io/point_columns.hpp"
+#include "barycert/mesh/columns.hpp"
+#include "barycert/table.hpp"
+
+namespace barycert::io {
+namespace {
+
+class TableSource final : public PointSource {
+public:
+    TableSource(std::vector<double> points, int dimension, std::vector<Column> columns, Notes notes)
+        : points_(std::move(points)),
+          dimension_(static_cast<std::size_t>(dimension)),
+          count_(points_.size() / dimension_),
+          columns_(std::move(columns)),
+          notes_(std::move(notes)) {
+        for (const Column& column : columns_) formats_.push_back(mesh::format_of(column));
+    }
+
+    int dimension() const override { return static_cast<int>(dimension_); }
+    std::optional<std::uint64_t> count() const override { return count_; }
+    Result<std::size_t> read(std::size_t max_points, std::vector<double>& out) override {
+        const std::size_t taken = std::min(max_points, count_ - next_);
+        const double* const first = points_.data() + next_ * dimension_;
+        out.insert(out.end(), first, first + taken * dimension_);
+        mesh::begin_columns(formats_, carried_);
+        for (std::size_t k = 0; k < columns_.size(); ++k) mesh::move_values(columns_[k], next_, taken, carried_[k]);
+        next_ += taken;
+        return taken;
+    }
+    std::vector<ColumnFormat> carried() const override { return formats_; }
+    void take_carried(std::vector<Column>& columns) override { std::swap(columns, carried_); }
+    Notes notes() const override { return notes_; }
+
+private:
+    std::vector<double> points_;
+    std::size_t dimension_, count_, next_ = 0;
+    std::vector<Column> columns_;
+    std::vector<ColumnFormat> formats_;
+    std::vector<Column> carried_;  // of the last points given
+    Notes notes_;
+};
+
+/// Where the values of a column stand.
+struct Place {
+    const Field* field = nullptr;  ///< else a coordinate or a label
+    std::size_t component = 0;     ///< or the coordinate, or the label
+    bool label = false;
+};
+
+class Choice {
+public:
+    Choice(PointTable& table, const std::string& file) : table_(table), size_(static_cast<std::size_t>(table.dimension)) {
+        all_.file = file;
+        all_.coordinates = size_;
+        for (std::size_t axis = 0; axis < size_; ++axis) add(std::string(1, "xyz"[axis]), {nullptr, axis});
+        for (const Field& field : table.fields) {
+            const std::vector<std::string> names = column_names({{field.name, field.components}});
+            for (std::size_t c = 0; c < names.size(); ++c) add(names[c], {&field, c});
+        }
+        for (std::size_t i = 0; i < table.labels.size(); ++i) add(table.labels[i].name, {nullptr, i, true});
+        for (const std::string& name : table.unread) add(name, {});
+    }
+
+    Result<std::unique_ptr<PointSource>> source(int dimension, const PointOptions& options) {
+        Result<PointColumns> chosen = choose_columns(all_, dimension, options);
+        if (!chosen) return chosen.error();
+        const std::size_t count = table_.points.size() / size_, d = chosen->axes.size();
+        if (chosen->zero) {
+            for (std::size_t i = 0; i < count; ++i) {
+                if (const double z = number(places_[*chosen->zero], i); z != 0)
+                    return off_plane(all_.file, 0, "point " + std::to_string(i) + ", counted from 0",
+                                     base::shortest(z));
+            }
+        }
+        std::vector<double> points(d * count);
+        for (std::size_t axis = 0; axis < d; ++axis) {
+            const Place& place = places_[chosen->axes[axis]];
+            if (place.label) return no_number(chosen->axes[axis]);
+            for (std::size_t i = 0; i < count; ++i) {
+                points[d * i + axis] = number(place, i);
+                if (!std::isfinite(points[d * i + axis])) return not_finite(chosen->axes[axis], i);
+            }
+        }
+        std::vector<Column> columns;
+        for (PointColumns::Kept& kept : chosen->kept) columns.push_back(column(places_[kept.column], kept.name, count));
+        Notes notes = std::move(table_.notes);
+        notes.insert(notes.end(), chosen->notes.begin(), chosen->notes.end());
+        return std::unique_ptr<PointSource>(
+            std::make_unique<TableSource>(std::move(points), dimension, std::move(columns), std::move(notes)));
+    }
+
+private:
+    void add(std::string name, Place place) {
+        all_.names.push_back(std::move(name));
+        places_.push_back(place);
+    }
+    double number(const Place& place, std::size_t i) const {
+        if (place.field == nullptr) return table_.points[size_ * i + place.component];
+        return place.field->data[static_cast<std::size_t>(place.field->components) * i + place.component];
+    }
+    Column column(const Place& place, std::string name, std::size_t count) {
+        if (place.label) {
+            Column out = std::move(table_.labels[place.component]);
+            out.name = std::move(name);
+            return out;
+        }
+        std::vector<double> values(count);
+        for (std::size_t i = 0; i < count; ++i) values[i] = number(place, i);
+        return {std::move(name), std::move(values)};
+    }
+    Error no_number(std::size_t column) const {
+        return {.what = "a column of texts or large integers cannot be a coordinate",
+                .file = all_.file,
+                .found = base::quoted(all_.names[column]),
+                .remedy = "name a column of numbers in --columns"};
+    }
+    Error not_finite(std::size_t column, std::size_t point) const {
+        return {.what = "a point that is not finite",
+                .file = all_.file,
+                .expected = "finite coordinates",
+                .found = base::shortest(number(places_[column], point)) + " in " + base::quoted(all_.names[column]) +
+                         " of point " + std::to_string(point) + ", counted from 0",
+                .remedy = "remove the point, or give it coordinates"};
+    }
+
+    PointTable& table_;
+    std::size_t size_;
+    TableColumns all_;
+    std::vector<Place> places_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<PointSource>> points_of_table(PointTable table, const std::string& file, int dimension,
+                                                     const PointOptions& options) {
+    return Choice(table, file).source(dimension, options);
+}
+
+}  // namespace barycert::io

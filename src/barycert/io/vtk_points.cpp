@@ -1,0 +1,64 @@
+#include "barycert/io/vtk_points.hpp"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "barycert/io/formats.hpp"
+#include "barycert/io/vtk/grid_to_mesh.hpp"
+#include "barycert/io/vtk/read_grid.hpp"
+
+namespace barycert::io {
+namespace {
+
+/// Integers as such, where int64 holds them.
+void make_integers(RawArray& array) {
+    const std::vector<double>& numbers = array.field.data;
+    const bool fit = std::all_of(numbers.begin(), numbers.end(), [](double x) { return x >= -0x1p63 && x < 0x1p63; });
+    if (!array.is_whole || !array.fault.empty() || array.has_labels || array.field.components != 1 || !fit) return;
+    std::vector<std::int64_t> integers;
+    integers.reserve(numbers.size());
+    for (const double x : numbers) integers.push_back(static_cast<std::int64_t>(x));
+    array.labels = std::move(integers);
+    array.has_labels = true;
+    array.field.data = {};
+}
+
+Result<PointTable> read_table(const std::string& path, bool arrays) {
+    // A legacy file has no list of its arrays.
+    const bool listed_only = !arrays && !has_suffix(path, ".vtk");
+    Result<RawGrid> grid = read_grid(path, listed_only ? Part::points : Part::point_arrays);
+    if (!grid) return grid.error();
+    PointTable table;
+    table.notes = std::move(grid->notes);
+    Result<std::vector<double>> points = to_points(std::move(grid->points), 3, path);
+    if (!points) return points.error();
+    table.points = std::move(*points);
+    for (RawArray& array : grid->point_arrays) make_integers(array);
+    take_fields(grid->point_arrays, "point array", path, table.fields, &table.labels, table.notes);
+    table.unread = std::move(grid->unread_arrays);
+    if (grid->narrow_points)
+        table.notes.push_back({Note::Kind::converted, "float32 to double: the coordinates", path});
+    return table;
+}
+
+}  // namespace
+
+Result<PointTable> read_vtk_table(const std::string& path, bool arrays) {
+    try {
+        return read_table(path, arrays);
+    } catch (const std::bad_alloc&) {
+        return Error{.what = "too little memory to read the file",
+                     .file = path,
+                     .remedy = "free some memory, or check whether the file is damaged"};
+    }
+}
+
+Result<std::unique_ptr<PointSource>> open_vtk_points(const std::string& path, int dimension,
+                                                     const PointOptions& options) {
+    Result<PointTable> table = read_vtk_table(path, !options.keep.empty() || !options.columns.empty());
+    if (!table) return table.error();
+    return points_of_table(std::move(*table), path, dimension, options);
+}
+
+}  // namespace barycert::io

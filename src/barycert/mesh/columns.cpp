@@ -1,0 +1,106 @@
+#include "barycert/mesh/columns.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace barycert::mesh {
+
+std::ptrdiff_t count_characters(std::string_view text) {
+    std::ptrdiff_t count = 0;
+    for (std::size_t i = 0; i < text.size(); ++count) {
+        const auto lead = static_cast<unsigned char>(text[i++]);
+        if (lead < 0x80) continue;
+        const int more = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : 1;
+        if (lead < 0xC2 || lead > 0xF4) return -1;
+        std::uint32_t code = lead & (0x3FU >> more);
+        for (int k = 0; k < more; ++k, ++i) {
+            if (i == text.size() || (static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U) return -1;
+            code = code << 6 | (static_cast<unsigned char>(text[i]) & 0x3FU);
+        }
+        if (more == 2 && (code < 0x800 || (code >= 0xD800 && code < 0xE000))) return -1;
+        if (more == 3 && (code < 0x10000 || code > 0x10FFFF)) return -1;
+    }
+    return count;
+}
+
+ColumnFormat format_of(const Column& column) {
+    ColumnFormat format{column.name, column.type()};
+    const auto* const texts = std::get_if<std::vector<std::string>>(&column.values);
+    if (texts == nullptr) return format;
+    std::ptrdiff_t characters = 1;  // of an array of empty texts
+    for (const std::string& text : *texts) {
+        format.max_bytes = std::max(format.max_bytes, text.size());
+        if (characters >= 0) {
+            const std::ptrdiff_t n = count_characters(text);
+            characters = n < 0 ? n : std::max(characters, n);
+        }
+    }
+    format.max_characters = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, characters));
+    return format;
+}
+
+void begin_columns(const std::vector<ColumnFormat>& formats, std::vector<Column>& columns) {
+    columns.resize(formats.size());
+    for (std::size_t k = 0; k < formats.size(); ++k) {
+        if (columns[k].type() != formats[k].type) columns[k] = empty_column(formats[k]);
+        columns[k].name = formats[k].name;
+        clear(columns[k]);
+    }
+}
+
+void clear(Column& column) {
+    std::visit([](auto& values) { values.clear(); }, column.values);
+}
+
+void shrink(Column& column, std::size_t count) {
+    std::visit([&](auto& values) { values.resize(std::min(values.size(), count)); }, column.values);
+}
+
+void move_values(Column& from, std::size_t first, std::size_t count, Column& to) {
+    std::visit(
+        [&](auto& values) {
+            auto& more = std::get<std::remove_reference_t<decltype(values)>>(to.values);
+            const auto begin = std::make_move_iterator(values.begin() + static_cast<std::ptrdiff_t>(first));
+            more.insert(more.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+        },
+        from.values);
+}
+
+Column repeated(const Column& column, std::span<const std::size_t> begin) {
+    Column out{column.name, {}};
+    std::visit(
+        [&](const auto& values) {
+            std::remove_cvref_t<decltype(values)> all;
+            if (!begin.empty()) all.reserve(begin.back());
+            for (std::size_t i = 0; i + 1 < begin.size(); ++i)
+                all.insert(all.end(), begin[i + 1] - begin[i], values[i]);
+            out.values = std::move(all);
+        },
+        column.values);
+    return out;
+}
+
+Column labels_at(const Column& labels, std::span<const Mesh::Index> cells) {
+    Column out{labels.name, {}};
+    std::visit(
+        [&](const auto& values) {
+            using Value = typename std::remove_cvref_t<decltype(values)>::value_type;
+            Value outside{};
+            if constexpr (std::is_same_v<Value, std::int64_t>) outside = no_label;
+            if constexpr (std::is_same_v<Value, double>) outside = std::numeric_limits<double>::quiet_NaN();
+            std::remove_cvref_t<decltype(values)> all;
+            all.reserve(cells.size());
+            for (const Mesh::Index cell : cells)
+                all.push_back(cell < 0 ? outside : values[static_cast<std::size_t>(cell)]);
+            out.values = std::move(all);
+        },
+        labels.values);
+    return out;
+}
+
+}  // namespace barycert::mesh
