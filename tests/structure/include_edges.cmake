@@ -23,6 +23,7 @@ set(may_exact_too barycert/simplex.hpp barycert/environment.hpp)
 # The room of each public header; a header that is not named here is core's.
 set(room_of_result base)
 set(room_of_environment base)
+set(room_of_notes base)
 set(room_of_mesh mesh)
 set(room_of_table mesh)
 set(room_of_surface surface)
