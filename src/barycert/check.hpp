@@ -174,8 +174,8 @@ struct CheckReport {
     std::int64_t cell_number(std::int64_t cell) const {
         return cell_numbers.empty() || cell < 0 ? cell : cell_numbers[static_cast<std::size_t>(cell)];
     }
-    std::array<Mesh::Index, 2> cell_number(const std::array<Mesh::Index, 2>& cells) const {
-        return {static_cast<Mesh::Index>(cell_number(cells[0])), static_cast<Mesh::Index>(cell_number(cells[1]))};
+    std::array<Mesh::Index, 2> cell_number(const std::array<Mesh::Index, 2>& two) const {
+        return {static_cast<Mesh::Index>(cell_number(two[0])), static_cast<Mesh::Index>(cell_number(two[1]))};
     }
 
     bool certified() const { return certificate.verdict() == Verdict::certified; }
