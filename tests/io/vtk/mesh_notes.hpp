@@ -1,4 +1,4 @@
-/// What the tests of VTK's files ask of a mesh, with or without VTK.
+/// What the tests of VTK's files share, with or without VTK.
 #pragma once
 
 #include <string>
@@ -8,6 +8,23 @@
 #include "io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {
+
+/// Everything printed between its construction and text().
+class Printed {
+public:
+    Printed() {
+        ::testing::internal::CaptureStdout();
+        ::testing::internal::CaptureStderr();
+    }
+    std::string text() { return ::testing::internal::GetCapturedStdout() + ::testing::internal::GetCapturedStderr(); }
+};
+
+inline Result<Mesh> read_quietly(const std::string& path) {
+    Printed printed;
+    Result<Mesh> mesh = read_vtk(path);
+    EXPECT_EQ(printed.text(), "");
+    return mesh;
+}
 
 /// The texts of the notes of that kind.
 inline std::vector<std::string> notes_of(const Mesh& mesh, Note::Kind kind = Note::Kind::left_out) {

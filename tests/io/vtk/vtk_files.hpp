@@ -1,4 +1,4 @@
-/// What the tests of VTK files share: files made by VTK's own writers, and ears for what is printed.
+/// What the tests with VTK share: files made by VTK's own writers.
 #pragma once
 
 #include <vtkBitArray.h>
@@ -20,23 +20,6 @@
 #include "io/vtk/mesh_notes.hpp"
 
 namespace barycert::testing {
-
-/// Everything printed between its construction and text().
-class Printed {
-public:
-    Printed() {
-        ::testing::internal::CaptureStdout();
-        ::testing::internal::CaptureStderr();
-    }
-    std::string text() { return ::testing::internal::GetCapturedStdout() + ::testing::internal::GetCapturedStderr(); }
-};
-
-inline Result<Mesh> read_quietly(const std::string& path) {
-    Printed printed;
-    Result<Mesh> mesh = read_vtk(path);
-    EXPECT_EQ(printed.text(), "");
-    return mesh;
-}
 
 inline std::string bits_of(vtkDataArray* array) {
     return {static_cast<const char*>(array->GetVoidPointer(0)),
