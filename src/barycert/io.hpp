@@ -24,8 +24,10 @@ struct ReadOptions {
     int threads = 0;         ///< 0: as many as the machine has
 };
 
-/// Reads a mesh: TetGen's or Triangle's files by their stem or any one of them, and VTK's .vtu, .vtk, .vtp, .pvtu, .vtm
-/// and .pvd (vtk.hpp). Returns an Error, with a hint at what may be meant, if it cannot be read.
+/// Reads a mesh: TetGen's or Triangle's files by their stem or any one of them; a file of Gmsh, .msh (gmsh.hpp); and
+/// VTK's .vtu, .vtk, .vtp, .pvtu, .vtm and .pvd (vtk.hpp). The format is told by the first bytes, or else by the
+/// suffix. Returns an Error if it cannot be read: a file of another format is named as what it is, with the command
+/// that converts it.
 Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options = {});
 
 /// The paths of all files that read_mesh(path) may read.
@@ -41,15 +43,20 @@ std::vector<std::string> tetgen_files(const std::string& path);
 Result<Mesh> read_tetgen(const std::string& path, const ReadOptions& options = {});
 
 struct WriteOptions {
-    std::string comment;  ///< the last line of each file, after "# "; empty: none
+    std::string comment = {};     ///< TetGen's files: the last line of each, after "# "; empty: none
+    VtkData data = VtkData::raw;  ///< VTK's files
 };
 
 /// Writes STEM.node and STEM.ele, and STEM.face and STEM.neigh where the mesh has faces and neighbours. Every double
 /// reads back to the same bits. No file is left half-written.
 Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOptions& options = {});
 
-// Streams of points: CSV, NPY and .node files, block by block, so that memory does not grow with their number; the nodes
-// of meshes.
+/// Writes the mesh as its path ends: .msh (gmsh.hpp), .vtu and .vtk (vtk.hpp), and TetGen's files by .node, .ele or a
+/// stem. Error: another suffix; as these writers.
+Status write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options = {});
+
+// Streams of points: CSV, NPY and .node files, block by block, so that memory does not grow with their number; the
+// nodes of meshes.
 //
 // Coordinates are finite doubles in the file's own unit; decimal numbers are rounded to nearest, ties to even.
 // What cannot be read without a guess is an Error, with file, line (of text), what was expected and found, a remedy.
@@ -65,10 +72,10 @@ Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOption
 //        the file would end within a value that is read: 0.2 may be the beginning of 0.25. At most 1 MiB a line. A
 //        named pipe is waited for.
 // NPY    Versions 1 to 3; numbers of any integer or floating type up to 64 bits, of either byte order. One array of
-//        shape (n, columns), in C or Fortran order, or a structured one of shape (n,): a field of several numbers is the
-//        columns NAME.0, NAME.1, ... An integer that no double represents is an Error.
-// .node  TetGen's and Triangle's grammar, see io/tetgen/tetgen_reader.cpp. Columns: attribute0, attribute1, ..., marker.
-// meshes Any file that read_mesh takes. Columns: the fields of nodes, and marker. All of it is in memory.
+//        shape (n, columns), in C or Fortran order, or a structured one of shape (n,): a field of several numbers is
+//        the columns NAME.0, NAME.1, ... An integer that no double represents is an Error.
+// .node  TetGen's and Triangle's grammar, see io/tetgen/tetgen_reader.cpp. Columns: attribute0, attribute1, ...,
+// marker. meshes Any file that read_mesh takes. Columns: the fields of nodes, and marker. All of it is in memory.
 
 /// Which columns of a file of points are taken for what.
 struct PointOptions {
@@ -113,8 +120,8 @@ public:
 };
 
 /// Opens the points of a CSV, NPY or .node file, of a mesh, or of VTK's files with or without cells (read_vtk_points in
-/// vtk.hpp); "-" is CSV from the standard input. `dimension`: 2 or 3. Returns an Error if the file cannot be read, is of
-/// an unknown kind, or has another dimension, or if there are no such columns.
+/// vtk.hpp); "-" is CSV from the standard input. `dimension`: 2 or 3. Returns an Error if the file cannot be read, is
+/// of an unknown kind, or has another dimension, or if there are no such columns.
 Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int dimension,
                                                  const PointOptions& options = {});
 
@@ -123,7 +130,8 @@ std::unique_ptr<PointSource> memory_points(std::vector<double> points, int dimen
 
 // Sampled values, row by row, into CSV and NPY files that appear whole or not at all.
 //
-// CSV  A header line x,y[,z],cell,feature,NAME...[,distance][,CARRIED...], then a line a row. Numbers are in the shortest
+// CSV  A header line x,y[,z],cell,feature,NAME...[,distance][,CARRIED...], then a line a row. Numbers are in the
+// shortest
 //      decimal form that reads back to the same bits; nan, inf, -inf. Names and texts that hold a comma, a quote or a
 //      line end, or that begin or end with a blank, are quoted, and quotes in them doubled.
 // NPY  One structured array: x, y[, z] float64, cell int64, feature bytes of 8, each column float64, [distance

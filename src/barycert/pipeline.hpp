@@ -28,8 +28,8 @@ struct FieldFile {
     enum class Of : std::uint8_t { either, points, cells };
     Of of = Of::either;
     std::string name, path;
-    /// Of a CSV file the name or number (from 1) of the column, of a structured NPY file the field, of a mesh the array.
-    /// Empty: all that a text or NPY file holds.
+    /// Of a CSV file the name or number (from 1) of the column, of a structured NPY file the field, of a mesh the
+    /// array. Empty: all that a text or NPY file holds.
     std::string column = {};
 };
 
@@ -43,8 +43,16 @@ struct JobProgress {
 struct SamplingJob {
     std::string mesh;  ///< as for read_mesh
     std::vector<FieldFile> field_files = {};
+    /// Fields that change from step to step: each path has one *, and each file that it matches is a step, in natural
+    /// order (2 before 10); or it is a .pvd file. Where the output has {step} in its name, each step has an output of its own, in which what
+    /// the * stood for takes that place; points are located once, and values of one step at a time are in memory. Else
+    /// the steps of NAME, 256 at most, are columns NAME@STEP.
+    std::vector<FieldFile> series = {};
     std::vector<std::string> fields = {};  ///< names, see Sampler::build; empty: all
     std::string output;                    ///< the format goes by the suffix; "-" is CSV on stdout
+    /// Where to write the weights of the points on the nodes of the mesh (node_weights.hpp): .npz, a matrix that
+    /// scipy.sparse.load_npz reads. Empty: nowhere. Not for grids. A SampleJob with weights needs no output.
+    std::string weights = {};
     SampleOptions options = {};
     std::optional<VtkData> vtk_data = {};  ///< of an output in a format of VTK; not set: raw
 
@@ -59,11 +67,11 @@ struct SamplingJob {
 
 /// Fields at points: rows to CSV, NPY or VTU files.
 struct SampleJob : SamplingJob {
-    std::string points;         ///< as for open_points; or
+    std::string points;                     ///< as for open_points; or
     std::vector<std::string> columns = {};  ///< PointOptions::columns
     std::vector<std::string> keep = {};     ///< PointOptions::keep: columns of the points that rows have, too
-    std::string map;            ///< a map (map.hpp) in place of points
-    std::string save_map;       ///< where to write one; empty: nowhere
+    std::string map;                        ///< a map (map.hpp) in place of points
+    std::string save_map;                   ///< where to write one; empty: nowhere
     std::optional<bool> all{};  ///< a row for each cell that holds a point; not set: no, or as the map has it
 };
 
@@ -108,7 +116,7 @@ struct SampleSeconds {
 /// What a job did: what its reports are made of.
 struct SampleSummary {
     std::string command;  ///< "sample" or "resample"
-    std::string mesh, output;
+    std::string mesh, output, weights;
     std::string points;                ///< the file they came from; empty for a grid
     std::vector<std::string> columns;  ///< of values
     std::vector<std::string> carried;  ///< columns that were carried through: labels of cells, columns of points
@@ -123,7 +131,8 @@ struct SampleSummary {
     std::uint64_t degenerate_cells = 0;  ///< method `pass`: of the cells near the points
     std::uint64_t contested_cells = 0;   ///< see Locator::contested_cells
     std::uint64_t rows = 0;
-    std::uint64_t nan_values = 0;  ///< of points inside: from values of nodes or cells that are not finite
+    std::uint64_t nan_values = 0;    ///< of points inside: from values of nodes or cells that are not finite
+    std::vector<std::string> steps;  ///< of series, in order; all else but nan_values and seconds is of one of them
     int dimension = 3, threads = 1;
     PointsFrom from = PointsFrom::points;
     FoundBy method = FoundBy::walk;

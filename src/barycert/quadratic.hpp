@@ -28,6 +28,7 @@
 #include <span>
 
 #include "barycert/batch.hpp"
+#include "barycert/gradient.hpp"
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"
 #include "barycert/tiers.hpp"
@@ -57,5 +58,13 @@ Result<Value> interpolate_quadratic(Simplex simplex, const double* vertices, con
 Status interpolate_quadratic(const MeshQueries& queries, std::span<const std::int32_t> mid_nodes,
                              const NodalValues<double>& values, std::span<double> out, TierCounts* tiers = nullptr,
                              Rounding rounding = Rounding::correct);
+
+/// Returns the gradient at `point` of the quadratic field with these values (as for interpolate_quadratic). Each
+/// component is the exact one rounded once, to nearest, ties to even, subnormal results and infinity included; an exact
+/// zero is +0. NaN in a degenerate cell, or where a nodal value is not finite. Always in integers, a microsecond or
+/// more; Rounding::plain evaluates the formula in double, and promises nothing. Returns an Error if a coordinate is not
+/// finite, or for other simplices than triangle and tetrahedron.
+Result<Gradient> quadratic_gradient(Simplex simplex, const double* vertices, const double* point, const double* values,
+                                    Rounding rounding = Rounding::correct);
 
 }  // namespace barycert

@@ -8,8 +8,8 @@
 #include "barycert/report.hpp"
 #include "command.hpp"
 #include "files.hpp"
-#include "progress.hpp"
 #include "options.hpp"
+#include "progress.hpp"
 #include "sampling_options.hpp"
 
 namespace barycert::cli {

@@ -58,15 +58,16 @@ void add_resample(CLI::App& app, int& exit_code) {
         "nz,ny,nx, or nz,ny,nx,columns), .csv (rows as of `barycert sample`; - is stdout), .png (one layer of one\n"
         "column). With --onto to .vtu or .vtk (MESH2, its fields of nodes replaced by those sampled, "
         "vtkValidPointMask\n"
-        "and cell), STEM or STEM.node (TetGen's, with attributes), .csv, .npy.\n"
+        "and cell), .msh (Gmsh's, the same without the mask), STEM or STEM.node (TetGen's, with attributes), .csv, "
+        ".npy.\n"
         "Values are those of `barycert sample` at the same points, bit for bit. Exit codes: 0 done, 2 usage or input\n"
         "error.");
     const auto a = std::make_shared<ResampleJob>();
     const auto quiet = std::make_shared<bool>(false);
-    file_option(*sub, "MESH", a->mesh, "A TetGen mesh (.node/.ele; Triangle's for 2D), or a VTK file (.vtu .vtk)")
+    file_option(*sub, "MESH", a->mesh, "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, VTK's .vtu .vtk")
         ->required();
     add_targets(*sub, *a);
-    file_option(*sub, "--output", a->output, "Grids: .vti .npy .csv .png; with --onto: .vtu .vtk .node .csv .npy")
+    file_option(*sub, "--output", a->output, "Grids: .vti .npy .csv .png; with --onto: .vtu .vtk .msh .node .csv .npy")
         ->required();
     sub->add_option_function<std::string>(
            "--range",

@@ -15,21 +15,24 @@ void add_sample(CLI::App& app, int& exit_code) {
     auto* sub = app.add_subcommand("sample", "Sample the fields of a mesh at points, correctly rounded");
     sub->footer(
         "Rows: x,y,z,cell,feature, then one column per component of each field (NAME, or NAME.0, NAME.1, ...), node\n"
-        "fields first, then with --outside nearest or extrapolate the distance to the mesh. cell: the cell of lowest\n"
-        "index that contains the point, counted from 0 in file order; -1 outside. feature: interior, face, edge, "
-        "vertex\n"
-        "or outside, exact. TetGen's node attributes are named attribute0, attribute1, ...\n"
+        "fields first, then with --outside nearest or extrapolate the distance to the mesh, then labels of cells "
+        "named\n"
+        "in --fields (texts, large integers), then columns of the points (--keep). cell: the number in the file, from\n"
+        "0, of the first cell that contains the point; -1 outside. feature: interior, face, edge, vertex or outside,\n"
+        "exact. TetGen's node attributes are named attribute0, attribute1, ... Rows are points again: --points takes\n"
+        "the output of another run.\n"
         "Files appear whole or not at all; rows already printed to stdout stay. Exit codes: 0 done, 2 usage or input\n"
         "error.");
     const auto a = std::make_shared<SampleJob>();
     const auto quiet = std::make_shared<bool>(false);
-    file_option(*sub, "MESH", a->mesh, "A TetGen mesh (.node/.ele; Triangle's for 2D), or a VTK file (.vtu .vtk)")
+    file_option(*sub, "MESH", a->mesh, "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, VTK's .vtu .vtk")
         ->required();
     file_option(*sub, "--points", a->points,
                 "Points: .csv .npy .node .vtu .vtp .vtk, or the nodes of another mesh; - is CSV from stdin");
-    sub->add_option("--columns", a->columns,
-                    "The columns of the coordinates, by name or by number from 1, such as 2,3,4 or lon,lat,depth; needed "
-                    "where the file does not name x,y,z and has more columns than the mesh has dimensions")
+    sub->add_option(
+           "--columns", a->columns,
+           "The columns of the coordinates, by name or by number from 1, such as 2,3,4 or lon,lat,depth; needed "
+           "where the file does not name x,y,z and has more columns than the mesh has dimensions")
         ->allow_extra_args(false)
         ->type_name("A,B,C");
     sub->add_option("--keep", a->keep,
@@ -37,7 +40,7 @@ void add_sample(CLI::App& app, int& exit_code) {
                     "gives a column another name")
         ->allow_extra_args(false)
         ->type_name("NAMES|all");
-    file_option(*sub, "--output", a->output, "Rows: .csv .npy .vtu; - is CSV on stdout")->required();
+    file_option(*sub, "--output", a->output, "Rows: .csv .npy .vtu; - is CSV on stdout");
     add_sampling_options(*sub, *a, *quiet);
     sub->add_option_function<std::string>(
            "--on-boundary", [a](const std::string& text) { a->all = text == "all"; },

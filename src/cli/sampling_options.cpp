@@ -39,6 +39,15 @@ OutsidePolicy policy_of(const std::string& text) {
                                    text + '"');
 }
 
+/// Whether the text is NAME@PATTERN, and where the pattern begins; a name may have an @, and a file an =.
+std::optional<FieldFile> series_of(FieldFile::Of of, const std::string& text) {
+    const std::size_t sign = text.find('@'), equals = text.find('=');
+    if (sign == std::string::npos || sign == 0 || sign + 1 == text.size()) return std::nullopt;
+    const bool of_steps = text.find('*', sign) != std::string::npos || text.find(".pvd", sign) != std::string::npos;
+    if (equals != std::string::npos && (equals < sign || !of_steps)) return std::nullopt;
+    return FieldFile{of, text.substr(0, sign), text.substr(sign + 1)};
+}
+
 FieldFile field_file_of(const std::string& option, FieldFile::Of of, const std::string& text) {
     const std::size_t sign = text.find('=');
     if (sign == std::string::npos || sign == 0 || sign + 1 == text.size())
@@ -73,7 +82,8 @@ Status write_reports(const SamplingJob& job, bool quiet, const SampleSummary& su
 
 }  // namespace
 
-void add_field_files(CLI::App& sub, std::vector<FieldFile>& files, const std::string& either) {
+void add_field_files(CLI::App& sub, std::vector<FieldFile>& files, const std::string& either,
+                     std::vector<FieldFile>* series) {
     struct Option {
         std::string name;
         FieldFile::Of of;
@@ -81,28 +91,44 @@ void add_field_files(CLI::App& sub, std::vector<FieldFile>& files, const std::st
     };
     for (const Option& o :
          {Option{either, FieldFile::Of::either,
-                 "Add a field: one row of numbers per node or per cell (text with blanks or commas, or .npy); FILE:COLUMN: "
-                 "a column of a CSV or structured .npy file, or an array of another mesh"},
+                 std::string("Add a field: one row of numbers per node or per cell (text with blanks or commas, or "
+                             ".npy); FILE:COLUMN: a column of a CSV or structured .npy file, or an array of another "
+                             "mesh") +
+                     (series == nullptr ? ""
+                                        : "; NAME@'step-*.npy': a series, one file a step in natural order, or a .pvd "
+                                          "file. {step} in --output: a file for each step; else columns NAME@STEP")},
           Option{"--point-field", FieldFile::Of::points, "Like " + either + "; the rows belong to nodes"},
           Option{"--cell-field", FieldFile::Of::cells, "Like " + either + "; the rows belong to cells"}}) {
         sub.add_option_function<std::vector<std::string>>(
                o.name,
-               [&files, o](const std::vector<std::string>& all) {
-                   for (const std::string& text : all) files.push_back(field_file_of(o.name, o.of, text));
+               [&files, series, o](const std::vector<std::string>& all) {
+                   for (const std::string& text : all) {
+                       const auto steps = series == nullptr ? std::nullopt : series_of(o.of, text);
+                       if (steps) {
+                           series->push_back(*steps);
+                       } else {
+                           files.push_back(field_file_of(o.name, o.of, text));
+                       }
+                   }
                },
                o.help)
             ->allow_extra_args(false)
-            ->type_name("NAME=FILE[:COLUMN]");
+            ->type_name(series == nullptr ? "NAME=FILE[:COLUMN]" : "NAME=FILE[:COLUMN]|NAME@PATTERN[:COLUMN]");
     }
 }
 
 void add_sampling_options(CLI::App& sub, SamplingJob& a, bool& quiet) {
-    add_field_files(sub, a.field_files, "--field");
-    sub.add_option("--fields", a.fields,
-                   "Fields to sample, in this order: A,B,...; cell:A is the cell field A if there is also a node field "
-                   "A; default: all")
+    add_field_files(sub, a.field_files, "--field", &a.series);
+    sub.add_option(
+           "--fields", a.fields,
+           "Fields to sample, in this order: A,B,...; cell:A is the cell field A if there is also a node field "
+           "A; default: all. Of each, or of these again: A.x or A.0, a component; |A|, the length; grad(A), the "
+           "gradient in the owner; mean(A), cell data averaged to nodes by volume, then interpolated")
         ->allow_extra_args(false)
         ->type_name("NAMES");
+    file_option(sub, "--weights", a.weights,
+                "Write the correctly rounded weight of each node for each point, .npz: a sparse matrix for "
+                "scipy.sparse.load_npz, to be multiplied with any field of the nodes");
     choice_option<Rounding>(sub, "--rounding", a.options.rounding,
                             {{"correct", Rounding::correct}, {"plain", Rounding::plain}}, "correct|plain",
                             "correct: the exact value, rounded once (default); plain: computed in double");

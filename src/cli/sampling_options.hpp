@@ -14,8 +14,10 @@ class App;
 
 namespace barycert::cli {
 
-/// Options that add fields from files; `either` names the one whose rows may belong to nodes or to cells.
-void add_field_files(CLI::App& sub, std::vector<FieldFile>& files, const std::string& either);
+/// Options that add fields from files; `either` names the one whose rows may belong to nodes or to cells. `series`:
+/// where fields with a file for each step go; nullptr: there are none.
+void add_field_files(CLI::App& sub, std::vector<FieldFile>& files, const std::string& either,
+                     std::vector<FieldFile>* series = nullptr);
 
 void add_sampling_options(CLI::App& sub, SamplingJob& job, bool& quiet);
 

@@ -113,7 +113,7 @@ TEST(check, what_cannot_be_read_is_an_error) {
     const std::string bad = put_mesh(scratch, "bad", "1 4 0\n0 0 1 2 99\n");
     const std::vector<std::pair<Words, std::string>> refusals{
         {check(bad), "error: " + bad + ".ele:2: "},
-        {check(scratch.path("none")), "error: " + scratch.path("none") + ".node: cannot read the file"},
+        {check(scratch.path("none")), "error: " + scratch.path("none") + ": no such file"},
         {check(scratch.path("none")), "MESH is the stem of TetGen's files"},
         {check(scratch.path("part.stl")), "mesh it first with `barycert mesh " + scratch.path("part.stl")},
         {check(scratch.folder()), "this is a folder"},

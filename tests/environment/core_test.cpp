@@ -132,6 +132,11 @@ TEST(EveryEnvironment, GradientsAndQuadraticFields) {
                 const auto value = interpolate_quadratic(s, c.vertices.data(), c.point.data(), values);
                 for (std::size_t k = 0; k < d; ++k) out.add(one->gradient[k]);
                 out.add(value->value);
+                for (const Rounding rounding : {Rounding::correct, Rounding::plain}) {
+                    const auto of_quadratic =
+                        quadratic_gradient(s, c.vertices.data(), c.point.data(), values, rounding);
+                    for (std::size_t k = 0; k < d; ++k) out.add(of_quadratic->gradient[k]);
+                }
             }
         });
     }

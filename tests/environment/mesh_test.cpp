@@ -15,11 +15,13 @@
 #include "barycert/check.hpp"
 #include "barycert/contour.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/gmsh.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/vti/vti.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/map.hpp"
+#include "barycert/node_weights.hpp"
 #include "barycert/oracle.hpp"
 #include "barycert/plc.hpp"
 #include "barycert/report.hpp"
@@ -247,6 +249,59 @@ TEST(EveryEnvironment, SampleAndResample) {
     }
 }
 
+/// The same cells with nodes in the middles of their edges, each cell with its own.
+Mesh second_order(const Mesh& mesh) {
+    Mesh out = mesh;
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    const std::vector<std::array<std::size_t, 2>> edges =
+        d == 2 ? std::vector<std::array<std::size_t, 2>>{{0, 1}, {1, 2}, {0, 2}}
+               : std::vector<std::array<std::size_t, 2>>{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+    for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
+        for (const auto& [i, j] : edges) {
+            const auto a = static_cast<std::size_t>(mesh.cells[(d + 1) * cell + i]),
+                       b = static_cast<std::size_t>(mesh.cells[(d + 1) * cell + j]);
+            out.mid_nodes.push_back(static_cast<Mesh::Index>(out.point_count()));
+            for (std::size_t k = 0; k < d; ++k) out.points.push_back(mesh.points[d * a + k]);
+            for (Field& field : out.point_fields) {
+                const auto n = static_cast<std::size_t>(field.components);
+                for (std::size_t c = 0; c < n; ++c) field.data.push_back(field.data[n * b + c]);
+            }
+        }
+    }
+    out.mid_edge_order = MidEdgeOrder::vtk;
+    out.point_markers.clear();
+    return out;
+}
+
+TEST(EveryEnvironment, QuantitiesAndWeights) {
+    for (const Subject& s : subjects()) {
+        for (const Mesh& mesh : {s.mesh, second_order(s.mesh)}) {
+            const std::vector<double> points = points_around(s, 60);
+            for (const Outside outside : {Outside::nan, Outside::nearest, Outside::extrapolate}) {
+                expect_same_everywhere("quantities of " + s.name, [&](Answers& out) {
+                    const auto locator = Locator::build(mesh, {.prove = false});
+                    Table rows = *locator->locate(points);
+                    rows.points = points;
+                    const auto weights = node_weights(*locator, rows.view(), {.kind = outside});
+                    out.add(weights.has_value());
+                    out.add_all(weights->nodes);
+                    out.add_all(weights->weights);
+                    for (const Rounding rounding : {Rounding::correct, Rounding::plain}) {
+                        const auto sampler =
+                            Sampler::build(mesh, {"grad(one)", "|two|", "two.y", "mean(cell)", "|cell|", "|grad(two)|"},
+                                           {.prove = false});
+                        out.add(sampler.has_value());
+                        const auto table =
+                            sampler->sample(points, {.rounding = rounding, .outside = {.kind = outside}, .threads = 2});
+                        out.add(table.has_value());
+                        for (const double x : table->values) out.add(x);
+                    }
+                });
+            }
+        }
+    }
+}
+
 /// A folder for one test, and the bytes of its files.
 class Folder {
 public:
@@ -305,6 +360,12 @@ TEST(EveryEnvironment, Files) {
                 out.add((*sink)->write({s.mesh.dimension, 0, points, cells, features, points, {}}).has_value());
                 out.add((*sink)->commit().has_value());
                 out.add(std::string_view(folder.bytes(name)));
+            }
+            for (const bool binary : {true, false}) {
+                out.add(write_gmsh(s.mesh, folder.path("mesh.msh"), {.binary = binary}).has_value());
+                out.add(std::string_view(folder.bytes("mesh.msh")));
+                add(out, *read_gmsh(folder.path("mesh.msh")));
+                out.add_all(*read_gmsh_points(folder.path("mesh.msh"), s.mesh.dimension));
             }
             out.add(mesh_fingerprint(s.mesh));
             io::VtiGrid grid;

@@ -23,7 +23,7 @@ struct CarriedPoints {
         const Column& column = columns.at(k);
         std::string out = column.name + (column.type() == Column::Type::integer  ? ":i"
                                          : column.type() == Column::Type::number ? ":n"
-                                                                                  : ":t");
+                                                                                 : ":t");
         const auto add = [&](const std::string& value) { out += (out.ends_with(":t") ? " " : "|") + value; };
         if (const auto* const integers = std::get_if<std::vector<std::int64_t>>(&column.values))
             for (const std::int64_t i : *integers) out += " " + std::to_string(i);

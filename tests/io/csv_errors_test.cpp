@@ -61,8 +61,8 @@ TEST(CsvErrors, numbers_of_fields) {
         "1;2\n1;2;3;4\n", 2,
         {2, "too many fields in a line", "2, separated by semicolons, as in the first line", "4", nullptr});
     expect_csv_refused("# c\n1,2\n", 3,
-                       {2, "too few columns for a point", "3, for the mesh is 3-dimensional",
-                        "2 columns without names", "one point a line"});
+                       {2, "too few columns for a point", "3, for the mesh is 3-dimensional", "2 columns without names",
+                        "one point a line"});
     expect_csv_refused(
         "5\n", 2,
         {1, "too few columns for a point", "2, for the mesh is 2-dimensional", "1 columns without names", nullptr});

@@ -82,10 +82,10 @@ TEST(NpySource, types_that_are_refused) {
     }
     for (const char* type : {"<c8", "<M8[ns]", "|S8", "<U2", "|V8"}) {
         SCOPED_TRACE(type);
-        expect_npy_refused(npy_bytes(npy_dictionary(type, "(3, 3)"), as_bytes(points)), 3,
-                           {0, "cannot read points of that type",
-                            "integers or floating-point numbers of at most 64 bits",
-                            ('"' + std::string(type) + '"').c_str(), "a.astype('f8')"});
+        expect_npy_refused(
+            npy_bytes(npy_dictionary(type, "(3, 3)"), as_bytes(points)), 3,
+            {0, "cannot read points of that type", "integers or floating-point numbers of at most 64 bits",
+             ('"' + std::string(type) + '"').c_str(), "a.astype('f8')"});
     }
 }
 
@@ -95,7 +95,8 @@ TEST(NpySource, shapes_that_are_refused) {
     expect_npy_refused(shaped("(9,)"), 3,
                        {0, what, "(n, 3), for the mesh is 3-dimensional", "(9,)", "a.reshape(-1, 3)"});
     expect_npy_refused(shaped("()"), 3, {0, what, nullptr, "()", nullptr});
-    expect_npy_refused(shaped("(3, 3)"), 2, {0, what, "(n, 2), for the mesh is 2-dimensional", "(3, 3)", "--columns 1,2"});
+    expect_npy_refused(shaped("(3, 3)"), 2,
+                       {0, what, "(n, 2), for the mesh is 2-dimensional", "(3, 3)", "--columns 1,2"});
     expect_npy_refused(shaped("(3, 2)"), 3, {0, what, nullptr, "(3, 2)", "a.T"});
     expect_npy_refused(shaped("(4, 2)"), 3, {0, what, nullptr, "(4, 2)", "a row of 3 coordinates"});
     expect_npy_refused(shaped("(3, 3, 1)"), 3, {0, what, nullptr, "(3, 3, 1)", nullptr});

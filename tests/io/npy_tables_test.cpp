@@ -24,12 +24,12 @@ void expect_refused(const std::string& bytes, int dimension, const PointOptions&
 }
 
 TEST(NpyTables, fields_by_their_names) {
-    const std::string bytes =
-        npy_bytes(structured("[('id', '<i4'), ('Z', '<f4'), ('x', '<f8'), ('y', '|i1'), ('n', '|S3'), (('t', 'w'), '<U2')]",
-                             "(2,)"),
-                  packed(std::int32_t{-7}, 0.5F, 1.25, std::int8_t{-3}) + "ab" + std::string(1, '\0') +
-                      packed(U'\u20AC', char32_t{0}) +
-                      packed(std::int32_t{8}, -0.0F, 5e-324, std::int8_t{3}) + "abc" + packed(U'a', U'\U0001F600'));
+    const std::string bytes = npy_bytes(
+        structured("[('id', '<i4'), ('Z', '<f4'), ('x', '<f8'), ('y', '|i1'), ('n', '|S3'), (('t', 'w'), '<U2')]",
+                   "(2,)"),
+        packed(std::int32_t{-7}, 0.5F, 1.25, std::int8_t{-3}) + "ab" + std::string(1, '\0') +
+            packed(U'\u20AC', char32_t{0}) + packed(std::int32_t{8}, -0.0F, 5e-324, std::int8_t{3}) + "abc" +
+            packed(U'a', U'\U0001F600'));
     for (const std::size_t block : {std::size_t{1}, std::size_t{2}, std::size_t{9}}) {
         Result<CarriedPoints> read = read_carried_bytes("p.npy", bytes, 3, all, block);
         ASSERT_TRUE(read) << read.error().message();
@@ -49,7 +49,8 @@ TEST(NpyTables, fields_by_their_names) {
               (std::vector<double>{1.25, -7, 5e-324, 8}));
     expect_refused(bytes, 2, as_it_is,
                    {0, "a point off the plane z = 0: row 0, counted from 0", nullptr, "0.5", "--columns x,y"});
-    expect_refused(bytes, 3, {.columns = {"x,y,n"}}, {0, "cannot read points of that type", nullptr, "\"|S3\"", nullptr});
+    expect_refused(bytes, 3, {.columns = {"x,y,n"}},
+                   {0, "cannot read points of that type", nullptr, "\"|S3\"", nullptr});
     expect_refused(bytes, 3, {.columns = {"x,y,h"}},
                    {0, "no such column", "\"h\"", "\"id\", \"Z\", \"x\", \"y\", \"n\", \"w\"", nullptr});
 }
@@ -59,8 +60,7 @@ TEST(NpyTables, fields_of_several_values_and_holes) {
         structured("[('p', '<f8', (2,)), ('', '|V2'), ('s', [('a', '<i2'), ('b', '>f4', (3,))]), ('k', '>u2', (1, 2))]",
                    "(1,)"),
         packed(1.0, 2.0) + "xx" + std::string(14, 'y') + std::string("\x01\x02\x03\x04", 4));
-    Result<CarriedPoints> read =
-        read_carried_bytes("p.npy", bytes, 2, {.columns = {"p.0,p.1"}, .keep = {"k.0,k.1"}});
+    Result<CarriedPoints> read = read_carried_bytes("p.npy", bytes, 2, {.columns = {"p.0,p.1"}, .keep = {"k.0,k.1"}});
     ASSERT_TRUE(read) << read.error().message();
     EXPECT_EQ(read->points, (std::vector<double>{1, 2}));
     EXPECT_EQ(read->text(0), "k.0:i 258");
@@ -71,7 +71,8 @@ TEST(NpyTables, fields_of_several_values_and_holes) {
     const std::string empty =
         npy_bytes(structured("[('x', '<f8'), ('y', '<f8'), ('none', '<f8', (0,))]", "(1,)"), packed(1.0, 2.0));
     expect_refused(empty, 2, all, {0, "column \"none\" cannot be carried through", nullptr, nullptr, nullptr});
-    expect_refused(bytes, 2, as_it_is, {0, "the header does not name the coordinates", nullptr, nullptr, "--columns p.0,p.1"});
+    expect_refused(bytes, 2, as_it_is,
+                   {0, "the header does not name the coordinates", nullptr, nullptr, "--columns p.0,p.1"});
 }
 
 TEST(NpyTables, integers_are_exact_or_refused) {
@@ -119,15 +120,17 @@ TEST(NpyTables, columns_of_an_array_by_number) {
         EXPECT_EQ(read->points, (std::vector<double>{2, 3, 4, 6, 7, 8}));
         EXPECT_EQ(read->text(0), "id:n 1 5");
     }
-    expect_refused(npy_bytes(npy_dictionary("<f8", shape), rows), 3, as_it_is,
-                   {0, "an array of another shape", "(n, 3), for the mesh is 3-dimensional", "(2, 4)", "--columns 1,2,3"});
+    expect_refused(
+        npy_bytes(npy_dictionary("<f8", shape), rows), 3, as_it_is,
+        {0, "an array of another shape", "(n, 3), for the mesh is 3-dimensional", "(2, 4)", "--columns 1,2,3"});
 }
 
 TEST(NpyTables, types_that_are_no_table) {
-    for (const char* fields : {"[('x', '<f8'), ('y', '|O')]", "[('x', '<f8'), ('y', '<f8', (-1,))]", "[('x', '<f8'), 'y']",
-                               "[('x', '<f8'), ('y', '<f8', (4294967296, 4294967296, 4294967296))]", "[('x',), ('y',)]",
-                               "[('x', '<f8') ('y', '<f8')]", "[]", "[('x', '<f8'), ('y', '<q8')]",
-                               "[('x', '<f8'), ('y', '<S99999999999999999999')]"}) {
+    for (const char* fields :
+         {"[('x', '<f8'), ('y', '|O')]", "[('x', '<f8'), ('y', '<f8', (-1,))]", "[('x', '<f8'), 'y']",
+          "[('x', '<f8'), ('y', '<f8', (4294967296, 4294967296, 4294967296))]", "[('x',), ('y',)]",
+          "[('x', '<f8') ('y', '<f8')]", "[]", "[('x', '<f8'), ('y', '<q8')]",
+          "[('x', '<f8'), ('y', '<S99999999999999999999')]"}) {
         SCOPED_TRACE(fields);
         expect_refused(npy_bytes(structured(fields, "(1,)"), packed(1.0, 2.0)), 2, as_it_is,
                        {0, "cannot read a structured array of that type", nullptr, nullptr, nullptr});
@@ -143,7 +146,8 @@ TEST(NpyTables, types_that_are_no_table) {
                    {0, "an array of another shape", "(n,)", "(1, 1)", nullptr});
     expect_refused(npy_bytes(structured(good, "(2,)"), packed(1.0, 2.0)), 2, as_it_is,
                    {0, "the file ends too early", "2 rows of 16 bytes, as its header tells", "16 bytes", nullptr});
-    EXPECT_TRUE(read_carried_bytes("p.npy", npy_bytes(structured(good, "(0,)"), ""), 2, as_it_is).value().points.empty());
+    EXPECT_TRUE(
+        read_carried_bytes("p.npy", npy_bytes(structured(good, "(0,)"), ""), 2, as_it_is).value().points.empty());
 }
 
 TEST(NpyTables, names_with_escapes_and_other_letters) {
@@ -155,7 +159,10 @@ TEST(NpyTables, names_with_escapes_and_other_letters) {
     EXPECT_EQ(read->formats[1].name, "a\nb\\A\xE2\x82\xAC");
     const auto name_of = [&](int version, const std::string& name) {
         const std::string text = structured("[('x', '<f8'), ('y', '<f8'), ('" + name + "', '<f8')]", "(1,)");
-        return read_carried_bytes("p.npy", npy_bytes(text, packed(1.0, 2.0, 3.0), version), 2, all).value().formats[0].name;
+        return read_carried_bytes("p.npy", npy_bytes(text, packed(1.0, 2.0, 3.0), version), 2, all)
+            .value()
+            .formats[0]
+            .name;
     };
     EXPECT_EQ(name_of(1, "\xE4"), "\xC3\xA4") << "Latin-1";
     EXPECT_EQ(name_of(2, "\xE4"), "\xC3\xA4");
@@ -164,11 +171,10 @@ TEST(NpyTables, names_with_escapes_and_other_letters) {
 
 /// Cut and flipped at every byte: an error, or points and columns of as many values.
 TEST(NpyTables, damage_at_every_byte) {
-    const std::string bytes =
-        npy_bytes(structured("[('x', '<f8'), ('n', '<U2'), ('y', '>i2', (1,)), ('', '|V1'), ('y', '<f4'), ('s', '|S3')]",
-                             "(2,)"),
-                  packed(1.0, U'a', U'b') + "\x01\x02v" + packed(0.5F) + "abc" + packed(2.0, U'c', U'd') + "\x03\x04w" +
-                      packed(0.25F) + "de" + std::string(1, '\0'));
+    const std::string bytes = npy_bytes(
+        structured("[('x', '<f8'), ('n', '<U2'), ('y', '>i2', (1,)), ('', '|V1'), ('y', '<f4'), ('s', '|S3')]", "(2,)"),
+        packed(1.0, U'a', U'b') + "\x01\x02v" + packed(0.5F) + "abc" + packed(2.0, U'c', U'd') + "\x03\x04w" +
+            packed(0.25F) + "de" + std::string(1, '\0'));
     const TemporaryFolder folder;
     const std::string path = folder / "p.npy";
     int accepted = 0, refused = 0;

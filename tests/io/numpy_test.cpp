@@ -124,8 +124,11 @@ np.save('part.npy', a[['x', 'y', 'z', 'U']])   # with holes
         std::vector<Column> some;
         while ((*source)->read(170, rows.points).value() != 0) {
             (*source)->take_carried(some);
-            if (rows.carried.empty()) rows.carried = some;
-            else for (std::size_t k = 0; k < some.size(); ++k) mesh::move_values(some[k], 0, some[k].size(), rows.carried[k]);
+            if (rows.carried.empty())
+                rows.carried = some;
+            else
+                for (std::size_t k = 0; k < some.size(); ++k)
+                    mesh::move_values(some[k], 0, some[k].size(), rows.carried[k]);
         }
         rows.cells.assign(500, 3);
         rows.features.assign(500, Feature::edge);

@@ -44,9 +44,9 @@ TEST(PointColumns, by_number_and_by_name) {
     EXPECT_EQ(points_of("x,y,z\n1,2,3\n", 3, {.columns = {"z,y,x"}}), (std::vector<double>{3, 2, 1}));
     EXPECT_EQ(points_of("x,y,z\n1,2,3\n", 2, {.columns = {"x,y"}}), (std::vector<double>{1, 2}));
     const std::string header = "lon,lat,h\n1,2,3\n";
-    expect_refused("p.csv", header, 3, none,
-                   {1, "the header does not name the coordinates", nullptr, "\"lon\", \"lat\", \"h\"",
-                    "--columns lon,lat,h"});
+    expect_refused(
+        "p.csv", header, 3, none,
+        {1, "the header does not name the coordinates", nullptr, "\"lon\", \"lat\", \"h\"", "--columns lon,lat,h"});
     expect_refused("p.csv", header, 3, {.columns = {"lon,lat"}},
                    {1, "--columns does not fit the mesh", "3 columns, for the mesh is 3-dimensional", "2", nullptr});
     expect_refused("p.csv", header, 3, {.columns = {"lon,lat,alt"}},
@@ -78,8 +78,7 @@ TEST(PointColumns, columns_are_carried_through_as_they_stand) {
     const std::string text =
         "id,x,name,y,z,t\n007,1,\"a, \"\"b\"\" \",2,3,1.50\n-0,4,,5,6,\n9, 7 , c d ,8,9,1e400\n\n# c\n12,1,#,2,3,nan\n";
     for (const std::size_t block : {std::size_t{1}, std::size_t{2}, std::size_t{100}}) {
-        Result<CarriedPoints> read =
-            read_carried_bytes("p.csv", text, 3, {.columns = {}, .keep = {"all"}}, block);
+        Result<CarriedPoints> read = read_carried_bytes("p.csv", text, 3, {.columns = {}, .keep = {"all"}}, block);
         ASSERT_TRUE(read) << read.error().message();
         EXPECT_EQ(read->points, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 1, 2, 3}));
         ASSERT_EQ(read->columns.size(), 3U);
@@ -88,8 +87,7 @@ TEST(PointColumns, columns_are_carried_through_as_they_stand) {
         EXPECT_EQ(read->text(2), "t:t 1.50||1e400|nan");
         EXPECT_EQ(read->note_texts(), "");
     }
-    Result<CarriedPoints> some =
-        read_carried_bytes("p.csv", text, 3, {.columns = {}, .keep = {"t", "number=id"}});
+    Result<CarriedPoints> some = read_carried_bytes("p.csv", text, 3, {.columns = {}, .keep = {"t", "number=id"}});
     ASSERT_TRUE(some) << some.error().message();
     EXPECT_EQ(some->text(0), "t:t 1.50||1e400|nan");
     EXPECT_EQ(some->text(1), "number:t 007|-0|9|12");
@@ -99,8 +97,9 @@ TEST(PointColumns, columns_are_carried_through_as_they_stand) {
     Result<CarriedPoints> unnamed =
         read_carried_bytes("p.csv", "5;1;2;3\n", 3, {.columns = {"2,3,4"}, .keep = {"column1"}});
     EXPECT_EQ(unnamed.value().text(0), "column1:t 5");
-    EXPECT_EQ(unnamed.value().note_texts(), "guessed: columns are separated by semicolons\n"
-                                            "guessed: there is no header: the first line is a point\n");
+    EXPECT_EQ(unnamed.value().note_texts(),
+              "guessed: columns are separated by semicolons\n"
+              "guessed: there is no header: the first line is a point\n");
 }
 
 TEST(PointColumns, columns_that_cannot_be_kept) {
@@ -149,12 +148,15 @@ TEST(PointColumns, types_are_those_of_all_values) {
     EXPECT_EQ(types("\"1\"|\" 2\""), "c:t 1| 2") << "a blank in quotes is one";
     const auto widths = [](const std::string& value) {
         Result<CarriedPoints> read = read_carried_bytes("p.csv", "x,y,c\n1,2,a\n1,2," + value + "\n", 2,
-                                                              {.columns = {}, .keep = {"c"}, .typed = true});
+                                                        {.columns = {}, .keep = {"c"}, .typed = true});
         return std::pair(read.value().formats[0].max_bytes, read.value().formats[0].max_characters);
     };
     EXPECT_EQ(widths("abc"), (std::pair<std::size_t, std::size_t>(3, 3)));
     EXPECT_EQ(widths("\xC3\xA4\xE2\x82\xAC"), (std::pair<std::size_t, std::size_t>(5, 2)));
-    EXPECT_EQ(widths("\xFF" "b"), (std::pair<std::size_t, std::size_t>(2, 0))) << "not UTF-8";
+    EXPECT_EQ(widths("\xFF"
+                     "b"),
+              (std::pair<std::size_t, std::size_t>(2, 0)))
+        << "not UTF-8";
 }
 
 TEST(PointColumns, a_type_that_shows_late_is_that_of_all) {

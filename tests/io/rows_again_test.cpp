@@ -9,7 +9,8 @@ std::vector<Column> random_columns(std::size_t count, base::Random& random) {
     std::vector<std::int64_t> integers;
     std::vector<double> numbers;
     std::vector<std::string> words, bytes;
-    const std::vector<std::string> some{"", "a", "steel", "a,b", "\"", " blank ", "\xC3\xA4\xF0\x9F\x98\x80", "12", "x;y", "#"};
+    const std::vector<std::string> some{"",   "a",   "steel", "a,b", "\"", " blank ", "\xC3\xA4\xF0\x9F\x98\x80",
+                                        "12", "x;y", "#"};
     for (std::size_t i = 0; i < count; ++i) {
         integers.push_back(static_cast<std::int64_t>(random.bits()));
         numbers.push_back(random.below(9) == 0 ? std::nan("") : any_finite(random));
@@ -18,7 +19,8 @@ std::vector<Column> random_columns(std::size_t count, base::Random& random) {
     }
     words.at(0) = "steel";  // no column of integers
     numbers.at(0) = 0.5;
-    return {{"i", std::move(integers)}, {"n,m", std::move(numbers)}, {"word", std::move(words)}, {"S", std::move(bytes)}};
+    return {
+        {"i", std::move(integers)}, {"n,m", std::move(numbers)}, {"word", std::move(words)}, {"S", std::move(bytes)}};
 }
 
 /// Writes rows with these columns, `block` at a time.
@@ -75,7 +77,8 @@ TEST(RowsAgain, every_column_has_the_same_values) {
             std::vector<Column> again(read->columns.begin() + 5, read->columns.end());
             RowData same = data;
             same.points = read->points;
-            for (std::size_t k = 0; k < again.size(); ++k) EXPECT_EQ(mesh::format_of(again[k]), mesh::format_of(columns[k]));
+            for (std::size_t k = 0; k < again.size(); ++k)
+                EXPECT_EQ(mesh::format_of(again[k]), mesh::format_of(columns[k]));
             ASSERT_TRUE(write_carried(folder / ("again-" + name), same, again, 1234));
             EXPECT_TRUE(get(folder / name) == get(folder / ("again-" + name)));
         }
@@ -134,7 +137,8 @@ TEST(RowsAgain, columns_that_do_not_fit_are_refused) {
         if (std::string(name) == "r.csv") continue;
         for (const std::string& text : {std::string("abcd"), std::string("a\0", 2), std::string("\xFF")})
             EXPECT_FALSE(attempt({{"t", std::vector<std::string>{"a", text}}, ids})) << text;
-        EXPECT_TRUE(attempt({{"t", std::vector<std::string>{"\xC3\xA4\xC3\xA4\xC3\xA4", std::string("a\0b", 3)}}, ids}));
+        EXPECT_TRUE(
+            attempt({{"t", std::vector<std::string>{"\xC3\xA4\xC3\xA4\xC3\xA4", std::string("a\0b", 3)}}, ids}));
     }
     TableFormat twice{.dimension = 2};
     twice.carried = {{"cell", Column::Type::integer}};

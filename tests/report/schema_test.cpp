@@ -43,6 +43,8 @@ void sample_reports(Schema& schema) {
     for (const double low : {0.25, std::numeric_limits<double>::quiet_NaN()}) {
         run.picture = SliceCounts{.drawn = 3, .below = 1, .above = 2, .low = low, .high = low};
         schema.check("Sample", Json::parse(sample_json(run, measure_environment())), "sample");
+        run.weights = "w.npz";
+        run.steps = {"1", "2"};
         run.grid = Grid{.dimension = 3, .counts = {2, 1, 2}, .origin = {-1, 0, 0}, .spacing = {1, 0, 1}, .last = {}};
     }
 }

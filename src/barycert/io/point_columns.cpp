@@ -114,7 +114,8 @@ Result<bool> keep_one(const TableColumns& all, const std::string& text, PointCol
     std::string name = text;
     auto column = column_named(all, text);
     if (!column) return column.error();
-    if (const std::size_t sign = text.find('='); *column == all.names.size() && sign != std::string::npos && sign != 0 && sign < text.find(',')) {
+    if (const std::size_t sign = text.find('=');
+        *column == all.names.size() && sign != std::string::npos && sign != 0 && sign < text.find(',')) {
         name = text.substr(0, sign);
         column = column_named(all, text.substr(sign + 1));
         if (!column) return column.error();

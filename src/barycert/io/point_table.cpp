@@ -56,7 +56,8 @@ struct Place {
 
 class Choice {
 public:
-    Choice(PointTable& table, const std::string& file) : table_(table), size_(static_cast<std::size_t>(table.dimension)) {
+    Choice(PointTable& table, const std::string& file)
+        : table_(table), size_(static_cast<std::size_t>(table.dimension)) {
         all_.file = file;
         all_.coordinates = size_;
         for (std::size_t axis = 0; axis < size_; ++axis) add(std::string(1, "xyz"[axis]), {nullptr, axis});

@@ -37,8 +37,7 @@ Result<PointTable> read_table(const std::string& path, bool arrays) {
     for (RawArray& array : grid->point_arrays) make_integers(array);
     take_fields(grid->point_arrays, "point array", path, table.fields, &table.labels, table.notes);
     table.unread = std::move(grid->unread_arrays);
-    if (grid->narrow_points)
-        table.notes.push_back({Note::Kind::converted, "float32 to double: the coordinates", path});
+    if (grid->narrow_points) table.notes.push_back({Note::Kind::converted, "float32 to double: the coordinates", path});
     return table;
 }
 

@@ -86,8 +86,7 @@ Result<std::vector<const Column*>> take_labels(const Mesh& mesh, std::vector<std
 void note_labels(const Mesh& mesh, const std::vector<std::string>& names, Notes& notes) {
     if (mesh.cell_labels.empty() || !names.empty()) return;
     std::string text = mesh.cell_labels.size() == 1 ? "label of cells " : "labels of cells ";
-    for (std::size_t i = 0; i < mesh.cell_labels.size(); ++i)
-        text += (i == 0 ? "" : ", ") + mesh.cell_labels[i].name;
+    for (std::size_t i = 0; i < mesh.cell_labels.size(); ++i) text += (i == 0 ? "" : ", ") + mesh.cell_labels[i].name;
     notes.push_back({Note::Kind::left_out, text + "; name fields and labels in --fields to have them"});
 }
 

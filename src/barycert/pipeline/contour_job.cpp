@@ -364,10 +364,11 @@ Result<ContourSummary> contour_files(const ContourJob& job) {
     const ExactEnvironment environment;
     if (Status good = check_job(job); !good) return good.error();
     const SamplingJob sampling = sampling_of(job);
-    if (Status files = pipeline::check_files(sampling, {}, {{"--output", job.output}}); !files) return files.error();
+    if (Status files = pipeline::check_files(sampling, {}, {}, {{"--output", job.output}}); !files)
+        return files.error();
     Stopwatch whole;
     std::optional<ContourSummary> summary;
-    const auto done = pipeline::run_job("render", sampling, [&](Run& run, Engine& engine) -> Status {
+    const auto done = pipeline::run_job("render", sampling, {}, [&](Run& run, Engine& engine) -> Status {
         auto result = Contour(job, run, engine).run();
         if (!result) return result.error();
         summary.emplace(std::move(*result));

@@ -14,11 +14,14 @@
 #include "barycert/io.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/cells_at_points.hpp"
+#include "barycert/mesh/consistency.hpp"
 #include "barycert/pipeline/cell_labels.hpp"
 #include "barycert/pipeline/few_points.hpp"
 #include "barycert/pipeline/field_files.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/sample/points/field_choice.hpp"
+#include "barycert/sample/quantity/expression.hpp"
+#include "barycert/sample/quantity/made_fields.hpp"
 
 namespace barycert::pipeline {
 namespace {
@@ -77,17 +80,8 @@ Result<std::unique_ptr<Engine>> Engine::open(Run& run) {
     if (!mesh) return mesh.error();
     std::unique_ptr<Engine> engine(new Engine(run));
     engine->mesh_ = std::move(*mesh);
-    if (Status added = add_fields(run.job.field_files, engine->mesh_); !added) return added.error();
-    std::vector<std::string> names = run.job.fields;
-    Result<std::vector<const Column*>> of_cells = take_labels(engine->mesh_, names);
-    if (!of_cells) return of_cells.error();
-    engine->labels_ = std::move(*of_cells);
-    // No name at all means every field; labels alone mean none.
-    if (engine->labels_.empty() || !names.empty()) {
-        Result<std::vector<FieldChoice>> fields = sample::fields_named(engine->mesh_, names);
-        if (!fields) return fields.error();
-        engine->fields_ = std::move(*fields);
-    }
+    if (Status added = engine->add_fields_of_job(); !added) return added.error();
+    if (Status chosen = engine->choose_fields(); !chosen) return chosen.error();
     SampleSummary& summary = run.summary;
     summary.notes = engine->mesh_.notes;
     note_labels(engine->mesh_, run.job.fields, summary.notes);
@@ -96,6 +90,113 @@ Result<std::unique_ptr<Engine>> Engine::open(Run& run) {
     summary.cells = engine->mesh_.cell_count();
     summary.seconds.mesh = watch.lap();
     return engine;
+}
+
+Status Engine::add_fields_of_job() {
+    if (Status added = add_fields(run_.job.field_files, mesh_); !added) return added;
+    for (const Step& step : run_.steps) {
+        for (FieldFile file : step.files) {
+            if (!run_.step_by_step()) file.name = name_of_step(file.name, step);
+            const Result<FieldPlace> place = add_field(file, mesh_, run_.step_by_step());
+            if (!place) return place.error();
+            places_of_series_.push_back(*place);
+        }
+        if (run_.step_by_step()) break;
+    }
+    give_each_a_name(mesh_);
+    return Done{};
+}
+
+Status Engine::go_to(const Step& step) {
+    Stopwatch watch;
+    Notes notes;
+    for (std::size_t i = 0; i < step.files.size(); ++i) {
+        const FieldPlace place = places_of_series_[i];
+        Field& field = (place.of_cells ? mesh_.cell_fields : mesh_.point_fields)[place.number];
+        FieldFile file = step.files[i];
+        file.of = place.of_cells ? FieldFile::Of::cells : FieldFile::Of::points;
+        Result<Field> read = read_field(mesh_, file, notes);
+        if (!read) return read.error();
+        const auto shape = [](const Field& f) {
+            const auto components = static_cast<std::size_t>(f.components);
+            return fmt::format("{} rows of {}", f.data.size() / components, counted(components, "component"));
+        };
+        if (read->data.size() != field.data.size() || read->components != field.components)
+            return Error{.what = "the steps of field \"" + step.files[i].name + "\" differ",
+                         .file = step.files[i].path,
+                         .expected = shape(field) + ", as in the first step",
+                         .found = shape(*read)};
+        field.data = std::move(read->data);
+    }
+    // What is told of every step is told once.
+    for (Note& note : notes) {
+        Notes& told = run_.summary.notes;
+        const bool known = std::any_of(told.begin(), told.end(), [&](const Note& other) {
+            return other.kind == note.kind && other.text == note.text;
+        });
+        if (!known) told.push_back(std::move(note));
+    }
+    run_.summary.seconds.mesh += watch.lap();
+    sampler_.reset();
+    made_.clear();
+    if (Status chosen = choose_fields(); !chosen) return chosen;
+    Status built = build_sampler(part_ ? fields_of_part() : fields_);
+    run_.summary.seconds.build += watch.lap();
+    return built;
+}
+
+/// With columns for all steps, what is asked of a series is asked of each step.
+std::vector<std::string> Engine::names_of_fields() const {
+    if (run_.step_by_step() || run_.steps.empty()) return run_.job.fields;
+    std::vector<std::string> names;
+    const auto of_steps = [&](const std::string& text) {
+        for (std::size_t s = 0; s < run_.steps.front().files.size(); ++s) {
+            const std::string& series = run_.steps.front().files[s].name;
+            if (!sample::with_other_name(text, series, series)) continue;
+            for (const Step& step : run_.steps)
+                names.push_back(*sample::with_other_name(text, series, name_of_step(series, step)));
+            return true;
+        }
+        return false;
+    };
+    for (const std::string& text : run_.job.fields) {
+        if (of_steps(text)) continue;
+        bool some = false;
+        const std::size_t before = names.size();
+        sample::for_names(text, [&](const std::string& name) {
+            const bool series = of_steps(name);
+            if (!series) names.push_back(name);
+            some = some || series;
+            return true;
+        });
+        if (some) continue;
+        names.resize(before);  // one name may hold commas
+        names.push_back(text);
+    }
+    return names;
+}
+
+Status Engine::choose_fields() {
+    fields_.clear();
+    if (run_.job.output.empty() && !run_.job.weights.empty()) return Done{};
+    std::vector<std::string> names = names_of_fields();
+    Result<std::vector<const Column*>> of_cells = take_labels(mesh_, names);
+    if (!of_cells) return of_cells.error();
+    labels_ = std::move(*of_cells);
+    // No name at all means every field; labels alone mean none.
+    if (!labels_.empty() && names.empty()) return Done{};
+    Result<std::vector<FieldChoice>> fields = sample::quantities_named(mesh_, names);
+    if (!fields) return fields.error();
+    fields_ = std::move(*fields);
+    // What depends on all cells is made before some of them are looked at.
+    for (FieldChoice& choice : fields_) {
+        const std::size_t steps = sample::steps_of_whole_mesh(choice);
+        if (steps == 0) continue;
+        if (const char* const wrong = mesh::inconsistency_of_cells(mesh_, mesh::FieldValues::any); wrong != nullptr)
+            return Error{.what = std::string("the mesh is inconsistent: ") + wrong, .file = run_.job.mesh};
+        if (Status done = sample::make_fields(mesh_, choice, steps, made_); !done) return done;
+    }
+    return Done{};
 }
 
 TableFormat Engine::format() const {
@@ -117,15 +218,34 @@ Status Engine::build_on(const Mesh& mesh, const std::vector<FieldChoice>& fields
     Result<Locator> locator = Locator::build(mesh, options);
     if (!locator) return locator.error();
     locator_.emplace(std::move(*locator));
-    Result<Sampler> sampler = Sampler::build(*locator_, fields);
-    if (!sampler) return sampler.error();
-    sampler_.emplace(std::move(*sampler));
+    if (Status built = build_sampler(fields); !built) return built;
     SampleSummary& summary = run_.summary;
-    summary.columns = sampler_->columns();
     if (run_.job.count_degenerate)
         summary.degenerate_cells = prove ? locator_->degenerate_cells() : count_degenerate(mesh);
     summary.seconds.build += watch.lap();
     return Done{};
+}
+
+Status Engine::build_sampler(const std::vector<FieldChoice>& fields) {
+    Result<Sampler> sampler = Sampler::build(*locator_, fields);
+    if (!sampler) return sampler.error();
+    sampler_.emplace(std::move(*sampler));
+    run_.summary.columns = sampler_->columns();
+    return Done{};
+}
+
+std::vector<FieldChoice> Engine::fields_of_part() {
+    std::vector<FieldChoice> fields;
+    part_->mesh.point_fields.clear();
+    part_->mesh.cell_fields.clear();
+    part_->mesh.point_fields.reserve(fields_.size());
+    part_->mesh.cell_fields.reserve(fields_.size());
+    for (const FieldChoice& choice : fields_) {
+        auto& of_part = choice.of_cells ? part_->mesh.cell_fields : part_->mesh.point_fields;
+        of_part.push_back(part_->field(*choice.field, choice.of_cells));
+        fields.push_back({&of_part.back(), choice.of_cells, choice.steps, choice.name});
+    }
+    return fields;
 }
 
 Status Engine::prepare() {
@@ -156,14 +276,7 @@ Status Engine::prepare_for_all(std::span<const double> points) {
                      [&] { near = locate::cells_at_points(mesh_, points, most_cells(cells)); });
     if (!near) return prepare();
     part_ = mesh::part_of(mesh_, std::move(*near));
-    std::vector<FieldChoice> fields;
-    part_->mesh.point_fields.reserve(fields_.size());
-    part_->mesh.cell_fields.reserve(fields_.size());
-    for (const FieldChoice& choice : fields_) {
-        auto& of_part = choice.of_cells ? part_->mesh.cell_fields : part_->mesh.point_fields;
-        of_part.push_back(part_->field(*choice.field, choice.of_cells));
-        fields.push_back({&of_part.back(), choice.of_cells});
-    }
+    const std::vector<FieldChoice> fields = fields_of_part();
     SampleSummary& summary = run_.summary;
     summary.method = FoundBy::pass;
     summary.reason = fmt::format("no index for {}: {} of {} may hold some", counted(count, "point"),
@@ -173,12 +286,21 @@ Status Engine::prepare_for_all(std::span<const double> points) {
 }
 
 void Engine::let_go_of_mesh() {
-    if (gives_distances(run_.job.options.outside) || !mesh_.mid_nodes.empty()) return;
+    if (gives_distances(run_.job.options.outside) || !mesh_.mid_nodes.empty() || run_.step_by_step()) return;
     // The index has corners and coordinates in an order of its own, and so has the sampler the values of nodes.
     give_back(mesh_.points);
     give_back(mesh_.cells);
     give_back(mesh_.point_markers);
     for (Field& field : mesh_.point_fields) give_back(field.data);
+}
+
+Result<NodeWeights> Engine::weights_of(const TableView& rows, const OutsidePolicy& outside) const {
+    Result<NodeWeights> weights = node_weights(*locator_, rows, outside);
+    // Nodes of a part are in the order of the mesh.
+    if (weights && part_) {
+        for (Mesh::Index& node : weights->nodes) node = part_->nodes[static_cast<std::size_t>(node)];
+    }
+    return weights;
 }
 
 void Engine::name_cells(Table& rows) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,6 +13,8 @@
 #include "barycert/locator.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/mesh/part.hpp"
+#include "barycert/node_weights.hpp"
+#include "barycert/pipeline/field_files.hpp"
 #include "barycert/pipeline/run.hpp"
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
@@ -40,10 +43,17 @@ public:
     const Locator& locator() const { return *locator_; }
     const Sampler& sampler() const { return *sampler_; }
 
+    /// Reads the fields of another step of a job that goes step by step, and samples these from now on. Errors: a file
+    /// cannot be read, or has other numbers of rows or components than that of the first step. Precondition: prepared.
+    Status go_to(const Step& step);
+
     /// Gives back what of the mesh sampling does not read again: of linear cells, unless points outside ask for their
-    /// nearest cell, all but the values of cell fields, labels and numbers of cells. Precondition: prepared; nobody else reads the mesh any more,
-    /// but for its dimension.
+    /// nearest cell or other steps follow, all but the values of cell fields, labels and numbers of cells.
+    /// Precondition: prepared; nobody else reads the mesh any more, but for its dimension.
     void let_go_of_mesh();
+
+    /// The weights of rows as the locator names their cells, on the nodes of the mesh. Not after let_go_of_mesh().
+    Result<NodeWeights> weights_of(const TableView& rows, const OutsidePolicy& outside) const;
 
     /// Sampled rows name cells as the locator counts them; afterwards, as the mesh does.
     void name_cells(Table& rows) const;
@@ -56,11 +66,18 @@ public:
 
 private:
     explicit Engine(Run& run) : run_(run) {}
+    Status add_fields_of_job();
+    Status choose_fields();
+    std::vector<std::string> names_of_fields() const;
+    std::vector<FieldChoice> fields_of_part();
+    Status build_sampler(const std::vector<FieldChoice>& fields);
     Status build(bool prove);
     Status build_on(const Mesh& mesh, const std::vector<FieldChoice>& fields, bool prove);
 
     Run& run_;
     Mesh mesh_;
+    std::vector<FieldPlace> places_of_series_;
+    std::deque<Field> made_;  ///< of fields of the mesh
     std::vector<FieldChoice> fields_;
     std::vector<const Column*> labels_;
     std::optional<mesh::Part> part_;  ///< what the locator is of, if not the mesh

@@ -41,13 +41,6 @@ Result<bool> is_of_cells(const FieldFile& file, std::size_t rows, const Mesh& me
                  .remedy = "use a file made for this mesh"};
 }
 
-bool is_file_of_a_mesh(const std::string& path) {
-    constexpr std::array<std::string_view, 3> suffixes{".msh", ".node", ".ele"};
-    return io::is_vtk_points_file(path) || std::any_of(suffixes.begin(), suffixes.end(), [&](std::string_view suffix) {
-               return io::has_suffix(path, suffix);
-           });
-}
-
 std::string names_of(const std::vector<Field>& fields) {
     std::string text;
     for (const Field& field : fields) text += (text.empty() ? "" : ", ") + base::quoted(field.name);
@@ -98,12 +91,12 @@ Result<Field> read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
                      .found = base::quoted(file.column),
                      .remedy = "say which: --point-field or --cell-field instead of --field"};
     if (of_points == nullptr && of_cells == nullptr)
-        return Error{.what = file.column.empty() ? "it is not said which array of the file is meant" : "no such array",
-                     .file = file.path,
-                     .expected = file.column.empty() ? "" : base::quoted(file.column),
-                     .found = "of nodes " + names_of(other->point_fields) + "; of cells " +
-                              names_of(other->cell_fields),
-                     .remedy = "name one: --field " + file.name + "=" + file.path + ":ARRAY"};
+        return Error{
+            .what = file.column.empty() ? "it is not said which array of the file is meant" : "no such array",
+            .file = file.path,
+            .expected = file.column.empty() ? "" : base::quoted(file.column),
+            .found = "of nodes " + names_of(other->point_fields) + "; of cells " + names_of(other->cell_fields),
+            .remedy = "name one: --field " + file.name + "=" + file.path + ":ARRAY"};
     file.of = of_points != nullptr ? FieldFile::Of::points : FieldFile::Of::cells;
     const bool same = other->points == mesh.points && (of_points != nullptr || other->cells == mesh.cells);
     const std::size_t components = static_cast<std::size_t>((of_points != nullptr ? of_points : of_cells)->components);
@@ -121,28 +114,47 @@ Result<Field> read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
 
 }  // namespace
 
+bool is_file_of_a_mesh(const std::string& path) {
+    constexpr std::array<std::string_view, 3> suffixes{".msh", ".node", ".ele"};
+    return io::is_vtk_points_file(path) || std::any_of(suffixes.begin(), suffixes.end(), [&](std::string_view suffix) {
+               return io::has_suffix(path, suffix);
+           });
+}
+
 bool is_name_of_rows(const std::string& name) {
     constexpr std::array<std::string_view, 7> taken{"x", "y", "z", "cell", "feature", "distance", "vtkValidPointMask"};
     return std::find(taken.begin(), taken.end(), name) != taken.end();
 }
 
-Status add_fields(const std::vector<FieldFile>& files, Mesh& mesh) {
-    for (const FieldFile& file : files) {
-        FieldFile of = file;
-        Result<Field> field = is_file_of_a_mesh(file.path)
-                                  ? read_array(mesh, of, mesh.notes)
-                                  : io::read_field_file(file.name, file.path, file.column, mesh.notes);
-        if (!field) return field.error();
-        const auto cells = is_of_cells(of, field->data.size() / static_cast<std::size_t>(field->components), mesh);
-        if (!cells) return cells.error();
-        std::vector<Field>& fields = *cells ? mesh.cell_fields : mesh.point_fields;
-        if (sample::field_named(fields, file.name) != nullptr)
-            return Error{.what = "a field of this name exists already",
-                         .file = file.path,
-                         .found = '"' + file.name + '"',
-                         .remedy = "give it another name: --field OTHER=" + file.path};
-        fields.push_back(std::move(*field));
+Result<Field> read_field(const Mesh& mesh, FieldFile& file, Notes& notes) {
+    if (is_file_of_a_mesh(file.path)) return read_array(mesh, file, notes);
+    return io::read_field_file(file.name, file.path, file.column, notes);
+}
+
+Result<FieldPlace> add_field(const FieldFile& file, Mesh& mesh, bool replace) {
+    FieldFile of = file;
+    Result<Field> field = read_field(mesh, of, mesh.notes);
+    if (!field) return field.error();
+    const auto cells = is_of_cells(of, field->data.size() / static_cast<std::size_t>(field->components), mesh);
+    if (!cells) return cells.error();
+    std::vector<Field>& fields = *cells ? mesh.cell_fields : mesh.point_fields;
+    const std::string full = std::string(*cells ? of_cells : of_points) + file.name;
+    for (std::size_t i = 0; replace && i < fields.size(); ++i) {
+        if (fields[i].name != file.name && fields[i].name != full) continue;
+        field->name = fields[i].name;
+        fields[i] = std::move(*field);
+        return FieldPlace{*cells, i};
     }
+    if (sample::field_named(fields, file.name) != nullptr)
+        return Error{.what = "a field of this name exists already",
+                     .file = file.path,
+                     .found = '"' + file.name + '"',
+                     .remedy = "give it another name: --field OTHER=" + file.path};
+    fields.push_back(std::move(*field));
+    return FieldPlace{*cells, fields.size() - 1};
+}
+
+void give_each_a_name(Mesh& mesh) {
     for (Field& field : mesh.point_fields) {
         if (is_name_of_rows(field.name)) field.name = std::string(of_points) + field.name;
     }
@@ -155,6 +167,13 @@ Status add_fields(const std::vector<FieldFile>& files, Mesh& mesh) {
             sample::field_named(mesh.cell_fields, label.name) != nullptr || is_name_of_rows(label.name))
             label.name = std::string(of_cells) + label.name;
     }
+}
+
+Status add_fields(const std::vector<FieldFile>& files, Mesh& mesh) {
+    for (const FieldFile& file : files) {
+        if (const Result<FieldPlace> added = add_field(file, mesh, false); !added) return added.error();
+    }
+    give_each_a_name(mesh);
     return Done{};
 }
 

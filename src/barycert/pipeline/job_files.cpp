@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <set>
+#include <string>
 #include <utility>
 
 #include "barycert/base/text.hpp"
@@ -34,8 +36,36 @@ private:
 
 }  // namespace
 
-Status check_files(const SamplingJob& job, const std::vector<base::NamedFile>& more_inputs,
-                   std::vector<base::NamedFile> outputs) {
+namespace {
+
+Status check_steps(const SamplingJob& job, const std::vector<Step>& steps) {
+    std::set<std::string> names;
+    for (const std::vector<FieldFile>* const files : {&job.field_files, &job.series}) {
+        for (const FieldFile& file : *files) {
+            if (names.insert(file.name).second || files == &job.field_files) continue;
+            return Error{.what = "a field of this name exists already",
+                         .file = file.path,
+                         .found = '"' + file.name + '"',
+                         .remedy = "give it another name: --field OTHER@" + file.path};
+        }
+    }
+    if (has_step_place(job.output) || steps.size() <= most_steps_of_columns) return Done{};
+    return Error{.what = "too many steps for columns of one output",
+                 .file = job.output,
+                 .expected = "at most " + std::to_string(most_steps_of_columns),
+                 .found = std::to_string(steps.size()),
+                 .remedy = "write each step to a file of its own: --output 'rows-{step}.npy'"};
+}
+
+}  // namespace
+
+Status check_files(const SamplingJob& job, const std::vector<Step>& steps,
+                   const std::vector<base::NamedFile>& more_inputs, std::vector<base::NamedFile> outputs) {
+    if (!job.weights.empty() && !io::has_suffix(job.weights, ".npz"))
+        return Error{.what = "unknown suffix of --weights",
+                     .file = job.weights,
+                     .expected = ".npz",
+                     .remedy = "choose another name"};
     if (Status data = check_vtk_data(job.vtk_data, job.output); !data) return data;
     std::vector<base::NamedFile> to_read = more_inputs;
     // The reader of meshes has hints at what may be meant.
@@ -46,6 +76,16 @@ Status check_files(const SamplingJob& job, const std::vector<base::NamedFile>& m
         to_read.push_back(inputs.back());
     }
     inputs.insert(inputs.end(), more_inputs.begin(), more_inputs.end());
+    if (!steps.empty()) {
+        if (Status few = check_steps(job, steps); !few) return few;
+        for (base::NamedFile& output : outputs) {
+            if (output.what != "--output" || !has_step_place(output.path)) continue;
+            if (Status distinct = check_step_outputs(inputs, output.path, steps); !distinct) return distinct;
+            output.path = output_of_step(output.path, steps.front());
+        }
+        for (const FieldFile& f : steps.front().files) inputs.push_back({"field " + f.name, f.path});
+    }
+    outputs.push_back({"--weights", job.weights});
     outputs.push_back({"--json", job.report});
     if (Status readable = base::check_inputs(to_read); !readable) return readable;
     return base::check_outputs(inputs, std::move(outputs));

@@ -9,14 +9,16 @@
 #include "barycert/base/named_file.hpp"
 #include "barycert/io.hpp"
 #include "barycert/pipeline.hpp"
+#include "barycert/pipeline/series.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::pipeline {
 
 /// What can be known of files before the work: of a job with those outputs and, besides the common ones, those inputs.
-/// Errors: an output is an input or another output, or cannot be written; an input cannot be read.
-Status check_files(const SamplingJob& job, const std::vector<base::NamedFile>& more_inputs,
-                   std::vector<base::NamedFile> outputs);
+/// Those that are called --output are one for each step, where they have a place for it. Errors: an output is an input
+/// or another output, or cannot be written; an input cannot be read; more steps than can be columns.
+Status check_files(const SamplingJob& job, const std::vector<Step>& steps,
+                   const std::vector<base::NamedFile>& more_inputs, std::vector<base::NamedFile> outputs);
 
 /// Refuses a choice of data for an output that is no file of VTK, and one that its format does not know.
 Status check_vtk_data(std::optional<VtkData> data, const std::string& path);

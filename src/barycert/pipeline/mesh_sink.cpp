@@ -8,6 +8,7 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/mesh_format.hpp"
 #include "barycert/pipeline/job_files.hpp"
 #include "barycert/vtk.hpp"
 
@@ -36,14 +37,20 @@ public:
         return Done{};
     }
 
-    Status commit() override { return io::is_vtk_file(path_) ? write_vtk_file() : write_tetgen_files(); }
+    Status commit() override {
+        const Result<io::MeshFormat> format = io::mesh_output_format(path_);
+        if (!format) return format.error();
+        return *format == io::MeshFormat::tetgen ? write_tetgen_files() : write_one_file(*format);
+    }
 
 private:
-    Status write_vtk_file() {
+    /// Where there is room for what else is known of each node. In Gmsh each field is a picture of its own: `cell`
+    /// tells what the mask does, too.
+    Status write_one_file(io::MeshFormat format) {
         if (!distance_.data.empty()) mesh_.point_fields.push_back(std::move(distance_));
-        mesh_.point_fields.push_back(std::move(mask_));
+        if (format == io::MeshFormat::vtk) mesh_.point_fields.push_back(std::move(mask_));
         mesh_.point_fields.push_back(std::move(cell_));
-        return write_vtk(mesh_, path_, data_);
+        return write_mesh(mesh_, path_, {.comment = {}, .data = data_});
     }
 
     Status write_tetgen_files() {
@@ -73,7 +80,8 @@ bool is_rows_output(const std::string& path) {
 }
 
 std::vector<std::string> files_of_mesh_output(const ResampleJob& job) {
-    if (is_rows_output(job.output) || io::is_vtk_file(job.output)) return {job.output};
+    const Result<io::MeshFormat> format = io::mesh_output_format(job.output);
+    if (is_rows_output(job.output) || (format && *format != io::MeshFormat::tetgen)) return {job.output};
     const std::string stem = tetgen_stem(job.output);
     return {stem + ".node", stem + ".ele"};
 }
@@ -82,14 +90,9 @@ Status check_mesh_output(const ResampleJob& job) {
     if (job.range)
         return Error{.what = "--range cannot be combined with --onto", .remedy = "it is for pictures: leave it out"};
     if (is_rows_output(job.output)) return Done{};
-    if (io::has_suffix(job.output, ".vtu") || io::has_suffix(job.output, ".vtk")) return Done{};
-    const std::size_t dot = job.output.find_last_of("./");
-    const std::string suffix = dot == std::string::npos || job.output[dot] == '/' ? "" : job.output.substr(dot);
-    // part.1 is a stem: only what others use as a suffix is refused.
-    const bool digits = suffix.find_first_not_of("0123456789", 1) == std::string::npos;
-    if (digits || suffix == ".node" || suffix == ".ele") return Done{};
+    if (io::mesh_output_format(job.output)) return Done{};
     return unknown_output(job.output,
-                          ".vtu, .vtk, .node, .csv or .npy, a stem of TetGen's files, or - for CSV on stdout");
+                          ".vtu, .vtk, .msh, .node, .csv or .npy, a stem of TetGen's files, or - for CSV on stdout");
 }
 
 Result<std::unique_ptr<TableSink>> mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format) {

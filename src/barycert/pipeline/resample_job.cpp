@@ -4,7 +4,9 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
@@ -63,7 +65,7 @@ std::vector<double> point_of(const Grid& grid, std::uint64_t i) {
     return point;
 }
 
-Status check_job(const ResampleJob& job) {
+Status check_job(const ResampleJob& job, const std::vector<pipeline::Step>& steps) {
     const int targets = (job.counts.empty() ? 0 : 1) + (job.spacing.empty() ? 0 : 1) + (job.onto.empty() ? 0 : 1);
     if (targets != 1)
         return Error{.what = targets == 0 ? "no target" : "more than one target",
@@ -73,18 +75,25 @@ Status check_job(const ResampleJob& job) {
     if (!job.bounds.empty() && !job.onto.empty())
         return Error{.what = "--bounds cannot be combined with --onto",
                      .remedy = "bounds are for --grid and --spacing: leave them out"};
+    if (!job.weights.empty() && job.onto.empty())
+        return Error{.what = "--weights needs --onto here",
+                     .file = job.weights,
+                     .remedy =
+                         "for the points of a grid, write them to a file first (--output grid.csv), and use "
+                         "`barycert sample --points grid.csv --weights`"};
     if (job.onto.empty()) {
         if (Status known = pipeline::check_grid_output(job); !known) return known;
-        return pipeline::check_files(job, {}, {{"--output", job.output}});
+        return pipeline::check_files(job, steps, {}, {{"--output", job.output}});
     }
     if (Status known = pipeline::check_mesh_output(job); !known) return known;
-    return pipeline::check_files(job, base::named_files("the mesh of --onto", mesh_files(job.onto)),
+    return pipeline::check_files(job, steps, base::named_files("the mesh of --onto", mesh_files(job.onto)),
                                  base::named_files("--output", pipeline::files_of_mesh_output(job)));
 }
 
-Result<TableFormat> user_format(Run& run, const Engine& engine) {
-    Result<TableFormat> format = pipeline::user_format(engine, engine.format(), {});
+Result<TableFormat> user_format(Run& run, const Engine& engine, const TableFormat& of_rows) {
+    Result<TableFormat> format = pipeline::user_format(engine, of_rows, {});
     if (!format) return format;
+    run.summary.carried.clear();
     for (const ColumnFormat& column : format->carried) run.summary.carried.push_back(column.name);
     return format;
 }
@@ -100,16 +109,12 @@ void note_the_other(Run& run, const ResampleJob& job, const Mesh& other) {
     notes.push_back({Note::Kind::left_out, text + " of its nodes", job.onto});
 }
 
+/// The fields as they are now.
 Status onto_grid(Run& run, const ResampleJob& job, Engine& engine) {
-    const Result<Grid> grid = grid_of(job, engine.mesh());
-    if (!grid) return grid.error();
     SampleSummary& summary = run.summary;
-    summary.from = PointsFrom::grid;
-    summary.grid = *grid;
-    if (Status ready = engine.prepare_without_search(FoundBy::grid, "each cell finds the points that it holds"); !ready)
-        return ready;
+    const std::optional<Grid>& grid = summary.grid;
     Stopwatch watch, within;
-    const Result<TableFormat> format = user_format(run, engine);
+    const Result<TableFormat> format = user_format(run, engine, engine.format());
     if (!format) return format.error();
     auto output = pipeline::open_grid_sink(job, *format, *grid);
     if (!output) return output.error();
@@ -135,11 +140,31 @@ Status onto_grid(Run& run, const ResampleJob& job, Engine& engine) {
     if (!counts) return counts.error();
     summary.counts = *counts;
     summary.rows = grid->point_count();
-    summary.seconds.sample = watch.lap() - writing;
+    summary.seconds.sample += watch.lap() - writing;
     Status committed = output->sink->commit();
-    summary.seconds.write = writing + watch.lap();
+    summary.seconds.write += writing + watch.lap();
     if (output->picture != nullptr) summary.picture = *output->picture;
     return committed;
+}
+
+Status onto_grid_in_steps(Run& run, const ResampleJob& job, Engine& engine) {
+    const Result<Grid> grid = grid_of(job, engine.mesh());
+    if (!grid) return grid.error();
+    run.summary.from = PointsFrom::grid;
+    run.summary.grid = *grid;
+    if (Status ready = engine.prepare_without_search(FoundBy::grid, "each cell finds the points that it holds"); !ready)
+        return ready;
+    if (!run.step_by_step()) return onto_grid(run, job, engine);
+    for (std::size_t i = 0; i < run.steps.size(); ++i) {
+        run.count("steps", i);
+        if (i != 0) {
+            if (Status ready = engine.go_to(run.steps[i]); !ready) return ready;
+        }
+        ResampleJob step = job;
+        step.output = output_of_step(job.output, run.steps[i]);
+        if (Status done = onto_grid(run, step, engine); !done) return done;
+    }
+    return Done{};
 }
 
 Status onto_mesh(Run& run, const ResampleJob& job, Engine& engine) {
@@ -161,23 +186,35 @@ Status onto_mesh(Run& run, const ResampleJob& job, Engine& engine) {
     const auto source = memory_points(other->points, d);
     run.summary.seconds.read = watch.lap();
     note_the_other(run, job, *other);
-    const auto open = [&](const TableFormat&) -> Result<std::unique_ptr<TableSink>> {
-        const Result<TableFormat> format = user_format(run, engine);
-        if (!format) return format.error();
-        auto sink = to_rows ? pipeline::open_rows(job, *format)
-                            : pipeline::mesh_sink(std::move(*other), job.output, *format);
-        if (!sink) return sink;
-        return pipeline::user_rows(engine, std::move(*sink));
+    const bool further = run.step_by_step() && run.steps.size() > 1;
+    const auto sink_to = [&](const std::string& output) -> pipeline::SinkFactory {
+        return [&, output](const TableFormat& of_rows) -> Result<std::unique_ptr<TableSink>> {
+            const Result<TableFormat> format = user_format(run, engine, of_rows);
+            if (!format) return format.error();
+            ResampleJob step = job;
+            step.output = output;
+            auto sink = to_rows ? pipeline::open_rows(step, *format)
+                                : pipeline::mesh_sink(further ? *other : std::move(*other), output, *format);
+            if (!sink) return sink;
+            return pipeline::user_rows(engine, std::move(*sink));
+        };
     };
-    return pipeline::sample_stream(run, engine, *source, open, "");
+    pipeline::KnownRows known;
+    const std::string output = run.step_by_step() ? output_of_step(job.output, run.steps.front()) : job.output;
+    Status first = pipeline::sample_stream(
+        run, engine, *source, {.rows = sink_to(output), .weights = job.weights, .known = further ? &known : nullptr});
+    if (!first || !further) return first;
+    return pipeline::sample_further_steps(run, engine, known, sink_to);
 }
 
 }  // namespace
 
 Result<SampleSummary> resample_files(const ResampleJob& job) {
-    if (Status ok = check_job(job); !ok) return ok.error();
-    return pipeline::run_job("resample", job, [&](Run& run, Engine& engine) {
-        return job.onto.empty() ? onto_grid(run, job, engine) : onto_mesh(run, job, engine);
+    auto steps = pipeline::find_steps(job.series);
+    if (!steps) return steps.error();
+    if (Status ok = check_job(job, *steps); !ok) return ok.error();
+    return pipeline::run_job("resample", job, std::move(*steps), [&](Run& run, Engine& engine) {
+        return job.onto.empty() ? onto_grid_in_steps(run, job, engine) : onto_mesh(run, job, engine);
     });
 }
 

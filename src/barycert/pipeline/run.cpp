@@ -6,22 +6,25 @@
 #include <memory>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "barycert/pipeline/engine.hpp"
 
 namespace barycert::pipeline {
 
-Result<SampleSummary> run_job(const std::string& command, const SamplingJob& job,
+Result<SampleSummary> run_job(const std::string& command, const SamplingJob& job, std::vector<Step> steps,
                               const std::function<Status(Run&, Engine&)>& work) {
     const int threads = job.options.threads;
     std::optional<tbb::global_control> limit;
     if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     Stopwatch whole;
-    Run run{job};
+    Run run{job, std::move(steps)};
     SampleSummary& summary = run.summary;
     summary.command = command;
+    for (const Step& step : run.steps) summary.steps.push_back(step.label);
     summary.mesh = job.mesh;
     summary.output = job.output;
+    summary.weights = job.weights;
     summary.rounding = job.options.rounding;
     summary.outside = job.options.outside;
     summary.threads = threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));

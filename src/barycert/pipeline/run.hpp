@@ -6,8 +6,10 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "barycert/pipeline.hpp"
+#include "barycert/pipeline/series.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::pipeline {
@@ -28,7 +30,11 @@ private:
 
 struct Run {
     const SamplingJob& job;
+    std::vector<Step> steps = {};  ///< of the series of the job
     SampleSummary summary = {};
+
+    /// Whether each step has outputs of its own.
+    bool step_by_step() const { return !steps.empty() && has_step_place(job.output); }
 
     void stage(std::string_view text) const {
         if (job.progress) job.progress({.stage = text});
@@ -42,7 +48,7 @@ class Engine;
 
 /// Does `work` with an engine on the mesh of the job, on no more threads than the job allows. `command`: of the
 /// summary.
-Result<SampleSummary> run_job(const std::string& command, const SamplingJob& job,
+Result<SampleSummary> run_job(const std::string& command, const SamplingJob& job, std::vector<Step> steps,
                               const std::function<Status(Run&, Engine&)>& work);
 
 }  // namespace barycert::pipeline

@@ -1,8 +1,11 @@
 // Fields at points.
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
@@ -18,7 +21,7 @@ namespace {
 using pipeline::Engine;
 using pipeline::Run;
 
-Status check_job(const SampleJob& job) {
+Status check_job(const SampleJob& job, const std::vector<pipeline::Step>& steps) {
     if (job.points.empty() == job.map.empty())
         return Error{.what = job.points.empty() ? "no points" : "--points and --map",
                      .expected = "one of --points FILE and --map FILE",
@@ -33,7 +36,15 @@ Status check_job(const SampleJob& job) {
                      .remedy = "a map has points and cells alone: name the file of the points by --points"};
     if (job.map == "-" || job.save_map == "-")
         return Error{.what = "a map cannot come from stdin or go to stdout", .remedy = "name a file"};
-    if (Status known = pipeline::check_rows_format(job.output); !known) return known;
+    if (job.output.empty()) {
+        if (job.weights.empty())
+            return Error{.what = "no output", .expected = "--output FILE, --weights FILE, or both", .found = "neither"};
+        if (!job.fields.empty() || !job.field_files.empty() || !job.series.empty() || !job.keep.empty())
+            return Error{.what = "fields or columns without --output",
+                         .remedy = "weights depend on no field: leave fields out, or name --output too"};
+    } else if (Status known = pipeline::check_rows_format(job.output); !known) {
+        return known;
+    }
     std::vector<base::NamedFile> inputs{{"--map", job.map}};
     if (job.map.empty()) inputs = {{"--points", job.points}};
     std::error_code ignored;
@@ -41,33 +52,50 @@ Status check_job(const SampleJob& job) {
     if (job.map.empty() && job.points != "-" && !std::filesystem::exists(job.points, ignored) &&
         !io::format_of(job.points))
         inputs = base::named_files("the mesh of --points", mesh_files(job.points));
-    return pipeline::check_files(job, inputs, {{"--output", job.output}, {"--save-map", job.save_map}});
+    return pipeline::check_files(job, steps, inputs, {{"--output", job.output}, {"--save-map", job.save_map}});
 }
 
-/// Opens the output of the job; `carried`: columns of the points.
-pipeline::SinkFactory rows_of(Run& run, const SampleJob& job, const Engine& engine,
-                              std::vector<ColumnFormat> carried = {}) {
-    return [&run, &job, &engine, carried = std::move(carried)](
-               const TableFormat& format) -> Result<std::unique_ptr<TableSink>> {
+/// Opens an output of the job; `carried`: columns of the points.
+pipeline::SinkFactory rows_to(Run& run, const SampleJob& job, const Engine& engine, const std::string& output,
+                              const std::vector<ColumnFormat>& carried) {
+    return [&run, &job, &engine, output, carried](const TableFormat& format) -> Result<std::unique_ptr<TableSink>> {
+        if (output.empty()) return std::unique_ptr<TableSink>();
         const Result<TableFormat> shown = pipeline::user_format(engine, format, carried);
         if (!shown) return shown.error();
+        run.summary.carried.clear();
         for (const ColumnFormat& column : shown->carried) run.summary.carried.push_back(column.name);
-        Result<std::unique_ptr<TableSink>> sink = pipeline::open_rows(job, *shown);
+        SampleJob one = job;
+        one.output = output;
+        Result<std::unique_ptr<TableSink>> sink = pipeline::open_rows(one, *shown);
         if (!sink) return sink;
         return pipeline::user_rows(engine, std::move(*sink));
     };
 }
 
+/// What is done with the first rows, and then with those of further steps.
+Status in_steps(Run& run, const SampleJob& job, Engine& engine, const std::vector<ColumnFormat>& carried,
+                const std::function<Status(const pipeline::StreamTargets&)>& first) {
+    pipeline::KnownRows known;
+    const bool further = run.step_by_step() && run.steps.size() > 1;
+    const auto sink_to = [&](const std::string& path) { return rows_to(run, job, engine, path, carried); };
+    const std::string output = run.step_by_step() ? output_of_step(job.output, run.steps.front()) : job.output;
+    if (Status done = first({sink_to(output), job.save_map, job.weights, further ? &known : nullptr}); !done)
+        return done;
+    return further ? pipeline::sample_further_steps(run, engine, known, sink_to) : Status(Done{});
+}
+
 Status at_points(Run& run, const SampleJob& job, Engine& engine) {
     const bool csv = job.output == "-" || io::has_suffix(job.output, ".csv");
-    auto source = open_points(job.points, engine.mesh().dimension,
-                              {.columns = job.columns, .keep = job.keep, .typed = !csv});
+    auto source =
+        open_points(job.points, engine.mesh().dimension, {.columns = job.columns, .keep = job.keep, .typed = !csv});
     if (!source) return source.error();
     const Notes notes = (*source)->notes();
     run.summary.notes.insert(run.summary.notes.end(), notes.begin(), notes.end());
     run.summary.points = job.points;
     run.summary.all = job.all.value_or(false);
-    return pipeline::sample_stream(run, engine, **source, rows_of(run, job, engine, (*source)->carried()), job.save_map);
+    return in_steps(run, job, engine, (*source)->carried(), [&](const pipeline::StreamTargets& targets) {
+        return pipeline::sample_stream(run, engine, **source, targets);
+    });
 }
 
 Status at_points_of_map(Run& run, const SampleJob& job, Engine& engine) {
@@ -83,14 +111,18 @@ Status at_points_of_map(Run& run, const SampleJob& job, Engine& engine) {
     run.summary.points = job.map;
     run.summary.all = map->all();
     if (Status ready = engine.prepare_without_search(FoundBy::map, "cells are those of the map"); !ready) return ready;
-    return pipeline::sample_map(run, engine, *map, rows_of(run, job, engine));
+    return in_steps(run, job, engine, {}, [&](const pipeline::StreamTargets& targets) {
+        return pipeline::sample_map(run, engine, *map, targets);
+    });
 }
 
 }  // namespace
 
 Result<SampleSummary> sample_files(const SampleJob& job) {
-    if (Status ok = check_job(job); !ok) return ok.error();
-    return pipeline::run_job("sample", job, [&](Run& run, Engine& engine) {
+    auto steps = pipeline::find_steps(job.series);
+    if (!steps) return steps.error();
+    if (Status ok = check_job(job, *steps); !ok) return ok.error();
+    return pipeline::run_job("sample", job, std::move(*steps), [&](Run& run, Engine& engine) {
         return job.map.empty() ? at_points(run, job, engine) : at_points_of_map(run, job, engine);
     });
 }

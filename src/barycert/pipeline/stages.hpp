@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "barycert/environment.hpp"
+#include "barycert/node_weights.hpp"
 #include "barycert/pipeline/run.hpp"
 #include "barycert/result.hpp"
 #include "barycert/table.hpp"
@@ -27,9 +28,11 @@ inline constexpr std::size_t block_of_points = std::size_t{1} << 17;
 /// Rows on their way from the source to the sink, and what became of them.
 struct Block {
     Table rows;
-    std::uint64_t first = 0;  ///< points, or rows of a map, that came before
-    std::uint64_t size = 0;   ///< points
-    bool last = false;        ///< as far as was known when it was read
+    std::vector<Mesh::Index> located;  ///< cells of the locator, where they are to be known again
+    NodeWeights weights;               ///< where they are wanted
+    std::uint64_t first = 0;           ///< points, or rows of a map, that came before
+    std::uint64_t size = 0;            ///< points
+    bool last = false;                 ///< as far as was known when it was read
     std::uint64_t nan_values = 0;
     std::optional<std::size_t> outside;  ///< the first row without a cell, where there may be none
     std::optional<Error> error;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "barycert/io.hpp"
 #include "barycert/map.hpp"
@@ -28,14 +29,36 @@ std::uint64_t count_nan(const TableView& rows);
 /// Opens what takes the rows of that format, which is known when the engine is prepared.
 using SinkFactory = std::function<Result<std::unique_ptr<TableSink>>(const TableFormat&)>;
 
+/// Rows whose owners are known, to be sampled again: 29 bytes a row in 3D. Cells are those of the locator.
+struct KnownRows {
+    std::vector<double> points;
+    std::vector<Mesh::Index> cells;
+    std::vector<Feature> features;
+    std::vector<Column> carried;
+};
+
+/// Where rows go.
+struct StreamTargets {
+    SinkFactory rows;            ///< may give nullptr: nowhere
+    std::string map = {};        ///< a file, if not empty
+    std::string weights = {};    ///< likewise
+    KnownRows* known = nullptr;  ///< filled, if not nullptr
+};
+
 /// Reading, sampling and writing go on at the same time, block after block; rows come in the order of the points.
 ///
-/// All points of the source into rows and, if `save_map` is not empty, into a map. Adds to the summary of the run.
-/// Error besides those of its parts: the policy is `error`, and a point is outside; it names the point and the file.
-Status sample_stream(Run& run, Engine& engine, PointSource& source, const SinkFactory& factory,
-                     const std::string& save_map);
+/// All points of the source into rows. Adds to the summary of the run. Error besides those of its parts: the policy is
+/// `error`, and a point is outside; it names the point and the file.
+Status sample_stream(Run& run, Engine& engine, PointSource& source, const StreamTargets& targets);
 
 /// The rows of a map likewise; the engine is prepared for it.
-Status sample_map(Run& run, Engine& engine, MapReader& map, const SinkFactory& factory);
+Status sample_map(Run& run, Engine& engine, MapReader& map, const StreamTargets& targets);
+
+/// Known rows likewise, of which the summary has been told: only values that are NaN, and times, are added.
+Status sample_known(Run& run, Engine& engine, const KnownRows& known, const SinkFactory& factory);
+
+/// All steps of the run but the first, each into the output of its name, which `sink_to` opens.
+Status sample_further_steps(Run& run, Engine& engine, const KnownRows& known,
+                            const std::function<SinkFactory(const std::string& output)>& sink_to);
 
 }  // namespace barycert::pipeline

@@ -102,7 +102,8 @@ Error csv_row_error(std::string_view line, const CsvLayout& layout, const LinePl
         double value = 0;
         const char* const end = field.data() + field.size();
         if (barycert::io::scan_real(field.data(), end, value) == end) {
-            if (layout.flat && role == 2 && value != 0) return off_plane(place.file, place.line, "", base::quoted(field));
+            if (layout.flat && role == 2 && value != 0)
+                return off_plane(place.file, place.line, "", base::quoted(field));
             continue;
         }
         Complaint complaint = about_coordinate(field, layout.separator);
@@ -121,8 +122,8 @@ Error csv_row_error(std::string_view line, const CsvLayout& layout, const LinePl
     }
     const std::size_t fields = layout.role_of.size();
     error.what = std::string("too ") + (count < fields ? "few" : "many") + " fields in a line";
-    error.expected = std::to_string(fields) + ", separated by " + separator_name(layout.separator) +
-                     ", as in the first line";
+    error.expected =
+        std::to_string(fields) + ", separated by " + separator_name(layout.separator) + ", as in the first line";
     error.found = std::to_string(count);
     error.remedy = "give every line the same columns; put fields that hold a separator in double quotes";
     return error;

@@ -50,11 +50,10 @@ std::size_t empty_at_the_end(const TableColumns& all, int dimension) {
 
 void note_the_guesses(const TableColumns& all, CsvLayout& layout) {
     if (layout.separator != ',')
-        layout.notes.push_back({Note::Kind::guessed, "columns are separated by " + separator_name(layout.separator),
-                                all.file});
-    if (!layout.header)
         layout.notes.push_back(
-            {Note::Kind::guessed, "there is no header: the first line is a point", all.file});
+            {Note::Kind::guessed, "columns are separated by " + separator_name(layout.separator), all.file});
+    if (!layout.header)
+        layout.notes.push_back({Note::Kind::guessed, "there is no header: the first line is a point", all.file});
 }
 
 }  // namespace

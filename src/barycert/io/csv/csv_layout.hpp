@@ -16,12 +16,12 @@ struct CsvLayout {
     /// for the carried column k.
     enum Role : int { passed_over = -1, must_be_empty = -2, first_kept = 3 };
 
-    char separator = ',';               ///< ',' ';' '\t', or ' ' for blanks
-    std::vector<int> role_of{};         ///< one a field
-    bool header = false;                ///< the first line is a header
-    bool flat = false;                  ///< there is a z that must be 0
-    bool plain = true;                  ///< fields are coordinates or passed over
-    std::vector<ColumnFormat> kept{};   ///< the carried columns
+    char separator = ',';              ///< ',' ';' '\t', or ' ' for blanks
+    std::vector<int> role_of{};        ///< one a field
+    bool header = false;               ///< the first line is a header
+    bool flat = false;                 ///< there is a z that must be 0
+    bool plain = true;                 ///< fields are coordinates or passed over
+    std::vector<ColumnFormat> kept{};  ///< the carried columns
     Notes notes{};
 };
 

@@ -82,7 +82,8 @@ void refuse(CsvPiece& piece, std::string_view line, bool cut, int dimension) {
     piece.bad = line;
     piece.cut = cut;
     // Some of its columns may have their value.
-    for (Column& column : piece.carried) mesh::shrink(column, piece.points.size() / static_cast<std::size_t>(dimension));
+    for (Column& column : piece.carried)
+        mesh::shrink(column, piece.points.size() / static_cast<std::size_t>(dimension));
 }
 
 }  // namespace

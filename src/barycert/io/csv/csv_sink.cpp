@@ -172,8 +172,8 @@ Status CsvSink::write(const TableView& rows) {
                 const ExactEnvironment of_task;  // the arena is the caller's
                 const std::size_t first = row + i * rows_a_piece;
                 char* const begin = pieces_[i].data();
-                sizes[i] = static_cast<std::size_t>(format(rows, first, std::min(first + rows_a_piece, count), begin) -
-                                                    begin);
+                sizes[i] =
+                    static_cast<std::size_t>(format(rows, first, std::min(first + rows_a_piece, count), begin) - begin);
             });
         });
         for (std::size_t i = 0; i < pieces; ++i) file_.write({pieces_[i].data(), sizes[i]});

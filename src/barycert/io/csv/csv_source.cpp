@@ -29,7 +29,8 @@ class CsvSource final : public PointSource {
 public:
     CsvSource(LineReader lines, int dimension) : lines_(std::move(lines)), dimension_(dimension) {}
 
-    /// Reads up to the header or over the first point. `kept`: the formats of the carried columns, where they are known.
+    /// Reads up to the header or over the first point. `kept`: the formats of the carried columns, where they are
+    /// known.
     Status begin(const PointOptions& options, const std::vector<ColumnFormat>* kept);
 
     int dimension() const override { return dimension_; }
@@ -180,8 +181,7 @@ Result<std::vector<ColumnFormat>> formats_of_all(CsvSource& source, const std::s
         if (!utf8[k]) formats[k].max_characters = 0;
         if (formats[k].type != Column::Type::text) formats[k] = {formats[k].name, formats[k].type};
         if (types[k].has_missing_numbers())
-            notes.push_back(
-                {Note::Kind::converted, "empty fields of column " + formats[k].name + " to NaN", path});
+            notes.push_back({Note::Kind::converted, "empty fields of column " + formats[k].name + " to NaN", path});
     }
     return formats;
 }

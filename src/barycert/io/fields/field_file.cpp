@@ -144,8 +144,8 @@ Result<Field> read_npy(Field field, const std::string& path, const std::string& 
     }
     const NpyType& type = table->columns[columns->front()].type;
     if (type.kind != 'f' || type.size != 8)
-        notes.push_back({Note::Kind::converted,
-                         "field " + field.name + " of type " + type.text + " to double, exactly", path});
+        notes.push_back(
+            {Note::Kind::converted, "field " + field.name + " of type " + type.text + " to double, exactly", path});
     const std::size_t components = columns->size(), at_once = NpyFile::rows_at_once(*table);
     field.components = static_cast<int>(components);
     field.data.resize(table->rows * components);

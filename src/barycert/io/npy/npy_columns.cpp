@@ -133,8 +133,8 @@ Result<NpyTable> npy_table(const NpyHeader& header, const std::string& file) {
         std::uint64_t size = 0;
         if (!Fields(header.descr, table.columns).parse(size) || size == 0 || size > longest_npy_text << 10)
             return failure(file, "cannot read a structured array of that type",
-                           "a list of names and types of known size, and no Python objects",
-                           base::quoted(header.descr), "save the fields that are needed: a[['x', 'y']]");
+                           "a list of names and types of known size, and no Python objects", base::quoted(header.descr),
+                           "save the fields that are needed: a[['x', 'y']]");
         table.row_size = size;
         for (NpyColumn& column : table.columns) column.step = size;
     } else if (Status simple = simple_table(header, file, table); !simple) {

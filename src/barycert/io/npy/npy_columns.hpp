@@ -31,9 +31,9 @@ struct NpyTable {
 /// At most so many columns: more have no meaning for points.
 inline constexpr std::uint64_t most_npy_columns = std::uint64_t{1} << 16;
 
-/// From the header. A field NAME of several values is NAME.0, NAME.1, ...; fields that are structures, and unnamed ones,
-/// are passed over. An array without names has column1, column2, ...; one of shape (rows,) is one column. Errors: a
-/// type of unknown size, or Python objects; a shape that is no table.
+/// From the header. A field NAME of several values is NAME.0, NAME.1, ...; fields that are structures, and unnamed
+/// ones, are passed over. An array without names has column1, column2, ...; one of shape (rows,) is one column. Errors:
+/// a type of unknown size, or Python objects; a shape that is no table.
 Result<NpyTable> npy_table(const NpyHeader& header, const std::string& file);
 
 /// `room`: the bytes after the header. Error: there are more or fewer than the table has.

@@ -14,8 +14,8 @@ namespace barycert::io {
 inline constexpr std::size_t npy_feature_size = 8;
 
 struct NpyFields {
-    std::string descr;         ///< the list of names and types, as Python writes it
-    std::size_t row_size = 0;  ///< bytes
+    std::string descr;                   ///< the list of names and types, as Python writes it
+    std::size_t row_size = 0;            ///< bytes
     std::vector<std::size_t> carried{};  ///< the bytes of each carried column
 };
 

@@ -1,4 +1,5 @@
-/// The rows of an NPY file, read by blocks and not mapped: memory is bounded, and a file that shrinks meanwhile is told.
+/// The rows of an NPY file, read by blocks and not mapped: memory is bounded, and a file that shrinks meanwhile is
+/// told.
 #pragma once
 
 #include <cstddef>

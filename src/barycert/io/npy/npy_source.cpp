@@ -48,7 +48,7 @@ private:
     std::size_t dimension_;
     NpyFile file_;
     NpyTable table_;
-    bool as_in_memory_ = false;   // the array is what is asked for, number by number
+    bool as_in_memory_ = false;    // the array is what is asked for, number by number
     std::vector<NpyColumn> axes_;  // and perhaps a z that must be 0
     std::vector<NpyColumn> kept_;
     std::vector<ColumnFormat> formats_;  // of these
@@ -64,7 +64,8 @@ Error NpySource::shape_error(const std::vector<std::uint64_t>& shape) const {
     std::string remedy = "save an array with a row of " + d + " coordinates for each point";
     if (shape.size() == 1) remedy = "if it holds the coordinates point after point, save a.reshape(-1, " + d + ")";
     if (shape.size() == 2 && shape[1] > dimension_)
-        remedy = "say which columns are the coordinates, such as --columns 1,2" + std::string(dimension_ == 3 ? ",3" : "");
+        remedy =
+            "say which columns are the coordinates, such as --columns 1,2" + std::string(dimension_ == 3 ? ",3" : "");
     if (shape.size() == 2 && shape[0] == dimension_ && shape[1] != dimension_ + 1)
         remedy = "if it has a column for each point, save a.T";
     return failure("an array of another shape", "(n, " + d + "), for the mesh is " + d + "-dimensional",

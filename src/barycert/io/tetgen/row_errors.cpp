@@ -202,7 +202,8 @@ Error header_error(const TextTable& table, std::string what, std::string expecte
 
 Error count_error(const TextTable& table, std::string_view field, const char* name) {
     if (field == "BIN") {
-        return header_error(table, "a binary file", "text", "\"BIN\" in the header", "save the mesh as text");
+        return header_error(table, "a binary file", "text", "\"BIN\" in the header",
+                            "save the mesh as text: in Chaste, leave out SetWriteFilesAsBinary()");
     }
     std::int64_t value = 0;
     const bool integer = scan_integer(field.data(), value) == field.data() + field.size();

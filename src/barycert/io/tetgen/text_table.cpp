@@ -1,11 +1,9 @@
 #include "barycert/io/tetgen/text_table.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <system_error>
-#include <thread>
 
 #include "barycert/base/text.hpp"
+#include "barycert/base/workers.hpp"
 #include "barycert/io/tetgen/row_errors.hpp"
 
 namespace barycert::io {
@@ -49,28 +47,14 @@ bool append_blocks(const TextTable& table, std::vector<Block>& blocks) {
 
 /// Parses the blocks on several threads; true if every one is as it should be.
 bool parse_blocks(const std::vector<Block>& blocks, int threads) {
-    std::atomic<std::size_t> next{0};
-    std::atomic<bool> good{true};
-    const auto work = [&] {
-        for (std::size_t i = next++; i < blocks.size() && good; i = next++) {
-            const Block& block = blocks[i];
-            Scanner scanner{block.start, block.table->end()};
-            std::size_t row = block.first_row;
-            if (!block.table->parse(scanner, block.stop, row, block.last_row)) good = false;
-            block.table->data.let_go({block.start, static_cast<std::size_t>(block.stop - block.start)});
-        }
-    };
-    const auto wanted = std::min(static_cast<std::size_t>(threads), blocks.size());
-    std::vector<std::thread> helpers;
-    helpers.reserve(wanted);
-    try {
-        while (helpers.size() + 1 < wanted) helpers.emplace_back(work);
-    } catch (const std::system_error&) {
-        // The system gives no more threads: those at hand do it all.
-    }
-    work();
-    for (std::thread& helper : helpers) helper.join();
-    return good;
+    return base::share_work(threads, blocks.size(), [&](std::size_t i) {
+        const Block& block = blocks[i];
+        Scanner scanner{block.start, block.table->end()};
+        std::size_t row = block.first_row;
+        const bool good = block.table->parse(scanner, block.stop, row, block.last_row);
+        block.table->data.let_go({block.start, static_cast<std::size_t>(block.stop - block.start)});
+        return good;
+    });
 }
 
 /// The whole table at once: the slow twin that knows the first error.
@@ -149,7 +133,6 @@ Status check_room(const TextTable& table) {
 }
 
 Status parse_tables(std::span<TextTable* const> tables, int threads) {
-    if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     std::vector<Block> blocks;
     bool good = true;
     for (const TextTable* table : tables) good = good && append_blocks(*table, blocks);

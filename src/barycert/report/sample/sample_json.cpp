@@ -116,6 +116,8 @@ std::string sample_json(const SampleSummary& summary, const Environment& environ
         j["file"] = summary.points;
     }
     j["output"] = summary.output;
+    if (!summary.weights.empty()) j["weights"] = summary.weights;
+    if (!summary.steps.empty()) j["steps"] = summary.steps;
     j["columns"] = summary.columns;
     j["carried"] = summary.carried;
     j["points"] = summary.counts.locations.points();

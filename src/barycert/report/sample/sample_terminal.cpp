@@ -131,6 +131,9 @@ std::string sample_text(const SampleSummary& summary, bool colour) {
     if (summary.nan_values != 0)
         out += line("NaN", paint.bold(fmt::format("{} at points inside: values of nodes or cells there are not finite",
                                                   plural(summary.nan_values, "value", "values"))));
+    if (const auto& steps = summary.steps; !steps.empty())
+        out += line("steps", fmt::format("{}: {} to {}", steps.size(), base::printable(steps.front()),
+                                         base::printable(steps.back())));
     if (summary.picture) out += line("picture", picture(*summary.picture));
     std::string cells = plural(summary.cells, "cell", "cells") + ", " + plural(summary.nodes, "node", "nodes");
     if (summary.degenerate_cells != 0)

@@ -100,7 +100,7 @@ Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const Sa
     const std::vector<double>& layers = raster.at[layer_axis(grid)];
     const std::size_t layer = static_cast<std::size_t>(grid.point_count()) / layers.size();
     // Many layers, for a cell that lies in two slabs is looked at twice; few enough for 64 MiB or so.
-    const std::size_t room = (std::size_t{1} << 26) / (16 + 8 * data.columns.size());
+    const std::size_t room = (std::size_t{1} << 26) / (16 + 8 * data.width);
 
     Status status = Done{};
     SampleCounts all;

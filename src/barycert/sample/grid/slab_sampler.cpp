@@ -5,6 +5,7 @@
 
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/sample/grid/fill_lanes.hpp"
+#include "barycert/sample/points/row_rest.hpp"
 
 namespace barycert::sample {
 namespace {
@@ -27,7 +28,7 @@ void SlabSampler::run(std::int32_t first, std::int32_t last, const SlabCells& ce
     if (owners_.size() < points_ + more) {
         owners_ = locate::Buffer<Mesh::Index>(points_ + more);
         found_ = locate::Buffer<Feature>(points_ + more);
-        values_ = locate::Buffer<double>((points_ + more) * data_.columns.size());
+        values_ = locate::Buffer<double>((points_ + more) * data_.width);
     }
     std::fill_n(owners_.data(), points_ + more, -1);
     std::fill_n(found_.data(), points_ + more, Feature::outside);
@@ -36,8 +37,8 @@ void SlabSampler::run(std::int32_t first, std::int32_t last, const SlabCells& ce
     counts_ = {};
     sampler_.emplace(data_, options_,
                      BlockRows{owners_.data(), found_.data(), values_.data(), distances ? distances_.data() : nullptr});
-    const bool filled = can_fill(data_, raster_);
-    cells.for_parts(slab, [&](std::span<const locate::Place> some) { filled ? fill(some) : raster(some); });
+    filled_ = can_fill(data_, raster_);
+    cells.for_parts(slab, [&](std::span<const locate::Place> some) { filled_ ? fill(some) : raster(some); });
     finish();
     counts_.add(sampler_->counts());
 }
@@ -46,7 +47,7 @@ FillTarget SlabSampler::target() {
     return {owners_.data(),
             found_.data(),
             values_.data(),
-            data_.columns.size(),
+            data_.width,
             static_cast<std::size_t>(grid_.counts[0]),
             static_cast<std::size_t>(grid_.counts[1]),
             first_,
@@ -142,12 +143,15 @@ void SlabSampler::finish() {
             counts_.locations.add(feature_of(point));
             push(point);
         }
-        for (std::size_t point = first; !data_.cell_fields.empty() && point < last; ++point) {
+        // Points that are pushed get a whole row; where cells fill in values, they are linear.
+        for (std::size_t point = first; filled_ && data_.has_rest() && point < last; ++point) {
             if (owners_[point] >= 0)
-                copy_cell_values(data_, owners_[point], values_.data() + data_.columns.size() * point);
+                set_rest_of_row(data_, options_.rounding, owners_[point], nullptr,
+                                values_.data() + data_.width * point);
         }
     }
     flush();
+    if (data_.hidden != 0) leave_out_hidden(data_, values_.data(), points_, values_.data());
     counts_.locations.add(finished_.locations);
     counts_.locations.add(Feature::outside, finished_.outside);
     counts_.without_value += finished_.outside;

@@ -54,6 +54,7 @@ private:
     const SampleOptions& options_;
     std::int32_t first_ = 0, last_ = 0;
     std::size_t points_ = 0;
+    bool filled_ = false;  ///< cells fill in values
     locate::Buffer<Mesh::Index> owners_;
     locate::Buffer<Feature> found_;
     locate::Buffer<double> values_;

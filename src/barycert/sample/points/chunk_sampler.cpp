@@ -7,6 +7,7 @@
 #include "barycert/core/exact_tier.hpp"
 #include "barycert/quadratic.hpp"
 #include "barycert/sample/points/outside.hpp"
+#include "barycert/sample/points/row_rest.hpp"
 
 namespace barycert::sample {
 
@@ -31,9 +32,11 @@ void ChunkSampler::operator()(const locate::PointRecord* points, std::size_t cou
     }
     if (data_.point_components != 0)
         data_.quadratic ? interpolate_second_order(points, inside) : interpolate_linear(points, inside);
-    for (std::size_t i = 0; !data_.cell_fields.empty() && i < inside; ++i)
-        copy_cell_values(data_, index.original[static_cast<std::size_t>(inside_[i].cell)],
-                         row(points[inside_[i].point]));
+    for (std::size_t i = 0; data_.has_rest() && i < inside; ++i) {
+        const locate::PointRecord& point = points[inside_[i].point];
+        set_rest_of_row(data_, options_.rounding, index.original[static_cast<std::size_t>(inside_[i].cell)],
+                        point.at.data(), row(point));
+    }
 }
 
 void ChunkSampler::interpolate_linear(const locate::PointRecord* points, std::size_t count) {
@@ -96,15 +99,6 @@ void ChunkSampler::interpolate_second_order(const locate::PointRecord* points, s
     }
 }
 
-void copy_cell_values(const SamplerData& data, Mesh::Index cell, double* row) {
-    double* to = row + data.point_components;
-    for (const Field* field : data.cell_fields) {
-        const auto components = static_cast<std::size_t>(field->components);
-        to = std::copy_n(field->data.begin() + static_cast<std::ptrdiff_t>(components * static_cast<std::size_t>(cell)),
-                         components, to);
-    }
-}
-
 void ChunkSampler::outside(const double* point, std::uint32_t number, double* values, double* distance) {
     if (distance == nullptr) return outside(1, number, values);
     if (const auto found = value_outside(data_, options_, point, values, counts_.values)) {
@@ -120,7 +114,7 @@ void ChunkSampler::outside(const double* point, std::uint32_t number, double* va
 void ChunkSampler::outside(std::uint64_t count, std::uint32_t number, double* values) {
     if (options_.outside.kind == Outside::error) refused_ = std::min(refused_.value_or(number), number);
     const bool fill = options_.outside.kind == Outside::fill;
-    std::fill_n(values, data_.columns.size(), fill ? options_.outside.fill : std::numeric_limits<double>::quiet_NaN());
+    std::fill_n(values, data_.width, fill ? options_.outside.fill : std::numeric_limits<double>::quiet_NaN());
     counts_.without_value += count;
 }
 

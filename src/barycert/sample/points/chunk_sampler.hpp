@@ -15,21 +15,18 @@ namespace barycert::sample {
 struct BlockRows {
     Mesh::Index* cells;  ///< nullptr: each row of values has a Location before it instead
     Feature* features;
-    double* values;
+    double* values;          ///< SamplerData::width a row
     double* distances;       ///< nullptr unless the policy gives some
     std::size_t stride = 0;  ///< from row to row of values; 0: rows of nothing else
 };
 static_assert(sizeof(Location) == sizeof(double));
-
-/// The values of the cell fields of a cell into their columns of a row.
-void copy_cell_values(const SamplerData& data, Mesh::Index cell, double* row);
 
 /// Not shared between threads.
 class ChunkSampler {
 public:
     ChunkSampler(const SamplerData& data, const SampleOptions& options, const BlockRows& rows)
         : data_(data), options_(options), rows_(rows) {
-        if (rows_.stride == 0) rows_.stride = data.columns.size();
+        if (rows_.stride == 0) rows_.stride = data.width;
     }
 
     /// Precondition: finite points; owners are places of cells, or -1 outside.

@@ -2,23 +2,36 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 namespace barycert::sample {
 namespace {
 
 constexpr std::string_view of_cells = "cell:", of_points = "point:";
 
-/// True, and the choice made, if there is that field.
-bool choose(const Mesh& mesh, std::string_view name, std::vector<FieldChoice>& chosen) {
+std::string names_of(const std::vector<Field>& fields) {
+    std::string list;
+    for (const Field& f : fields) list += (list.empty() ? "" : ", ") + f.name;
+    return list;
+}
+
+}  // namespace
+
+const Field* field_named(const std::vector<Field>& fields, std::string_view name) {
+    const auto it = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
+    return it == fields.end() ? nullptr : &*it;
+}
+
+bool choose_field(const Mesh& mesh, std::string_view name, FieldChoice& chosen) {
     for (const std::string& full : {std::string(name), std::string(of_points) + std::string(name)}) {
         if (const Field* const field = field_named(mesh.point_fields, full)) {
-            chosen.push_back({field, false});
+            chosen = {field, false};
             return true;
         }
     }
     for (const std::string& full : {std::string(name), std::string(of_cells) + std::string(name)}) {
         if (const Field* const field = field_named(mesh.cell_fields, full)) {
-            chosen.push_back({field, true});
+            chosen = {field, true};
             return true;
         }
     }
@@ -26,14 +39,8 @@ bool choose(const Mesh& mesh, std::string_view name, std::vector<FieldChoice>& c
     if (!cells && !name.starts_with(of_points)) return false;
     name.remove_prefix((cells ? of_cells : of_points).size());
     const Field* const field = field_named(cells ? mesh.cell_fields : mesh.point_fields, name);
-    if (field != nullptr) chosen.push_back({field, cells});
+    if (field != nullptr) chosen = {field, cells};
     return field != nullptr;
-}
-
-std::string names_of(const std::vector<Field>& fields) {
-    std::string list;
-    for (const Field& f : fields) list += (list.empty() ? "" : ", ") + f.name;
-    return list;
 }
 
 Error no_such_field(const Mesh& mesh, const std::string& name) {
@@ -49,37 +56,25 @@ Error no_such_field(const Mesh& mesh, const std::string& name) {
             .remedy = remedy};
 }
 
-/// Calls visit(name) for each of the names between commas, until it returns false.
-template <class Visit>
-bool for_names(std::string_view text, Visit visit) {
-    for (;;) {
-        const std::size_t comma = text.find(',');
-        if (!visit(std::string(text.substr(0, comma)))) return false;
-        if (comma == std::string_view::npos) return true;
-        text.remove_prefix(comma + 1);
-    }
-}
-
-}  // namespace
-
-const Field* field_named(const std::vector<Field>& fields, std::string_view name) {
-    const auto it = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
-    return it == fields.end() ? nullptr : &*it;
-}
-
 Result<std::vector<FieldChoice>> fields_named(const Mesh& mesh, const std::vector<std::string>& names) {
     std::vector<FieldChoice> chosen;
+    const auto choose = [&](const std::string& name) {
+        FieldChoice one;
+        if (!choose_field(mesh, name, one)) return false;
+        chosen.push_back(std::move(one));
+        return true;
+    };
     if (names.empty()) {
         for (const Field& f : mesh.point_fields) chosen.push_back({&f, false});
         for (const Field& f : mesh.cell_fields) chosen.push_back({&f, true});
         return chosen;
     }
     for (const std::string& text : names) {
-        if (choose(mesh, text, chosen)) continue;  // a name may hold commas
+        if (choose(text)) continue;  // a name may hold commas
         std::string missing;
         const bool all = for_names(text, [&](const std::string& name) {
             missing = name;
-            return choose(mesh, name, chosen);
+            return choose(name);
         });
         if (!all) return no_such_field(mesh, missing);
     }

@@ -1,7 +1,9 @@
 /// Fields of a mesh by their names.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "barycert/mesh.hpp"
@@ -12,6 +14,23 @@ namespace barycert::sample {
 
 /// The field of that name; nullptr if there is none.
 const Field* field_named(const std::vector<Field>& fields, std::string_view name);
+
+/// True, and the choice made, if there is a field of that name; point:NAME and cell:NAME say where.
+bool choose_field(const Mesh& mesh, std::string_view name, FieldChoice& chosen);
+
+/// That there is no such field, and which there are.
+Error no_such_field(const Mesh& mesh, const std::string& name);
+
+/// Calls visit(name) for each of the names between commas, until it returns false.
+template <class Visit>
+bool for_names(std::string_view text, Visit visit) {
+    for (;;) {
+        const std::size_t comma = text.find(',');
+        if (!visit(std::string(text.substr(0, comma)))) return false;
+        if (comma == std::string_view::npos) return true;
+        text.remove_prefix(comma + 1);
+    }
+}
 
 /// The fields of these names, those of nodes first, in the order given; all if no name is given. A name may be several,
 /// with commas between them. point:NAME and cell:NAME say which where there are two. The mesh must stay. Returns an

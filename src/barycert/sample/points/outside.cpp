@@ -11,7 +11,8 @@
 #include "barycert/base/strict_math.hpp"
 #include "barycert/locate/near_feature.hpp"
 #include "barycert/quadratic.hpp"
-#include "barycert/sample/points/chunk_sampler.hpp"
+#include "barycert/sample/points/near_piece.hpp"
+#include "barycert/sample/points/row_rest.hpp"
 
 namespace barycert::sample {
 namespace {
@@ -24,38 +25,6 @@ double nodal_value(const SamplerData& data, Mesh::Index node, std::size_t c) {
         c -= components;
     }
     return 0;  // not reached
-}
-
-/// Some nodes of the mesh, in the space of their simplex: a segment lies in 3-space, also that of a triangle in the
-/// plane.
-struct Piece {
-    Simplex simplex;
-    std::vector<Mesh::Index> corners;
-    std::array<double, 12> vertices{};
-
-    Piece(const Mesh& mesh, Simplex s, std::vector<Mesh::Index> nodes) : simplex(s), corners(std::move(nodes)) {
-        const auto d = static_cast<std::size_t>(mesh.dimension), space = static_cast<std::size_t>(space_dimension(s));
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            for (std::size_t k = 0; k < d; ++k)
-                vertices[space * i + k] = mesh.points[d * static_cast<std::size_t>(corners[i]) + k];
-        }
-    }
-};
-
-locate::NearFeature feature_of(const Mesh& mesh, const std::vector<Mesh::Index>& nodes) {
-    locate::NearFeature f{.count = static_cast<int>(nodes.size())};
-    const auto d = static_cast<std::size_t>(mesh.dimension);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        f.nodes[i] = nodes[i];
-        std::copy_n(&mesh.points[d * static_cast<std::size_t>(nodes[i])], d, f.at[i].begin());
-    }
-    return f;
-}
-
-Piece cell_piece(const SamplerData& data, std::size_t cell) {
-    const Mesh& mesh = *data.located().mesh;
-    const auto begin = mesh.cells.begin() + static_cast<std::ptrdiff_t>(mesh.corners() * cell);
-    return {mesh, data.index().simplex, {begin, begin + static_cast<std::ptrdiff_t>(mesh.corners())}};
 }
 
 double linear(const SamplerData& data, Rounding rounding, const Piece& piece, const double* point, std::size_t c,
@@ -108,46 +77,47 @@ void quadratic(const SamplerData& data, Rounding rounding, std::size_t cell, con
             .has_value());
 }
 
-/// The same at the point of the closed cell that has the rounded weights of the projection, but for the largest one,
-/// which is 1 less the others, exactly: these are at most 1/2, and 2/3 together. A value depends on weights alone, so
-/// it is that of the point with these others as coordinates in the cell with the unit vectors as corners, the corner of
-/// the largest weight at the origin.
+/// The same at the point of the cell that has the rounded weights of the projection.
 void quadratic_projected(const SamplerData& data, Rounding rounding, std::size_t cell,
                          const locate::NearFeature& feature, const std::array<double, 3>& weights, double* out,
                          TierCounts& tiers) {
     const Mesh& mesh = *data.located().mesh;
     const std::size_t d = static_cast<std::size_t>(mesh.dimension), corners = d + 1;
     const auto mids = static_cast<std::size_t>(mid_node_count(data.index().simplex));
-    std::vector<Mesh::Index> nodes(&mesh.cells[corners * cell], &mesh.cells[corners * cell] + corners);
-    nodes.insert(nodes.end(), &mesh.mid_nodes[mids * cell], &mesh.mid_nodes[mids * cell] + mids);
-    std::array<double, 4> of_corner{};
-    for (std::size_t i = 0; i < corners; ++i) {
-        for (std::size_t j = 0; j < static_cast<std::size_t>(feature.count); ++j) {
-            if (feature.nodes[j] == nodes[i]) of_corner[i] = weights[j];
-        }
-    }
-    const auto origin =
-        static_cast<std::size_t>(std::max_element(of_corner.begin(), of_corner.end()) - of_corner.begin());
-    std::array<double, 3> at{};
-    std::vector<double> places(d * nodes.size()), values;
-    for (std::size_t i = 0, k = 0; i < corners; ++i) {
-        if (i == origin) continue;
-        places[d * i + k] = 1;
-        at[k++] = of_corner[i];
-    }
-    for (const Mesh::Index node : nodes) {
+    const ReferencePoint reference = reference_point(mesh, cell, feature, weights);
+    std::vector<double> values;
+    for (const Mesh::Index node : second_order_nodes(mesh, cell)) {
         const auto first = data.values.begin() + static_cast<std::ptrdiff_t>(data.point_components) * node;
         values.insert(values.end(), first, first + static_cast<std::ptrdiff_t>(data.point_components));
     }
     std::array<std::int32_t, 10> local{};
     std::iota(local.begin(), local.end(), 0);
     const std::int32_t only = 0;
-    const MeshQueries query{data.index().simplex, places, std::span(local).first(corners), std::span(&only, 1),
-                            std::span(at).first(d)};
+    const MeshQueries query{data.index().simplex, std::span(reference.vertices).first(d * corners),
+                            std::span(local).first(corners), std::span(&only, 1), std::span(reference.at).first(d)};
     const NodalValues<double> nodal{values, static_cast<int>(data.point_components)};
     static_cast<void>(interpolate_quadratic(query, std::span(local).subspan(corners, mids), nodal,
                                             std::span(out, data.point_components), &tiers, rounding)
                           .has_value());
+}
+
+/// The orthogonal projection of a point to what these nodes span, each coordinate correctly rounded.
+std::array<double, 3> rounded_projection(const Mesh& mesh, const std::array<double, 3>& point,
+                                         const std::vector<Mesh::Index>& nodes) {
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    std::array<double, 3> at{};
+    const auto coordinate = [&](std::size_t i, std::size_t k) {
+        return mesh.points[d * static_cast<std::size_t>(nodes[i]) + k];
+    };
+    const Piece piece = feature_piece(mesh, nodes);
+    for (std::size_t k = 0; k < d; ++k) {
+        std::array<double, 3> values{};
+        for (std::size_t i = 0; i < nodes.size(); ++i) values[i] = coordinate(i, k);
+        at[k] = nodes.size() == 1
+                    ? values[0]
+                    : interpolate(piece.simplex, piece.vertices.data(), point.data(), values.data())->value;
+    }
+    return at;
 }
 
 }  // namespace
@@ -164,10 +134,7 @@ std::optional<double> value_outside(const SamplerData& data, const SampleOptions
 
     std::array<double, 3> at{};
     std::copy_n(point, mesh.dimension, at.begin());
-    std::vector<Mesh::Index> nodes;
-    for (const Mesh::Index node : nearest.nodes) {
-        if (node >= 0) nodes.push_back(node);
-    }
+    const std::vector<Mesh::Index> nodes = nodes_of(nearest);
     TierCounts used;
     if (snap && nodes.size() == 1 && data.point_components != 0) {
         bool finite = true;
@@ -181,8 +148,7 @@ std::optional<double> value_outside(const SamplerData& data, const SampleOptions
             tiers.not_finite += finite ? 0 : 1;
         }
     } else if (data.point_components != 0) {
-        const Piece piece = snap ? Piece(mesh, nodes.size() == 3 ? Simplex::triangle3d : Simplex::segment, nodes)
-                                 : cell_piece(data, cell);
+        const Piece piece = snap ? feature_piece(mesh, nodes) : cell_piece(mesh, cell);
         const locate::NearFeature feature = snap ? feature_of(mesh, nodes) : locate::NearFeature{};
         if (data.quadratic && snap) {
             quadratic_projected(data, options.rounding, cell, feature, locate::weights_of(at, feature), values, used);
@@ -199,7 +165,8 @@ std::optional<double> value_outside(const SamplerData& data, const SampleOptions
             tiers.not_finite += used.not_finite != 0 ? 1 : 0;
         }
     }
-    copy_cell_values(data, nearest.cell, values);
+    if (data.quadratic && snap && !data.at_points.empty()) at = rounded_projection(mesh, at, nodes);
+    set_rest_of_row(data, options.rounding, nearest.cell, at.data(), values);
     return nearest.distance;
 }
 

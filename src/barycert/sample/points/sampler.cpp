@@ -1,14 +1,17 @@
 #include <algorithm>
+#include <bit>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"
-#include "barycert/sample/points/field_choice.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
 #include "barycert/sample/points/sorted_rows.hpp"
+#include "barycert/sample/quantity/expression.hpp"
+#include "barycert/sample/quantity/made_fields.hpp"
 #include "barycert/sampler.hpp"
 
 namespace barycert {
@@ -76,6 +79,68 @@ void arrange_by_node(SamplerData& data) {
     });
 }
 
+std::size_t components_of(const Field* field) {
+    return static_cast<std::size_t>(field->components);
+}
+
+/// What is computed for each point, by what is left of the steps of a choice.
+sample::AtPoint at_points(const Mesh& mesh, const FieldChoice& choice) {
+    using Kind = QuantityStep::Kind;
+    sample::AtPoint late{choice.field, 0, components_of(choice.field)};
+    for (const QuantityStep& step : choice.steps) {
+        if (step.kind == Kind::gradient) {
+            late.gradient = true;
+            late.components *= static_cast<std::size_t>(mesh.dimension);
+        }
+        // Of one component none but the first can be asked for again.
+        if (step.kind == Kind::component && late.component < 0) late.component = step.component;
+        if (step.kind == Kind::length) late.length = true;
+    }
+    return late;
+}
+
+/// Makes the fields that are to be made, and tells each number its place in a row.
+Status arrange_columns(const Mesh& mesh, const std::vector<FieldChoice>& fields, SamplerData& data) {
+    std::vector<TableField> of_points, of_cells, late;
+    for (const FieldChoice& asked : fields) {
+        if (Status fits = check_field(mesh, asked); !fits) return fits;
+        const Result<sample::QuantityShape> shape = sample::shape_of(mesh, asked);
+        if (!shape) return shape.error();
+        FieldChoice choice = asked;
+        if (Status made = sample::make_fields(mesh, choice, choice.steps.size(), data.made); !made) return made;
+        const TableField column{asked.name.empty() ? asked.field->name : asked.name,
+                                static_cast<int>(shape->components)};
+        if (shape->at_points) {
+            late.push_back(column);
+            data.at_points.push_back(at_points(mesh, choice));
+        } else {
+            (choice.of_cells ? of_cells : of_points).push_back(column);
+            (choice.of_cells ? data.cell_fields : data.point_fields).push_back(choice.field);
+        }
+    }
+    // Fields that nobody asked for but by their lengths come first, where they can be left out.
+    std::vector<const Field*> hidden;
+    for (const sample::AtPoint& one : data.at_points) {
+        const bool known = std::count(data.point_fields.begin(), data.point_fields.end(), one.field) != 0 ||
+                           std::count(hidden.begin(), hidden.end(), one.field) != 0;
+        if (one.gradient || known) continue;
+        hidden.push_back(one.field);
+        data.hidden += components_of(one.field);
+    }
+    data.point_fields.insert(data.point_fields.begin(), hidden.begin(), hidden.end());
+    for (const Field* field : data.point_fields) {
+        for (sample::AtPoint& one : data.at_points) {
+            if (one.field == field) one.first = data.point_components;
+        }
+        data.point_components += components_of(field);
+    }
+    for (const auto* group : {&of_points, &of_cells, &late})
+        data.fields.insert(data.fields.end(), group->begin(), group->end());
+    data.columns = column_names(data.fields);
+    data.width = data.hidden + data.columns.size();
+    return Done{};
+}
+
 /// What is wrong with the call, before anything is done.
 Status check_call(const SamplerData& data, std::span<const double> points) {
     const std::size_t d = data.index().dimension();
@@ -113,13 +178,20 @@ public:
         refused_[block] = static_cast<std::size_t>(std::find(begin, out.cells.end(), -1) - out.cells.begin());
     }
 
+    /// The same where the sampler knows points by the numbers of their rows in `out`.
+    void set(std::size_t block, const sample::ChunkSampler& sampler) {
+        counts_[block] = sampler.counts();
+        refused_[block] = sampler.refused();
+    }
+
     Status status(std::size_t first_point) const {
+        std::optional<std::size_t> first;
         for (const auto& refused : refused_) {
-            if (refused)
-                return Error{.what = "point " + std::to_string(first_point + *refused) + " is outside the mesh",
-                             .remedy = "choose what points outside get: nan, fill, nearest or extrapolate"};
+            if (refused) first = std::min(first.value_or(*refused), *refused);
         }
-        return Done{};
+        if (!first) return Done{};
+        return Error{.what = "point " + std::to_string(first_point + *first) + " is outside the mesh",
+                     .remedy = "choose what points outside get: nan, fill, nearest or extrapolate"};
     }
     void add_to(SampleCounts& counts) const {
         for (const SampleCounts& part : counts_) counts.add(part);
@@ -129,6 +201,30 @@ private:
     std::vector<SampleCounts> counts_;
     std::vector<std::optional<std::size_t>> refused_;
 };
+
+/// The rows in the order in which the index has their cells, roughly: what is near is then read together.
+std::vector<std::uint32_t> order_by_place(std::span<const Mesh::Index> cells, const std::vector<Place>& places,
+                                          std::size_t cell_count) {
+    std::vector<std::uint32_t> order(cells.size());
+    constexpr int bucket_bits = 12;
+    constexpr std::size_t buckets = std::size_t{1} << bucket_bits;
+    if (cells.size() < buckets) {
+        std::iota(order.begin(), order.end(), 0);
+        return order;
+    }
+    const int shift = std::max(0, static_cast<int>(std::bit_width(cell_count)) - bucket_bits);
+    std::vector<std::uint32_t> next(buckets + 1, 0), bucket(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        // Those outside come first.
+        bucket[i] =
+            cells[i] < 0 ? 0 : 1 + (static_cast<std::uint32_t>(places[static_cast<std::size_t>(cells[i])]) >> shift);
+        ++next[bucket[i]];
+    }
+    std::uint32_t sum = 0;
+    for (std::uint32_t& n : next) sum += std::exchange(n, sum);
+    for (std::size_t i = 0; i < cells.size(); ++i) order[next[bucket[i]]++] = static_cast<std::uint32_t>(i);
+    return order;
+}
 
 }  // namespace
 
@@ -142,20 +238,13 @@ Result<Sampler> Sampler::build(const Locator& locator, const std::vector<FieldCh
     auto data = std::make_unique<SamplerData>();
     data->locator = &locator;
     data->quadratic = !locator.mesh().mid_nodes.empty();
-    for (const FieldChoice& choice : fields) {
-        if (Status status = check_field(locator.mesh(), choice); !status) return status.error();
-        (choice.of_cells ? data->cell_fields : data->point_fields).push_back(choice.field);
-    }
-    for (const Field* field : data->point_fields) data->fields.push_back({field->name, field->components});
-    data->point_components = column_names(data->fields).size();
-    for (const Field* field : data->cell_fields) data->fields.push_back({field->name, field->components});
-    data->columns = column_names(data->fields);
+    if (Status arranged = arrange_columns(locator.mesh(), fields, *data); !arranged) return arranged.error();
     if (data->point_components != 0) data->quadratic ? arrange_by_node(*data) : arrange_by_place(*data);
     return Sampler(std::move(data));
 }
 
 Result<Sampler> Sampler::build(const Mesh& mesh, const std::vector<std::string>& fields, const BuildOptions& options) {
-    Result<std::vector<FieldChoice>> chosen = sample::fields_named(mesh, fields);
+    Result<std::vector<FieldChoice>> chosen = sample::quantities_named(mesh, fields);
     if (!chosen) return chosen.error();
     Result<Locator> locator = Locator::build(mesh, options);
     if (!locator) return locator.error();
@@ -233,26 +322,37 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     }
     resize(*data_, options, count, out);
     const std::vector<locate::Place>& places = data_->located().places();
+    const std::vector<std::uint32_t> order = order_by_place(cells, places, data_->index().cell_count());
+    std::vector<double> whole;  // rows with what is hidden
+    sample::BlockRows rows = rows_from(*data_, 0, out);
+    if (data_->hidden != 0) {
+        whole.resize(data_->width * count);
+        rows.values = whole.data();
+    }
     constexpr std::size_t block = std::size_t{1} << 13;
     Outcome outcome((count + block - 1) / block);
     locate::in_arena(options.threads, [&] {
         tbb::parallel_for(std::size_t{0}, (count + block - 1) / block, [&](std::size_t b) {
             const std::size_t first = b * block, last = std::min(count, first + block);
-            sample::ChunkSampler sampler(*data_, options, rows_from(*data_, first, out));
+            sample::ChunkSampler sampler(*data_, options, rows);
             std::array<locate::PointRecord, locate::chunk_size> records{};
             std::array<locate::Place, locate::chunk_size> owner;
+            std::array<Feature, locate::chunk_size> feature;
             for (std::size_t at = first; at < last; at += locate::chunk_size) {
                 const std::size_t n = std::min(locate::chunk_size, last - at);
                 for (std::size_t i = 0; i < n; ++i) {
-                    for (std::size_t k = 0; k < d; ++k) records[i].at[k] = points[d * (at + i) + k];
-                    records[i].number = static_cast<std::uint32_t>(at + i - first);
-                    owner[i] = cells[at + i] < 0 ? -1 : places[static_cast<std::size_t>(cells[at + i])];
+                    const std::size_t row = order[at + i];
+                    for (std::size_t k = 0; k < d; ++k) records[i].at[k] = points[d * row + k];
+                    records[i].number = static_cast<std::uint32_t>(row);
+                    owner[i] = cells[row] < 0 ? -1 : places[static_cast<std::size_t>(cells[row])];
+                    feature[i] = features[row];
                 }
-                sampler(records.data(), n, owner.data(), features.data() + at);
+                sampler(records.data(), n, owner.data(), feature.data());
             }
-            outcome.set(b, first, sampler, out);
+            outcome.set(b, sampler);
         });
     });
+    if (data_->hidden != 0) sample::leave_out_hidden(*data_, whole.data(), count, out.values.data());
     if (Status status = outcome.status(first_point); !status) return status;
     outcome.add_to(out.counts);
     for (const Feature feature : features) out.counts.locations.add(feature);

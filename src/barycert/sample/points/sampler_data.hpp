@@ -1,6 +1,7 @@
 /// All that a Sampler keeps.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,13 +19,27 @@ struct PackedRows {
     std::vector<double> distances;
 };
 
+/// What no field has, computed for each point.
+struct AtPoint {
+    const Field* field = nullptr;  ///< of nodes
+    std::size_t first = 0;         ///< its components in a row; of a gradient, none
+    std::size_t components = 1;    ///< of the field, or of its gradient
+    bool gradient = false;         ///< on cells of second order
+    int component = -1;            ///< that one alone, unless -1
+    bool length = false;           ///< of what is left
+};
+
 struct SamplerData {
     std::unique_ptr<const Locator> own_locator;  ///< unless it is somebody else's
     const Locator* locator = nullptr;
-    std::vector<const Field*> point_fields, cell_fields;  ///< columns are those of the former, then of the latter
+    std::deque<Field> made;  ///< of others
+    /// Numbers of a row, `width` in all: components of point fields, of which the first `hidden` are no columns, then
+    /// those of cell fields, then what is computed for each point.
+    std::vector<const Field*> point_fields, cell_fields;
+    std::vector<AtPoint> at_points;
     std::vector<TableField> fields;
     std::vector<std::string> columns;
-    std::size_t point_components = 0;
+    std::size_t point_components = 0, hidden = 0, width = 0;
     bool quadratic = false;
 
     // Linear cells: values of point fields in the order of the locator's nodes.
@@ -40,11 +55,22 @@ struct SamplerData {
     NodeValues node_values() const {
         return {nodes.data(), more.data(), index().original_node.size(), point_components};
     }
+    /// Whether rows have more than the values of point fields.
+    bool has_rest() const { return !cell_fields.empty() || !at_points.empty(); }
     /// Component c of the point fields at a node, by place.
     double value_at(std::size_t node, std::size_t c) const {
         if (c == 0) return nodes[node].value;
         return more[(c - 1) / 4 * index().original_node.size() + node].value[(c - 1) % 4];
     }
 };
+
+/// Copies the columns of `count` rows that are `width` numbers each; `to` may be where they begin.
+inline void leave_out_hidden(const SamplerData& data, const double* rows, std::size_t count, double* to) {
+    const std::size_t columns = data.columns.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const double* const from = rows + data.width * i + data.hidden;
+        for (std::size_t c = 0; c < columns; ++c) to[columns * i + c] = from[c];
+    }
+}
 
 }  // namespace barycert::sample

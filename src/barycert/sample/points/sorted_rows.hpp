@@ -46,32 +46,34 @@ public:
         if (left_out != 0) set_outside(last, left_out, out);
         sorted.for_each_in_callers_order([&](std::size_t place) { __builtin_prefetch(values(place) - 1); },
                                          [&](std::size_t i, std::size_t place) {
-                                             const double* const from = values(place);
-                                             const auto location = std::bit_cast<Location>(from[-1]);
+                                             const double* const from = values(place) + data_.hidden;
+                                             const auto location = std::bit_cast<Location>(values(place)[-1]);
                                              out.cells[first + i] = location.cell;
                                              out.features[first + i] = location.feature;
                                              for (std::size_t c = 0; c < columns_; ++c)
                                                  out.values[columns_ * (first + i) + c] = from[c];
                                          });
         if (out.distances.empty()) return;
-        sorted.for_each_in_callers_order([](std::size_t) {},
-                                         [&](std::size_t i, std::size_t place) {
-                                             double* const to = &out.distances[first + i];
-                                             *to = rows_->distances[place];
-                                             if (place == last)
-                                                 sampler_->outside(sorted.point(i), static_cast<std::uint32_t>(last),
-                                                                   out.values.data() + columns_ * (first + i), to);
-                                         });
+        sorted.for_each_in_callers_order(
+            [](std::size_t) {},
+            [&](std::size_t i, std::size_t place) {
+                double* const to = &out.distances[first + i];
+                *to = rows_->distances[place];
+                if (place != last) return;
+                // The row of all points left out serves for one after the other.
+                sampler_->outside(sorted.point(i), static_cast<std::uint32_t>(last), values(last), to);
+                std::copy_n(values(last) + data_.hidden, columns_, out.values.data() + columns_ * (first + i));
+            });
     }
 
 private:
-    std::size_t stride() const { return columns_ + 1; }
+    std::size_t stride() const { return data_.width + 1; }
     double* values(std::size_t row) const { return rows_->numbers.data() + stride() * row + 1; }
 
     void set_outside(std::size_t row, std::size_t count, const Table& out) {
         const Location outside;
         std::memcpy(values(row) - 1, &outside, sizeof outside);
-        std::fill_n(values(row), columns_, 0);
+        std::fill_n(values(row), data_.width, 0);
         if (out.distances.empty()) sampler_->outside(count, static_cast<std::uint32_t>(row), values(row));
     }
 

@@ -1,0 +1,301 @@
+#include "barycert/io/gmsh/msh_cells.hpp"
+
+#include <atomic>
+#include <string>
+
+#include "barycert/base/large_pages.hpp"
+#include "barycert/io/other_formats.hpp"
+
+namespace barycert::io {
+namespace {
+
+/// What makes all cells second-order ones.
+std::string order_remedy(const MshFile& file) {
+    return "make them cells of order 2 (or 1): `echo 'SetOrder 2;' > order2.geo`, then " +
+           gmsh_command(file.path(), " order2.geo");
+}
+
+Error no_cells(const MshFile& file, std::string what, std::string expected, std::string found, std::string remedy) {
+    return {.what = std::move(what),
+            .file = file.path(),
+            .expected = std::move(expected),
+            .found = std::move(found),
+            .remedy = std::move(remedy)};
+}
+
+/// The type of the cells.
+Result<const ElementType*> choose(const MshFile& file, const TypeCounts& counts) {
+    int dimension = 0, max_order = 0;
+    bool simplices = true;
+    const ElementType* chosen = nullptr;
+    std::size_t kinds = 0;
+    for (const ElementType& type : element_types()) {
+        if (counts[static_cast<std::size_t>(type.number)] == 0 || type.dimension() < dimension) continue;
+        if (type.dimension() > dimension) {
+            dimension = type.dimension();
+            max_order = 0;
+            kinds = 0;
+            simplices = true;
+        }
+        ++kinds;
+        chosen = &type;
+        max_order = std::max(max_order, type.order);
+        simplices = simplices && (type.family == ElementFamily::tetrahedron || type.family == ElementFamily::triangle);
+    }
+    const std::string found = counted_types(counts, dimension, dimension);
+    if (dimension < 2) {
+        return no_cells(file, "the file contains no mesh", "tetrahedra, or triangles in the plane z = 0",
+                        found.empty() ? "no elements" : found,
+                        "mesh the geometry with `gmsh -3 IN.geo -o OUT.msh` (-2 for triangles); if there are physical "
+                        "groups, Gmsh saves these alone: give the volume one, or add -save_all");
+    }
+    const char* const expected = dimension == 3 ? "tetrahedra of order 1 or 2" : "triangles of order 1 or 2";
+    if (!simplices) {
+        return no_cells(file, dimension == 3 ? "cells that are no tetrahedra" : "cells that are no triangles", expected,
+                        found,
+                        "cut them into simplices, in ParaView with the filter Tetrahedralize, or with `python3 -c "
+                        "\"import pyvista; pyvista.read('" +
+                            file.path() + "').triangulate().save('OUT.vtu')\"`");
+    }
+    if (max_order > 2) {
+        return no_cells(file, "cells of a higher order", expected, found, order_remedy(file));
+    }
+    if (kinds > 1) {
+        return no_cells(file, "cells of both orders in one mesh", "cells of one order", found, order_remedy(file));
+    }
+    return chosen;
+}
+
+/// Takes the tags of nodes and gives their positions.
+template <class Row>
+bool take_node(Row& row, const TagIndex& nodes, Mesh::Index& node) {
+    std::int64_t tag = 0;
+    if (!row.tag(tag, "the tag of a node")) return false;
+    node = nodes.find(tag);
+    if (node >= 0) return true;
+    return row.refuse({.what = "an unknown node",
+                       .expected = "the tag of a node of $Nodes",
+                       .remedy = "check that the file is complete",
+                       .has_number = true,
+                       .number = tag});
+}
+
+/// What stands before the nodes of an element.
+struct Head {
+    std::int64_t tag = 0, physical = 0, entity = 0;
+    bool more = false;
+};
+
+template <class Row>
+bool take_head(Row& row, int version, const ElementBlock& block, Head& head) {
+    if (!row.tag(head.tag, "the tag of an element")) return false;
+    if (version == 41 && head.tag < 0) {
+        return row.refuse({.what = "bad tag of an element",
+                           .expected = "a number that is not negative",
+                           .has_number = true,
+                           .number = head.tag});
+    }
+    if (version != 22) return true;
+    std::int64_t tags = static_cast<std::int64_t>(block.tags);
+    if constexpr (Row::text) {
+        std::int64_t type = 0;
+        if (!row.integer(type, "the type of an element") || !row.integer(tags, "the number of tags")) return false;
+    }
+    if (tags < 0) {
+        return row.refuse(
+            {.what = "bad number", .expected = "the number of tags of an element", .has_number = true, .number = tags});
+    }
+    head.more = tags > 2;
+    for (std::int64_t k = 0; k < tags; ++k) {
+        std::int64_t value = 0;
+        if (!row.integer(value, "a tag of an element")) return false;
+        if (k == 0) head.physical = value;
+        if (k == 1) head.entity = value;
+    }
+    return true;
+}
+
+/// Where what is read goes.
+struct Target {
+    const MshFile& file;
+    const MshElements& elements;
+    const TagIndex& nodes;
+    MshCells& cells;
+    std::size_t mids;
+};
+
+template <std::size_t Corners>
+Status read_chosen(const Target& to, std::span<const Run> runs) {
+    const int version = to.file.version();
+    std::int64_t* const tags = to.cells.tags.data();
+    Mesh::Index* const corners = to.cells.corners.data();
+    Mesh::Index* const mid_nodes = to.cells.mid_nodes.data();
+    double* const physical = to.cells.physical.data();
+    double* const geometrical = to.cells.geometrical.data();
+    std::atomic<bool> more{false};
+    const Status status =
+        parse_runs(to.file, "Elements", runs, [&, mids = to.mids](auto& row, const Run& run, std::size_t i) {
+            const char* const start = row.at();
+            std::array<std::uint32_t, Corners + 1> plain{};
+            if (version != 22 && mids == 0 && row.plain(plain)) {
+                tags[i] = plain[0];
+                bool good = true;
+                for (std::size_t k = 0; k < Corners; ++k) {
+                    good &= (corners[i * Corners + k] = to.nodes.find(plain[k + 1])) >= 0;
+                }
+                if (good) return true;
+                row.back(start);
+            }
+            std::array<std::uint32_t, Corners + 5> plain2{};
+            if (version == 22 && mids == 0 && row.plain(plain2)) {
+                bool good = plain2[2] == 2;
+                tags[i] = plain2[0];
+                physical[i] = plain2[3];
+                geometrical[i] = plain2[4];
+                for (std::size_t k = 0; k < Corners && good; ++k) {
+                    good = (corners[i * Corners + k] = to.nodes.find(plain2[k + 5])) >= 0;
+                }
+                if (good) return true;
+                row.back(start);
+            }
+            Head head;
+            if (!take_head(row, version, to.elements.blocks[run.id], head)) return false;
+            tags[i] = head.tag;
+            if (version == 22) {
+                physical[i] = static_cast<double>(head.physical);
+                geometrical[i] = static_cast<double>(head.entity);
+                if (head.more) more = true;
+            }
+            for (std::size_t k = 0; k < Corners; ++k) {
+                if (!take_node(row, to.nodes, corners[i * Corners + k])) return false;
+            }
+            for (std::size_t k = 0; k < mids; ++k) {
+                if (!take_node(row, to.nodes, mid_nodes[i * mids + k])) return false;
+            }
+            return row.end();
+        });
+    to.cells.partitioned = more;
+    return status;
+}
+
+/// In 2.x Gmsh writes an element of several groups once for each, one after the other. All but the first go.
+void drop_repeats(MshCells& cells, std::size_t corners, std::size_t mids) {
+    const std::size_t count = cells.tags.size();
+    const auto same_nodes = [&](std::size_t i) {
+        const Mesh::Index* const c = &cells.corners[i * corners];
+        return std::equal(c, c + corners, c - corners);
+    };
+    const auto repeats = [&](std::size_t i) {
+        return same_nodes(i) && cells.geometrical[i] == cells.geometrical[i - 1] &&
+               cells.physical[i] != cells.physical[i - 1];
+    };
+    std::size_t first = 1;
+    while (first < count && !repeats(first)) ++first;
+    if (first >= count) return;
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i == 0 || !repeats(i)) kept.push_back(i);
+    }
+    const bool numbered = !cells.numbers.empty();
+    if (!numbered) cells.numbers.resize(kept.size());
+    for (std::size_t to = 0; to < kept.size(); ++to) {
+        const std::size_t from = kept[to];
+        std::copy_n(&cells.corners[from * corners], corners, &cells.corners[to * corners]);
+        if (mids != 0) std::copy_n(&cells.mid_nodes[from * mids], mids, &cells.mid_nodes[to * mids]);
+        cells.tags[to] = cells.tags[from];
+        cells.physical[to] = cells.physical[from];
+        cells.geometrical[to] = cells.geometrical[from];
+        cells.numbers[to] = numbered ? cells.numbers[from] : static_cast<Mesh::Index>(from);
+    }
+    cells.repeated = count - kept.size();
+    cells.corners.resize(kept.size() * corners);
+    cells.mid_nodes.resize(kept.size() * mids);
+    for (std::vector<double>* values : {&cells.physical, &cells.geometrical}) values->resize(kept.size());
+    cells.tags.resize(kept.size());
+    cells.numbers.resize(kept.size());
+}
+
+/// Marks the nodes of cells; counts the others.
+std::vector<std::uint8_t> mark_nodes(const MshFile& file, MshCells& cells, std::size_t node_count) {
+    std::vector<std::uint8_t> used(node_count);
+    constexpr std::size_t step = std::size_t{1} << 16;
+    for (const std::vector<Mesh::Index>* nodes : {&cells.corners, &cells.mid_nodes}) {
+        base::share_work(file.threads(), (nodes->size() + step - 1) / step, [&](std::size_t part) {
+            const std::size_t last = std::min(nodes->size(), (part + 1) * step);
+            for (std::size_t i = part * step; i < last; ++i) {
+                const std::atomic_ref<std::uint8_t> mark(used[static_cast<std::size_t>((*nodes)[i])]);
+                mark.store(1, std::memory_order_relaxed);
+            }
+            return true;
+        });
+    }
+    cells.unused_nodes = static_cast<std::size_t>(std::count(used.begin(), used.end(), 0));
+    return used;
+}
+
+/// Elements of a lower dimension: their nodes must be there, too.
+Status look_at_others(const Target& to, std::span<const Run> runs, const std::vector<std::uint8_t>& used) {
+    std::atomic<bool> apart{false};
+    const int version = to.file.version();
+    const Status status = parse_runs(to.file, "Elements", runs, [&](auto& row, const Run& run, std::size_t) {
+        const ElementBlock& block = to.elements.blocks[run.id];
+        Head head;
+        if (!take_head(row, version, block, head)) return false;
+        for (std::size_t k = 0; k < block.type->nodes; ++k) {
+            Mesh::Index node = 0;
+            if (!take_node(row, to.nodes, node)) return false;
+            if (used[static_cast<std::size_t>(node)] == 0) apart = true;
+        }
+        return row.end();
+    });
+    to.cells.apart = apart;
+    return status;
+}
+
+}  // namespace
+
+Result<MshCells> read_msh_cells(const MshFile& file, const MshElements& elements, const TagIndex& nodes,
+                                std::size_t node_count) {
+    const Result<const ElementType*> chosen = choose(file, elements.counts);
+    if (!chosen) return chosen.error();
+    const ElementType& type = **chosen;
+    MshCells cells;
+    cells.dimension = type.dimension();
+    std::vector<Run> runs, others;
+    std::size_t count = 0;
+    for (std::size_t b = 0; b < elements.blocks.size(); ++b) {
+        Run run = elements.blocks[b].run;
+        run.id = b;
+        const bool taken = elements.blocks[b].type == &type;
+        run.first = taken ? count : elements.blocks[b].first;
+        if (taken) count += run.count;
+        (taken ? runs : others).push_back(run);
+    }
+    const auto corners = static_cast<std::size_t>(cells.dimension) + 1;
+    const Target target{file, elements, nodes, cells, type.nodes - corners};
+    base::resize_large(cells.corners, count * corners);
+    base::resize_large(cells.mid_nodes, count * target.mids);
+    base::resize_large(cells.tags, count);
+    if (file.version() == 22) {
+        base::resize_large(cells.geometrical, count);
+        base::resize_large(cells.physical, count);
+    }
+
+    Status status = corners == 4 ? read_chosen<4>(target, runs) : read_chosen<3>(target, runs);
+    if (!status) return status.error();
+    if (count != elements.count) {
+        cells.numbers.reserve(count);
+        for (const Run& run : runs) {
+            for (std::size_t i = 0; i < run.count; ++i)
+                cells.numbers.push_back(static_cast<Mesh::Index>(elements.blocks[run.id].first + i));
+        }
+    }
+    if (file.version() == 22) drop_repeats(cells, corners, target.mids);
+    const std::vector<std::uint8_t> used = mark_nodes(file, cells, node_count);
+    cells.left_out = elements.counts;
+    cells.left_out[static_cast<std::size_t>(type.number)] = 0;
+    if (status = look_at_others(target, others, used); !status) return status.error();
+    return cells;
+}
+
+}  // namespace barycert::io

@@ -1,0 +1,74 @@
+/// A .msh file in memory: its format, and where its sections are.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "barycert/base/mapped_file.hpp"
+#include "barycert/io/gmsh/line_index.hpp"
+#include "barycert/result.hpp"
+
+namespace barycert::io {
+
+/// $Name, a line end, the body, $EndName.
+struct MshSection {
+    std::string_view name;
+    std::string_view body;
+};
+
+/// How numbers stand in the file. Gmsh takes any white space between them, and so does `free`, which reads them one
+/// after the other. `lines` expects what all programs write, one row a line: then rows can be found without reading
+/// those before them, and read on all threads. What fails as `lines` is read again as `free`, which knows the first
+/// error; so results and errors depend neither on the layout nor on the threads.
+enum class MshLayout : std::uint8_t { lines, free, binary };
+
+class MshFile {
+public:
+    /// Error: it cannot be read, is of another format or version, or a section has no end.
+    static Result<MshFile> open(const std::string& path, int threads);
+
+    const std::string& path() const { return path_; }
+    int version() const { return version_; }  ///< 22 (all of 2.x), 40 or 41
+    MshLayout layout() const { return layout_; }
+    void set_free_layout() { layout_ = MshLayout::free; }
+    bool swapped() const { return swapped_; }  ///< binary, of the other byte order
+    int threads() const { return threads_; }
+    const LineIndex& lines() const { return lines_; }
+    const base::MappedFile& data() const { return data_; }
+
+    const std::vector<MshSection>& sections() const { return sections_; }
+    /// The only section of that name; nullptr if there is none.
+    const MshSection* find(std::string_view name) const;
+
+    /// An Error about the place `at`, with its line where the file is text.
+    Error error_at(const char* at, std::string what, std::string expected, std::string found,
+                   std::string remedy = {}) const;
+
+private:
+    Status read_format();
+    Status list_text_sections();
+    Status list_binary_sections();
+    Status check_sections() const;
+    /// The section that begins at `at` and whose end, if it has one, is `end`.
+    Status add_section(const char* at, const char* end);
+
+    std::string path_;
+    base::MappedFile data_;
+    int version_ = 41, threads_ = 0;
+    MshLayout layout_ = MshLayout::lines;
+    bool swapped_ = false;
+    LineIndex lines_;
+    const char* after_format_ = nullptr;
+    std::vector<MshSection> sections_;
+};
+
+/// The next line from `at`, without its end (LF or CR LF); moves `at` to the line after it, at most to `end`.
+std::string_view take_line(const char*& at, const char* end);
+
+/// The word of a line at `at`, in quotes, for messages.
+std::string word_at(const char* at, const char* end);
+
+}  // namespace barycert::io

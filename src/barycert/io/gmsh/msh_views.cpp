@@ -1,0 +1,187 @@
+#include "barycert/io/gmsh/msh_views.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "barycert/base/text.hpp"
+
+namespace barycert::io {
+namespace {
+
+/// The rows of one section.
+struct ViewRows {
+    std::vector<std::int64_t> tags;
+    std::vector<double> values;
+};
+
+Result<ViewRows> read_rows(const MshFile& file, const MshView& view) {
+    ViewRows rows;
+    const auto components = static_cast<std::size_t>(view.components);
+    rows.tags.resize(view.rows.count);
+    rows.values.resize(view.rows.count * components);
+    const std::string section(view.section->name);
+    const Status status = parse_runs(file, section.c_str(), std::span(&view.rows, 1),
+                                     [&, components](auto& row, const Run&, std::size_t i) {
+                                         if (!row.integer(rows.tags[i], "a tag")) return false;
+                                         for (std::size_t c = 0; c < components; ++c) {
+                                             if (!row.value(rows.values[i * components + c], "a number")) return false;
+                                         }
+                                         return row.end();
+                                     });
+    if (!status) return status.error();
+    return rows;
+}
+
+std::string step_text(const MshView& view) {
+    return "step " + std::to_string(view.step) + " (time " + base::shortest(view.time) + ")";
+}
+
+/// Makes one field out of the sections of one name and step.
+class FieldMaker {
+public:
+    FieldMaker(const MshFile& file, const ViewTargets& targets, const MshView& first, Notes& notes)
+        : file_(file), targets_(targets), first_(first), notes_(notes) {
+        field_.name = first.name;
+        field_.components = first.components;
+        if (field_.name.empty()) {
+            field_.name = first.section->name;
+            note(Note::Kind::guessed, "the name of a view without one: " + field_.name, false);
+        }
+    }
+
+    Status add(const MshView& view) {
+        if (view.components != first_.components) return skip(view, "has another number of components");
+        Result<ViewRows> rows = read_rows(file_, view);
+        if (!rows) return rows.error();
+        std::vector<Mesh::Index> to(rows->tags.size());
+        bool all = placed_ == 0 && to.size() == targets_.count;
+        for (std::size_t i = 0; i < to.size(); ++i) {
+            to[i] = targets_.index.find(rows->tags[i]);
+            all = all && to[i] == static_cast<Mesh::Index>(i);
+        }
+        if (all) {
+            field_.data = std::move(rows->values);
+            placed_ = targets_.count;
+            return Done{};
+        }
+        return place(view, *rows, to);
+    }
+
+    void finish(std::vector<Field>& fields) {
+        const std::string name = base::quoted(field_.name);
+        if (lost_ != 0) {
+            note(Note::Kind::left_out, std::to_string(lost_) + " values of " + name + ", of what is no " + targets_.one,
+                 placed_ == 0);
+        }
+        if (lost_ == 0 && placed_ == 0) note(Note::Kind::left_out, "view " + name + ", which has no values", false);
+        if (placed_ == 0) return;
+        if (placed_ != targets_.count) {
+            note(Note::Kind::guessed,
+                 "NaN for the values of " + name + " at " + std::to_string(targets_.count - placed_) + " of " +
+                     std::to_string(targets_.count) + " " + targets_.many + ", which have none",
+                 true);
+        }
+        fields.push_back(std::move(field_));
+    }
+
+private:
+    void note(Note::Kind kind, std::string text, bool important) {
+        notes_.push_back({kind, std::move(text), file_.path(), important});
+    }
+    Status skip(const MshView& view, const char* why) {
+        note(Note::Kind::left_out,
+             "a second section " + base::quoted(view.name) + " of " + step_text(view) + ": it " + why, true);
+        return Done{};
+    }
+
+    Status place(const MshView& view, const ViewRows& rows, const std::vector<Mesh::Index>& to) {
+        const auto components = static_cast<std::size_t>(field_.components);
+        if (has_.empty()) {
+            has_.assign(targets_.count, placed_ == targets_.count ? 1 : 0);
+            if (field_.data.empty())
+                field_.data.assign(targets_.count * components, std::numeric_limits<double>::quiet_NaN());
+        }
+        for (const Mesh::Index i : to) {
+            if (i >= 0 && has_[static_cast<std::size_t>(i)] == 1) return skip(view, "has values for the same tags");
+        }
+        for (std::size_t row = 0; row < to.size(); ++row) {
+            if (to[row] < 0) {
+                ++lost_;
+                continue;
+            }
+            const auto i = static_cast<std::size_t>(to[row]);
+            if (has_[i] == 2) {
+                return file_.error_at(view.section->name.data(),
+                                      "two values of " + base::quoted(view.name) + " for one " + targets_.one,
+                                      "each tag once in a section", "tag " + std::to_string(rows.tags[row]) + " again");
+            }
+            has_[i] = 2;
+            ++placed_;
+            std::copy_n(&rows.values[row * components], components, &field_.data[i * components]);
+        }
+        std::replace(has_.begin(), has_.end(), std::uint8_t{2}, std::uint8_t{1});
+        return Done{};
+    }
+
+    const MshFile& file_;
+    const ViewTargets& targets_;
+    const MshView& first_;
+    Notes& notes_;
+    Field field_;
+    std::vector<std::uint8_t> has_;  ///< 1: a value of a section before, 2: of this one
+    std::size_t placed_ = 0, lost_ = 0;
+};
+
+/// The step to be read of the views of one name; nothing if it is not among them.
+std::optional<std::int64_t> choose_step(const std::vector<const MshView*>& views, std::optional<std::int64_t> wanted,
+                                        const std::string& path, Notes& notes) {
+    std::set<std::int64_t> steps;
+    for (const MshView* view : views) steps.insert(view->step);
+    if (steps.size() == 1) return *steps.begin();
+    const std::string has = base::quoted(views.front()->name) + " has " + std::to_string(steps.size()) + " steps, " +
+                            std::to_string(*steps.begin()) + " to " + std::to_string(*steps.rbegin());
+    if (!wanted) {
+        const auto* const first = *std::find_if(views.begin(), views.end(),
+                                                [&](const MshView* view) { return view->step == *steps.begin(); });
+        notes.push_back({Note::Kind::left_out, has + ": all but " + step_text(*first) + ", which is read", path, true});
+        return *steps.begin();
+    }
+    if (steps.count(*wanted) != 0) return wanted;
+    notes.push_back({Note::Kind::left_out, has + ": none of them is " + std::to_string(*wanted), path, true});
+    return std::nullopt;
+}
+
+}  // namespace
+
+Status read_msh_fields(const MshFile& file, const std::vector<MshView>& views, MshView::Of of,
+                       const ViewTargets& targets, std::optional<std::int64_t> step, std::vector<Field>& fields,
+                       Notes& notes) {
+    std::vector<std::vector<const MshView*>> by_name;
+    std::map<std::string, std::size_t> position;
+    for (const MshView& view : views) {
+        if (view.of != of) continue;
+        const auto [it, added] = position.emplace(view.name, by_name.size());
+        if (added) by_name.emplace_back();
+        by_name[it->second].push_back(&view);
+        if (view.interpolated) {
+            notes.push_back(
+                {Note::Kind::left_out, "the interpolation scheme of " + base::quoted(view.name), file.path(), true});
+        }
+    }
+    for (const std::vector<const MshView*>& same : by_name) {
+        const std::optional<std::int64_t> chosen = choose_step(same, step, file.path(), notes);
+        if (!chosen) continue;
+        std::optional<FieldMaker> maker;
+        for (const MshView* view : same) {
+            if (view->step != *chosen) continue;
+            if (!maker) maker.emplace(file, targets, *view, notes);
+            if (Status s = maker->add(*view); !s) return s;
+        }
+        maker->finish(fields);
+    }
+    return Done{};
+}
+
+}  // namespace barycert::io

@@ -1,0 +1,257 @@
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+#include <span>
+
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/gmsh.hpp"
+#include "barycert/io/gmsh/cell_groups.hpp"
+#include "barycert/io/gmsh/msh_output.hpp"
+#include "barycert/mesh/consistency.hpp"
+#include "barycert/mesh/mid_edges.hpp"
+
+namespace barycert {
+namespace io {
+namespace {
+
+/// What is wrong with the names of fields; nothing if they can be written.
+Status check_names(const Mesh& mesh, const CellGroups& groups, const std::string& path) {
+    const auto check = [&](std::set<std::string>& names, const std::string& name) -> Status {
+        const bool fits = !name.empty() && name.find_first_of("\"\r\n") == std::string::npos;
+        if (fits && names.insert(name).second) return Done{};
+        return Error{.what = "a name of a field that cannot be written",
+                     .file = path,
+                     .expected = "names that differ, without quotes and line breaks",
+                     .found = name.empty() ? "no name" : base::quoted(name) + (fits ? " twice" : ""),
+                     .remedy = "rename the field"};
+    };
+    std::set<std::string> of_nodes, of_cells;
+    if (!mesh.point_markers.empty()) of_nodes.insert("marker");
+    for (const Field& field : mesh.point_fields) {
+        if (Status s = check(of_nodes, field.name); !s) return s;
+    }
+    for (const Field* field : groups.data) {
+        if (Status s = check(of_cells, field->name); !s) return s;
+    }
+    return Done{};
+}
+
+class GmshWriter {
+public:
+    GmshWriter(const Mesh& mesh, const CellGroups& groups, const std::string& path, const GmshWriteOptions& options)
+        : mesh_(mesh),
+          groups_(groups),
+          out_(path, options.binary),
+          new_(options.version == GmshWriteOptions::Version::v41) {}
+
+    Status write() {
+        const auto dimension = static_cast<std::size_t>(mesh_.dimension);
+        write_format();
+        write_names();
+        if (new_) write_entities();
+        out_.text("$Nodes\n");
+        new_ ? write_nodes_41(dimension) : write_nodes_22(dimension);
+        out_.end_section("Nodes");
+        out_.text("$Elements\n");
+        new_ ? write_elements_41() : write_elements_22();
+        out_.end_section("Elements");
+        for (const Field& field : mesh_.point_fields)
+            write_data("NodeData", field.name, field.components, field.data, {});
+        if (!mesh_.point_markers.empty()) write_data("NodeData", "marker", 1, mesh_.point_markers, {});
+        for (const Field* field : groups_.data)
+            write_data("ElementData", field->name, field->components, field->data, groups_.tags);
+        return out_.commit();
+    }
+
+private:
+    void line(std::uint64_t number) { out_.text(std::to_string(number) + "\n"); }
+
+    void write_format() {
+        out_.text(std::string("$MeshFormat\n") + (new_ ? "4.1 " : "2.2 ") + (out_.binary() ? "1" : "0") + " 8\n");
+        if (out_.binary()) out_.integer(1);
+        out_.end_section("MeshFormat");
+    }
+
+    void write_names() {
+        if (groups_.names.empty()) return;
+        out_.text("$PhysicalNames\n");
+        line(groups_.names.size());
+        for (const auto& [tag, name] : groups_.names)
+            out_.text(std::to_string(mesh_.dimension) + " " + std::to_string(tag) + " \"" + name + "\"\n");
+        out_.text("$EndPhysicalNames\n");
+    }
+
+    /// The entities of the cells, each with the box of its nodes.
+    void write_entities() {
+        struct Box {
+            std::array<double, 3> low{}, high{};
+            bool empty = true;
+        };
+        std::map<std::int32_t, Box> boxes;
+        const auto size = static_cast<std::size_t>(mesh_.dimension);
+        for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
+            Box& box = boxes[groups_.entity_of(cell)];
+            for (std::size_t k = 0; k < mesh_.corners(); ++k) {
+                const auto node = static_cast<std::size_t>(mesh_.cells[cell * mesh_.corners() + k]);
+                for (std::size_t axis = 0; axis < size; ++axis) {
+                    const double x = mesh_.points[node * size + axis];
+                    box.low[axis] = box.empty ? x : std::min(box.low[axis], x);
+                    box.high[axis] = box.empty ? x : std::max(box.high[axis], x);
+                }
+                box.empty = false;
+            }
+        }
+        out_.text("$Entities\n");
+        for (int d = 0; d < 4; ++d) out_.size(d == mesh_.dimension ? groups_.physical_of.size() : 0);
+        out_.end_row();
+        for (const auto& [entity, physical] : groups_.physical_of) {
+            out_.integer(entity);
+            for (const double x : boxes[entity].low) out_.real(x);
+            for (const double x : boxes[entity].high) out_.real(x);
+            out_.size(physical != 0 ? 1 : 0);
+            if (physical != 0) out_.integer(physical);
+            out_.size(0);
+            out_.end_row();
+        }
+        out_.end_section("Entities");
+    }
+
+    void write_point(std::size_t node, std::size_t dimension) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            out_.real(axis < dimension ? mesh_.points[node * dimension + axis] : 0);
+        out_.end_row();
+    }
+
+    void write_nodes_41(std::size_t dimension) {
+        const std::size_t count = mesh_.point_count();
+        for (const std::uint64_t number :
+             {std::uint64_t{1}, std::uint64_t{count}, std::uint64_t{1}, std::uint64_t{count}})
+            out_.size(number);
+        out_.end_row();
+        out_.integer(mesh_.dimension);
+        out_.integer(groups_.physical_of.begin()->first);
+        out_.integer(0);
+        out_.size(count);
+        out_.end_row();
+        for (std::size_t node = 0; node < count; ++node) {
+            out_.size(node + 1);
+            out_.end_row();
+        }
+        for (std::size_t node = 0; node < count; ++node) write_point(node, dimension);
+    }
+
+    void write_nodes_22(std::size_t dimension) {
+        line(mesh_.point_count());
+        for (std::size_t node = 0; node < mesh_.point_count(); ++node) {
+            out_.integer(static_cast<std::int64_t>(node) + 1);
+            write_point(node, dimension);
+        }
+    }
+
+    int type() const {
+        const bool second = !mesh_.mid_nodes.empty();
+        if (mesh_.dimension == 3) return second ? 11 : 4;
+        return second ? 9 : 2;
+    }
+
+    /// Calls put with the tag of each node of the cell, in Gmsh's order.
+    template <class Put>
+    void put_nodes(std::size_t cell, const Put& put) {
+        const std::size_t corners = mesh_.corners();
+        for (std::size_t k = 0; k < corners; ++k) put(mesh_.cells[cell * corners + k] + std::int64_t{1});
+        if (mesh_.mid_nodes.empty()) return;
+        const std::span<const std::size_t> sequence =
+            mesh::edge_sequence(mesh_.dimension == 3 ? MidEdgeOrder::gmsh : MidEdgeOrder::vtk, mesh_.dimension);
+        for (const std::size_t edge : sequence) put(mesh_.mid_nodes[cell * sequence.size() + edge] + std::int64_t{1});
+    }
+
+    void write_elements_41() {
+        const std::size_t count = mesh_.cell_count();
+        std::vector<std::size_t> starts;
+        for (std::size_t cell = 0; cell < count; ++cell) {
+            if (cell == 0 || groups_.entity_of(cell) != groups_.entity_of(cell - 1)) starts.push_back(cell);
+        }
+        const auto [low, high] = std::minmax_element(groups_.tags.begin(), groups_.tags.end());
+        out_.size(starts.size());
+        out_.size(count);
+        out_.size(count == 0 ? 0 : static_cast<std::uint64_t>(*low));
+        out_.size(count == 0 ? 0 : static_cast<std::uint64_t>(*high));
+        out_.end_row();
+        for (std::size_t b = 0; b < starts.size(); ++b) {
+            const std::size_t last = b + 1 < starts.size() ? starts[b + 1] : count;
+            out_.integer(mesh_.dimension);
+            out_.integer(groups_.entity_of(starts[b]));
+            out_.integer(type());
+            out_.size(last - starts[b]);
+            out_.end_row();
+            for (std::size_t cell = starts[b]; cell < last; ++cell) {
+                out_.size(static_cast<std::uint64_t>(groups_.tags[cell]));
+                put_nodes(cell, [&](std::int64_t tag) { out_.size(static_cast<std::uint64_t>(tag)); });
+                out_.end_row();
+            }
+        }
+    }
+
+    void write_elements_22() {
+        line(mesh_.cell_count());
+        if (out_.binary() && mesh_.cell_count() != 0) {
+            out_.integer(type());
+            out_.integer(static_cast<std::int64_t>(mesh_.cell_count()));
+            out_.integer(2);
+        }
+        for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
+            out_.integer(groups_.tags[cell]);
+            if (!out_.binary()) {
+                out_.integer(type());
+                out_.integer(2);
+            }
+            out_.integer(groups_.group_of(cell));
+            out_.integer(groups_.entity_of(cell));
+            put_nodes(cell, [&](std::int64_t tag) { out_.integer(tag); });
+            out_.end_row();
+        }
+    }
+
+    /// `tags` of the entities; empty: 1, 2, 3, ...
+    template <class Number>
+    void write_data(const char* section, const std::string& name, int components, const std::vector<Number>& values,
+                    std::span<const std::int64_t> tags) {
+        const auto width = static_cast<std::size_t>(components);
+        const std::size_t count = values.size() / width;
+        out_.text(std::string("$") + section + "\n1\n\"" + name + "\"\n1\n0\n3\n0\n");
+        line(width);
+        line(count);
+        for (std::size_t row = 0; row < count; ++row) {
+            out_.integer(tags.empty() ? static_cast<std::int64_t>(row) + 1 : tags[row]);
+            for (std::size_t c = 0; c < width; ++c) out_.real(static_cast<double>(values[row * width + c]));
+            out_.end_row();
+        }
+        out_.end_section(section);
+    }
+
+    const Mesh& mesh_;
+    const CellGroups& groups_;
+    MshOutput out_;
+    bool new_;  ///< 4.1
+};
+
+}  // namespace
+}  // namespace io
+
+Status write_gmsh(const Mesh& mesh, const std::string& path, const GmshWriteOptions& options) {
+    const ExactEnvironment environment;
+    if (const char* const fault = mesh::inconsistency(mesh, mesh::FieldValues::any); fault != nullptr) {
+        return Error{.what = std::string("cannot write the mesh: ") + fault,
+                     .file = path,
+                     .remedy = "correct the mesh in memory"};
+    }
+    const Result<io::CellGroups> groups =
+        io::group_cells(mesh, options.version == GmshWriteOptions::Version::v41, path);
+    if (!groups) return groups.error();
+    if (Status s = io::check_names(mesh, *groups, path); !s) return s;
+    return io::GmshWriter(mesh, *groups, path, options).write();
+}
+
+}  // namespace barycert

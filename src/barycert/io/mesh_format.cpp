@@ -1,0 +1,125 @@
+#include "barycert/io/mesh_format.hpp"
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+#include "barycert/base/input_file.hpp"
+#include "barycert/io.hpp"
+#include "barycert/io/formats.hpp"
+#include "barycert/io/other_formats.hpp"
+
+namespace barycert::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_tetgen_file(const std::string& path) {
+    return tetgen_stem(path) != path;
+}
+
+bool exists(const std::string& path) {
+    std::error_code ignored;
+    return fs::exists(path, ignored);
+}
+
+/// By the name alone.
+std::optional<MeshFormat> format_by_suffix(const std::string& path) {
+    if (is_tetgen_file(path)) return MeshFormat::tetgen;
+    if (is_vtk_file(path)) return MeshFormat::vtk;
+    if (has_suffix(path, ".msh")) return MeshFormat::gmsh;
+    return std::nullopt;
+}
+
+std::optional<MeshFormat> format_by_content(std::string_view head) {
+    if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
+    if (head.starts_with("$MeshFormat") || head.starts_with("$NOD")) return MeshFormat::gmsh;
+    if (head.starts_with("# vtk DataFile") || head.find("<VTKFile") != std::string_view::npos) return MeshFormat::vtk;
+    return std::nullopt;
+}
+
+/// A mesh of that stem in another format, or nothing.
+std::string with_another_suffix(const std::string& path) {
+    for (const char* suffix : {".msh", ".vtu", ".vtk", ".pvtu"}) {
+        if (exists(path + suffix)) return path + suffix;
+    }
+    return {};
+}
+
+Error folder_error(const std::string& path) {
+    if (exists(path + "/constant/polyMesh")) return other_format_error(*other_format_by_suffix("case.foam"), path);
+    return {.what = "this is a folder",
+            .file = path,
+            .expected = formats_read,
+            .remedy = "name the file of the mesh in it, or the stem of TetGen's files"};
+}
+
+Error missing(const std::string& path) {
+    Error error{.what = "no such file", .file = path};
+    const OtherFormat* const other = other_format_by_suffix(path);
+    if (const std::string found = with_another_suffix(path); !found.empty()) {
+        error.remedy = "there is " + found + ": name it with its suffix";
+    } else if (other != nullptr) {
+        error.remedy = std::string("check the path; ") + other->what +
+                       " would not be read: " + other_format_error(*other, path).remedy;
+    } else if (format_by_suffix(path) && !is_tetgen_file(path)) {
+        error.remedy = "check the path";
+    } else {
+        error.remedy = "MESH is the stem of TetGen's files, or one of them: part.1 for part.1.node and part.1.ele";
+    }
+    return error;
+}
+
+/// Of a file that is there, and not TetGen's by a stem.
+Result<MeshFormat> format_of_file(const std::string& path) {
+    const Result<base::InputFile> file = base::InputFile::open(path);
+    if (!file) return file.error();
+    std::array<char, 4096> bytes{};
+    const Result<std::size_t> size = file->read_at(0, bytes, path);
+    if (!size) return size.error();
+    const std::string_view head(bytes.data(), *size);
+    const std::optional<MeshFormat> by_content = format_by_content(head), by_suffix = format_by_suffix(path);
+    if (by_content) return *by_content;
+    if (const OtherFormat* other = other_format_by_content(head, path, by_suffix.has_value()); other != nullptr)
+        return other_format_error(*other, path);
+    if (by_suffix) return *by_suffix;
+    if (const OtherFormat* other = other_format_by_suffix(path); other != nullptr)
+        return other_format_error(*other, path);
+    return Error{.what = "this is no mesh that is read",
+                 .file = path,
+                 .expected = formats_read,
+                 .remedy = "convert it with `meshio convert " + shell_word(path) + " OUT.vtu`"};
+}
+
+}  // namespace
+
+Result<MeshFormat> mesh_format(const std::string& path) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    const bool stem = !is_tetgen_file(path) && exists(path + ".node");
+    if (stem && (!format_by_suffix(path) || !fs::exists(status))) return MeshFormat::tetgen;
+    if (fs::is_directory(status)) return folder_error(path);
+    if (fs::exists(status)) return format_of_file(path);
+    // One of TetGen's files may be missing where others are there: their reader knows which.
+    if (is_tetgen_file(path) && exists(tetgen_stem(path) + ".node")) return MeshFormat::tetgen;
+    return missing(path);
+}
+
+Result<MeshFormat> mesh_output_format(const std::string& path) {
+    if (has_suffix(path, ".msh")) return MeshFormat::gmsh;
+    if (has_suffix(path, ".vtu") || has_suffix(path, ".vtk")) return MeshFormat::vtk;
+    const std::size_t dot = path.find_last_of("./");
+    const std::string suffix = dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot);
+    // part.1 is a stem: only what others use as a suffix is refused.
+    const bool digits = suffix.find_first_not_of("0123456789", 1) == std::string::npos;
+    if (digits || suffix == ".node" || suffix == ".ele") return MeshFormat::tetgen;
+    return Error{.what = "unknown format of a mesh to be written",
+                 .file = path,
+                 .expected = ".vtu, .vtk, .msh, .node, or a stem of TetGen's files",
+                 .found = '"' + suffix + '"',
+                 .remedy = "name a file with one of these suffixes"};
+}
+
+}  // namespace barycert::io

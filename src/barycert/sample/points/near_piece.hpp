@@ -1,0 +1,105 @@
+/// The part of a mesh that is nearest to a point: what its values and weights are computed in.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "barycert/locate/near_feature.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/quadratic.hpp"
+#include "barycert/simplex.hpp"
+
+namespace barycert::sample {
+
+/// Some nodes of the mesh, in the space of their simplex: a segment lies in 3-space, also that of a triangle in the
+/// plane.
+struct Piece {
+    Simplex simplex;
+    std::vector<Mesh::Index> corners;
+    std::array<double, 12> vertices{};
+
+    Piece(const Mesh& mesh, Simplex s, std::vector<Mesh::Index> nodes) : simplex(s), corners(std::move(nodes)) {
+        const auto d = static_cast<std::size_t>(mesh.dimension), space = static_cast<std::size_t>(space_dimension(s));
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            for (std::size_t k = 0; k < d; ++k)
+                vertices[space * i + k] = mesh.points[d * static_cast<std::size_t>(corners[i]) + k];
+        }
+    }
+};
+
+inline Piece cell_piece(const Mesh& mesh, std::size_t cell) {
+    const auto begin = mesh.cells.begin() + static_cast<std::ptrdiff_t>(mesh.corners() * cell);
+    return {mesh,
+            mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron,
+            {begin, begin + static_cast<std::ptrdiff_t>(mesh.corners())}};
+}
+
+/// The edge or face of two or three nodes.
+inline Piece feature_piece(const Mesh& mesh, const std::vector<Mesh::Index>& nodes) {
+    return {mesh, nodes.size() == 3 ? Simplex::triangle3d : Simplex::segment, nodes};
+}
+
+/// The nodes of the feature that is nearest.
+inline std::vector<Mesh::Index> nodes_of(const Nearest& nearest) {
+    std::vector<Mesh::Index> nodes;
+    for (const Mesh::Index node : nearest.nodes) {
+        if (node >= 0) nodes.push_back(node);
+    }
+    return nodes;
+}
+
+inline locate::NearFeature feature_of(const Mesh& mesh, const std::vector<Mesh::Index>& nodes) {
+    locate::NearFeature f{.count = static_cast<int>(nodes.size())};
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        f.nodes[i] = nodes[i];
+        std::copy_n(&mesh.points[d * static_cast<std::size_t>(nodes[i])], d, f.at[i].begin());
+    }
+    return f;
+}
+
+/// Corners, then mid-edge nodes of a cell of second order.
+inline std::vector<Mesh::Index> second_order_nodes(const Mesh& mesh, std::size_t cell) {
+    const std::size_t corners = mesh.corners();
+    const auto mids =
+        static_cast<std::size_t>(mid_node_count(mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron));
+    std::vector<Mesh::Index> nodes(&mesh.cells[corners * cell], &mesh.cells[corners * cell] + corners);
+    nodes.insert(nodes.end(), &mesh.mid_nodes[mids * cell], &mesh.mid_nodes[mids * cell] + mids);
+    return nodes;
+}
+
+/// A point of a cell with unit vectors and the origin as corners. Whatever depends on weights alone, such as a
+/// quadratic, is there what it is at the point of the cell that has the same weights.
+struct ReferencePoint {
+    std::array<double, 12> vertices{};
+    std::array<double, 3> at{};
+};
+
+/// The point of the closed cell that has the rounded weights of a projection to the feature, but for the largest one,
+/// which is 1 less the others, exactly: these are at most 1/2, and 2/3 together. The others are coordinates, and the
+/// corner of the largest weight is the origin.
+inline ReferencePoint reference_point(const Mesh& mesh, std::size_t cell, const locate::NearFeature& feature,
+                                      const std::array<double, 3>& weights) {
+    const std::size_t d = static_cast<std::size_t>(mesh.dimension), corners = d + 1;
+    std::array<double, 4> of_corner{};
+    for (std::size_t i = 0; i < corners; ++i) {
+        for (std::size_t j = 0; j < static_cast<std::size_t>(feature.count); ++j) {
+            if (feature.nodes[j] == mesh.cells[corners * cell + i]) of_corner[i] = weights[j];
+        }
+    }
+    const auto origin =
+        static_cast<std::size_t>(std::max_element(of_corner.begin(), of_corner.end()) - of_corner.begin());
+    ReferencePoint out;
+    for (std::size_t i = 0, k = 0; i < corners; ++i) {
+        if (i == origin) continue;
+        out.vertices[d * i + k] = 1;
+        out.at[k++] = of_corner[i];
+    }
+    return out;
+}
+
+}  // namespace barycert::sample

@@ -1,0 +1,182 @@
+#include "barycert/sample/quantity/expression.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "barycert/sample/points/field_choice.hpp"
+
+namespace barycert::sample {
+namespace {
+
+using Kind = QuantityStep::Kind;
+
+/// Deeper ones are no names that anybody means.
+constexpr int deepest_expression = 16;
+
+struct Split {
+    std::string_view inner;
+    QuantityStep step;
+};
+
+std::optional<Split> call_of(std::string_view word, Kind kind, std::string_view text) {
+    if (!text.starts_with(word) || !text.ends_with(')') || text.size() == word.size() + 1) return std::nullopt;
+    return Split{text.substr(word.size(), text.size() - word.size() - 1), {kind}};
+}
+
+/// x, y, z are 0, 1, 2.
+std::optional<int> component_of(std::string_view text) {
+    if (text.size() == 1 && text[0] >= 'x' && text[0] <= 'z') return text[0] - 'x';
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool whole = error == std::errc{} && end == text.data() + text.size() && number >= 0;
+    if (!whole || text.front() == '-' || (text.size() > 1 && text.front() == '0')) return std::nullopt;
+    return number;
+}
+
+/// The last step of an expression; nothing if the text is none.
+std::optional<Split> split_off(std::string_view text) {
+    if (const auto call = call_of("grad(", Kind::gradient, text)) return call;
+    if (const auto call = call_of("mean(", Kind::mean, text)) return call;
+    if (text.size() > 2 && text.starts_with('|') && text.ends_with('|'))
+        return Split{text.substr(1, text.size() - 2), {Kind::length}};
+    const std::size_t dot = text.rfind('.');
+    if (dot == std::string_view::npos || dot == 0 || dot + 1 == text.size()) return std::nullopt;
+    const auto component = component_of(text.substr(dot + 1));
+    if (!component) return std::nullopt;
+    return Split{text.substr(0, dot), {Kind::component, *component}};
+}
+
+/// True, and the choice made, if the text names a field or what is made of one; else `missing` is the name that is
+/// none.
+bool choose_quantity(const Mesh& mesh, std::string_view text, bool cells_first, int depth, FieldChoice& chosen,
+                     std::string& missing) {
+    if (cells_first && choose_field(mesh, "cell:" + std::string(text), chosen)) return true;
+    if (choose_field(mesh, text, chosen)) return true;
+    const auto split = depth == 0 ? std::nullopt : split_off(text);
+    if (!split) {
+        missing = text;
+        return false;
+    }
+    if (!choose_quantity(mesh, split->inner, split->step.kind == Kind::mean, depth - 1, chosen, missing)) return false;
+    chosen.steps.push_back(split->step);
+    return true;
+}
+
+/// A name that two columns have, if one of them is made of a field.
+std::optional<std::string> common_column(const Mesh& mesh, const std::vector<FieldChoice>& chosen) {
+    if (std::all_of(chosen.begin(), chosen.end(), [](const FieldChoice& c) { return c.steps.empty(); }))
+        return std::nullopt;
+    std::vector<TableField> fields;
+    for (const FieldChoice& choice : chosen)
+        fields.push_back({choice.name.empty() ? choice.field->name : choice.name,
+                          static_cast<int>(shape_of(mesh, choice)->components)});
+    std::vector<std::string> names = column_names(fields);
+    std::sort(names.begin(), names.end());
+    const auto twice = std::adjacent_find(names.begin(), names.end());
+    return twice == names.end() ? std::nullopt : std::optional(*twice);
+}
+
+Error wrong_step(std::string what, const FieldChoice& choice, std::string remedy) {
+    return {.what = std::move(what),
+            .found = '"' + (choice.name.empty() ? choice.field->name : choice.name) + '"',
+            .remedy = std::move(remedy)};
+}
+
+}  // namespace
+
+Result<QuantityShape> shape_of(const Mesh& mesh, const FieldChoice& choice) {
+    QuantityShape shape{choice.of_cells, static_cast<std::size_t>(std::max(choice.field->components, 1)), false};
+    bool length_at_points = false;
+    for (const QuantityStep& step : choice.steps) {
+        if (length_at_points)
+            return wrong_step("nothing is made of a length at points", choice, "ask for the length alone");
+        switch (step.kind) {
+            case Kind::component:
+                if (step.component < 0 || static_cast<std::size_t>(step.component) >= shape.components)
+                    return Error{.what = "no such component in \"" +
+                                         (choice.name.empty() ? choice.field->name : choice.name) + '"',
+                                 .expected = "0 to " + std::to_string(shape.components - 1),
+                                 .found = std::to_string(step.component),
+                                 .remedy = "components count from 0; x, y, z are 0, 1, 2"};
+                shape.components = 1;
+                break;
+            case Kind::length:
+                shape.components = 1;
+                length_at_points = !shape.of_cells;
+                shape.at_points = shape.at_points || length_at_points;
+                break;
+            case Kind::gradient:
+                if (shape.of_cells || shape.at_points)
+                    return wrong_step("the gradient of what is constant in each cell, or of a gradient", choice,
+                                      "ask for that of a field of nodes, or of the mean at nodes: grad(mean(NAME))");
+                shape.components *= static_cast<std::size_t>(mesh.dimension);
+                shape.at_points = !mesh.mid_nodes.empty();
+                shape.of_cells = mesh.mid_nodes.empty();
+                break;
+            default:
+                if (!shape.of_cells)
+                    return wrong_step("the mean over cells of what is not a field of cells", choice,
+                                      "ask for that of a field of cells: mean(cell:NAME)");
+                shape.of_cells = false;
+        }
+    }
+    return shape;
+}
+
+Result<std::vector<FieldChoice>> quantities_named(const Mesh& mesh, const std::vector<std::string>& names) {
+    if (names.empty()) return fields_named(mesh, names);
+    std::vector<FieldChoice> chosen;
+    std::string missing;
+    const auto choose = [&](const std::string& name) {
+        FieldChoice one;
+        if (!choose_quantity(mesh, name, false, deepest_expression, one, missing)) return false;
+        if (!one.steps.empty()) one.name = name;
+        chosen.push_back(std::move(one));
+        return true;
+    };
+    for (const std::string& text : names) {
+        if (choose(text)) continue;  // a name may hold commas
+        if (!for_names(text, choose)) return no_such_field(mesh, missing);
+    }
+    const auto rank = [&](const FieldChoice& choice) {
+        const QuantityShape shape = *shape_of(mesh, choice);
+        return shape.at_points ? 2 : shape.of_cells ? 1 : 0;
+    };
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        if (const Result<QuantityShape> shape = shape_of(mesh, chosen[i]); !shape) return shape.error();
+        for (std::size_t k = 0; k < i; ++k) {
+            if (chosen[i].field == chosen[k].field && chosen[i].steps == chosen[k].steps)
+                return Error{.what = chosen[i].steps.empty() ? "a field is chosen twice" : "a column is chosen twice",
+                             .found = '"' + (chosen[i].name.empty() ? chosen[i].field->name : chosen[i].name) + '"',
+                             .remedy = "name it once in --fields"};
+        }
+    }
+    if (const auto name = common_column(mesh, chosen)) {
+        return Error{.what = "two columns have the same name",
+                     .found = '"' + *name + '"',
+                     .remedy = "choose one of them in --fields"};
+    }
+    std::stable_sort(chosen.begin(), chosen.end(),
+                     [&](const FieldChoice& a, const FieldChoice& b) { return rank(a) < rank(b); });
+    return chosen;
+}
+
+std::optional<std::string> with_other_name(std::string_view expression, std::string_view name, std::string_view other) {
+    std::string_view inner = expression;
+    for (int depth = deepest_expression;; --depth) {
+        for (const std::string_view prefix : {"", "cell:", "point:"}) {
+            if (inner.size() != prefix.size() + name.size() || !inner.starts_with(prefix) || !inner.ends_with(name))
+                continue;
+            const auto begin = static_cast<std::size_t>(inner.data() - expression.data()) + prefix.size();
+            return std::string(expression).replace(begin, name.size(), other);
+        }
+        const auto split = depth == 0 ? std::nullopt : split_off(inner);
+        if (!split) return std::nullopt;
+        inner = split->inner;
+    }
+}
+
+}  // namespace barycert::sample

@@ -1,0 +1,95 @@
+#include "barycert/sample/quantity/made_fields.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <iterator>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "barycert/environment.hpp"
+#include "barycert/gradient.hpp"
+#include "barycert/sample/quantity/length.hpp"
+#include "barycert/sample/quantity/nodal_mean.hpp"
+
+namespace barycert::sample {
+namespace {
+
+using Kind = QuantityStep::Kind;
+
+/// Of cells or nodes to one task.
+constexpr std::size_t entities_of_task = std::size_t{1} << 13;
+
+Field component_field(const Field& whole, int component) {
+    const auto n = static_cast<std::size_t>(whole.components), c = static_cast<std::size_t>(component);
+    Field field{{}, 1, std::vector<double>(whole.data.size() / n)};
+    for (std::size_t i = 0; i < field.data.size(); ++i) field.data[i] = whole.data[n * i + c];
+    return field;
+}
+
+Field length_field(const Field& whole) {
+    const auto n = static_cast<std::size_t>(whole.components);
+    Field field{{}, 1, std::vector<double>(whole.data.size() / n)};
+    for (std::size_t i = 0; i < field.data.size(); ++i)
+        field.data[i] = euclidean_length(std::span(whole.data).subspan(n * i, n));
+    return field;
+}
+
+Result<Field> gradient_field(const Mesh& mesh, const Field& of_nodes) {
+    const std::size_t d = static_cast<std::size_t>(mesh.dimension), cells = mesh.cell_count();
+    const std::size_t per_cell = d * static_cast<std::size_t>(of_nodes.components);
+    Field field{{}, static_cast<int>(per_cell), std::vector<double>(per_cell * cells)};
+    const Simplex simplex = d == 2 ? Simplex::triangle : Simplex::tetrahedron;
+    const NodalValues<double> values{of_nodes.data, of_nodes.components};
+    std::mutex mutex;
+    std::optional<Error> error;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells, entities_of_task), [&](const auto& range) {
+        const auto corners =
+            std::span(mesh.cells).subspan(mesh.corners() * range.begin(), mesh.corners() * range.size());
+        const auto out = std::span(field.data).subspan(per_cell * range.begin(), per_cell * range.size());
+        const Status done = gradients(simplex, mesh.points, corners, values, out);
+        if (done) return;
+        const std::lock_guard lock(mutex);
+        error = done.error();
+    });
+    if (error) return *error;
+    return field;
+}
+
+}  // namespace
+
+Status make_fields(const Mesh& mesh, FieldChoice& choice, std::size_t count, std::deque<Field>& made) {
+    const ExactEnvironment environment;
+    std::size_t taken = 0;
+    for (; taken < count; ++taken) {
+        const QuantityStep& step = choice.steps[taken];
+        const bool gradient = step.kind == Kind::gradient;
+        const bool at_points = (step.kind == Kind::length && !choice.of_cells) || (gradient && !mesh.mid_nodes.empty());
+        if (at_points) break;
+        if (gradient) {
+            Result<Field> field = gradient_field(mesh, *choice.field);
+            if (!field) return field.error();
+            made.push_back(std::move(*field));
+        } else if (step.kind == Kind::mean) {
+            made.push_back(nodal_mean(mesh, *choice.field));
+        } else {
+            made.push_back(step.kind == Kind::length ? length_field(*choice.field)
+                                                     : component_field(*choice.field, step.component));
+        }
+        choice.field = &made.back();
+        choice.of_cells = gradient || (choice.of_cells && step.kind != Kind::mean);
+    }
+    choice.steps.erase(choice.steps.begin(), std::next(choice.steps.begin(), static_cast<std::ptrdiff_t>(taken)));
+    return Done{};
+}
+
+std::size_t steps_of_whole_mesh(const FieldChoice& choice) {
+    const auto last = std::find_if(choice.steps.rbegin(), choice.steps.rend(),
+                                   [](const QuantityStep& step) { return step.kind == Kind::mean; });
+    return static_cast<std::size_t>(choice.steps.rend() - last);
+}
+
+}  // namespace barycert::sample

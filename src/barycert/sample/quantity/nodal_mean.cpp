@@ -1,0 +1,168 @@
+#include "barycert/sample/quantity/nodal_mean.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "barycert/core/fixed_integer.hpp"
+#include "barycert/core/integer.hpp"
+#include "barycert/core/numerators-inl.hpp"
+#include "barycert/core/quotient.hpp"
+#include "barycert/core/scaled_double.hpp"
+#include "barycert/environment.hpp"
+
+namespace barycert::sample {
+namespace {
+
+namespace formulas = core::HWY_NAMESPACE;
+using core::Integer;
+using core::Unit;
+
+// A determinant has 3 * 2099 + 3 bits (see core/integer.hpp), a product with a value 2098 more, and there are less than
+// 2^32 cells.
+static_assert(64 * (Integer::capacity - 2) >= 3 * 2099 + 3 + 2098 + 32);
+
+/// The cells of each node: those of node i are cells[begin[i]] to cells[begin[i + 1] - 1].
+struct CellsOfNodes {
+    std::vector<std::size_t> begin;
+    std::vector<Mesh::Index> cells;
+};
+
+CellsOfNodes cells_of_nodes(const Mesh& mesh) {
+    CellsOfNodes of{std::vector<std::size_t>(mesh.point_count() + 2, 0),
+                    std::vector<Mesh::Index>(mesh.cells.size() + mesh.mid_nodes.size())};
+    const std::array<std::span<const Mesh::Index>, 2> lists{mesh.cells, mesh.mid_nodes};
+    for (const auto& nodes : lists) {
+        for (const Mesh::Index node : nodes) ++of.begin[static_cast<std::size_t>(node) + 2];
+    }
+    for (std::size_t i = 2; i < of.begin.size(); ++i) of.begin[i] += of.begin[i - 1];
+    // begin[i + 1] is where the next cell of node i goes; in the end that is where those of node i + 1 begin.
+    for (const auto& nodes : lists) {
+        const std::size_t per_cell = nodes.empty() ? 1 : nodes.size() / mesh.cell_count();
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            of.cells[of.begin[static_cast<std::size_t>(nodes[i]) + 1]++] = static_cast<Mesh::Index>(i / per_cell);
+    }
+    return of;
+}
+
+/// The mean at one node. Kept from node to node, for its memory.
+class MeanAtNode {
+public:
+    MeanAtNode(const Mesh& mesh, const Field& field)
+        : mesh_(mesh),
+          field_(field),
+          d_(static_cast<std::size_t>(mesh.dimension)),
+          components_(static_cast<std::size_t>(field.components)),
+          values_(components_),
+          sums_(components_),
+          finite_(components_) {}
+
+    void operator()(std::span<const Mesh::Index> cells, double* out) {
+        std::array<Unit, 3> units;
+        for (const Mesh::Index cell : cells) {
+            for (std::size_t i = 0; i <= d_; ++i) {
+                for (std::size_t k = 0; k < d_; ++k) units[k].add(core::scaled(corner(cell, i)[k]));
+            }
+        }
+        int bits = 0;
+        for (const Unit& unit : units) bits = std::max(bits, unit.bits());
+        values_.assign(components_, {});
+        for (const Mesh::Index cell : cells) {
+            for (std::size_t c = 0; c < components_; ++c) {
+                if (std::isfinite(value(cell, c))) values_[c].add(core::scaled(value(cell, c)));
+            }
+        }
+        total_ = Integer();
+        sums_.assign(components_, Integer());
+        finite_.assign(components_, 1);
+        // Widths as in check/exact_volumes.cpp.
+        core::with_integers<3>(bits, [&]<class T>() {
+            for (const Mesh::Index cell : cells) add<T>(units, cell);
+            return 0;
+        });
+        for (std::size_t c = 0; c < components_; ++c) {
+            const bool some = total_.sign() != 0 && finite_[c] != 0;
+            // The units of the coordinates cancel.
+            out[c] = some ? core::round_quotient(sums_[c].sign() < 0, sums_[c].magnitude(), total_.magnitude(),
+                                                 values_[c].exponent - 1074)
+                          : std::numeric_limits<double>::quiet_NaN();
+        }
+    }
+
+private:
+    const double* corner(Mesh::Index cell, std::size_t i) const {
+        const Mesh::Index node = mesh_.cells[(d_ + 1) * static_cast<std::size_t>(cell) + i];
+        return mesh_.points.data() + d_ * static_cast<std::size_t>(node);
+    }
+    double value(Mesh::Index cell, std::size_t c) const {
+        return field_.data[components_ * static_cast<std::size_t>(cell) + c];
+    }
+
+    template <class T>
+    void add(const std::array<Unit, 3>& units, Mesh::Index cell) {
+        const Integer volume = d_ == 2 ? determinant<T, 2>(units, cell) : determinant<T, 3>(units, cell);
+        if (volume.sign() == 0) return;
+        const Integer weight = volume.sign() < 0 ? Integer() - volume : volume;
+        total_ = total_ + weight;
+        for (std::size_t c = 0; c < components_; ++c) {
+            if (std::isfinite(value(cell, c))) {
+                sums_[c] = sums_[c] + weight * values_[c].template multiple<Integer>(core::scaled(value(cell, c)));
+            } else {
+                finite_[c] = 0;
+            }
+        }
+    }
+
+    template <class T, int d>
+    Integer determinant(const std::array<Unit, 3>& units, Mesh::Index cell) const {
+        T edge[d][d];
+        for (int k = 0; k < d; ++k) {
+            const auto at = [&](int i) {
+                return units[static_cast<std::size_t>(k)].template multiple<T>(
+                    core::scaled(corner(cell, static_cast<std::size_t>(i))[k]));
+            };
+            for (int i = 0; i < d; ++i) edge[i][k] = at(i + 1) - at(0);
+        }
+        if constexpr (d == 2) {
+            return core::as_integer(formulas::cross(edge[0], edge[1]));
+        } else {
+            formulas::Product<T> minors[3];
+            formulas::cross(edge[1], edge[2], minors);
+            return core::as_integer(formulas::dot(edge[0], minors));
+        }
+    }
+
+    const Mesh& mesh_;
+    const Field& field_;
+    std::size_t d_, components_;
+    std::vector<Unit> values_;
+    Integer total_;
+    std::vector<Integer> sums_;
+    std::vector<std::uint8_t> finite_;
+};
+
+}  // namespace
+
+Field nodal_mean(const Mesh& mesh, const Field& of_cells) {
+    const auto components = static_cast<std::size_t>(of_cells.components);
+    Field field{{}, of_cells.components, std::vector<double>(components * mesh.point_count())};
+    const CellsOfNodes of = cells_of_nodes(mesh);
+    constexpr std::size_t nodes_of_task = 512;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.point_count(), nodes_of_task), [&](const auto& range) {
+        const ExactEnvironment environment;  // of a thread that may be the caller's
+        MeanAtNode mean(mesh, of_cells);
+        for (std::size_t i = range.begin(); i != range.end(); ++i)
+            mean(std::span(of.cells).subspan(of.begin[i], of.begin[i + 1] - of.begin[i]),
+                 field.data.data() + components * i);
+    });
+    return field;
+}
+
+}  // namespace barycert::sample

@@ -1,0 +1,204 @@
+#include "barycert/node_weights.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "barycert/environment.hpp"
+#include "barycert/quadratic.hpp"
+#include "barycert/sample/points/near_piece.hpp"
+#include "barycert/weights.hpp"
+
+namespace barycert {
+namespace {
+
+constexpr std::size_t max_nodes_of_cell = 10;
+
+Error wrong_rows(std::string what, std::string expected, std::string found) {
+    return {.what = std::move(what), .expected = std::move(expected), .found = std::move(found)};
+}
+
+Status check_located(const Mesh& mesh, const TableView& rows) {
+    const std::size_t d = static_cast<std::size_t>(mesh.dimension), cells = mesh.cell_count();
+    if (rows.points.size() != d * rows.cells.size())
+        return wrong_rows("size of the points", std::to_string(d) + " coordinates a row",
+                          std::to_string(rows.points.size()) + " numbers for " + std::to_string(rows.cells.size()));
+    for (const Mesh::Index cell : rows.cells) {
+        if (cell < -1 || (cell >= 0 && static_cast<std::size_t>(cell) >= cells))
+            return wrong_rows("index of a cell", "-1 or below " + std::to_string(cells), std::to_string(cell));
+    }
+    return Done{};
+}
+
+class WeightRows {
+public:
+    WeightRows(const Locator& locator, const TableView& rows, const OutsidePolicy& outside)
+        : locator_(locator),
+          mesh_(locator.mesh()),
+          rows_(rows),
+          outside_(outside),
+          d_(static_cast<std::size_t>(mesh_.dimension)),
+          corners_(d_ + 1),
+          simplex_(mesh_.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron),
+          nodes_(corners_ + (quadratic() ? static_cast<std::size_t>(mid_node_count(simplex_)) : 0)) {}
+
+    Result<NodeWeights> all() {
+        // Unit vectors as values: the value of component c is then the weight of node c.
+        for (std::size_t i = 0; quadratic() && i < nodes_ * chunk; ++i) {
+            for (std::size_t c = 0; c < nodes_; ++c) units_.push_back(i % nodes_ == c ? 1 : 0);
+        }
+        out_.begin.push_back(0);
+        for (std::size_t first = 0; first < rows_.cells.size(); first += chunk) {
+            if (Status done = add(first, std::min(first + chunk, rows_.cells.size())); !done) return done.error();
+        }
+        return std::move(out_);
+    }
+
+private:
+    static constexpr std::size_t chunk = 256;
+    bool quadratic() const { return !mesh_.mid_nodes.empty(); }
+
+    Status add(std::size_t first, std::size_t last) {
+        cells_.clear();
+        points_.clear();
+        for (std::size_t i = first; i < last; ++i) {
+            if (rows_.cells[i] < 0) continue;
+            cells_.push_back(rows_.cells[i]);
+            points_.insert(points_.end(), rows_.points.data() + d_ * i, rows_.points.data() + d_ * (i + 1));
+        }
+        weights_.resize(nodes_ * cells_.size());
+        TierCounts tiers;
+        if (Status done = quadratic() ? second_order(tiers) : linear(tiers); !done) return done;
+        if (tiers.degenerate != 0) return Error{.what = "a row names a degenerate cell, which has no weights"};
+        for (std::size_t i = first, inside = 0; i < last; ++i) {
+            if (rows_.cells[i] < 0) {
+                if (Status done = add_outside(rows_.points.data() + d_ * i); !done) return done;
+                continue;
+            }
+            std::array<Mesh::Index, max_nodes_of_cell> nodes{};
+            nodes_in(static_cast<std::size_t>(rows_.cells[i]), nodes.data());
+            add_row(nodes.data(), &weights_[nodes_ * inside++], nodes_);
+        }
+        return Done{};
+    }
+
+    void nodes_in(std::size_t cell, Mesh::Index* out) const {
+        out = std::copy_n(&mesh_.cells[corners_ * cell], corners_, out);
+        if (quadratic()) std::copy_n(&mesh_.mid_nodes[(nodes_ - corners_) * cell], nodes_ - corners_, out);
+    }
+
+    Status linear(TierCounts& tiers) {
+        return barycentric_weights(MeshQueries{simplex_, mesh_.points, mesh_.cells, cells_, points_}, weights_, &tiers);
+    }
+
+    /// Each case has nodes of its own.
+    Status second_order(TierCounts& tiers) {
+        const std::size_t count = cells_.size(), mids = nodes_ - corners_;
+        places_.assign(d_ * nodes_ * count, 0);
+        corner_numbers_.resize(corners_ * count);
+        mid_numbers_.resize(mids * count);
+        own_.resize(count);
+        std::iota(own_.begin(), own_.end(), 0);
+        for (std::size_t j = 0; j < count; ++j) {
+            for (std::size_t i = 0; i < nodes_; ++i)
+                (i < corners_ ? corner_numbers_[corners_ * j + i] : mid_numbers_[mids * j + i - corners_]) =
+                    static_cast<Mesh::Index>(nodes_ * j + i);
+            for (std::size_t i = 0; i < corners_; ++i) {
+                const auto node =
+                    static_cast<std::size_t>(mesh_.cells[corners_ * static_cast<std::size_t>(cells_[j]) + i]);
+                std::copy_n(&mesh_.points[d_ * node], d_, &places_[d_ * (nodes_ * j + i)]);
+            }
+        }
+        const NodalValues<double> values{std::span(units_).first(nodes_ * nodes_ * count), static_cast<int>(nodes_)};
+        return interpolate_quadratic(MeshQueries{simplex_, places_, corner_numbers_, own_, points_}, mid_numbers_,
+                                     values, weights_, &tiers);
+    }
+
+    Status add_outside(const double* point) {
+        const bool snap = outside_.kind == Outside::nearest;
+        if (!snap && outside_.kind != Outside::extrapolate) {
+            out_.begin.push_back(out_.nodes.size());
+            return Done{};
+        }
+        const auto nearest = locator_.nearest(point, snap ? outside_.limit : std::numeric_limits<double>::infinity());
+        if (!nearest) return nearest.error();
+        if (nearest->cell < 0) {
+            out_.begin.push_back(out_.nodes.size());
+            return Done{};
+        }
+        const auto cell = static_cast<std::size_t>(nearest->cell);
+        const std::vector<Mesh::Index> nodes = sample::nodes_of(*nearest);
+        std::array<double, 3> at{};
+        std::copy_n(point, d_, at.begin());
+        if (snap && nodes.size() == 1) {
+            constexpr double one = 1;
+            add_row(nodes.data(), &one, 1);
+        } else if (quadratic()) {
+            add_second_order(cell, nodes, at, snap);
+        } else {
+            const sample::Piece piece = snap ? sample::feature_piece(mesh_, nodes) : sample::cell_piece(mesh_, cell);
+            // Coordinates are finite: there is no Error.
+            const Weights w = *barycentric_weights(piece.simplex, piece.vertices.data(), at.data());
+            add_row(piece.corners.data(), w.weights.data(), piece.corners.size());
+        }
+        return Done{};
+    }
+
+    void add_second_order(std::size_t cell, const std::vector<Mesh::Index>& near, const std::array<double, 3>& point,
+                          bool snap) {
+        sample::ReferencePoint at{sample::cell_piece(mesh_, cell).vertices, point};
+        if (snap) {
+            const locate::NearFeature feature = sample::feature_of(mesh_, near);
+            at = sample::reference_point(mesh_, cell, feature, locate::weights_of(point, feature));
+        }
+        std::array<Mesh::Index, max_nodes_of_cell> nodes{};
+        std::array<double, max_nodes_of_cell> weights{};
+        nodes_in(cell, nodes.data());
+        for (std::size_t c = 0; c < nodes_; ++c) {
+            std::array<double, max_nodes_of_cell> unit{};
+            unit[c] = 1;
+            weights[c] = interpolate_quadratic(simplex_, at.vertices.data(), at.at.data(), unit.data())->value;
+        }
+        add_row(nodes.data(), weights.data(), nodes_);
+    }
+
+    void add_row(const Mesh::Index* nodes, const double* weights, std::size_t count) {
+        std::array<std::size_t, max_nodes_of_cell> order{};
+        std::size_t used = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (weights[i] != 0) order[used++] = i;
+        }
+        std::sort(order.begin(), order.begin() + used,
+                  [&](std::size_t a, std::size_t b) { return nodes[a] < nodes[b]; });
+        for (std::size_t i = 0; i < used; ++i) {
+            out_.nodes.push_back(nodes[order[i]]);
+            out_.weights.push_back(weights[order[i]]);
+        }
+        out_.begin.push_back(out_.nodes.size());
+    }
+
+    const Locator& locator_;
+    const Mesh& mesh_;
+    const TableView& rows_;
+    const OutsidePolicy& outside_;
+    std::size_t d_, corners_;
+    Simplex simplex_;
+    std::size_t nodes_;  // of a cell
+    NodeWeights out_;
+    std::vector<Mesh::Index> cells_, corner_numbers_, mid_numbers_, own_;
+    std::vector<double> points_, weights_, places_, units_;
+};
+
+}  // namespace
+
+Result<NodeWeights> node_weights(const Locator& locator, const TableView& rows, const OutsidePolicy& outside) {
+    const ExactEnvironment environment;
+    if (Status fits = check_located(locator.mesh(), rows); !fits) return fits.error();
+    return WeightRows(locator, rows, outside).all();
+}
+
+}  // namespace barycert

@@ -1,0 +1,195 @@
+// Which reader a file goes to, and what is said of files that none reads.
+#include "barycert/io/mesh_format.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "barycert/gmsh.hpp"
+#include "barycert/io/other_formats.hpp"
+#include "barycert/vtk.hpp"
+#include "io/tetgen/mesh_files.hpp"
+
+namespace barycert::testing {
+namespace {
+
+using io::MeshFormat;
+
+const char* const msh_text =
+    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 "
+    "1\n$EndNodes\n"
+    "$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n";
+const char* const vtk_text =
+    "# vtk DataFile Version 3.0\nm\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 0 1 0 0 0 1\n"
+    "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
+
+TEST(MeshFormat, first_bytes_count_more_than_suffixes) {
+    const TemporaryFolder folder;
+    for (const char* name : {"a.msh", "a.vtk", "a.VTU", "a", "a.dat", "a.mesh", "a.node"}) {
+        put(folder / name, msh_text);
+        EXPECT_EQ(io::mesh_format(folder / name).value(), MeshFormat::gmsh) << name;
+        EXPECT_EQ(read_mesh(folder / name).value().cell_count(), 1U) << name;
+        EXPECT_EQ(mesh_files(folder / name), std::vector<std::string>{folder / name});
+        put(folder / name, vtk_text);
+        EXPECT_EQ(io::mesh_format(folder / name).value(), MeshFormat::vtk) << name;
+        EXPECT_EQ(read_mesh(folder / name).value().cell_count(), 1U) << name;
+        std::filesystem::remove(folder / name);
+    }
+}
+
+TEST(MeshFormat, stems_of_tetgen) {
+    const TemporaryFolder folder;
+    for (const char* stem : {"m", "m.1", "m.msh", "m.vtu", "m.inp"}) {
+        put(folder / (std::string(stem) + ".node"), tetrahedron_node);
+        put(folder / (std::string(stem) + ".ele"), tetrahedron_ele);
+        for (const char* suffix : {"", ".node", ".ele"})
+            EXPECT_EQ(read_mesh(folder / (std::string(stem) + suffix)).value().cell_count(), 1U) << stem << suffix;
+    }
+    // The file itself, if there is one with a suffix that says what it is.
+    put(folder / "m.msh", msh_text);
+    EXPECT_EQ(io::mesh_format(folder / "m.msh").value(), MeshFormat::gmsh);
+    put(folder / "m.1", "notes");
+    EXPECT_EQ(io::mesh_format(folder / "m.1").value(), MeshFormat::tetgen);
+}
+
+struct Other {
+    const char* name;
+    std::string bytes;
+    const char* what;    ///< part of it
+    const char* remedy;  ///< part of it
+};
+
+TEST(MeshFormat, files_that_are_not_read) {
+    const std::string hdf5 = "\x89HDF\r\n\x1a\n and more";
+    const std::vector<Other> others{
+        {"a.mesh", "", "a mesh of Medit", "a.mesh -save -format msh41 -o "},
+        {"a.meshb", "\x01", "a mesh of Medit", "gmsh "},
+        {"a.txt", "# made by hand\nMeshVersionFormatted 2\n", "a mesh of Medit", "gmsh "},
+        {"a.inp", "", "a mesh of Abaqus", "meshio convert "},
+        {"a", "*Heading\n", "a mesh of Abaqus", "a.vtu"},
+        {"a.xdmf", "", "an XDMF file", "meshio convert "},
+        {"a.vtu", "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">", "an XDMF file", "meshio convert "},
+        {"a.xmf", "", "an XDMF file", "meshio convert "},
+        {"a.med", hdf5, "a MED file", "meshio convert "},
+        {"a.cgns", hdf5, "a CGNS file", "pyvista"},
+        {"a.e", hdf5, "an Exodus file", "meshio convert "},
+        {"a.exo", "CDF\x01", "an Exodus file", "meshio convert "},
+        {"a.h5", hdf5, "an HDF5 file", ".xdmf"},
+        {"a.msh", hdf5, "an HDF5 file", ".xdmf"},
+        {"a.vol", "mesh3d\n", "a mesh of Netgen", "meshio convert "},
+        {"a.su2", "", "a mesh of SU2", "meshio convert "},
+        {"a.foo", "% comment\nNDIME= 3\n", "a mesh of SU2", "meshio convert "},
+        {"a.unv", "    -1\n  2411\n", "a universal file of I-deas", "gmsh "},
+        {"a.bdf", "", "a file of Nastran", "gmsh "},
+        {"a.nas", "", "a file of Nastran", "gmsh "},
+        {"a.foam", "", "a case of OpenFOAM", "ParaView"},
+        {"points", "FoamFile\n{\n", "a case of OpenFOAM", "Tetrahedralize"},
+        {"a.stl", "", "a PLC (a surface), not a mesh", "`barycert mesh "},
+        {"a.off", "OFF\n", "a PLC (a surface), not a mesh", "`barycert mesh "},
+        {"a.ply", "ply\n", "a PLC (a surface), not a mesh", "`barycert mesh "},
+        {"a.obj", "", "a surface, not a mesh", "`meshio convert IN.obj OUT.stl`"},
+        {"a.geo", "", "a geometry, not a mesh", "`gmsh -3 "},
+        {"a.step", "", "a geometry, not a mesh", "`gmsh -3 "},
+        {"a.vtu.gz", "\x1f\x8b", "a file packed by gzip", "`gunzip -k "},
+        {"a.vtu", "\x1f\x8b", "a file packed by gzip", "`gunzip -k "},
+        {"a.node", "\x1f\x8b", "a file packed by gzip", "`gunzip -k "},
+        {"a.zip", "PK\x03\x04", "a ZIP archive", "`unzip "},
+        {"a.csv", "x,y\n", "a table, not a mesh", "--points"},
+        {"a.npy", "\x93NUMPY", "a table, not a mesh", "--points"},
+        {"a.msh", "(0 \"GAMBIT to Fluent File\")\n", "a mesh of Fluent", "--input-format ansys"},
+        {"a.msh", "5 2 6\n0 0 1\n", "a mesh of FreeFem", "savevtk"},
+        {"a.rst", "?", "no mesh that is read", "meshio convert "},
+        {"it's a.inp", "", "a mesh of Abaqus", "it'\\''s a.inp' "},
+    };
+    const TemporaryFolder folder;
+    for (const Other& other : others) {
+        SCOPED_TRACE(other.name);
+        put(folder / other.name, other.bytes);
+        const Result<Mesh> mesh = read_mesh(folder / other.name);
+        ASSERT_FALSE(mesh);
+        SCOPED_TRACE(mesh.error().message());
+        EXPECT_EQ(mesh.error().file, folder / other.name);
+        EXPECT_NE(mesh.error().what.find(other.what), std::string::npos);
+        EXPECT_NE(mesh.error().remedy.find(other.remedy), std::string::npos);
+        EXPECT_EQ(mesh.error().message().find("no such file"), std::string::npos);
+        std::filesystem::remove(folder / other.name);
+        if (!io::other_format_by_suffix(other.name)) continue;
+        // What is not there is missing, whatever it would be.
+        const Result<Mesh> missing = read_mesh(folder / other.name);
+        EXPECT_EQ(missing.error().what, "no such file");
+        EXPECT_NE(missing.error().remedy.find("would not be read"), std::string::npos);
+    }
+}
+
+TEST(MeshFormat, what_is_not_there) {
+    const TemporaryFolder folder;
+    for (const char* name : {"a.msh", "a.vtu", "a.VTK"}) {
+        const Error error = read_mesh(folder / name).error();
+        EXPECT_EQ(error.what, "no such file");
+        EXPECT_EQ(error.remedy, "check the path");
+    }
+    EXPECT_NE(read_mesh(folder / "part.1").error().remedy.find("MESH is the stem of TetGen's files"),
+              std::string::npos);
+    put(folder / "part.msh", msh_text);
+    EXPECT_EQ(read_mesh(folder / "part").error().remedy,
+              "there is " + folder / "part.msh" + ": name it with its suffix");
+    EXPECT_EQ(read_mesh(folder / ".").error().what, "this is a folder");
+    std::filesystem::create_directories(folder / "case/constant/polyMesh");
+    EXPECT_NE(read_mesh(folder / "case").error().what.find("a case of OpenFOAM"), std::string::npos);
+    put(folder / "bin.node", "4\t3\t0\t0\tBIN\nxxxx");
+    put(folder / "bin.ele", "1\t4\t0\tBIN\nxxxx");
+    EXPECT_EQ(read_mesh(folder / "bin").error().what, "a binary file");
+    EXPECT_NE(read_mesh(folder / "bin").error().remedy.find("Chaste"), std::string::npos);
+}
+
+TEST(MeshFormat, write_by_suffix) {
+    const TemporaryFolder folder;
+    put(folder / "a.msh", msh_text);
+    const Mesh mesh = read_mesh(folder / "a.msh").value();
+    for (const char* name : {"b.msh", "b.vtu", "b.vtk", "b.node", "c.1", "d"}) {
+        const Status written = write_mesh(mesh, folder / name);
+        ASSERT_TRUE(written) << written.error().message();
+        const Mesh read = read_mesh(folder / name).value();
+        EXPECT_EQ(read.points, mesh.points) << name;
+        EXPECT_EQ(read.cells, mesh.cells) << name;
+    }
+    const Status other = write_mesh(mesh, folder / "b.mesh");
+    ASSERT_FALSE(other);
+    EXPECT_EQ(other.error().found, "\".mesh\"");
+}
+
+bool runs(const std::string& command) {
+    return std::system(("(" + command + ") >/dev/null 2>&1 </dev/null").c_str()) == 0;
+}
+
+TEST(MeshFormat, the_commands_work) {
+    if (!runs("gmsh --version") || !runs("meshio --version")) GTEST_SKIP() << "no gmsh, or no meshio";
+    const TemporaryFolder folder;
+    put(folder / "a.msh", msh_text);
+    int converted = 0;
+    for (const char* suffix : {".mesh", ".unv", ".inp", ".su2", ".bdf", ".med", ".stl"}) {
+        SCOPED_TRACE(suffix);
+        const std::string path = folder / ("b c" + std::string(suffix));
+        // Whichever of the two can write it.
+        const bool made = runs("gmsh " + folder / "a.msh" + " -save -o '" + path + "'") ||
+                          runs("meshio convert " + folder / "a.msh" + " '" + path + "'");
+        if (!made || !std::filesystem::exists(path) || std::filesystem::is_empty(path)) continue;
+        const Result<Mesh> refused = read_mesh(path);
+        ASSERT_FALSE(refused);
+        const std::string& remedy = refused.error().remedy;
+        const std::size_t first = remedy.find('`'), last = remedy.find('`', first + 1);
+        ASSERT_NE(last, std::string::npos) << remedy;
+        const std::string command = remedy.substr(first + 1, last - first - 1);
+        if (command.starts_with("barycert ")) continue;
+        ASSERT_TRUE(runs(command)) << command;
+        const std::string to = folder / (command.find(".vtu") != std::string::npos ? "b c.vtu" : "b c.msh");
+        const Result<Mesh> mesh = read_mesh(to);
+        ASSERT_TRUE(mesh) << command << ": " << mesh.error().message();
+        EXPECT_EQ(mesh->cell_count(), 1U);
+        std::filesystem::remove(to);
+        ++converted;
+    }
+    EXPECT_GE(converted, 4);
+}
+
+}  // namespace
+}  // namespace barycert::testing
