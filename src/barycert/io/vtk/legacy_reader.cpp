@@ -326,7 +326,7 @@ private:
             array.labels = std::move(texts);
             if (!array.has_labels)
                 array.fault = label ? "it holds texts of several components"
-                                       : "it holds text, which points of a mesh cannot carry";
+                                    : "it holds text, which points of a mesh cannot carry";
         } else {
             const std::optional<NumberType> known = LegacyText::number_type_named(type);
             if (known == NumberType::bit && components > 1 && text_.binary()) {
