@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "barycert/check.hpp"
+
 namespace barycert::report {
 
 /// Where bins lie. `given`: as many of `width` from `low` on as make `high`; values beyond (rounding) go to the outer
