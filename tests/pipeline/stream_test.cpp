@@ -110,7 +110,7 @@ protected:
         const auto open = [&](const TableFormat&) -> Result<std::unique_ptr<TableSink>> {
             return std::unique_ptr<TableSink>(std::make_unique<Sink>(written, how.sink_fault));
         };
-        const Status done = pipeline::sample_stream(run, **engine, source, open, "");
+        const Status done = pipeline::sample_stream(run, **engine, source, {.rows = open});
         if (summary != nullptr) *summary = run.summary;
         return {std::move(written), done ? "" : done.error().message()};
     }

@@ -39,6 +39,7 @@ void sample_reports(Schema& schema) {
     SampleSummary run;
     run.columns = {"t"};
     run.carried = {"id"};
+    run.counts.locations.ways.walk = 1;
     run.notes = {{Note::Kind::guessed, "the order", "a file"}};
     for (const double low : {0.25, std::numeric_limits<double>::quiet_NaN()}) {
         run.picture = SliceCounts{.drawn = 3, .below = 1, .above = 2, .low = low, .high = low};

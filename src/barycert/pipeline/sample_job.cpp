@@ -86,9 +86,11 @@ Status in_steps(Run& run, const SampleJob& job, Engine& engine, const std::vecto
 
 Status at_points(Run& run, const SampleJob& job, Engine& engine) {
     const bool csv = job.output == "-" || io::has_suffix(job.output, ".csv");
+    pipeline::Stopwatch watch;
     auto source =
         open_points(job.points, engine.mesh().dimension, {.columns = job.columns, .keep = job.keep, .typed = !csv});
     if (!source) return source.error();
+    run.summary.seconds.read += watch.lap();  // some files are read as a whole, and some twice
     const Notes notes = (*source)->notes();
     run.summary.notes.insert(run.summary.notes.end(), notes.begin(), notes.end());
     run.summary.points = job.points;

@@ -1,6 +1,7 @@
 #include "barycert/io/npy/npy_file.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <string_view>
 #include <utility>
 
@@ -75,14 +76,21 @@ Status NpyFile::go_to(const NpyTable& table, std::uint64_t first, std::size_t co
     return read(first * table.row_size, bytes_);
 }
 
+/// Where the first value of the column in the rows stands.
+Result<const char*> NpyFile::items(const NpyColumn& column) {
+    if (by_columns_) {
+        bytes_.resize(count_ * column.step);
+        if (Status done = read(column.first + first_ * column.step, bytes_); !done) return done.error();
+    }
+    return static_cast<const char*>(bytes_.data() + (by_columns_ ? 0 : column.first));
+}
+
 /// Calls take(i, place) for the value i of the rows; the first Error ends that.
 template <class Take>
 Status NpyFile::for_items(const NpyColumn& column, Take take) {
-    if (by_columns_) {
-        bytes_.resize(count_ * column.step);
-        if (Status done = read(column.first + first_ * column.step, bytes_); !done) return done;
-    }
-    const char* at = bytes_.data() + (by_columns_ ? 0 : column.first);
+    const Result<const char*> first = items(column);
+    if (!first) return first.error();
+    const char* at = *first;
     for (std::size_t i = 0; i < count_; ++i, at += column.step) {
         if (Status taken = take(i, at); !taken) return taken;
     }
@@ -98,6 +106,20 @@ Error NpyFile::value_error(const std::string& what, std::size_t row, const char*
 }
 
 Status NpyFile::numbers(const NpyColumn& column, const std::string& what, double* out, std::size_t stride) {
+    if (column.type.kind == 'f') {  // there is nothing to refuse
+        const Result<const char*> first = items(column);
+        if (!first) return first.error();
+        const char* at = *first;
+        const bool as_in_memory = column.type.size == sizeof(double) && !column.type.swapped;
+        for (std::size_t i = 0; i < count_; ++i, at += column.step) {
+            if (as_in_memory) {
+                std::memcpy(out + i * stride, at, sizeof(double));
+            } else {
+                out[i * stride] = *npy_double(at, column.type);
+            }
+        }
+        return Done{};
+    }
     return for_items(column, [&](std::size_t i, const char* at) -> Status {
         const auto x = npy_double(at, column.type);
         if (!x)

@@ -44,6 +44,7 @@ public:
     Status read(std::uint64_t offset, std::span<char> bytes) const;
 
 private:
+    Result<const char*> items(const NpyColumn& column);
     template <class Take>
     Status for_items(const NpyColumn& column, Take take);
     Error value_error(const std::string& what, std::size_t row, const char* expected, const char* remedy) const;

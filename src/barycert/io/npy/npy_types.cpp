@@ -13,15 +13,25 @@
 namespace barycert::io {
 namespace {
 
-/// The item as a little-endian word; 8 bytes at most.
-std::uint64_t word_at(const char* at, const NpyType& type) {
-    std::uint64_t word = 0;
-    for (std::size_t i = 0; i < type.size; ++i) {
-        const bool big = type.swapped == (std::endian::native == std::endian::little);
-        const auto byte = static_cast<unsigned char>(at[big ? type.size - 1 - i : i]);
-        word |= static_cast<std::uint64_t>(byte) << 8 * i;
-    }
+template <class Word>
+Word load(const char* at) {
+    Word word = 0;
+    std::memcpy(&word, at, sizeof word);
     return word;
+}
+
+/// The item as an integer without sign; 8 bytes at most.
+std::uint64_t word_at(const char* at, const NpyType& type) {
+    switch (type.size) {
+        case 8:
+            return type.swapped ? __builtin_bswap64(load<std::uint64_t>(at)) : load<std::uint64_t>(at);
+        case 4:
+            return type.swapped ? __builtin_bswap32(load<std::uint32_t>(at)) : load<std::uint32_t>(at);
+        case 2:
+            return type.swapped ? __builtin_bswap16(load<std::uint16_t>(at)) : load<std::uint16_t>(at);
+        default:
+            return load<std::uint8_t>(at);
+    }
 }
 
 /// Sign, 5 bits of exponent, 10 of fraction.

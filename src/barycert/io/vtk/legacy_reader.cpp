@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "barycert/io/vtk/legacy_text.hpp"
+#include "barycert/io/vtk/parallel.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/io/vtk/xml_grids.hpp"
 #include "barycert/io/vtk/xml_reader.hpp"
@@ -109,10 +110,32 @@ private:
         return Done{};
     }
 
+    /// Rows that all have as many nodes as the first one; false if they do not.
+    static bool take_equal_rows(const std::vector<std::int32_t>& rows, std::size_t count, Cells& cells) {
+        if (count == 0 || rows.empty() || rows.front() < 1) return false;
+        const auto nodes = static_cast<std::size_t>(rows.front());
+        if (rows.size() / count != nodes + 1 || rows.size() % count != 0) return false;
+        for (std::size_t at = 0; at < rows.size(); at += nodes + 1) {
+            if (rows[at] != rows.front()) return false;
+        }
+        make_room(cells.connectivity, count * nodes);
+        cells.connectivity.resize(count * nodes);
+        make_room(cells.ends, count);
+        cells.ends.resize(count);
+        in_parts(count, std::size_t{1} << 15, [&](std::size_t first, std::size_t last) {
+            for (std::size_t cell = first; cell < last; ++cell) {
+                std::copy_n(rows.data() + cell * (nodes + 1) + 1, nodes, cells.connectivity.data() + cell * nodes);
+                cells.ends[cell] = static_cast<std::int64_t>((cell + 1) * nodes);
+            }
+        });
+        return true;
+    }
+
     /// Before version 5: the number of its nodes, then the nodes, cell after cell.
     Status read_rows(Cells& cells, std::size_t count, std::size_t size) {
         std::vector<std::int32_t> rows;
         if (Status s = text_.numbers("the cells", NumberType::int32, size, rows); !s) return s;
+        if (take_equal_rows(rows, count, cells)) return Done{};
         std::size_t at = 0;
         cells.connectivity.reserve(rows.size());
         for (std::size_t cell = 0; cell < count; ++cell) {
@@ -152,14 +175,16 @@ private:
         }
         for (std::size_t i = 0; i < section_count; ++i) {
             const auto before = static_cast<std::int64_t>(grid_.connectivity.size());
+            const bool first = grid_.ends.empty();
             Cells& cells = sections_[i];
             std::int64_t end = 0;
             for (const std::int64_t next : cells.ends) {
                 if (polydata_) grid_.types.push_back(type_in(static_cast<Section>(i), next - end));
                 end = next;
-                grid_.ends.push_back(before + end);
+                if (!first) grid_.ends.push_back(before + end);
             }
-            if (before == 0) {
+            if (first) {
+                grid_.ends = std::move(cells.ends);
                 grid_.connectivity = std::move(cells.connectivity);
             } else {
                 grid_.connectivity.insert(grid_.connectivity.end(), cells.connectivity.begin(),
@@ -301,7 +326,7 @@ private:
             array.labels = std::move(texts);
             if (!array.has_labels)
                 array.fault = label ? "it holds texts of several components"
-                                       : "it holds text, which points of a mesh cannot carry";
+                                    : "it holds text, which points of a mesh cannot carry";
         } else {
             const std::optional<NumberType> known = LegacyText::number_type_named(type);
             if (known == NumberType::bit && components > 1 && text_.binary()) {

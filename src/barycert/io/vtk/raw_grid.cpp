@@ -38,10 +38,13 @@ std::string inexact(const NumberFault& fault) {
 std::size_t first_wrong_node(const std::vector<std::int32_t>& nodes, std::size_t from, std::size_t count) {
     std::atomic<bool> wrong{false};
     in_parts(nodes.size() - from, std::size_t{1} << 18, [&](std::size_t first, std::size_t last) {
-        std::uint32_t highest = 0;  // a negative one is higher than any
-        for (std::size_t i = from + first; i < from + last; ++i)
-            highest = std::max(highest, static_cast<std::uint32_t>(nodes[i]));
-        if (highest >= count) wrong = true;
+        // The sign of any of these numbers: below 0, or at `count` or above.
+        std::uint32_t signs = 0;
+        for (std::size_t i = from + first; i < from + last; ++i) {
+            const auto node = static_cast<std::uint32_t>(nodes[i]);
+            signs |= node | (static_cast<std::uint32_t>(count) - 1 - node);
+        }
+        if (signs >> 31U != 0) wrong = true;
     });
     if (!wrong) return nodes.size();
     std::size_t i = from;

@@ -41,8 +41,8 @@ struct RawGrid {
     std::size_t point_count() const { return points.size() / 3; }
 };
 
-/// How much of a file is wanted. Texts of points, and integers of theirs that no doubles represent, are labels only where
-/// there is no mesh that would have to carry them: with point_arrays.
+/// How much of a file is wanted. Texts of points, and integers of theirs that no doubles represent, are labels only
+/// where there is no mesh that would have to carry them: with point_arrays.
 enum class Part : std::uint8_t { points, point_arrays, all };
 
 /// Name of the array in which write_vtu keeps point markers: 64-bit integers of one component.

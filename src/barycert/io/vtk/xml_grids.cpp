@@ -1,5 +1,7 @@
 #include "barycert/io/vtk/xml_grids.hpp"
 
+#include <unistd.h>
+
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -131,6 +133,13 @@ Status read_grid_points(const XmlTree& tree, const XmlArrays& arrays, const XmlE
                             "the extent " + in_quotes(text));
     }
     if (points == 0) return Done{};
+    // Few bytes describe any number of points: no more than memory holds.
+    const std::uint64_t memory =
+        static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+    if (type != "StructuredGrid" && points > memory / 2 / (3 * sizeof(double))) {
+        return arrays.error(piece, "the points of the grid", "as many as fit in half of the memory of this machine",
+                            std::to_string(points), "use a smaller grid");
+    }
     if (type == "ImageData") return read_image_points(arrays, data, *extent, counts, grid);
     if (type == "RectilinearGrid") return read_rectilinear_points(tree, arrays, piece, counts, grid);
     const XmlElement* const section = tree.child(piece, "Points");

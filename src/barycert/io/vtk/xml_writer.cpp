@@ -117,7 +117,8 @@ bool write_blocks(const OutArray& a, Compressor compressor, PatchedFile& file) {
     return good;
 }
 
-/// Offsets are known last: the attributes have room for them.
+/// Offsets are known last: there is room for them, and for the quote behind. (Blanks before the quote, as VTK has them,
+/// keep meshio 5 from reading the file.)
 bool write_compressed(const OutFile& f, Compressor compressor, base::OutputFile& target) {
     PatchedFile file(target);
     std::vector<std::uint64_t> places;
@@ -127,7 +128,7 @@ bool write_compressed(const OutFile& f, Compressor compressor, base::OutputFile&
         for (const OutArray& a : section.arrays) {
             file.write(array_begin(a.array) + " format=\"appended\" offset=\"");
             places.push_back(file.size());
-            file.write(std::string(offset_width, ' ') + "\"/>\n");
+            file.write(std::string(offset_width + 1, ' ') + "/>\n");
         }
         file.write("      </" + section.element + ">\n");
     }
@@ -137,7 +138,7 @@ bool write_compressed(const OutFile& f, Compressor compressor, base::OutputFile&
     bool good = true;
     for (const OutSection& section : f.sections) {
         for (const OutArray& a : section.arrays) {
-            file.replace(places[array++], std::to_string(file.size() - data));
+            file.replace(places[array++], std::to_string(file.size() - data) + '"');
             good = write_blocks(a, compressor, file) && good;
         }
     }

@@ -1,0 +1,92 @@
+/// Rows of any number into .vtu files: what is kept beside the target on the way.
+#include "io/vtk/mesh_notes.hpp"
+
+#include "barycert/io.hpp"
+#include "barycert/io/vtk/spool.hpp"
+#include "barycert/vtk.hpp"
+
+namespace barycert::testing {
+namespace {
+
+TEST(VtkRows, spools_keep_all_bytes) {
+    const TemporaryFolder folder;
+    for (const std::size_t count : {std::size_t{0}, std::size_t{3}, std::size_t{1000000}}) {
+        io::Spool spool(folder / "x.vtu");
+        std::vector<double> all;
+        for (std::size_t i = 0; i < count; i += 1000) {
+            std::vector<double> some;
+            for (std::size_t k = i; k < std::min(count, i + 1000); ++k) some.push_back(static_cast<double>(k) + 0.5);
+            ASSERT_TRUE(spool.append(std::span<const double>(some)));
+            all.insert(all.end(), some.begin(), some.end());
+        }
+        ASSERT_TRUE(spool.finish());
+        EXPECT_EQ(bits_of({spool.values<double>().begin(), spool.values<double>().end()}), bits_of(all));
+        EXPECT_EQ(folder.file_count(), 0U);
+    }
+}
+
+TEST(VtkRows, of_every_kind_come_back) {
+    const TemporaryFolder folder;
+    TableFormat format{
+        .dimension = 3, .fields = {{"T", 1}, {"u", 2}}, .distances = true, .carried = {}, .vtk_data = {}};
+    format.carried = {{"id", Column::Type::integer}, {"time", Column::Type::number}, {"name", Column::Type::text}};
+    for (const VtkData data : {VtkData::raw, VtkData::zlib, VtkData::lz4, VtkData::lzma, VtkData::ascii}) {
+        SCOPED_TRACE(name(data));
+        format.vtk_data = data;
+        auto sink = open_table(folder / "r.vtu", format).value();
+        std::vector<double> points, values, distances, times, t, u;
+        std::vector<std::int64_t> ids;
+        for (int block = 0; block < 40; ++block) {
+            Table rows;
+            Column id{"id", std::vector<std::int64_t>()}, time{"time", std::vector<double>()},
+                name{"name", std::vector<std::string>()};
+            for (int i = 0; i < 5000; ++i) {
+                const double x = block + i * 0.1;
+                rows.points.insert(rows.points.end(), {x, -x, 0.1 * x});
+                rows.cells.push_back(i % 7 - 1);
+                rows.features.push_back(i % 7 == 0 ? Feature::outside : Feature::interior);
+                rows.values.insert(rows.values.end(), {x / 3, x / 7, -x});
+                rows.distances.push_back(x);
+                std::get<0>(id.values).push_back((std::int64_t{1} << 60U) + i);
+                std::get<1>(time.values).push_back(x * x);
+                std::get<2>(name.values).push_back(i % 2 == 0 ? "" : "p" + std::to_string(i));
+                t.push_back(x / 3);
+                u.insert(u.end(), {x / 7, -x});
+            }
+            rows.carried = {id, time, name};
+            points.insert(points.end(), rows.points.begin(), rows.points.end());
+            ASSERT_TRUE(sink->write(rows.view()));
+            EXPECT_EQ(folder.file_count(), 0U);
+        }
+        ASSERT_TRUE(sink->commit());
+        const Result<PointData> read = read_vtk_point_data(folder / "r.vtu", 3);
+        ASSERT_TRUE(read) << read.error().message();
+        EXPECT_EQ(bits_of(read->points), bits_of(points));
+        const auto field = [&](const std::string& name) -> const std::vector<double>& {
+            for (const Field& f : read->fields) {
+                if (f.name == name) return f.data;
+            }
+            static const std::vector<double> none;
+            return none;
+        };
+        EXPECT_EQ(bits_of(field("T")), bits_of(t));
+        EXPECT_EQ(bits_of(field("u")), bits_of(u));
+        EXPECT_EQ(field("cell")[0], -1);
+        EXPECT_EQ(field("vtkValidPointMask")[1], 1);
+        EXPECT_EQ(field("time").size(), t.size());
+        EXPECT_EQ(field("distance").size(), t.size());
+        EXPECT_TRUE(read->notes.empty());
+        ASSERT_EQ(read->labels.size(), 2U);  // ids that no double holds, texts
+        const auto& kept = std::get<std::vector<std::int64_t>>(read->labels[0].values);
+        const auto& names = std::get<std::vector<std::string>>(read->labels[1].values);
+        ASSERT_EQ(kept.size(), t.size());
+        ASSERT_EQ(names.size(), t.size());
+        EXPECT_EQ(kept[5001], (std::int64_t{1} << 60U) + 1);
+        EXPECT_EQ(names[5001], "p1");
+        EXPECT_EQ(names[5002], "");
+        std::filesystem::remove(folder / "r.vtu");
+    }
+}
+
+}  // namespace
+}  // namespace barycert::testing
