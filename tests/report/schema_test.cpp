@@ -50,6 +50,33 @@ void sample_reports(Schema& schema) {
     }
 }
 
+/// Verifications with something of everything.
+void verify_reports(Schema& schema) {
+    VerifySummary run;
+    for (const bool much : {false, true}) {
+        if (much) {
+            run.dimension = 2;
+            run.cell_column = "cell";
+            run.mask_column = "mask";
+            run.outside_value = 0;
+            run.columns = run.found_in = {"T"};
+            run.ranges = {2};
+            run.verdicts.columns.resize(1);
+            run.notes = {{Note::Kind::guessed, "the order", "a file"}};
+        }
+        WrongRow row;
+        row.verdict = RowVerdict::wrong_value;
+        run.verdicts.examples = {row};
+        schema.check("Verify", Json::parse(verify_json(run, measure_environment())), "verify");
+        row.exact.cell = 1;
+        row.claimed_cell = 1;
+        row.claimed = row.value = std::numeric_limits<double>::quiet_NaN();
+        row.ulps = HUGE_VAL;
+        run.verdicts.examples = {row};
+        schema.check("Verify", Json::parse(verify_json(run, measure_environment())), "verify");
+    }
+}
+
 /// Drift and texels, with something of everything.
 void raster_reports(Schema& schema) {
     DriftOptions options;
@@ -97,6 +124,7 @@ Schema schema_with_all_reports() {
     schema.check("Families", Json::parse(families_json(all_families())), "families");
     check_reports(schema);
     sample_reports(schema);
+    verify_reports(schema);
     raster_reports(schema);
     contour_reports(schema);
     render_reports(schema);

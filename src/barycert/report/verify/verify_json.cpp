@@ -46,9 +46,9 @@ Json example_json(const VerifySummary& s, const WrongRow& row) {
     j["verdict"] = name(row.verdict);
     j["row"] = row.row;
     j["point"] = std::vector<double>(row.point.begin(), row.point.begin() + s.dimension);
-    j["cell"] = row.exact.cell;
+    j["cell"] = row.exact.cell < 0 ? Json() : Json(row.exact.cell);
     j["feature"] = name(row.exact.feature);
-    if (!s.cell_column.empty()) j["claimed_cell"] = row.claimed_cell;
+    if (!s.cell_column.empty()) j["claimed_cell"] = row.claimed_cell < 0 ? Json() : Json(row.claimed_cell);
     if (!s.columns.empty()) {
         j["column"] = s.columns[row.column];
         j["claimed"] = number(row.claimed);
