@@ -12,7 +12,6 @@
 // and stay there for the next run; about 700 MiB. About a quarter of an hour, nearly all of it VTK's. --quick: small
 // meshes and few points, to see that all of it works.
 
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -252,24 +251,25 @@ void print(const Row& row, int threads) {
                 with_unit(ratio(*best, &Spent::cpu), "x").c_str());
 }
 
-/// A run must not pay for what the one before it still has to write, nor for replacing its file, nor for memory that a
-/// virtual machine has given back to its host since then: that cost a job of 0.35 s up to 0.2 s more.
-void settle(const std::string& out) {
-    if (!out.empty()) fs::remove(out);
+/// A run must not pay for what the one before it still has to write, nor for replacing its file.
+Spent run_settled(const Contender& c) {
+    if (!c.out.empty()) fs::remove(c.out);
     ::sync();
-    apart([] {
-        constexpr std::size_t size = std::size_t{1} << 30;
-        void* const memory =
-            ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_POPULATE, -1, 0);
-        require(memory != MAP_FAILED, "memory to warm up");
-    });
+    return run_process(c.words);
+}
+
+/// What takes less than a second runs twice, the first time only to warm up: a virtual machine may have given memory
+/// back to its host meanwhile, and getting it again takes up to 0.2 s.
+Spent run_warm(const Contender& c) {
+    constexpr double second = 1;
+    const Spent cold = run_settled(c);
+    return cold.wall < second ? run_settled(c) : cold;
 }
 
 void run(Row& row, const Arguments& arguments, int threads, bool look) {
     for (int repetition = 0; repetition <= arguments.repetitions; ++repetition) {
         for (Contender& c : row.contenders) {
-            settle(c.out);
-            const Spent spent = run_process(c.words);
+            const Spent spent = run_warm(c);
             if (repetition != 0) c.spent.push_back(spent);  // the first round reads files into memory
         }
         if (repetition == 0 && look) verify(row);

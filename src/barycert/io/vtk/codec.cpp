@@ -62,7 +62,7 @@ std::string pack(Compressor compressor, std::string_view plain) {
         case Compressor::lz4: {
             if (!fits_int(plain.size())) return {};
             packed.resize(static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(plain.size()))));
-            constexpr int acceleration = 5;  // as VTK's compressor by default
+            constexpr int acceleration = 5;  // speed before size
             const int filled = LZ4_compress_fast(plain.data(), packed.data(), static_cast<int>(plain.size()),
                                                  static_cast<int>(packed.size()), acceleration);
             good = filled > 0;
