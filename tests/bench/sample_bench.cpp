@@ -121,7 +121,8 @@ int main(int count, char** text) {
         constexpr int few[]{4, 8, 16}, many[]{32, 69, 150};
         run_growth(quick ? few : many, points, how, table);
     }
-    if (arguments.wants("counters")) run_counters(std::filesystem::read_symlink("/proc/self/exe").string(), quick, table);
+    if (arguments.wants("counters"))
+        run_counters(std::filesystem::read_symlink("/proc/self/exe").string(), quick, table);
     std::printf("peak of memory: %.0f MiB\n\n", peak_mib());
     table.print_demands();
     if (quick) std::printf("(a quick run: these times and ratios say nothing)\n");

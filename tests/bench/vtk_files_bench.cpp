@@ -106,9 +106,12 @@ struct FileKind {
     const char *what, *name;
     VtkData data;
 };
-constexpr FileKind kinds[]{{"raw", "raw.vtu", VtkData::raw},       {"zlib", "zlib.vtu", VtkData::zlib},
-                           {"lz4", "lz4.vtu", VtkData::lz4},       {"lzma", "lzma.vtu", VtkData::lzma},
-                           {"ascii", "ascii.vtu", VtkData::ascii}, {"legacy", "legacy.vtk", VtkData::raw},
+constexpr FileKind kinds[]{{"raw", "raw.vtu", VtkData::raw},
+                           {"zlib", "zlib.vtu", VtkData::zlib},
+                           {"lz4", "lz4.vtu", VtkData::lz4},
+                           {"lzma", "lzma.vtu", VtkData::lzma},
+                           {"ascii", "ascii.vtu", VtkData::ascii},
+                           {"legacy", "legacy.vtk", VtkData::raw},
                            {"legacy ascii", "text.vtk", VtkData::ascii}};
 
 void same_mesh(const Mesh& a, const Mesh& b, bool exact, const std::string& path) {
@@ -148,7 +151,8 @@ int main(int argc, char** argv) {
 #endif
     for (const FileKind& kind : kinds) {
         if (!only.empty() && only != kind.what) continue;
-        const std::string theirs = (folder / "vtk-").string() + kind.name, ours = (folder / "our-").string() + kind.name;
+        const std::string theirs = (folder / "vtk-").string() + kind.name,
+                          ours = (folder / "our-").string() + kind.name;
         const auto write_ours = [&] { require(write_vtk(mesh, ours, kind.data).has_value(), "cannot write " + ours); };
         std::vector<Contender> writers, readers;
         write_ours();

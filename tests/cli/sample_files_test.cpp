@@ -66,7 +66,8 @@ TEST(sample_files, what_is_not_understood_is_refused) {
     const Words in{"sample", two, "--points", points}, line = plus(in, {"--output", "-"});
     const std::vector<std::pair<Words, std::string>> refusals{
         {{"sample"}, "MESH is required"},
-        {{"sample", two, "--points", points}, "no output: expected --output FILE, --weights FILE, or both, found neither"},
+        {{"sample", two, "--points", points},
+         "no output: expected --output FILE, --weights FILE, or both, found neither"},
         {{"sample", two, "--output", "-"}, "no points: expected one of --points FILE and --map FILE, found neither"},
         {plus(in, {"--output", ""}), "--output"},
         {{"sample", two, "--points", "", "--output", "-"}, "--points"},

@@ -13,8 +13,8 @@
 #include "barycert/report/check/check_html_cells.hpp"
 #include "barycert/report/check/check_html_histogram.hpp"
 #include "barycert/report/check/check_html_picture.hpp"
-#include "barycert/report/common/html_text.hpp"
 #include "barycert/report/check/check_html_view.hpp"
+#include "barycert/report/common/html_text.hpp"
 #include "check_meshes.hpp"
 
 namespace barycert::report_test {

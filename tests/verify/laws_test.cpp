@@ -37,7 +37,8 @@ Claims claims_of(const Mesh& mesh, const std::vector<double>& points, base::Rand
         std::int64_t cell = -1;
         RowVerdict verdict = RowVerdict::right;
         if (inside) cell = held[random.below(held.size())].cell;
-        double value = inside ? true_value(mesh, mesh.point_fields[0], 0, static_cast<Mesh::Index>(cell), at) : not_a_number;
+        double value =
+            inside ? true_value(mesh, mesh.point_fields[0], 0, static_cast<Mesh::Index>(cell), at) : not_a_number;
         double region = inside ? mesh.cell_fields[0].data[static_cast<std::size_t>(cell)] : not_a_number;
         if (inside && !said) {
             cell = -1;

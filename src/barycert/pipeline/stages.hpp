@@ -50,8 +50,8 @@ inline std::size_t block_size(std::optional<std::uint64_t> count) {
 }
 
 /// Three stages at once: blocks are read one after the other, worked on side by side, and written in the order in which
-/// they were read. At most one block a thread, and two more, are in memory. A block has `size`, `error` and `seconds` as
-/// Block has.
+/// they were read. At most one block a thread, and two more, are in memory. A block has `size`, `error` and `seconds`
+/// as Block has.
 template <class Block>
 class StagesOf {
 public:

@@ -52,11 +52,11 @@ private:
     TextTable table_;
     int dimension_;
     bool markers_ = false;
-    std::vector<double> values_;        // of a row: coordinates, attributes
-    std::int64_t marker_ = 0;           // of the row
-    std::vector<std::size_t> axes_;     // of values_
-    std::optional<std::size_t> zero_;   // likewise: a z that must be 0
-    std::vector<std::size_t> places_;   // likewise, of the carried columns; the marker is behind them
+    std::vector<double> values_;         // of a row: coordinates, attributes
+    std::int64_t marker_ = 0;            // of the row
+    std::vector<std::size_t> axes_;      // of values_
+    std::optional<std::size_t> zero_;    // likewise: a z that must be 0
+    std::vector<std::size_t> places_;    // likewise, of the carried columns; the marker is behind them
     std::vector<ColumnFormat> formats_;  // of these
     std::vector<Column> carried_;        // of the last points given
     Notes notes_;
