@@ -20,11 +20,16 @@
 
 namespace barycert::locate {
 
-/// Work on `threads` threads, 0 for as many as the machine has, and never on more.
+/// That many, 0 for as many as there are, and never more than the arena of the caller has.
+inline int threads_of(int threads) {
+    const int available = tbb::this_task_arena::max_concurrency();
+    return threads > 0 ? std::min(threads, available) : available;
+}
+
+/// Work on threads_of(threads) threads.
 template <class F>
 void in_arena(int threads, F&& work) {
-    const int available = tbb::this_task_arena::max_concurrency();
-    tbb::task_arena arena(threads > 0 ? std::min(threads, available) : available);
+    tbb::task_arena arena(threads_of(threads));
     arena.execute(std::forward<F>(work));
 }
 

@@ -8,22 +8,16 @@
 #include <type_traits>
 #include <utility>
 
+#include "barycert/base/utf8.hpp"
+
 namespace barycert::mesh {
 
 std::ptrdiff_t count_characters(std::string_view text) {
     std::ptrdiff_t count = 0;
-    for (std::size_t i = 0; i < text.size(); ++count) {
-        const auto lead = static_cast<unsigned char>(text[i++]);
-        if (lead < 0x80) continue;
-        const int more = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : 1;
-        if (lead < 0xC2 || lead > 0xF4) return -1;
-        std::uint32_t code = lead & (0x3FU >> more);
-        for (int k = 0; k < more; ++k, ++i) {
-            if (i == text.size() || (static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U) return -1;
-            code = code << 6 | (static_cast<unsigned char>(text[i]) & 0x3FU);
-        }
-        if (more == 2 && (code < 0x800 || (code >= 0xD800 && code < 0xE000))) return -1;
-        if (more == 3 && (code < 0x10000 || code > 0x10FFFF)) return -1;
+    for (; !text.empty(); ++count) {
+        const std::size_t size = base::first_character(text).size;
+        if (size == 0) return -1;
+        text.remove_prefix(size);
     }
     return count;
 }
@@ -69,6 +63,28 @@ void move_values(Column& from, std::size_t first, std::size_t count, Column& to)
             more.insert(more.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
         },
         from.values);
+}
+
+void append(std::span<const Column> columns, std::vector<Column>& to) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        if (i == to.size()) to.push_back(empty_column({columns[i].name, columns[i].type()}));
+        std::visit(
+            [&](auto& values) {
+                const auto& more = std::get<std::decay_t<decltype(values)>>(columns[i].values);
+                values.insert(values.end(), more.begin(), more.end());
+            },
+            to[i].values);
+    }
+}
+
+Column part_of(const Column& column, std::size_t begin, std::size_t end) {
+    return std::visit(
+        [&](const auto& values) {
+            const auto first = values.begin() + static_cast<std::ptrdiff_t>(begin);
+            return Column{column.name,
+                          std::decay_t<decltype(values)>(first, first + static_cast<std::ptrdiff_t>(end - begin))};
+        },
+        column.values);
 }
 
 Column repeated(const Column& column, std::span<const std::size_t> begin) {

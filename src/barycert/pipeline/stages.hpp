@@ -2,7 +2,6 @@
 #pragma once
 
 #include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "barycert/environment.hpp"
+#include "barycert/locate/batch.hpp"
 #include "barycert/node_weights.hpp"
 #include "barycert/pipeline/run.hpp"
 #include "barycert/result.hpp"
@@ -39,14 +39,14 @@ struct Block {
     double seconds = 0;  ///< of the work
 };
 
-/// How many points a block has: few enough that all threads have some, enough that sorting them brings near ones
-/// together. `count`: of all, if that is known.
-inline std::size_t block_size(std::optional<std::uint64_t> count) {
+/// How many points a block has: few enough that all of `threads` threads (0: as many as the machine has) have some,
+/// enough that sorting them brings near ones together. `count`: of all, if that is known.
+inline std::size_t block_size(std::optional<std::uint64_t> count, int threads) {
     constexpr std::uint64_t min = std::uint64_t{1} << 12, blocks_a_thread = 4;
     if (!count) return block_of_points;
-    const auto threads = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
-    return static_cast<std::size_t>(
-        std::clamp<std::uint64_t>(*count / (blocks_a_thread * threads), min, block_of_points));
+    const int workers = locate::threads_of(threads);
+    return static_cast<std::size_t>(std::clamp<std::uint64_t>(
+        *count / (blocks_a_thread * static_cast<std::uint64_t>(workers)), min, block_of_points));
 }
 
 /// Three stages at once: blocks are read one after the other, worked on side by side, and written in the order in which
@@ -55,11 +55,13 @@ inline std::size_t block_size(std::optional<std::uint64_t> count) {
 template <class Block>
 class StagesOf {
 public:
+    /// `threads`: 0 for as many as the machine has.
+    explicit StagesOf(int threads) : threads_(locate::threads_of(threads)) {}
+
     /// read(block) fills the next one, of which `size` > 0 unless it is the end; work(block) and write(block) follow.
     /// All tell errors by the block or by what they return. The first error in the order of blocks ends it all.
     template <class Read, class Work, class Write>
     Status run(Read read, Work work, Write write) {
-        const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
         const auto reading = [&](tbb::flow_control& control) -> Block* {
             const ExactEnvironment of_task;  // the arena is the caller's
             if (ended_ || stopped_) {
@@ -83,6 +85,7 @@ public:
         const auto writing = [&](Block* block) {
             const ExactEnvironment of_task;
             if (!stopped_ && !block->error && block->size != 0) {
+                seconds_ += block->seconds;
                 if (Status done = write(*block); !done) block->error = done.error();
             }
             if (!stopped_ && block->error) {
@@ -91,13 +94,18 @@ public:
             }
             put(block);
         };
-        tbb::parallel_pipeline(threads + 2,
-                               tbb::make_filter<void, Block*>(tbb::filter_mode::serial_in_order, reading) &
-                                   tbb::make_filter<Block*, Block*>(tbb::filter_mode::parallel, working) &
-                                   tbb::make_filter<Block*, void>(tbb::filter_mode::serial_in_order, writing));
+        locate::in_arena(threads_, [&] {
+            tbb::parallel_pipeline(static_cast<std::size_t>(threads_) + 2,
+                                   tbb::make_filter<void, Block*>(tbb::filter_mode::serial_in_order, reading) &
+                                       tbb::make_filter<Block*, Block*>(tbb::filter_mode::parallel, working) &
+                                       tbb::make_filter<Block*, void>(tbb::filter_mode::serial_in_order, writing));
+        });
         if (error_) return *error_;
         return Done{};
     }
+
+    /// Of the work on all blocks, divided by the threads.
+    double seconds() const { return seconds_ / threads_; }
 
 private:
     Block* take() {
@@ -112,6 +120,8 @@ private:
         free_.push_back(block);
     }
 
+    int threads_;
+    double seconds_ = 0;  // of the writing stage alone
     std::mutex mutex_;
     std::deque<Block> blocks_;
     std::vector<Block*> free_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +23,11 @@ SampleOptions without_refusal(SampleOptions options);
 
 /// That `what` ("point 7"), at `where`, is outside, and none may be.
 Error outside_error(const std::string& what, std::span<const double> where, const std::string& file);
+
+/// The first point without a cell.
+std::optional<std::size_t> first_outside(std::span<const Mesh::Index> cells);
+
+std::span<const double> point_of(const Table& rows, std::size_t row);
 
 /// How many values of rows inside are NaN.
 std::uint64_t count_nan(const TableView& rows);

@@ -114,7 +114,7 @@ private:
         summary_.threads = threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
         auto all = open_results(job_, mesh_.dimension, {"all"});
         if (!all) return all.error();
-        auto columns = pipeline::claimed_columns(job_, mesh_, *fields, (*all)->carried(), summary_.notes);
+        auto columns = pipeline::claimed_columns(job_, *fields, (*all)->carried(), summary_.notes);
         if (!columns) return columns.error();
         columns_ = std::move(*columns);
         // Standard input cannot be read twice.
@@ -175,8 +175,7 @@ private:
 
     Status compare() {
         const int threads = job_.options.threads;
-        std::size_t size = 0;
-        locate::in_arena(threads, [&] { size = pipeline::block_size(source_->count()); });
+        const std::size_t size = pipeline::block_size(source_->count(), threads);
         ResultBlock first;
         if (const auto read_first = read(first, size); !read_first) return read_first.error();
         VerifyOptions options = job_.options;
@@ -190,7 +189,6 @@ private:
         summary_.verdicts.columns.resize(summary_.columns.size());
         locate::in_arena(threads, [&] { locator_->data().prepare(source_->count().value_or(taken_)); });
         bool begun = false;
-        double comparing = 0;
         const auto next = [&](ResultBlock& block) -> Status {
             if (!begun) {
                 begun = true;
@@ -210,21 +208,16 @@ private:
         };
         const auto keep = [&](ResultBlock& block) -> Status {
             summary_.verdicts.add(block.found, options.examples);
-            comparing += block.seconds;
             if (job_.progress) job_.progress({.stage = "rows", .done = block.first + block.size});
             return Done{};
         };
-        Status done = Done{};
-        locate::in_arena(threads, [&] {
-            pipeline::StagesOf<ResultBlock> stages;
-            done = stages.run(next, work, keep);
-            comparing /= tbb::this_task_arena::max_concurrency();
-        });
+        pipeline::StagesOf<ResultBlock> stages(threads);
+        Status done = stages.run(next, work, keep);
         for (const Note& note : source_->notes()) {
             // Which columns are not compared has been told.
             if (note.kind != Note::Kind::left_out) summary_.notes.push_back(note);
         }
-        summary_.seconds.sample = comparing;
+        summary_.seconds.sample = stages.seconds();
         return done;
     }
 

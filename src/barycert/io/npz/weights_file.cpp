@@ -1,7 +1,7 @@
 #include "barycert/io/npz/weights_file.hpp"
 
+#include <algorithm>
 #include <bit>
-#include <cstring>
 #include <string_view>
 #include <vector>
 
@@ -16,39 +16,32 @@ std::string_view bytes_of(std::span<const T> numbers) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// The numbers of type From in `bytes` as numbers of type To, each changed by `change`.
-template <class From, class To, class Change>
-void write_changed(std::string_view bytes, NpzWriter& file, Change change) {
-    std::vector<To> out(bytes.size() / sizeof(From));
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        From x;
-        std::memcpy(&x, bytes.data() + sizeof x * i, sizeof x);
-        out[i] = static_cast<To>(change(x));
+/// All numbers as numbers of type To, each changed by `change`, piece by piece.
+template <class To, class From, class Change>
+void write_changed(std::span<const From> all, NpzWriter& file, Change change) {
+    constexpr std::size_t piece = std::size_t{1} << 16;
+    std::vector<To> out;
+    for (std::size_t first = 0; first < all.size(); first += out.size()) {
+        out.clear();
+        for (const From x : all.subspan(first, std::min(piece, all.size() - first)))
+            out.push_back(static_cast<To>(change(x)));
+        file.write(bytes_of(std::span<const To>(out)));
     }
-    file.write(bytes_of(std::span<const To>(out)));
 }
 
+constexpr auto unchanged = [](auto x) { return x; };
+
 template <class Offset>
-Status write_pattern(NpzWriter& file, base::SpillFile& counts, base::SpillFile& indices, std::uint64_t rows,
-                     std::uint64_t entries) {
+void write_pattern(NpzWriter& file, std::span<const std::uint8_t> counts, std::span<const Mesh::Index> indices) {
     const char* const type = sizeof(Offset) == 4 ? "<i4" : "<i8";
     file.begin("indices", type);
-    const auto same = [](auto x) { return x; };
-    if (Status read =
-            indices.read([&](std::string_view bytes) { write_changed<Mesh::Index, Offset>(bytes, file, same); });
-        !read)
-        return read;
-    file.end({entries});
+    write_changed<Offset>(indices, file, unchanged);
+    file.end({indices.size()});
     file.begin("indptr", type);
     Offset at = 0;
     file.write(bytes_of(std::span<const Offset>(&at, 1)));
-    const auto sum = [&at](std::uint8_t count) { return at = static_cast<Offset>(at + count); };
-    if (Status read =
-            counts.read([&](std::string_view bytes) { write_changed<std::uint8_t, Offset>(bytes, file, sum); });
-        !read)
-        return read;
-    file.end({rows + 1});
-    return Done{};
+    write_changed<Offset>(counts, file, [&at](std::uint8_t count) { return at = static_cast<Offset>(at + count); });
+    file.end({counts.size() + 1});
 }
 
 }  // namespace
@@ -57,42 +50,33 @@ Result<std::unique_ptr<WeightsFile>> WeightsFile::open(const std::string& path, 
     auto file = NpzWriter::open(path);
     if (!file) return file.error();
     std::unique_ptr<WeightsFile> weights(new WeightsFile(std::move(*file), path, nodes));
-    if (Status spill = weights->status(); !spill) return spill.error();
     weights->file_->begin("data", "<f8");
     return weights;
 }
 
-void WeightsFile::write(std::span<const std::uint8_t> counts, std::span<const Mesh::Index> nodes,
-                        std::span<const double> weights, std::span<const Mesh::Index> cells) {
+Status WeightsFile::write(std::span<const std::uint8_t> counts, std::span<const Mesh::Index> nodes,
+                          std::span<const double> weights, std::span<const Mesh::Index> cells) {
     file_->write(bytes_of(weights));
-    counts_.write(bytes_of(counts));
-    indices_.write(bytes_of(nodes));
-    cells_.write(bytes_of(cells));
-    rows_ += counts.size();
-    entries_ += weights.size();
-}
-
-Status WeightsFile::status() const {
-    for (const base::SpillFile* const spill : {&counts_, &indices_, &cells_}) {
-        if (Status good = spill->status(); !good) return good;
-    }
-    return Done{};
+    if (Status kept = counts_.append(counts); !kept) return kept;
+    if (Status kept = indices_.append(nodes); !kept) return kept;
+    return cells_.append(cells);
 }
 
 Status WeightsFile::commit() {
-    file_->end({entries_});
-    const bool narrow = entries_ <= 0x7fffffff;
-    Status pattern = narrow ? write_pattern<std::int32_t>(*file_, counts_, indices_, rows_, entries_)
-                            : write_pattern<std::int64_t>(*file_, counts_, indices_, rows_, entries_);
-    if (!pattern) return pattern;
+    for (base::Spool* const spool : {&counts_, &indices_, &cells_}) {
+        if (Status kept = spool->finish(); !kept) return kept;
+    }
+    const auto counts = counts_.values<std::uint8_t>();
+    const auto indices = indices_.values<Mesh::Index>();
+    const auto cells = cells_.values<Mesh::Index>();
+    file_->end({indices.size()});
+    const bool narrow = indices.size() <= 0x7fffffff;
+    narrow ? write_pattern<std::int32_t>(*file_, counts, indices)
+           : write_pattern<std::int64_t>(*file_, counts, indices);
     file_->begin("cell", "<i8");
-    const auto same = [](Mesh::Index x) { return x; };
-    if (Status read =
-            cells_.read([&](std::string_view bytes) { write_changed<Mesh::Index, std::int64_t>(bytes, *file_, same); });
-        !read)
-        return read;
-    file_->end({rows_});
-    const std::uint64_t shape[] = {rows_, nodes_};
+    write_changed<std::int64_t>(cells, *file_, unchanged);
+    file_->end({cells.size()});
+    const std::uint64_t shape[] = {cells.size(), nodes_};
     file_->begin("shape", "<i8");
     file_->write(bytes_of(std::span<const std::uint64_t>(shape)));
     file_->end({2});

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "barycert/base/spill_file.hpp"
+#include "barycert/base/spool.hpp"
 #include "barycert/io/npz/npz_writer.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
@@ -23,10 +23,9 @@ public:
     static Result<std::unique_ptr<WeightsFile>> open(const std::string& path, std::uint64_t nodes);
 
     /// Appends rows: as many entries each as `counts` tells, nodes ascending, and the cell, -1 for none.
-    void write(std::span<const std::uint8_t> counts, std::span<const Mesh::Index> nodes,
-               std::span<const double> weights, std::span<const Mesh::Index> cells);
+    Status write(std::span<const std::uint8_t> counts, std::span<const Mesh::Index> nodes,
+                 std::span<const double> weights, std::span<const Mesh::Index> cells);
 
-    Status status() const;
     Status commit();
 
 private:
@@ -34,8 +33,8 @@ private:
         : file_(std::move(file)), counts_(path), indices_(path), cells_(path), nodes_(nodes) {}
 
     std::unique_ptr<NpzWriter> file_;
-    base::SpillFile counts_, indices_, cells_;
-    std::uint64_t nodes_, rows_ = 0, entries_ = 0;
+    base::Spool counts_, indices_, cells_;
+    std::uint64_t nodes_;
 };
 
 }  // namespace barycert::io

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "barycert/base/output_file.hpp"
-#include "barycert/io/vtk/spool.hpp"
+#include "barycert/base/spool.hpp"
 #include "barycert/result.hpp"
 #include "barycert/vtk_data.hpp"
 
@@ -75,7 +75,7 @@ private:
     VtiGrid grid_;
     VtkData data_ = VtkData::raw;
     std::vector<VtiArray> arrays_;
-    std::vector<Spool> spools_;  // of the arrays, where data are not raw
+    std::vector<base::Spool> spools_;  // of the arrays, where data are not raw
     std::vector<ArrayPlace> places_;
     std::uint64_t tail_ = 0;  // where the end of the XML goes
     std::uint64_t end_ = 0;   // of what was written in order

@@ -3,9 +3,9 @@
 #include <memory>
 #include <utility>
 
+#include "barycert/base/spool.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/point_rows.hpp"
-#include "barycert/io/vtk/spool.hpp"
 
 namespace barycert::io {
 namespace {
@@ -23,7 +23,7 @@ public:
 
     Status write(const TableView& rows) override {
         Status good = check_rows(rows, format_, path_);
-        const auto add = [&](Spool& spool, auto values) {
+        const auto add = [&](base::Spool& spool, auto values) {
             if (good) good = spool.append(std::span<const typename decltype(values)::value_type>(values));
         };
         add(points_, rows.points);
@@ -50,7 +50,7 @@ public:
     }
 
     Status commit() override {
-        for (Spool* const spool : {&points_, &cells_, &features_, &inside_, &distances_}) {
+        for (base::Spool* const spool : {&points_, &cells_, &features_, &inside_, &distances_}) {
             if (Status done = spool->finish(); !done) return done;
         }
         PointRows rows{.dimension = format_.dimension,
@@ -82,7 +82,7 @@ public:
 
 private:
     template <class T>
-    void add_column(Spool& spool, const std::vector<T>& values, Status& good) const {
+    void add_column(base::Spool& spool, const std::vector<T>& values, Status& good) const {
         if constexpr (std::is_same_v<T, std::string>) {
             for (const std::string& text : values) {
                 if (good && text.find('\0') != std::string::npos) {
@@ -102,8 +102,8 @@ private:
     std::string path_;
     TableFormat format_;
     std::size_t columns_ = 0;
-    Spool points_, cells_, features_, inside_, distances_;
-    std::vector<Spool> fields_, carried_;
+    base::Spool points_, cells_, features_, inside_, distances_;
+    std::vector<base::Spool> fields_, carried_;
     std::vector<double> numbers_;
     std::vector<std::uint8_t> inside_rows_;
 };

@@ -10,6 +10,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/report/check/check_words.hpp"
 #include "barycert/report/common/environment_json.hpp"
+#include "barycert/report/common/json_figure.hpp"
 #include "barycert/report/common/notes_json.hpp"
 
 namespace barycert {
@@ -19,12 +20,6 @@ using namespace report;
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// JSON knows no infinity, and null would hide it: the largest double stands for it.
-Json figure(double x) {
-    constexpr double max = std::numeric_limits<double>::max();
-    return std::isnan(x) ? Json(nullptr) : Json(std::clamp(x, -max, max));
-}
 
 Json conditions_json(const CheckReport& r, const Mesh& mesh) {
     Json list = Json::array();

@@ -4,6 +4,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/common/environment_json.hpp"
+#include "barycert/report/common/json_figure.hpp"
 #include "barycert/report/common/notes_json.hpp"
 
 namespace barycert {
@@ -13,10 +14,6 @@ using namespace report;
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json figure(double x) {
-    return std::isnan(x) ? Json(nullptr) : Json(x);
-}
 
 Json pixels_json(const ContourSummary& s) {
     Json j;

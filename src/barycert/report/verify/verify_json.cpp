@@ -5,6 +5,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/common/environment_json.hpp"
+#include "barycert/report/common/json_figure.hpp"
 #include "barycert/report/common/notes_json.hpp"
 #include "barycert/report/verify/verify_words.hpp"
 
@@ -15,13 +16,6 @@ using namespace report;
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// JSON has no NaN and no infinity.
-Json number(double x) {
-    if (std::isnan(x)) return nullptr;
-    const double max = std::numeric_limits<double>::max();
-    return std::clamp(x, -max, max);
-}
 
 Json errors_json(const VerifySummary& s, std::size_t c) {
     const ValueErrors& e = s.verdicts.columns[c];
@@ -34,8 +28,8 @@ Json errors_json(const VerifySummary& s, std::size_t c) {
     j["over"] = e.over;
     j["missing"] = e.missing;
     j["spurious"] = e.spurious;
-    j["max_ulps"] = number(e.max_ulps);
-    j["max_error"] = number(e.max_relative);
+    j["max_ulps"] = figure(e.max_ulps);
+    j["max_error"] = figure(e.max_relative);
     j["by_ulps"] = e.by_ulps;
     j["by_error"] = e.by_relative;
     return j;
@@ -51,10 +45,10 @@ Json example_json(const VerifySummary& s, const WrongRow& row) {
     if (!s.cell_column.empty()) j["claimed_cell"] = row.claimed_cell < 0 ? Json() : Json(row.claimed_cell);
     if (!s.columns.empty()) {
         j["column"] = s.columns[row.column];
-        j["claimed"] = number(row.claimed);
-        j["value"] = number(row.value);
-        j["ulps"] = number(row.ulps);
-        j["error"] = number(row.relative);
+        j["claimed"] = figure(row.claimed);
+        j["value"] = figure(row.value);
+        j["ulps"] = figure(row.ulps);
+        j["error"] = figure(row.relative);
     }
     j["command"] = example_command(s, row);
     return j;

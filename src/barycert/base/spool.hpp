@@ -1,4 +1,4 @@
-/// Columns that are gathered before they are written: their number of rows is known at the end only.
+/// Columns that are gathered before they can be written, because how many rows they have is known at the end only.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 #include "barycert/result.hpp"
 
-namespace barycert::io {
+namespace barycert::base {
 
 /// Bytes, in memory while they are few, then in a file without a name beside the target, or else in the folder for
 /// temporary files. They are gone with the object.
@@ -41,4 +41,4 @@ private:
     const char* mapped_ = nullptr;
 };
 
-}  // namespace barycert::io
+}  // namespace barycert::base

@@ -1,4 +1,4 @@
-#include "barycert/io/vtk/spool.hpp"
+#include "barycert/base/spool.hpp"
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-namespace barycert::io {
+namespace barycert::base {
 namespace {
 
 constexpr std::size_t spool_memory = std::size_t{1} << 20;
@@ -90,4 +90,4 @@ Status Spool::finish() {
     return Done{};
 }
 
-}  // namespace barycert::io
+}  // namespace barycert::base

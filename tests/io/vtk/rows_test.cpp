@@ -1,8 +1,8 @@
 /// Rows of any number into .vtu files: what is kept beside the target on the way.
 #include "io/vtk/mesh_notes.hpp"
 
+#include "barycert/base/spool.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/vtk/spool.hpp"
 #include "barycert/vtk.hpp"
 
 namespace barycert::testing {
@@ -11,7 +11,7 @@ namespace {
 TEST(VtkRows, spools_keep_all_bytes) {
     const TemporaryFolder folder;
     for (const std::size_t count : {std::size_t{0}, std::size_t{3}, std::size_t{1000000}}) {
-        io::Spool spool(folder / "x.vtu");
+        base::Spool spool(folder / "x.vtu");
         std::vector<double> all;
         for (std::size_t i = 0; i < count; i += 1000) {
             std::vector<double> some;
