@@ -47,9 +47,11 @@ inline Status check_finite(std::span<const double> points, std::size_t d, std::s
                  .found = std::to_string(points[bad])};
 }
 
-/// How many points are sorted together: the more there are, the nearer they lie to each other.
-inline std::size_t block_of(std::size_t count) {
-    constexpr std::size_t min = std::size_t{1} << 13, max = std::size_t{1} << 20;
+/// How many points are sorted together: the more there are, the nearer they lie to each other. A block takes some 40
+/// bytes a point, so half as many as there are cells take a tenth of what the index does.
+inline std::size_t block_of(std::size_t count, std::size_t cells) {
+    constexpr std::size_t min = std::size_t{1} << 13, enough = std::size_t{1} << 20, most = std::size_t{1} << 24;
+    const std::size_t max = std::clamp(cells / 2, enough, most);
     const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
     return std::clamp((count + threads - 1) / threads, min, max);
 }
@@ -64,7 +66,7 @@ bool for_chunks(const LocatorData& data, const NodeRecord* nodes, std::span<cons
                 LocationCounts& counts, Make make, Done done) {
     const std::size_t d = data.index.dimension(), count = points.size() / d;
     data.prepare(count);
-    const std::size_t block = block_of(count), blocks = (count + block - 1) / block;
+    const std::size_t block = block_of(count, data.index.cell_count()), blocks = (count + block - 1) / block;
     std::vector<LocationCounts> parts(blocks);
     std::atomic<bool> finite = true;
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {

@@ -6,7 +6,7 @@
 namespace barycert::locate {
 namespace {
 
-constexpr int max_bits = 10;
+constexpr int max_bits = 12;
 
 }  // namespace
 

@@ -22,7 +22,7 @@
 
 namespace barycert::pipeline {
 
-/// Points of a block at most.
+/// Points of a block at most, on meshes of up to two million cells.
 inline constexpr std::size_t block_of_points = std::size_t{1} << 17;
 
 /// Rows on their way from the source to the sink, and what became of them.
@@ -40,13 +40,15 @@ struct Block {
 };
 
 /// How many points a block has: few enough that all of `threads` threads (0: as many as the machine has) have some,
-/// enough that sorting them brings near ones together. `count`: of all, if that is known.
-inline std::size_t block_size(std::optional<std::uint64_t> count, int threads) {
-    constexpr std::uint64_t min = std::uint64_t{1} << 12, blocks_a_thread = 4;
-    if (!count) return block_of_points;
+/// enough that sorting them brings near ones together. `count`: of all, if that is known. `cells`: of the mesh, 0 where
+/// none are looked for.
+inline std::size_t block_size(std::optional<std::uint64_t> count, int threads, std::size_t cells) {
+    constexpr std::uint64_t min = std::uint64_t{1} << 12, blocks_a_thread = 4, cells_a_point = 16;
+    const std::uint64_t max = std::max<std::uint64_t>(block_of_points, cells / cells_a_point);
+    if (!count) return static_cast<std::size_t>(max);
     const int workers = locate::threads_of(threads);
     return static_cast<std::size_t>(std::clamp<std::uint64_t>(
-        *count / (blocks_a_thread * static_cast<std::uint64_t>(workers)), min, block_of_points));
+        *count / (blocks_a_thread * static_cast<std::uint64_t>(workers)), min, max));
 }
 
 /// Three stages at once: blocks are read one after the other, worked on side by side, and written in the order in which

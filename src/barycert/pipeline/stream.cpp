@@ -98,10 +98,11 @@ Status sample_stream(Run& run, Engine& engine, PointSource& source, const Stream
     // The first block tells how to go on.
     Block first;
     const int threads = run.job.options.threads;
-    size = block_size(source.count(), threads);
+    size = block_size(source.count(), threads, 0);
     if (Status read = read_next(first); !read) return read;
     Status ready = more ? engine.prepare() : engine.prepare_for_all(first.rows.points);
     if (!ready) return ready;
+    size = block_size(source.count(), threads, engine.locator().data().index.cell_count());
     // What pays for all points would not for one block.
     locate::in_arena(
         threads, [&] { engine.locator().data().prepare(std::max<std::uint64_t>(source.count().value_or(0), taken)); });

@@ -44,7 +44,7 @@ Status sample_map(Run& run, Engine& engine, MapReader& map, const StreamTargets&
     LocationCounts locations;
     std::uint64_t taken = 0;
     const int threads = run.job.options.threads;
-    const std::size_t size = block_size(map.rows(), threads);
+    const std::size_t size = block_size(map.rows(), threads, 0);
     const auto read = [&](Block& block) -> Status {
         Stopwatch watch;
         const Result<std::size_t> count = map.read(size, block.rows);

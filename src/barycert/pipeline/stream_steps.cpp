@@ -19,7 +19,7 @@ Status sample_known(Run& run, Engine& engine, const KnownRows& known, const Sink
     if (!sink) return sink.error();
     seconds.write += watch.lap();
     const int threads = run.job.options.threads;
-    const std::size_t size = block_size(known.cells.size(), threads);
+    const std::size_t size = block_size(known.cells.size(), threads, 0);
     std::size_t taken = 0;
     const auto read = [&](Block& block) -> Status {
         const std::size_t begin = taken, end = std::min(begin + size, known.cells.size());

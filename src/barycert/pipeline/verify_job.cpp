@@ -175,7 +175,7 @@ private:
 
     Status compare() {
         const int threads = job_.options.threads;
-        const std::size_t size = pipeline::block_size(source_->count(), threads);
+        const std::size_t size = pipeline::block_size(source_->count(), threads, mesh_.cell_count());
         ResultBlock first;
         if (const auto read_first = read(first, size); !read_first) return read_first.error();
         VerifyOptions options = job_.options;

@@ -282,7 +282,7 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
     LocationCounts locations;
     Status status = Done{};
     locate::in_arena(options.threads, [&] {
-        const std::size_t count = out.cells.size(), block = locate::block_of(count);
+        const std::size_t count = out.cells.size(), block = locate::block_of(count, data_->index().cell_count());
         Outcome outcome((count + block - 1) / block);
         const auto make = [&](std::size_t, std::size_t size) { return sample::SortedRows(*data_, options, size); };
         const auto keep = [&](std::size_t first, const locate::SortedPoints& sorted, sample::SortedRows& rows) {
