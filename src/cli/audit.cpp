@@ -13,6 +13,7 @@
 #include "barycert/audit_report.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
+#include "ci.hpp"
 #include "command.hpp"
 #include "files.hpp"
 #include "progress.hpp"
@@ -26,7 +27,8 @@ struct AuditArguments {
     std::uint64_t seed = 1;
     int threads = 0;
     std::string json, witnesses, plot;
-    bool quiet = false, no_check = false;
+    bool quiet = false, no_check = false, mutants = false;
+    CiOptions ci;
 };
 
 /// The callback that shows how far the audit is.
@@ -51,18 +53,54 @@ Status check_files(const AuditArguments& a, bool table) {
     }
     for (const std::string& library : a.libraries) inputs.push_back({"--kernel-library", library});
     std::vector<base::NamedFile> outputs{{"--json", a.json}, {"--witnesses", a.witnesses}, {"--plot", a.plot}};
+    add_ci_files(a.ci, inputs, outputs);
     if (table) outputs.push_back({"the table", "-"});
     return base::check_outputs(inputs, std::move(outputs));
 }
 
+/// The mutation score of the families.
+int run_mutants(const AuditArguments& a, const AuditOptions& options, const MeshSource& meshes, Progress& progress,
+                bool table) {
+    const Result<MutantReport> report = audit_mutants(options, meshes);
+    progress.clear();
+    if (!report) return fail(report.error());
+    std::vector<Status> written;
+    if (!a.json.empty()) written.push_back(write_output(a.json, mutants_json(*report)));
+    if (table)
+        written.push_back(
+            write_output("-", mutants_text(*report, {.colour = colour_on_stdout(), .command = command_name()})));
+    for (const Status& status : written) {
+        if (!status) return fail(status.error());
+    }
+    return report->caught() == report->mutants.size() ? exit_clean : exit_findings;
+}
+
+/// Options that say something of kernels under audit.
+Status check_mutants_alone(const AuditArguments& a) {
+    if (!a.mutants) return Done{};
+    const std::pair<const char*, bool> others[] = {
+        {"--kernel", !a.kernels.empty()},      {"--kernel-library", !a.libraries.empty()},
+        {"--witnesses", !a.witnesses.empty()}, {"--plot", !a.plot.empty()},
+        {"--fail-on", !a.fail_on.empty()},     {"--baseline", !a.ci.baseline.empty()},
+        {"--junit", !a.ci.junit.empty()},      {"--sarif", !a.ci.sarif.empty()},
+        {"--annotations", a.ci.annotations}};
+    for (const auto& [option, given] : others) {
+        if (given)
+            return Error{.what = std::string("--mutants and ") + option,
+                         .remedy = "--mutants audits kernels of its own"};
+    }
+    return Done{};
+}
+
 int run_audit(const AuditArguments& a) {
+    if (const Status ok = check_mutants_alone(a); !ok) return fail(ok.error());
     std::vector<Threshold> rules;
     for (const std::string& text : a.fail_on) {
         const Result<Threshold> rule = parse_threshold(text);
         if (!rule) return fail(rule.error());
         rules.push_back(*rule);
     }
-    const bool table = !a.quiet && a.json != "-" && a.witnesses != "-" && a.plot != "-";
+    const bool table = !a.quiet && a.json != "-" && a.witnesses != "-" && a.plot != "-" && !a.ci.on_stdout();
     if (const Status ok = check_files(a, table); !ok) return fail(ok.error());
     AuditOptions options;
     options.count = a.count;
@@ -78,9 +116,12 @@ int run_audit(const AuditArguments& a) {
     const bool wanted = std::any_of(families->begin(), families->end(), [](const Family& f) { return f.needs_mesh; });
     const Result<MeshSource> meshes = wanted || !a.meshes.empty() ? load_meshes(a.meshes, !a.no_check) : MeshSource();
     if (!meshes) return fail(meshes.error());
+    const auto baseline = read_ci_baseline(a.ci, options, *meshes);
+    if (!baseline) return fail(baseline.error());
 
     Progress progress(!a.quiet && stderr_is_terminal());
     options.progress = shown_on(progress);
+    if (a.mutants) return run_mutants(a, options, *meshes, progress, table);
     const Result<AuditReport> report = barycert::run_audit(options, *meshes);
     progress.clear();
     if (!report) return fail(report.error());
@@ -99,14 +140,16 @@ int run_audit(const AuditArguments& a) {
                                   .library_arguments = a.libraries};
         written.push_back(write_output("-", audit_text(*report, style)));
     }
+    const Result<bool> worse = write_ci(a.ci, *report, rules, *baseline, options.kernels, a.libraries, written);
     for (const Status& status : written) {
         if (!status) return fail(status.error());
     }
+    if (!worse) return fail(worse.error());
     const auto broken = violations(*report, rules);
     for (const Violation& v : broken)
         tell(fmt::format("fails: {}: {} = {}, limit {}\n", v.kernel, v.figure, base::shortest(v.value),
                          base::shortest(v.limit)));
-    return broken.empty() ? exit_clean : exit_findings;
+    return broken.empty() && !*worse ? exit_clean : exit_findings;
 }
 
 }  // namespace
@@ -151,6 +194,10 @@ void add_audit(CLI::App& app, int& exit_code) {
                         names)
         ->type_name("RULE")
         ->allow_extra_args(false);
+    add_ci_options(*sub, a->ci);
+    sub->add_flag("--mutants", a->mutants,
+                  "Audit kernels with seeded faults instead, and show which family catches which; exit with 1 if one "
+                  "is not caught");
     sub->add_flag("--no-check", a->no_check, "Do not check whether the meshes are partitions (see `barycert check`)");
     sub->add_flag("--quiet", a->quiet, "Print no table and no progress");
     sub->callback([a, &exit_code] { exit_code = run_audit(*a); });

@@ -23,6 +23,7 @@ void add_check(CLI::App& app, int& exit_code);
 void add_render(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_resample(CLI::App& app, int& exit_code);
+void add_search(CLI::App& app, int& exit_code);
 void add_sample(CLI::App& app, int& exit_code);
 void add_verify(CLI::App& app, int& exit_code);
 void add_catalogue(CLI::App& app, int& exit_code);

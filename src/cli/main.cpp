@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
     cli::add_verify(app, exit_code);
     cli::add_render(app, exit_code);
 #ifdef BARYCERT_WITH_AUDIT
+    cli::add_search(app, exit_code);
     cli::add_replay(app, exit_code);
     cli::add_catalogue(app, exit_code);
 #endif

@@ -77,6 +77,17 @@ void verify_reports(Schema& schema) {
     }
 }
 
+/// A search and a mutation score with something of everything.
+void search_reports(Schema& schema) {
+    SearchOptions options;
+    options.kernel = kernels_matching("tetrahedron.signed-volume").at(0);
+    options.steps = 20000;
+    schema.check("Search", Json::parse(search_json(search_worst_case(options).value())), "search");
+    MutantReport score;
+    score.mutants = {{all_mutants().at(0), 3, {{"random", "worst_weight_ulp", -1, 5}, {"tiny", "false_zero", 0, 5}}}};
+    schema.check("Mutants", Json::parse(mutants_json(score)), "mutants");
+}
+
 /// Drift and texels, with something of everything.
 void raster_reports(Schema& schema) {
     DriftOptions options;
@@ -126,6 +137,7 @@ Schema schema_with_all_reports() {
     sample_reports(schema);
     verify_reports(schema);
     raster_reports(schema);
+    search_reports(schema);
     contour_reports(schema);
     render_reports(schema);
     return schema;

@@ -67,6 +67,18 @@ void flat(Case& c, base::Random& random, int dimension) {
     random_values(c, random);
 }
 
+// Amid an edge, exactly: a value is half a sum of two doubles of one binade, and every other one lies midway between
+// two doubles.
+void midpoints(Case& c, base::Random& random, std::uint64_t) {
+    fill(c, random, [&](int) { return std::ldexp(random.integer(-(1 << 20), 1 << 20), -20); });
+    const int n = vertex_count(c.simplex);
+    const int i = random.integer(0, n - 1);
+    const int j = (i + random.integer(1, n - 1)) % n;
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis)
+        c.point[static_cast<std::size_t>(axis)] = (c.vertex(i, axis) + c.vertex(j, axis)) / 2;
+    for (int k = 0; k < n; ++k) c.values[static_cast<std::size_t>(k)] = 1 + random.unit();
+}
+
 void degenerate_point(Case& c, base::Random& random, std::uint64_t) {
     flat(c, random, 0);
 }
@@ -102,6 +114,8 @@ std::vector<Family> shape_families() {
         built("cap", "cells with a vertex close to the opposite facet", "height 2^-10 to 2^-40", cap, sided),
         built("lattice.tenths", "ties in decimals that rounding breaks", "0.1 k, k in 0..4", lattice_tenths, every),
         built("lattice.integers", "exact zeros, and exactly degenerate cells", "k in 0..4", lattice_integers, every),
+        built("midpoints", "ties: values midway between two doubles",
+              "k 2^-20, |k| <= 2^20; amid an edge; values U[1,2)", midpoints, every),
         built("degenerate.point", "degenerate cells: all vertices coincide", "small integers times 2^[-20,20]",
               degenerate_point, every),
         built("degenerate.line", "degenerate cells: all vertices on one line",

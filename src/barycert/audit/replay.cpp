@@ -1,4 +1,5 @@
 #include "barycert/audit/comparison.hpp"
+#include "barycert/audit/search/evaluation.hpp"
 #include "barycert/audit_witness.hpp"
 
 #include <algorithm>
@@ -26,9 +27,8 @@ KernelAnswer answer_of(const Kernel& kernel, const Case& c, const OracleAnswer& 
 std::string not_reproduced(const Replay& r, const std::vector<Kernel>& kernels) {
     const Witness& w = r.witness;
     if (w.kernel.empty() || w.reason.empty()) return "";
-    std::size_t reason = 0;
-    while (reason < witness_reasons && reason_name(reason) != w.reason) ++reason;
-    if (reason == witness_reasons) return "no class of finding has that name";
+    const std::size_t reason = search_reason_named(w.reason);
+    if (reason == search_reasons) return "no class of finding has that name";
     const auto named = [&](const auto& x) { return x.name == w.kernel; };
     if (std::none_of(kernels.begin(), kernels.end(), named)) {
         return "no kernel of that name here; name its library with --kernel-library";
@@ -39,7 +39,12 @@ std::string not_reproduced(const Replay& r, const std::vector<Kernel>& kernels) 
     if (reason < finding_count) {
         return a->comparison.counts[reason] != 0 ? "" : "the kernel's answer does not have this finding";
     }
-    // Errors in ulps come out the same wherever the kernel was compiled to the same arithmetic.
+    // Errors come out the same wherever the kernel was compiled to the same arithmetic.
+    if (reason == witness_reasons) {
+        const double error = relative_error(r.exact, a->comparison);
+        return error == w.magnitude ? ""
+                                    : "the error is " + base::shortest(error) + ", not " + base::shortest(w.magnitude);
+    }
     const double ulps = w.reason == "worst_value_ulp" ? a->comparison.value_ulp : a->worst_weight_ulp;
     return ulps == w.magnitude ? ""
                                : "the error is " + base::shortest(ulps) + " ulps, not " + base::shortest(w.magnitude);

@@ -1,0 +1,218 @@
+#include "barycert/audit_baseline.hpp"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "barycert/audit/mesh_draws.hpp"
+#include "barycert/base/input_file.hpp"
+#include "barycert/environment.hpp"
+
+namespace barycert {
+
+using namespace audit;
+
+namespace {
+
+using Json = nlohmann::json;
+using Regions = std::array<std::uint64_t, 4>;
+
+/// As the JSON has it: the largest double stands for what is beyond.
+std::vector<double> figures_of(const KernelStatistics& s) {
+    std::vector<double> f{static_cast<double>(s.wrong_cases)};
+    for (const std::uint64_t n : s.counts) f.push_back(static_cast<double>(n));
+    for (const double x : {s.weight_ulp.value, s.p999_weight_ulp(), s.value_ulp.value, s.p999_value_ulp(),
+                           s.partition_residual.value, s.reproduction_residual.value})
+        f.push_back(x >= 0 ? std::min(x, 0x1.fffffffffffffp+1023) : -1);
+    return f;
+}
+
+Regions regions_of(const KernelStatistics& s) {
+    Regions r{};
+    for (std::size_t e = 0; e < 4; ++e) {
+        for (const std::uint64_t n : s.confusion[e]) r[e] += n;
+    }
+    return r;
+}
+
+/// A member of the file, or an Exception that says what there is instead.
+const Json& member(const Json& object, const std::string& key, const std::string& where) {
+    if (!object.is_object() || !object.contains(key))
+        throw Exception({.what = where,
+                         .expected = "a member \"" + key + '"',
+                         .found = object.is_object() ? "none" : object.dump().substr(0, 40)});
+    return object.at(key);
+}
+
+std::uint64_t count_in(const Json& object, const std::string& key, const std::string& where) {
+    const Json& j = member(object, key, where);
+    if (!j.is_number_unsigned())
+        throw Exception({.what = where + ", " + key, .expected = "a count", .found = j.dump().substr(0, 40)});
+    return j.get<std::uint64_t>();
+}
+
+double figure_in(const Json& object, const std::string& key, const std::string& where) {
+    const Json& j = member(object, key, where);
+    if (j.is_null()) return -1;
+    if (!j.is_number() || !(j.get<double>() >= 0))
+        throw Exception(
+            {.what = where + ", " + key, .expected = "a number >= 0 or null", .found = j.dump().substr(0, 40)});
+    return j.get<double>();
+}
+
+std::string text_in(const Json& object, const std::string& key, const std::string& where) {
+    const Json& j = member(object, key, where);
+    if (!j.is_string())
+        throw Exception({.what = where + ", " + key, .expected = "a string", .found = j.dump().substr(0, 40)});
+    return j.get<std::string>();
+}
+
+const Json& list_in(const Json& object, const std::string& key, const std::string& where) {
+    const Json& j = member(object, key, where);
+    if (!j.is_array())
+        throw Exception({.what = where + ", " + key, .expected = "an array", .found = j.dump().substr(0, 40)});
+    return j;
+}
+
+BaselineEntry entry_from(const Json& j, const std::string& kernel) {
+    BaselineEntry e;
+    e.kernel = kernel;
+    e.family = text_in(j, "name", "a family of " + kernel);
+    const std::string where = kernel + " in " + e.family;
+    e.cases = count_in(j, "cases", where);
+    for (const std::string& figure : baseline_figures()) e.figures.push_back(figure_in(j, figure, where));
+    const Json& confusion = member(j, "confusion", where);
+    for (const Region exact : all_regions) {
+        const Json& row = member(confusion, std::string(name(exact)), where + ", confusion");
+        for (const Region claimed : all_regions)
+            e.regions[static_cast<std::size_t>(exact)] +=
+                count_in(row, std::string(name(claimed)), where + ", confusion");
+    }
+    return e;
+}
+
+std::string in_words(std::uint64_t seed, std::uint64_t count) {
+    return "seed " + std::to_string(seed) + " and " + std::to_string(count) + " cases per family and simplex";
+}
+
+Error not_comparable(const Baseline& b, std::string expected, std::string found, std::string remedy) {
+    return {.what = "the baseline is not comparable: it has other cases",
+            .file = b.path,
+            .expected = std::move(expected),
+            .found = std::move(found),
+            .remedy = std::move(remedy)};
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string out;
+    for (const std::string& w : words) out += (out.empty() ? "" : ", ") + w;
+    return out.empty() ? "none" : out;
+}
+
+}  // namespace
+
+const std::vector<std::string>& baseline_figures() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> n{"wrong_cases"};
+        for (const FindingText& f : finding_texts) n.emplace_back(f.name);
+        for (const char* error : {"worst_weight_ulp", "p999_weight_ulp", "worst_value_ulp", "p999_value_ulp",
+                                  "worst_partition_residual", "worst_reproduction_residual"})
+            n.emplace_back(error);
+        return n;
+    }();
+    return names;
+}
+
+Result<Baseline> read_baseline(const std::string& path) {
+    const ExactEnvironment environment;
+    const char* const remedy = "make one with `barycert audit --json FILE`";
+    const Result<std::string> text = base::read_file(path);
+    if (!text) {
+        Error error = text.error();
+        error.what = "cannot read the baseline";
+        return error;
+    }
+    const Json all = Json::parse(*text, nullptr, false);
+    if (all.is_discarded())
+        return Error{
+            .what = "not a baseline", .file = path, .expected = "JSON", .found = "something else", .remedy = remedy};
+    try {
+        if (const Json& schema = member(all, "schema", "the baseline"); schema != witness_schema)
+            return Error{.what = "unknown schema",
+                         .file = path,
+                         .expected = std::to_string(witness_schema),
+                         .found = schema.dump().substr(0, 40)};
+        Baseline b;
+        b.path = path;
+        b.seed = count_in(all, "seed", "the baseline");
+        b.count = count_in(all, "count", "the baseline");
+        for (const Json& mesh : list_in(all, "meshes", "the baseline"))
+            b.meshes.push_back(mesh.is_string() ? mesh.get<std::string>() : mesh.dump());
+        for (const Json& kernel : list_in(all, "kernels", "the baseline")) {
+            const std::string name = text_in(kernel, "name", "a kernel of the baseline");
+            for (const Json& family : list_in(kernel, "families", name)) b.entries.push_back(entry_from(family, name));
+        }
+        return b;
+    } catch (const Exception& e) {
+        Error error = e.error();
+        error.file = path;
+        error.remedy = remedy;
+        return error;
+    }
+}
+
+Status check_comparable(const Baseline& b, const AuditOptions& options, const MeshSource& meshes) {
+    if (b.seed != options.seed || b.count != options.count) {
+        return not_comparable(b, in_words(options.seed, options.count), in_words(b.seed, b.count),
+                              "give --seed " + std::to_string(b.seed) + " --count " + std::to_string(b.count) +
+                                  ", or make a new baseline");
+    }
+    const auto draws = [](const Family& f) { return f.needs_mesh; };
+    if (std::any_of(options.families.begin(), options.families.end(), draws)) {
+        std::vector<std::string> names;
+        for (const auto& m : meshes.meshes()) names.push_back(m->name);
+        // A baseline without meshes has no families from meshes: there is nothing to compare them with.
+        if (!b.meshes.empty() && names != b.meshes)
+            return not_comparable(b, "the meshes " + joined(names), joined(b.meshes),
+                                  "name the same meshes in the same order");
+    }
+    return Done{};
+}
+
+Result<BaselineComparison> compare_with_baseline(const AuditReport& report, const Baseline& b) {
+    const ExactEnvironment environment;
+    std::map<std::pair<std::string, std::string>, const BaselineEntry*> earlier;
+    for (const BaselineEntry& e : b.entries) earlier[{e.kernel, e.family}] = &e;
+    BaselineComparison result;
+    for (const KernelResult& k : report.kernels) {
+        for (const FamilyResult& f : k.families) {
+            const std::string& family = report.families[f.family].name;
+            const auto at = earlier.find({k.kernel.name, family});
+            if (at == earlier.end()) {
+                ++result.not_before;
+                continue;
+            }
+            const BaselineEntry& before = *at->second;
+            if (before.cases != f.statistics.cases || before.regions != regions_of(f.statistics)) {
+                return not_comparable(b, "the same exact regions in " + family, "others",
+                                      "a mesh, or barycert's families, have changed: make a new baseline");
+            }
+            ++result.compared;
+            const std::vector<double> after = figures_of(f.statistics);
+            for (std::size_t i = 0; i < after.size(); ++i) {
+                // Where nothing could be measured, the findings tell why.
+                if (before.figures[i] < 0 || after[i] < 0 || after[i] == before.figures[i]) continue;
+                (after[i] > before.figures[i] ? result.worse : result.better)
+                    .push_back({k.kernel.name, family, baseline_figures()[i], before.figures[i], after[i]});
+            }
+        }
+    }
+    if (result.compared == 0)
+        return Error{.what = "the baseline is not comparable: it has no kernel and family in common with this audit",
+                     .file = b.path};
+    result.not_now = b.entries.size() - result.compared;
+    return result;
+}
+
+}  // namespace barycert

@@ -1,0 +1,115 @@
+#include "barycert/audit/mutants/mutants.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "barycert/environment.hpp"
+
+namespace barycert {
+
+using namespace audit;
+
+namespace {
+
+/// A figure of both, and how much it tells: findings by their share of the cases, errors by the octaves between them.
+struct Telling {
+    MutantCatch what;
+    double weight = 0;
+};
+
+/// What tells the mutant from the sound kernel in one family; no figure if nothing does.
+Telling compare_figures(const KernelStatistics& sound, const KernelStatistics& mutant) {
+    Telling best;
+    const auto consider = [&](std::string_view figure, double s, double m, double weight) {
+        if (weight > best.weight) best = {{"", std::string(figure), s, m}, weight};
+    };
+    const auto cases = static_cast<double>(mutant.cases);
+    const auto count = [&](std::string_view figure, std::uint64_t s, std::uint64_t m) {
+        // Findings go before errors, which are at most 2^1024 ulps.
+        if (m > s)
+            consider(figure, static_cast<double>(s), static_cast<double>(m),
+                     1e6 * (1 + static_cast<double>(m - s) / cases));
+    };
+    // More of one class alone may be fewer of another: more wrong cases are asked for.
+    if (mutant.wrong_cases > sound.wrong_cases) {
+        count("wrong_cases", sound.wrong_cases, mutant.wrong_cases);
+        for (std::size_t f = 0; f < finding_count; ++f) count(finding_texts[f].name, sound.counts[f], mutant.counts[f]);
+    }
+    const auto error = [&](std::string_view figure, double s, double m) {
+        if (m > 2 * std::max(s, 0.0)) consider(figure, s, m, std::log2(m) - std::log2(std::max(s, 0.5)));
+    };
+    error("worst_weight_ulp", sound.weight_ulp.value, mutant.weight_ulp.value);
+    error("p999_weight_ulp", sound.p999_weight_ulp(), mutant.p999_weight_ulp());
+    error("worst_value_ulp", sound.value_ulp.value, mutant.value_ulp.value);
+    error("p999_value_ulp", sound.p999_value_ulp(), mutant.p999_value_ulp());
+    return best;
+}
+
+const KernelResult* result_of(const AuditReport& report, const std::string& name) {
+    const auto at = std::find_if(report.kernels.begin(), report.kernels.end(),
+                                 [&](const KernelResult& k) { return k.kernel.name == name; });
+    return at == report.kernels.end() ? nullptr : &*at;
+}
+
+MutantResult judged(const Mutant& m, const AuditReport& report) {
+    MutantResult r{m, 0, {}};
+    const KernelResult* const mutant = result_of(report, m.kernel.name);
+    const KernelResult* const sound = result_of(report, m.sound.name);
+    if (mutant == nullptr || sound == nullptr) return r;
+    std::vector<Telling> telling;
+    for (std::size_t i = 0; i < mutant->families.size(); ++i) {
+        ++r.families;
+        Telling t = compare_figures(sound->families[i].statistics, mutant->families[i].statistics);
+        if (t.weight <= 0) continue;
+        t.what.family = report.families[mutant->families[i].family].name;
+        telling.push_back(std::move(t));
+    }
+    std::stable_sort(telling.begin(), telling.end(),
+                     [](const Telling& a, const Telling& b) { return a.weight > b.weight; });
+    for (Telling& t : telling) r.catches.push_back(std::move(t.what));
+    return r;
+}
+
+}  // namespace
+
+const std::vector<Mutant>& all_mutants() {
+    static const std::vector<Mutant> all = [] {
+        std::vector<Mutant> list;
+        add_plain_mutants(list);
+        add_filtered_mutants(list);
+        add_certified_mutants(list);
+        return list;
+    }();
+    return all;
+}
+
+std::uint64_t MutantReport::caught() const {
+    return static_cast<std::uint64_t>(
+        std::count_if(mutants.begin(), mutants.end(), [](const MutantResult& r) { return !r.catches.empty(); }));
+}
+
+Result<MutantReport> audit_mutants(AuditOptions options, const MeshSource& meshes, const std::vector<Mutant>& mutants) {
+    const ExactEnvironment environment;
+    options.kernels.clear();
+    const auto add = [&](const Kernel& k) {
+        const auto same = [&](const Kernel& x) { return x.name == k.name; };
+        if (std::none_of(options.kernels.begin(), options.kernels.end(), same)) options.kernels.push_back(k);
+    };
+    for (const Mutant& m : mutants) {
+        add(m.sound);
+        add(m.kernel);
+    }
+    const Result<AuditReport> audit = run_audit(options, meshes);
+    if (!audit) return audit.error();
+    MutantReport report;
+    report.environment = audit->environment;
+    report.seed = audit->seed;
+    report.count = audit->count;
+    report.threads = audit->threads;
+    report.seconds = audit->seconds;
+    for (const Mutant& m : mutants) report.mutants.push_back(judged(m, *audit));
+    return report;
+}
+
+}  // namespace barycert

@@ -1,0 +1,55 @@
+/// One step of a search: a case, the exact answer, the kernel's; and how bad it is.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <string_view>
+
+#include "barycert/audit_findings.hpp"
+#include "barycert/kernels.hpp"
+#include "barycert/oracle.hpp"
+
+namespace barycert::audit {
+
+struct Evaluation {
+    OracleAnswer exact;
+    Comparison comparison;
+    double weight_ulp = -1;      ///< largest error of a weight in ulps; -1 if undefined
+    double relative_error = -1;  ///< relative_error()
+};
+
+/// max |weight - exact| / max |exact|; -1 if degenerate, infinite if a weight is not finite or there is none.
+double relative_error(const OracleAnswer& exact, const Comparison& comparison);
+
+/// Precondition: all numbers of the case are finite, depths above zero.
+Evaluation evaluate(const Kernel& kernel, const Case& c);
+
+/// Those of witnesses, and the relative error.
+inline constexpr std::size_t search_reasons = witness_reasons + 1;
+inline constexpr std::string_view relative_error_reason = "worst_relative_error";
+
+constexpr std::string_view search_reason_name(std::size_t reason) {
+    return reason < witness_reasons ? reason_name(reason) : relative_error_reason;
+}
+
+/// The number of a reason, or search_reasons if there is none of that name.
+std::size_t search_reason_named(std::string_view name);
+
+/// How bad the case is for that reason; -1 if it does not show it. Of findings that is the relative error, so that a
+/// wrong sign counts by what it does to a value; where an answer is missing or not finite the better cell is the worse
+/// fault.
+double badness(std::size_t reason, const Evaluation& e);
+
+/// Where a walk towards that reason stands: a case that shows it is above one that does not; one that does not is the
+/// higher the nearer it seems to be.
+struct Height {
+    double shown = -1;    ///< badness
+    double nearness = 0;  ///< if it does not show
+    friend auto operator<=>(const Height&, const Height&) = default;
+};
+Height height(std::size_t reason, const Evaluation& e);
+
+/// The magnitude of a Witness.
+double magnitude(std::size_t reason, const Evaluation& e);
+
+}  // namespace barycert::audit

@@ -1,0 +1,203 @@
+#include "barycert/audit/search/moves.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "barycert/audit/combine.hpp"
+
+namespace barycert::audit {
+namespace {
+
+int pick(base::Random& random, int count) {
+    return static_cast<int>(random.below(static_cast<std::uint64_t>(count)));
+}
+
+/// 1, 2, 4, ... : each half as likely as the one before, at most 2^limit.
+std::int64_t small_power(base::Random& random, int limit) {
+    int e = 0;
+    while (e < limit && random.coin()) ++e;
+    return std::int64_t{1} << e;
+}
+
+double with_sign(base::Random& random, double x) {
+    return random.coin() ? x : -x;
+}
+
+/// A number with that exponent and a significand of `bits` random bits.
+double drawn(base::Random& random, int exponent, int bits) {
+    const double m = 1 + std::ldexp(std::floor(std::ldexp(random.unit(), bits - 1)), 1 - bits);
+    return std::ldexp(m, exponent);
+}
+
+/// Zero moves by the ulp of the largest on its axis: its neighbours would be subnormal.
+double moved_by_ulps(const Case& c, int k, std::int64_t ulps) {
+    const double x = coordinate(c, k);
+    if (x != 0) return places_above(x, ulps);
+    double max = 0;
+    for (int j = 0; j < coordinate_count(c); ++j) {
+        if (axis_of(c, j) == axis_of(c, k)) max = std::max(max, std::fabs(coordinate(c, j)));
+    }
+    return std::ldexp(static_cast<double>(ulps), base::ulp_exponent(max == 0 ? 1.0 : max));
+}
+
+void redraw_significand(Case& c, base::Random& random) {
+    double& x = coordinate(c, pick(random, coordinate_count(c)));
+    if (x == 0) return;
+    const int exponent = exponent_of(x);
+    if (exponent < -1022) return;
+    switch (pick(random, 3)) {
+        case 0:
+            x = std::copysign(drawn(random, exponent, 53), x);
+            break;
+        case 1:
+            x = std::copysign(drawn(random, exponent, 1 + pick(random, 53)), x);
+            break;
+        default: {  // the last bits alone
+            const auto span = static_cast<double>(std::int64_t{1} << pick(random, 40));
+            x = places_above(x, static_cast<std::int64_t>(random.uniform(-span, span)));
+        }
+    }
+}
+
+/// One number, all of an axis, of a vertex, or all.
+void shift_exponents(Case& c, base::Random& random) {
+    const int k = pick(random, coordinate_count(c)), axis = axis_of(c, k);
+    int by = pick(random, 8) == 0 ? random.integer(-60, 60) : random.integer(-3, 3);
+    if (by == 0) by = 1;
+    const int kind = pick(random, 8);
+    for (int j = 0; j < coordinate_count(c); ++j) {
+        const bool chosen = kind < 5   ? j == k
+                            : kind < 6 ? axis_of(c, j) == axis
+                            : kind < 7 ? j / c.stride() == k / c.stride()
+                                       : true;
+        if (chosen) coordinate(c, j) = std::ldexp(coordinate(c, j), by);
+    }
+}
+
+void take_from_another(Case& c, base::Random& random) {
+    const int k = pick(random, coordinate_count(c));
+    const int kind = pick(random, 8);
+    if (kind == 0 && !is_depth(c, k)) {
+        coordinate(c, k) = 0;
+    } else if (kind == 1 && !is_depth(c, k)) {
+        coordinate(c, k) = -coordinate(c, k);
+    } else {
+        const int j = pick(random, coordinate_count(c));
+        if (axis_of(c, j) == axis_of(c, k) || kind == 2) coordinate(c, k) = coordinate(c, j);
+        if (is_depth(c, k)) coordinate(c, k) = std::fabs(coordinate(c, k));
+    }
+}
+
+/// Into the cell, one of its faces or edges, or onto a vertex.
+void point_between(Case& c, base::Random& random) {
+    const int n = vertex_count(c.simplex);
+    const int first = pick(random, n), size = 1 + pick(random, n);
+    const std::array<double, 4> drawn_weights = random_weights(random, size);
+    std::array<double, 4> w{};
+    for (int i = 0; i < size; ++i)
+        w[static_cast<std::size_t>((first + i) % n)] = drawn_weights[static_cast<std::size_t>(i)];
+    c.point = combination(c, w, n);
+}
+
+}  // namespace
+
+Case patterned_case(Simplex simplex, bool perspective, const ExponentRange& range, base::Random& random) {
+    Case c;
+    c.simplex = simplex;
+    c.perspective = perspective;
+    const int count = coordinate_count(c);
+    const int low = std::max(range.min, -1022);  // significands are drawn with all their bits
+    // Ordinary sizes half of the time, else anywhere.
+    int middle = random.coin() ? 0 : random.integer(std::min(low, range.max), range.max);
+    middle = std::clamp(middle, std::min(low, range.max), range.max);
+    const int width = static_cast<int>(small_power(random, 10)) - 1;
+    const auto exponent = [&] {
+        return std::clamp(random.integer(middle - width, middle + width), std::min(low, range.max), range.max);
+    };
+    const int kind = pick(random, 4);
+    const int bits = random.coin() ? 53 : 1 + pick(random, 53);
+    std::array<int, 5> shared{};
+    for (int& e : shared) e = exponent();
+    for (int k = 0; k < count; ++k) {
+        const int own = exponent();
+        const int e = kind == 0   ? middle
+                      : kind == 1 ? shared[static_cast<std::size_t>(axis_of(c, k))]
+                      : kind == 2 ? shared[static_cast<std::size_t>(std::min(k / c.stride(), 4))]
+                                  : own;
+        const double x = drawn(random, e, bits);
+        const bool zero = pick(random, 16) == 0;
+        const double signed_x = with_sign(random, x);
+        coordinate(c, k) = is_depth(c, k) ? x : zero ? 0 : signed_x;
+    }
+    const bool between = random.coin();
+    const std::array<double, 3> drawn_point = c.point;
+    if (between) point_between(c, random);
+    if (!admissible(c, range)) c.point = drawn_point;
+    random_values(c, random);
+    return c;
+}
+
+void wander(Case& c, base::Random& random, bool values) {
+    if (values && pick(random, 4) == 0) {
+        double& f = c.values[static_cast<std::size_t>(pick(random, vertex_count(c.simplex)))];
+        const std::int64_t by = small_power(random, 50);
+        f = random.coin() ? places_above(f, random.coin() ? by : -by) : random.uniform(-1, 1);
+        return;
+    }
+    const int changes = static_cast<int>(small_power(random, 2));
+    for (int i = 0; i < changes; ++i) {
+        switch (pick(random, 8)) {
+            case 0:
+                redraw_significand(c, random);
+                break;
+            case 1:
+                shift_exponents(c, random);
+                break;
+            case 2:
+                take_from_another(c, random);
+                break;
+            case 3:
+                if (pick(random, 4) == 0) point_between(c, random);
+                [[fallthrough]];
+            default: {
+                const int k = pick(random, coordinate_count(c));
+                const std::int64_t by = small_power(random, 12);
+                coordinate(c, k) = moved_by_ulps(c, k, random.coin() ? by : -by);
+            }
+        }
+    }
+}
+
+void jump_to_zero(Case& c, const Evaluation& at, base::Random& random, const ExponentRange& range, const Ask& ask) {
+    const int n = vertex_count(c.simplex);
+    const auto i = static_cast<std::size_t>(pick(random, n));
+    const bool whole = pick(random, 4) == 0;
+    // Numerator i is linear in the point and in every vertex but i; the determinant of the cell over it in vertex i.
+    const int vertex = whole ? static_cast<int>(i) : (static_cast<int>(i) + 1 + pick(random, n - 1)) % n;
+    const bool of_point = !whole && random.coin();
+    const int axis = pick(random, space_dimension(c.simplex));
+    const int k = (of_point ? vertex_numbers(c) : c.stride() * vertex) + axis;
+    const auto figure = [&](const Evaluation& e) { return whole ? 1 / e.exact.weights[i] : e.exact.weights[i]; };
+    double x0 = coordinate(c, k), f0 = figure(at);
+    const double step = x0 == 0 ? moved_by_ulps(c, k, std::int64_t{1} << 40) : x0 * 0x1p-12;
+    double x1 = x0 + with_sign(random, step);
+    constexpr int rounds = 4;
+    for (int round = 0; round < rounds && x1 != x0; ++round) {
+        Case next = c;
+        coordinate(next, k) = x1;
+        if (!admissible(next, range)) return;
+        const Evaluation* e = ask(next);
+        if (e == nullptr) return;
+        c = next;
+        const double f1 = figure(*e);
+        if (!std::isfinite(f1) || f1 == 0) break;  // there
+        const double x2 = x1 - f1 * ((x1 - x0) / (f1 - f0));
+        x0 = x1;
+        f0 = f1;
+        x1 = x2;
+    }
+    const std::int64_t ulps = small_power(random, 6) - 1;
+    coordinate(c, k) = moved_by_ulps(c, k, random.coin() ? ulps : -ulps);
+}
+
+}  // namespace barycert::audit

@@ -1,0 +1,268 @@
+#include "barycert/audit_search.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "barycert/audit/search/moves.hpp"
+#include "barycert/base/random.hpp"
+
+namespace barycert {
+
+using namespace audit;
+
+namespace {
+
+/// Walks of one round do not know of each other: so threads change nothing.
+constexpr std::uint64_t walks_per_round = 32, steps_per_walk = 1000;
+constexpr std::uint64_t patience = 100;  ///< steps without a rise before the walk goes down
+constexpr std::size_t kept = 12;         ///< worst cases of a reason to start from
+
+struct Kept {
+    Case c;
+    Height height;
+};
+
+/// What a walk, or all so far, have met.
+struct Harvest {
+    std::uint64_t steps = 0, wrong_cases = 0;
+    std::array<std::uint64_t, search_reasons> cases{};
+    std::array<std::vector<Kept>, search_reasons> worst;  ///< worst first, at most `kept`
+
+    void add(const Case& c, const Evaluation& e) {
+        ++steps;
+        if (e.comparison.wrong()) ++wrong_cases;
+        for (std::size_t r = 0; r < search_reasons; ++r) {
+            const Height h = height(r, e);
+            if (h.shown >= 0) ++cases[r];
+            if (h.shown >= 0) include(r, {c, h}, 1);
+        }
+    }
+
+    /// Equal ones stay in the order of their coming.
+    void include(std::size_t r, const Kept& k, std::size_t most) {
+        std::vector<Kept>& list = worst[r];
+        if (list.size() >= most && !(k.height > list.back().height)) return;
+        const auto at = std::find_if(list.begin(), list.end(), [&](const Kept& x) { return k.height > x.height; });
+        list.insert(at, k);
+        if (list.size() > most) list.pop_back();
+    }
+
+    void take(const Harvest& other) {
+        steps += other.steps;
+        wrong_cases += other.wrong_cases;
+        for (std::size_t r = 0; r < search_reasons; ++r) {
+            cases[r] += other.cases[r];
+            for (const Kept& k : other.worst[r]) include(r, k, kept);
+        }
+    }
+};
+
+class Search {
+public:
+    explicit Search(const SearchOptions& o) : o_(o), range_{o.min_exponent, o.max_exponent} {
+        for (const Family& f : o.families) {
+            if (!f.needs_mesh && f.applies_to(o.kernel.simplex) && f.perspective == o.kernel.perspective)
+                families_.push_back(f);
+        }
+        for (std::size_t r = 0; r < search_reasons; ++r) {
+            if (r == static_cast<std::size_t>(Finding::false_certificate) && !o.kernel.certifies) continue;
+            if (r == static_cast<std::size_t>(Finding::false_declaration) && !o.kernel.declares_degenerate) continue;
+            targets_.push_back(r);
+        }
+    }
+
+    /// Each family's first cases: those of one family are one task, of which the worst of each reason go on.
+    Harvest begin(std::size_t family, std::uint64_t steps) const {
+        Harvest h;
+        static const MeshSource none;
+        for (std::uint64_t i = 0; i < steps; ++i) {
+            const Case c = make_case(families_[family], o_.kernel.simplex, o_.seed, i, none);
+            // One that is beyond the range of exponents is made, but not asked.
+            if (admissible(c, range_)) h.add(c, evaluate(o_.kernel, c));
+        }
+        return h;
+    }
+
+    Harvest walk(const Harvest& before, std::uint64_t number, std::uint64_t steps) const {
+        base::Random random = base::Random::stream(o_.seed, base::hash64(o_.kernel.name), number);
+        Harvest h;
+        const std::size_t reason = targets_[number % targets_.size()];
+        const bool values = reason == finding_count + 1 || o_.kernel.certifies;
+        Case here = start(before, reason, random);
+        Evaluation evaluation = evaluate(o_.kernel, here);
+        h.add(here, evaluation);
+        std::uint64_t waited = 0;
+        Case asked;
+        Evaluation answer;
+        const auto ask = [&](const Case& c) -> const Evaluation* {
+            if (h.steps >= steps) return nullptr;
+            asked = c;
+            answer = evaluate(o_.kernel, c);
+            h.add(c, answer);
+            return &answer;
+        };
+        // Moves that lead out of the range cost no step, but must come to an end, too.
+        for (std::uint64_t moves = 0; h.steps < steps && moves < 8 * steps; ++moves) {
+            Case next = here;
+            if (random.below(8) == 0) {
+                jump_to_zero(next, evaluation, random, range_, ask);
+            } else {
+                wander(next, random, values);
+            }
+            if (!admissible(next, range_) || ask(next) == nullptr) continue;
+            const bool rises = height(reason, answer) > height(reason, evaluation);
+            const bool level = height(reason, answer) == height(reason, evaluation);
+            if (!rises && !level && waited < patience) {
+                ++waited;
+                continue;
+            }
+            here = next;
+            evaluation = answer;
+            if (!level) waited = 0;
+        }
+        return h;
+    }
+
+    std::size_t family_count() const { return families_.size(); }
+
+private:
+    Case start(const Harvest& before, std::size_t reason, base::Random& random) const {
+        const auto kind = random.below(4);
+        const std::vector<Kept>& worst = before.worst[reason];
+        if (kind < 2 && !worst.empty()) return worst[random.below(worst.size())].c;
+        if (kind == 2 && !families_.empty()) {
+            static const MeshSource none;
+            const Family& family = families_[random.below(families_.size())];
+            const std::uint64_t index = o_.family_count + random.below(std::uint64_t{1} << 32);
+            Case c = make_case(family, o_.kernel.simplex, o_.seed, index, none);
+            if (admissible(c, range_)) return c;
+        }
+        return patterned_case(o_.kernel.simplex, o_.kernel.perspective, range_, random);
+    }
+
+    const SearchOptions& o_;
+    ExponentRange range_;
+    std::vector<Family> families_;
+    std::vector<std::size_t> targets_;  ///< reasons that walks go for, in turn
+};
+
+Witness witness_of(const SearchOptions& o, std::size_t reason, const Case& c) {
+    Witness w;
+    w.kernel = o.kernel.name;
+    w.reason = search_reason_name(reason);
+    w.family = "search";
+    w.seed = o.seed;
+    w.c = c;
+    return w;
+}
+
+SearchFind find_of(const SearchOptions& o, std::size_t reason, const Harvest& all, std::uint64_t& plain_steps) {
+    const ExactEnvironment environment;
+    SearchFind f;
+    f.reason = search_reason_name(reason);
+    f.cases = all.cases[reason];
+    f.found = witness_of(o, reason, all.worst[reason].front().c);
+    const Evaluation e = evaluate(o.kernel, f.found.c);
+    f.found.magnitude = magnitude(reason, e);
+    f.weight_ulp = e.weight_ulp;
+    f.relative_error = e.relative_error;
+    f.plain = plainest_witness(o.kernel, f.found, &plain_steps);
+    const Evaluation p = evaluate(o.kernel, f.plain.c);
+    f.plain_weight_ulp = p.weight_ulp;
+    f.plain_relative_error = p.relative_error;
+    for (int k = 0; k < coordinate_count(f.plain.c); ++k) f.plain_bits += significant_bits(coordinate(f.plain.c, k));
+    return f;
+}
+
+Status check(const SearchOptions& o) {
+    if (o.steps == 0) return Error{.what = "a search of no steps", .expected = "at least 1", .found = "0"};
+    if (o.min_exponent > o.max_exponent || o.min_exponent < -1074 || o.max_exponent > 1023) {
+        return Error{.what = "the exponents of a search",
+                     .expected = "LOW:HIGH with -1074 <= LOW <= HIGH <= 1023",
+                     .found = std::to_string(o.min_exponent) + ":" + std::to_string(o.max_exponent)};
+    }
+    if (o.kernel.weights == nullptr) return Error{.what = "a search without a kernel"};
+    return Done{};
+}
+
+}  // namespace
+
+Result<SearchReport> search_worst_case(const SearchOptions& o) {
+    const ExactEnvironment exact;
+    if (const Status ok = check(o); !ok) return ok.error();
+    SearchReport report;
+    report.environment = measure_environment();
+    if (const Status ok = check_environment(report.environment); !ok) return ok.error();
+    report.kernel = o.kernel;
+    report.seed = o.seed;
+    report.steps_asked = o.steps;
+    report.min_exponent = o.min_exponent;
+    report.max_exponent = o.max_exponent;
+    report.threads = o.threads > 0 ? o.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(report.threads));
+    tbb::task_arena arena(report.threads);
+    const Search search(o);
+    Harvest all;
+    // A round of tasks side by side, gathered in their order.
+    const auto round = [&](std::size_t tasks, const auto& task) {
+        std::vector<Harvest> harvests(tasks);
+        arena.execute([&] {
+            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tasks, 1), [&](const auto& part) {
+                const ExactEnvironment here;
+                for (std::size_t i = part.begin(); i != part.end(); ++i) harvests[i] = task(i);
+            });
+        });
+        for (const Harvest& h : harvests) all.take(h);
+        const double ulps = all.worst[finding_count].empty() ? -1 : all.worst[finding_count].front().height.shown;
+        const bool go_on = !o.progress || o.progress({all.steps, o.steps, ulps, all.wrong_cases});
+        ExactEnvironment::renew();
+        report.stopped = !go_on || (o.seconds > 0 && elapsed() >= o.seconds);
+    };
+
+    if (const std::size_t families = search.family_count(); families != 0) {
+        const std::uint64_t each = std::min(o.family_count, o.steps / families);
+        round(families, [&](std::size_t i) { return search.begin(i, each); });
+    }
+    while (!report.stopped && all.steps < o.steps) {
+        const std::uint64_t left = o.steps - all.steps;
+        const std::uint64_t tasks = std::min(walks_per_round, (left + steps_per_walk - 1) / steps_per_walk);
+        const Harvest& before = all;
+        round(tasks, [&](std::size_t i) {
+            const std::uint64_t share = std::min(steps_per_walk, left - i * steps_per_walk);
+            return search.walk(before, report.walks + i, share);
+        });
+        report.walks += tasks;
+    }
+    if (all.steps >= o.steps) report.stopped = false;
+    report.steps = all.steps;
+    report.wrong_cases = all.wrong_cases;
+    std::vector<std::size_t> reasons;
+    for (std::size_t r = 0; r < search_reasons; ++r) {
+        // An error of zero is none.
+        const bool met = !all.worst[r].empty() && (r < finding_count || all.worst[r].front().height.shown > 0);
+        if (met) reasons.push_back(r);
+    }
+    report.finds.resize(reasons.size());
+    std::vector<std::uint64_t> plain_steps(reasons.size());
+    arena.execute([&] {
+        tbb::parallel_for(std::size_t{0}, reasons.size(),
+                          [&](std::size_t i) { report.finds[i] = find_of(o, reasons[i], all, plain_steps[i]); });
+    });
+    for (const std::uint64_t n : plain_steps) report.plain_steps += n;
+    report.seconds = elapsed();
+    return report;
+}
+
+}  // namespace barycert

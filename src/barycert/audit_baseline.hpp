@@ -1,0 +1,58 @@
+/// An audit compared with an earlier one: what got worse, what got better.
+///
+/// The same seed, count, families and meshes give the same cases, so that figures are compared exactly, case sampling
+/// being the same on both sides: one wrong case more is one more. Of other cases nothing is said.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "barycert/audit.hpp"
+
+namespace barycert {
+
+/// The figures of one kernel in one family.
+struct BaselineEntry {
+    std::string kernel, family;
+    std::uint64_t cases = 0;
+    std::array<std::uint64_t, 4> regions{};  ///< cases by exact region: tells the same cases from others
+    std::vector<double> figures;             ///< in the order of baseline_figures(); -1: none
+};
+
+struct Baseline {
+    std::string path;
+    std::uint64_t seed = 0, count = 0;
+    std::vector<std::string> meshes;
+    std::vector<BaselineEntry> entries;
+};
+
+/// The names of the figures that are compared: wrong_cases, each class of finding, errors and residuals. Less is better
+/// of each.
+const std::vector<std::string>& baseline_figures();
+
+/// Reads what `barycert audit --json` wrote. Errors: the file cannot be read, is not JSON or of another schema, or a
+/// member is missing or malformed.
+Result<Baseline> read_baseline(const std::string& path);
+
+/// An Error if an audit with these options would not meet the cases of the baseline.
+Status check_comparable(const Baseline& baseline, const AuditOptions& options, const MeshSource& meshes);
+
+struct BaselineChange {
+    std::string kernel, family, figure;
+    double before = 0, after = 0;
+};
+
+struct BaselineComparison {
+    std::uint64_t compared = 0;          ///< pairs of kernel and family
+    std::uint64_t not_now = 0;           ///< pairs of the baseline that this audit does not have
+    std::uint64_t not_before = 0;        ///< pairs of this audit that the baseline does not have
+    std::vector<BaselineChange> worse;   ///< in the order of the report
+    std::vector<BaselineChange> better;  ///< likewise
+};
+
+/// Errors: other cases, told by their exact regions (a mesh has changed, or barycert's families); nothing in common.
+Result<BaselineComparison> compare_with_baseline(const AuditReport& report, const Baseline& baseline);
+
+}  // namespace barycert

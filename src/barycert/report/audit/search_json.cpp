@@ -1,0 +1,58 @@
+#include <nlohmann/json.hpp>
+
+#include "barycert/audit/witness_json.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/report/common/environment_json.hpp"
+#include "barycert/report/common/json_figure.hpp"
+
+namespace barycert {
+
+using namespace report;
+
+namespace {
+
+/// null where there is no figure.
+nlohmann::ordered_json error_json(double x) {
+    return x >= 0 ? report::figure(x) : nlohmann::ordered_json(nullptr);
+}
+
+}  // namespace
+
+std::string search_json(const SearchReport& r) {
+    using Json = nlohmann::ordered_json;
+    const ExactEnvironment environment;
+    Json j;
+    j["schema"] = audit_schema;
+    j["environment"] = environment_json(r.environment);
+    j["kernel"] = r.kernel.name;
+    j["seed"] = r.seed;
+    j["steps_asked"] = r.steps_asked;
+    j["steps"] = r.steps;
+    j["walks"] = r.walks;
+    j["plain_steps"] = r.plain_steps;
+    j["min_exponent"] = r.min_exponent;
+    j["max_exponent"] = r.max_exponent;
+    j["threads"] = r.threads;
+    j["seconds"] = r.seconds;
+    j["stopped"] = r.stopped;
+    j["wrong_cases"] = r.wrong_cases;
+    j["finds"] = Json::array();
+    j["witnesses"] = Json::array();
+    for (const SearchFind& f : r.finds) {
+        Json find;
+        find["reason"] = f.reason;
+        find["cases"] = f.cases;
+        find["weight_ulp"] = error_json(f.weight_ulp);
+        find["relative_error"] = error_json(f.relative_error);
+        find["found"] = audit::witness_json(f.found);
+        find["plain_weight_ulp"] = error_json(f.plain_weight_ulp);
+        find["plain_relative_error"] = error_json(f.plain_relative_error);
+        find["plain_bits"] = f.plain_bits;
+        j["finds"].push_back(std::move(find));
+        j["witnesses"].push_back(audit::witness_json(f.plain));
+    }
+    return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace barycert

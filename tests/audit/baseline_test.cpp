@@ -1,0 +1,140 @@
+// An audit against an earlier one: the same is the same, one wrong case more is told, other cases are not compared.
+
+#include "barycert/audit_baseline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "audit_helpers.hpp"
+#include "barycert/audit_report.hpp"
+
+namespace barycert::audit {
+namespace {
+
+class BaselineFile : public testing::Test {
+protected:
+    ~BaselineFile() override { std::filesystem::remove(path_); }
+
+    Baseline put(const std::string& text) const {
+        std::ofstream(path_) << text;
+        return read_baseline(path_).value();
+    }
+    Error error_of(const std::string& text) const {
+        std::ofstream(path_) << text;
+        const Result<Baseline> b = read_baseline(path_);
+        EXPECT_FALSE(b);
+        return b ? Error{} : b.error();
+    }
+    const std::string path_ = testing::TempDir() + "barycert_baseline_" + std::to_string(::getpid()) + ".json";
+};
+
+AuditReport audit(std::vector<Kernel> kernels, const std::string& families, std::uint64_t count = 300) {
+    return audit_of(std::move(kernels), families_matching(families), count, own_meshes());
+}
+
+Kernel like_cramer(WeightsFunction weights) {
+    Kernel k = kernel_named("tetrahedron.cramer");
+    k.weights = weights;
+    return k;
+}
+
+TEST_F(BaselineFile, TheSameAuditIsNeitherWorseNorBetter) {
+    const AuditReport r = audit(kernels_matching("t*.*"), "*", 60);
+    const BaselineComparison c = compare_with_baseline(r, put(audit_json(r))).value();
+    EXPECT_TRUE(c.worse.empty());
+    EXPECT_TRUE(c.better.empty());
+    EXPECT_GT(c.compared, 500U);
+    EXPECT_EQ(c.not_now + c.not_before, 0U);
+}
+
+TEST_F(BaselineFile, WhatGotWorseAndBetterIsToldWithItsFigures) {
+    const AuditReport before = audit({kernel_named("tetrahedron.cramer")}, "offset.2^17");
+    const AuditReport after = audit({like_cramer(kernel_named("tetrahedron.homogeneous").weights)}, "offset.2^17");
+    const KernelStatistics& s = before.kernels[0].total;
+    const KernelStatistics& t = after.kernels[0].total;
+    ASSERT_GT(t.wrong_cases, s.wrong_cases);
+    const BaselineComparison worse = compare_with_baseline(after, put(audit_json(before))).value();
+    ASSERT_FALSE(worse.worse.empty());
+    EXPECT_EQ(worse.worse[0].kernel, "tetrahedron.cramer");
+    EXPECT_EQ(worse.worse[0].family, "offset.2^17");
+    EXPECT_EQ(worse.worse[0].figure, "wrong_cases");
+    EXPECT_EQ(worse.worse[0].before, static_cast<double>(s.wrong_cases));
+    EXPECT_EQ(worse.worse[0].after, static_cast<double>(t.wrong_cases));
+    const BaselineComparison better = compare_with_baseline(before, put(audit_json(after))).value();
+    EXPECT_EQ(better.better.size(), worse.worse.size());
+    EXPECT_EQ(better.worse.size(), worse.better.size());
+}
+
+// One case of all, by one ulp: an exact comparison sees it.
+TEST_F(BaselineFile, OneWrongCaseMoreIsWorse) {
+    AuditReport r = audit({kernel_named("tetrahedron.cramer")}, "random");
+    const Baseline b = put(audit_json(r));
+    ++r.kernels[0].families[0].statistics.wrong_cases;
+    const BaselineComparison c = compare_with_baseline(r, b).value();
+    ASSERT_EQ(c.worse.size(), 1U);
+    EXPECT_EQ(c.worse[0].after, c.worse[0].before + 1);
+}
+
+TEST_F(BaselineFile, WhatOneSideLacksIsCounted) {
+    const Baseline b =
+        put(audit_json(audit({kernel_named("tetrahedron.cramer"), kernel_named("tetrahedron.kahan")}, "random*")));
+    const BaselineComparison c =
+        compare_with_baseline(
+            audit({kernel_named("tetrahedron.cramer"), kernel_named("tetrahedron.inverse")}, "random"), b)
+            .value();
+    EXPECT_EQ(c.compared, 1U);    // cramer in random
+    EXPECT_EQ(c.not_before, 1U);  // inverse in random
+    EXPECT_EQ(c.not_now, 3U);     // kahan in both, cramer in random.inside
+    EXPECT_FALSE(compare_with_baseline(audit({kernel_named("triangle.bilinear")}, "random"), b));
+}
+
+TEST_F(BaselineFile, OtherCasesAreNotCompared) {
+    const AuditReport r = audit({kernel_named("tetrahedron.cramer")}, "mesh.faces");
+    const Baseline b = put(audit_json(r));
+    AuditOptions options;
+    options.families = families_matching("mesh.faces");
+    options.count = 300;
+    EXPECT_TRUE(check_comparable(b, options, own_meshes()));
+    EXPECT_FALSE(check_comparable(b, options, MeshSource()));
+    options.seed = 2;
+    const Status other_seed = check_comparable(b, options, own_meshes());
+    ASSERT_FALSE(other_seed);
+    EXPECT_NE(other_seed.error().message().find("seed 2 and 300 cases"), std::string::npos)
+        << other_seed.error().message();
+    options.seed = 1;
+    options.count = 301;
+    EXPECT_FALSE(check_comparable(b, options, own_meshes()));
+    // The same names, another mesh: told by the exact regions.
+    MeshSource moved;
+    for (const auto& m : own_meshes().meshes())
+        moved.add(m->name, read_tetgen(BARYCERT_DATA_DIR "/meshes/torus").value());
+    const AuditReport others =
+        audit_of({kernel_named("tetrahedron.cramer")}, families_matching("mesh.faces"), 300, moved);
+    const auto compared = compare_with_baseline(others, b);
+    ASSERT_FALSE(compared);
+    EXPECT_NE(compared.error().message().find("not comparable"), std::string::npos);
+}
+
+TEST_F(BaselineFile, BadFilesAreRefusedWithTheirPlace) {
+    EXPECT_NE(error_of("{").message().find("expected JSON"), std::string::npos);
+    EXPECT_NE(error_of("{}").message().find("\"schema\""), std::string::npos);
+    EXPECT_NE(error_of("{\"schema\": 9}").message().find("unknown schema"), std::string::npos);
+    EXPECT_NE(error_of("{\"schema\": 1, \"seed\": -1}").message().find("seed"), std::string::npos);
+    EXPECT_NE(error_of("{\"schema\": 1, \"witnesses\": []}").message().find("\"seed\""), std::string::npos);
+    EXPECT_NE(
+        error_of(R"({"schema": 1, "seed": 1, "count": 2, "meshes": [], "kernels": [{"name": "k", "families": [{}]}]})")
+            .message()
+            .find("a family of k"),
+        std::string::npos);
+    // Cut anywhere, a report is refused, and nothing else happens.
+    const std::string whole = audit_json(audit({kernel_named("tetrahedron.cramer")}, "random", 20));
+    for (std::size_t n = 0; n + 3 < whole.size(); n += 97) error_of(whole.substr(0, n));
+    EXPECT_FALSE(read_baseline(testing::TempDir() + "no such file"));
+}
+
+}  // namespace
+}  // namespace barycert::audit

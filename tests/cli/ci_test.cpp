@@ -1,0 +1,134 @@
+// What the audit says to systems that run it: exit code, JUnit, SARIF and annotations tell the same.
+
+#include <gtest/gtest.h>
+
+#include "process.hpp"
+
+namespace barycert::cli_test {
+namespace {
+
+using Json = nlohmann::json;
+
+Words audit_of(const std::string& kernel, const Words& more) {
+    Words words{"audit", "--quiet", "--count", "200", "--kernel", kernel, "--family", "random*", "--family", "offset*"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+std::size_t count_in(const std::string& text, const std::string& part) {
+    std::size_t n = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+    return n;
+}
+
+/// A report in which the kernel is called otherwise: the next audit of that name is then held against it.
+std::string renamed(const std::string& report, const std::string& from, const std::string& to) {
+    Json j = parse(report);
+    for (Json& kernel : j["kernels"]) {
+        if (kernel["name"] == from) kernel["name"] = to;
+    }
+    return j.dump();
+}
+
+TEST(ci, the_same_audit_is_not_worse) {
+    const Scratch scratch;
+    const std::string file = scratch.path("b.json");
+    ASSERT_EQ(run(audit_of("tetrahedron.*", {"--json", file})).code, 0);
+    const Ended r = run(audit_of("tetrahedron.*", {"--baseline", file, "--annotations"}));
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(r.out, "");
+    EXPECT_TRUE(contains(r.err, ": 0 figures worse, 0 better, in ")) << r.err;
+}
+
+TEST(ci, what_got_worse_is_exit_1_and_told_everywhere) {
+    const Scratch scratch;
+    const std::string sound = run(audit_of("tetrahedron.signed-volume", {"--json", "-"})).out;
+    const std::string file =
+        scratch.put("b.json", renamed(sound, "tetrahedron.signed-volume", "tetrahedron.homogeneous"));
+    const Ended r =
+        run(audit_of("tetrahedron.homogeneous", {"--baseline", file, "--annotations", "--junit", scratch.path("j.xml"),
+                                                 "--sarif", scratch.path("s.sarif")}));
+    EXPECT_EQ(r.code, 1);
+    EXPECT_TRUE(contains(r.err, "worse: tetrahedron.homogeneous in offset.2^17: wrong_cases 0 -> ")) << r.err;
+    EXPECT_TRUE(contains(r.out, "::error title=barycert audit%3A tetrahedron.homogeneous::baseline, offset.2^17: "))
+        << r.out;
+    const std::string junit = read_file(scratch.path("j.xml"));
+    const std::size_t failures = count_in(junit, "<failure ");
+    EXPECT_GT(failures, 0U);
+    EXPECT_EQ(count_in(r.out, "::error "), failures);
+    EXPECT_TRUE(contains(junit, "failures=\"" + std::to_string(failures) + "\""));
+    const Json sarif = parse(read_file(scratch.path("s.sarif")));
+    std::size_t errors = 0;
+    for (const Json& result : sarif["runs"][0]["results"]) errors += result["level"] == "error" ? 1U : 0U;
+    EXPECT_EQ(errors, failures);
+}
+
+TEST(ci, a_rule_fails_in_all_three_and_findings_alone_pass) {
+    const Scratch scratch;
+    const Words reports{"--annotations", "--junit", scratch.path("j.xml"), "--sarif", scratch.path("s.sarif")};
+    const Ended noted = run(audit_of("tetrahedron.homogeneous", reports));
+    EXPECT_EQ(noted.code, 0);
+    EXPECT_EQ(noted.out, "");
+    EXPECT_FALSE(contains(read_file(scratch.path("j.xml")), "<failure"));
+    EXPECT_TRUE(contains(read_file(scratch.path("j.xml")), "name=\"opposite_sign\""));
+    Words with_rule = reports;
+    with_rule.insert(with_rule.end(), {"--fail-on", "opposite_sign>3"});
+    const Ended failed = run(audit_of("tetrahedron.homogeneous", with_rule));
+    EXPECT_EQ(failed.code, 1);
+    EXPECT_TRUE(contains(
+        failed.out, "::error title=barycert audit%3A tetrahedron.homogeneous::opposite_sign <= 3: opposite_sign = "))
+        << failed.out;
+    EXPECT_TRUE(contains(read_file(scratch.path("j.xml")), "<failure type=\"opposite_sign\""));
+    const Json rules = parse(read_file(scratch.path("s.sarif")))["runs"][0]["tool"]["driver"]["rules"];
+    ASSERT_FALSE(rules.empty());
+    EXPECT_EQ(rules[0]["id"], "opposite_sign");
+}
+
+TEST(ci, other_cases_are_refused_before_the_work) {
+    const Scratch scratch;
+    const std::string file = scratch.path("b.json");
+    ASSERT_EQ(run(audit_of("tetrahedron.cramer", {"--json", file})).code, 0);
+    const Ended r = run(audit_of("tetrahedron.cramer", {"--baseline", file, "--seed", "7"}));
+    EXPECT_EQ(r.code, 2);
+    EXPECT_TRUE(contains(r.err, "not comparable")) << r.err;
+    EXPECT_TRUE(contains(r.err, "give --seed 1 --count 200")) << r.err;
+    const Ended overwritten = run(audit_of("tetrahedron.cramer", {"--baseline", file, "--json", file}));
+    EXPECT_EQ(overwritten.code, 2);
+    EXPECT_EQ(run(audit_of("tetrahedron.cramer", {"--baseline", scratch.path("none")})).code, 2);
+}
+
+TEST(ci, a_users_library_is_the_place_of_its_results) {
+    const Ended r = run({"audit", "--quiet", "--count", "50", "--family", "random", "--kernel-library",
+                         BARYCERT_SWAPPED_KERNEL, "--sarif", "-"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    const Json results = parse(r.out)["runs"][0]["results"];
+    ASSERT_FALSE(results.empty());
+    const std::string uri = results[0]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"];
+    EXPECT_TRUE(contains(uri, "user-swapped.so")) << uri;
+}
+
+TEST(mutants, the_score_is_shown_and_every_one_is_caught) {
+    const Scratch scratch;
+    const Ended r = run({"audit", "--mutants", "--count", "1000", "--json", scratch.path("m.json")});
+    EXPECT_EQ(r.code, 0) << r.out << r.err;
+    const Json report = parse(read_file(scratch.path("m.json")));
+    EXPECT_EQ(report["caught"], report["mutants"].size());
+    for (const Json& m : report["mutants"]) EXPECT_TRUE(contains(r.out, m["name"].get<std::string>()));
+    // Families that catch little leave mutants uncaught, and the exit code says so.
+    const Ended few = run({"audit", "--mutants", "--count", "100", "--family", "random.inside"});
+    EXPECT_EQ(few.code, 1);
+    EXPECT_TRUE(contains(few.out, "not caught"));
+}
+
+TEST(mutants, options_about_other_kernels_are_refused) {
+    for (const Words& more : {Words{"--kernel", "*"}, {"--fail-on", "any"}, {"--plot", "p.svg"}, {"--annotations"}}) {
+        Words words{"audit", "--mutants"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Ended r = run(words);
+        EXPECT_EQ(r.code, 2);
+        EXPECT_TRUE(contains(r.err, "--mutants and " + more[0])) << r.err;
+    }
+}
+
+}  // namespace
+}  // namespace barycert::cli_test

@@ -1,0 +1,121 @@
+// barycert search: as a process; its files are read by replay; Ctrl-C ends it with what was found.
+
+#include <csignal>
+
+#include <gtest/gtest.h>
+
+#include "process.hpp"
+
+namespace barycert::cli_test {
+namespace {
+
+using Json = nlohmann::json;
+
+Words short_search(const Words& more) {
+    Words words{"search", "triangle.signed-area", "--steps", "30000"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+TEST(search, table_says_the_worst_and_the_plainest_and_how_to_see_it) {
+    const Scratch scratch;
+    const std::string file = scratch.path("w.json");
+    const Ended r = run(short_search({"--witnesses", file}));
+    ASSERT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(r.err, "");
+    EXPECT_TRUE(contains(r.out, "triangle.signed-area: 30000 cases in "));
+    EXPECT_TRUE(contains(r.out, "opposite_sign"));
+    EXPECT_TRUE(contains(r.out, "worst_weight_ulp"));
+    for (const std::string& line : lines_of(r.out)) EXPECT_LE(line.size(), 120U) << line;
+    const Json all = parse(read_file(file));
+    std::size_t commands = 0;
+    for (const std::string& line : lines_of(r.out)) {
+        if (line.rfind("    barycert replay ", 0) != 0) continue;
+        ++commands;
+        const Ended shown = run_shell(line.substr(4), {});
+        EXPECT_EQ(shown.code, 0) << line << '\n' << shown.err;
+        EXPECT_EQ(shown.err, "");
+    }
+    EXPECT_EQ(commands, all["witnesses"].size());
+    EXPECT_EQ(run({"replay", file}).code, 0);
+}
+
+TEST(search, the_same_seed_finds_the_same_and_another_does_not) {
+    const auto witnesses = [](const std::string& seed, const std::string& threads) {
+        return run(short_search({"--seed", seed, "--threads", threads, "--witnesses", "-"})).out;
+    };
+    const std::string one = witnesses("1", "1");
+    EXPECT_TRUE(parse(one)["witnesses"].size() > 4);
+    EXPECT_EQ(witnesses("1", "2"), one);
+    EXPECT_NE(witnesses("2", "2"), one);
+}
+
+TEST(search, json_is_read_by_replay_and_agrees_with_the_witnesses) {
+    const Scratch scratch;
+    const Ended r =
+        run(short_search({"--quiet", "--json", scratch.path("s.json"), "--witnesses", scratch.path("w.json")}));
+    ASSERT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(r.out + r.err, "");
+    const Json report = parse(read_file(scratch.path("s.json")));
+    EXPECT_EQ(report["steps"], 30000);
+    EXPECT_EQ(report["stopped"], false);
+    EXPECT_EQ(report["witnesses"], parse(read_file(scratch.path("w.json")))["witnesses"]);
+    EXPECT_EQ(report["finds"].size(), report["witnesses"].size());
+    EXPECT_EQ(run({"replay", scratch.path("s.json")}).code, 0);
+}
+
+TEST(search, a_users_kernel_and_rules) {
+    const Ended right =
+        run({"search", "--kernel-library", BARYCERT_SWAPPED_KERNEL, "--steps", "5000", "--fail-on", "any"});
+    EXPECT_EQ(right.code, 1);
+    EXPECT_TRUE(contains(right.err, "fails: tetrahedron.user-swapped: any = ")) << right.err;
+    EXPECT_TRUE(contains(right.out, "false_certificate"));
+    const Ended exact =
+        run({"search", "tetrahedron.exact", "--steps", "5000", "--fail-on", "any", "--fail-on", "worst_weight_ulp"});
+    EXPECT_EQ(exact.code, 0) << exact.err;
+    EXPECT_TRUE(contains(exact.out, "no fault and no error found"));
+    EXPECT_EQ(
+        run({"search", "triangle.bilinear", "--steps", "2000", "--quiet", "--fail-on", "worst_weight_ulp>1e300"}).code,
+        0);
+}
+
+TEST(search, bad_usage_is_told) {
+    const auto error = [](const Words& words) {
+        const Ended r = run(words);
+        EXPECT_EQ(r.code, 2);
+        EXPECT_EQ(r.out, "");
+        return r.err;
+    };
+    EXPECT_TRUE(contains(error({"search"}), "the name of one kernel, or --kernel-library FILE"));
+    EXPECT_TRUE(contains(error({"search", "nobody"}), "\"nobody\""));
+    EXPECT_TRUE(contains(error({"search", "triangle.*"}), " of them"));
+    EXPECT_TRUE(contains(error(short_search({"--exponents", "5"})), "LOW:HIGH"));
+    EXPECT_TRUE(contains(error(short_search({"--exponents", "5:x"})), "LOW:HIGH"));
+    EXPECT_TRUE(contains(error(short_search({"--exponents", "5:4"})), "LOW <= HIGH"));
+    EXPECT_TRUE(contains(error(short_search({"--exponents", "-2000:4"})), "-1074"));
+    EXPECT_TRUE(contains(error(short_search({"--fail-on", "worst_partition_residual"})), "cannot tell"));
+    EXPECT_TRUE(contains(error(short_search({"--steps", "0"})), "--steps"));
+    EXPECT_TRUE(contains(error(short_search({"--seconds", "0"})), "--seconds"));
+    EXPECT_TRUE(contains(error(short_search({"--json", "a.json", "--witnesses", "a.json"})), "a.json"));
+}
+
+// The line of progress tells that it has begun; a signal then ends the search and not the program.
+TEST(search, interrupted_it_tells_what_it_found) {
+    const Scratch scratch;
+    const Ended r =
+        run({"search", "tetrahedron.cramer", "--steps", "1000000000", "--witnesses", scratch.path("w.json")},
+            {.terminal = true, .kill_on = "Ctrl-C", .kill_with = SIGINT});
+    EXPECT_EQ(r.signal, 0);
+    EXPECT_EQ(r.code, 0) << r.out;
+    EXPECT_TRUE(contains(r.out, "stopped before 1000000000 cases")) << r.out;
+    EXPECT_FALSE(parse(read_file(scratch.path("w.json")))["witnesses"].empty());
+}
+
+TEST(search, a_time_limit_ends_it) {
+    const Ended r = run({"search", "tetrahedron.cramer", "--steps", "1000000000", "--seconds", "0.2"});
+    EXPECT_EQ(r.code, 0);
+    EXPECT_TRUE(contains(r.out, "stopped before"));
+}
+
+}  // namespace
+}  // namespace barycert::cli_test
