@@ -77,8 +77,9 @@ Result<SearchReport> search_worst_case(const SearchOptions& options);
 
 /// The witness on plainer coordinates: fewer significant bits, smaller exponents, zeros and ones, as long as its reason
 /// stays. A witness of an error keeps a 1024th of it at least. One that does not show its reason comes back as it is.
-/// `steps`, if given, is increased by the number of cases asked.
-Witness plainest_witness(const Kernel& kernel, const Witness& witness, std::uint64_t* steps = nullptr);
+/// Its exponents stay within the bounds. `steps`, if given, is increased by the number of cases asked.
+Witness plainest_witness(const Kernel& kernel, const Witness& witness, std::uint64_t* steps = nullptr,
+                         int min_exponent = -1074, int max_exponent = 1023);
 
 /// {"schema": 1, "witnesses": [...]} of the plain witnesses, for `barycert replay`.
 std::string witnesses_json(const SearchReport& report);

@@ -35,7 +35,8 @@ TEST(NamedCases, ShowWhatTheyWereKeptFor) {
 
 TEST(NamedCases, AreAnsweredRightByExactKernels) {
     for (const std::string& path : named_cases()) {
-        for (const Witness& w : read_witnesses(path).value()) {
+        const std::vector<Witness> witnesses = read_witnesses(path).value();
+        for (const Witness& w : witnesses) {
             std::size_t exact = 0;
             for (const KernelAnswer& a : replay_witness(w, catalogue()).answers) {
                 if (!a.kernel.ends_with("exact")) continue;
@@ -51,7 +52,8 @@ TEST(NamedCases, AreAnsweredRightByExactKernels) {
 // The oracle by its two ways.
 TEST(NamedCases, TheWideOracleAgrees) {
     for (const std::string& path : named_cases()) {
-        for (const Witness& w : read_witnesses(path).value()) {
+        const std::vector<Witness> witnesses = read_witnesses(path).value();
+        for (const Witness& w : witnesses) {
             const OracleAnswer narrow = ask_oracle(w.c), wide = exact::ask_wide(w.c);
             EXPECT_EQ(narrow.region, wide.region) << path;
             EXPECT_EQ(narrow.signs, wide.signs) << path;

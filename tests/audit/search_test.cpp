@@ -110,7 +110,10 @@ TEST(Search, KeepsToTheExponentsGiven) {
     o.max_exponent = 2;
     const SearchReport r = search_worst_case(o).value();
     ASSERT_FALSE(r.finds.empty());
-    for (const SearchFind& f : r.finds) EXPECT_TRUE(admissible(f.found.c, {-3, 2})) << f.reason;
+    for (const SearchFind& f : r.finds) {
+        EXPECT_TRUE(admissible(f.found.c, {-3, 2})) << f.reason;
+        EXPECT_TRUE(admissible(f.plain.c, {-3, 2})) << f.reason;
+    }
     // Nothing under- or overflows there: what is wrong is cancellation alone.
     EXPECT_EQ(find_named(r, "not_finite"), nullptr);
     EXPECT_NE(find_named(r, "opposite_sign"), nullptr);

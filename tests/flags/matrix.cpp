@@ -173,17 +173,25 @@ std::string share(std::uint64_t part, std::uint64_t whole) {
     return p < 0.01 ? "<0.01" : fmt::format("{:.{}f}", p, p < 1 ? 2 : p < 10 ? 1 : 0);
 }
 
+bool changes(const Matrix& m, std::size_t column) {
+    return std::any_of(m.rows.begin(), m.rows.end(), [&](const Row& row) { return row.cells[column].changed != 0; });
+}
+
+/// Columns in which nothing changes are left out.
 template <class Text>
 std::string table(const Matrix& m, Text text) {
     std::string head = "| formula |", rule = "|---|";
-    for (const Variant& v : m.columns) {
-        head += fmt::format(" {} {} |", v.compiler, v.label);
-        rule += "---|";
+    for (std::size_t k = 0; k < m.columns.size(); ++k) {
+        if (!changes(m, k)) continue;
+        head += fmt::format(" {} `{}` |", m.columns[k].compiler, m.columns[k].label);
+        rule += "--:|";
     }
     std::string out = head + "\n" + rule + "\n";
     for (const Row& row : m.rows) {
         out += "| `" + row.kernel + "` |";
-        for (const Cell& cell : row.cells) out += " " + (cell.ran ? text(cell) : std::string("-")) + " |";
+        for (std::size_t k = 0; k < m.columns.size(); ++k) {
+            if (changes(m, k)) out += " " + (row.cells[k].ran ? text(row.cells[k]) : std::string("-")) + " |";
+        }
         out += "\n";
     }
     return out;
@@ -232,7 +240,13 @@ Result<Matrix> measure(const std::string& list, std::uint64_t count, std::uint64
 }
 
 std::string markdown(const Matrix& m) {
-    std::string out = "Answers that change by a bit or more, in per cent of the cases:\n\n";
+    std::string same;
+    for (std::size_t k = 0; k < m.columns.size(); ++k) {
+        if (!changes(m, k))
+            same += fmt::format("{}{} `{}`", same.empty() ? "" : ", ", m.columns[k].compiler, m.columns[k].flags);
+    }
+    std::string out = "No formula changes a bit under: " + same + ".\n\n";
+    out += "Answers that change by a bit or more, in per cent of the cases:\n\n";
     out += table(m, [](const Cell& c) { return share(c.changed, c.cases); });
     out += "\nAnswers that get wrong (sign, zero, region, declaration), less those that get right, in per cent:\n\n";
     out += table(m, [](const Cell& c) {

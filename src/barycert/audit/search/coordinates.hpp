@@ -77,6 +77,20 @@ inline int significant_bits(double x) {
     return static_cast<int>(std::bit_width(integer)) - std::countr_zero(integer);
 }
 
+/// How much there is to write down: bits, then the size of exponents, then signs.
+inline int plain_cost(double x) {
+    if (x == 0) return std::signbit(x) ? 1 : 0;
+    const auto exponent = static_cast<unsigned>(std::abs(exponent_of(x)));
+    return 8 * significant_bits(x) + 2 * static_cast<int>(std::bit_width(exponent)) + (x < 0 ? 1 : 0);
+}
+
+inline int plain_cost(const Case& c) {
+    int sum = 0;
+    for (int k = 0; k < coordinate_count(c); ++k) sum += plain_cost(coordinate(c, k));
+    for (const double f : c.values) sum += plain_cost(f);
+    return sum;
+}
+
 /// x rounded to `bits` significant bits, to nearest, plus `steps` units of the last of them. The significand may gain a
 /// bit by carrying over. Precondition: x finite, not zero, bits >= 1.
 inline double rounded_to(double x, int bits, int steps = 0) {

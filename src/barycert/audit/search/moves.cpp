@@ -168,36 +168,49 @@ void wander(Case& c, base::Random& random, bool values) {
     }
 }
 
-void jump_to_zero(Case& c, const Evaluation& at, base::Random& random, const ExponentRange& range, const Ask& ask) {
-    const int n = vertex_count(c.simplex);
-    const auto i = static_cast<std::size_t>(pick(random, n));
-    const bool whole = pick(random, 4) == 0;
-    // Numerator i is linear in the point and in every vertex but i; the determinant of the cell over it in vertex i.
-    const int vertex = whole ? static_cast<int>(i) : (static_cast<int>(i) + 1 + pick(random, n - 1)) % n;
-    const bool of_point = !whole && random.coin();
-    const int axis = pick(random, space_dimension(c.simplex));
-    const int k = (of_point ? vertex_numbers(c) : c.stride() * vertex) + axis;
-    const auto figure = [&](const Evaluation& e) { return whole ? 1 / e.exact.weights[i] : e.exact.weights[i]; };
-    double x0 = coordinate(c, k), f0 = figure(at);
-    const double step = x0 == 0 ? moved_by_ulps(c, k, std::int64_t{1} << 40) : x0 * 0x1p-12;
-    double x1 = x0 + with_sign(random, step);
+void to_zero(Case& c, const Evaluation& at, const Zero& zero, double first, const ExponentRange& range,
+             const Ask& ask) {
+    const auto figure = [&](const Evaluation& e) {
+        return zero.of_cell ? 1 / e.exact.weights[zero.weight] : e.exact.weights[zero.weight];
+    };
+    double x0 = coordinate(c, zero.coordinate), f0 = figure(at), x1 = x0 + first;
     constexpr int rounds = 4;
     for (int round = 0; round < rounds && x1 != x0; ++round) {
         Case next = c;
-        coordinate(next, k) = x1;
+        coordinate(next, zero.coordinate) = x1;
         if (!admissible(next, range)) return;
         const Evaluation* e = ask(next);
         if (e == nullptr) return;
         c = next;
         const double f1 = figure(*e);
-        if (!std::isfinite(f1) || f1 == 0) break;  // there
+        if (!std::isfinite(f1) || f1 == 0) return;  // there
         const double x2 = x1 - f1 * ((x1 - x0) / (f1 - f0));
         x0 = x1;
         f0 = f1;
         x1 = x2;
     }
+}
+
+double first_step(const Case& c, int k) {
+    const double x = coordinate(c, k);
+    return x == 0 ? moved_by_ulps(c, k, std::int64_t{1} << 40) : x * 0x1p-12;
+}
+
+void jump_to_zero(Case& c, const Evaluation& at, base::Random& random, const ExponentRange& range, const Ask& ask) {
+    const int n = vertex_count(c.simplex);
+    Zero zero;
+    zero.weight = static_cast<std::size_t>(pick(random, n));
+    zero.of_cell = pick(random, 4) == 0;
+    // Numerator i is linear in the point and in every vertex but i; the determinant of the cell over it in vertex i.
+    const int i = static_cast<int>(zero.weight);
+    const int vertex = zero.of_cell ? i : (i + 1 + pick(random, n - 1)) % n;
+    const bool of_point = !zero.of_cell && random.coin();
+    const int axis = pick(random, space_dimension(c.simplex));
+    zero.coordinate = (of_point ? vertex_numbers(c) : c.stride() * vertex) + axis;
+    const double first = with_sign(random, first_step(c, zero.coordinate));
+    to_zero(c, at, zero, first, range, ask);
     const std::int64_t ulps = small_power(random, 6) - 1;
-    coordinate(c, k) = moved_by_ulps(c, k, random.coin() ? ulps : -ulps);
+    coordinate(c, zero.coordinate) = moved_by_ulps(c, zero.coordinate, random.coin() ? ulps : -ulps);
 }
 
 }  // namespace barycert::audit

@@ -20,9 +20,22 @@ void wander(Case& c, base::Random& random, bool values);
 /// Asks for a case; nothing more may be asked once it returns null.
 using Ask = std::function<const Evaluation*(const Case&)>;
 
-/// Moves one coordinate to where a weight is zero, or, once in a while, where the determinant of the cell is, by
-/// secants of exact weights; then by a few ulps. Without rounding one secant hits: determinants are linear in each
-/// number. `at`: the evaluation of `c`. The cases on the way are asked; the last one is left in `c`, not asked.
+/// What is to become zero, and the number that is moved for it.
+struct Zero {
+    std::size_t weight = 0;  ///< this weight,
+    bool of_cell = false;    ///< or the determinant of the cell over the numerator of this weight
+    int coordinate = 0;
+};
+
+/// Moves the coordinate by secants of the exact weights. Without rounding one secant hits: determinants are linear in
+/// each number. `at`: the evaluation of `c`; `first`: the step to begin with. Cases on the way are asked, and the last
+/// one asked is left in `c`.
+void to_zero(Case& c, const Evaluation& at, const Zero& zero, double first, const ExponentRange& range, const Ask& ask);
+
+/// A step to begin with: small beside the number, or beside others of its axis if it is zero.
+double first_step(const Case& c, int k);
+
+/// to_zero() of a weight or, once in a while, of the cell, then some ulps further: the case left in `c` was not asked.
 void jump_to_zero(Case& c, const Evaluation& at, base::Random& random, const ExponentRange& range, const Ask& ask);
 
 }  // namespace barycert::audit

@@ -3,8 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "barycert/audit/search/coordinates.hpp"
-#include "barycert/audit/search/evaluation.hpp"
+#include "barycert/audit/search/moves.hpp"
 #include "barycert/audit_search.hpp"
 #include "barycert/base/random.hpp"
 #include "barycert/environment.hpp"
@@ -15,30 +14,16 @@ using namespace audit;
 
 namespace {
 
-/// How much there is to write down: bits, then the size of exponents, then signs.
-int cost(double x) {
-    if (x == 0) return 0;
-    const auto exponent = static_cast<unsigned>(std::abs(exponent_of(x)));
-    return 8 * significant_bits(x) + 2 * static_cast<int>(std::bit_width(exponent)) + (x < 0 ? 1 : 0);
-}
-
-int cost(const Case& c) {
-    int sum = 0;
-    for (int k = 0; k < coordinate_count(c); ++k) sum += cost(coordinate(c, k));
-    for (const double f : c.values) sum += cost(f);
-    return sum;
-}
-
 class Simplifier {
 public:
-    Simplifier(const Kernel& kernel, const Witness& witness)
-        : kernel_(kernel), reason_(search_reason_named(witness.reason)), best_(witness.c) {
+    Simplifier(const Kernel& kernel, const Witness& witness, const ExponentRange& range)
+        : kernel_(kernel), range_(range), reason_(search_reason_named(witness.reason)), best_(witness.c) {
         shown_ = reason_ < search_reasons;
         if (!shown_) return;
         const double from = badness(reason_, ask(best_));
         shown_ = from >= 0;
         least_ = reason_ < finding_count ? 0 : from / 1024;
-        cost_ = cost(best_);
+        cost_ = plain_cost(best_);
     }
 
     Case run() {
@@ -48,6 +33,7 @@ public:
             values();
             whole();
             for (int k = 0; k < coordinate_count(best_); ++k) one(k);
+            solved();
             together();
             if (cost_ == before) break;
         }
@@ -66,8 +52,8 @@ private:
 
     /// Takes the case if it is plainer and shows the same.
     bool take(const Case& c) {
-        const int now = cost(c);
-        if (now >= cost_ || !admissible(c, {})) return false;
+        const int now = plain_cost(c);
+        if (now >= cost_ || !admissible(c, range_)) return false;
         const double shown = badness(reason_, ask(c));
         if (shown < 0 || shown < least_) return false;
         best_ = c;
@@ -133,7 +119,10 @@ private:
 
     /// The plainest first: zero, one, fewer bits, a smaller exponent, another sign.
     void one(int k) {
-        if (coordinate(best_, k) == 0) return;
+        if (coordinate(best_, k) == 0) {
+            set(k, 0);  // of -0
+            return;
+        }
         for (const double x : {0.0, 1.0, -1.0, 0.5, 2.0}) {
             if (set(k, x)) return;
         }
@@ -148,6 +137,56 @@ private:
             if (set(k, std::ldexp(x, e - exponent_of(x)))) break;
         }
         set(k, -coordinate(best_, k));
+    }
+
+    /// Fewer bits of all numbers but one, and that one so that a weight, or the cell, is zero again or nearly: most
+    /// faults live beside these zeros, and rounding leads away from them. First all numbers at once, then each alone.
+    void solved() {
+        constexpr std::array steps{1, 2, 3, 4, 6, 9, 13, 19, 27, 38};
+        for (const int bits : steps) {
+            if (solved_with(bits, -1)) break;
+        }
+        for (int k = 0; k < coordinate_count(best_); ++k) {
+            for (const int bits : steps) {
+                if (bits >= significant_bits(coordinate(best_, k)) || solved_with(bits, k)) break;
+            }
+        }
+    }
+
+    /// `only`: the number that is rounded; -1: all.
+    bool solved_with(int bits, int only) {
+        Case rounded = best_;
+        for (int k = 0; k < coordinate_count(rounded); ++k) {
+            double& x = coordinate(rounded, k);
+            if ((only < 0 || only == k) && x != 0 && significant_bits(x) > bits) x = rounded_to(x, bits);
+        }
+        if (!admissible(rounded, range_)) return false;
+        const Evaluation at = ask(rounded);
+        const int n = vertex_count(rounded.simplex), d = space_dimension(rounded.simplex);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
+            for (int axis = 0; axis < d; ++axis) {
+                const int of_point = vertex_numbers(rounded) + axis;
+                const int of_vertex = rounded.stride() * static_cast<int>(i) + axis;
+                if (of_point != only && solved_at(rounded, at, {i, false, of_point})) return true;
+                if (of_vertex != only && solved_at(rounded, at, {i, true, of_vertex})) return true;
+            }
+        }
+        return false;
+    }
+
+    bool solved_at(Case c, const Evaluation& at, const Zero& zero) {
+        Evaluation answer;
+        const auto asked = [&](const Case& x) {
+            answer = ask(x);
+            return &answer;
+        };
+        to_zero(c, at, zero, first_step(c, zero.coordinate), range_, asked);
+        const double x = coordinate(c, zero.coordinate);
+        for (const int ulps : {0, 1, -1, 2, -2, 4, -4}) {
+            coordinate(c, zero.coordinate) = places_above(x, ulps);
+            if (take(c)) return true;
+        }
+        return false;
     }
 
     /// All numbers of at most so many bits, a few of them off by some units of the last: where one number alone cannot
@@ -171,6 +210,7 @@ private:
     }
 
     const Kernel& kernel_;
+    ExponentRange range_;
     std::size_t reason_;
     Case best_;
     bool shown_ = false;
@@ -181,9 +221,10 @@ private:
 
 }  // namespace
 
-Witness plainest_witness(const Kernel& kernel, const Witness& witness, std::uint64_t* steps) {
+Witness plainest_witness(const Kernel& kernel, const Witness& witness, std::uint64_t* steps, int min_exponent,
+                         int max_exponent) {
     const ExactEnvironment environment;
-    Simplifier simplifier(kernel, witness);
+    Simplifier simplifier(kernel, witness, {min_exponent, max_exponent});
     Witness plain = witness;
     plain.c = simplifier.run();
     const std::size_t reason = search_reason_named(witness.reason);

@@ -9,6 +9,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <thread>
 
 #include "barycert/audit/search/moves.hpp"
@@ -30,19 +31,32 @@ struct Kept {
     Height height;
 };
 
+/// The plainest case that showed a reason.
+struct Plain {
+    Case c;
+    int cost = std::numeric_limits<int>::max();
+
+    void include(const Plain& other) {
+        if (other.cost < cost) *this = other;
+    }
+};
+
 /// What a walk, or all so far, have met.
 struct Harvest {
     std::uint64_t steps = 0, wrong_cases = 0;
     std::array<std::uint64_t, search_reasons> cases{};
     std::array<std::vector<Kept>, search_reasons> worst;  ///< worst first, at most `kept`
+    std::array<Plain, finding_count> plain;               ///< of findings
 
     void add(const Case& c, const Evaluation& e) {
         ++steps;
         if (e.comparison.wrong()) ++wrong_cases;
         for (std::size_t r = 0; r < search_reasons; ++r) {
             const Height h = height(r, e);
-            if (h.shown >= 0) ++cases[r];
-            if (h.shown >= 0) include(r, {c, h}, 1);
+            if (h.shown < 0) continue;
+            ++cases[r];
+            include(r, {c, h}, 1);
+            if (r < finding_count) plain[r].include({c, plain_cost(c)});
         }
     }
 
@@ -61,6 +75,7 @@ struct Harvest {
         for (std::size_t r = 0; r < search_reasons; ++r) {
             cases[r] += other.cases[r];
             for (const Kept& k : other.worst[r]) include(r, k, kept);
+            if (r < finding_count) plain[r].include(other.plain[r]);
         }
     }
 };
@@ -174,7 +189,14 @@ SearchFind find_of(const SearchOptions& o, std::size_t reason, const Harvest& al
     f.found.magnitude = magnitude(reason, e);
     f.weight_ulp = e.weight_ulp;
     f.relative_error = e.relative_error;
-    f.plain = plainest_witness(o.kernel, f.found, &plain_steps);
+    const auto plainest = [&](const Witness& w) {
+        return plainest_witness(o.kernel, w, &plain_steps, o.min_exponent, o.max_exponent);
+    };
+    f.plain = plainest(f.found);
+    if (reason < finding_count) {
+        const Witness other = plainest(witness_of(o, reason, all.plain[reason].c));
+        if (plain_cost(other.c) < plain_cost(f.plain.c)) f.plain = other;
+    }
     const Evaluation p = evaluate(o.kernel, f.plain.c);
     f.plain_weight_ulp = p.weight_ulp;
     f.plain_relative_error = p.relative_error;
