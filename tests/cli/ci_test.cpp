@@ -79,9 +79,16 @@ TEST(ci, a_rule_fails_in_all_three_and_findings_alone_pass) {
         failed.out, "::error title=barycert audit%3A tetrahedron.homogeneous::opposite_sign <= 3: opposite_sign = "))
         << failed.out;
     EXPECT_TRUE(contains(read_file(scratch.path("j.xml")), "<failure type=\"opposite_sign\""));
-    const Json rules = parse(read_file(scratch.path("s.sarif")))["runs"][0]["tool"]["driver"]["rules"];
-    ASSERT_FALSE(rules.empty());
-    EXPECT_EQ(rules[0]["id"], "opposite_sign");
+    const Json sarif_run = parse(read_file(scratch.path("s.sarif")))["runs"][0];
+    std::size_t errors = 0;
+    for (const Json& result : sarif_run["results"]) {
+        EXPECT_EQ(sarif_run["tool"]["driver"]["rules"][result["ruleIndex"].get<std::size_t>()]["id"], result["ruleId"]);
+        if (result["level"] == "error") {
+            ++errors;
+            EXPECT_EQ(result["ruleId"], "opposite_sign");
+        }
+    }
+    EXPECT_EQ(errors, 1U);
 }
 
 TEST(ci, other_cases_are_refused_before_the_work) {
