@@ -38,7 +38,7 @@ struct CiReport {
 CiReport audit_outcomes(const AuditReport& report, const std::vector<Threshold>& rules,
                         const BaselineComparison* comparison, const std::map<std::string, std::string>& artifacts);
 
-/// A suite a subject, a case an outcome. The elements and attributes are those that Ant's and Jenkins's schemas share.
+/// A suite a subject, a case an outcome. Valid by the schema of Jenkins (junit-10.xsd).
 std::string ci_junit(const CiReport& report);
 
 /// Static Analysis Results Interchange Format 2.1.0: a result for each outcome that failed (error) or is noted (note).

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "barycert/audit.hpp"
+#include "barycert/audit_ci.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/base/random.hpp"
 #include "barycert/base/text.hpp"
@@ -545,6 +546,25 @@ TEST(EveryEnvironment, Audit) {
         out.add(std::string_view(audit_json(*report)));
         out.add(std::string_view(audit_text(*report, {})));
         out.add(std::string_view(condition_plot(*report)));
+        CiReport ci = audit_outcomes(*report, {parse_threshold("any").value()}, nullptr, {});
+        for (const auto& text : {ci_junit(ci), ci_sarif(ci), ci_annotations(ci)}) out.add(std::string_view(text));
+        folder.put("baseline.json", audit_json(*report));
+        const auto compared = compare_with_baseline(*report, read_baseline(folder.path("baseline.json")).value());
+        out.add(compared.has_value());
+        if (compared) out.add(std::string_view(baseline_text(*compared, "b")));
+        MutantReport score = audit_mutants(options, meshes).value();
+        score.seconds = 0;
+        out.add(std::string_view(mutants_json(score)));
+        out.add(std::string_view(mutants_text(score, {})));
+        SearchOptions searching;
+        searching.kernel = kernels_matching("tetrahedron.signed-volume").at(0);
+        searching.steps = 4000;
+        searching.threads = 2;
+        SearchReport found = search_worst_case(searching).value();
+        found.seconds = 0;
+        out.add(std::string_view(search_json(found)));
+        out.add(std::string_view(search_text(found, {})));
+        out.add(std::string_view(witnesses_json(found)));
         folder.put("witnesses.json", witnesses_json(*report));
         const auto witnesses = read_witnesses(folder.path("witnesses.json"));
         out.add(witnesses.has_value());

@@ -92,7 +92,7 @@ std::vector<Variant> read_list(const std::string& path) {
 #if defined(__SSE2__)
     if (!all.empty()) {
         Variant flushed = all.front();
-        flushed.label = "flush-to-zero";
+        flushed.label = "-O2, flush-to-zero";
         flushed.flush = true;
         all.push_back(flushed);
     }
@@ -248,7 +248,9 @@ std::string markdown(const Matrix& m) {
     std::string out = "No formula changes a bit under: " + same + ".\n\n";
     out += "Answers that change by a bit or more, in per cent of the cases:\n\n";
     out += table(m, [](const Cell& c) { return share(c.changed, c.cases); });
-    out += "\nAnswers that get wrong (sign, zero, region, declaration), less those that get right, in per cent:\n\n";
+    out +=
+        "\nAnswers that get wrong (sign, zero, region, declaration), in per cent; in brackets those that get "
+        "right:\n\n";
     out += table(m, [](const Cell& c) {
         const std::string wrong = share(c.newly_wrong, c.cases);
         return c.newly_right == 0 ? wrong : wrong + " (-" + share(c.newly_right, c.cases) + ")";

@@ -47,7 +47,8 @@ Result<Matrix> measure(const std::string& list, std::uint64_t count, std::uint64
 std::string markdown(const Matrix& matrix);
 std::string json(const Matrix& matrix);
 
-/// Rows and columns of squares: the darker the more answers change; a ring where some get wrong that were right.
+/// Rows and columns of squares: the darker the more answers change; a ring where some get wrong that were right, the
+/// larger the more.
 std::string picture(const Matrix& matrix);
 
 }  // namespace barycert::flags
