@@ -52,8 +52,10 @@ std::uint64_t count_in(const Json& object, const std::string& key, const std::st
     return j.get<std::uint64_t>();
 }
 
+/// A figure that an older report does not have yet is none.
 double figure_in(const Json& object, const std::string& key, const std::string& where) {
-    const Json& j = member(object, key, where);
+    if (!object.is_object() || !object.contains(key)) return -1;
+    const Json& j = object.at(key);
     if (j.is_null()) return -1;
     if (!j.is_number() || !(j.get<double>() >= 0))
         throw Exception(
@@ -81,6 +83,7 @@ BaselineEntry entry_from(const Json& j, const std::string& kernel) {
     e.family = text_in(j, "name", "a family of " + kernel);
     const std::string where = kernel + " in " + e.family;
     e.cases = count_in(j, "cases", where);
+    count_in(j, baseline_figures().front(), where);
     for (const std::string& figure : baseline_figures()) e.figures.push_back(figure_in(j, figure, where));
     const Json& confusion = member(j, "confusion", where);
     for (const Region exact : all_regions) {

@@ -87,11 +87,13 @@ public:
             if (!f.needs_mesh && f.applies_to(o.kernel.simplex) && f.perspective == o.kernel.perspective)
                 families_.push_back(f);
         }
-        for (std::size_t r = 0; r < search_reasons; ++r) {
-            if (r == static_cast<std::size_t>(Finding::false_certificate) && !o.kernel.certifies) continue;
-            if (r == static_cast<std::size_t>(Finding::false_declaration) && !o.kernel.declares_degenerate) continue;
-            targets_.push_back(r);
-        }
+        if (o.kernel.certifies) add_target(Finding::false_certificate);
+        if (o.kernel.declares_degenerate) add_target(Finding::false_declaration);
+        for (const Finding f :
+             {Finding::false_inside, Finding::false_outside, Finding::missed_degenerate, Finding::opposite_sign,
+              Finding::false_zero, Finding::false_nonzero, Finding::not_finite})
+            add_target(f);
+        for (std::size_t error = finding_count; error < search_reasons; ++error) targets_.push_back(error);
     }
 
     /// Each family's first cases: those of one family are one task, of which the worst of each reason go on.
@@ -149,6 +151,8 @@ public:
     std::size_t family_count() const { return families_.size(); }
 
 private:
+    void add_target(Finding f) { targets_.push_back(static_cast<std::size_t>(f)); }
+
     Case start(const Harvest& before, std::size_t reason, base::Random& random) const {
         const auto kind = random.below(4);
         const std::vector<Kept>& worst = before.worst[reason];
