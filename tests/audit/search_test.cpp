@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "audit_helpers.hpp"
-#include "barycert/audit/search/coordinates.hpp"
+#include "barycert/audit/search/moves.hpp"
 
 namespace barycert::audit {
 namespace {
@@ -194,6 +194,39 @@ TEST(Search, RefusesWhatItCannotDo) {
     EXPECT_FALSE(search_worst_case(o));
     o.min_exponent = -1075;
     EXPECT_FALSE(search_worst_case(o));
+}
+
+// From ordinary cells and points, where no weight is near zero.
+TEST(Search, SecantsLeadToZerosOfWeightsAndOfCells) {
+    const Kernel& kernel = kernel_named("tetrahedron.signed-volume");
+    const Evaluation* last = nullptr;
+    Evaluation answer;
+    int asked = 0;
+    const Ask ask = [&](const Case& c) {
+        ++asked;
+        answer = evaluate(kernel, c);
+        return last = &answer;
+    };
+    int near = 0, flat = 0;
+    constexpr int tries = 100;
+    for (std::uint64_t i = 0; i < tries; ++i) {
+        const Case c = make_case(family_named("random.inside"), Simplex::tetrahedron, 1, i, {});
+        const Evaluation at = evaluate(kernel, c);
+        const std::size_t weight = i % 4;
+        Case on_face = c;
+        const int of_point = vertex_numbers(c) + static_cast<int>(i % 3);
+        to_zero(on_face, at, {weight, false, of_point}, first_step(c, of_point), {}, ask);
+        if (std::fabs(evaluate(kernel, on_face).exact.weights[weight]) < 0x1p-45) ++near;
+        Case cell = c;
+        const int of_vertex = 3 * static_cast<int>(weight) + static_cast<int>(i % 3);
+        to_zero(cell, at, {weight, true, of_vertex}, first_step(c, of_vertex), {}, ask);
+        const Evaluation e = evaluate(kernel, cell);
+        if (e.exact.region == Region::degenerate || std::fabs(e.exact.weights[weight]) > 0x1p45) ++flat;
+    }
+    EXPECT_GT(near, tries * 9 / 10);
+    EXPECT_GT(flat, tries * 9 / 10);
+    EXPECT_LE(asked, 8 * tries);  // determinants are linear: a secant or two
+    EXPECT_NE(last, nullptr);
 }
 
 RC_GTEST_PROP(Coordinates, PlacesAreOrderedAndRoundTrip, ()) {
