@@ -1,7 +1,6 @@
 /// One step of a search: a case, the exact answer, the kernel's; and how bad it is.
 #pragma once
 
-#include <compare>
 #include <cstddef>
 #include <string_view>
 
@@ -45,7 +44,10 @@ double badness(std::size_t reason, const Evaluation& e);
 struct Height {
     double shown = -1;    ///< badness
     double nearness = 0;  ///< if it does not show
-    friend auto operator<=>(const Height&, const Height&) = default;
+    friend bool operator==(const Height&, const Height&) = default;
+    friend bool operator>(const Height& a, const Height& b) {
+        return a.shown != b.shown ? a.shown > b.shown : a.nearness > b.nearness;
+    }
 };
 Height height(std::size_t reason, const Evaluation& e);
 
