@@ -6,8 +6,6 @@
 
 #include "barycert/audit.hpp"
 #include "barycert/audit_drift.hpp"
-#include "barycert/audit_mutants.hpp"
-#include "barycert/audit_search.hpp"
 #include "barycert/audit_texels.hpp"
 #include "barycert/report.hpp"
 
@@ -48,6 +46,22 @@ std::string families_json(const std::vector<Family>& families);
 /// them, evenly from the least to the largest worst factor.
 std::string condition_plot(const AuditReport& report);
 
+// A worst-case search, and the mutation score of the families.
+
+struct SearchReport;  // audit_search.hpp
+struct MutantReport;  // audit_mutants.hpp
+
+/// The table of faults; below it the plainest case of each, with the command that replays it if a file of witnesses is
+/// named.
+std::string search_text(const SearchReport& report, const TerminalStyle& style);
+
+/// `barycert replay` reads it, too: it has the plain witnesses as its "witnesses".
+std::string search_json(const SearchReport& report);
+
+/// A table: a row a mutant, with the family that tells it best; below it the families.
+std::string mutants_text(const MutantReport& report, const TerminalStyle& style);
+std::string mutants_json(const MutantReport& report);
+
 // Drift over the size of a triangle, and rules of texel addressing.
 
 /// A table: a row a size, a column a kernel.
@@ -61,20 +75,5 @@ std::string drift_plot(const DriftReport& report);
 /// A table: a row a rule; below it the witnesses.
 std::string texels_text(const std::vector<TexelResult>& results, const TerminalStyle& style);
 std::string texels_json(const std::vector<TexelResult>& results);
-
-// A worst-case search.
-
-/// The table of faults; below it the plainest case of each, with the command that replays it if a file of witnesses is
-/// named.
-std::string search_text(const SearchReport& report, const TerminalStyle& style);
-
-/// `barycert replay` reads it, too: it has the plain witnesses as its "witnesses".
-std::string search_json(const SearchReport& report);
-
-// The mutation score of the families.
-
-/// A table: a row a mutant, with the family that tells it best; below it the families.
-std::string mutants_text(const MutantReport& report, const TerminalStyle& style);
-std::string mutants_json(const MutantReport& report);
 
 }  // namespace barycert

@@ -10,6 +10,7 @@
 
 #include "audit_inputs.hpp"
 #include "barycert/audit.hpp"
+#include "barycert/audit_mutants.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
@@ -22,13 +23,14 @@ namespace barycert::cli {
 namespace {
 
 struct AuditArguments {
+    CiOptions ci;
+    bool mutants = false;
     std::vector<std::string> meshes, kernels, families, libraries, fail_on;
     std::uint64_t count = 10000;
     std::uint64_t seed = 1;
     int threads = 0;
     std::string json, witnesses, plot;
-    bool quiet = false, no_check = false, mutants = false;
-    CiOptions ci;
+    bool quiet = false, no_check = false;
 };
 
 /// The callback that shows how far the audit is.

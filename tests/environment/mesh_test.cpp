@@ -10,7 +10,9 @@
 
 #include "barycert/audit.hpp"
 #include "barycert/audit_ci.hpp"
+#include "barycert/audit_mutants.hpp"
 #include "barycert/audit_report.hpp"
+#include "barycert/audit_search.hpp"
 #include "barycert/base/random.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/check.hpp"
@@ -546,25 +548,6 @@ TEST(EveryEnvironment, Audit) {
         out.add(std::string_view(audit_json(*report)));
         out.add(std::string_view(audit_text(*report, {})));
         out.add(std::string_view(condition_plot(*report)));
-        CiReport ci = audit_outcomes(*report, {parse_threshold("any").value()}, nullptr, {});
-        for (const auto& text : {ci_junit(ci), ci_sarif(ci), ci_annotations(ci)}) out.add(std::string_view(text));
-        folder.put("baseline.json", audit_json(*report));
-        const auto compared = compare_with_baseline(*report, read_baseline(folder.path("baseline.json")).value());
-        out.add(compared.has_value());
-        if (compared) out.add(std::string_view(baseline_text(*compared, "b")));
-        MutantReport score = audit_mutants(options, meshes).value();
-        score.seconds = 0;
-        out.add(std::string_view(mutants_json(score)));
-        out.add(std::string_view(mutants_text(score, {})));
-        SearchOptions searching;
-        searching.kernel = kernels_matching("tetrahedron.signed-volume").at(0);
-        searching.steps = 4000;
-        searching.threads = 2;
-        SearchReport found = search_worst_case(searching).value();
-        found.seconds = 0;
-        out.add(std::string_view(search_json(found)));
-        out.add(std::string_view(search_text(found, {})));
-        out.add(std::string_view(witnesses_json(found)));
         folder.put("witnesses.json", witnesses_json(*report));
         const auto witnesses = read_witnesses(folder.path("witnesses.json"));
         out.add(witnesses.has_value());
@@ -578,6 +561,38 @@ TEST(EveryEnvironment, Audit) {
             const Case c = make_case(options.families[i % options.families.size()], Simplex::triangle, 3, i, meshes);
             for (const double x : c.vertices) out.add(x);
         }
+    });
+}
+
+TEST(EveryEnvironment, SearchMutantsAndReportsForCi) {
+    const Folder folder;
+    expect_same_everywhere("search", [&](Answers& out) {
+        AuditOptions options;
+        options.kernels = kernels_matching("t*.signed-*");
+        options.families = families_matching("*-facet*");
+        options.count = 40;
+        options.threads = 2;
+        AuditReport report = run_audit(options, {}).value();
+        report.seconds = 0;
+        const CiReport ci = audit_outcomes(report, {parse_threshold("any").value()}, nullptr, {});
+        for (const auto& text : {ci_junit(ci), ci_sarif(ci), ci_annotations(ci)}) out.add(std::string_view(text));
+        folder.put("baseline.json", audit_json(report));
+        const auto compared = compare_with_baseline(report, read_baseline(folder.path("baseline.json")).value());
+        out.add(compared.has_value());
+        if (compared) out.add(std::string_view(baseline_text(*compared, "b")));
+        MutantReport score = audit_mutants(options, {}).value();
+        score.seconds = 0;
+        out.add(std::string_view(mutants_json(score)));
+        out.add(std::string_view(mutants_text(score, {})));
+        SearchOptions searching;
+        searching.kernel = kernels_matching("tetrahedron.signed-volume").at(0);
+        searching.steps = 4000;
+        searching.threads = 2;
+        SearchReport found = search_worst_case(searching).value();
+        found.seconds = 0;
+        out.add(std::string_view(search_json(found)));
+        out.add(std::string_view(search_text(found, {})));
+        out.add(std::string_view(witnesses_json(found)));
     });
 }
 

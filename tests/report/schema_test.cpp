@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "barycert/audit.hpp"
+#include "barycert/audit_mutants.hpp"
 #include "barycert/audit_report.hpp"
+#include "barycert/audit_search.hpp"
 #include "barycert/report.hpp"
 #include "check_meshes.hpp"
 #include "schema_tables.hpp"
@@ -138,9 +140,9 @@ Schema schema_with_all_reports() {
     sample_reports(schema);
     verify_reports(schema);
     raster_reports(schema);
-    search_reports(schema);
     contour_reports(schema);
     render_reports(schema);
+    search_reports(schema);
     return schema;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "barycert/audit_mutants.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report/common/environment_json.hpp"

@@ -2,6 +2,7 @@
 
 #include "barycert/audit/witness_json.hpp"
 #include "barycert/audit_report.hpp"
+#include "barycert/audit_search.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report/common/environment_json.hpp"
 #include "barycert/report/common/json_figure.hpp"

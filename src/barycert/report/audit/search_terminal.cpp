@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "barycert/audit_report.hpp"
+#include "barycert/audit_search.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report/common/terminal_text.hpp"

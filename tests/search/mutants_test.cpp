@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <set>
 
-#include "audit_helpers.hpp"
+#include "audit/audit_helpers.hpp"
 
 namespace barycert::audit {
 namespace {

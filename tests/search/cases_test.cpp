@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "audit_helpers.hpp"
+#include "audit/audit_helpers.hpp"
 #include "barycert/audit_search.hpp"
 
 namespace barycert::audit {

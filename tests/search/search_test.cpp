@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "audit_helpers.hpp"
+#include "audit/audit_helpers.hpp"
 #include "barycert/audit/search/moves.hpp"
 
 namespace barycert::audit {

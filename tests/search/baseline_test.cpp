@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "audit_helpers.hpp"
+#include "audit/audit_helpers.hpp"
 #include "barycert/audit/mesh_draws.hpp"
 #include "barycert/audit_report.hpp"
 
