@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cfenv>
-#include <chrono>
 #include <cmath>
+#include <span>
 
+#include "barycert/audit/asking.hpp"
 #include "barycert/audit/comparison.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
@@ -74,46 +74,41 @@ void add_residuals(KernelStatistics& s, const Case& c, const OracleAnswer& answe
 
 }  // namespace
 
-void run_block(const Family& family, Simplex simplex, std::uint64_t seed, std::uint64_t first, std::uint64_t last,
-               const MeshSource& meshes, const std::vector<Kernel>& kernels, std::vector<BlockResult>& results) {
+void run_block(const Job& job, std::uint64_t first, std::uint64_t last, JobResult& result) {
     const ExactEnvironment environment;
-    using Clock = std::chrono::steady_clock;
     thread_local std::vector<Case> cases(block_size);
     thread_local std::vector<OracleAnswer> answers(block_size);
+    thread_local std::vector<Statement> statements(block_size);
     std::array<double, block_size> kappa{};
     const auto count = static_cast<std::size_t>(last - first);
     for (std::size_t i = 0; i < count; ++i) {
-        cases[i] = make_case(family, simplex, seed, first + i, meshes);
-        answers[i] = ask_oracle(cases[i]);
+        cases[i] = make_case(job.family, job.simplex, job.seed, first + i, job.meshes);
+        std::optional<Disagreement> disagreement;
+        answers[i] = job.judge.decide(cases[i], first + i, result.oracles, disagreement);
+        if (disagreement && (!result.quarrel || first + i < result.quarrel->index))
+            result.quarrel = Quarrel{first + i, *disagreement};
+        ++result.regions[static_cast<std::size_t>(answers[i].region)];
         kappa[i] = predicting_condition(cases[i], answers[i].region);
     }
-    std::array<std::array<double, 4>, block_size> weights;
-    std::array<int, block_size> status{};
-    for (std::size_t k = 0; k < kernels.size(); ++k) {
-        const WeightsFunction function = kernels[k].weights;
-        // A weight that the kernel leaves unset must not look like an answer, least of all another kernel's.
-        weights.fill(unset_weights);
-        // A kernel may leave another rounding mode behind: it is its own affair, not the oracle's or the next one's.
-        std::fenv_t before;
-        std::fegetenv(&before);
-        const auto start = Clock::now();
+    if (result.quarrel) return;
+    for (std::size_t k = 0; k < job.kernels.size(); ++k) {
+        const Kernel& kernel = job.kernels[k];
+        BlockResult& learnt = result.kernels[k];
+        const bool timed = learnt.ns.size() < BlockResult::kept_times;
+        const Asked asked =
+            ask_kernel(kernel, std::span(cases).first(count), std::span(statements).first(count), timed);
+        if (timed && asked.ns >= 0) learnt.ns.push_back(static_cast<float>(asked.ns));
         for (std::size_t i = 0; i < count; ++i) {
-            status[i] = function(cases[i].vertices.data(), cases[i].point.data(), weights[i].data());
-        }
-        const auto stop = Clock::now();
-        std::fesetenv(&before);
-        BlockResult& result = results[k];
-        if (result.ns.size() < BlockResult::kept_times) {
-            const double ns = std::chrono::duration<double, std::nano>(stop - start).count();
-            result.ns.push_back(static_cast<float>(ns / static_cast<double>(count)));
-        }
-        for (std::size_t i = 0; i < count; ++i) {
-            const Comparison r = compare(kernels[k], cases[i], answers[i], status[i], weights[i]);
-            result.statistics.add(r, answers[i].region, first + i);
-            if (kappa[i] >= 1 && std::isfinite(r.weight_error)) result.prediction.add(kappa[i], r.weight_error);
-            if (status[i] == 0 && answers[i].region != Region::degenerate) {
-                add_residuals(result.statistics, cases[i], answers[i], weights[i].data(), first + i);
+            const Statement& said = statements[i];
+            if (!said.ran) {
+                ++learnt.statistics.not_run;
+                continue;
             }
+            const Comparison r = compare(kernel, cases[i], answers[i], said);
+            learnt.statistics.add(r, answers[i].region, first + i);
+            if (kappa[i] >= 1 && std::isfinite(r.weight_error)) learnt.prediction.add(kappa[i], r.weight_error);
+            if (said.answered && said.status == 0 && answers[i].region != Region::degenerate)
+                add_residuals(learnt.statistics, cases[i], answers[i], said.weights.data(), first + i);
         }
     }
 }

@@ -75,6 +75,7 @@ void KernelStatistics::merge(const KernelStatistics& other) {
     const ExactEnvironment environment;
     cases += other.cases;
     wrong_cases += other.wrong_cases;
+    not_run += other.not_run;
     for (std::size_t f = 0; f < finding_count; ++f) counts[f] += other.counts[f];
     for (std::size_t e = 0; e < 4; ++e) {
         for (std::size_t c = 0; c < 4; ++c) confusion[e][c] += other.confusion[e][c];
