@@ -28,7 +28,7 @@ struct AuditArguments {
     std::string json, witnesses, plot;
     bool quiet = false, no_check = false;
     OracleChoice oracle = OracleChoice::automatic;
-    std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>(KernelRules{.in_process = false});
+    std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>();
 };
 
 /// The callback that shows how far the audit is.

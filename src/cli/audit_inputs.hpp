@@ -26,7 +26,7 @@ Result<MeshSource> load_meshes(const std::vector<std::string>& paths, bool certi
 
 /// How the kernels of the user's libraries are run, and how it is told what they claim.
 struct KernelRules {
-    bool in_process = true;
+    bool in_process = false;
     double seconds = 1;                     ///< for a case, in a process of its own
     std::optional<double> class_tolerance;  ///< of kernels that have no rule of their own
 };
@@ -40,7 +40,7 @@ std::string words_of(const KernelRules& rules);
 
 /// Catalogue entries that match any of the globs ("*" if there are none), then the kernels of the libraries.
 Result<std::vector<Kernel>> select_kernels(const std::vector<std::string>& globs,
-                                           const std::vector<std::string>& libraries, const KernelRules& rules = {});
+                                           const std::vector<std::string>& libraries, const KernelRules& rules = {true, 1, {}});
 Result<std::vector<Family>> select_families(const std::vector<std::string>& globs);
 
 /// Refuses "-1" and 2^64 where a seed or the number of a case is due: the parser would take both for 2^64 - 1.

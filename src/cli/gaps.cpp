@@ -24,7 +24,7 @@ struct GapsArguments {
     std::vector<std::string> kernels, libraries, fail_on, rule_names;
     GapsOptions options;
     bool quiet = false, no_check = false;
-    std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>(KernelRules{.in_process = false});
+    std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>();
 };
 
 struct GapsLimit {

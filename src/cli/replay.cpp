@@ -24,7 +24,7 @@ struct ReplayArguments {
     std::vector<std::string> meshes, libraries;
     std::optional<std::uint64_t> index;
     std::uint64_t seed = 1;
-    std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>(KernelRules{.in_process = false});
+    std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>();
 };
 
 /// The witness that --family and --case describe, made again.

@@ -54,8 +54,9 @@ TEST(epeck, rounds_to_nearest_even_also_where_numbers_underflow_or_overflow) {
     EXPECT_EQ(ask_cgal(on_axis(2, 1, 0, 0x1p-1074)).value, 0);
     EXPECT_EQ(ask_cgal(on_axis(4, 3, 0, 0x1p-1073)).value, 0x1p-1073);
     EXPECT_EQ(ask_cgal(on_axis(2, 1 + 0x1p-52, 0, 0x1p-1074)).value, 0x1p-1074);
-    // A subnormal that two roundings would get wrong: 1 + 2^-53 + 2^-54 of 2^-1022, halved.
-    EXPECT_EQ(ask_cgal(on_axis(0x1p60, 0x1p59 + 0x1p7, 0, 0x1p-1021)).value, 0x1p-1022);
+    // A subnormal that rounding to 53 bits first would get wrong: a tie there, and more than one in truth.
+    EXPECT_EQ(ask_cgal(on_axis(2, 1 + 0x1p-30, 0, 0x1p-1022 * (1 + 0x1p-24 + 0x1p-52))).value,
+              0x1p-1023 + 0x1p-1053 + 0x1p-1047 + 0x1p-1074);
     // -1/4 of it is -0, as the integers round.
     const double zero = ask_cgal(on_axis(4, 1, 0, -0x1p-1074)).value;
     EXPECT_EQ(zero, 0);
