@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "barycert/audit/asking.hpp"
@@ -14,62 +15,131 @@
 namespace barycert::audit {
 namespace {
 
-/// Upper bounds of both residuals, from the weights' errors. With w the kernel's weights, l the exact ones, L those
-/// rounded, d = fl(w - L) and u = 2^-53: |w - l - d| <= e = u |d| + u |L| + 2^-1074, so that
+/// Upper bounds of both residuals. Exact ones are only asked for where they could exceed the worst so far, which is all
+/// that is kept: the closer the bound, the rarer that is.
+struct ResidualBound {
+    double partition = 0;
+    double reproduction = 0;
+};
+
+using Long = long double;
+constexpr Long long_ulp = std::numeric_limits<Long>::epsilon();
+
+/// A sum of at most five numbers, of products of doubles perhaps, that knows how far off it can be: each product and
+/// each of four additions is off by less than long_ulp times the sum of magnitudes, twice over for what those of the
+/// magnitudes are off; nothing where every addition was exact.
+class LongSum {
+public:
+    void add(Long x) {
+        const Long sum = sum_ + x, back = sum - sum_;
+        exact_ = exact_ && (sum_ - (sum - back)) + (x - back) == 0;
+        sum_ = sum;
+        size_ += std::fabs(x);
+    }
+    void add_product(double a, double b) {
+        add(static_cast<Long>(a) * b);
+        products_ = true;
+    }
+    /// An upper bound of the magnitude of the sum, as a double. Numbers below the range of normal ones add to it.
+    double bound() const {
+        if (exact_ && !products_) return up(std::fabs(sum_));
+        return up(std::fabs(sum_) + 16 * long_ulp * size_ + 0x1p-1070);
+    }
+
+private:
+    /// Rounded to a double that is not below it. What is a double already stays as it is.
+    static double up(Long x) {
+        const auto y = static_cast<double>(x);
+        return y < x ? std::nextafter(y, std::numeric_limits<double>::infinity()) : y;
+    }
+    Long sum_ = 0, size_ = 0;
+    bool exact_ = true, products_ = false;
+};
+
+/// The length of a vector whose components are at most these, rounded up: scaled by the largest, so that squares neither
+/// over- nor underflow.
+double length_bound(const std::array<double, 3>& components) {
+    constexpr double u = 0x1p-53;
+    const double max = std::max({components[0], components[1], components[2]});
+    if (!(max > 0)) return 0;
+    double squares = 0;
+    for (const double x : components) squares += (x / max) * (x / max);
+    return max * std::sqrt(squares) * (1 + 32 * u) + 0x1p-1070;
+}
+
+/// Where the weights belong to the point itself: sum w - 1 and sum w v - p, as they are defined.
+ResidualBound direct_bound(const Case& c, const double* weights) {
+    const int n = vertex_count(c.simplex);
+    ResidualBound bound;
+    LongSum sum;
+    sum.add(-1);
+    for (int i = 0; i < n; ++i) sum.add(weights[i]);
+    bound.partition = sum.bound();
+    std::array<double, 3> components{};
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
+        const auto k = static_cast<std::size_t>(axis);
+        LongSum r;
+        r.add(-c.point[k]);
+        for (int i = 0; i < n; ++i) r.add_product(weights[i], c.vertex(i, axis));
+        components[k] = r.bound();
+    }
+    bound.reproduction = length_bound(components);
+    return bound;
+}
+
+/// Where they belong to its projection, which is known by its exact weights: from the weights' errors. With w the
+/// kernel's weights, l the exact ones, L those rounded, d = fl(w - L) and u = 2^-53: |w - l - d| <= e = u |d| + u |L| +
+/// 2^-1074, so that
 ///     |sum w - 1|       = |sum (w - l)|   <= |sum d| + sum e,
 ///     |sum w v - p'|_k  = |sum (w - l) v| <= |sum d v| + sum e |v|     for each axis k.
 /// The sums are evaluated in double: of at most four products each, so off by less than 5u sum |d v| + 4 * 2^-1074. The
 /// factors below cover that and the few roundings of the bounds themselves.
-struct ResidualBound {
-    double partition = 0;
-    double reproduction = 0;
-
-    ResidualBound(const Case& c, const OracleAnswer& answer, const double* weights) {
-        constexpr double u = 0x1p-53, tiny = 0x1p-1070;
-        const auto n = static_cast<std::size_t>(vertex_count(c.simplex));
-        std::array<double, 4> d{}, e{};
-        double sum = 0, error = tiny;
-        for (std::size_t i = 0; i < n; ++i) {
-            d[i] = weights[i] - answer.weights[i];
-            e[i] = 8 * u * std::fabs(d[i]) + u * std::fabs(answer.weights[i]) + 0x1p-1074;
-            sum += d[i];
-            error += e[i];
-        }
-        partition = (std::fabs(sum) + error) * (1 + 16 * u);
-        std::array<double, 3> bound{};
-        double max = 0;
-        for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
-            double r = 0, slack = tiny;
-            for (std::size_t i = 0; i < n; ++i) {
-                const double x = c.vertex(static_cast<int>(i), axis);
-                r += d[i] * x;
-                slack += e[i] * std::fabs(x);
-            }
-            bound[static_cast<std::size_t>(axis)] = std::fabs(r) + slack;
-            max = std::max(max, std::fabs(r) + slack);
-        }
-        double squares = 0;  // scaled by the largest: neither overflow nor underflow
-        for (const double x : bound) squares += (x / max) * (x / max);
-        reproduction = max * std::sqrt(squares) * (1 + 32 * u) + tiny;
+ResidualBound projected_bound(const Case& c, const OracleAnswer& answer, const double* weights) {
+    constexpr double u = 0x1p-53, tiny = 0x1p-1070;
+    const auto n = static_cast<std::size_t>(vertex_count(c.simplex));
+    std::array<double, 4> d{}, e{};
+    double sum = 0, error = tiny;
+    for (std::size_t i = 0; i < n; ++i) {
+        d[i] = weights[i] - answer.weights[i];
+        e[i] = 8 * u * std::fabs(d[i]) + u * std::fabs(answer.weights[i]) + 0x1p-1074;
+        sum += d[i];
+        error += e[i];
     }
-};
+    ResidualBound bound;
+    bound.partition = (std::fabs(sum) + error) * (1 + 16 * u);
+    std::array<double, 3> components{};
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
+        double r = 0, slack = tiny;
+        for (std::size_t i = 0; i < n; ++i) {
+            const double x = c.vertex(static_cast<int>(i), axis);
+            r += d[i] * x;
+            slack += e[i] * std::fabs(x);
+        }
+        components[static_cast<std::size_t>(axis)] = std::fabs(r) + slack;
+    }
+    bound.reproduction = length_bound(components);
+    return bound;
+}
 
-/// The exact residuals are only asked for where they could exceed the worst so far: the worst is all that is kept.
+/// The worst so far cannot be exceeded, nor equalled by an earlier case.
+bool settled(double bound, const WorstCase& worst, std::uint64_t index) {
+    return bound < worst.value || (bound == worst.value && index > worst.index);
+}
+
 void add_residuals(KernelStatistics& s, const Case& c, const OracleAnswer& answer, const double* weights,
                    std::uint64_t index) {
     const auto n = static_cast<std::size_t>(vertex_count(c.simplex));
     for (std::size_t i = 0; i < n; ++i) {
         if (!std::isfinite(weights[i])) return;
     }
-    const ResidualBound bound(c, answer, weights);
+    const bool direct = c.simplex == Simplex::tetrahedron || c.simplex == Simplex::triangle;
+    const ResidualBound bound = direct ? direct_bound(c, weights) : projected_bound(c, answer, weights);
     const std::span<const double> w(weights, n);
-    if (!(bound.partition < s.partition_residual.value)) {
+    if (!settled(bound.partition, s.partition_residual, index))
         s.partition_residual.include(std::fabs(partition_residual(w)), index);
-    }
     // Perspective divides by a sum of weights and depths, for which there is no bound.
-    if (c.perspective || !(bound.reproduction < s.reproduction_residual.value)) {
+    if (c.perspective || !settled(bound.reproduction, s.reproduction_residual, index))
         s.reproduction_residual.include(reproduction_residual(c, w), index);
-    }
 }
 
 }  // namespace
