@@ -40,7 +40,8 @@ std::string words_of(const KernelRules& rules);
 
 /// Catalogue entries that match any of the globs ("*" if there are none), then the kernels of the libraries.
 Result<std::vector<Kernel>> select_kernels(const std::vector<std::string>& globs,
-                                           const std::vector<std::string>& libraries, const KernelRules& rules = {true, 1, {}});
+                                           const std::vector<std::string>& libraries,
+                                           const KernelRules& rules = {true, 1, {}});
 Result<std::vector<Family>> select_families(const std::vector<std::string>& globs);
 
 /// Refuses "-1" and 2^64 where a seed or the number of a case is due: the parser would take both for 2^64 - 1.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -27,8 +28,8 @@ constexpr Long long_ulp = std::numeric_limits<Long>::epsilon();
 
 /// A sum of at most five numbers, of products of doubles perhaps, that knows how far off it can be: each product and
 /// each of four additions is off by less than long_ulp times the sum of magnitudes, twice over for what those of the
-/// magnitudes are off; nothing where every addition was exact.
-class LongSum {
+/// magnitudes are off. It also sees where every operation was exact, and is then not off at all.
+class WatchedSum {
 public:
     void add(Long x) {
         const Long sum = sum_ + x, back = sum - sum_;
@@ -38,11 +39,13 @@ public:
     }
     void add_product(double a, double b) {
         add(static_cast<Long>(a) * b);
-        products_ = true;
+        // A factor of at most 11 bits, such as 0 or 1 or 1/4, and one of 53 make a product of 64.
+        exact_ = exact_ && std::numeric_limits<Long>::digits >= 64 &&
+                 (std::bit_cast<std::uint64_t>(a) & ((std::uint64_t{1} << 42) - 1)) == 0;
     }
     /// An upper bound of the magnitude of the sum, as a double. Numbers below the range of normal ones add to it.
     double bound() const {
-        if (exact_ && !products_) return up(std::fabs(sum_));
+        if (exact_) return up(std::fabs(sum_));
         return up(std::fabs(sum_) + 16 * long_ulp * size_ + 0x1p-1070);
     }
 
@@ -53,11 +56,40 @@ private:
         return y < x ? std::nextafter(y, std::numeric_limits<double>::infinity()) : y;
     }
     Long sum_ = 0, size_ = 0;
-    bool exact_ = true, products_ = false;
+    bool exact_ = true;
 };
 
-/// The length of a vector whose components are at most these, rounded up: scaled by the largest, so that squares neither
-/// over- nor underflow.
+/// Whether sums as above, not watched, show that both residuals are below `partition` and `reproduction` also when they
+/// are rounded, for these were.
+bool below(const Case& c, const double* weights, double partition, double reproduction) {
+    // So that squares of all that is made of doubles are in range.
+    if constexpr (std::numeric_limits<Long>::digits < 64 || std::numeric_limits<Long>::max_exponent < 8192)
+        return false;
+    constexpr Long slack = 16 * long_ulp, tiny = 0x1p-1070, before = 1 - Long(0x1p-52);
+    const int n = vertex_count(c.simplex);
+    Long sum = -1, size = 1;
+    for (int i = 0; i < n; ++i) {
+        sum += weights[i];
+        size += std::fabs(weights[i]);
+    }
+    if (!(std::fabs(sum) + slack * size + tiny < partition * before)) return false;
+    Long squares = 0;
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
+        Long r = -c.point[static_cast<std::size_t>(axis)], of = std::fabs(r);
+        for (int i = 0; i < n; ++i) {
+            const Long product = static_cast<Long>(weights[i]) * c.vertex(i, axis);
+            r += product;
+            of += std::fabs(product);
+        }
+        const Long component = std::fabs(r) + slack * of + tiny;
+        squares += component * component;
+    }
+    const Long limit = reproduction * before;
+    return limit > 0 && squares < limit * limit * (1 - slack);
+}
+
+/// The length of a vector whose components are at most these, rounded up: scaled by the largest, so that squares
+/// neither over- nor underflow.
 double length_bound(const std::array<double, 3>& components) {
     constexpr double u = 0x1p-53;
     const double max = std::max({components[0], components[1], components[2]});
@@ -67,18 +99,44 @@ double length_bound(const std::array<double, 3>& components) {
     return max * std::sqrt(squares) * (1 + 32 * u) + 0x1p-1070;
 }
 
-/// Where the weights belong to the point itself: sum w - 1 and sum w v - p, as they are defined.
+/// Where the weights belong to the point itself: sum w - 1 and sum w v - p, as they are defined, in double. The sums
+/// are of at most five numbers or products, off by less than 8u times the sum of magnitudes.
+ResidualBound quick_bound(const Case& c, const double* weights) {
+    constexpr double slack = 16 * 0x1p-53, tiny = 0x1p-1070;
+    const int n = vertex_count(c.simplex);
+    double sum = -1, size = 1;
+    for (int i = 0; i < n; ++i) {
+        sum += weights[i];
+        size += std::fabs(weights[i]);
+    }
+    ResidualBound bound;
+    bound.partition = std::fabs(sum) + slack * size;
+    // The sum of magnitudes of the components is no less than the length.
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
+        double r = -c.point[static_cast<std::size_t>(axis)], of = std::fabs(r);
+        for (int i = 0; i < n; ++i) {
+            const double product = weights[i] * c.vertex(i, axis);
+            r += product;
+            of += std::fabs(product);
+        }
+        bound.reproduction += std::fabs(r) + slack * of + tiny;
+    }
+    bound.reproduction *= 1 + slack;
+    return bound;
+}
+
+/// The same, as close as can be, in long double.
 ResidualBound direct_bound(const Case& c, const double* weights) {
     const int n = vertex_count(c.simplex);
     ResidualBound bound;
-    LongSum sum;
+    WatchedSum sum;
     sum.add(-1);
     for (int i = 0; i < n; ++i) sum.add(weights[i]);
     bound.partition = sum.bound();
     std::array<double, 3> components{};
     for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
         const auto k = static_cast<std::size_t>(axis);
-        LongSum r;
+        WatchedSum r;
         r.add(-c.point[k]);
         for (int i = 0; i < n; ++i) r.add_product(weights[i], c.vertex(i, axis));
         components[k] = r.bound();
@@ -133,6 +191,13 @@ void add_residuals(KernelStatistics& s, const Case& c, const OracleAnswer& answe
         if (!std::isfinite(weights[i])) return;
     }
     const bool direct = c.simplex == Simplex::tetrahedron || c.simplex == Simplex::triangle;
+    if (direct && !c.perspective) {  // ever closer, and slower
+        const ResidualBound quick = quick_bound(c, weights);
+        if (settled(quick.partition, s.partition_residual, index) &&
+            settled(quick.reproduction, s.reproduction_residual, index))
+            return;
+        if (below(c, weights, s.partition_residual.value, s.reproduction_residual.value)) return;
+    }
     const ResidualBound bound = direct ? direct_bound(c, weights) : projected_bound(c, answer, weights);
     const std::span<const double> w(weights, n);
     if (!settled(bound.partition, s.partition_residual, index))

@@ -64,7 +64,7 @@ void compare_weight(Comparison& r, std::size_t i, double w, double exact, int si
         count(r, Finding::opposite_sign);
     }
     r.weight_error = std::max(r.weight_error, std::fabs(w - exact));
-    if (exact != 0) r.weight_ulps[i] = base::ulp_error(w, exact);
+    if (exact != 0) r.weight_ulps[i] = base::ulp_error_here(w, exact);
 }
 
 }  // namespace
@@ -101,7 +101,7 @@ Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answ
     if (kernel.rule == RegionRule::own && s.claimed == Region::degenerate) count(r, Finding::false_declaration);
     for (std::size_t i = 0; i < n; ++i) compare_weight(r, i, s.weights[i], answer.weights[i], answer.signs[i]);
     if (std::isfinite(s.value) && std::isfinite(answer.value) && answer.value != 0)
-        r.value_ulp = base::ulp_error(s.value, answer.value);
+        r.value_ulp = base::ulp_error_here(s.value, answer.value);
     const bool wrong_value = gives_values(kernel) && s.value != answer.value;
     if (kernel.certifies && (!perfect || wrong_value || r.wrong())) count(r, Finding::false_certificate);
     return r;

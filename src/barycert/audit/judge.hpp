@@ -25,7 +25,7 @@ struct Disagreement {
 class Judge {
 public:
     /// One case of so many that the core decided is put to the integers as well, and one of so many to CGAL.
-    static constexpr std::uint64_t integers_share = 16, cgal_share = 64;
+    static constexpr std::uint64_t integers_share = 16, cgal_share = 256;
 
     using Oracle = OracleAnswer (*)(const Case&);
 

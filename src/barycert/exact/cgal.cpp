@@ -38,17 +38,31 @@ mpq_srcptr rational(const Exact& x) {
 /// MPFR's numbers as doubles: 53 bits, and the range that mpfr_subnormalize() wants.
 class Rounder {
 public:
-    Rounder() { mpfr_init2(number_, 53); }
-    ~Rounder() { mpfr_clear(number_); }
+    Rounder() {
+        mpfr_init2(number_, 53);
+        mpq_init(quotient_);
+    }
+    ~Rounder() {
+        mpfr_clear(number_);
+        mpq_clear(quotient_);
+    }
     Rounder(const Rounder&) = delete;
     Rounder& operator=(const Rounder&) = delete;
 
-    /// To nearest, ties to even, subnormals and overflow included.
-    double operator()(const Number& x) {
+    /// The quotient, to nearest, ties to even, subnormals and overflow included. Requires a divisor other than 0.
+    double operator()(const Number& x, const Number& divisor) {
         const mpfr_exp_t low = mpfr_get_emin(), high = mpfr_get_emax();
         mpfr_set_emin(-1073);
         mpfr_set_emax(1024);
-        const int inexact = mpfr_set_q(number_, rational(x.exact()), MPFR_RNDN);
+        // Not reduced: that takes longer than all else, and MPFR does not ask for it.
+        mpq_srcptr a = rational(x.exact()), b = rational(divisor.exact());
+        mpz_mul(mpq_numref(quotient_), mpq_numref(a), mpq_denref(b));
+        mpz_mul(mpq_denref(quotient_), mpq_denref(a), mpq_numref(b));
+        if (mpz_sgn(mpq_denref(quotient_)) < 0) {
+            mpz_neg(mpq_numref(quotient_), mpq_numref(quotient_));
+            mpz_neg(mpq_denref(quotient_), mpq_denref(quotient_));
+        }
+        const int inexact = mpfr_set_q(number_, quotient_, MPFR_RNDN);
         mpfr_subnormalize(number_, inexact, MPFR_RNDN);
         const double result = mpfr_get_d(number_, MPFR_RNDN);
         mpfr_set_emin(low);
@@ -58,11 +72,13 @@ public:
 
 private:
     mpfr_t number_;
+    mpq_t quotient_;
 };
 
-/// Weights as numbers, and their signs as CGAL's predicates tell them; nothing if there are none.
+/// Weights as parts of a whole, and their signs as CGAL's predicates tell them; nothing if there are none.
 struct Found {
-    std::array<Number, 4> weights;
+    std::array<Number, 4> parts;
+    Number whole;
     std::array<int, 4> signs{};
 };
 
@@ -79,14 +95,14 @@ std::optional<Found> tetrahedron(const Case& c) {
     for (std::size_t i = 0; i < 4; ++i) v[i] = point3(&c.vertices[3 * i]);
     const int whole = CGAL::orientation(v[0], v[1], v[2], v[3]);
     if (whole == 0) return std::nullopt;
-    const Number volume = CGAL::volume(v[0], v[1], v[2], v[3]);
     const Point3 p = point3(c.point.data());
     Found f;
+    f.whole = CGAL::volume(v[0], v[1], v[2], v[3]);
     for (std::size_t i = 0; i < 4; ++i) {
         std::array<Point3, 4> w = v;
         w[i] = p;
         f.signs[i] = CGAL::orientation(w[0], w[1], w[2], w[3]) * whole;
-        f.weights[i] = CGAL::volume(w[0], w[1], w[2], w[3]) / volume;
+        f.parts[i] = CGAL::volume(w[0], w[1], w[2], w[3]);
     }
     return f;
 }
@@ -96,14 +112,14 @@ std::optional<Found> triangle(const Case& c) {
     for (std::size_t i = 0; i < 3; ++i) v[i] = point2(&c.vertices[2 * i]);
     const int whole = CGAL::orientation(v[0], v[1], v[2]);
     if (whole == 0) return std::nullopt;
-    const Number area = CGAL::area(v[0], v[1], v[2]);
     const Point2 p = point2(c.point.data());
     Found f;
+    f.whole = CGAL::area(v[0], v[1], v[2]);
     for (std::size_t i = 0; i < 3; ++i) {
         std::array<Point2, 3> w = v;
         w[i] = p;
         f.signs[i] = CGAL::orientation(w[0], w[1], w[2]) * whole;
-        f.weights[i] = CGAL::area(w[0], w[1], w[2]) / area;
+        f.parts[i] = CGAL::area(w[0], w[1], w[2]);
     }
     return f;
 }
@@ -112,13 +128,13 @@ std::optional<Found> triangle(const Case& c) {
 Found in_plane(const std::array<Point3, 3>& v, const Point3& p) {
     const Point3 apex = v[0] + CGAL::cross_product(v[1] - v[0], v[2] - v[0]);
     const int whole = CGAL::orientation(v[0], v[1], v[2], apex);
-    const Number volume = CGAL::volume(v[0], v[1], v[2], apex);
     Found f;
+    f.whole = CGAL::volume(v[0], v[1], v[2], apex);
     for (std::size_t i = 0; i < 3; ++i) {
         std::array<Point3, 3> w = v;
         w[i] = p;
         f.signs[i] = CGAL::orientation(w[0], w[1], w[2], apex) * whole;
-        f.weights[i] = CGAL::volume(w[0], w[1], w[2], apex) / volume;
+        f.parts[i] = CGAL::volume(w[0], w[1], w[2], apex);
     }
     return f;
 }
@@ -136,8 +152,9 @@ std::optional<Found> segment(const Case& c) {
     const Point3 q = Epeck::Line_3(a, b).projection(point3(c.point.data()));
     const Epeck::Vector_3 edge = b - a;
     Found f;
-    f.weights[1] = (q - a) * edge / edge.squared_length();
-    f.weights[0] = (b - q) * edge / edge.squared_length();
+    f.parts[1] = (q - a) * edge;
+    f.parts[0] = (b - q) * edge;
+    f.whole = edge.squared_length();
     // The half-spaces behind the ends: planes normal to the segment.
     f.signs[0] = Epeck::Plane_3(b, a - b).oriented_side(q);
     f.signs[1] = Epeck::Plane_3(a, b - a).oriented_side(q);
@@ -199,10 +216,10 @@ OracleAnswer ask_cgal(const Case& c) {
             a.support = static_cast<std::uint8_t>(a.support | (1U << i));
             ++nonzero;
         }
-        a.weights[i] = rounded(f->weights[i]);
-        value += f->weights[i] * Number(c.values[i]);
+        a.weights[i] = rounded(f->parts[i], f->whole);
+        value += f->parts[i] * Number(c.values[i]);
     }
-    a.value = rounded(value);
+    a.value = rounded(value, f->whole);
     const bool whole = nonzero == static_cast<int>(count);
     a.region = negative ? Region::outside : whole ? Region::interior : Region::boundary;
     a.feature = negative       ? Feature::outside
