@@ -110,6 +110,13 @@ TEST(contained, a_hang_costs_the_time_limit_and_no_more) {
     EXPECT_EQ(s.cases, 200U);
 }
 
+TEST(contained, the_time_limit_is_for_a_case_and_not_for_all) {
+    ASSERT_GT(unruly_cases("mesh.inside", 256), 5U);  // in one batch, 0.15 s each
+    const KernelStatistics s = statistics_of(contained("slow", 0.5), "mesh.inside", 256, own_meshes());
+    EXPECT_EQ(s.wrong_cases, 0U);
+    EXPECT_EQ(s.cases, 256U);
+}
+
 TEST(contained, figures_do_not_depend_on_threads) {
     for (const char* name : {"crash", "print", "round"}) {
         const auto figures = [&](int threads) {
