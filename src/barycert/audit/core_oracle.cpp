@@ -1,4 +1,3 @@
-
 #include "barycert/audit/judge.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
