@@ -27,6 +27,8 @@ struct AuditArguments {
     int threads = 0;
     std::string json, witnesses, plot;
     bool quiet = false, no_check = false;
+    OracleChoice oracle = OracleChoice::automatic;
+    std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>();
 };
 
 /// The callback that shows how far the audit is.
@@ -68,7 +70,8 @@ int run_audit(const AuditArguments& a) {
     options.count = a.count;
     options.seed = a.seed;
     options.threads = a.threads;
-    const auto kernels = select_kernels(a.kernels, a.libraries);
+    options.oracle = a.oracle;
+    const auto kernels = select_kernels(a.kernels, a.libraries, *a.rules);
     if (!kernels) return fail(kernels.error());
     options.kernels = *kernels;
     const auto families = select_families(a.families);
@@ -96,7 +99,8 @@ int run_audit(const AuditArguments& a) {
                                   .command = command_name(),
                                   .witness_path = a.witnesses.empty() ? a.json : a.witnesses,
                                   .mesh_arguments = a.meshes,
-                                  .library_arguments = a.libraries};
+                                  .library_arguments = a.libraries,
+                                  .kernel_arguments = words_of(*a.rules)};
         written.push_back(write_output("-", audit_text(*report, style)));
     }
     for (const Status& status : written) {
@@ -127,6 +131,18 @@ void add_audit(CLI::App& app, int& exit_code) {
     file_option(
         *sub, "--kernel-library", a->libraries,
         "A shared library with a kernel of yours (see barycert/kernel.h); audited alone unless --kernel is given");
+    add_kernel_rules(*sub, a->rules);
+    sub->add_option_function<std::string>(
+           "--oracle",
+           [a](const std::string& word) {
+               a->oracle = word == "integers" ? OracleChoice::integers
+                           : word == "cgal"   ? OracleChoice::cgal
+                                              : OracleChoice::both;
+           },
+           "Who says what is right: exact integers, CGAL's exact kernel (Epeck), or both, who must agree; without it "
+           "integers, or barycert's core where it judges others, and CGAL confirms a sample and the hard cases")
+        ->check(CLI::IsMember({"integers", "cgal", "both"}).description(""))
+        ->type_name("integers|cgal|both");
     sub->add_option("--count", a->count, "Cases per family and simplex")
         ->capture_default_str()
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48))

@@ -24,6 +24,7 @@ struct ReplayArguments {
     std::vector<std::string> meshes, libraries;
     std::optional<std::uint64_t> index;
     std::uint64_t seed = 1;
+    std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>();
 };
 
 /// The witness that --family and --case describe, made again.
@@ -68,13 +69,16 @@ Result<std::vector<Witness>> made_again(const ReplayArguments& a, const std::vec
     w.family = family.name;
     w.seed = a.seed;
     w.index = *a.index;
-    w.c = make_case(family, *simplex, a.seed, *a.index, meshes);
+    CaseOrigin origin;
+    w.c = make_case(family, *simplex, a.seed, *a.index, meshes, &origin);
+    w.mesh = origin.mesh;
+    w.cell = origin.cell;
     return std::vector<Witness>{w};
 }
 
 int run_replay(const ReplayArguments& a) {
     const Environment environment = measure_environment();
-    Result<std::vector<Kernel>> kernels = select_kernels({"*"}, a.libraries);
+    Result<std::vector<Kernel>> kernels = select_kernels({"*"}, a.libraries, *a.rules);
     if (!kernels) return fail(kernels.error());
     if (a.file.empty() == a.family.empty())
         return fail({.what = a.file.empty() ? "no case to replay" : "a witness file and a case",
@@ -133,6 +137,7 @@ void add_replay(CLI::App& app, int& exit_code) {
                 "Meshes of the case, in the order given to the audit; default: barycert's own")
         ->type_name("MESH");
     file_option(*sub, "--kernel-library", a->libraries, "Also show the kernel of this library");
+    add_kernel_rules(*sub, a->rules);
     sub->callback([a, &exit_code] { exit_code = run_replay(*a); });
 }
 

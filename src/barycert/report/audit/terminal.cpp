@@ -5,6 +5,7 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/report/audit/oracle_words.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert {
@@ -26,6 +27,18 @@ std::pair<std::uint64_t, std::uint64_t> on_meshes(const AuditReport& report, con
         cases += f.statistics.cases;
     }
     return {wrong, cases};
+}
+
+/// What a kernel in a process of its own did besides answering.
+std::string incidents(const KernelStatistics& s) {
+    std::string out;
+    for (const Finding f :
+         {Finding::crashed, Finding::hung, Finding::out_of_bounds, Finding::changed_environment, Finding::printed}) {
+        if (count_of(s, f) != 0)
+            out += fmt::format("{}{} in {} cases", out.empty() ? "" : ", ", name(f), count_of(s, f));
+    }
+    if (s.not_run != 0) out += fmt::format("; given up: {} cases were not run", s.not_run);
+    return out;
 }
 
 std::string kernel_table(const AuditReport& report, const Colours& paint) {
@@ -56,6 +69,7 @@ std::string kernel_table(const AuditReport& report, const Colours& paint) {
         const std::uint64_t broken = count_of(s, Finding::false_certificate);
         const bool perfect = s.wrong_cases == 0 && s.weight_ulp.value == 0;
         out += (perfect ? paint.good(line) : line) + "\n";
+        if (const std::string beside = incidents(s); !beside.empty()) out += paint.bad("    " + beside) + "\n";
         if (broken != 0)
             out += paint.bad(fmt::format("    certifies its answers, and {} of them are wrong", broken)) + "\n";
     }
@@ -121,6 +135,7 @@ std::string replay_command(const AuditReport& report, const KernelResult& k, con
                            const TerminalStyle& style) {
     std::string libraries;
     for (const std::string& library : style.library_arguments) libraries += " --kernel-library " + shell_word(library);
+    libraries += style.kernel_arguments;
     if (!style.witness_path.empty()) {
         return fmt::format("{} replay {}{} --kernel {} --reason {}", style.command, shell_word(style.witness_path),
                            libraries, shell_word(k.kernel.name), w.reason);
@@ -138,6 +153,7 @@ std::string replay_command(const AuditReport& report, const KernelResult& k, con
 /// What a witness shows, in words.
 std::string shows(const Witness& w) {
     if (w.reason.ends_with("_ulp")) return brief(w.magnitude) + " ulps";
+    if (!w.detail.empty()) return w.detail;
     if (w.reason == "false_declaration") return "declared degenerate";
     if (w.reason == "missed_degenerate") return "weights up to " + brief(w.magnitude);
     return std::isfinite(w.magnitude) ? "a weight off by " + brief(w.magnitude) : "a weight that is not finite";
@@ -151,8 +167,9 @@ std::string witness_list(const AuditReport& report, const TerminalStyle& style, 
             out += paint.bold(k.kernel.name) + ": no witness, every weight and value is correctly rounded\n";
             continue;
         }
-        out += fmt::format("{}: {} in {}, case {} ({})\n    {}\n", paint.bold(k.kernel.name), w->reason, w->family,
-                           w->index, shows(*w), replay_command(report, k, *w, style));
+        const std::string where = w->cell < 0 ? "" : fmt::format(", cell {} of {}", w->cell, base::printable(w->mesh));
+        out += fmt::format("{}: {} in {}, case {}{} ({})\n    {}\n", paint.bold(k.kernel.name), w->reason, w->family,
+                           w->index, where, base::printable(shows(*w)), replay_command(report, k, *w, style));
     }
     return out;
 }
@@ -186,7 +203,7 @@ std::string audit_text(const AuditReport& report, const TerminalStyle& style) {
         "seed {}, {} cases per family and simplex, {} in all, {} kernels, {} families, {} threads, {:.1f} s\n",
         report.seed, report.count, report.cases, report.kernels.size(), report.families.size(), report.threads,
         report.seconds);
-    out += mesh_lines(report, style, paint) + exact_regions(report) + "\n";
+    out += mesh_lines(report, style, paint) + exact_regions(report) + oracle_line(report.oracles) + "\n";
     out += kernel_table(report, paint) + "\n" + family_table(report, paint) + "\n";
     out += paint.bold("Worst witness of each kernel, and the command that replays it:") + "\n" +
            witness_list(report, style, paint);
