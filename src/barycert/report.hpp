@@ -30,6 +30,7 @@ struct TerminalStyle {
     std::string witness_path = {};
     std::vector<std::string> mesh_arguments = {};     ///< as the user gave them, repeated in replay commands
     std::vector<std::string> library_arguments = {};  ///< likewise: the user's kernel libraries
+    bool wide = false;                                ///< the audit's whole table, whatever its width
 };
 
 /// One line: version, rounding, SIMD target, compiler.

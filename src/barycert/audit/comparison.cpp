@@ -48,6 +48,24 @@ void compare_weight(Comparison& r, std::size_t i, double w, double exact, int si
     if (exact != 0) r.weight_ulps[i] = base::ulp_error(w, exact);
 }
 
+/// Comparison::relative_error of finite weights beside exact ones.
+double relative_error(std::span<const double> weights, std::span<const double> exact) {
+    constexpr double max = std::numeric_limits<double>::max();
+    double scale = 1, error = 0;
+    for (const double x : exact) scale = std::max(scale, std::min(std::fabs(x), max));
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        if (!std::isfinite(weights[i])) return std::numeric_limits<double>::infinity();
+        const double to = std::clamp(exact[i], -max, max);
+        if (weights[i] == to) continue;
+        // Halved so that the difference cannot overflow; an error that underflows is an error.
+        const double difference = std::fabs(weights[i] - to);
+        const double e =
+            std::isfinite(difference) ? difference / scale : std::fabs(weights[i] / 2 - to / 2) / (scale / 2);
+        error = std::max({error, e, std::numeric_limits<double>::denorm_min()});
+    }
+    return error;
+}
+
 }  // namespace
 
 Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answer, int status,
@@ -71,10 +89,11 @@ Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answ
     }
     if (status != 0) {
         count(r, Finding::false_declaration);
-        r.weight_error = std::numeric_limits<double>::infinity();
+        r.weight_error = r.relative_error = std::numeric_limits<double>::infinity();
         return r;
     }
     for (std::size_t i = 0; i < n; ++i) compare_weight(r, i, weights[i], answer.weights[i], answer.signs[i]);
+    r.relative_error = relative_error(weights.first(n), std::span(answer.weights).first(n));
     const double value = kernel.interpolate != nullptr
                              ? kernel.interpolate(c.vertices.data(), c.point.data(), c.values.data())
                              : kernel.value(weights.data(), c.values.data());

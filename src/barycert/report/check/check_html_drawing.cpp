@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "barycert/report/check/check_html_cells.hpp"
-#include "barycert/report/check/check_html_picture.hpp"
 #include "barycert/report/check/check_html_view.hpp"
+#include "barycert/report/common/picture.hpp"
 
 namespace barycert::report {
 namespace {
@@ -212,7 +212,7 @@ std::string exhibit_card(const CheckReport& r, const Mesh& mesh, const Exhibit& 
     const std::vector<Shown> views = views_of(mesh, scene);
     const double scale = scale_of(views, scene);
     std::string out =
-        fmt::format("<figure class=\"half card\"><h3><span class=\"badge{}\">{}</span> {}</h3>\n<div class=\"views\">",
+        fmt::format("<figure class=\"card\"><h3><span class=\"badge{}\">{}</span> {}</h3>\n<div class=\"views\">",
                     e.defect ? " problem" : "", number, e.what);
     const bool pair = e.cells[1] >= 0;
     const auto cells = r.cell_number(e.cells);

@@ -8,7 +8,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/common/html_text.hpp"
-#include "barycert/report/common/page_style.hpp"
+#include "barycert/report/common/page.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 #include "barycert/report/verify/verify_words.hpp"
 
@@ -106,17 +106,11 @@ std::string notes(const VerifySummary& s) {
 
 std::string verify_html(const VerifySummary& s, const Environment& environment) {
     const ExactEnvironment exact;
-    std::string out =
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>\n<meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\"/>\n";
-    out += fmt::format(
-        "<title>barycert verify: {}</title>\n<style>{}</style></head>\n<body>\n<h1>barycert verify: {} on "
-        "{}</h1>\n",
-        text(s.results), page_style, text(s.results), text(s.mesh));
+    std::string out = page_head("barycert verify: " + s.results) +
+                      fmt::format("<h1>barycert verify: {} on {}</h1>\n", text(s.results), text(s.mesh));
     out += verdict_section(s) + verdict_rows(s) + "<h2>Values</h2>\n" + value_rows(s) + histograms(s) + examples(s) +
            notes(s);
-    out += fmt::format("<footer>{}</footer>\n</body></html>\n", text(environment_line(environment)));
-    return out;
+    return out + page_foot(environment_line(environment));
 }
 
 }  // namespace barycert

@@ -1,0 +1,220 @@
+#include "barycert/report/audit/audit_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "barycert/base/text.hpp"
+#include "barycert/report/common/terminal_text.hpp"
+
+namespace barycert::report {
+namespace {
+
+std::uint64_t exactly(const KernelStatistics& s, Region r) {
+    std::uint64_t n = 0;
+    for (const std::uint64_t claimed : s.confusion[static_cast<std::size_t>(r)]) n += claimed;
+    return n;
+}
+
+std::string names_of(const AuditReport& report, auto which) {
+    std::string names;
+    for (const KernelResult& k : report.kernels) {
+        if (which(k)) names += (names.empty() ? "" : ", ") + base::printable(k.kernel.name);
+    }
+    return names;
+}
+
+std::size_t wrong_kernels(const AuditReport& report) {
+    return static_cast<std::size_t>(std::count_if(report.kernels.begin(), report.kernels.end(),
+                                                  [](const auto& k) { return k.total.wrong_cases != 0; }));
+}
+
+}  // namespace
+
+std::string percent(const Share& share) {
+    return share.whole == 0 ? "-" : percent(share.part, share.whole);
+}
+
+Share inside_called_outside(const KernelStatistics& s) {
+    return {count_of(s, Finding::false_outside), exactly(s, Region::interior) + exactly(s, Region::boundary)};
+}
+
+Share outside_called_inside(const KernelStatistics& s) {
+    return {count_of(s, Finding::false_inside), exactly(s, Region::outside)};
+}
+
+Share wrong_on_meshes(const AuditReport& report, const KernelResult& k) {
+    Share share;
+    for (const FamilyResult& f : k.families) {
+        if (!report.families[f.family].needs_mesh) continue;
+        share.part += f.statistics.wrong_cases;
+        share.whole += f.statistics.cases;
+    }
+    return share;
+}
+
+bool perfect(const KernelStatistics& s) {
+    return s.wrong_cases == 0 && s.errors.worst.value <= 0;
+}
+
+std::string usual_error(const KernelStatistics& s) {
+    const double within = s.errors.within(0.99);
+    return within <= 0 || std::isinf(within) ? brief(within) : "<" + brief(within);
+}
+
+bool any_wrong(const AuditReport& report) {
+    return wrong_kernels(report) != 0;
+}
+
+std::string verdict_sentence(const AuditReport& report) {
+    const std::size_t all = report.kernels.size(), wrong = wrong_kernels(report);
+    if (all == 1) {
+        const KernelResult& k = report.kernels.front();
+        const std::string name = base::printable(k.kernel.name);
+        return wrong == 0 ? fmt::format("{}: no wrong answer in {} cases", name, k.total.cases)
+                          : fmt::format("{} is wrong in {} % of {} cases", name,
+                                        percent(k.total.wrong_cases, k.total.cases), k.total.cases);
+    }
+    if (wrong == 0) return fmt::format("none of {} kernels gives a wrong answer", all);
+    return fmt::format("{} of {} kernels give wrong answers", wrong, all);
+}
+
+std::string kernel_sentence(const KernelResult& k) {
+    const KernelStatistics& s = k.total;
+    const Share out = inside_called_outside(s), in = outside_called_inside(s);
+    std::string text;
+    const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
+    if (out.whole != 0 || in.whole != 0)
+        add(fmt::format("calls {} % of the points inside \"outside\", and {} % of those outside \"inside\"",
+                        percent(out), percent(in)));
+    const double worst = s.errors.worst.value, usual = s.errors.within(0.99);
+    if (worst == 0) {
+        add("every weight is correctly rounded");
+    } else if (worst > 0) {
+        const std::string largest = std::isinf(worst)
+                                        ? "the worst case has no finite answer"
+                                        : fmt::format("the largest error of a weight is {}", brief(worst));
+        if (usual == 0) {
+            add("99 % of the cases have no error; " + largest);
+        } else if (std::isinf(usual)) {
+            add("more than 1 % of the cases have no finite answer, or an error above 100; " + largest);
+        } else {
+            add(fmt::format("99 % of the cases have errors below {}; {}", brief(usual), largest));
+        }
+    }
+    return text;
+}
+
+std::vector<std::string> verdict_details(const AuditReport& report) {
+    std::vector<std::string> lines;
+    if (report.kernels.size() == 1) {
+        std::string text = kernel_sentence(report.kernels.front());
+        if (text.empty()) return {};
+        text.front() = static_cast<char>(text.front() >= 'a' && text.front() <= 'z' ? text.front() - 32 : text.front());
+        return {text + "."};
+    }
+    if (any_wrong(report)) {
+        const KernelResult& k = report.kernels.front();
+        lines.push_back(fmt::format("Worst: {}, wrong in {} % of its cases: {}.", base::printable(k.kernel.name),
+                                    percent(k.total.wrong_cases, k.total.cases), kernel_sentence(k)));
+    }
+    const std::string broken =
+        names_of(report, [](const KernelResult& k) { return count_of(k.total, Finding::false_certificate) != 0; });
+    if (!broken.empty()) lines.push_back("Certified and wrong all the same: " + broken + ".");
+    const std::string right = names_of(report, [](const KernelResult& k) { return perfect(k.total); });
+    if (!right.empty()) lines.push_back("Right in every case, to the last bit: " + right + ".");
+    const std::string clean =
+        names_of(report, [](const KernelResult& k) { return k.total.wrong_cases == 0 && !perfect(k.total); });
+    if (!clean.empty()) lines.push_back("No wrong sign or region, but rounding errors: " + clean + ".");
+    return lines;
+}
+
+std::string cases_sentence(const AuditReport& report) {
+    std::string regions;
+    for (const Region r : all_regions)
+        regions += fmt::format("{}{} {}", r == Region::interior ? "" : ", ",
+                               report.regions[static_cast<std::size_t>(r)], name(r));
+    return fmt::format("{} cases of {} families, exactly {}", report.cases, report.families.size(), regions);
+}
+
+std::vector<MeshLine> mesh_lines(const AuditReport& report, std::string_view command) {
+    if (report.meshes.empty()) return {MeshLine{.text = "meshes: none"}};
+    std::vector<MeshLine> lines;
+    const auto line = [&](Verdict verdict, std::string_view text, const std::string& hint) {
+        std::string names;
+        for (std::size_t i = 0; i < report.meshes.size(); ++i) {
+            if (report.verdicts[i] == verdict) names += (names.empty() ? "" : ", ") + base::printable(report.meshes[i]);
+        }
+        if (!names.empty())
+            lines.push_back({fmt::format("meshes, {}: {}{}", text, names, hint), verdict == Verdict::not_certified});
+    };
+    line(Verdict::certified, "certified to be partitions", "");
+    line(Verdict::not_certified, "NOT certified to be partitions", fmt::format(" (why: {} check MESH)", command));
+    line(Verdict::not_checked, "not checked", "");
+    return lines;
+}
+
+std::string shows(const Witness& w) {
+    if (w.reason.ends_with("_ulp")) return brief(w.magnitude) + " ulps";
+    if (w.reason == "false_declaration") return "declared degenerate";
+    if (w.reason == "missed_degenerate") return "weights up to " + brief(w.magnitude);
+    return std::isfinite(w.magnitude) ? "a weight off by " + brief(w.magnitude) : "a weight that is not finite";
+}
+
+std::string replay_command(const AuditReport& report, const KernelResult& k, const Witness& w,
+                           const TerminalStyle& style) {
+    std::string libraries;
+    for (const std::string& library : style.library_arguments) libraries += " --kernel-library " + shell_word(library);
+    if (!style.witness_path.empty()) {
+        return fmt::format("{} replay {}{} --kernel {} --reason {}", style.command, shell_word(style.witness_path),
+                           libraries, shell_word(k.kernel.name), w.reason);
+    }
+    std::string command = style.command + " replay" + libraries;
+    const auto family =
+        std::find_if(report.families.begin(), report.families.end(), [&](const auto& f) { return f.name == w.family; });
+    if (family != report.families.end() && family->needs_mesh) {
+        for (const std::string& mesh : style.mesh_arguments) command += " --mesh " + shell_word(mesh);
+    }
+    return command + fmt::format(" --kernel {} --family {} --case {} --seed {}", shell_word(k.kernel.name),
+                                 shell_word(w.family), w.index, w.seed);
+}
+
+std::vector<FamilyLine> family_lines(const AuditReport& report) {
+    struct Row {
+        std::uint64_t cases = 0;
+        std::vector<std::pair<std::uint64_t, std::string>> wrong;  ///< wrong cases and kernel
+    };
+    std::map<std::pair<std::size_t, Simplex>, Row> rows;
+    for (const KernelResult& k : report.kernels) {
+        for (const FamilyResult& f : k.families) {
+            Row& row = rows[{f.family, k.kernel.simplex}];
+            row.cases = f.statistics.cases;
+            row.wrong.emplace_back(f.statistics.wrong_cases,
+                                   base::printable(k.kernel.name.substr(k.kernel.name.find('.') + 1)));
+        }
+    }
+    std::vector<FamilyLine> lines;
+    for (auto& [key, row] : rows) {
+        std::stable_sort(row.wrong.begin(), row.wrong.end(),
+                         [](const auto& a, const auto& b) { return a.first > b.first; });
+        const std::uint64_t worst = row.wrong.front().first;
+        const auto with = [&](std::uint64_t n) {
+            return static_cast<std::size_t>(
+                std::count_if(row.wrong.begin(), row.wrong.end(), [&](const auto& w) { return w.first == n; }));
+        };
+        const std::string more = with(worst) > 1 ? fmt::format(" (+{} more)", with(worst) - 1) : "";
+        lines.push_back({.family = report.families[key.first].name,
+                         .simplex = std::string(name(key.second)),
+                         .cases = row.cases,
+                         .clean = with(0),
+                         .kernels = row.wrong.size(),
+                         .median = row.wrong[(row.wrong.size() - 1) / 2].first,
+                         .worst = worst,
+                         .worst_kernel = worst == 0 ? "-" : row.wrong.front().second + more});
+    }
+    return lines;
+}
+
+}  // namespace barycert::report
