@@ -1,6 +1,7 @@
 // barycert verify: results as tools write them, verdicts, exit codes, reports.
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "process.hpp"
 #include "sample_meshes.hpp"
@@ -40,22 +41,25 @@ TEST(verify, each_kind_of_error_is_named) {
     const std::string bad = scratch.put("bad.csv",
                                         "x,y,z,cell,attribute0\n"
                                         ".25,.25,.25,0,4.5\n"
-                                        ".5,.5,.5,-1,nan\n"      // missed
-                                        ".25,.25,.5,1,6.5\n"     // right: the face belongs to both
-                                        ".5,.5,0,1,4.0000001\n"  // wrong value
-                                        ".1,.1,.1,1,2.4\n"       // wrong cell
-                                        "2,2,2,1,0\n");          // invented
+                                        ".5,.5,.5,-1,nan\n"         // missed
+                                        ".25,.25,.5,1,6.5\n"        // right: the face belongs to both
+                                        ".5,.5,0,1,4.0000001\n"     // wrong value
+                                        ".1,.1,.1,1,2.4\n"          // wrong cell
+                                        "2,2,2,1,0\n"               // invented
+                                        ".25,.25,-1e-12,0,3.2\n");  // invented, nearly inside
     const auto j = report_of({"verify", two, "--results", bad}, 1);
     EXPECT_EQ(j["right"], 2);
     EXPECT_EQ(j["missed"], 1);
-    EXPECT_EQ(j["invented"], 1);
+    EXPECT_EQ(j["invented"], 2);
     EXPECT_EQ(j["invented_zero"], 1);
+    EXPECT_EQ(j["invented_near"], 1);
+    EXPECT_NEAR(j["invented_distance"].get<double>(), std::sqrt(3), 1e-15);
     EXPECT_EQ(j["wrong_cell"], 1);
     EXPECT_EQ(j["wrong_value"], 1);
-    EXPECT_EQ(j["examples"].size(), 4U);
+    EXPECT_EQ(j["examples"].size(), 5U);
     const Ended text = run({"verify", two, "--results", bad});
     EXPECT_EQ(text.code, 1);
-    EXPECT_TRUE(contains(text.out, "bad.csv: WRONG: 4 of 6 rows\n")) << text.out;
+    EXPECT_TRUE(contains(text.out, "bad.csv: WRONG: 5 of 7 rows\n")) << text.out;
     // The commands that it shows run.
     for (const auto& example : j["examples"]) {
         const Ended shown = run_shell(example["command"].get<std::string>());
