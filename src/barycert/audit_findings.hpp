@@ -112,13 +112,14 @@ struct ErrorSizes {
     /// [0]: no error; [k]: 10^(k-19) <= error < 10^(k-18), [1] all smaller ones, [21] all larger ones; [22]: no finite
     /// answer.
     std::array<std::uint64_t, bins> counts{};
-    WorstCase worst;  ///< infinite if a case has no finite answer
+    WorstCase worst;  ///< of the finite ones
 
-    void add(double error, std::uint64_t index);  ///< below 0: not counted
+    void add(double error, std::uint64_t index);  ///< below 0: not counted; infinite: no finite answer
     void merge(const ErrorSizes& other);
     std::uint64_t total() const;
-    /// The upper edge of the first bin by which at least that share of the cases is reached: 0, 1e-17, ..., 100,
-    /// infinity. -1 if there are no cases.
+    std::uint64_t unanswered() const { return counts[bins - 1]; }
+    /// The upper edge of the first bin by which at least that share of the cases with a finite answer is reached: 0,
+    /// 1e-17, ..., 100, infinity. -1 if there are no such cases.
     double within(double share) const;
 };
 

@@ -60,8 +60,9 @@ TEST(ErrorSizes, DecadesAreExact) {
         e.add(row.error, 7);
         EXPECT_EQ(e.counts[row.bin], 1U) << row.error;
         EXPECT_EQ(e.total(), 1U);
-        EXPECT_EQ(e.worst.value, row.error);
-        EXPECT_EQ(e.worst.index, 7U);
+        EXPECT_EQ(e.unanswered(), row.bin == 22 ? 1U : 0U);
+        EXPECT_EQ(e.worst.value, row.bin == 22 ? -1 : row.error);
+        EXPECT_EQ(e.worst.index, row.bin == 22 ? 0U : 7U);
     }
     ErrorSizes none;
     none.add(-1, 0);
@@ -78,11 +79,13 @@ TEST(ErrorSizes, WithinIsTheEdgeThatTheShareReaches) {
     EXPECT_EQ(e.within(0.98), 0);
     EXPECT_EQ(e.within(0.99), 1e-15);
     EXPECT_EQ(e.within(1), 10);
+    e.add(std::numeric_limits<double>::infinity(), 3);
+    EXPECT_EQ(e.within(1), 10) << "of the cases with an answer";
     e.add(1000, 3);
     EXPECT_EQ(e.within(1), std::numeric_limits<double>::infinity());
     ErrorSizes both = e;
     both.merge(e);
-    EXPECT_EQ(both.total(), 202U);
+    EXPECT_EQ(both.total(), 204U);
     EXPECT_EQ(both.within(0.98), 1e-15);
 }
 

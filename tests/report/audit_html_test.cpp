@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -73,7 +74,7 @@ TEST(audit_html, is_well_formed_with_and_without_pictures) {
     EXPECT_TRUE(has(page, "<code class=\"copy\">a &amp;&amp; b &lt; c</code>"));
     EXPECT_TRUE(has(page, "src=\"data:image/png;base64,iVBOR"));
     EXPECT_LT(page.size(), 2'000'000U);
-    expect_well_formed(page_of(only_kernel("triangle.kahan")), true);
+    expect_well_formed(page_of(only_kernel("triangle.signed-area")), true);
 }
 
 TEST(audit_html, the_league_is_the_json) {
@@ -89,16 +90,22 @@ TEST(audit_html, the_league_is_the_json) {
         EXPECT_GT(here, at);
         at = here;
         const Cells cells = row_of(page, "Kernels, worst first", name);
-        ASSERT_EQ(cells.numbers.size(), 8U);
+        ASSERT_EQ(cells.numbers.size(), 10U);
         const std::uint64_t cases = k["cases"];
-        EXPECT_EQ(cells.shown[0], std::to_string(cases));
-        EXPECT_EQ(cells.numbers[0], cases);
-        EXPECT_EQ(cells.numbers[1], share(k["wrong_cases"], cases));
-        EXPECT_EQ(cells.numbers[2], share(k["false_outside"], exactly(k, "interior") + exactly(k, "boundary")));
-        EXPECT_EQ(cells.numbers[3], share(k["false_inside"], exactly(k, "outside")));
+        EXPECT_EQ(cells.shown[7], std::to_string(cases));
+        EXPECT_EQ(cells.numbers[7], cases);
+        EXPECT_EQ(cells.numbers[0], share(k["wrong_cases"], cases));
+        EXPECT_EQ(cells.numbers[1], share(k["false_outside"], exactly(k, "interior") + exactly(k, "boundary")));
+        EXPECT_EQ(cells.numbers[2], share(k["false_inside"], exactly(k, "outside")));
+        EXPECT_EQ(cells.numbers[3], share(k["by_error"].back(), cases - exactly(k, "degenerate")));
         EXPECT_EQ(cells.numbers[5], figure(k["worst_error"]));
         EXPECT_EQ(cells.numbers[6], figure(k["worst_weight_ulp"]));
-        EXPECT_EQ(cells.numbers[7], k["ns"]);
+        double meshes = -1;
+        for (const Json& f : k["families"]) {
+            if (f["name"].get<std::string>().starts_with("mesh.")) meshes = std::max(meshes, figure(f["worst_error"]));
+        }
+        EXPECT_EQ(cells.numbers[8], meshes);
+        EXPECT_EQ(cells.numbers[9], k["ns"]);
         // The bars of its histogram hold the cases that by_error has.
         std::uint64_t errors = 0, bars = 0;
         for (const Json& n : k["by_error"]) errors += n.get<std::uint64_t>();
@@ -157,7 +164,7 @@ TEST(audit_html, text_from_outside_stays_text) {
         for (Witness& w : k.witnesses) w.kernel = k.kernel.name;
     }
     for (Family& f : report.families) f.name = f.tests = evil;
-    std::vector<SignPicture> signs = sign_pictures(kernels_matching("triangle.kahan"));
+    std::vector<SignPicture> signs = sign_pictures(kernels_matching("triangle.signed-area"));
     signs.back().kernel = evil;
     const AuditPage page{
         .style = {.command = evil, .witness_path = {}, .mesh_arguments = {evil}, .library_arguments = {evil}},

@@ -27,7 +27,7 @@ void ErrorSizes::add(double error, std::uint64_t index) {
                                            error_edges.begin());
     }
     ++counts[bin];
-    worst.include(error, index);
+    if (!std::isinf(error)) worst.include(error, index);
 }
 
 void ErrorSizes::merge(const ErrorSizes& other) {
@@ -41,7 +41,7 @@ std::uint64_t ErrorSizes::total() const {
 
 double ErrorSizes::within(double share) const {
     const ExactEnvironment environment;
-    const std::uint64_t all = total();
+    const std::uint64_t all = total() - unanswered();
     if (all == 0) return -1;
     const auto wanted = static_cast<std::uint64_t>(std::ceil(held(share) * static_cast<double>(all)));
     std::uint64_t seen = counts[0];

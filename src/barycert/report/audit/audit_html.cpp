@@ -16,7 +16,9 @@ namespace {
 
 /// What common/page_style.hpp has not.
 constexpr std::string_view audit_style = R"(
-.league tbody th{white-space:nowrap;font-weight:600}
+.league thead th{white-space:normal;vertical-align:bottom}.league thead th+th{width:8.5%}
+.league tbody th{font-weight:600;overflow-wrap:anywhere;min-width:132px}
+.league th:first-child{position:sticky;left:0;background:var(--paper)}
 .small-figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,236px),1fr));gap:14px 18px}
 .small-figures figcaption{overflow-wrap:anywhere;color:var(--ink);line-height:1.3}
 .small-figures small{color:var(--soft);font-size:13px}

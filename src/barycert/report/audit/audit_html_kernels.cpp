@@ -31,25 +31,25 @@ std::string count_cell(std::uint64_t n) {
 }
 
 constexpr std::string_view statistics_heads =
-    "<th scope=\"col\" class=\"n\">cases</th><th scope=\"col\" class=\"n\">wrong, %</th>"
+    "<th scope=\"col\" class=\"n\">wrong, %</th>"
     "<th scope=\"col\" class=\"n\">inside called outside, %</th><th scope=\"col\" class=\"n\">outside called inside, "
-    "%</th><th scope=\"col\" class=\"n\">error of 99 %</th><th scope=\"col\" class=\"n\">largest error</th>"
-    "<th scope=\"col\" class=\"n\">largest, ulps</th>";
+    "%</th><th scope=\"col\" class=\"n\">no answer, %</th><th scope=\"col\" class=\"n\">error of 99 %</th><th "
+    "scope=\"col\" class=\"n\">largest error</th>"
+    "<th scope=\"col\" class=\"n\">largest, ulps</th><th scope=\"col\" class=\"n\">cases</th>";
 
 std::string statistics_cells(const KernelStatistics& s) {
-    return count_cell(s.cases) + share_cell({s.wrong_cases, s.cases}, true) +
-           share_cell(inside_called_outside(s), false) + share_cell(outside_called_inside(s), false) +
+    return share_cell({s.wrong_cases, s.cases}, true) + share_cell(inside_called_outside(s), false) +
+           share_cell(outside_called_inside(s), false) + share_cell(unanswered(s), false) +
            number_cell(usual_error(s), s.errors.within(0.99)) +
            number_cell(brief(s.errors.worst.value), s.errors.worst.value) +
-           number_cell(brief(s.weight_ulp.value), s.weight_ulp.value);
+           number_cell(brief(s.weight_ulp.value), s.weight_ulp.value) + count_cell(s.cases);
 }
 
 constexpr std::string_view statistics_legend =
     "<p class=\"small\">Wrong: a wrong sign, zero, region or declaration. Inside counts the boundary. Error: the "
     "largest of the weights of a case, relative to 1 or to the largest weight; \"error of 99 %\" is the power of ten "
-    "that 99 % of the cases stay below; inf: no finite answer. Ulps: units in the last place of the exact weight, "
-    "which "
-    "are tiny for weights near zero.";
+    "that 99 % of the answers stay below. No answer: a weight that is not finite, or a simplex wrongly declared "
+    "degenerate. Ulps: units in the last place of the exact weight, which are tiny for weights near zero.";
 
 std::string error_bin_label(std::size_t bin) {
     if (bin == 0) return "no error";
@@ -104,11 +104,13 @@ std::string witness_html(const AuditReport& report, const KernelResult& k, const
 std::string league_html(const AuditReport& r) {
     std::string out = fmt::format(
         "<h2>Kernels, worst first</h2>\n<div class=\"scroll\" tabindex=\"0\"><table class=\"sortable league\"><thead>"
-        "<tr><th scope=\"col\">kernel</th>{}<th scope=\"col\" class=\"n\">ns</th></tr></thead>\n<tbody>\n",
+        "<tr><th scope=\"col\">kernel</th>{}<th scope=\"col\" class=\"n\">largest error on meshes</th>"
+        "<th scope=\"col\" class=\"n\">ns</th></tr></thead>\n<tbody>\n",
         statistics_heads);
     for (const KernelResult& k : r.kernels)
-        out += fmt::format("<tr><th scope=\"row\">{}</th>{}{}</tr>\n", html_escaped(k.kernel.name),
-                           statistics_cells(k.total), number_cell(brief_time(k.ns), k.ns));
+        out += fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}</tr>\n", html_escaped(k.kernel.name),
+                           statistics_cells(k.total), number_cell(brief(worst_on_meshes(r, k)), worst_on_meshes(r, k)),
+                           number_cell(brief_time(k.ns), k.ns));
     return fmt::format("{}</tbody></table></div>\n{} ns: median time of one evaluation.</p>\n", out, statistics_legend);
 }
 

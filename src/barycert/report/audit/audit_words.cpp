@@ -59,9 +59,24 @@ bool perfect(const KernelStatistics& s) {
     return s.wrong_cases == 0 && s.errors.worst.value <= 0;
 }
 
+Share unanswered(const KernelStatistics& s) {
+    return {s.errors.unanswered(), s.errors.total()};
+}
+
+double worst_on_meshes(const AuditReport& report, const KernelResult& k) {
+    double worst = -1;
+    for (const FamilyResult& f : k.families) {
+        if (report.families[f.family].needs_mesh) worst = std::max(worst, f.statistics.errors.worst.value);
+    }
+    return worst;
+}
+
 std::string usual_error(const KernelStatistics& s) {
     const double within = s.errors.within(0.99);
-    return within <= 0 || std::isinf(within) ? brief(within) : "<" + brief(within);
+    if (within <= 0) return brief(within);
+    if (std::isinf(within)) return ">=100";
+    const auto exponent = static_cast<int>(std::lround(std::log10(within)));
+    return exponent < 0 ? fmt::format("<1e{}", exponent) : "<" + brief(within);
 }
 
 bool any_wrong(const AuditReport& report) {
@@ -81,28 +96,26 @@ std::string verdict_sentence(const AuditReport& report) {
     return fmt::format("{} of {} kernels give wrong answers", wrong, all);
 }
 
-std::string kernel_sentence(const KernelResult& k) {
+std::string kernel_sentence(const AuditReport& report, const KernelResult& k) {
     const KernelStatistics& s = k.total;
-    const Share out = inside_called_outside(s), in = outside_called_inside(s);
+    const Share out = inside_called_outside(s), in = outside_called_inside(s), none = unanswered(s);
     std::string text;
     const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
-    if (out.whole != 0 || in.whole != 0)
-        add(fmt::format("calls {} % of the points inside \"outside\", and {} % of those outside \"inside\"",
-                        percent(out), percent(in)));
-    const double worst = s.errors.worst.value, usual = s.errors.within(0.99);
-    if (worst == 0) {
+    if (in.whole != 0) add(fmt::format("takes {} % of the points outside for inside", percent(in)));
+    if (out.whole != 0)
+        add(fmt::format("{}{} % of {} inside for outside", in.whole == 0 ? "takes " : "", percent(out),
+                        in.whole == 0 ? "the points" : "those"));
+    if (none.part != 0) add(fmt::format("gives no finite answer to {} % of the cases", percent(none)));
+    const double worst = s.errors.worst.value, meshes = worst_on_meshes(report, k);
+    if (worst == 0 && none.part == 0) {
         add("every weight is correctly rounded");
-    } else if (worst > 0) {
-        const std::string largest = std::isinf(worst)
-                                        ? "the worst case has no finite answer"
-                                        : fmt::format("the largest error of a weight is {}", brief(worst));
-        if (usual == 0) {
-            add("99 % of the cases have no error; " + largest);
-        } else if (std::isinf(usual)) {
-            add("more than 1 % of the cases have no finite answer, or an error above 100; " + largest);
-        } else {
-            add(fmt::format("99 % of the cases have errors below {}; {}", brief(usual), largest));
-        }
+    } else if (worst >= 0) {
+        const double usual = s.errors.within(0.99);
+        add(usual == 0 ? "99 % of its answers have no error"
+                       : fmt::format("99 % of its answers are off by {}",
+                                     std::isinf(usual) ? "up to 100 and more" : "less than " + brief(usual)));
+        add(fmt::format("the worst is off by {}", brief(worst)));
+        if (meshes >= 0 && meshes != worst) add(fmt::format("the worst on meshes by {}", brief(meshes)));
     }
     return text;
 }
@@ -110,7 +123,7 @@ std::string kernel_sentence(const KernelResult& k) {
 std::vector<std::string> verdict_details(const AuditReport& report) {
     std::vector<std::string> lines;
     if (report.kernels.size() == 1) {
-        std::string text = kernel_sentence(report.kernels.front());
+        std::string text = kernel_sentence(report, report.kernels.front());
         if (text.empty()) return {};
         text.front() = static_cast<char>(text.front() >= 'a' && text.front() <= 'z' ? text.front() - 32 : text.front());
         return {text + "."};
@@ -118,7 +131,7 @@ std::vector<std::string> verdict_details(const AuditReport& report) {
     if (any_wrong(report)) {
         const KernelResult& k = report.kernels.front();
         lines.push_back(fmt::format("Worst: {}, wrong in {} % of its cases: {}.", base::printable(k.kernel.name),
-                                    percent(k.total.wrong_cases, k.total.cases), kernel_sentence(k)));
+                                    percent(k.total.wrong_cases, k.total.cases), kernel_sentence(report, k)));
     }
     const std::string broken =
         names_of(report, [](const KernelResult& k) { return count_of(k.total, Finding::false_certificate) != 0; });

@@ -32,14 +32,19 @@ Share wrong_on_meshes(const AuditReport& report, const KernelResult& k);
 /// Every weight of every case is correctly rounded, and nothing else is wrong.
 bool perfect(const KernelStatistics& s);
 
-/// "<1e-13": 99 % of the cases are within; "0"; "inf": more than 1 % beyond 100 or without an answer; "-": no cases.
+/// Cases without a finite answer, of those whose simplex is not degenerate.
+Share unanswered(const KernelStatistics& s);
+/// The largest error over the families that draw from meshes, of cases with a finite answer; -1 if there are none.
+double worst_on_meshes(const AuditReport& report, const KernelResult& k);
+
+/// "<1e-13": 99 % of the cases with an answer are below; "0"; ">=100"; "-": no such cases.
 std::string usual_error(const KernelStatistics& s);
 
 /// How many kernels are wrong: "56 of 62 kernels give wrong answers"; of one kernel, how often.
 std::string verdict_sentence(const AuditReport& report);
 bool any_wrong(const AuditReport& report);
 /// What is wrong with a kernel, how often and by how much.
-std::string kernel_sentence(const KernelResult& k);
+std::string kernel_sentence(const AuditReport& report, const KernelResult& k);
 /// Sentences below the verdict: the worst kernel, broken certificates, the kernels without a finding.
 std::vector<std::string> verdict_details(const AuditReport& report);
 /// What was audited: cases, families, exact regions.

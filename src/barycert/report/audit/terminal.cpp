@@ -40,26 +40,27 @@ std::string league_table(const AuditReport& report, const Colours& paint) {
     std::size_t width = 6;
     for (const KernelResult& k : report.kernels) width = std::max(width, k.kernel.name.size());
     const auto row = [&](const auto&... cells) {
-        return fmt::format("{:<{}} {:>6} {:>8} {:>8} {:>7} {:>8} {:>8} {:>5}", cells...);
+        return fmt::format("{:<{}} {:>6} {:>6} {:>6} {:>6} {:>6} {:>8} {:>8} {:>5}", cells...);
     };
     std::string out =
-        paint.bold(row("kernel", width, "wrong%", "in->out%", "out->in%", "err 99%", "err max", "ulps max", "ns")) +
-        "\n";
+        paint.bold(row("kernel", width, "wrong", "in as", "out as", "no", "error", "error,", "error,", "ns")) + "\n" +
+        paint.bold(row("", width, "%", "out %", "in %", "ans. %", "99 %", "meshes", "ulps", "")) + "\n";
     for (const KernelResult& k : report.kernels) {
         const KernelStatistics& s = k.total;
         const std::string line =
             row(k.kernel.name, width, percent(s.wrong_cases, s.cases), percent(inside_called_outside(s)),
-                percent(outside_called_inside(s)), usual_error(s), brief(s.errors.worst.value),
-                brief(s.weight_ulp.value), brief_time(k.ns));
+                percent(outside_called_inside(s)), percent(unanswered(s)), usual_error(s),
+                brief(worst_on_meshes(report, k)), brief(s.weight_ulp.value), brief_time(k.ns));
         out += (perfect(s) ? paint.good(line) : line) + "\n";
     }
     return out + paint.dim(
-                     "wrong%    cases with a wrong sign, zero, region or declaration\n"
-                     "in->out%  points inside or on the boundary that the kernel calls outside; out->in%: the reverse\n"
-                     "err       largest error of a weight of a case, relative to 1 or the largest weight: of 99 % of\n"
-                     "          the cases, and of all; inf: no finite answer\n"
-                     "ulps max  the same in units in the last place, which are tiny for weights near zero\n"
-                     "ns        median time of one evaluation\n");
+                     "wrong   cases with a wrong sign, zero, region or declaration\n"
+                     "in as   points inside or on the boundary that the kernel takes for outside; out as: the reverse\n"
+                     "no ans. cases without a finite answer, or wrongly declared degenerate\n"
+                     "error   of the weights of a case, relative to 1 or the largest weight: what 99 % of the answers\n"
+                     "        are below; the largest in the families mesh.*; the largest in units in the last place,\n"
+                     "        which are tiny for weights near zero\n"
+                     "ns      median time of one evaluation\n");
 }
 
 }  // namespace

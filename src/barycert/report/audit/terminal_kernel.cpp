@@ -36,17 +36,17 @@ std::string kernel_families(const AuditReport& report, const KernelResult& k, co
         return a->statistics.wrong_cases > b->statistics.wrong_cases;
     });
     const auto row = [&](const auto&... cells) {
-        return fmt::format("{:<{}} {:>7} {:>6} {:>8} {:>8} {:>7} {:>8} {:>8}", cells...);
+        return fmt::format("{:<{}} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>8} {:>8}", cells...);
     };
     std::string out =
-        paint.bold(row("family", width, "cases", "wrong%", "in->out%", "out->in%", "err 99%", "err max", "ulps max")) +
-        "\n";
+        paint.bold(row("family", width, "cases", "wrong", "in as", "out as", "no", "error", "error", "error")) + "\n" +
+        paint.bold(row("", width, "", "%", "out %", "in %", "ans. %", "99 %", "max", "ulps")) + "\n";
     for (const FamilyResult* f : families) {
         const KernelStatistics& s = f->statistics;
         const std::string line =
             row(report.families[f->family].name, width, brief_count(s.cases), percent(s.wrong_cases, s.cases),
-                percent(inside_called_outside(s)), percent(outside_called_inside(s)), usual_error(s),
-                brief(s.errors.worst.value), brief(s.weight_ulp.value));
+                percent(inside_called_outside(s)), percent(outside_called_inside(s)), percent(unanswered(s)),
+                usual_error(s), brief(s.errors.worst.value), brief(s.weight_ulp.value));
         out += (s.wrong_cases == 0 ? paint.good(line) : line) + "\n";
     }
     return out;

@@ -41,8 +41,8 @@ td.bad,b.bad{color:var(--bad);font-weight:bold}.ok{color:var(--good)}
 code{font:13px/1.4 ui-monospace,"DejaVu Sans Mono",monospace;overflow-wrap:anywhere}
 .bars td{border:0;padding:1px 12px 1px 0;font-size:14px}
 .bars td.w{width:100%;padding-right:0}
-.bar{display:block;height:14px;border-radius:2px;background:var(--bar);min-width:2px}
-.bar.bad{background:var(--bar-bad)}
+.bars .bar{display:block;height:14px;border-radius:2px;background:var(--bar);min-width:2px}
+.bars .bar.bad{background:var(--bar-bad)}
 button{font:inherit;color:inherit;background:none;border:0;padding:0;text-align:inherit;cursor:pointer}
 button:focus-visible{outline:2px solid var(--bar);outline-offset:2px}
 th button{text-decoration:underline dotted;text-underline-offset:3px}
