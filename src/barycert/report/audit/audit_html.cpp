@@ -16,8 +16,9 @@ namespace {
 
 /// What common/page_style.hpp has not.
 constexpr std::string_view audit_style = R"(
-.league thead th{white-space:normal;vertical-align:bottom}.league thead th+th{width:8.5%}
-.league tbody th{font-weight:600;overflow-wrap:anywhere;min-width:132px}
+.league{font-size:14px}.league th,.league td{padding-right:9px}
+.league thead th{white-space:normal;vertical-align:bottom;font-size:13px;line-height:1.3}
+.league tbody th{font-weight:600;white-space:nowrap}
 .league th:first-child{position:sticky;left:0;background:var(--paper)}
 .small-figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,236px),1fr));gap:14px 18px}
 .small-figures figcaption{overflow-wrap:anywhere;color:var(--ink);line-height:1.3}
@@ -32,7 +33,8 @@ svg .front{stroke:var(--good);stroke-width:1.6px}svg text.front{fill:var(--good)
 details{margin:4px 0}summary{cursor:pointer;color:var(--soft);font-size:14px}
 dl{display:grid;grid-template-columns:max-content 1fr;gap:4px 18px;margin:8px 0}dt{color:var(--soft)}
 dd{margin:0;overflow-wrap:anywhere}
-@media (max-width:560px){dl{grid-template-columns:1fr;gap:0}dd{margin-bottom:6px}}
+@media (max-width:560px){.league tbody th{white-space:normal;overflow-wrap:anywhere;min-width:132px}
+ dl{grid-template-columns:1fr;gap:0}dd{margin-bottom:6px}}
 )";
 
 std::string verdict_html(const AuditReport& r) {

@@ -45,8 +45,8 @@ public:
             slow = std::max(slow, k->ns);
             if (k->total.wrong_cases != 0) least = std::min(least, wrong_share(*k));
         }
-        low_ = std::log10(fast) - 0.12;
-        high_ = std::log10(slow) + 0.12;
+        low_ = std::log10(fast) - 0.35;
+        high_ = std::log10(slow) + 0.25;
         floor_ = std::min(std::floor(std::log10(least)), -1.0);
     }
 
@@ -55,7 +55,7 @@ public:
         return pareto_left + (pareto_right - pareto_left) * (std::log10(ns) - low_) / (high_ - low_);
     }
     double y(double share) const {
-        const double none = pareto_bottom - 14, lowest = pareto_bottom - 44;
+        const double none = pareto_bottom - 24, lowest = pareto_bottom - 56;
         return share <= 0 ? none : lowest - (lowest - pareto_top) * (std::log10(share) - floor_) / -floor_;
     }
 

@@ -11,7 +11,7 @@ inline constexpr std::string_view html_style = R"(
 td.n,th.n{width:1%;padding-right:0}
 .places,.witness-at{font-size:14px;overflow-wrap:anywhere}
 .views{display:flex;flex-wrap:wrap;justify-content:space-around}
-.card h3{margin:0 0 2px}.card p{margin:4px 0;font-size:14px}
+.card p{margin:4px 0;font-size:14px}
 .map{display:flex;flex-wrap:wrap;gap:12px 24px;align-items:center}.map svg{flex:2 1 420px;min-width:0}.map div{flex:1 1 240px}
 .map table{font-size:14px;margin:0}
 .badge{display:inline-block;min-width:22px;padding:0 6px;border-radius:11px;background:#0072b2;color:#fff;

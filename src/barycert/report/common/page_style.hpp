@@ -30,14 +30,14 @@ p{margin:6px 0}
 table{border-collapse:collapse;width:100%;margin:8px 0}
 th,td{text-align:left;vertical-align:top;padding:6px 14px 6px 0;border-bottom:1px solid var(--line)}
 th{font-size:14px;color:var(--soft);font-weight:normal}
-tbody th{color:inherit}
+th[scope=row]{color:inherit}
 tr{break-inside:avoid}
 th.n,td.n{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}
 td.bad,b.bad{color:var(--bad);font-weight:bold}.ok{color:var(--good)}
 .small,figcaption{color:var(--soft);font-size:14px}
 .card{border:1px solid var(--line);border-radius:4px;background:var(--panel);--ground:var(--panel);padding:10px 14px;
  margin:8px 0;break-inside:avoid}
-.card p{margin:2px 0;overflow-wrap:anywhere}
+.card h3{margin:0 0 2px}.card p{margin:2px 0;overflow-wrap:anywhere}
 code{font:13px/1.4 ui-monospace,"DejaVu Sans Mono",monospace;overflow-wrap:anywhere}
 .bars td{border:0;padding:1px 12px 1px 0;font-size:14px}
 .bars td.w{width:100%;padding-right:0}
