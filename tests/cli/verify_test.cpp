@@ -100,6 +100,27 @@ TEST(verify, the_mask_of_vtk_says_what_is_outside) {
     EXPECT_EQ(j["mask_column"], "vtkValidPointMask");
     EXPECT_EQ(j["right"], 2);
     EXPECT_EQ(j["missed"], 1);
+    // vtkDelimitedTextWriter writes the mask as bytes.
+    const std::string bytes = scratch.put("bytes.csv", std::string("\"attribute0\",\"vtkValidPointMask\",\"Points:0\","
+                                                                   "\"Points:1\",\"Points:2\"\n4.5,\1,.25,.25,.25\n"
+                                                                   "0,") +
+                                                           '\0' + ",2,2,2\n0," + '\0' + ",.5,.5,.5\n");
+    const auto same = report_of({"verify", two, "--results", bytes}, 1);
+    EXPECT_EQ(same["right"], 2);
+    EXPECT_EQ(same["missed"], 1);
+}
+
+TEST(verify, six_digits_are_told) {
+    const Scratch scratch;
+    const std::string two = put_two_cells(scratch);
+    const auto told = [&](const std::string& value) {
+        const std::string rows =
+            scratch.put("digits.csv", "x,y,z,attribute0\n.25,.25,.25,4.5\n.3,.2,.1," + value + "\n");
+        return contains(run({"verify", two, "--results", rows}).err, "values have six digits");
+    };
+    EXPECT_TRUE(told("3.12346"));
+    EXPECT_FALSE(told("3.123456")) << "more";
+    EXPECT_FALSE(told("3.125")) << "they may be exact";
 }
 
 TEST(verify, single_precision_is_told) {

@@ -26,7 +26,7 @@ constexpr std::array formats{
     OtherFormat{" .vol ", "a mesh of Netgen", Way::meshio, ""},
     OtherFormat{" .su2 ", "a mesh of SU2", Way::meshio, ""},
     OtherFormat{" .unv .universal ", "a universal file of I-deas", Way::gmsh, ""},
-    OtherFormat{" .bdf .nas .fem ", "a file of Nastran", Way::gmsh, ""},
+    OtherFormat{" .bdf .nas .fem ", "a file of Nastran", Way::meshio, ""},
     OtherFormat{" .foam .openfoam ", "a case of OpenFOAM", Way::other, foam_remedy},
     OtherFormat{" .xml ", "an XML file, perhaps a mesh of DOLFIN", Way::meshio, ""},
     OtherFormat{" .avs .ugrid .mdpa .f3grid .h5m .hmf .post .dato .tec .dat ", "a mesh of another program", Way::meshio,
