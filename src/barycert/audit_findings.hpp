@@ -15,7 +15,12 @@ namespace barycert {
 
 /// Worst first.
 enum class Finding : std::uint8_t {
-    false_certificate,  // per case from here on
+    crashed,  // per case from here on; the first five of kernels that run in a process of their own
+    hung,
+    out_of_bounds,
+    changed_environment,
+    printed,
+    false_certificate,
     false_declaration,
     false_inside,
     false_outside,
@@ -26,7 +31,7 @@ enum class Finding : std::uint8_t {
     not_finite,
 };
 
-inline constexpr std::size_t finding_count = 9;
+inline constexpr std::size_t finding_count = 14;
 
 struct FindingText {
     std::string_view name;
@@ -34,6 +39,11 @@ struct FindingText {
 };
 
 inline constexpr std::array<FindingText, finding_count> finding_texts{{
+    {"crashed", "the kernel's process ended: there is no answer"},
+    {"hung", "the kernel gave no answer within the time limit"},
+    {"out_of_bounds", "the kernel touched memory beside its arrays, or wrote to its input"},
+    {"changed_environment", "the kernel came back with another rounding mode, or with subnormal numbers flushed"},
+    {"printed", "the kernel wrote to stdout or stderr"},
     {"false_certificate", "the kernel certifies its answers, and this one has a finding or is not correctly rounded"},
     {"false_declaration", "the kernel declares a simplex degenerate that is not"},
     {"false_inside", "the point is outside; the kernel says interior or boundary"},
@@ -135,6 +145,7 @@ constexpr std::string_view reason_name(std::size_t reason) {
 struct KernelStatistics {
     std::uint64_t cases = 0;
     std::uint64_t wrong_cases = 0;  ///< with at least one finding
+    std::uint64_t not_run = 0;      ///< cases left out, none of the above: the kernel had failed to answer too often
     std::array<std::uint64_t, finding_count> counts{};
     std::array<std::array<std::uint64_t, 4>, 4> confusion{};  ///< [exact region][claimed region]
     LogHistogram weight_ulps;

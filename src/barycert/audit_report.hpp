@@ -6,6 +6,7 @@
 
 #include "barycert/audit.hpp"
 #include "barycert/audit_drift.hpp"
+#include "barycert/audit_gaps.hpp"
 #include "barycert/audit_signs.hpp"
 #include "barycert/audit_texels.hpp"
 #include "barycert/report.hpp"
@@ -76,5 +77,11 @@ std::string drift_plot(const DriftReport& report);
 /// A table: a row a rule; below it the witnesses.
 std::string texels_text(const std::vector<TexelResult>& results, const TerminalStyle& style);
 std::string texels_json(const std::vector<TexelResult>& results);
+
+// Gaps and overlaps between the cells of a mesh.
+
+/// A table: a row a kernel and rule; below it the first witnesses of the kernels.
+std::string gaps_text(const GapsReport& report, const TerminalStyle& style);
+std::string gaps_json(const GapsReport& report);
 
 }  // namespace barycert

@@ -27,6 +27,8 @@ struct AuditArguments {
     int threads = 0;
     std::string json, html, witnesses, plot;
     bool quiet = false, no_check = false, wide = false;
+    OracleChoice oracle = OracleChoice::automatic;
+    std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>();
 };
 
 /// The callback that shows how far the audit is.
@@ -78,7 +80,8 @@ int run_audit(const AuditArguments& a) {
     options.count = a.count;
     options.seed = a.seed;
     options.threads = a.threads;
-    const auto kernels = select_kernels(a.kernels, a.libraries);
+    options.oracle = a.oracle;
+    const auto kernels = select_kernels(a.kernels, a.libraries, *a.rules);
     if (!kernels) return fail(kernels.error());
     options.kernels = *kernels;
     const auto families = select_families(a.families);
@@ -107,6 +110,7 @@ int run_audit(const AuditArguments& a) {
                               .witness_path = witnesses == "-" ? std::string() : witnesses,
                               .mesh_arguments = a.meshes,
                               .library_arguments = a.libraries,
+                              .kernel_arguments = words_of(*a.rules),
                               .wide = a.wide};
     if (!a.html.empty()) written.push_back(write_page(*report, a, style));
     if (table) written.push_back(write_output("-", audit_text(*report, style)));
@@ -138,6 +142,18 @@ void add_audit(CLI::App& app, int& exit_code) {
     file_option(
         *sub, "--kernel-library", a->libraries,
         "A shared library with a kernel of yours (see barycert/kernel.h); audited alone unless --kernel is given");
+    add_kernel_rules(*sub, a->rules);
+    sub->add_option_function<std::string>(
+           "--oracle",
+           [a](const std::string& word) {
+               a->oracle = word == "integers" ? OracleChoice::integers
+                           : word == "cgal"   ? OracleChoice::cgal
+                                              : OracleChoice::both;
+           },
+           "Who says what is right: exact integers, CGAL's exact kernel (Epeck), or both, who must agree; without it "
+           "integers, or barycert's core where it judges others, and CGAL confirms a sample and the hard cases")
+        ->check(CLI::IsMember({"integers", "cgal", "both"}).description(""))
+        ->type_name("integers|cgal|both");
     sub->add_option("--count", a->count, "Cases per family and simplex")
         ->capture_default_str()
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48))

@@ -19,6 +19,7 @@ inline constexpr int exit_error = 2;
 
 /// Each adds its subcommand to the app; when it has run, `exit_code` is set.
 void add_audit(CLI::App& app, int& exit_code);
+void add_gaps(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_render(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);

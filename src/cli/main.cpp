@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
     int exit_code = cli::exit_clean;
 #ifdef BARYCERT_WITH_AUDIT
     cli::add_audit(app, exit_code);
+    cli::add_gaps(app, exit_code);
 #endif
     cli::add_check(app, exit_code);
     cli::add_sample(app, exit_code);

@@ -25,6 +25,7 @@ struct ReplayArguments {
     std::optional<std::uint64_t> index;
     std::uint64_t seed = 1;
     bool all = false;
+    std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>();
 };
 
 /// The witness that --family and --case describe, made again.
@@ -69,13 +70,16 @@ Result<std::vector<Witness>> made_again(const ReplayArguments& a, const std::vec
     w.family = family.name;
     w.seed = a.seed;
     w.index = *a.index;
-    w.c = make_case(family, *simplex, a.seed, *a.index, meshes);
+    CaseOrigin origin;
+    w.c = make_case(family, *simplex, a.seed, *a.index, meshes, &origin);
+    w.mesh = origin.mesh;
+    w.cell = origin.cell;
     return std::vector<Witness>{w};
 }
 
 int run_replay(const ReplayArguments& a) {
     const Environment environment = measure_environment();
-    Result<std::vector<Kernel>> kernels = select_kernels({"*"}, a.libraries);
+    Result<std::vector<Kernel>> kernels = select_kernels({"*"}, a.libraries, *a.rules);
     if (!kernels) return fail(kernels.error());
     if (a.file.empty() == a.family.empty())
         return fail({.what = a.file.empty() ? "no case to replay" : "a witness file and a case",
@@ -135,6 +139,7 @@ void add_replay(CLI::App& app, int& exit_code) {
         ->type_name("MESH");
     file_option(*sub, "--kernel-library", a->libraries, "Also show the kernel of this library");
     sub->add_flag("--all", a->all, "Show the answers of all kernels, not only of the one in question");
+    add_kernel_rules(*sub, a->rules);
     sub->callback([a, &exit_code] { exit_code = run_replay(*a); });
 }
 

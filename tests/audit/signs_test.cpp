@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "barycert/oracle.hpp"
 
 namespace barycert::audit {
@@ -72,6 +74,17 @@ TEST(signs, a_kernel_that_declares_or_gives_no_number_has_no_sign) {
         EXPECT_EQ(pictures[i].wrong, 65536U);
         for (const std::int8_t s : pictures[i].signs) ASSERT_EQ(s, 2);
     }
+}
+
+TEST(signs, a_kernel_in_a_process_of_its_own_is_asked_there) {
+    const std::string folder = std::string(BARYCERT_UNRULY_DIR) + "/unruly-";
+    const auto inside = sign_pictures({load_kernel_library(folder + "quiet.so").value()});
+    const auto apart = sign_pictures({load_contained_kernel(folder + "quiet.so").value()});
+    ASSERT_EQ(inside.size(), 2U);
+    EXPECT_EQ(inside[1].signs, apart[1].signs);
+    // One that crashes has no sign there, and this process goes on.
+    const auto crashing = sign_pictures({load_contained_kernel(folder + "crash.so").value()});
+    EXPECT_GT(std::count(crashing[1].signs.begin(), crashing[1].signs.end(), std::int8_t{2}), 100);
 }
 
 }  // namespace

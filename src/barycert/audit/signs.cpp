@@ -1,8 +1,7 @@
 #include <algorithm>
-#include <cfenv>
 #include <cmath>
 
-#include "barycert/audit/comparison.hpp"
+#include "barycert/audit/asking.hpp"
 #include "barycert/audit_signs.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/oracle.hpp"
@@ -30,29 +29,28 @@ SignPicture exact_picture(Simplex s, bool perspective) {
     return picture;
 }
 
-std::int8_t sign_of(const Kernel& kernel, const Case& c) {
-    std::array<double, 4> weights = unset_weights;
-    const int status = kernel.weights(c.vertices.data(), c.point.data(), weights.data());
-    const double w = weights[apex];
-    if (status != 0 || !std::isfinite(w)) return 2;
+std::int8_t sign_of(const Statement& s) {
+    const double w = s.weights[apex];
+    if (!s.answered || s.status != 0 || !std::isfinite(w)) return 2;
     return static_cast<std::int8_t>(w > 0 ? 1 : w < 0 ? -1 : 0);
 }
 
 SignPicture picture_of(const Kernel& kernel, const SignPicture& exact) {
     SignPicture picture = exact;
     picture.kernel = kernel.name;
-    // As in the audit, what a kernel does to the rounding mode is its own affair. Cases are exact in any.
-    std::fenv_t before;
-    std::fegetenv(&before);
+    std::vector<Case> cases(SignPicture::side);
+    std::vector<Statement> statements(SignPicture::side);
     for (int j = 0; j < SignPicture::side; ++j) {
+        for (int i = 0; i < SignPicture::side; ++i)
+            cases[static_cast<std::size_t>(i)] = sign_case(kernel.simplex, kernel.perspective, i, j);
+        ask_kernel(kernel, cases, statements, false);
         for (int i = 0; i < SignPicture::side; ++i) {
             std::int8_t& sign = picture.signs[place(i, j)];
-            const std::int8_t seen = sign_of(kernel, sign_case(kernel.simplex, kernel.perspective, i, j));
+            const std::int8_t seen = sign_of(statements[static_cast<std::size_t>(i)]);
             picture.wrong += seen != sign ? 1 : 0;
             sign = seen;
         }
     }
-    std::fesetenv(&before);
     return picture;
 }
 

@@ -5,6 +5,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/report/audit/audit_html_parts.hpp"
 #include "barycert/report/audit/audit_words.hpp"
+#include "barycert/report/audit/oracle_words.hpp"
 #include "barycert/report/common/html_text.hpp"
 #include "barycert/report/common/page.hpp"
 
@@ -42,6 +43,7 @@ std::string verdict_html(const AuditReport& r) {
                                   html_escaped(verdict_sentence(r)));
     for (const std::string& line : verdict_details(r)) out += fmt::format("<p>{}</p>", html_escaped(line));
     out += "</section>\n<p>" + html_escaped(cases_sentence(r)) + ".</p>\n";
+    out += "<p>" + html_escaped(oracle_line(r.oracles)) + ".</p>\n";
     for (const MeshLine& line : mesh_lines(r, "barycert"))
         out += fmt::format("<p{}>{}</p>\n", line.bad ? " class=\"bad\"" : "", html_escaped(line.text));
     return out;

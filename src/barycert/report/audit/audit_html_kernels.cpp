@@ -94,9 +94,9 @@ std::string witness_html(const AuditReport& report, const KernelResult& k, const
                               finding_texts[static_cast<std::size_t>(*finding)].meaning)
                 : std::string(w.reason == "worst_value_ulp" ? "the largest error of a value"
                                                             : "the largest error of a weight, in ulps");
-    return fmt::format("<p><b>{}</b>: {}. Worst: {}, case {}: {}.</p><p><code class=\"copy\">{}</code></p>\n",
-                       html_escaped(w.reason), html_escaped(what), html_escaped(w.family), w.index,
-                       html_escaped(shows(w)), html_escaped(replay_command(report, k, w, style)));
+    return fmt::format("<p><b>{}</b>: {}. Worst: {}: {}.</p><p><code class=\"copy\">{}</code></p>\n",
+                       html_escaped(w.reason), html_escaped(what), html_escaped(place_of(w)), html_escaped(shows(w)),
+                       html_escaped(replay_command(report, k, w, style)));
 }
 
 }  // namespace
@@ -178,6 +178,8 @@ std::string witnesses_html(const AuditReport& r, const TerminalStyle& style) {
     for (const KernelResult& k : r.kernels) {
         out += fmt::format("<section class=\"card\"><h3>{}</h3>\n", html_escaped(k.kernel.name));
         if (!k.kernel.fails.empty()) out += fmt::format("<p class=\"small\">{}</p>\n", html_escaped(k.kernel.fails));
+        if (!k.kernel.note.empty()) out += fmt::format("<p>{}</p>\n", html_escaped(k.kernel.note));
+        if (k.total.not_run != 0) out += fmt::format("<p>Given up: {} cases were not run.</p>\n", k.total.not_run);
         if (k.witnesses.empty()) out += "<p>No witness: every weight and value is correctly rounded.</p>\n";
         const bool fold = r.kernels.size() > 1 && k.witnesses.size() > 1;
         for (std::size_t i = 0; i < k.witnesses.size(); ++i) {

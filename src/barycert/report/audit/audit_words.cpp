@@ -79,6 +79,17 @@ std::string usual_error(const KernelStatistics& s) {
     return exponent < 0 ? fmt::format("<1e{}", exponent) : "<" + brief(within);
 }
 
+std::string incidents(const KernelStatistics& s) {
+    std::string out;
+    for (const Finding f :
+         {Finding::crashed, Finding::hung, Finding::out_of_bounds, Finding::changed_environment, Finding::printed}) {
+        if (count_of(s, f) != 0)
+            out += fmt::format("{}{} in {} cases", out.empty() ? "" : ", ", name(f), count_of(s, f));
+    }
+    if (s.not_run != 0) out += fmt::format("{}given up: {} cases were not run", out.empty() ? "" : "; ", s.not_run);
+    return out;
+}
+
 bool any_wrong(const AuditReport& report) {
     return wrong_kernels(report) != 0;
 }
@@ -106,6 +117,7 @@ std::string kernel_sentence(const AuditReport& report, const KernelResult& k) {
         add(fmt::format("{}{} % of {} inside for outside", in.whole == 0 ? "takes " : "", percent(out),
                         in.whole == 0 ? "the points" : "those"));
     if (none.part != 0) add(fmt::format("gives no finite answer to {} % of the cases", percent(none)));
+    if (const std::string beside = incidents(s); !beside.empty()) add(beside);
     const double worst = s.errors.worst.value, meshes = worst_on_meshes(report, k);
     if (worst == 0 && none.part == 0) {
         add("every weight is correctly rounded");
@@ -169,8 +181,14 @@ std::vector<MeshLine> mesh_lines(const AuditReport& report, std::string_view com
     return lines;
 }
 
+std::string place_of(const Witness& w) {
+    return fmt::format("{}, case {}{}", base::printable(w.family), w.index,
+                       w.cell < 0 ? "" : fmt::format(", cell {} of {}", w.cell, base::printable(w.mesh)));
+}
+
 std::string shows(const Witness& w) {
     if (w.reason.ends_with("_ulp")) return brief(w.magnitude) + " ulps";
+    if (!w.detail.empty()) return base::printable(w.detail);
     if (w.reason == "false_declaration") return "declared degenerate";
     if (w.reason == "missed_degenerate") return "weights up to " + brief(w.magnitude);
     return std::isfinite(w.magnitude) ? "a weight off by " + brief(w.magnitude) : "a weight that is not finite";
@@ -180,6 +198,7 @@ std::string replay_command(const AuditReport& report, const KernelResult& k, con
                            const TerminalStyle& style) {
     std::string libraries;
     for (const std::string& library : style.library_arguments) libraries += " --kernel-library " + shell_word(library);
+    libraries += style.kernel_arguments;
     if (!style.witness_path.empty()) {
         return fmt::format("{} replay {}{} --kernel {} --reason {}", style.command, shell_word(style.witness_path),
                            libraries, shell_word(k.kernel.name), w.reason);

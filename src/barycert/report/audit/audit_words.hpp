@@ -57,6 +57,11 @@ struct MeshLine {
 };
 std::vector<MeshLine> mesh_lines(const AuditReport& report, std::string_view command);
 
+/// What a kernel in a process of its own did besides answering; empty if nothing.
+std::string incidents(const KernelStatistics& s);
+
+/// Where a witness comes from: family, case, cell of a mesh.
+std::string place_of(const Witness& w);
 /// What a witness shows.
 std::string shows(const Witness& w);
 /// The command that shows a witness.

@@ -5,6 +5,7 @@
 #include "barycert/audit_report.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report/audit/audit_words.hpp"
+#include "barycert/report/audit/oracle_words.hpp"
 #include "barycert/report/audit/terminal_tables.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
@@ -52,6 +53,7 @@ std::string league_table(const AuditReport& report, const Colours& paint) {
                 percent(outside_called_inside(s)), percent(unanswered(s)), usual_error(s),
                 brief(worst_on_meshes(report, k)), brief(s.weight_ulp.value), brief_time(k.ns));
         out += (perfect(s) ? paint.good(line) : line) + "\n";
+        if (const std::string beside = incidents(s); !beside.empty()) out += paint.bad("    " + beside) + "\n";
     }
     return out + paint.dim(
                      "wrong   cases with a wrong sign, zero, region or declaration\n"
@@ -74,7 +76,8 @@ std::string audit_text(const AuditReport& report, const TerminalStyle& style) {
     constexpr std::size_t width = 100;
     std::string out = (any_wrong(report) ? paint.bad(verdict) : paint.good(verdict)) + "\n";
     for (const std::string& line : verdict_details(report)) out += wrapped(line, width);
-    out += "\n" + league_table(report, paint) + "\n" + wrapped(cases_sentence(report), width);
+    out += "\n" + league_table(report, paint) + "\n" + wrapped(cases_sentence(report), width) +
+           wrapped(oracle_line(report.oracles), width);
     for (const MeshLine& line : mesh_lines(report, style.command)) {
         const std::string text = wrapped(line.text, width);
         out += line.bad ? paint.bad(text) : text;

@@ -5,6 +5,7 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/report/audit/audit_words.hpp"
+#include "barycert/report/audit/oracle_words.hpp"
 #include "barycert/report/audit/terminal_tables.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
@@ -61,7 +62,7 @@ std::string kernel_findings(const AuditReport& report, const KernelResult& k, co
                                                        *finding < Finding::opposite_sign ? "cases" : "weights",
                                                        finding_texts[static_cast<std::size_t>(*finding)].meaning)
                                          : w.reason;
-        out += fmt::format("{}\n    {}, case {}: {}\n    {}\n", paint.bold(head), w.family, w.index, shows(w),
+        out += fmt::format("{}\n    {}: {}\n    {}\n", paint.bold(head), place_of(w), shows(w),
                            paint.dim(replay_command(report, k, w, style)));
     }
     return out.empty() ? "No witness: every weight and value is correctly rounded.\n" : out;
@@ -79,7 +80,7 @@ std::string kernel_text(const AuditReport& report, const TerminalStyle& style) {
     out += kernel_families(report, k, paint) + "\n";
     out += paint.bold("Worst case of each finding, and the command that replays it:") + "\n" +
            kernel_findings(report, k, style, paint) + "\n";
-    out += wrapped(cases_sentence(report), kernel_text_width);
+    out += wrapped(cases_sentence(report), kernel_text_width) + wrapped(oracle_line(report.oracles), kernel_text_width);
     for (const MeshLine& line : mesh_lines(report, style.command)) {
         const std::string text = wrapped(line.text, kernel_text_width);
         out += line.bad ? paint.bad(text) : text;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "barycert/report/audit/audit_words.hpp"
+#include "barycert/report/audit/oracle_words.hpp"
 #include "barycert/report/audit/terminal_tables.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
@@ -33,6 +34,7 @@ std::string kernel_table(const AuditReport& report, const Colours& paint) {
                 n(Finding::false_nonzero), n(Finding::not_finite), n(Finding::false_inside), n(Finding::false_outside),
                 n(Finding::false_declaration), n(Finding::missed_degenerate), brief(s.p999_weight_ulp()),
                 brief(s.weight_ulp.value), brief(s.p999_value_ulp()), brief_time(k.ns));
+        if (const std::string beside = incidents(s); !beside.empty()) out += paint.bad("    " + beside) + "\n";
         const std::uint64_t broken = count_of(s, Finding::false_certificate);
         const bool perfect = s.wrong_cases == 0 && s.weight_ulp.value == 0;
         out += (perfect ? paint.good(line) : line) + "\n";
@@ -84,8 +86,8 @@ std::string witness_list(const AuditReport& report, const TerminalStyle& style, 
             out += paint.bold(k.kernel.name) + ": no witness, every weight and value is correctly rounded\n";
             continue;
         }
-        out += fmt::format("{}: {} in {}, case {} ({})\n    {}\n", paint.bold(k.kernel.name), w->reason, w->family,
-                           w->index, shows(*w), replay_command(report, k, *w, style));
+        out += fmt::format("{}: {} in {} ({})\n    {}\n", paint.bold(k.kernel.name), w->reason, place_of(*w), shows(*w),
+                           replay_command(report, k, *w, style));
     }
     return out;
 }
@@ -101,7 +103,7 @@ std::string wide_text(const AuditReport& report, const TerminalStyle& style) {
         report.seconds);
     for (const MeshLine& line : mesh_lines(report, style.command))
         out += (line.bad ? paint.bad(line.text) : line.text) + "\n";
-    out += exact_regions(report) + "\n";
+    out += exact_regions(report) + oracle_line(report.oracles) + "\n\n";
     out += kernel_table(report, paint) + "\n" + family_table(report, paint) + "\n";
     out += paint.bold("Worst witness of each kernel, and the command that replays it:") + "\n" +
            witness_list(report, style, paint);

@@ -78,6 +78,7 @@ std::string witness_text(const Replay& replay, const TerminalStyle& style, bool 
         out += fmt::format("    family {}, case {}, seed {}\n", base::printable(witness.family), witness.index,
                            witness.seed);
     }
+    if (witness.cell >= 0) out += fmt::format("    cell {} of {}\n", witness.cell, base::printable(witness.mesh));
     for (int i = 0; i < n; ++i)
         out += fmt::format("    v{}  ", i) + coordinates(c.stride(), [&](int axis) { return c.vertex(i, axis); });
     out += "    p   " +
@@ -108,12 +109,14 @@ std::string witness_text(const Replay& replay, const TerminalStyle& style, bool 
     out += paint.good(row("=", "exact, correctly rounded", name(answer.region), cells, "", "", "",
                           "value " + base::shortest(answer.value)));
     for (const KernelAnswer& a : answers) {
-        for (std::size_t i = 0; i < 4; ++i) cells[i] = a.status != 0 ? "declared" : base::shortest(a.weights[i]);
+        for (std::size_t i = 0; i < 4; ++i)
+            cells[i] = !a.answered ? "-" : a.status != 0 ? "declared" : base::shortest(a.weights[i]);
         const Comparison& r = a.comparison;
         const std::string line =
             row(a.kernel == witness.kernel ? ">" : "", a.kernel, name(r.claimed), cells, brief(r.relative_error),
                 brief(a.worst_weight_ulp), brief(r.value_ulp), findings(r));
         out += r.wrong() ? paint.bad(line) : line;
+        if (!a.detail.empty()) out += "      " + base::printable(a.detail) + "\n";
     }
     if (answers.size() < replay.answers.size())
         out += paint.dim(fmt::format("  {} other kernels: --all", replay.answers.size() - answers.size())) + "\n";
@@ -128,6 +131,7 @@ std::string kernels_text(const std::vector<Kernel>& kernels) {
         std::string promises = k.certifies ? "certifies every answer" : "no certificate";
         promises += k.declares_degenerate ? "; declares degenerate simplices" : "; never declares a simplex degenerate";
         if (k.rule == RegionRule::tolerant) promises += fmt::format("; inside if every weight >= -{}", k.tolerance);
+        if (k.rule == RegionRule::own) promises += "; inside by a rule of its own";
         out += "    promise  " + promises + "\n";
     }
     return out;
