@@ -66,6 +66,7 @@ TEST(signs, a_kernel_that_declares_or_gives_no_number_has_no_sign) {
     silent.name = "triangle.silent";
     silent.simplex = Simplex::triangle;
     silent.weights = [](const double*, const double*, double*) { return 1; };
+    silent.value = [](const double*, const double*) { return 0.0; };
     Kernel unset = silent;
     unset.weights = [](const double*, const double*, double*) { return 0; };
     const std::vector<SignPicture> pictures = sign_pictures({silent, unset});

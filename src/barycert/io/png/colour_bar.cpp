@@ -46,7 +46,7 @@ void ColourBar::add_ticks(double low, double high) {
     const std::size_t bar = height_ - 2 * scale_ * margin;
     const auto steps = static_cast<double>(bar - 1);
     const double least = range * static_cast<double>(scale_ * tick_distance) / static_cast<double>(bar);
-    const auto clear = static_cast<double>(2 * scale_ * glyph_height);
+    const auto clear = static_cast<double>(3 * scale_ * glyph_height);
     int exponent = static_cast<int>(std::floor(std::log10(least)));
     if (exponent < -300 || exponent > 300) return;
     // As text, so that ticks are the numbers that are written: powers of ten have rounding errors.
