@@ -25,12 +25,19 @@
 #define ALWAYS 12
 #define LOADING 13
 #define RULE 14
+#define LOADED_FLUSH 15
 
 void barycert_kernel_describe(struct barycert_kernel_info* info) {
     info->abi = BARYCERT_KERNEL_ABI;
     info->name = "unruly";
     info->simplex = "tetrahedron";
 }
+
+#if UNRULY == LOADED_FLUSH
+__attribute__((constructor)) static void flush(void) {
+    __builtin_ia32_ldmxcsr(__builtin_ia32_stmxcsr() | 0x8000);
+}
+#endif
 
 #if UNRULY == LOADING
 __attribute__((constructor)) static void crash(void) {

@@ -63,6 +63,23 @@ TEST(contained, a_library_that_dies_while_it_is_loaded_is_an_error) {
     EXPECT_TRUE(contains(r.err, "its process ended while it was loaded: SIGABRT")) << r.err;
 }
 
+#if defined(__x86_64__)
+TEST(contained, a_library_that_changes_the_environment_when_loaded_is_told_of) {
+    const Ended r = run(audit_of("loaded_flush", {"--quiet", "--fail-on", "any"}));
+    EXPECT_EQ(r.code, 0);
+    EXPECT_TRUE(contains(r.err, "note: ")) << r.err;
+    EXPECT_TRUE(contains(r.err, "loading it changes the floating-point environment: subnormal results flushed to zero"))
+        << r.err;
+}
+#endif
+
+TEST(contained, the_list_of_kernels_loads_it_apart_as_well) {
+    const Ended r = run({"kernels", "--kernel-library", unruly("loading")});
+    EXPECT_EQ(r.code, 2);
+    EXPECT_TRUE(contains(r.err, "SIGABRT")) << r.err;
+    EXPECT_TRUE(contains(run({"kernels", "--kernel-library", unruly("rule")}).out, "inside by a rule of its own"));
+}
+
 TEST(contained, in_process_is_as_it_was) {
     const auto figures = [](Words more) {
         Json kernel = parse(run(audit_of("quiet", std::move(more))).out)["kernels"][0];

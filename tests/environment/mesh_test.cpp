@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "barycert/audit.hpp"
+#include "barycert/audit_gaps.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/base/random.hpp"
 #include "barycert/base/text.hpp"
@@ -560,11 +561,24 @@ TEST(EveryEnvironment, Audit) {
             out.add(std::string_view(again.not_reproduced));
             out.add(std::string_view(witness_text(again, {})));
             out.add(partition_residual(again.exact.weights));
+            const OracleAnswer by_cgal = ask_cgal((*witnesses)[i].c);
+            out.add(by_cgal.value);
+            out.add(same_answer(by_cgal, again.exact));
         }
         for (std::uint64_t i = 0; i < 20; ++i) {
             const Case c = make_case(options.families[i % options.families.size()], Simplex::triangle, 3, i, meshes);
             for (const double x : c.vertices) out.add(x);
         }
+        GapsOptions gaps;
+        gaps.kernels = kernels;
+        gaps.count = 30;
+        gaps.threads = 2;
+        auto found = find_gaps(gaps, plain.mesh, "plain", Verdict::not_checked);
+        out.add(found.has_value());
+        if (!found) return;
+        found->seconds = 0;
+        out.add(std::string_view(gaps_json(*found)));
+        out.add(std::string_view(gaps_text(*found, {})));
     });
 }
 

@@ -46,8 +46,8 @@ bool socket_pair(int (&ends)[2], int type) {
 
 [[noreturn]] void become_server(Channel* channels, int socket, const char* path) {
     for (int signal = 1; signal < 32; ++signal) std::signal(signal, SIG_DFL);
-    // Ctrl-C is meant for the program, whose end is this process's end.
-    std::signal(SIGINT, SIG_IGN);
+    // What the terminal sends is meant for the program, whose end is this process's end.
+    for (const int signal : {SIGINT, SIGQUIT, SIGHUP}) std::signal(signal, SIG_IGN);
     if (socket != 3) dup2(socket, 3);
     close_range(4, ~0U, 0);
     const int null = open("/dev/null", O_RDWR);

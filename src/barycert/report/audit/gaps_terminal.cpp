@@ -23,7 +23,7 @@ std::string claim_witness_text(ClaimFault fault, const ClaimWitness& w, int dime
     std::string at;
     for (int axis = 0; axis < dimension; ++axis)
         at += (axis == 0 ? "" : ", ") + base::shortest(w.point[static_cast<std::size_t>(axis)]);
-    return fmt::format("    {}: ({}), made on the {} of nodes {}: held by {}, claimed by {}\n", name(fault), at,
+    return fmt::format("    {}: ({}), made on the {} of nodes {}\n        held by {}, claimed by {}\n", name(fault), at,
                        name(w.feature), number_list(w.nodes), number_list(w.holders), number_list(w.claimants));
 }
 
@@ -67,7 +67,8 @@ std::string gaps_text(const GapsReport& report, const TerminalStyle& style) {
         base::shortest(report.tolerance)));
     std::string witnesses;
     for (const ClaimResult& r : report.results) {
-        if (r.kernel.empty()) continue;
+        // The other rules have such points by their nature; the JSON names them.
+        if (r.kernel.empty() || r.rule == ClaimRule::strict || r.rule == ClaimRule::tolerant) continue;
         std::string own;
         for (const auto& [fault, witness] : r.witnesses) {
             if (fault != ClaimFault::several && fault != ClaimFault::wrong_first)

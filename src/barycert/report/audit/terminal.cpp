@@ -15,11 +15,13 @@ using namespace report;
 
 namespace report {
 
-std::string wrapped(const std::string& text, std::size_t width) {
+std::string wrapped(const std::string& text, std::size_t width, std::string_view between) {
     std::string out;
     std::size_t column = 0;
     for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = std::min(text.find(' ', at), text.size());
+        const std::size_t found = text.find(between, at);
+        // Without the blank that `between` ends with.
+        const std::size_t end = found == std::string::npos ? text.size() : found + between.size() - 1;
         if (column != 0) {
             const bool fits = column + 1 + (end - at) <= width;
             out += fits ? ' ' : '\n';
@@ -79,7 +81,7 @@ std::string audit_text(const AuditReport& report, const TerminalStyle& style) {
     out += "\n" + league_table(report, paint) + "\n" + wrapped(cases_sentence(report), width) +
            wrapped(oracle_line(report.oracles), width);
     for (const MeshLine& line : mesh_lines(report, style.command)) {
-        const std::string text = wrapped(line.text, width);
+        const std::string text = wrapped(line.text, width, ", ");
         out += line.bad ? paint.bad(text) : text;
     }
     out += fmt::format("seed {}, {} cases per family and simplex, {} threads, {:.1f} s\n", report.seed, report.count,

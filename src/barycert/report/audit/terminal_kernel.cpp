@@ -82,7 +82,7 @@ std::string kernel_text(const AuditReport& report, const TerminalStyle& style) {
            kernel_findings(report, k, style, paint) + "\n";
     out += wrapped(cases_sentence(report), kernel_text_width) + wrapped(oracle_line(report.oracles), kernel_text_width);
     for (const MeshLine& line : mesh_lines(report, style.command)) {
-        const std::string text = wrapped(line.text, kernel_text_width);
+        const std::string text = wrapped(line.text, kernel_text_width, ", ");
         out += line.bad ? paint.bad(text) : text;
     }
     out += fmt::format("seed {}, {} cases per family and simplex, {} threads, {:.1f} s\n", report.seed, report.count,
