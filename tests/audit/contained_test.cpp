@@ -66,7 +66,7 @@ TEST(contained, every_accident_is_told_with_its_case) {
     ASSERT_GT(expected, some / 64);
     for (const Accident& a : {
              Accident{"crash", Finding::crashed, "SIGFPE", false},
-                 Accident{"exit", Finding::crashed, "it called exit, status 3", false},
+                 Accident{"exit", Finding::crashed, "it called exit, status ", false},
                  Accident{"after", Finding::out_of_bounds, "beside its arrays", false},
                  Accident{"before", Finding::out_of_bounds, "in front of the weights", true},
                  Accident{"input", Finding::out_of_bounds, "wrote to its input", false},
@@ -108,6 +108,13 @@ TEST(contained, a_hang_costs_the_time_limit_and_no_more) {
     EXPECT_EQ(count_of(s, Finding::hung), expected);
     EXPECT_EQ(s.wrong_cases, expected);
     EXPECT_EQ(s.cases, 200U);
+}
+
+TEST(contained, the_time_limit_is_for_a_case_and_not_for_all) {
+    ASSERT_GT(unruly_cases("mesh.inside", 256), 5U);  // in one batch, 0.15 s each
+    const KernelStatistics s = statistics_of(contained("slow", 0.5), "mesh.inside", 256, own_meshes());
+    EXPECT_EQ(s.wrong_cases, 0U);
+    EXPECT_EQ(s.cases, 256U);
 }
 
 TEST(contained, figures_do_not_depend_on_threads) {

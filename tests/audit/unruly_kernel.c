@@ -26,6 +26,7 @@
 #define LOADING 13
 #define RULE 14
 #define LOADED_FLUSH 15
+#define SLOW 16
 
 void barycert_kernel_describe(struct barycert_kernel_info* info) {
     info->abi = BARYCERT_KERNEL_ABI;
@@ -85,6 +86,8 @@ int barycert_kernel_weights(const double* vertices, const double* point, double*
         exit(3);
 #elif UNRULY == HANG
         for (;;) pause();
+#elif UNRULY == SLOW
+        usleep(150000);
 #elif UNRULY == AFTER
         weights[4] = 1;
 #elif UNRULY == BEFORE

@@ -1,5 +1,3 @@
-#include <bit>
-#include <limits>
 
 #include "barycert/audit/judge.hpp"
 #include "barycert/predicates.hpp"
