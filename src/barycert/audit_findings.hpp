@@ -75,6 +75,9 @@ struct Comparison {
     /// Max |weight - exact weight|, infinite if a weight is not finite or none was given; for a missed degenerate
     /// simplex the max |weight|.
     double weight_error = 0;
+    /// The same relative to 1, or to the largest exact weight where that is more: max |weight - exact weight| / max(1,
+    /// max |exact weight|). Infinite if a weight is not finite or none was given; -1 if the simplex is degenerate.
+    double relative_error = -1;
 
     bool wrong() const {
         for (const auto n : counts) {
@@ -113,6 +116,23 @@ struct WorstCase {
     }
 };
 
+/// How large errors are, of one number a case: Comparison::relative_error.
+struct ErrorSizes {
+    static constexpr std::size_t bins = 23;
+    /// [0]: no error; [k]: 10^(k-19) <= error < 10^(k-18), [1] all smaller ones, [21] all larger ones; [22]: no finite
+    /// answer.
+    std::array<std::uint64_t, bins> counts{};
+    WorstCase worst;  ///< of the finite ones
+
+    void add(double error, std::uint64_t index);  ///< below 0: not counted; infinite: no finite answer
+    void merge(const ErrorSizes& other);
+    std::uint64_t total() const;
+    std::uint64_t unanswered() const { return counts[bins - 1]; }
+    /// The upper edge of the first bin by which at least that share of the cases with a finite answer is reached: 0,
+    /// 1e-17, ..., 100, infinity. -1 if there are no such cases.
+    double within(double share) const;
+};
+
 /// The reasons for a witness: each class of finding, then the error of a weight and of the value in ulps.
 inline constexpr std::size_t witness_reasons = finding_count + 2;
 
@@ -130,6 +150,7 @@ struct KernelStatistics {
     std::array<std::array<std::uint64_t, 4>, 4> confusion{};  ///< [exact region][claimed region]
     LogHistogram weight_ulps;
     LogHistogram value_ulps;
+    ErrorSizes errors;
     WorstCase weight_ulp;
     WorstCase value_ulp;
     WorstCase partition_residual;                      ///< |sum of weights - 1|, exact, rounded once

@@ -51,6 +51,10 @@ bool colour_on_stdout();
 /// How the user calls this program, for commands to repeat: BARYCERT_COMMAND if a wrapper set it, else "barycert".
 std::string command_name();
 
+/// The whole command as a shell takes it: command_name() and the arguments. main() tells it to remember.
+std::string command_line();
+void remember_command_line(int argc, const char* const* argv);
+
 bool stderr_is_terminal();
 
 }  // namespace barycert::cli

@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
                           .remedy = "`barycert --help` lists them"});
     }
     try {
+        cli::remember_command_line(argc, argv);
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         if (app.exit(e) != 0) return cli::exit_error;

@@ -545,6 +545,13 @@ TEST(EveryEnvironment, Audit) {
         for (KernelResult& k : report->kernels) k.ns = 0;
         out.add(std::string_view(audit_json(*report)));
         out.add(std::string_view(audit_text(*report, {})));
+        out.add(std::string_view(audit_text(*report, {.wide = true})));
+        const auto signs = sign_pictures(kernels_matching("*.signed-*"));
+        for (const SignPicture& p : signs) out.add(static_cast<double>(p.wrong));
+        out.add(std::string_view(audit_html(*report, {.signs = signs}).value()));
+        ErrorSizes sizes;
+        for (const double error : {0.0, 5e-324, 0.1, 1e300}) sizes.add(error, 0);
+        for (const double share : {0.25, 0.5, 0.99}) out.add(sizes.within(share));
         out.add(std::string_view(condition_plot(*report)));
         folder.put("witnesses.json", witnesses_json(*report));
         const auto witnesses = read_witnesses(folder.path("witnesses.json"));

@@ -67,6 +67,24 @@ void compare_weight(Comparison& r, std::size_t i, double w, double exact, int si
     if (exact != 0) r.weight_ulps[i] = base::ulp_error_here(w, exact);
 }
 
+/// Comparison::relative_error of finite weights beside exact ones.
+double relative_error(std::span<const double> weights, std::span<const double> exact) {
+    constexpr double max = std::numeric_limits<double>::max();
+    double scale = 1, error = 0;
+    for (const double x : exact) scale = std::max(scale, std::min(std::fabs(x), max));
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        if (!std::isfinite(weights[i])) return std::numeric_limits<double>::infinity();
+        const double to = std::clamp(exact[i], -max, max);
+        if (weights[i] == to) continue;
+        // Halved so that the difference cannot overflow; an error that underflows is an error.
+        const double difference = std::fabs(weights[i] - to);
+        const double e =
+            std::isfinite(difference) ? difference / scale : std::fabs(weights[i] / 2 - to / 2) / (scale / 2);
+        error = std::max({error, e, std::numeric_limits<double>::denorm_min()});
+    }
+    return error;
+}
+
 }  // namespace
 
 Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answer, const Statement& s) {
@@ -77,6 +95,7 @@ Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answ
     if (s.incidents != 0) count_incidents(r, s.incidents);
     if (!s.answered) {
         r.weight_error = std::numeric_limits<double>::infinity();
+        if (answer.region != Region::degenerate) r.relative_error = r.weight_error;
         return r;
     }
     const auto n = static_cast<std::size_t>(vertex_count(c.simplex));
@@ -94,12 +113,13 @@ Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answ
     }
     if (s.status != 0) {
         count(r, Finding::false_declaration);
-        r.weight_error = std::numeric_limits<double>::infinity();
+        r.weight_error = r.relative_error = std::numeric_limits<double>::infinity();
         return r;
     }
     // A classification may say degenerate of a simplex that has weights.
     if (kernel.rule == RegionRule::own && s.claimed == Region::degenerate) count(r, Finding::false_declaration);
     for (std::size_t i = 0; i < n; ++i) compare_weight(r, i, s.weights[i], answer.weights[i], answer.signs[i]);
+    r.relative_error = relative_error(std::span(s.weights).first(n), std::span(answer.weights).first(n));
     if (std::isfinite(s.value) && std::isfinite(answer.value) && answer.value != 0)
         r.value_ulp = base::ulp_error_here(s.value, answer.value);
     const bool wrong_value = gives_values(kernel) && s.value != answer.value;

@@ -59,6 +59,7 @@ void KernelStatistics::add(const Comparison& r, Region exact, std::uint64_t inde
             if (r.counts[f] != 0) witnesses[f].include(r.weight_error, index);
         }
     }
+    errors.add(r.relative_error, index);
     for (const double ulps : r.weight_ulps) {
         if (ulps < 0) continue;
         weight_ulps.add(ulps);
@@ -83,6 +84,7 @@ void KernelStatistics::merge(const KernelStatistics& other) {
     }
     weight_ulps.merge(other.weight_ulps);
     value_ulps.merge(other.value_ulps);
+    errors.merge(other.errors);
     const auto include = [](WorstCase& mine, const WorstCase& theirs) { mine.include(theirs.value, theirs.index); };
     include(weight_ulp, other.weight_ulp);
     include(value_ulp, other.value_ulp);

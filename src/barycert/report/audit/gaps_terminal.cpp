@@ -40,7 +40,7 @@ std::string gaps_text(const GapsReport& report, const TerminalStyle& style) {
                        known, report.seed, report.count,
                        report.dimension == 2 ? "edges and vertices" : "faces, edges and vertices", report.threads,
                        report.seconds);
-    out += oracle_line(report.oracles) + "\n";
+    out += oracle_line(report.oracles) + "\n\n";
     std::size_t width = 16;
     for (const ClaimResult& r : report.results) width = std::max(width, r.kernel.size());
     const auto row = [&](const auto&... cells) {

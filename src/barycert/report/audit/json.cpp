@@ -27,6 +27,8 @@ void add_statistics(Json& j, const KernelStatistics& s) {
     j["wrong_cases"] = s.wrong_cases;
     j["not_run"] = s.not_run;
     for (std::size_t f = 0; f < finding_count; ++f) j[std::string(finding_texts[f].name)] = s.counts[f];
+    j["worst_error"] = figure(s.errors.worst.value);
+    j["by_error"] = s.errors.counts;
     j["worst_weight_ulp"] = figure(s.weight_ulp.value);
     j["p999_weight_ulp"] = figure(s.p999_weight_ulp());
     j["worst_value_ulp"] = figure(s.value_ulp.value);

@@ -10,7 +10,7 @@
 
 namespace barycert::report {
 
-/// "decided: 900 by barycert's core, ...; confirmed: 60 by integers, ..., 0 disagreements", with a line feed.
+/// "decided: 900 by barycert's core, ...; confirmed: 60 by integers, ..., 0 disagreements".
 inline std::string oracle_line(const OracleCounts& o) {
     std::string decided, confirmed;
     const auto add = [](std::string& to, std::uint64_t count, const std::string& text) {
@@ -21,7 +21,7 @@ inline std::string oracle_line(const OracleCounts& o) {
     add(decided, o.cgal, fmt::format("{} by CGAL", o.cgal));
     add(confirmed, o.also_integers, fmt::format("{} by integers", o.also_integers));
     add(confirmed, o.also_cgal, fmt::format("{} by CGAL", o.also_cgal));
-    return "decided: " + decided + (confirmed.empty() ? "" : "; confirmed: " + confirmed + ", 0 disagreements") + "\n";
+    return "decided: " + decided + (confirmed.empty() ? "" : "; confirmed: " + confirmed + ", 0 disagreements");
 }
 
 inline nlohmann::ordered_json oracles_json(OracleChoice choice, const OracleCounts& o) {
