@@ -26,7 +26,7 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructured
 from finding import BARYCERT, TemporaryDirectory, lattice, report, shaken, wavy
 from vtk_data import VERSION, grid_of, write
 
-OF_EACH = int(sys.argv[1]) if len(sys.argv) > 1 else 120
+OF_EACH = int(sys.argv[1]) if len(sys.argv) > 1 else 600
 SAME, OTHER, REPORTED, ENDLESS = 10, 11, 12, 13
 
 

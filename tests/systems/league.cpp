@@ -23,6 +23,13 @@ std::string percent(std::uint64_t count, std::uint64_t of) {
     return p >= 99.95 && count != of ? "99.9" : fmt::format("{:.2g}", p);
 }
 
+/// Over meshes; 0 if there are none.
+double median(std::vector<double> numbers) {
+    if (numbers.empty()) return 0;
+    std::sort(numbers.begin(), numbers.end());
+    return numbers[numbers.size() / 2];
+}
+
 Json tally_json(const Tally& t) {
     Json j{{"points", t.points},
            {"inside", t.inside},
@@ -37,7 +44,7 @@ Json tally_json(const Tally& t) {
 void summary(std::string& text, const League& league, int dimension) {
     text +=
         "| system | version | inside called outside | outside called inside | owner does not contain the point | "
-        "worst value error / range | ns a point |\n|---|---|---|---|---|---|---|\n";
+        "worst value error / range | ns a random point |\n|---|---|---|---|---|---|---|\n";
     for (const Standing& s : league.standings) {
         if (s.dimension != dimension) continue;
         if (!s.why_not.empty()) {
@@ -47,9 +54,16 @@ void summary(std::string& text, const League& league, int dimension) {
         const Tally& t = s.total;
         text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.0f} |\n", s.name, s.version, share(t.missed, t.inside),
                             share(t.invented, t.outside), t.has_cells ? share(t.wrong_cell, t.inside - t.missed) : "-",
-                            t.has_values ? fmt::format("{:.2g}", t.max_error) : "-",
-                            1e9 * s.seconds / static_cast<double>(std::max<std::uint64_t>(t.points, 1)));
-        for (const std::string& failure : s.failures) text += fmt::format("| | | {} | | | | |\n", failure);
+                            t.has_values ? fmt::format("{:.2g}", t.max_error) : "-", median(s.ns));
+    }
+}
+
+/// What ended before it answered, in words.
+void failures(std::string& text, const League& league, int dimension) {
+    for (const Standing& s : league.standings) {
+        if (s.dimension != dimension || s.failures.empty()) continue;
+        text += fmt::format("\n{}, not counted above:\n\n", s.name);
+        for (const std::string& failure : s.failures) text += fmt::format("- {}\n", failure);
     }
 }
 
@@ -100,6 +114,7 @@ std::string league_markdown(const League& league) {
     for (const int dimension : {3, 2}) {
         text += dimension == 3 ? "\n### Tetrahedra\n\n" : "\n### Triangles\n\n";
         summary(text, league, dimension);
+        failures(text, league, dimension);
         text +=
             "\nBy set of points, in percent of its points: inside called outside / outside called inside / owner "
             "does not contain the point.\n\n";
@@ -121,7 +136,7 @@ std::string league_json(const League& league) {
         Json row{{"name", s.name}, {"version", s.version}, {"dimension", s.dimension}};
         if (!s.why_not.empty()) row["not_run"] = s.why_not;
         row["total"] = tally_json(s.total);
-        row["ns_a_point"] = s.total.points == 0 ? Json() : Json(1e9 * s.seconds / static_cast<double>(s.total.points));
+        row["ns_a_random_point"] = s.ns.empty() ? Json() : Json(median(s.ns));
         for (const auto& [name, t] : s.by_set) row["by_set"][name] = tally_json(t);
         for (const auto& [name, t] : s.by_mesh) row["by_mesh"][name] = tally_json(t);
         row["failures"] = s.failures;

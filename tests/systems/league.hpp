@@ -33,7 +33,7 @@ struct Standing {
     Tally total;
     std::map<std::string, Tally> by_set, by_mesh;
     std::vector<std::string> failures;  ///< meshes on which it ended by itself, or did not in time
-    double seconds = 0;                 ///< to answer all points
+    std::vector<double> ns;             ///< a random point of the box, mesh by mesh
     std::string why_not = {};           ///< it is not installed
 };
 

@@ -99,6 +99,11 @@ template <class Filter>
 void filter(const Question& question, vtkUnstructuredGrid* grid, Answer& answer) {
     vtkNew<vtkPolyData> points;
     points->SetPoints(points_of(question.points, question.dimension));
+    // vtkResampleWithDataSet of VTK 9.1 ends the process where there are no cells
+    // (tests/findings/vtk_resample_points.py).
+    vtkNew<vtkCellArray> vertices;
+    for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i) vertices->InsertNextCell(1, &i);
+    points->SetVerts(vertices);
     vtkNew<Filter> filter;
     filter->SetInputDataObject(0, points);
     filter->SetSourceData(grid);
