@@ -40,7 +40,7 @@ with TemporaryDirectory() as folder:
     writer.SetInputConnection(table.GetOutputPort())
     writer.SetFileName(folder + "/probed.csv")
     writer.Write()
-    text = verify(mesh, folder + "/probed.csv", "--mask-column", "none")
+    text = verify(mesh, folder + "/probed.csv", "--mask-column", "none", "--tolerance", "1e-9")
     with open(folder + "/probed.csv", "rb") as file:
         controls = sum(c < 32 and c not in b"\r\n\t" for c in file.read())
 
