@@ -95,8 +95,12 @@ struct WrongRow {
     std::size_t column = 0;          ///< of the value with the largest error, in parts of the range
     double claimed = 0, value = 0;   ///< of that column; NaN where there is none
     double ulps = 0, relative = 0;
+    double distance = 0;  ///< of a row invented: from the point to the nearest cell
     double severity = 0;  ///< what examples are chosen by: larger is worse
 };
+
+/// Points nearer to the mesh than that, in parts of the diagonal of its box, are outside by rounding or a tolerance.
+inline constexpr double near_distance = 1e-9;
 
 /// What was found.
 struct Verdicts {
@@ -105,10 +109,12 @@ struct Verdicts {
     std::uint64_t on_boundary = 0;          ///< of all rows: on a face, an edge or a vertex of their owner
     std::uint64_t missed_on_boundary = 0;   ///< of those missed
     std::uint64_t invented_zero = 0;        ///< of those invented: every value is 0
-    std::uint64_t several = 0;              ///< rows in more than one cell, as far as they were looked at
-    std::uint64_t by_other_cell = 0;        ///< right by the value of a cell that is not the owner
-    std::vector<ValueErrors> columns;       ///< as Sampler::columns()
-    std::vector<WrongRow> examples;         ///< the worst of each kind, worst first, kinds in the order of RowVerdict
+    std::uint64_t invented_near = 0;   ///< of those invented: the mesh is nearer than near_distance of its diagonal
+    double invented_distance = 0;      ///< of those invented: from the farthest point to the nearest cell
+    std::uint64_t several = 0;         ///< rows in more than one cell, as far as they were looked at
+    std::uint64_t by_other_cell = 0;   ///< right by the value of a cell that is not the owner
+    std::vector<ValueErrors> columns;  ///< as Sampler::columns()
+    std::vector<WrongRow> examples;    ///< the worst of each kind, worst first, kinds in the order of RowVerdict
 
     std::uint64_t wrong() const { return rows - right; }
     /// Adds what was found in rows that came after.
@@ -126,11 +132,14 @@ public:
     /// What errors are relative to, a column.
     const std::vector<double>& ranges() const { return ranges_; }
     const VerifyOptions& options() const { return options_; }
+    /// Rows invented count as near up to this distance.
+    double near() const { return near_; }
 
 private:
     const Sampler& sampler_;
     VerifyOptions options_;
     std::vector<double> ranges_;
+    double near_ = 0;
 };
 
 }  // namespace barycert

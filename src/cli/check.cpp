@@ -172,9 +172,8 @@ void add_check(CLI::App& app, int& exit_code) {
         "checked with straight sides.");
     const auto a = std::make_shared<CheckArguments>();
     file_option(*sub, "MESH", a->mesh,
-                "A TetGen mesh (.node/.ele, .face and .neigh if present), a mesh of Triangle (2D), or a VTK file (.vtu "
-                ".vtk .vtp "
-                ".pvtu .vtm .pvd)")
+                "A mesh: TetGen's .node/.ele (with .face and .neigh if present) or Triangle's, Gmsh's .msh, VTK's .vtu "
+                ".vtk .vtp .pvtu .vtm .pvd")
         ->required();
     sub->add_flag("--delaunay", a->delaunay, "Also test exactly whether every interior facet is locally Delaunay");
     file_option(*sub, "--conforms-to", a->plc,

@@ -135,7 +135,7 @@ void add_render_iso(CLI::App& render, int& exit_code) {
         "--segment A:B --values FA,FB prints the parameter t of one segment (0 at A, 1 at B) and the point.\n"
         "Exit codes: 0 done, an empty surface included; 2 usage or input error, a picture of nothing included.");
     const auto a = std::make_shared<IsoArguments>();
-    file_option(*sub, "MESH", a->job.mesh, "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, VTK's .vtu .vtk");
+    file_option(*sub, "MESH", a->job.mesh, mesh_help);
     sub->add_option("--field", a->job.field, "The field of nodes; NAME.0, NAME.1, ... for components")
         ->type_name("NAME");
     sub->add_option_function<std::string>(

@@ -39,8 +39,7 @@ void add_render_mesh(CLI::App& render, int& exit_code) {
         "no\n"
         "finite value. Second-order cells are drawn with straight sides.");
     const auto p = std::make_shared<MeshPicture>();
-    file_option(*sub, "MESH", p->job.mesh, "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, VTK's .vtu .vtk")
-        ->required();
+    file_option(*sub, "MESH", p->job.mesh, mesh_help)->required();
     sub->add_option("--field", p->job.field,
                     "The field: A, point:A or cell:A; A.1 is its component 1; default: none, the mesh is grey")
         ->type_name("NAME");

@@ -21,7 +21,7 @@ void add_render_slice(CLI::App& render, int& exit_code) {
         "Exit codes: 0 done; 2 usage or input error, a picture of nothing included.");
     const auto job = std::make_shared<ContourJob>();
     const auto quiet = std::make_shared<bool>(false);
-    file_option(*sub, "MESH", job->mesh, "A mesh: TetGen's .node/.ele, Gmsh's .msh, VTK's .vtu .vtk")->required();
+    file_option(*sub, "MESH", job->mesh, mesh_help)->required();
     sub->add_option_function<std::string>(
            "--plane",
            [job](const std::string& text) {

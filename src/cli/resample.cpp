@@ -64,8 +64,7 @@ void add_resample(CLI::App& app, int& exit_code) {
         "error.");
     const auto a = std::make_shared<ResampleJob>();
     const auto quiet = std::make_shared<bool>(false);
-    file_option(*sub, "MESH", a->mesh, "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, VTK's .vtu .vtk")
-        ->required();
+    file_option(*sub, "MESH", a->mesh, mesh_help)->required();
     add_targets(*sub, *a);
     file_option(*sub, "--output", a->output, "Grids: .vti .npy .csv .png; with --onto: .vtu .vtk .msh .node .csv .npy")
         ->required();

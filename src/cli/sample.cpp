@@ -25,10 +25,10 @@ void add_sample(CLI::App& app, int& exit_code) {
         "error.");
     const auto a = std::make_shared<SampleJob>();
     const auto quiet = std::make_shared<bool>(false);
-    file_option(*sub, "MESH", a->mesh, "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, VTK's .vtu .vtk")
-        ->required();
-    file_option(*sub, "--points", a->points,
-                "Points: .csv .npy .node .vtu .vtp .vtk, or the nodes of another mesh; - is CSV from stdin");
+    file_option(*sub, "MESH", a->mesh, mesh_help)->required();
+    file_option(
+        *sub, "--points", a->points,
+        "Points: .csv .npy .node .vtu .vtp .vtk .vti .vtr .vts, or the nodes of another mesh; - is CSV from stdin");
     sub->add_option(
            "--columns", a->columns,
            "The columns of the coordinates, by name or by number from 1, such as 2,3,4 or lon,lat,depth; needed "
@@ -36,8 +36,8 @@ void add_sample(CLI::App& app, int& exit_code) {
         ->allow_extra_args(false)
         ->type_name("A,B,C");
     sub->add_option("--keep", a->keep,
-                    "Columns of the points that rows are to have, as they are: names, or all of the others; NEW=NAME "
-                    "gives a column another name")
+                    "Columns of the points that rows are to have, as they are: names, or all of the others but those "
+                    "that rows have themselves; NEW=NAME gives a column another name")
         ->allow_extra_args(false)
         ->type_name("NAMES|all");
     file_option(*sub, "--output", a->output, "Rows: .csv .npy .vtu; - is CSV on stdout");

@@ -91,7 +91,7 @@ void add_verify(CLI::App& app, int& exit_code) {
         "point is a right cell. Errors of values are told in ulps and in parts of the range of the field (max - min).\n"
         "Exit codes: 0 all rows are right, 1 some are wrong (see --fail-on), 2 usage or input error.");
     const auto a = std::make_shared<VerifyArguments>();
-    file_option(*sub, "MESH", a->job.mesh, "A mesh, as for barycert sample")->required();
+    file_option(*sub, "MESH", a->job.mesh, mesh_help)->required();
     file_option(*sub, "--results", a->job.results,
                 "Points with results: .csv .npy .vtu .vtp .vti .vtk; - is CSV from stdin")
         ->required();

@@ -42,6 +42,16 @@ TEST_F(Tables, columns_are_carried_through) {
         "--quiet | cut -d, -f7 | tr '\\n' ' '",
         {.folder = scratch.folder()});
     EXPECT_EQ(piped.out, "id 007 12 9 ");
+    // Rows of another run: what they have in common is not carried through, and told.
+    const std::string before = scratch.put("before.csv", rows(points, {"--keep", "id"}));
+    EXPECT_EQ(rows(before, {"--keep", "all"}),
+              "x,y,z,cell,feature,attribute0,id\n0.25,0.25,0.25,0,interior,4.5,007\n2,2,2,-1,outside,nan,12\n"
+              "0.25,0.25,0.5,0,face,6.5,9\n");
+    const Ended told = run({"sample", two, "--points", before, "--keep", "all", "--output", scratch.path("r.csv")});
+    EXPECT_TRUE(contains(told.err + told.out,
+                         "left out: columns cell,feature,attribute0: the rows have columns of these names; "
+                         "--keep OTHER=cell carries one through under another name"))
+        << told.err << told.out;
     expect_error(line(points, {"--keep", "ids"}), "p.csv:1: no such column: expected \"ids\", found \"id\", \"x\"");
     expect_error(line(points, {"--keep", "cell=id"}),
                  "a column to keep has the name of another column of the rows: found \"cell\"");

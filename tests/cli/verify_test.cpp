@@ -1,6 +1,7 @@
 // barycert verify: results as tools write them, verdicts, exit codes, reports.
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "process.hpp"
 #include "sample_meshes.hpp"
@@ -40,22 +41,25 @@ TEST(verify, each_kind_of_error_is_named) {
     const std::string bad = scratch.put("bad.csv",
                                         "x,y,z,cell,attribute0\n"
                                         ".25,.25,.25,0,4.5\n"
-                                        ".5,.5,.5,-1,nan\n"      // missed
-                                        ".25,.25,.5,1,6.5\n"     // right: the face belongs to both
-                                        ".5,.5,0,1,4.0000001\n"  // wrong value
-                                        ".1,.1,.1,1,2.4\n"       // wrong cell
-                                        "2,2,2,1,0\n");          // invented
+                                        ".5,.5,.5,-1,nan\n"         // missed
+                                        ".25,.25,.5,1,6.5\n"        // right: the face belongs to both
+                                        ".5,.5,0,1,4.0000001\n"     // wrong value
+                                        ".1,.1,.1,1,2.4\n"          // wrong cell
+                                        "2,2,2,1,0\n"               // invented
+                                        ".25,.25,-1e-12,0,3.2\n");  // invented, nearly inside
     const auto j = report_of({"verify", two, "--results", bad}, 1);
     EXPECT_EQ(j["right"], 2);
     EXPECT_EQ(j["missed"], 1);
-    EXPECT_EQ(j["invented"], 1);
+    EXPECT_EQ(j["invented"], 2);
     EXPECT_EQ(j["invented_zero"], 1);
+    EXPECT_EQ(j["invented_near"], 1);
+    EXPECT_NEAR(j["invented_distance"].get<double>(), std::sqrt(3), 1e-15);
     EXPECT_EQ(j["wrong_cell"], 1);
     EXPECT_EQ(j["wrong_value"], 1);
-    EXPECT_EQ(j["examples"].size(), 4U);
+    EXPECT_EQ(j["examples"].size(), 5U);
     const Ended text = run({"verify", two, "--results", bad});
     EXPECT_EQ(text.code, 1);
-    EXPECT_TRUE(contains(text.out, "bad.csv: WRONG: 4 of 6 rows\n")) << text.out;
+    EXPECT_TRUE(contains(text.out, "bad.csv: WRONG: 5 of 7 rows\n")) << text.out;
     // The commands that it shows run.
     for (const auto& example : j["examples"]) {
         const Ended shown = run_shell(example["command"].get<std::string>());
@@ -96,6 +100,27 @@ TEST(verify, the_mask_of_vtk_says_what_is_outside) {
     EXPECT_EQ(j["mask_column"], "vtkValidPointMask");
     EXPECT_EQ(j["right"], 2);
     EXPECT_EQ(j["missed"], 1);
+    // vtkDelimitedTextWriter writes the mask as bytes.
+    const std::string bytes = scratch.put("bytes.csv", std::string("\"attribute0\",\"vtkValidPointMask\",\"Points:0\","
+                                                                   "\"Points:1\",\"Points:2\"\n4.5,\1,.25,.25,.25\n"
+                                                                   "0,") +
+                                                           '\0' + ",2,2,2\n0," + '\0' + ",.5,.5,.5\n");
+    const auto same = report_of({"verify", two, "--results", bytes}, 1);
+    EXPECT_EQ(same["right"], 2);
+    EXPECT_EQ(same["missed"], 1);
+}
+
+TEST(verify, six_digits_are_told) {
+    const Scratch scratch;
+    const std::string two = put_two_cells(scratch);
+    const auto told = [&](const std::string& value) {
+        const std::string rows =
+            scratch.put("digits.csv", "x,y,z,attribute0\n.25,.25,.25,4.5\n.3,.2,.1," + value + "\n");
+        return contains(run({"verify", two, "--results", rows}).err, "values have six digits");
+    };
+    EXPECT_TRUE(told("3.12346"));
+    EXPECT_FALSE(told("3.123456")) << "more";
+    EXPECT_FALSE(told("3.125")) << "they may be exact";
 }
 
 TEST(verify, single_precision_is_told) {

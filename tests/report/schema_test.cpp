@@ -68,6 +68,7 @@ void verify_reports(Schema& schema) {
         row.verdict = RowVerdict::wrong_value;
         run.verdicts.examples = {row};
         schema.check("Verify", Json::parse(verify_json(run, measure_environment())), "verify");
+        row.verdict = RowVerdict::invented;
         row.exact.cell = 1;
         row.claimed_cell = 1;
         row.claimed = row.value = std::numeric_limits<double>::quiet_NaN();

@@ -2,7 +2,6 @@
 
 #include "barycert/report/common/terminal_text.hpp"
 
-#include <cstdio>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -64,33 +63,6 @@ TEST(percent, zero_and_hundred_only_when_they_are) {
 TEST(colours, only_when_on) {
     EXPECT_EQ(Colours(false).bold("x") + Colours(false).bad("x") + Colours(false).good("x"), "xxx");
     EXPECT_EQ(Colours(true).bold("x"), "\033[1mx\033[0m");
-}
-
-/// The words that a shell makes of a line.
-std::string through_shell(const std::string& word) {
-    std::FILE* pipe = ::popen(("printf '[%s]' " + word).c_str(), "r");
-    std::string out;
-    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) out += static_cast<char>(c);
-    ::pclose(pipe);
-    return out;
-}
-
-TEST(shell_word, one_word_to_a_shell_whatever_it_holds) {
-    EXPECT_EQ(shell_word("data/meshes/a-1.node"), "data/meshes/a-1.node");
-    EXPECT_EQ(shell_word(""), "''");
-    EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
-    EXPECT_EQ(shell_word("\033[1m it's 5%\n"), "\"$(printf '\\033[1m it\\047s 5%%')\"'\n'");
-    for (const std::string& text :
-         {std::string("plain"),     std::string(""),      std::string("two words"),
-          std::string("it's"),      std::string("'"),     std::string("''"),
-          std::string("$HOME"),     std::string("`id`"),  std::string("a\"b"),
-          std::string("a\\b"),      std::string("*"),     std::string("~"),
-          std::string("~root"),     std::string("#x"),    std::string("a;b|c&d>e<f"),
-          std::string("(x)"),       std::string("{a,b}"), std::string("!x"),
-          std::string("new\nline"), std::string("tab\t"), std::string("na\xc3\xafve"),
-          std::string("a=b"),       std::string("?[x]"),  std::string("\033[1m it's 5 % \\ \xff\""),
-          std::string("ends\n\n")})
-        EXPECT_EQ(through_shell(shell_word(text)), "[" + text + "]");
 }
 
 }  // namespace

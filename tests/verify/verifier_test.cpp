@@ -124,6 +124,11 @@ TEST_F(Verify, MissedAndInvented) {
     EXPECT_EQ(v.examples[0].verdict, RowVerdict::missed);
     EXPECT_EQ(v.examples[0].exact.cell, cells_[inside_]);
     EXPECT_EQ(v.examples[1].row, outside_);
+    const double infinite = std::numeric_limits<double>::infinity();
+    const Nearest nearest = sampler_->locator().nearest(points_.data() + 3 * outside_, infinite).value();
+    EXPECT_EQ(v.examples[1].distance, nearest.distance);
+    EXPECT_EQ(v.invented_distance, nearest.distance);
+    EXPECT_EQ(v.invented_near, 0U) << "a point somewhere outside";
     VerifyOptions zero;
     zero.outside_value = 0;
     EXPECT_EQ(verify_values(zero).invented, 0U) << "0 stands for outside";

@@ -1,3 +1,5 @@
+#include <tbb/task_arena.h>
+
 #include "barycert/gmsh.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/mesh_format.hpp"
@@ -12,7 +14,8 @@ Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
         case io::MeshFormat::gmsh:
             return read_gmsh(path, {.step = {}, .threads = options.threads});
         case io::MeshFormat::vtk:
-            return read_vtk(path);
+            if (options.threads <= 0) return read_vtk(path);
+            return tbb::task_arena(options.threads).execute([&] { return read_vtk(path); });
         default:
             return read_tetgen(path, options);
     }

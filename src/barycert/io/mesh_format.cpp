@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "barycert/base/input_file.hpp"
+#include "barycert/base/shell_word.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/other_formats.hpp"
@@ -90,7 +91,7 @@ Result<MeshFormat> format_of_file(const std::string& path) {
     return Error{.what = "this is no mesh that is read",
                  .file = path,
                  .expected = formats_read,
-                 .remedy = "convert it with `meshio convert " + shell_word(path) + " OUT.vtu`"};
+                 .remedy = "convert it with `meshio convert " + base::shell_word(path) + " OUT.vtu`"};
 }
 
 }  // namespace

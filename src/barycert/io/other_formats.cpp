@@ -5,6 +5,7 @@
 #include <cctype>
 #include <string>
 
+#include "barycert/base/shell_word.hpp"
 #include "barycert/io/formats.hpp"
 
 namespace barycert::io {
@@ -25,7 +26,7 @@ constexpr std::array formats{
     OtherFormat{" .vol ", "a mesh of Netgen", Way::meshio, ""},
     OtherFormat{" .su2 ", "a mesh of SU2", Way::meshio, ""},
     OtherFormat{" .unv .universal ", "a universal file of I-deas", Way::gmsh, ""},
-    OtherFormat{" .bdf .nas .fem ", "a file of Nastran", Way::gmsh, ""},
+    OtherFormat{" .bdf .nas .fem ", "a file of Nastran", Way::meshio, ""},
     OtherFormat{" .foam .openfoam ", "a case of OpenFOAM", Way::other, foam_remedy},
     OtherFormat{" .xml ", "an XML file, perhaps a mesh of DOLFIN", Way::meshio, ""},
     OtherFormat{" .avs .ugrid .mdpa .f3grid .h5m .hmf .post .dato .tec .dat ", "a mesh of another program", Way::meshio,
@@ -101,6 +102,8 @@ const OtherFormat* container(std::string_view path, std::string_view suffixes, s
     return by_suffix(otherwise);
 }
 
+using base::shell_word;
+
 }  // namespace
 
 const OtherFormat* other_format_by_suffix(std::string_view path) {
@@ -157,17 +160,6 @@ std::string gmsh_command(const std::string& path, const std::string& more) {
     const std::size_t dot = path.find_last_of("./");
     const std::string stem = dot != std::string::npos && path[dot] == '.' ? path.substr(0, dot) : path;
     return "`gmsh " + shell_word(path) + more + " -save -format msh41 -o " + shell_word(stem + "-new.msh") + "`";
-}
-
-std::string shell_word(const std::string& path) {
-    const bool plain = !path.empty() && path.front() != '-' && std::all_of(path.begin(), path.end(), [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-               std::string_view("_-./+,:=@%").find(c) != std::string_view::npos;
-    });
-    if (plain) return path;
-    std::string word = "'";
-    for (const char c : path) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return word + "'";
 }
 
 Error other_format_error(const OtherFormat& format, const std::string& path) {

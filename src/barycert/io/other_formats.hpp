@@ -39,9 +39,6 @@ Error other_format_error(const OtherFormat& format, const std::string& path);
 /// The command that writes a file of Gmsh anew, in version 4.1, with `more` arguments; in backquotes.
 std::string gmsh_command(const std::string& path, const std::string& more = {});
 
-/// `path` as a word of a shell's command line.
-std::string shell_word(const std::string& path);
-
 inline constexpr const char* formats_read =
     "a file of Gmsh (.msh), VTK (.vtu .vtk .pvtu .vtm .pvd), TetGen or Triangle (.node .ele)";
 

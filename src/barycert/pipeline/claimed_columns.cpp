@@ -105,6 +105,17 @@ Result<std::vector<double>> numbers_of(const Column& column, const VerifyJob& jo
     return out;
 }
 
+/// A mask as numbers. vtkDelimitedTextWriter writes the characters 0 and 1 as such bytes.
+Result<std::vector<double>> mask_of(const Column& column, const VerifyJob& job, std::uint64_t first_row) {
+    const auto* const texts = std::get_if<std::vector<std::string>>(&column.values);
+    if (texts == nullptr) return numbers_of(column, job, first_row);
+    Column digits{column.name, *texts};
+    for (std::string& text : std::get<std::vector<std::string>>(digits.values)) {
+        if (text.size() == 1 && (text[0] == '\0' || text[0] == '\1')) text[0] = static_cast<char>('0' + text[0]);
+    }
+    return numbers_of(digits, job, first_row);
+}
+
 /// Index in the mesh; beyond the last cell where the mesh has no such number.
 std::int64_t index_of(std::int64_t number, const Mesh& mesh) {
     if (number < 0) return -1;
@@ -207,7 +218,7 @@ Result<Claims> claims_of(const ClaimedColumns& which, const std::vector<Column>&
         }
     }
     if (!which.mask.empty()) {
-        const auto numbers = numbers_of(*column_named(columns, which.mask), job, first_row);
+        const auto numbers = mask_of(*column_named(columns, which.mask), job, first_row);
         if (!numbers) return numbers.error();
         for (const double x : *numbers) out.inside.push_back(x != 0 && !std::isnan(x) ? 1 : 0);
     }

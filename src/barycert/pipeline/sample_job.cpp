@@ -1,5 +1,6 @@
 // Fields at points.
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "barycert/map.hpp"
 #include "barycert/pipeline/engine.hpp"
 #include "barycert/pipeline/job_files.hpp"
+#include "barycert/pipeline/kept_columns.hpp"
 #include "barycert/pipeline/stream.hpp"
 #include "barycert/pipeline/user_rows.hpp"
 
@@ -60,7 +62,14 @@ pipeline::SinkFactory rows_to(Run& run, const SampleJob& job, const Engine& engi
                               const std::vector<ColumnFormat>& carried) {
     return [&run, &job, &engine, output, carried](const TableFormat& format) -> Result<std::unique_ptr<TableSink>> {
         if (output.empty()) return std::unique_ptr<TableSink>();
-        const Result<TableFormat> shown = pipeline::user_format(engine, format, carried);
+        std::vector<ColumnFormat> columns = carried;
+        std::vector<bool> kept(columns.size(), true);
+        if (job.keep == std::vector<std::string>{"all"}) kept = pipeline::columns_to_keep(engine, format, columns);
+        const bool all = std::find(kept.begin(), kept.end(), false) == kept.end();
+        const Note left = all ? Note{} : pipeline::leave_out(kept, columns, job.points);
+        if (!all && std::find(run.summary.notes.begin(), run.summary.notes.end(), left) == run.summary.notes.end())
+            run.summary.notes.push_back(left);
+        const Result<TableFormat> shown = pipeline::user_format(engine, format, columns);
         if (!shown) return shown.error();
         run.summary.carried.clear();
         for (const ColumnFormat& column : shown->carried) run.summary.carried.push_back(column.name);
@@ -68,7 +77,8 @@ pipeline::SinkFactory rows_to(Run& run, const SampleJob& job, const Engine& engi
         one.output = output;
         Result<std::unique_ptr<TableSink>> sink = pipeline::open_rows(one, *shown);
         if (!sink) return sink;
-        return pipeline::user_rows(engine, std::move(*sink));
+        std::unique_ptr<TableSink> rows = pipeline::user_rows(engine, std::move(*sink));
+        return all ? std::move(rows) : pipeline::rows_without(kept, std::move(rows));
     };
 }
 

@@ -47,8 +47,8 @@ inline std::size_t block_size(std::optional<std::uint64_t> count, int threads, s
     const std::uint64_t max = std::max<std::uint64_t>(block_of_points, cells / cells_a_point);
     if (!count) return static_cast<std::size_t>(max);
     const int workers = locate::threads_of(threads);
-    return static_cast<std::size_t>(std::clamp<std::uint64_t>(
-        *count / (blocks_a_thread * static_cast<std::uint64_t>(workers)), min, max));
+    return static_cast<std::size_t>(
+        std::clamp<std::uint64_t>(*count / (blocks_a_thread * static_cast<std::uint64_t>(workers)), min, max));
 }
 
 /// Three stages at once: blocks are read one after the other, worked on side by side, and written in the order in which

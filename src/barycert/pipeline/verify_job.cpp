@@ -3,11 +3,14 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <thread>
 #include <utility>
 
+#include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/locator_data.hpp"
@@ -68,6 +71,24 @@ bool are_floats(const Claims& claims) {
         ++numbers;
     }
     return numbers > 0;
+}
+
+/// Does x have at most so many decimal digits?
+bool has_digits(double x, int digits) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::general, digits).ptr;
+    return base::parse_double({text.data(), end}) == x;
+}
+
+/// Were the numbers written with six digits, as printf and streams do unless told otherwise?
+bool are_cut_to_six_digits(const Claims& claims) {
+    bool cut = false;
+    for (const double x : claims.values) {
+        if (!std::isfinite(x)) continue;
+        if (!has_digits(x, 6)) return false;
+        cut = cut || !has_digits(x, 5);
+    }
+    return cut;
 }
 
 class Verification {
@@ -165,7 +186,15 @@ private:
     void choose_tolerance(const ResultBlock& first, VerifyOptions& options) {
         if (job_.tolerance_given || options.exact) return;
         const auto claims = pipeline::claims_of(columns_, first.columns, mesh_, job_, 0);
-        if (!claims || !are_floats(*claims)) return;
+        if (!claims) return;
+        if (are_cut_to_six_digits(*claims)) {
+            summary_.notes.push_back({Note::Kind::guessed,
+                                      "values have six digits: what was cut off counts as an error; let the tool write "
+                                      "17 digits, of coordinates as well, or see --tolerance",
+                                      job_.results, true});
+            return;
+        }
+        if (!are_floats(*claims)) return;
         options.tolerance = tolerance_of_floats;
         summary_.notes.push_back({Note::Kind::guessed,
                                   "values are single precision: errors up to 1e-6 of the range count as right; "

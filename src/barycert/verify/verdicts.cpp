@@ -30,6 +30,8 @@ void Verdicts::add(const Verdicts& other, std::size_t examples_of_each) {
     on_boundary += other.on_boundary;
     missed_on_boundary += other.missed_on_boundary;
     invented_zero += other.invented_zero;
+    invented_near += other.invented_near;
+    invented_distance = std::max(invented_distance, other.invented_distance);
     several += other.several;
     by_other_cell += other.by_other_cell;
     if (columns.size() < other.columns.size()) columns.resize(other.columns.size());

@@ -44,7 +44,11 @@ Status wrong_size(const char* what, std::size_t expected, std::size_t found) {
 class BlockVerifier {
 public:
     BlockVerifier(const Sampler& sampler, const Verifier& verifier, const ClaimedRows& claimed)
-        : sampler_(sampler), options_(verifier.options()), ranges_(verifier.ranges()), claimed_(claimed) {}
+        : sampler_(sampler),
+          options_(verifier.options()),
+          ranges_(verifier.ranges()),
+          near_(verifier.near()),
+          claimed_(claimed) {}
 
     Result<Verdicts> run() {
         const auto d = static_cast<std::size_t>(sampler_.locator().mesh().dimension);
@@ -55,7 +59,9 @@ public:
         exact.threads = 1;
         if (Status done = sampler_.sample(claimed_.points, exact, table_, claimed_.first_row); !done)
             return done.error();
-        for (std::size_t row = 0; row < rows; ++row) look_at(row);
+        for (std::size_t row = 0; row < rows; ++row) {
+            if (Status done = look_at(row); !done) return done.error();
+        }
         if (Status done = look_again(); !done) return done.error();
         Verdicts none;
         none.add(found_, options_.examples);  // orders examples
@@ -98,7 +104,7 @@ private:
         return !locate::cell_signs(data.index, place, at.data(), tests_).contains();
     }
 
-    void look_at(std::size_t row) {
+    Status look_at(std::size_t row) {
         const bool inside = table_.cells[row] >= 0, said = says_inside(row);
         ++(inside ? found_.inside : found_.outside);
         if (inside && table_.features[row] != Feature::interior) ++found_.on_boundary;
@@ -110,15 +116,27 @@ private:
             found_.missed_on_boundary += boundary ? 1 : 0;
             keep(row, RowVerdict::missed, boundary ? 0 : 1);
         } else if (!inside) {
-            ++found_.invented;
-            const double* const v = claims(row);
-            found_.invented_zero += columns() != 0 && std::all_of(v, v + columns(), [](double x) { return x == 0; });
-            keep(row, RowVerdict::invented, 0);
+            return invented(row);
         } else if (over(row, values(row)) && may_be_in_several(row)) {
             again_.push_back(row);
         } else {
             settle(row, values(row), 1);
         }
+        return Done{};
+    }
+
+    Status invented(std::size_t row) {
+        ++found_.invented;
+        const double* const v = claims(row);
+        found_.invented_zero += columns() != 0 && std::all_of(v, v + columns(), [](double x) { return x == 0; });
+        const Locator& locator = sampler_.locator();
+        const auto d = static_cast<std::size_t>(locator.mesh().dimension);
+        const auto nearest = locator.nearest(claimed_.points.data() + d * row, std::numeric_limits<double>::infinity());
+        if (!nearest) return nearest.error();
+        found_.invented_near += nearest->distance <= near_ ? 1 : 0;
+        found_.invented_distance = std::max(found_.invented_distance, nearest->distance);
+        keep(row, RowVerdict::invented, nearest->distance).distance = nearest->distance;
+        return Done{};
     }
 
     bool over(std::size_t row, const double* exact) const {
@@ -200,6 +218,7 @@ private:
     const Sampler& sampler_;
     const VerifyOptions& options_;
     const std::vector<double>& ranges_;
+    const double near_;
     const ClaimedRows& claimed_;
     Table table_;
     TierCounts tests_;
@@ -232,6 +251,9 @@ ClaimedRows part_of(const ClaimedRows& rows, std::size_t d, std::size_t columns,
 
 Verifier::Verifier(const Sampler& sampler, const VerifyOptions& options) : sampler_(sampler), options_(options) {
     const ExactEnvironment environment;
+    const locate::CellIndex& index = sampler.data().index();
+    near_ = near_distance *
+            std::hypot(index.high[0] - index.low[0], index.high[1] - index.low[1], index.high[2] - index.low[2]);
     for (const auto* fields : {&sampler.data().point_fields, &sampler.data().cell_fields}) {
         for (const Field* field : *fields) {
             for (std::size_t c = 0; c < static_cast<std::size_t>(field->components); ++c)

@@ -49,16 +49,15 @@ std::string decoded(std::string_view word) {
 Error LegacyText::error(std::string what, std::string expected, std::string found, std::string remedy) const {
     return {.what = std::move(what),
             .file = *path_,
-            .line = line(),
+            .line = line_of(rest_),
             .expected = std::move(expected),
             .found = std::move(found),
             .remedy = std::move(remedy)};
 }
 
-/// The line of the place; 0 in a binary file, whose numbers hold line breaks by chance.
-std::size_t LegacyText::line() const {
-    if (binary_) return 0;
-    const std::string_view before = bytes_.substr(0, bytes_.size() - rest_.size());
+std::size_t LegacyText::line_of(std::string_view rest) const {
+    if (binary_) return 0;  // numbers hold line breaks by chance
+    const std::string_view before = bytes_.substr(0, bytes_.size() - rest.size());
     return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
 }
 
@@ -165,13 +164,13 @@ Result<NumberType> LegacyText::number_type(const std::string& what) {
 template <class To>
 Status LegacyText::numbers(const std::string& what, NumberType type, std::uint64_t count, std::vector<To>& values,
                            NumberFault* fault) {
-    const std::size_t at = line();
+    const std::string_view start = rest_;
     NumberFault found;
     if (!binary_) {
         found = read_text(rest_, type, static_cast<std::size_t>(count), values);
         constexpr std::string_view white = " \t\n\v\f\r";
         if (!found && count != 0 && rest_.empty() && white.find(bytes_.back()) == std::string_view::npos) {
-            return base::unended_number(*path_, line());
+            return base::unended_number(*path_, line_of(rest_));
         }
     } else {
         rest_of_line();
@@ -186,7 +185,7 @@ Status LegacyText::numbers(const std::string& what, NumberType type, std::uint64
     if (fault != nullptr && found.kind == NumberFault::Kind::not_exact) {
         *fault = std::move(found);
     } else if (found) {
-        return number_error(*path_, at, what, count, found);
+        return number_error(*path_, line_of(start), what, count, found);
     }
     return Done{};
 }

@@ -57,7 +57,8 @@ public:
     Error error(std::string what, std::string expected, std::string found, std::string remedy = {}) const;
 
 private:
-    std::size_t line() const;
+    /// The line where `rest` begins, which is what is left of the file at that place.
+    std::size_t line_of(std::string_view rest) const;
 
     std::string_view bytes_;
     std::string_view rest_;

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "barycert/base/shell_word.hpp"
 #include "barycert/base/text.hpp"
 
 namespace barycert::report {
@@ -64,32 +65,6 @@ private:
     bool on_;
 };
 
-/// A word that is not printable, for a POSIX shell: printf makes its bytes. Line ends after the last other byte are
-/// lost in "$(...)" and follow as they are.
-inline std::string shell_bytes(std::string_view s) {
-    const std::size_t end = s.find_last_not_of('\n') + 1;
-    std::string out = "\"$(printf '";
-    for (const char c : s.substr(0, end)) {
-        const auto byte = static_cast<unsigned char>(c);
-        const bool plain = byte >= 0x20 && byte < 0x7f && c != '\'' && c != '\\';
-        out += c == '%' ? "%%" : plain ? std::string(1, c) : fmt::format("\\{:03o}", byte);
-    }
-    out += "')\"";
-    if (end != s.size()) out += "'" + std::string(s.substr(end)) + "'";
-    return out;
-}
-
-/// Quoted for a POSIX shell where needed.
-inline std::string shell_word(std::string_view s) {
-    if (base::printable(s) != s) return shell_bytes(s);
-    if (!s.empty() &&
-        s.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-^=:,@%") ==
-            std::string_view::npos) {
-        return std::string(s);
-    }
-    std::string out = "'";
-    for (const char c : s) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return out + "'";
-}
+using base::shell_word;
 
 }  // namespace barycert::report

@@ -42,6 +42,7 @@ Json example_json(const VerifySummary& s, const WrongRow& row) {
     j["point"] = std::vector<double>(row.point.begin(), row.point.begin() + s.dimension);
     j["cell"] = row.exact.cell < 0 ? Json() : Json(row.exact.cell);
     j["feature"] = name(row.exact.feature);
+    if (row.verdict == RowVerdict::invented) j["distance"] = figure(row.distance);
     if (!s.cell_column.empty()) j["claimed_cell"] = row.claimed_cell < 0 ? Json() : Json(row.claimed_cell);
     if (!s.columns.empty()) {
         j["column"] = s.columns[row.column];
@@ -85,6 +86,8 @@ std::string verify_json(const VerifySummary& s, const Environment& environment) 
     j["on_boundary"] = v.on_boundary;
     j["missed_on_boundary"] = v.missed_on_boundary;
     j["invented_zero"] = v.invented_zero;
+    j["invented_near"] = v.invented_near;
+    j["invented_distance"] = figure(v.invented_distance);
     j["by_other_cell"] = v.by_other_cell;
     j["values"] = Json::array();
     for (std::size_t c = 0; c < s.columns.size(); ++c) j["values"].push_back(errors_json(s, c));

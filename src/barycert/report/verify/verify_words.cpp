@@ -49,6 +49,11 @@ std::vector<VerdictLine> verdict_table(const VerifySummary& summary) {
         missed += fmt::format("; {} on a face, an edge or a vertex of the cell", v.missed_on_boundary);
     std::string invented = "in no cell, and said to be inside";
     if (v.invented_zero != 0) invented += fmt::format("; {} have the value 0", v.invented_zero);
+    if (v.invented != 0) {
+        invented += fmt::format("; the farthest {} from the mesh", brief(v.invented_distance));
+        if (v.invented_near != 0)
+            invented += fmt::format(", {} nearer than {} of its diagonal", v.invented_near, brief(near_distance));
+    }
     return {
         {"right", v.right, summary.columns.empty() ? "" : right},
         {"missed", v.missed, missed},
@@ -81,6 +86,7 @@ std::string example_sentence(const VerifySummary& summary, const WrongRow& row) 
         case RowVerdict::missed:
             return text + ", and said to be outside";
         case RowVerdict::invented:
+            text += fmt::format(", {} from the mesh", brief(row.distance));
             return text + (summary.columns.empty()
                                ? ", and said to be inside"
                                : fmt::format(", and {} is {}", base::printable(summary.columns[row.column]),
