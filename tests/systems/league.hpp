@@ -16,6 +16,7 @@ struct System {
     std::string command;  ///< program and its first argument
     bool own_triangulation = false;
     int dimension = 0;  ///< 0: both
+    int limit = 60;     ///< seconds for one mesh; then it is taken not to end
 };
 
 struct Tally {

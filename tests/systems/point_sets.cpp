@@ -18,7 +18,8 @@ using Corners = std::array<std::size_t, 4>;  ///< some corners of a cell, in any
 
 class Maker {
 public:
-    Maker(const Mesh& mesh, std::uint64_t seed) : mesh_(mesh), d_(mesh.corners() - 1), random_(seed) {
+    Maker(const Mesh& mesh, std::uint64_t seed)
+        : mesh_(mesh), d_(mesh.corners() - 1), box_(bounds_of_cells(mesh)), random_(seed) {
         find_boundary();
     }
 
@@ -35,11 +36,10 @@ public:
     }
 
     At in_box() {
-        const Bounds3 box = bounds_of_cells(mesh_);
         At at{};
         for (std::size_t k = 0; k < d_; ++k) {
-            const double margin = 0.1 * (box.high[k] - box.low[k]);
-            at[k] = random_.uniform(box.low[k] - margin, box.high[k] + margin);
+            const double margin = 0.1 * (box_.high[k] - box_.low[k]);
+            at[k] = random_.uniform(box_.low[k] - margin, box_.high[k] + margin);
         }
         return at;
     }
@@ -130,6 +130,7 @@ private:
 
     const Mesh& mesh_;
     std::size_t d_;
+    Bounds3 box_;
     base::Random random_;
     std::vector<std::pair<std::size_t, std::size_t>> boundary_;  ///< cell, corner opposite
 };

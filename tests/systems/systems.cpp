@@ -3,7 +3,9 @@
 //     systems [--count N] [--seed N] [--mesh NAME]... [--system NAME]... [--json FILE] [--list]
 //
 // The table goes to the standard output, as Markdown. Each system runs in a process of its own, on one thread.
+#include <sys/wait.h>
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -44,22 +46,23 @@ private:
     std::string path_;
 };
 
-/// What a command prints, and whether it ended well.
-bool run(const std::string& command, std::string& output) {
+/// What a command prints; returns how it ended, as the shell tells: 0 well, 124 by `timeout`.
+int run(const std::string& command, std::string& output) {
     output.clear();
     std::FILE* const pipe = ::popen(command.c_str(), "r");
-    if (pipe == nullptr) return false;
+    if (pipe == nullptr) return -1;
     char buffer[4096];
     while (std::fgets(buffer, sizeof buffer, pipe) != nullptr) output += buffer;
     while (!output.empty() && output.back() == '\n') output.pop_back();
-    return ::pclose(pipe) == 0;
+    const int status = ::pclose(pipe);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 /// The python3 that has the module; the first of the path need not be the one that Debian's packages are for.
 std::string python_with(const std::string& module) {
     std::string ignored;
     for (const char* const python : {"python3", "/usr/bin/python3"})
-        if (run(std::string(python) + " -c 'import " + module + "' 2>/dev/null", ignored)) return python;
+        if (run(std::string(python) + " -c 'import " + module + "' 2>/dev/null", ignored) == 0) return python;
     return {};
 }
 
@@ -73,7 +76,7 @@ std::vector<System> all_systems() {
     all.push_back({"vtkResampleWithDataSet", BARYCERT_SYSTEM_VTK " resample"});
 #endif
     all.push_back({"CGAL locate, exact predicates", BARYCERT_SYSTEM_CGAL " exact-predicates", true});
-    all.push_back({"CGAL locate, plain doubles", BARYCERT_SYSTEM_CGAL " inexact", true});
+    all.push_back({"CGAL locate, plain doubles", BARYCERT_SYSTEM_CGAL " inexact", true, 0, 10});
     const std::string script = " " BARYCERT_SYSTEM_PYTHON " ", scipy = python_with("scipy"),
                       matplotlib = python_with("matplotlib");
     const auto by = [&](const std::string& python, const char* system) {
@@ -88,23 +91,29 @@ std::vector<System> all_systems() {
 /// Asks a system for one mesh, and judges its answers. Returns why there are none.
 std::string ask(const System& system, const NamedMesh& asked, const League& league, Standing& standing) {
     const Folder folder;
-    const auto call = [&](const char* task) {
-        return run("timeout 20 " + system.command + ' ' + task + ' ' + folder.path() + " 2>/dev/null",
-                   standing.version);
+    const auto call = [&](const char* task) -> std::string {
+        std::string version;
+        const int code = run("timeout " + std::to_string(system.limit) + ' ' + system.command + ' ' + task + ' ' +
+                                 folder.path() + " 2>/dev/null",
+                             version);
+        if (code == 124) return "did not end in " + std::to_string(system.limit) + " s";
+        if (code != 0) return "ended by itself with code " + std::to_string(code);
+        standing.version = version;
+        return {};
     };
     Mesh mesh = asked.mesh;
     write_array(folder / "dimension.i32", std::vector<std::int32_t>{mesh.dimension});
     write_array(folder / "nodes.f64", mesh.points);
     write_array(folder / "values.f64", mesh.point_fields.at(0).data);
     if (system.own_triangulation) {
-        if (!call("triangulate")) return "made no triangulation";
+        if (const std::string why = call("triangulate"); !why.empty()) return why;
         mesh.cells = read_array<std::int32_t>(folder / "cells.i32");
     } else {
         write_array(folder / "cells.i32", mesh.cells);
     }
     const Points points = make_points(mesh, league.count, league.seed);
     write_array(folder / "points.f64", points.coordinates);
-    if (!call("locate")) return "did not end in 20 s, or crashed";
+    if (const std::string why = call("locate"); !why.empty()) return why;
     const auto owners = read_array<std::int64_t>(folder / "owners.i64");
     const auto sampled = read_array<double>(folder / "sampled.f64"),
                seconds = read_array<double>(folder / "seconds.f64");
@@ -135,7 +144,7 @@ std::string ask(const System& system, const NamedMesh& asked, const League& leag
     const auto d = static_cast<std::size_t>(mesh.dimension);
     const auto random = std::span(more.coordinates).subspan(d * box->first, d * box->count);
     write_array(folder / "points.f64", std::vector<double>(random.begin(), random.end()));
-    if (!call("locate")) return "random points alone: did not end in 20 s, or crashed";
+    if (const std::string why = call("locate"); !why.empty()) return "random points alone: " + why;
     standing.ns.push_back(1e9 * read_array<double>(folder / "seconds.f64").at(1) / static_cast<double>(box->count));
     return {};
 }
