@@ -32,7 +32,7 @@ if given.list:
     sys.exit()
 for name in given.names:
     if name not in commands:
-        sys.exit(f"run findings: no finding {name}; there are {', '.join(commands)}")
+        parser.error(f"no finding {name}; there are {', '.join(commands)}")
 
 environment = dict(os.environ, BARYCERT_PROGRAM=given.barycert, PYTHONDONTWRITEBYTECODE="1")
 reports, failed = [], 0

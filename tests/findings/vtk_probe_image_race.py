@@ -2,7 +2,7 @@
 
 Meshes: the unit cube in small cubes of six tetrahedra, in random order; one with inner nodes shaken, and one that is not, so
 that many voxels lie exactly on faces that cells share. Each run writes the number of the cell and the interpolated value
-into every voxel.
+into every voxel. Two threads have to run at the same time: with less than two processors it may not be seen.
 """
 
 import numpy
@@ -34,7 +34,8 @@ for name, cubes, by, side in (("aligned", 16, 0, 65), ("shaken", 24, 0.15 / 24, 
 aligned, loose = (figures[f"{name}, two threads"] for name in ("aligned", "shaken"))
 alone = sum(figures[f"{name}, one thread"][k] for name in ("aligned", "shaken")
             for k in ("owners_that_differ", "values_that_differ"))
-report(VERSION, "VTK 9.1.0", aligned and aligned["owners_that_differ"] > 0 and loose["values_that_differ"] > 0 and alone == 0,
+report(VERSION, "VTK 9.1.0",
+       aligned and aligned["owners_that_differ"] + loose["values_that_differ"] > 0 and alone == 0,
        f"five runs with two threads differ in {aligned['owners_that_differ']} of {aligned['voxels']} owners on the aligned "
        f"mesh; in {loose['values_that_differ']} of {loose['voxels']} values on the other, by up to "
        f"{loose['largest_difference']:.2g} of the range; with one thread in {alone}"
