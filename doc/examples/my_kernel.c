@@ -1,4 +1,5 @@
-/* A kernel for `barycert audit --kernel-library`: ratios of signed volumes, in plain double. */
+/* A kernel for `barycert audit --kernel-library`: ratios of signed volumes, in plain double. Wrong on purpose: beside
+ * faces and edges its signs are rounded away. right_kernel.c is right. */
 #include "barycert/kernel.h"
 
 static double det(const double* a, const double* b, const double* c, const double* d) {

@@ -17,9 +17,46 @@
 #include "barycert/certificate.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/kernels.hpp"
+#include "barycert/oracle.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert {
+
+/// Who says what is right.
+enum class OracleChoice : std::uint8_t {
+    /// The integers; before them, where no kernel of the same cases computes with it, barycert's own core where its
+    /// error bounds decide. A sample of what the core decided is put to the integers as well, and to CGAL a sample of
+    /// all, and all that took integers wider than the machine's.
+    automatic,
+    integers,  ///< ask_oracle() alone
+    cgal,      ///< ask_cgal() alone
+    both,      ///< the integers, and CGAL besides, in every case
+};
+
+constexpr std::string_view name(OracleChoice o) {
+    constexpr std::array<std::string_view, 4> names{"automatic", "integers", "cgal", "both"};
+    return names[static_cast<std::size_t>(o)];
+}
+
+/// By whom cases were decided, and who was asked besides and said the same. A disagreement is an error of run_audit().
+struct OracleCounts {
+    std::uint64_t core = 0;           ///< cases decided by barycert's own core
+    std::uint64_t integers = 0;       ///< by the integers
+    std::uint64_t wide = 0;           ///< of these, with integers wider than the machine's
+    std::uint64_t cgal = 0;           ///< by CGAL
+    std::uint64_t also_integers = 0;  ///< cases decided by the core and confirmed by the integers
+    std::uint64_t also_cgal = 0;      ///< cases decided by the core or the integers and confirmed by CGAL
+
+    void add(const OracleCounts& other) {
+        core += other.core;
+        integers += other.integers;
+        wide += other.wide;
+        cgal += other.cgal;
+        also_integers += other.also_integers;
+        also_cgal += other.also_cgal;
+    }
+    friend bool operator==(const OracleCounts&, const OracleCounts&) = default;
+};
 
 struct AuditProgress {
     std::uint64_t cases_done = 0;
@@ -32,7 +69,9 @@ struct AuditOptions {
     std::vector<Family> families;
     std::uint64_t count = 10000;  ///< cases per family and simplex
     std::uint64_t seed = 1;
-    int threads = 0;                                     ///< 0: one per core
+    int threads = 0;  ///< 0: one per core
+    OracleChoice oracle = OracleChoice::automatic;
+    OracleAnswer (*cgal)(const Case&) = ask_cgal;        ///< for tests: who is asked as CGAL
     std::function<void(const AuditProgress&)> progress;  ///< called from one thread at a time
 };
 
@@ -59,13 +98,16 @@ struct AuditReport {
     std::vector<std::string> meshes;
     std::vector<Verdict> verdicts;  ///< one per mesh
     std::vector<Family> families;
-    std::uint64_t cases = 0;                 ///< asked of the oracle
+    std::uint64_t cases = 0;  ///< asked of the oracle
+    OracleChoice oracle = OracleChoice::automatic;
+    OracleCounts oracles;                    ///< who decided these cases
     std::array<std::uint64_t, 4> regions{};  ///< number of cases per exact Region
     double seconds = 0;
     std::vector<KernelResult> kernels;  ///< worst first
 };
 
-/// Errors: a floating-point environment in which results cannot be exact; no kernel; no family that applies.
+/// Errors: a floating-point environment in which results cannot be exact; no kernel; no family that applies; two
+/// oracles that disagree, with the case.
 Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& meshes);
 
 /// The witness of the kernel's worst class of finding; null if it has none.

@@ -19,7 +19,8 @@ class Random;
 }
 namespace audit {
 struct PreparedMesh;
-}
+struct Draw;
+}  // namespace audit
 
 /// Meshes whose cells, and the faces and edges of these, become simplices of cases. Copies share the meshes.
 class MeshSource {
@@ -34,6 +35,12 @@ public:
 
 private:
     std::vector<std::shared_ptr<const audit::PreparedMesh>> meshes_;
+};
+
+/// Where in a mesh the simplex of a case comes from.
+struct CaseOrigin {
+    std::string mesh;        ///< its name; empty if the simplex comes from none
+    std::int64_t cell = -1;  ///< the number of its cell in the mesh's file, from 0
 };
 
 /// A recipe for cases; each family tests a particular way in which formulas fail.
@@ -53,7 +60,8 @@ struct Family {
     using Recipe = void (*)(Case& c, base::Random& random, std::uint64_t index);
     Recipe recipe = nullptr;
 
-    using MeshRecipe = void (*)(Case& c, base::Random& random, const MeshSource& meshes);
+    /// Returns the draw that the simplex is.
+    using MeshRecipe = audit::Draw (*)(base::Random& random, const MeshSource& meshes, Simplex s);
     MeshRecipe mesh_recipe = nullptr;
 
     bool applies_to(Simplex s) const;
@@ -64,7 +72,9 @@ const std::vector<Family>& all_families();
 
 std::vector<Family> families_matching(std::string_view glob);
 
-/// The case. Preconditions: family.applies_to(s); family.needs_mesh implies meshes.supplies(s).
-Case make_case(const Family& family, Simplex s, std::uint64_t seed, std::uint64_t index, const MeshSource& meshes);
+/// The case, and if wanted where it comes from. Preconditions: family.applies_to(s); family.needs_mesh implies
+/// meshes.supplies(s).
+Case make_case(const Family& family, Simplex s, std::uint64_t seed, std::uint64_t index, const MeshSource& meshes,
+               CaseOrigin* origin = nullptr);
 
 }  // namespace barycert

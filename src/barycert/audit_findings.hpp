@@ -15,7 +15,12 @@ namespace barycert {
 
 /// Worst first.
 enum class Finding : std::uint8_t {
-    false_certificate,  // per case from here on
+    crashed,  // per case from here on; the first five of kernels that run in a process of their own
+    hung,
+    out_of_bounds,
+    changed_environment,
+    printed,
+    false_certificate,
     false_declaration,
     false_inside,
     false_outside,
@@ -26,7 +31,7 @@ enum class Finding : std::uint8_t {
     not_finite,
 };
 
-inline constexpr std::size_t finding_count = 9;
+inline constexpr std::size_t finding_count = 14;
 
 struct FindingText {
     std::string_view name;
@@ -34,6 +39,11 @@ struct FindingText {
 };
 
 inline constexpr std::array<FindingText, finding_count> finding_texts{{
+    {"crashed", "the kernel's process ended: there is no answer"},
+    {"hung", "the kernel gave no answer within the time limit"},
+    {"out_of_bounds", "the kernel touched memory beside its arrays, or wrote to its input"},
+    {"changed_environment", "the kernel came back with another rounding mode, or with subnormal numbers flushed"},
+    {"printed", "the kernel wrote to stdout or stderr"},
     {"false_certificate", "the kernel certifies its answers, and this one has a finding or is not correctly rounded"},
     {"false_declaration", "the kernel declares a simplex degenerate that is not"},
     {"false_inside", "the point is outside; the kernel says interior or boundary"},
@@ -65,6 +75,9 @@ struct Comparison {
     /// Max |weight - exact weight|, infinite if a weight is not finite or none was given; for a missed degenerate
     /// simplex the max |weight|.
     double weight_error = 0;
+    /// The same relative to 1, or to the largest exact weight where that is more: max |weight - exact weight| / max(1,
+    /// max |exact weight|). Infinite if a weight is not finite or none was given; -1 if the simplex is degenerate.
+    double relative_error = -1;
 
     bool wrong() const {
         for (const auto n : counts) {
@@ -103,6 +116,23 @@ struct WorstCase {
     }
 };
 
+/// How large errors are, of one number a case: Comparison::relative_error.
+struct ErrorSizes {
+    static constexpr std::size_t bins = 23;
+    /// [0]: no error; [k]: 10^(k-19) <= error < 10^(k-18), [1] all smaller ones, [21] all larger ones; [22]: no finite
+    /// answer.
+    std::array<std::uint64_t, bins> counts{};
+    WorstCase worst;  ///< of the finite ones
+
+    void add(double error, std::uint64_t index);  ///< below 0: not counted; infinite: no finite answer
+    void merge(const ErrorSizes& other);
+    std::uint64_t total() const;
+    std::uint64_t unanswered() const { return counts[bins - 1]; }
+    /// The upper edge of the first bin by which at least that share of the cases with a finite answer is reached: 0,
+    /// 1e-17, ..., 100, infinity. -1 if there are no such cases.
+    double within(double share) const;
+};
+
 /// The reasons for a witness: each class of finding, then the error of a weight and of the value in ulps.
 inline constexpr std::size_t witness_reasons = finding_count + 2;
 
@@ -115,10 +145,12 @@ constexpr std::string_view reason_name(std::size_t reason) {
 struct KernelStatistics {
     std::uint64_t cases = 0;
     std::uint64_t wrong_cases = 0;  ///< with at least one finding
+    std::uint64_t not_run = 0;      ///< cases left out, none of the above: the kernel had failed to answer too often
     std::array<std::uint64_t, finding_count> counts{};
     std::array<std::array<std::uint64_t, 4>, 4> confusion{};  ///< [exact region][claimed region]
     LogHistogram weight_ulps;
     LogHistogram value_ulps;
+    ErrorSizes errors;
     WorstCase weight_ulp;
     WorstCase value_ulp;
     WorstCase partition_residual;                      ///< |sum of weights - 1|, exact, rounded once

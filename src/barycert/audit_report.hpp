@@ -6,6 +6,8 @@
 
 #include "barycert/audit.hpp"
 #include "barycert/audit_drift.hpp"
+#include "barycert/audit_gaps.hpp"
+#include "barycert/audit_signs.hpp"
 #include "barycert/audit_texels.hpp"
 #include "barycert/report.hpp"
 
@@ -13,16 +15,32 @@
 
 namespace barycert {
 
-/// The table of kernels, worst first; below it the families; below them each kernel's worst witness with the command
-/// that replays it.
+/// At most 100 columns, names aside: who is wrong, how often and by how much, a line a kernel, worst first. Of one
+/// kernel: its families, its findings and the commands that replay them. With style.wide all counts, the families, each
+/// kernel's worst witness with its command, however wide.
 std::string audit_text(const AuditReport& report, const TerminalStyle& style);
 
-/// One witness: the case, the exact answer, and every kernel's next to it.
-std::string witness_text(const Replay& replay, const TerminalStyle& style);
+/// One witness: the case, the exact answer, and next to it that of the kernel that it names; with `all`, or if it names
+/// none, of all kernels, that one first.
+std::string witness_text(const Replay& replay, const TerminalStyle& style, bool all = true);
 
 /// The catalogue and the families, one paragraph each.
 std::string kernels_text(const std::vector<Kernel>& kernels);
 std::string families_text(const std::vector<Family>& families);
+
+// The audit as one HTML page, for people: to read, to print, to pass on.
+
+/// What a page shows beside the report.
+struct AuditPage {
+    TerminalStyle style = {};             ///< for the commands that replay witnesses
+    std::string command_line = {};        ///< the one that made the page; empty: not told
+    std::vector<SignPicture> signs = {};  ///< see sign_pictures(); empty: no pictures
+};
+
+/// The verdict; the table of kernels; accuracy against speed; pictures of signs; sizes of errors; families; witnesses
+/// with commands; how it was made. UTF-8, self-contained: it asks for nothing from anywhere; a script sorts the table
+/// and copies commands, and without it the page reads the same. Well-formed XML, too. Errors: a picture cannot be made.
+Result<std::string> audit_html(const AuditReport& report, const AuditPage& page);
 
 // Reports as JSON. Every member is documented in SCHEMA.md beside this file.
 
@@ -59,5 +77,11 @@ std::string drift_plot(const DriftReport& report);
 /// A table: a row a rule; below it the witnesses.
 std::string texels_text(const std::vector<TexelResult>& results, const TerminalStyle& style);
 std::string texels_json(const std::vector<TexelResult>& results);
+
+// Gaps and overlaps between the cells of a mesh.
+
+/// A table: a row a kernel and rule; below it the first witnesses of the kernels.
+std::string gaps_text(const GapsReport& report, const TerminalStyle& style);
+std::string gaps_json(const GapsReport& report);
 
 }  // namespace barycert

@@ -21,16 +21,21 @@ struct Witness {
     std::string family;
     std::uint64_t seed = 0;
     std::uint64_t index = 0;
-    double magnitude = 0;  ///< |weight - exact weight|, or ulps
+    double magnitude = 0;    ///< |weight - exact weight|, or ulps
+    std::string mesh;        ///< the mesh that the simplex comes from; empty if it comes from none
+    std::int64_t cell = -1;  ///< its cell, by the number in the mesh's file, from 0; -1 if it comes from none
+    std::string detail;      ///< of crashed, hung, out_of_bounds, changed_environment, printed: what happened, in words
     Case c;
 };
 
 struct KernelAnswer {
     std::string kernel;
-    int status = 0;  ///< 1: declared degenerate
+    bool answered = true;  ///< false: it ended, or took too long
+    int status = 0;        ///< 1: declared degenerate
     std::array<double, 4> weights{};
     Comparison comparison;
     double worst_weight_ulp = -1;
+    std::string detail;  ///< what it did besides answering, in words; empty if nothing
 };
 
 struct Replay {

@@ -1,5 +1,7 @@
-/* The C interface of a user's kernel: build a shared library with these two functions and name it on the command
- * line, `barycert audit --kernel-library FILE`. Both functions must be safe to call from several threads at once. */
+/* The C interface of a user's kernel: build a shared library with the first two functions, and the others if you like,
+ * and name it on the command line, `barycert audit --kernel-library FILE`. All functions must be safe to call from
+ * several threads at once. They are to leave rounding mode and flush-to-zero as they are, and to write nothing to
+ * stdout. */
 #ifndef BARYCERT_KERNEL_H
 #define BARYCERT_KERNEL_H
 
@@ -28,6 +30,23 @@ void barycert_kernel_describe(struct barycert_kernel_info* info);
  * for one a vertex.
  * Returns 0 if the weights are set, 1 if the simplex is declared degenerate. */
 int barycert_kernel_weights(const double* vertices, const double* point, double* weights);
+
+enum barycert_kernel_region {
+    BARYCERT_INTERIOR = 0,
+    BARYCERT_BOUNDARY = 1, /* inside as well */
+    BARYCERT_OUTSIDE = 2,
+    BARYCERT_DEGENERATE = 3 /* also any other number */
+};
+
+/* Optional: where the point lies by the rule of your program, such as w >= -1e-10 for all weights. `weights` are those
+ * that barycert_kernel_weights set for the same arguments; not called if it returned 1. Returns a
+ * barycert_kernel_region. Without it the signs of the weights tell: any < 0 outside, else any = 0 boundary, else
+ * interior; or, with --class-tolerance X, all >= -X interior, else outside. */
+int barycert_kernel_classify(const double* vertices, const double* point, const double* weights);
+
+/* Optional: the interpolated value at the point, of the nodal values, one a vertex. Without it the value is the sum of
+ * weight times nodal value. */
+double barycert_kernel_value(const double* vertices, const double* point, const double* values);
 
 #ifdef __cplusplus
 }

@@ -6,6 +6,7 @@
 /// weights.hpp.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,10 @@
 #include "barycert/simplex.hpp"
 
 namespace barycert {
+
+namespace kernels {
+class Host;
+}
 
 /// Weights of `point` in the simplex at `vertices` (layout of Case: of kernels for perspective, x, y, w a vertex).
 /// Returns 0 if `weights` is set, 1 if the kernel declares the simplex degenerate (then `weights` is unspecified). Same
@@ -28,7 +33,12 @@ using ValueFunction = double (*)(const double* weights, const double* values);
 enum class RegionRule : unsigned char {
     sign,      ///< any < 0 outside; else any = 0 boundary; else interior
     tolerant,  ///< every weight >= -tolerance interior; else outside
+    own,       ///< the kernel's own classification: Kernel::classify
 };
+
+/// The kernel's own classification: the number of a Region (any other counts as degenerate). `weights` are those that
+/// it gave before. Same signature as in barycert/kernel.h.
+using ClassifyFunction = int (*)(const double* vertices, const double* point, const double* weights);
 
 /// The interpolated value straight from the case, for a kernel that does better than to sum up rounded weights.
 using CaseValueFunction = double (*)(const double* vertices, const double* point, const double* values);
@@ -43,10 +53,16 @@ struct Kernel {
     bool declares_degenerate = false;  ///< compares its divisor with 0; the others do not look
     bool certifies = false;  ///< promises exact signs and correctly rounded weights: any finding is then the worst kind
     RegionRule rule = RegionRule::sign;
-    double tolerance = 0;  ///< for RegionRule::tolerant
+    double tolerance = 0;                 ///< for RegionRule::tolerant
+    ClassifyFunction classify = nullptr;  ///< for RegionRule::own
     WeightsFunction weights = nullptr;
     ValueFunction value = nullptr;
     CaseValueFunction interpolate = nullptr;  ///< if set, used instead of `value`; certified with the weights
+    bool core = false;  ///< computes with barycert's own core, which then cannot be the one that judges it
+
+    /// The process of a kernel that runs in one of its own: then the functions above, `value` aside, are null.
+    std::shared_ptr<kernels::Host> host;
+    std::string note;  ///< what was noticed when its library was loaded; may be empty
 };
 
 /// All kernels that run on this machine, grouped by simplex, in a fixed order.
@@ -55,12 +71,18 @@ const std::vector<Kernel>& catalogue();
 /// Those of the catalogue whose name matches the glob.
 std::vector<Kernel> kernels_matching(std::string_view glob);
 
-/// The region that `kernel` claims for a point: degenerate if it declared so or a weight is not finite.
+/// The region that `kernel` claims for a point, by its weights: degenerate if it declared so or a weight is not finite.
+/// Requires a rule other than RegionRule::own.
 Region claimed_region(const Kernel& kernel, int status, std::span<const double> weights);
 
 /// A kernel from a shared library with the functions of barycert/kernel.h. The library stays loaded. Errors: the file
 /// is no whole shared library for this machine, as far as its headers tell, or none with these functions. Its code runs
 /// in this process and is trusted.
 Result<Kernel> load_kernel_library(const std::string& path);
+
+/// The same in a process of its own, so that accidents (a crash, no answer within `seconds`, a write beside its arrays,
+/// a changed floating-point environment, output) become findings of an audit; no protection against malice. The process
+/// ends with the last copy of the Kernel. Forks: call it before there are threads, as far as that can be.
+Result<Kernel> load_contained_kernel(const std::string& path, double seconds = 1);
 
 }  // namespace barycert

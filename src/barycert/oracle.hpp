@@ -39,6 +39,14 @@ struct OracleAnswer {
 /// Precondition: all numbers of the case are finite, and its depths are above zero.
 OracleAnswer ask_oracle(const Case& c);
 
+/// The same by CGAL's kernel of exact predicates and exact constructions (Epeck): orientations for the signs,
+/// constructions for weights, values, projections and rays, rounded by MPFR. It shares nothing with ask_oracle(), and
+/// is slower by an order of magnitude. `narrow` is false.
+OracleAnswer ask_cgal(const Case& c);
+
+/// Equal bit by bit, `narrow` aside; NaN equals NaN.
+bool same_answer(const OracleAnswer& a, const OracleAnswer& b);
+
 namespace exact {
 /// The same by wide integers alone. For tests: both must always agree.
 OracleAnswer ask_wide(const Case& c);

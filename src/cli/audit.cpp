@@ -25,8 +25,10 @@ struct AuditArguments {
     std::uint64_t count = 10000;
     std::uint64_t seed = 1;
     int threads = 0;
-    std::string json, witnesses, plot;
-    bool quiet = false, no_check = false;
+    std::string json, html, witnesses, plot;
+    bool quiet = false, no_check = false, wide = false;
+    OracleChoice oracle = OracleChoice::automatic;
+    std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>();
 };
 
 /// The callback that shows how far the audit is.
@@ -50,9 +52,19 @@ Status check_files(const AuditArguments& a, bool table) {
         }
     }
     for (const std::string& library : a.libraries) inputs.push_back({"--kernel-library", library});
-    std::vector<base::NamedFile> outputs{{"--json", a.json}, {"--witnesses", a.witnesses}, {"--plot", a.plot}};
+    std::vector<base::NamedFile> outputs{
+        {"--json", a.json}, {"--html", a.html}, {"--witnesses", a.witnesses}, {"--plot", a.plot}};
     if (table) outputs.push_back({"the table", "-"});
     return base::check_outputs(inputs, std::move(outputs));
+}
+
+/// The page, with the pictures of signs in the order of the report.
+Status write_page(const AuditReport& report, const AuditArguments& a, const TerminalStyle& style) {
+    std::vector<Kernel> kernels;
+    for (const KernelResult& k : report.kernels) kernels.push_back(k.kernel);
+    const Result<std::string> page =
+        audit_html(report, {.style = style, .command_line = command_line(), .signs = sign_pictures(kernels)});
+    return page ? write_output(a.html, *page) : Status(page.error());
 }
 
 int run_audit(const AuditArguments& a) {
@@ -62,13 +74,14 @@ int run_audit(const AuditArguments& a) {
         if (!rule) return fail(rule.error());
         rules.push_back(*rule);
     }
-    const bool table = !a.quiet && a.json != "-" && a.witnesses != "-" && a.plot != "-";
+    const bool table = !a.quiet && a.json != "-" && a.html != "-" && a.witnesses != "-" && a.plot != "-";
     if (const Status ok = check_files(a, table); !ok) return fail(ok.error());
     AuditOptions options;
     options.count = a.count;
     options.seed = a.seed;
     options.threads = a.threads;
-    const auto kernels = select_kernels(a.kernels, a.libraries);
+    options.oracle = a.oracle;
+    const auto kernels = select_kernels(a.kernels, a.libraries, *a.rules);
     if (!kernels) return fail(kernels.error());
     options.kernels = *kernels;
     const auto families = select_families(a.families);
@@ -91,14 +104,16 @@ int run_audit(const AuditArguments& a) {
     if (!a.json.empty()) written.push_back(write_output(a.json, audit_json(*report)));
     if (!a.witnesses.empty()) written.push_back(write_output(a.witnesses, witnesses_json(*report)));
     if (!a.plot.empty()) written.push_back(write_output(a.plot, condition_plot(*report)));
-    if (table) {
-        const TerminalStyle style{.colour = colour_on_stdout(),
-                                  .command = command_name(),
-                                  .witness_path = a.witnesses.empty() ? a.json : a.witnesses,
-                                  .mesh_arguments = a.meshes,
-                                  .library_arguments = a.libraries};
-        written.push_back(write_output("-", audit_text(*report, style)));
-    }
+    const std::string witnesses = a.witnesses.empty() ? a.json : a.witnesses;
+    const TerminalStyle style{.colour = colour_on_stdout(),
+                              .command = command_name(),
+                              .witness_path = witnesses == "-" ? std::string() : witnesses,
+                              .mesh_arguments = a.meshes,
+                              .library_arguments = a.libraries,
+                              .kernel_arguments = words_of(*a.rules),
+                              .wide = a.wide};
+    if (!a.html.empty()) written.push_back(write_page(*report, a, style));
+    if (table) written.push_back(write_output("-", audit_text(*report, style)));
     for (const Status& status : written) {
         if (!status) return fail(status.error());
     }
@@ -127,6 +142,18 @@ void add_audit(CLI::App& app, int& exit_code) {
     file_option(
         *sub, "--kernel-library", a->libraries,
         "A shared library with a kernel of yours (see barycert/kernel.h); audited alone unless --kernel is given");
+    add_kernel_rules(*sub, a->rules);
+    sub->add_option_function<std::string>(
+           "--oracle",
+           [a](const std::string& word) {
+               a->oracle = word == "integers" ? OracleChoice::integers
+                           : word == "cgal"   ? OracleChoice::cgal
+                                              : OracleChoice::both;
+           },
+           "Who says what is right: exact integers, CGAL's exact kernel (Epeck), or both, who must agree; without it "
+           "integers, or barycert's core where it judges others, and CGAL confirms a sample and the hard cases")
+        ->check(CLI::IsMember({"integers", "cgal", "both"}).description(""))
+        ->type_name("integers|cgal|both");
     sub->add_option("--count", a->count, "Cases per family and simplex")
         ->capture_default_str()
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48))
@@ -140,6 +167,9 @@ void add_audit(CLI::App& app, int& exit_code) {
         ->check(CLI::Range(0, 4096))
         ->type_name("N");
     file_option(*sub, "--json", a->json, "Write the report as JSON; - is stdout and suppresses the table");
+    file_option(*sub, "--html", a->html,
+                "Write the report as an HTML page with pictures, histograms and witnesses; - is stdout and suppresses "
+                "the table");
     file_option(*sub, "--witnesses", a->witnesses, "Write the worst cases as JSON, for `barycert replay`; - is stdout");
     file_option(*sub, "--plot", a->plot,
                 "Plot the errors of the kernels over the condition numbers of the cells, as SVG; - is stdout");
@@ -151,6 +181,7 @@ void add_audit(CLI::App& app, int& exit_code) {
                         names)
         ->type_name("RULE")
         ->allow_extra_args(false);
+    sub->add_flag("--wide", a->wide, "Print all counts, the families and a witness of each kernel: 160 columns");
     sub->add_flag("--no-check", a->no_check, "Do not check whether the meshes are partitions (see `barycert check`)");
     sub->add_flag("--quiet", a->quiet, "Print no table and no progress");
     sub->callback([a, &exit_code] { exit_code = run_audit(*a); });

@@ -91,7 +91,7 @@ Result<MeshSource> load_meshes(const std::vector<std::string>& paths, bool certi
 }
 
 Result<std::vector<Kernel>> select_kernels(const std::vector<std::string>& globs,
-                                           const std::vector<std::string>& libraries) {
+                                           const std::vector<std::string>& libraries, const KernelRules& rules) {
     // With a library named and no glob, only the library's kernels are meant.
     Result<std::vector<Kernel>> chosen = std::vector<Kernel>{};
     if (!globs.empty() || libraries.empty()) {
@@ -100,8 +100,10 @@ Result<std::vector<Kernel>> select_kernels(const std::vector<std::string>& globs
         if (!chosen) return chosen;
     }
     for (const std::string& path : libraries) {
-        Result<Kernel> kernel = load_kernel_library(path);
+        Result<Kernel> kernel =
+            rules.in_process ? load_kernel_library(path) : load_contained_kernel(path, rules.seconds);
         if (!kernel) return kernel.error();
+        if (!kernel->note.empty()) tell("note: " + base::printable(path + ": " + kernel->note) + "\n");
         if (std::any_of(chosen->begin(), chosen->end(), [&](const Kernel& k) { return k.name == kernel->name; })) {
             return Error{.what = "two kernel libraries have the same name",
                          .file = path,
@@ -110,11 +112,42 @@ Result<std::vector<Kernel>> select_kernels(const std::vector<std::string>& globs
         }
         chosen->push_back(std::move(*kernel));
     }
+    for (Kernel& kernel : *chosen) {
+        if (!rules.class_tolerance || kernel.rule != RegionRule::sign || kernel.certifies) continue;
+        kernel.rule = RegionRule::tolerant;
+        kernel.tolerance = *rules.class_tolerance;
+    }
     return chosen;
 }
 
 Result<std::vector<Family>> select_families(const std::vector<std::string>& globs) {
     return select<Family>(globs, families_matching, "family", "`barycert families` lists them; * and ? are wildcards");
+}
+
+void add_kernel_rules(CLI::App& sub, const std::shared_ptr<KernelRules>& rules) {
+    sub.add_option("--class-tolerance", rules->class_tolerance,
+                   "A point is inside if all weights are >= -X, of kernels that neither classify points themselves nor "
+                   "certify; without it, if no weight is below 0")
+        ->check(CLI::NonNegativeNumber.description(""))
+        ->type_name("X");
+    add_containment(sub, rules);
+}
+
+void add_containment(CLI::App& sub, const std::shared_ptr<KernelRules>& rules) {
+    sub.add_option("--time-limit", rules->seconds, "Seconds that a kernel of yours may take for one case")
+        ->capture_default_str()
+        ->check(CLI::Range(0.001, 1e6).description(""))
+        ->type_name("S");
+    sub.add_flag("--in-process", rules->in_process,
+                 "Run kernels of yours in this process: a crash of theirs is then one of the audit's");
+}
+
+std::string words_of(const KernelRules& rules) {
+    std::string words;
+    if (rules.in_process) words += " --in-process";
+    if (rules.seconds != KernelRules{}.seconds) words += " --time-limit " + base::shortest(rules.seconds);
+    if (rules.class_tolerance) words += " --class-tolerance " + base::shortest(*rules.class_tolerance);
+    return words;
 }
 
 CLI::Validator whole_number() {

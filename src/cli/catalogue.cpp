@@ -35,7 +35,7 @@ void add_catalogue(CLI::App& app, int& exit_code) {
     file_option(*kernels, "--kernel-library", k->libraries, "Also list the kernel of this shared library");
     file_option(*kernels, "--json", k->json, "Write the list as JSON; - is stdout");
     kernels->callback([k, &exit_code] {
-        const auto chosen = select_kernels(k->globs, k->libraries);
+        const auto chosen = select_kernels(k->globs, k->libraries, KernelRules{});
         exit_code = chosen ? print(*k, kernels_text(*chosen), kernels_json(*chosen)) : fail(chosen.error());
     });
     const auto f = std::make_shared<ListArguments>();

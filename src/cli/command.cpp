@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "barycert/base/text.hpp"
+#include "barycert/report/common/terminal_text.hpp"
 #include "command.hpp"
 
 namespace barycert::cli {
@@ -30,6 +31,21 @@ void tell_important(const Notes& notes) {
 std::string command_name() {
     const char* wrapper = std::getenv("BARYCERT_COMMAND");
     return wrapper == nullptr || *wrapper == '\0' ? "barycert" : base::printable(wrapper);
+}
+
+namespace {
+std::string& remembered_arguments() {
+    static std::string arguments;
+    return arguments;
+}
+}  // namespace
+
+void remember_command_line(int argc, const char* const* argv) {
+    for (int i = 1; i < argc; ++i) remembered_arguments() += " " + report::shell_word(argv[i]);
+}
+
+std::string command_line() {
+    return command_name() + remembered_arguments();
 }
 
 bool colour_on_stdout() {

@@ -19,6 +19,7 @@ inline constexpr int exit_error = 2;
 
 /// Each adds its subcommand to the app; when it has run, `exit_code` is set.
 void add_audit(CLI::App& app, int& exit_code);
+void add_gaps(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_render(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
@@ -49,6 +50,10 @@ bool colour_on_stdout();
 
 /// How the user calls this program, for commands to repeat: BARYCERT_COMMAND if a wrapper set it, else "barycert".
 std::string command_name();
+
+/// The whole command as a shell takes it: command_name() and the arguments. main() tells it to remember.
+std::string command_line();
+void remember_command_line(int argc, const char* const* argv);
 
 bool stderr_is_terminal();
 

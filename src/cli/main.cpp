@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
     int exit_code = cli::exit_clean;
 #ifdef BARYCERT_WITH_AUDIT
     cli::add_audit(app, exit_code);
+    cli::add_gaps(app, exit_code);
 #endif
     cli::add_check(app, exit_code);
     cli::add_sample(app, exit_code);
@@ -59,6 +60,7 @@ int main(int argc, char** argv) {
                           .remedy = "`barycert --help` lists them"});
     }
     try {
+        cli::remember_command_line(argc, argv);
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         if (app.exit(e) != 0) return cli::exit_error;

@@ -24,6 +24,8 @@ struct ReplayArguments {
     std::vector<std::string> meshes, libraries;
     std::optional<std::uint64_t> index;
     std::uint64_t seed = 1;
+    bool all = false;
+    std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>();
 };
 
 /// The witness that --family and --case describe, made again.
@@ -68,13 +70,16 @@ Result<std::vector<Witness>> made_again(const ReplayArguments& a, const std::vec
     w.family = family.name;
     w.seed = a.seed;
     w.index = *a.index;
-    w.c = make_case(family, *simplex, a.seed, *a.index, meshes);
+    CaseOrigin origin;
+    w.c = make_case(family, *simplex, a.seed, *a.index, meshes, &origin);
+    w.mesh = origin.mesh;
+    w.cell = origin.cell;
     return std::vector<Witness>{w};
 }
 
 int run_replay(const ReplayArguments& a) {
     const Environment environment = measure_environment();
-    Result<std::vector<Kernel>> kernels = select_kernels({"*"}, a.libraries);
+    Result<std::vector<Kernel>> kernels = select_kernels({"*"}, a.libraries, *a.rules);
     if (!kernels) return fail(kernels.error());
     if (a.file.empty() == a.family.empty())
         return fail({.what = a.file.empty() ? "no case to replay" : "a witness file and a case",
@@ -95,7 +100,7 @@ int run_replay(const ReplayArguments& a) {
         if (!a.file.empty() && !a.reason.empty() && !base::glob_match(a.reason, w.reason)) continue;
         const Replay replay = replay_witness(w, *kernels);
         const std::string above = any ? "\n" : environment_line(environment) + "\n\n";
-        const Status written = write_output("-", above + witness_text(replay, style));
+        const Status written = write_output("-", above + witness_text(replay, style, a.all));
         if (!written) return fail(written.error());
         any = true;
         if (!replay.not_reproduced.empty()) {
@@ -114,7 +119,7 @@ int run_replay(const ReplayArguments& a) {
 }  // namespace
 
 void add_replay(CLI::App& app, int& exit_code) {
-    auto* sub = app.add_subcommand("replay", "Show witnesses: the weights of every kernel beside the exact ones");
+    auto* sub = app.add_subcommand("replay", "Show witnesses: a kernel's weights beside the exact ones");
     sub->footer("Exit codes: 0 done; 1 a witness of a file is not reproduced; 2 usage or input error.");
     const auto a = std::make_shared<ReplayArguments>();
     file_option(*sub, "FILE", a->file, "Witnesses from `barycert audit --witnesses FILE`, or its --json report");
@@ -133,6 +138,8 @@ void add_replay(CLI::App& app, int& exit_code) {
                 "Meshes of the case, in the order given to the audit; default: barycert's own")
         ->type_name("MESH");
     file_option(*sub, "--kernel-library", a->libraries, "Also show the kernel of this library");
+    sub->add_flag("--all", a->all, "Show the answers of all kernels, not only of the one in question");
+    add_kernel_rules(*sub, a->rules);
     sub->callback([a, &exit_code] { exit_code = run_replay(*a); });
 }
 

@@ -52,6 +52,23 @@ TEST(Comparison, OppositeSignAndFalseOutside) {
     EXPECT_EQ(r.weight_error, 0.5);
 }
 
+TEST(Comparison, ErrorRelativeToOneOrTheLargestWeight) {
+    EXPECT_EQ(compared(triangle(1, 1), {0.5, 0.25, 0.25}).relative_error, 0);
+    EXPECT_EQ(compared(triangle(1, 1), {0.5, 0.25, 0.375}).relative_error, 0.125);
+    // At (64, 0) the weights are -15, 16, 0.
+    EXPECT_EQ(compared(triangle(64, 0), {-15, 16, 0}).relative_error, 0);
+    EXPECT_EQ(compared(triangle(64, 0), {-15, 20, 0}).relative_error, 0.25);
+    EXPECT_EQ(compared(triangle(64, 0), {-15, 16, 0x1p-1070}).relative_error, 0x1p-1074);
+    EXPECT_GT(compared(triangle(64, 0), {-15, 16, 5e-324}).relative_error, 0);
+    EXPECT_EQ(compared(triangle(1, 1), {0.5, nan, 0.25}).relative_error, infinity);
+    EXPECT_EQ(compared(triangle(1, 1), {0.5, 0.25, 0.25}, 1).relative_error, infinity);
+    constexpr double max = std::numeric_limits<double>::max();
+    EXPECT_EQ(compared(triangle(1, 1), {-max, max, 0.25}).relative_error, max);
+    Case flat = triangle(1, 1);
+    flat.vertices = {0, 0, 1, 1, 2, 2};
+    EXPECT_EQ(compared(flat, {0.5, 0.25, 0.25}).relative_error, -1);
+}
+
 TEST(Comparison, OppositeSignAndFalseInside) {
     const Comparison r = compared(triangle(-1, 1), {1, 0.25, 0.25});
     expect_only(r, {{Finding::opposite_sign, 1}, {Finding::false_inside, 1}});

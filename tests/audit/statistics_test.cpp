@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace barycert::audit {
 namespace {
@@ -44,6 +45,48 @@ TEST(LogHistogram, HugeNumbersShareTheLastBin) {
     LogHistogram h;
     h.add(1e300);
     EXPECT_GE(h.quantile(1), 0x1p127);
+}
+
+TEST(ErrorSizes, DecadesAreExact) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    struct Row {
+        double error;
+        std::size_t bin;
+    };
+    for (const Row& row :
+         {Row{0, 0}, Row{5e-324, 1}, Row{std::nextafter(1e-17, 0), 1}, Row{1e-17, 2}, Row{9.9e-17, 2}, Row{1e-16, 3},
+          Row{0.099, 17}, Row{0.1, 18}, Row{1, 19}, Row{99, 20}, Row{100, 21}, Row{1e300, 21}, Row{infinity, 22}}) {
+        ErrorSizes e;
+        e.add(row.error, 7);
+        EXPECT_EQ(e.counts[row.bin], 1U) << row.error;
+        EXPECT_EQ(e.total(), 1U);
+        EXPECT_EQ(e.unanswered(), row.bin == 22 ? 1U : 0U);
+        EXPECT_EQ(e.worst.value, row.bin == 22 ? -1 : row.error);
+        EXPECT_EQ(e.worst.index, row.bin == 22 ? 0U : 7U);
+    }
+    ErrorSizes none;
+    none.add(-1, 0);
+    EXPECT_EQ(none.total(), 0U);
+    EXPECT_EQ(none.within(0.5), -1);
+}
+
+TEST(ErrorSizes, WithinIsTheEdgeThatTheShareReaches) {
+    ErrorSizes e;
+    for (int i = 0; i < 98; ++i) e.add(0, 0);
+    EXPECT_EQ(e.within(1), 0);
+    e.add(2e-16, 1);
+    e.add(3, 2);
+    EXPECT_EQ(e.within(0.98), 0);
+    EXPECT_EQ(e.within(0.99), 1e-15);
+    EXPECT_EQ(e.within(1), 10);
+    e.add(std::numeric_limits<double>::infinity(), 3);
+    EXPECT_EQ(e.within(1), 10) << "of the cases with an answer";
+    e.add(1000, 3);
+    EXPECT_EQ(e.within(1), std::numeric_limits<double>::infinity());
+    ErrorSizes both = e;
+    both.merge(e);
+    EXPECT_EQ(both.total(), 204U);
+    EXPECT_EQ(both.within(0.98), 1e-15);
 }
 
 TEST(WorstCase, EqualValuesKeepTheFirstCase) {

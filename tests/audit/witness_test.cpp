@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "audit_helpers.hpp"
+#include "barycert/audit/mesh_draws.hpp"
 #include "barycert/audit_report.hpp"
 
 namespace barycert::audit {
@@ -69,6 +70,8 @@ void expect_same(const std::vector<Witness>& read, const AuditReport& report) {
             EXPECT_EQ(read[i].family, w.family);
             EXPECT_EQ(read[i].index, w.index);
             EXPECT_EQ(read[i].seed, w.seed);
+            EXPECT_EQ(read[i].mesh, w.mesh);
+            EXPECT_EQ(read[i].cell, w.cell);
             EXPECT_EQ(read[i].c.simplex, w.c.simplex);
             EXPECT_EQ(read[i].c.perspective, w.c.perspective);
             for (std::size_t x = 0; x < 12; ++x)
@@ -89,6 +92,44 @@ TEST(Witness, FilesKeepEveryBit) {
     const AuditReport report = nasty_audit();
     expect_same(read_witnesses(TemporaryFile(witnesses_json(report)).path()).value(), report);
     expect_same(read_witnesses(TemporaryFile(audit_json(report)).path()).value(), report);
+}
+
+TEST(Witness, OfAMeshNamesMeshAndCell) {
+    int from_meshes = 0, others = 0;
+    for (const KernelResult& k : nasty_audit().kernels) {
+        for (const Witness& w : k.witnesses) {
+            if (!w.family.starts_with("mesh.")) {
+                ++others;
+                EXPECT_EQ(w.cell, -1);
+                EXPECT_EQ(w.mesh, "");
+                continue;
+            }
+            ++from_meshes;
+            const auto& meshes = own_meshes().meshes();
+            const auto from =
+                std::find_if(meshes.begin(), meshes.end(), [&](const auto& m) { return m->name == w.mesh; });
+            ASSERT_NE(from, meshes.end()) << w.mesh;
+            const Mesh& mesh = (*from)->mesh;
+            // Each vertex is a corner of the cell.
+            const int d = space_dimension(w.c.simplex);
+            for (int i = 0; i < vertex_count(w.c.simplex); ++i) {
+                bool found = false;
+                for (std::size_t corner = 0; corner < mesh.corners(); ++corner) {
+                    const auto node = static_cast<std::size_t>(
+                        mesh.cells[static_cast<std::size_t>(w.cell) * mesh.corners() + corner]);
+                    bool same = true;
+                    for (int axis = 0; axis < d; ++axis)
+                        same =
+                            same && mesh.points[node * static_cast<std::size_t>(d) + static_cast<std::size_t>(axis)] ==
+                                        w.c.vertex(i, axis);
+                    found = found || same;
+                }
+                EXPECT_TRUE(found) << w.kernel << ' ' << w.family << ' ' << w.index;
+            }
+        }
+    }
+    EXPECT_GT(from_meshes, 20);
+    EXPECT_GT(others, 20);
 }
 
 // Read from a file, a witness of perspective is shown beside the kernels for such cases, and no others.

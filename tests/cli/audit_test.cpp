@@ -70,7 +70,7 @@ TEST(audit, tells_whether_meshes_are_partitions) {
     };
     EXPECT_EQ(verdicts({folded, mesh("plate")}), Json::array({"not certified", "certified"}));
     EXPECT_EQ(verdicts({mesh("plate"), "--no-check"}), Json::array({"not checked"}));
-    const auto text = run({"audit", folded, mesh("plate"), "--family", "mesh.inside", "--count", "20"}).out;
+    const auto text = run({"audit", folded, mesh("plate"), "--family", "mesh.inside", "--count", "20", "--wide"}).out;
     EXPECT_NE(text.find("meshes, certified to be partitions: " + mesh("plate")), std::string::npos) << text;
     EXPECT_NE(text.find("meshes, NOT certified to be partitions: " + folded), std::string::npos) << text;
 }
@@ -125,7 +125,8 @@ TEST(audit, the_same_seed_gives_the_same_bytes_on_any_number_of_threads) {
 
 TEST(audit, the_table_is_the_report) {
     const Scratch scratch;
-    const Ended r = run({"audit", "--count", "20", "--kernel", "triangle.*", "--json", scratch.path("r.json")});
+    const Ended r =
+        run({"audit", "--wide", "--count", "20", "--kernel", "triangle.*", "--json", scratch.path("r.json")});
     EXPECT_EQ(r.code, 0);
     EXPECT_EQ(r.err, "");
     const Json report = parse(read_file(scratch.path("r.json")));
@@ -139,6 +140,20 @@ TEST(audit, the_table_is_the_report) {
         EXPECT_TRUE(contains(r.out.substr(at, 120), std::to_string(kernel["cases"].get<int>())));
     }
     EXPECT_TRUE(contains(r.out, "seed 1, 20 cases per family and simplex"));
+}
+
+TEST(audit, a_page_that_says_how_it_was_made) {
+    const Scratch scratch;
+    const How there{.environment = {"BARYCERT_COMMAND"}, .folder = scratch.folder()};
+    const Ended r = run({"audit", "--quiet", "--count", "10", "--kernel", "segment.*", "--html", "it's.html"}, there);
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(r.out + r.err, "");
+    const std::string page = read_file(scratch.path("it's.html"));
+    EXPECT_TRUE(page.starts_with("<!DOCTYPE html>\n") && page.ends_with("</body></html>\n"));
+    EXPECT_TRUE(contains(page, "barycert audit --quiet --count 10 --kernel 'segment.*' --html 'it'\\''s.html'</code>"));
+    const Ended out = run({"audit", "--count", "10", "--kernel", "segment.*", "--html", "-"}, there);
+    EXPECT_TRUE(out.out.starts_with("<!DOCTYPE html>\n") && out.out.ends_with("</body></html>\n"));
+    EXPECT_EQ(run({"audit", "--html", "-", "--json", "-"}, there).code, 2);
 }
 
 TEST(audit, quiet_says_nothing_and_writes_all) {

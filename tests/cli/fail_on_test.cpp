@@ -103,7 +103,9 @@ TEST(fail_on, help_lists_these_rules_and_no_others) {
     std::istringstream words(list.substr(0, list.find('\n')));
     std::set<std::string> listed;
     for (std::string word; words >> word;) listed.insert(word);
-    const Words rules = all_rules();
+    Words rules = all_rules();
+    // Of kernels in a process of their own: contained_test.cpp.
+    rules.insert(rules.end(), {"crashed", "hung", "out_of_bounds", "changed_environment", "printed"});
     EXPECT_EQ(listed, std::set<std::string>(rules.begin(), rules.end()));
 }
 

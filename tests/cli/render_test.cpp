@@ -60,7 +60,7 @@ TEST(perspective, is_audited_and_replayed) {
     const Scratch scratch;
     const std::string witnesses = scratch.path("w.json");
     const Ended r = run({"audit", "--kernel", "triangle.perspective-*", "--family", "perspective.*", "--count", "300",
-                         "--witnesses", witnesses});
+                         "--wide", "--witnesses", witnesses});
     ASSERT_EQ(r.code, 0) << r.err;
     EXPECT_TRUE(contains(r.out, "triangle.perspective-exact: no witness")) << r.out;
     const Ended replay = run({"replay", witnesses});

@@ -1,5 +1,6 @@
 // Witnesses: written, shown, reproduced; and the commands printed under the table do what they say.
 
+#include <algorithm>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -49,20 +50,22 @@ void expect_commands_work(const std::string& table, std::size_t at_least, const 
 TEST(replay, printed_commands_by_witness_file) {
     const Scratch scratch;
     const How there{.folder = scratch.folder()};
-    const Ended r = run({"audit", "--count", "30", "--witnesses", "it's the worst.json", "--json", "r.json"}, there);
+    const Ended r =
+        run({"audit", "--wide", "--count", "30", "--witnesses", "it's the worst.json", "--json", "r.json"}, there);
     ASSERT_EQ(r.code, 0) << r.err;
     expect_commands_work(r.out, 40, there);
-    const Ended by_report = run({"audit", "--count", "30", "--kernel", "triangle.*", "--json", "r.json"}, there);
+    const Ended by_report =
+        run({"audit", "--wide", "--count", "30", "--kernel", "triangle.*", "--json", "r.json"}, there);
     expect_commands_work(by_report.out, 10, there);
 }
 
 TEST(replay, printed_commands_by_family_and_case) {
     const Ended built =
-        run({"audit", "--count", "30", "--seed", "77", "--kernel", "*.inverse", "--kernel", "segment.*"});
+        run({"audit", "--wide", "--count", "30", "--seed", "77", "--kernel", "*.inverse", "--kernel", "segment.*"});
     expect_commands_work(built.out, 6, {});
     EXPECT_TRUE(contains(built.out, "--seed 77"));
     // Cases of barycert's own meshes, then of the user's, in a folder whose name wants quoting.
-    expect_commands_work(run({"audit", "--count", "60", "--family", "mesh.*.ulp"}).out, 40, {});
+    expect_commands_work(run({"audit", "--wide", "--count", "60", "--family", "mesh.*.ulp"}).out, 40, {});
     const Scratch scratch;
     const How there{.folder = scratch.folder()};
     fs::create_directory(scratch.path("my $mesh"));
@@ -70,7 +73,8 @@ TEST(replay, printed_commands_by_family_and_case) {
         const auto from = fs::path(mesh("bracket")).replace_extension(ending);
         fs::copy_file(from, scratch.path(std::string("my $mesh/it's") + ending));
     }
-    const Ended own = run({"audit", "my $mesh/it's.node", mesh("plate"), "--count", "60", "--family", "mesh.*"}, there);
+    const Ended own =
+        run({"audit", "my $mesh/it's.node", mesh("plate"), "--count", "60", "--family", "mesh.*", "--wide"}, there);
     ASSERT_EQ(own.code, 0) << own.err;
     EXPECT_TRUE(contains(own.out, "--mesh 'my $mesh/it'\\''s.node' --mesh " + mesh("plate")));
     expect_commands_work(own.out, 40, there);
@@ -79,11 +83,32 @@ TEST(replay, printed_commands_by_family_and_case) {
 TEST(replay, printed_commands_name_the_users_kernel_library) {
     const Scratch scratch;
     const How there{.folder = scratch.folder()};
-    const Words audit{"audit", "--count", "10", "--kernel-library", BARYCERT_SWAPPED_KERNEL};
+    const Words audit{"audit", "--wide", "--count", "10", "--kernel-library", BARYCERT_SWAPPED_KERNEL};
     expect_commands_work(run(audit, there).out, 1, there);
     Words with_file = audit;
     with_file.insert(with_file.end(), {"--witnesses", "w.json"});
     expect_commands_work(run(with_file, there).out, 1, there);
+}
+
+TEST(replay, the_kernel_in_question_first_and_the_others_with_all) {
+    const Words case_of{"replay", "--kernel", "tetrahedron.kahan", "--family", "lattice.tenths", "--case", "360"};
+    const std::string alone = run(case_of).out;
+    EXPECT_TRUE(contains(alone, "= exact, correctly rounded"));
+    EXPECT_TRUE(contains(alone, "> tetrahedron.kahan "));
+    EXPECT_FALSE(contains(alone, "tetrahedron.cramer"));
+    EXPECT_TRUE(contains(alone, " other kernels: --all"));
+    Words with_all = case_of;
+    with_all.emplace_back("--all");
+    const std::string all = run(with_all).out;
+    EXPECT_TRUE(contains(all, "tetrahedron.cramer"));
+    EXPECT_FALSE(contains(all, "--all"));
+    const Words lines = lines_of(all);
+    const auto exact = std::find_if(lines.begin(), lines.end(), [](const auto& l) { return l.starts_with("= exact"); });
+    ASSERT_NE(exact, lines.end());
+    EXPECT_TRUE((exact + 1)->starts_with("> tetrahedron.kahan "));
+    // Without a kernel in question all are shown.
+    EXPECT_TRUE(contains(run({"replay", "--family", "lattice.tenths", "--case", "360", "--simplex", "tetrahedron"}).out,
+                         "tetrahedron.cramer"));
 }
 
 class Witnesses : public ::testing::Test {

@@ -24,7 +24,7 @@ document=$1 sources=$2 programs=$3 examples=$4 folder=$5
 
 not_run() {
     case $1 in
-        "./run test"* | "./run bench"* | "./run asan"* | "./run lint"*) why="takes minutes" ;;
+        "./run test"* | "./run bench"* | "./run asan"* | "./run pages"* | "./run lint"*) why="takes minutes" ;;
         "./run findings"* | "./run systems"* | "./run libraries"*) why="needs other systems" ;;
         "sudo "* | "apt-get "*) why="installs packages" ;;
         "cmake "* | "git clone "* | "cd "*) why="builds; tests/install does that" ;;
@@ -51,7 +51,7 @@ export BARYCERT_COMMAND
 command=\$1
 shift
 case \$command:\${1-} in
-    audit:) exec "$programs/barycert" audit --json audit.json --witnesses witnesses.json ;;
+    audit:) exec "$programs/barycert" audit --html audit.html --json audit.json --witnesses witnesses.json ;;
     audit:*) exec "$programs/barycert" audit "\$@" ;;
     barycert:mesh) shift; exec "$programs/barycert-tetgen" "\$@" ;;
     barycert:*) exec "$programs/barycert" "\$@" ;;

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "barycert/audit.hpp"
+#include "barycert/audit_gaps.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/base/random.hpp"
 #include "barycert/base/text.hpp"
@@ -544,6 +545,13 @@ TEST(EveryEnvironment, Audit) {
         for (KernelResult& k : report->kernels) k.ns = 0;
         out.add(std::string_view(audit_json(*report)));
         out.add(std::string_view(audit_text(*report, {})));
+        out.add(std::string_view(audit_text(*report, {.wide = true})));
+        const auto signs = sign_pictures(kernels_matching("*.signed-*"));
+        for (const SignPicture& p : signs) out.add(static_cast<double>(p.wrong));
+        out.add(std::string_view(audit_html(*report, {.signs = signs}).value()));
+        ErrorSizes sizes;
+        for (const double error : {0.0, 5e-324, 0.1, 1e300}) sizes.add(error, 0);
+        for (const double share : {0.25, 0.5, 0.99}) out.add(sizes.within(share));
         out.add(std::string_view(condition_plot(*report)));
         folder.put("witnesses.json", witnesses_json(*report));
         const auto witnesses = read_witnesses(folder.path("witnesses.json"));
@@ -553,11 +561,24 @@ TEST(EveryEnvironment, Audit) {
             out.add(std::string_view(again.not_reproduced));
             out.add(std::string_view(witness_text(again, {})));
             out.add(partition_residual(again.exact.weights));
+            const OracleAnswer by_cgal = ask_cgal((*witnesses)[i].c);
+            out.add(by_cgal.value);
+            out.add(same_answer(by_cgal, again.exact));
         }
         for (std::uint64_t i = 0; i < 20; ++i) {
             const Case c = make_case(options.families[i % options.families.size()], Simplex::triangle, 3, i, meshes);
             for (const double x : c.vertices) out.add(x);
         }
+        GapsOptions gaps;
+        gaps.kernels = kernels;
+        gaps.count = 30;
+        gaps.threads = 2;
+        auto found = find_gaps(gaps, plain.mesh, "plain", Verdict::not_checked);
+        out.add(found.has_value());
+        if (!found) return;
+        found->seconds = 0;
+        out.add(std::string_view(gaps_json(*found)));
+        out.add(std::string_view(gaps_text(*found, {})));
     });
 }
 

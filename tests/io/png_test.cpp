@@ -16,6 +16,7 @@
 #include "barycert/base/random.hpp"
 #include "barycert/io/png/colour_bar.hpp"
 #include "barycert/io/png/colour_map.hpp"
+#include "barycert/io/png/indexed_png.hpp"
 #include "barycert/picture.hpp"
 #include "io/tetgen/mesh_files.hpp"
 
@@ -350,6 +351,30 @@ TEST(Png, numbers_at_the_bar) {
     for (std::size_t r = 11; r < 25; ++r) EXPECT_EQ(one[r].find('#'), std::string::npos);
 }
 
+TEST(Png, round_numbers_between_the_ends_of_the_bar) {
+    // The rows of marks beside the bar, and the numbers there: -1.5 to 10 over 192 pixels.
+    const auto marks = [](double low, double high, std::size_t height) {
+        std::vector<std::size_t> rows;
+        const std::vector<std::string> all = panel(low, high, height);
+        for (std::size_t r = 0; r < height; ++r) {
+            if (all[r].substr(14, 3) == "## ") rows.push_back(r);
+        }
+        return rows;
+    };
+    // 0 and 5: steps of 5 are the least that are 40 pixels apart; 10 is an end.
+    const auto row_of = [](double value) {
+        return 4 + static_cast<std::size_t>(std::lround(191 * (10 - value) / 11.5));
+    };
+    EXPECT_EQ(marks(-1.5, 10, 200), (std::vector<std::size_t>{row_of(5), row_of(0)}));
+    EXPECT_EQ(marks(-1.5, 10, 25), std::vector<std::size_t>{});
+    EXPECT_EQ(marks(3, 3, 200), std::vector<std::size_t>{});
+    for (const auto& [low, high] : std::vector<std::pair<double, double>>{
+             {-1.7e308, 1.7e308}, {0, 5e-324}, {1e15, 1e15 + 1}, {1, std::nextafter(1, 2)}, {-1e-300, 1e300}}) {
+        const std::vector<std::string> all = panel(low, high, 240);
+        for (const std::string& row : all) EXPECT_EQ(row.size(), all[0].size());
+    }
+}
+
 TEST(Png, errors) {
     const TemporaryFolder folder;
     const std::vector<double> values(6);
@@ -420,6 +445,26 @@ TEST(Png, a_full_disk_leaves_the_target) {
     EXPECT_EQ(failures.size(), asked);
     EXPECT_EQ(testing::get(folder / "s.png"), "old");
     EXPECT_EQ(folder.file_count(), 1U);
+}
+
+TEST(indexed_png, every_pixel_is_its_colour) {
+    const std::vector<Colour> colours{{1, 2, 3}, {255, 255, 255}, {0, 114, 178}, {32, 32, 32}};
+    for (const std::size_t width : {1U, 3U, 16U}) {
+        std::vector<std::uint8_t> pixels;
+        for (std::size_t i = 0; i < 5 * width; ++i) pixels.push_back(static_cast<std::uint8_t>(i * i % 4));
+        const std::string bytes = indexed_png(width, pixels, colours).value();
+        png_image image{};
+        image.version = PNG_IMAGE_VERSION;
+        ASSERT_NE(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()), 0) << image.message;
+        EXPECT_EQ(image.width, width);
+        EXPECT_EQ(image.height, 5U);
+        image.format = PNG_FORMAT_RGB;
+        std::vector<std::uint8_t> read(PNG_IMAGE_SIZE(image));
+        ASSERT_NE(png_image_finish_read(&image, nullptr, read.data(), 0, nullptr), 0) << image.message;
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(read[3 * i + k], colours[pixels[i]][k]);
+        }
+    }
 }
 
 }  // namespace

@@ -12,10 +12,11 @@
 #include "barycert/report.hpp"
 #include "barycert/report/check/check_html_cells.hpp"
 #include "barycert/report/check/check_html_histogram.hpp"
-#include "barycert/report/check/check_html_picture.hpp"
 #include "barycert/report/check/check_html_view.hpp"
 #include "barycert/report/common/html_text.hpp"
+#include "barycert/report/common/picture.hpp"
 #include "check_meshes.hpp"
+#include "well_formed.hpp"
 
 namespace barycert::report_test {
 namespace {
@@ -28,52 +29,10 @@ using Kind = BinRule::Kind;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-bool has(const std::string& text, std::string_view part) {
-    return text.find(part) != std::string::npos;
-}
-
 std::size_t count(const std::string& text, std::string_view part) {
     std::size_t n = 0;
     for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
     return n;
-}
-
-/// Tags balance, attributes are quoted, nothing is bare that needs escaping; the page asks for nothing from elsewhere.
-void expect_well_formed(const std::string& page) {
-    ASSERT_TRUE(page.starts_with("<!DOCTYPE html>\n"));
-    static const std::regex tag("^(/?)([a-z][a-z0-9]*)((?: [A-Za-z-]+=\"[^\"<]*\")*)(/?)$", std::regex::ECMAScript);
-    std::vector<std::string> open;
-    for (std::size_t at = page.find('\n') + 1; at < page.size();) {
-        const std::size_t start = page.find('<', at);
-        for (std::size_t i = at; i < std::min(start, page.size()); ++i) {
-            if (page[i] == '&') {
-                const std::string entity = page.substr(i, page.find(';', i) + 1 - i);
-                ASSERT_TRUE(entity == "&amp;" || entity == "&lt;" || entity == "&gt;" || entity == "&quot;") << entity;
-            }
-        }
-        if (start == std::string::npos) break;
-        const std::size_t end = page.find('>', start);
-        ASSERT_NE(end, std::string::npos);
-        const std::string inside = page.substr(start + 1, end - start - 1);
-        at = end + 1;
-        // A path of many marks is too long for the standard library's regular expressions.
-        std::smatch m;
-        const std::string head = inside.size() < 400 ? inside : inside.substr(0, inside.find(" d=")) + "/";
-        ASSERT_TRUE(std::regex_match(head, m, tag)) << inside.substr(0, 200);
-        if (m[1] == "/") {
-            ASSERT_FALSE(open.empty());
-            ASSERT_EQ(open.back(), m[2]) << page.substr(start > 200 ? start - 200 : 0, 220);
-            open.pop_back();
-        } else if (m[4] != "/") {
-            open.push_back(m[2]);
-        }
-    }
-    EXPECT_TRUE(open.empty());
-    for (const char* alien : {"<script", "href", "src=", "url(", "@import"}) EXPECT_FALSE(has(page, alien)) << alien;
-    // Numbers that no drawing can have.
-    EXPECT_FALSE(std::regex_search(page, std::regex("(x|y|r|width|height|cx|cy)=\"-?(nan|inf)")));
-    EXPECT_FALSE(has(page, "Mnan") || has(page, "Minf") || has(page, "M-nan") || has(page, "M-inf"));
-    EXPECT_FALSE(has(page, " nan") || has(page, "Lnan"));
 }
 
 /// Of each histogram: bars and what is counted apart, together.
@@ -223,7 +182,7 @@ TEST(CheckHtml, GoodMeshes) {
         const std::string page = page_of(mesh, name);
         EXPECT_TRUE(has(page, "<b>Certified</b>"));
         EXPECT_FALSE(has(page, "Cells with defects"));
-        EXPECT_EQ(count(page, "<figure class=\"half card\">"), 6U);
+        EXPECT_EQ(count(page, "<figure class=\"card\">"), 6U);
         EXPECT_FALSE(has(page, "violations</th></tr>\n</table>"));
         EXPECT_EQ(page.find(mesh.dimension == 2 ? "tetrahedr" : "triangles</span>"), std::string::npos);
     }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <regex>
 #include <set>
 #include <string>
@@ -169,6 +170,22 @@ TEST(DriftPlot, OfManyOrNoneStaysReadable) {
     EXPECT_GT(report.curves.size(), 6U);
     expect_readable(drift_plot(report));
     expect_readable(drift_plot({}));
+}
+
+TEST(Plot, AxesFitTheData) {
+    AuditReport report = only("tetrahedron.signed-volume");
+    ASSERT_EQ(report.kernels.size(), 1U);
+    report.kernels[0].prediction = Prediction();
+    for (int bits = 20; bits < 30; ++bits)
+        report.kernels[0].prediction.add(std::ldexp(1.5, bits), std::ldexp(1, bits - 60));
+    const std::string svg = condition_plot(report);
+    expect_readable(svg);
+    // From 20 bits at the left to 30 at the right.
+    EXPECT_TRUE(std::regex_search(svg, std::regex("<text x=\"70\\.0\" y=\"520\\.0\"[^>]*>20</text>")));
+    EXPECT_TRUE(std::regex_search(svg, std::regex("<text x=\"710\\.0\" y=\"520\\.0\"[^>]*>30</text>")));
+    // Upwards no farther than the errors, 22 bits.
+    for (const char* far : {">40</text>", ">50</text>", "error of 1<"})
+        EXPECT_EQ(svg.find(far), std::string::npos) << far;
 }
 
 TEST(Plot, WithNothingToShowSaysSo) {

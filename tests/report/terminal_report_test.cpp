@@ -1,6 +1,7 @@
 // The terminal's report: order, columns, commands.
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -12,8 +13,14 @@
 namespace barycert::report_test {
 namespace {
 
-std::string text_of(const TerminalStyle& style = {}) {
+std::string text_of(TerminalStyle style = {}) {
+    style.wide = true;
     return audit_text(audited(), style);
+}
+
+/// Without --wide.
+std::string narrow(const AuditReport& report, const TerminalStyle& style = {}) {
+    return audit_text(report, style);
 }
 
 double wrong_share(const KernelResult& k) {
@@ -51,6 +58,72 @@ TEST(terminal_report, columns_stand_under_each_other) {
         rows += end == head ? 1U : 0U;
     }
     EXPECT_EQ(rows, audited().kernels.size());
+}
+
+/// Columns that a terminal shows.
+std::size_t columns(const std::string& line) {
+    return static_cast<std::size_t>(std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+TEST(terminal_report, fits_a_terminal) {
+    AuditReport one = audited();
+    for (const char* kernel : {"", "tetrahedron.cramer", "tetrahedron.silent", "triangle.exact"}) {
+        one = audited();
+        if (*kernel != 0) std::erase_if(one.kernels, [&](const KernelResult& k) { return k.kernel.name != kernel; });
+        for (const std::string& line : lines_of(narrow(one))) {
+            if (contains(line, "barycert replay ")) continue;
+            EXPECT_LE(columns(line), 100U) << line;
+        }
+    }
+}
+
+TEST(terminal_report, one_line_a_kernel_with_its_figures) {
+    const std::string text = narrow(audited());
+    const auto lines = lines_of(text);
+    for (const KernelResult& k : audited().kernels) {
+        const auto row = std::find_if(lines.begin(), lines.end(),
+                                      [&](const std::string& line) { return line.starts_with(k.kernel.name + " "); });
+        ASSERT_NE(row, lines.end()) << k.kernel.name;
+        std::istringstream in(*row);
+        std::string name, wrong, out, outside, none, usual, worst, ulps, ns, more;
+        in >> name >> wrong >> out >> outside >> none >> usual >> worst >> ulps >> ns >> more;
+        EXPECT_NE(ns, "") << *row;
+        EXPECT_EQ(more, "") << *row;
+        EXPECT_EQ(wrong == "0", k.total.wrong_cases == 0) << *row;
+        EXPECT_EQ(wrong == "100", k.total.wrong_cases == k.total.cases) << *row;
+        const auto count = [&](Finding f) { return k.total.counts[static_cast<std::size_t>(f)]; };
+        EXPECT_EQ(out == "0", count(Finding::false_outside) == 0) << *row;
+        EXPECT_EQ(outside == "0", count(Finding::false_inside) == 0) << *row;
+        EXPECT_EQ(usual == "-", k.total.errors.worst.value < 0) << *row;
+        EXPECT_EQ(none == "0", k.total.errors.unanswered() == 0) << *row;
+        EXPECT_EQ(none == "100", k.total.errors.unanswered() == k.total.errors.total()) << *row;
+    }
+    EXPECT_TRUE(contains(text, " kernels give wrong answers\n"));
+    EXPECT_TRUE(contains(text, "Certified and wrong all the same: tetrahedron.stubborn."));
+    EXPECT_TRUE(contains(text, "barycert replay --kernel tetrahedron.stubborn "));
+}
+
+TEST(terminal_report, one_kernel_family_by_family) {
+    AuditReport one = audited();
+    std::erase_if(one.kernels, [](const KernelResult& k) { return k.kernel.name != "tetrahedron.cramer"; });
+    const std::string text = narrow(one);
+    const KernelResult& k = one.kernels.front();
+    EXPECT_TRUE(contains(text, "tetrahedron.cramer is wrong in ")) << text;
+    std::size_t rows = 0;
+    for (const std::string& line : lines_of(text)) {
+        for (const FamilyResult& f : k.families) {
+            if (!line.starts_with(one.families[f.family].name + " ")) continue;
+            ++rows;
+            std::istringstream in(line);
+            std::string name, cases, wrong;
+            in >> name >> cases >> wrong;
+            EXPECT_EQ(cases, "30");
+            EXPECT_EQ(wrong == "0", f.statistics.wrong_cases == 0) << line;
+        }
+    }
+    EXPECT_EQ(rows, k.families.size());
+    for (const Witness& w : k.witnesses) EXPECT_TRUE(contains(text, "\n" + w.reason)) << w.reason;
+    EXPECT_FALSE(contains(text_of(), "\nformula"));
 }
 
 TEST(terminal_report, every_family_and_simplex_has_a_row_with_its_worst_kernel) {

@@ -1,9 +1,12 @@
 /// One block of cases: make, ask, run each kernel against the clock, compare.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "barycert/audit/judge.hpp"
 #include "barycert/audit_families.hpp"
 #include "barycert/audit_findings.hpp"
 #include "barycert/kernels.hpp"
@@ -21,8 +24,33 @@ struct BlockResult {
     static constexpr std::size_t kept_times = 1024;
 };
 
-/// Adds cases [first, last) to `results`, one entry a kernel. Precondition: last - first <= block_size.
-void run_block(const Family& family, Simplex simplex, std::uint64_t seed, std::uint64_t first, std::uint64_t last,
-               const MeshSource& meshes, const std::vector<Kernel>& kernels, std::vector<BlockResult>& results);
+/// The cases that all kernels of a job meet.
+struct Job {
+    const Family& family;
+    Simplex simplex;
+    std::uint64_t seed;
+    const MeshSource& meshes;
+    const std::vector<Kernel>& kernels;
+    Judge judge;
+};
+
+/// Two oracles that disagree, and in which case.
+struct Quarrel {
+    std::uint64_t index = 0;
+    Disagreement disagreement;
+};
+
+/// What one thread has learnt in one job.
+struct JobResult {
+    explicit JobResult(std::size_t kernels) : kernels(kernels) {}
+
+    std::vector<BlockResult> kernels;
+    std::array<std::uint64_t, 4> regions{};  ///< cases by exact region
+    OracleCounts oracles;
+    std::optional<Quarrel> quarrel;  ///< the first
+};
+
+/// Adds cases [first, last). After a quarrel the kernels are not asked. Precondition: last - first <= block_size.
+void run_block(const Job& job, std::uint64_t first, std::uint64_t last, JobResult& result);
 
 }  // namespace barycert::audit

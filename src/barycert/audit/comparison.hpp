@@ -1,10 +1,9 @@
 /// One kernel's answer compared with the oracle's, and the cases of which the condition number predicts the error.
 #pragma once
 
-#include <array>
-#include <limits>
 #include <span>
 
+#include "barycert/audit/asking.hpp"
 #include "barycert/audit_findings.hpp"
 #include "barycert/kernels.hpp"
 #include "barycert/oracle.hpp"
@@ -12,17 +11,13 @@
 
 namespace barycert::audit {
 
-/// What to hand to a kernel: weights that are not an answer.
-inline constexpr std::array<double, 4> unset_weights = [] {
-    std::array<double, 4> w{};
-    w.fill(std::numeric_limits<double>::quiet_NaN());
-    return w;
-}();
-
 /// There is no measure in ulps where the exact number is zero (a wrong weight is then a false_nonzero), where either
 /// is not finite, or where the simplex is degenerate. An exact weight beyond the largest double is measured from there.
 /// `claimed` is always what the kernel's weights say; but a kernel whose weights are all correctly rounded has no
 /// finding, even where they under- or overflow and so no longer tell the region.
+Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answer, const Statement& statement);
+
+/// The same of weights alone: region and value are those that the kernel's functions make of them.
 Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answer, int status,
                    std::span<const double> weights);
 

@@ -1,11 +1,10 @@
 #include "barycert/audit_drift.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cfenv>
 #include <cmath>
+#include <span>
 
-#include "barycert/audit/comparison.hpp"
+#include "barycert/audit/asking.hpp"
 #include "barycert/audit/recipes.hpp"
 #include "barycert/base/random.hpp"
 #include "barycert/base/ulp.hpp"
@@ -26,20 +25,11 @@ double twice_area(const Case& c) {
                      (c.vertex(1, 1) - c.vertex(0, 1)) * (c.vertex(2, 0) - c.vertex(0, 0)));
 }
 
-/// The kernel's value, with the floating-point environment as it was before.
+/// The kernel's value; NaN if it gives none.
 double value_of(const Kernel& k, const Case& c) {
-    std::fenv_t before;
-    std::fegetenv(&before);
-    double value = 0;
-    if (k.interpolate != nullptr) {
-        value = k.interpolate(c.vertices.data(), c.point.data(), c.values.data());
-    } else {
-        std::array<double, 4> w = unset_weights;
-        const int status = k.weights(c.vertices.data(), c.point.data(), w.data());
-        value = status == 0 ? k.value(w.data(), c.values.data()) : unset_weights[0];
-    }
-    std::fesetenv(&before);
-    return value;
+    Statement s;
+    ask_kernel(k, std::span(&c, 1), std::span(&s, 1), false);
+    return s.value;
 }
 
 void add(DriftPoint& point, double value, double exact, std::uint64_t index) {

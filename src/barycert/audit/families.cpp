@@ -1,3 +1,4 @@
+#include "barycert/audit/mesh_draws.hpp"
 #include "barycert/audit/recipes.hpp"
 #include "barycert/audit_families.hpp"
 #include "barycert/base/random.hpp"
@@ -34,7 +35,8 @@ std::vector<Family> families_matching(std::string_view glob) {
     return matching;
 }
 
-Case make_case(const Family& family, Simplex s, std::uint64_t seed, std::uint64_t index, const MeshSource& meshes) {
+Case make_case(const Family& family, Simplex s, std::uint64_t seed, std::uint64_t index, const MeshSource& meshes,
+               CaseOrigin* origin) {
     const ExactEnvironment environment;
     const std::uint64_t stream = base::hash64(family.name) + static_cast<std::uint64_t>(s);
     base::Random random = base::Random::stream(seed, stream, index);
@@ -42,7 +44,9 @@ Case make_case(const Family& family, Simplex s, std::uint64_t seed, std::uint64_
     c.simplex = s;
     c.perspective = family.perspective;
     if (family.needs_mesh) {
-        family.mesh_recipe(c, random, meshes);
+        const Draw draw = family.mesh_recipe(random, meshes, s);
+        c = draw.simplex;
+        if (origin != nullptr) *origin = {draw.from->name, draw.from->mesh.cell_number(draw.cell)};
     } else {
         family.recipe(c, random, index);
     }

@@ -19,83 +19,89 @@ void shuffle_vertices(Draw& draw, base::Random& random) {
     draw = draw_of_nodes(*draw.from, draw.cell, draw.nodes, draw.simplex.simplex, random);
 }
 
-Draw shuffled(const Case& c, base::Random& random, const MeshSource& meshes) {
-    Draw draw = draw_any(meshes, c.simplex, random);
+Draw shuffled(base::Random& random, const MeshSource& meshes, Simplex s) {
+    Draw draw = draw_any(meshes, s, random);
     shuffle_vertices(draw, random);
     return draw;
 }
 
-void nudge(Case& c, base::Random& random) {
+Draw nudged(Draw draw, base::Random& random) {
+    Case& c = draw.simplex;
     const auto axis = static_cast<std::size_t>(random.below(static_cast<std::uint64_t>(space_dimension(c.simplex))));
     move_by_ulp(c, c.point[axis], static_cast<int>(axis), random);
+    return draw;
 }
 
-void inside(Case& c, base::Random& random, const MeshSource& meshes) {
-    c = draw_any(meshes, c.simplex, random).simplex;
-    c.point = random_point(c, random, vertex_count(c.simplex));
+Draw inside(base::Random& random, const MeshSource& meshes, Simplex s) {
+    Draw draw = draw_any(meshes, s, random);
+    draw.simplex.point = random_point(draw.simplex, random, vertex_count(s));
+    return draw;
 }
 
-void centroids(Case& c, base::Random& random, const MeshSource& meshes) {
-    c = draw_any(meshes, c.simplex, random).simplex;
-    const int n = vertex_count(c.simplex);
-    c.point = combination(c, {1, 1, 1, 1}, n);
-    for (double& x : c.point) x /= n;
+Draw centroids(base::Random& random, const MeshSource& meshes, Simplex s) {
+    Draw draw = draw_any(meshes, s, random);
+    const int n = vertex_count(s);
+    draw.simplex.point = combination(draw.simplex, {1, 1, 1, 1}, n);
+    for (double& x : draw.simplex.point) x /= n;
+    return draw;
 }
 
-void facets(Case& c, base::Random& random, const MeshSource& meshes) {
-    c = shuffled(c, random, meshes).simplex;
-    c.point = random_point(c, random, vertex_count(c.simplex) - 1);
+Draw facets(base::Random& random, const MeshSource& meshes, Simplex s) {
+    Draw draw = shuffled(random, meshes, s);
+    draw.simplex.point = random_point(draw.simplex, random, vertex_count(s) - 1);
+    return draw;
 }
 
-void edges(Case& c, base::Random& random, const MeshSource& meshes) {
-    c = shuffled(c, random, meshes).simplex;
-    c.point = random_point(c, random, 2);
+Draw edges(base::Random& random, const MeshSource& meshes, Simplex s) {
+    Draw draw = shuffled(random, meshes, s);
+    draw.simplex.point = random_point(draw.simplex, random, 2);
+    return draw;
 }
 
-void vertices(Case& c, base::Random& random, const MeshSource& meshes) {
-    c = shuffled(c, random, meshes).simplex;
-    c.point = combination(c, {1, 0, 0, 0}, 1);
+Draw vertices(base::Random& random, const MeshSource& meshes, Simplex s) {
+    Draw draw = shuffled(random, meshes, s);
+    draw.simplex.point = combination(draw.simplex, {1, 0, 0, 0}, 1);
+    return draw;
 }
 
-void facets_nudged(Case& c, base::Random& random, const MeshSource& meshes) {
-    facets(c, random, meshes);
-    nudge(c, random);
+Draw facets_nudged(base::Random& random, const MeshSource& meshes, Simplex s) {
+    return nudged(facets(random, meshes, s), random);
 }
 
-void edges_nudged(Case& c, base::Random& random, const MeshSource& meshes) {
-    edges(c, random, meshes);
-    nudge(c, random);
+Draw edges_nudged(base::Random& random, const MeshSource& meshes, Simplex s) {
+    return nudged(edges(random, meshes, s), random);
 }
 
-void vertices_nudged(Case& c, base::Random& random, const MeshSource& meshes) {
-    vertices(c, random, meshes);
-    nudge(c, random);
+Draw vertices_nudged(base::Random& random, const MeshSource& meshes, Simplex s) {
+    return nudged(vertices(random, meshes, s), random);
 }
 
 // From a point of the hull's facet outwards, away from the vertex that the facet leaves out.
-void hull_near(Case& c, base::Random& random, const MeshSource& meshes) {
-    c = draw_at_hull(meshes, c.simplex, random).simplex;
-    const int n = vertex_count(c.simplex);
+Draw hull_near(base::Random& random, const MeshSource& meshes, Simplex s) {
+    Draw draw = draw_at_hull(meshes, s, random);
+    Case& c = draw.simplex;
+    const int n = vertex_count(s);
     c.point = random_point(c, random, n - 1);
     const double step = random.scaled(0.5, 1, -50, -4);
-    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
+    for (int axis = 0; axis < space_dimension(s); ++axis) {
         double& x = c.point[static_cast<std::size_t>(axis)];
         x += step * (x - c.vertex(n - 1, axis));
     }
+    return draw;
 }
 
-void hull_far(Case& c, base::Random& random, const MeshSource& meshes) {
-    const Draw draw = draw_at_hull(meshes, c.simplex, random);
-    c = draw.simplex;
+Draw hull_far(base::Random& random, const MeshSource& meshes, Simplex s) {
+    Draw draw = draw_at_hull(meshes, s, random);
     const double reach = std::ldexp(1, random.integer(1, 20));
-    for (std::size_t axis = 0; axis < static_cast<std::size_t>(space_dimension(c.simplex)); ++axis) {
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(space_dimension(s)); ++axis) {
         const double low = draw.from->low[axis], size = draw.from->high[axis] - low;
-        c.point[axis] = low + size * random.uniform(-reach, reach);
+        draw.simplex.point[axis] = low + size * random.uniform(-reach, reach);
     }
+    return draw;
 }
 
 // A point of the cell across a random facet; the cell's own where there is no neighbour.
-Draw neighbour_cell(Draw& draw, base::Random& random) {
+Draw neighbour_cell(const Draw& draw, base::Random& random) {
     const auto corners = draw.from->mesh.corners();
     const auto cell = static_cast<std::size_t>(draw.cell);
     const auto other = draw.from->neighbours[cell * corners + random.below(corners)];
@@ -106,20 +112,20 @@ Draw neighbour_cell(Draw& draw, base::Random& random) {
     return draw_of_nodes(*draw.from, static_cast<Mesh::Index>(chosen), nodes, whole, random);
 }
 
-void neighbour_points(Case& c, base::Random& random, const MeshSource& meshes) {
-    Draw draw = draw_any(meshes, c.simplex, random);
+Draw neighbour_points(base::Random& random, const MeshSource& meshes, Simplex s) {
+    Draw draw = draw_any(meshes, s, random);
     const Case other = neighbour_cell(draw, random).simplex;
-    c = draw.simplex;
-    c.point = random_point(other, random, vertex_count(other.simplex));
+    draw.simplex.point = random_point(other, random, vertex_count(other.simplex));
+    return draw;
 }
 
-void neighbour_vertices(Case& c, base::Random& random, const MeshSource& meshes) {
-    Draw draw = draw_any(meshes, c.simplex, random);
+Draw neighbour_vertices(base::Random& random, const MeshSource& meshes, Simplex s) {
+    Draw draw = draw_any(meshes, s, random);
     const Case other = neighbour_cell(draw, random).simplex;
-    c = draw.simplex;
     const auto i = static_cast<int>(random.below(static_cast<std::uint64_t>(vertex_count(other.simplex))));
-    for (int axis = 0; axis < space_dimension(c.simplex); ++axis)
-        c.point[static_cast<std::size_t>(axis)] = other.vertex(i, axis);
+    for (int axis = 0; axis < space_dimension(s); ++axis)
+        draw.simplex.point[static_cast<std::size_t>(axis)] = other.vertex(i, axis);
+    return draw;
 }
 
 Family family(const char* name, const char* tests, const char* parameters, Family::MeshRecipe recipe,

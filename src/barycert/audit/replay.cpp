@@ -2,6 +2,7 @@
 #include "barycert/audit_witness.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
@@ -14,11 +15,13 @@ namespace {
 
 KernelAnswer answer_of(const Kernel& kernel, const Case& c, const OracleAnswer& exact) {
     KernelAnswer a;
+    Statement said;
+    a.detail = ask_kernel(kernel, std::span(&c, 1), std::span(&said, 1), false).detail;
     a.kernel = kernel.name;
-    a.weights = unset_weights;
-    a.status = kernel.weights(c.vertices.data(), c.point.data(), a.weights.data());
-    ExactEnvironment::renew();
-    a.comparison = compare(kernel, c, exact, a.status, a.weights);
+    a.answered = said.answered;
+    a.status = said.status;
+    a.weights = said.weights;
+    a.comparison = compare(kernel, c, exact, said);
     a.worst_weight_ulp = *std::max_element(a.comparison.weight_ulps.begin(), a.comparison.weight_ulps.end());
     return a;
 }

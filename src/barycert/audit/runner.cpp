@@ -10,8 +10,10 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <span>
 #include <thread>
 
+#include "barycert/audit/asking.hpp"
 #include "barycert/audit/block.hpp"
 #include "barycert/audit/mesh_draws.hpp"
 #include "barycert/environment.hpp"
@@ -23,27 +25,27 @@ using namespace audit;
 namespace {
 
 /// The work for one family and simplex: which kernels take part.
-struct Job {
+struct Part {
     std::size_t family;
     Simplex simplex;
     std::vector<std::size_t> kernels;
 };
 
-std::vector<Job> plan(const AuditOptions& options, const MeshSource& meshes) {
-    std::vector<Job> jobs;
+std::vector<Part> plan(const AuditOptions& options, const MeshSource& meshes) {
+    std::vector<Part> parts;
     for (std::size_t f = 0; f < options.families.size(); ++f) {
         for (const Simplex s : all_simplices) {
             const Family& family = options.families[f];
             if (!family.applies_to(s) || (family.needs_mesh && !meshes.supplies(s))) continue;
-            Job job{f, s, {}};
+            Part part{f, s, {}};
             for (std::size_t k = 0; k < options.kernels.size(); ++k) {
                 const Kernel& kernel = options.kernels[k];
-                if (kernel.simplex == s && kernel.perspective == family.perspective) job.kernels.push_back(k);
+                if (kernel.simplex == s && kernel.perspective == family.perspective) part.kernels.push_back(k);
             }
-            if (!job.kernels.empty()) jobs.push_back(std::move(job));
+            if (!part.kernels.empty()) parts.push_back(std::move(part));
         }
     }
-    return jobs;
+    return parts;
 }
 
 double median(std::vector<float> values) {
@@ -72,7 +74,14 @@ void collect_witnesses(KernelResult& result, const AuditOptions& options, const 
         w.seed = options.seed;
         w.index = worst.index;
         w.magnitude = worst.value;
-        w.c = make_case(family, result.kernel.simplex, options.seed, worst.index, meshes);
+        CaseOrigin origin;
+        w.c = make_case(family, result.kernel.simplex, options.seed, worst.index, meshes, &origin);
+        w.mesh = origin.mesh;
+        w.cell = origin.cell;
+        if (reason <= static_cast<std::size_t>(Finding::printed)) {
+            Statement again;
+            w.detail = ask_kernel(result.kernel, std::span(&w.c, 1), std::span(&again, 1), false).detail;
+        }
         result.witnesses.push_back(std::move(w));
     }
 }
@@ -99,8 +108,8 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
     AuditReport report;
     report.environment = measure_environment();
     if (const Status ok = check_environment(report.environment); !ok) return ok.error();
-    const std::vector<Job> jobs = plan(options, meshes);
-    if (jobs.empty()) {
+    const std::vector<Part> parts = plan(options, meshes);
+    if (parts.empty()) {
         return Error{
             .what = "nothing to audit: no family applies to a kernel",
             .remedy = "see `barycert kernels` and `barycert families`; mesh families of triangles need a 2D mesh"};
@@ -109,6 +118,7 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
     report.count = options.count;
     report.threads =
         options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    report.oracle = options.oracle;
     report.families = options.families;
     for (const auto& m : meshes.meshes()) {
         report.meshes.push_back(m->name);
@@ -122,22 +132,26 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
     std::vector<std::vector<float>> times(options.kernels.size());
     std::atomic<std::uint64_t> done{0};
     std::mutex telling;
-    const std::uint64_t total = options.count * jobs.size();
+    const std::uint64_t total = options.count * parts.size();
     tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(report.threads));
     tbb::task_arena arena(report.threads);
-    for (const Job& job : jobs) {
-        const Family& family = options.families[job.family];
+    for (const Part& part : parts) {
+        const Family& family = options.families[part.family];
         std::vector<Kernel> kernels;
-        for (const std::size_t k : job.kernels) kernels.push_back(options.kernels[k]);
-        tbb::enumerable_thread_specific<std::vector<BlockResult>> results(
-            [&] { return std::vector<BlockResult>(kernels.size()); });
+        for (const std::size_t k : part.kernels) kernels.push_back(options.kernels[k]);
+        // The core is no judge of itself, nor of a kernel that claims to be as good.
+        const bool core_may_decide =
+            std::none_of(kernels.begin(), kernels.end(), [](const Kernel& k) { return k.core || k.certifies; });
+        const Job job{family, part.simplex, options.seed,
+                      meshes, kernels,      Judge(options.oracle, core_may_decide, options.cgal)};
+        tbb::enumerable_thread_specific<JobResult> results([&] { return JobResult(kernels.size()); });
         const std::uint64_t blocks = (options.count + block_size - 1) / block_size;
         arena.execute([&] {
             tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, blocks, 1), [&](const auto& range) {
                 for (std::uint64_t b = range.begin(); b != range.end(); ++b) {
                     const std::uint64_t first = b * block_size;
                     const std::uint64_t last = std::min(first + block_size, options.count);
-                    run_block(family, job.simplex, options.seed, first, last, meshes, kernels, results.local());
+                    run_block(job, first, last, results.local());
                     const std::uint64_t now = done += last - first;
                     if (options.progress && telling.try_lock()) {
                         options.progress({now, total, family.name});
@@ -147,30 +161,32 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
                 }
             });
         });
+        const Quarrel* first = nullptr;
+        for (const JobResult& local : results) {
+            if (local.quarrel && (first == nullptr || local.quarrel->index < first->index)) first = &*local.quarrel;
+            report.oracles.add(local.oracles);
+            for (std::size_t r = 0; r < 4; ++r) report.regions[r] += local.regions[r];
+        }
+        if (first != nullptr) return error_of(first->disagreement, family.name, first->index, options.seed);
         for (std::size_t k = 0; k < kernels.size(); ++k) {
-            KernelResult& result = report.kernels[job.kernels[k]];
-            result.families.push_back({job.family, {}});
-            for (const std::vector<BlockResult>& local : results) {
-                result.families.back().statistics.merge(local[k].statistics);
-                result.prediction.merge(local[k].prediction);
-                auto& all = times[job.kernels[k]];
-                all.insert(all.end(), local[k].ns.begin(), local[k].ns.end());
+            KernelResult& result = report.kernels[part.kernels[k]];
+            result.families.push_back({part.family, {}});
+            for (const JobResult& local : results) {
+                result.families.back().statistics.merge(local.kernels[k].statistics);
+                result.prediction.merge(local.kernels[k].prediction);
+                auto& all = times[part.kernels[k]];
+                all.insert(all.end(), local.kernels[k].ns.begin(), local.kernels[k].ns.end());
             }
             result.total.merge(result.families.back().statistics);
         }
         report.cases += options.count;
-        // Every kernel of the job met the same cases: one of them tells what they were.
-        const KernelStatistics& met = report.kernels[job.kernels.front()].families.back().statistics;
-        for (std::size_t r = 0; r < 4; ++r) {
-            for (const std::uint64_t n : met.confusion[r]) report.regions[r] += n;
-        }
     }
     for (std::size_t k = 0; k < report.kernels.size(); ++k) {
         report.kernels[k].ns = median(times[k]);
         collect_witnesses(report.kernels[k], options, meshes);
     }
     // Kernels that no family applied to say nothing.
-    std::erase_if(report.kernels, [](const KernelResult& r) { return r.total.cases == 0; });
+    std::erase_if(report.kernels, [](const KernelResult& r) { return r.total.cases + r.total.not_run == 0; });
     std::stable_sort(report.kernels.begin(), report.kernels.end(), worse);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report;

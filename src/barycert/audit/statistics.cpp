@@ -1,6 +1,7 @@
 #include "barycert/audit_findings.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -13,11 +14,11 @@ namespace barycert {
 std::size_t LogHistogram::bin(double x) {
     if (!(x > 0)) return 0;
     if (x <= 1) return 1;
-    int exponent = 0;
-    const double mantissa = 2 * std::frexp(x, &exponent);  // in [1, 2)
-    const double step = std::ceil((mantissa - 1) * 8);
-    const double index = 1 + 8.0 * (exponent - 1) + step;
-    return static_cast<std::size_t>(std::min(index, static_cast<double>(bin_count - 1)));
+    // The exponent and, of the mantissa, steps of 1/8, begun ones counted.
+    const auto word = std::bit_cast<std::uint64_t>(x);
+    constexpr std::uint64_t step = std::uint64_t{1} << 49, fraction = (std::uint64_t{1} << 52) - 1;
+    const std::uint64_t index = 1 + 8 * ((word >> 52) - 1023) + ((word & fraction) + step - 1) / step;
+    return static_cast<std::size_t>(std::min<std::uint64_t>(index, bin_count - 1));
 }
 
 double LogHistogram::upper_edge(std::size_t bin) {
@@ -58,6 +59,7 @@ void KernelStatistics::add(const Comparison& r, Region exact, std::uint64_t inde
             if (r.counts[f] != 0) witnesses[f].include(r.weight_error, index);
         }
     }
+    errors.add(r.relative_error, index);
     for (const double ulps : r.weight_ulps) {
         if (ulps < 0) continue;
         weight_ulps.add(ulps);
@@ -75,12 +77,14 @@ void KernelStatistics::merge(const KernelStatistics& other) {
     const ExactEnvironment environment;
     cases += other.cases;
     wrong_cases += other.wrong_cases;
+    not_run += other.not_run;
     for (std::size_t f = 0; f < finding_count; ++f) counts[f] += other.counts[f];
     for (std::size_t e = 0; e < 4; ++e) {
         for (std::size_t c = 0; c < 4; ++c) confusion[e][c] += other.confusion[e][c];
     }
     weight_ulps.merge(other.weight_ulps);
     value_ulps.merge(other.value_ulps);
+    errors.merge(other.errors);
     const auto include = [](WorstCase& mine, const WorstCase& theirs) { mine.include(theirs.value, theirs.index); };
     include(weight_ulp, other.weight_ulp);
     include(value_ulp, other.value_ulp);

@@ -29,7 +29,8 @@ const std::vector<Figure>& figures() {
             f.emplace_back(name, [figure](const KernelStatistics& s) {
                 const auto seen = [&](Finding x) { return s.counts[static_cast<std::size_t>(x)] != 0; };
                 const double value = figure(s);
-                const bool mute = value < 0 && (seen(Finding::not_finite) || seen(Finding::false_declaration));
+                const bool mute = value < 0 && (seen(Finding::not_finite) || seen(Finding::false_declaration) ||
+                                                seen(Finding::crashed) || seen(Finding::hung) || s.not_run != 0);
                 return mute ? std::numeric_limits<double>::infinity() : value;
             });
         };

@@ -2,6 +2,7 @@
 #include "barycert/audit_witness.hpp"
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "barycert/audit/witness_json.hpp"
@@ -88,6 +89,10 @@ Witness witness_from(const Json& j, const std::string& where) {
     w.seed = count_or(j, "seed", 0);
     w.index = count_or(j, "case", 0);
     if (j.contains("magnitude") && j.at("magnitude").is_number()) w.magnitude = j.at("magnitude").get<double>();
+    w.mesh = text_or(j, "mesh", "");
+    constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+    if (const std::uint64_t cell = count_or(j, "cell", most); cell < most) w.cell = static_cast<std::int64_t>(cell);
+    w.detail = text_or(j, "detail", "");
     const auto n = static_cast<std::size_t>(vertex_count(*known)),
                d = static_cast<std::size_t>(space_dimension(*known)), stride = static_cast<std::size_t>(w.c.stride());
     const Json& vertices = array_of(j, "vertices", n, where);
@@ -125,6 +130,11 @@ Json audit::witness_json(const Witness& w) {
     j["seed"] = w.seed;
     j["case"] = w.index;
     j["magnitude"] = std::isfinite(w.magnitude) ? Json(w.magnitude) : Json(nullptr);
+    if (w.cell >= 0) {
+        j["mesh"] = w.mesh;
+        j["cell"] = w.cell;
+    }
+    if (!w.detail.empty()) j["detail"] = w.detail;
     j["vertices"] =
         vector_of(n, [&](int i) { return vector_of(stride, [&](int k) { return hex(w.c.vertex(i, k)); }); });
     j["point"] = vector_of(d, [&](int k) { return hex(w.c.point[static_cast<std::size_t>(k)]); });

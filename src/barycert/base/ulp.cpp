@@ -1,6 +1,5 @@
 #include "barycert/base/ulp.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "barycert/base/strict_math.hpp"
@@ -10,15 +9,7 @@ namespace barycert::base {
 
 double ulp_error(double computed, double reference) {
     const ExactEnvironment environment;
-    computed = held(computed);
-    reference = held(reference);
-    double difference = std::fabs(computed - reference);
-    int shift = -ulp_exponent(reference);
-    if (std::isinf(difference)) {  // both are huge then, and halving them is exact
-        difference = std::fabs(computed * 0.5 - reference * 0.5);
-        ++shift;
-    }
-    return held(std::min(std::ldexp(difference, shift), 0x1.fffffffffffffp+1023));
+    return held(ulp_error_here(held(computed), held(reference)));
 }
 
 double next_up(double x) {

@@ -24,6 +24,21 @@ constexpr int ulp_exponent(double x) {
 /// do so by at least half an ulp of either. A result over the largest double is reported as that double.
 double ulp_error(double computed, double reference);
 
+/// The same. Requires an ExactEnvironment of the caller's.
+inline double ulp_error_here(double computed, double reference) {
+    double difference = std::fabs(computed - reference);
+    int shift = -ulp_exponent(reference);
+    if (std::isinf(difference)) {  // both are huge then, and halving them is exact
+        difference = std::fabs(computed * 0.5 - reference * 0.5);
+        ++shift;
+    }
+    // A product with a power of two that is a normal number does what ldexp does, without the call.
+    const double scaled = shift <= 1023 && shift >= -1022
+                              ? difference * std::bit_cast<double>(static_cast<std::uint64_t>(shift + 1023) << 52)
+                              : std::ldexp(difference, shift);
+    return std::min(scaled, 0x1.fffffffffffffp+1023);
+}
+
 /// The next double above / below x. Preconditions: x finite.
 double next_up(double x);
 double next_down(double x);

@@ -1,5 +1,6 @@
 #include "barycert/oracle.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 
@@ -60,6 +61,14 @@ OracleAnswer ask_oracle(const Case& c) {
     OracleAnswer a = answer<Narrow>(c, scales);
     a.narrow = true;
     return a;
+}
+
+bool same_answer(const OracleAnswer& a, const OracleAnswer& b) {
+    const auto same = [](double x, double y) {
+        return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y) || (x != x && y != y);
+    };
+    return a.region == b.region && a.feature == b.feature && a.support == b.support && a.signs == b.signs &&
+           std::equal(a.weights.begin(), a.weights.end(), b.weights.begin(), same) && same(a.value, b.value);
 }
 
 OracleAnswer exact::ask_wide(const Case& c) {

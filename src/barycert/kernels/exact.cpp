@@ -30,6 +30,7 @@ void add(std::vector<Kernel>& list) {
                                 "barycert/weights.hpp: double + correction with a proven bound, then integers",
                                 "on no finite input; costs more than a plain formula"}));
     list.back().certifies = true;
+    list.back().core = true;
     list.back().interpolate = exact_value<s>;
 }
 

@@ -61,6 +61,7 @@ void add_perspective(std::vector<Kernel>& list) {
          "barycert/perspective.hpp: integers", "on no finite input with w > 0; costs more than a plain formula"},
         exact_perspective_value);
     list.back().certifies = true;
+    list.back().core = true;
 }
 
 }  // namespace barycert::kernels

@@ -6,9 +6,11 @@
 #include <string>
 #include <utility>
 
+#include "barycert/environment.hpp"
 #include "barycert/kernel.h"
 #include "barycert/kernels.hpp"
 #include "barycert/kernels/elf_file.hpp"
+#include "barycert/kernels/host.hpp"
 #include "barycert/kernels/registry.hpp"
 
 namespace barycert {
@@ -32,29 +34,36 @@ Error refused(const std::string& path, std::string what, std::string expected, s
     return {std::move(what), path, 0, std::move(expected), std::move(found), std::move(remedy)};
 }
 
-Result<Kernel> described(const std::string& path, const barycert_kernel_info& info, WeightsFunction weights) {
-    if (info.abi != BARYCERT_KERNEL_ABI) {
+struct Promises {
+    bool declares_degenerate = false, certifies = false;
+};
+
+struct Texts {
+    std::string name, simplex, formula, source;
+};
+
+/// The kernel that a library describes, its functions aside.
+Result<Kernel> described(const std::string& path, int abi, const Texts& texts, const Promises& promises) {
+    if (abi != BARYCERT_KERNEL_ABI) {
         return refused(path, "the kernel library has another interface version", std::to_string(BARYCERT_KERNEL_ABI),
-                       std::to_string(info.abi),
+                       std::to_string(abi),
                        "set info->abi = BARYCERT_KERNEL_ABI and rebuild it with this version's barycert/kernel.h");
     }
-    const std::string simplex_name = text_or_empty(info.simplex), formula_name = text_or_empty(info.name);
-    const bool perspective = simplex_name == "triangle.perspective";
-    const auto simplex = perspective ? Simplex::triangle : simplex_named(simplex_name);
+    const bool perspective = texts.simplex == "triangle.perspective";
+    const auto simplex = perspective ? Simplex::triangle : simplex_named(texts.simplex);
     if (!simplex) {
         return refused(path, "the kernel library names an unknown simplex",
-                       "segment, triangle, triangle3d, tetrahedron or triangle.perspective", '"' + simplex_name + '"',
+                       "segment, triangle, triangle3d, tetrahedron or triangle.perspective", '"' + texts.simplex + '"',
                        "set info->simplex to one of these");
     }
-    if (!well_formed(formula_name)) {
+    if (!well_formed(texts.name)) {
         return refused(path, "the kernel library has an unusable name", "letters, digits, -, _ and .",
-                       '"' + formula_name + '"', "set info->name accordingly");
+                       '"' + texts.name + '"', "set info->name accordingly");
     }
-    const std::string formula = text_or_empty(info.formula), source = text_or_empty(info.source);
-    Kernel k = kernels::make_kernel(*simplex, (perspective ? "perspective-" : "") + formula_name, weights,
-                                    info.declares_degenerate != 0 ? kernels::Declares::yes : kernels::Declares::no,
-                                    {formula.c_str(), source.c_str(), ""});
-    k.certifies = info.certifies != 0;
+    Kernel k = kernels::make_kernel(*simplex, (perspective ? "perspective-" : "") + texts.name, nullptr,
+                                    promises.declares_degenerate ? kernels::Declares::yes : kernels::Declares::no,
+                                    {texts.formula.c_str(), texts.source.c_str(), ""});
+    k.certifies = promises.certifies;
     k.perspective = perspective;
     const auto same_name = [&](const Kernel& other) { return other.name == k.name; };
     if (std::any_of(catalogue().begin(), catalogue().end(), same_name)) {
@@ -62,6 +71,16 @@ Result<Kernel> described(const std::string& path, const barycert_kernel_info& in
                        "change info->name");
     }
     return k;
+}
+
+Error not_loaded(const std::string& path, std::string found) {
+    return refused(path, "cannot load the kernel library", "", std::move(found),
+                   "give the path of a shared library for this machine, all of whose symbols can be resolved");
+}
+
+Error no_kernel_library(const std::string& path, const std::string& missing) {
+    return refused(path, "the library is not a kernel library", "the function " + missing, "none",
+                   "define it as barycert/kernel.h declares it, with C linkage and default visibility");
 }
 
 }  // namespace
@@ -75,23 +94,47 @@ Result<Kernel> load_kernel_library(const std::string& path) {
     std::fegetenv(&before);
     void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     std::fesetenv(&before);
-    if (library == nullptr) {
-        return refused(path, "cannot load the kernel library", "", text_or_empty(dlerror()),
-                       "give the path of a shared library for this machine, all of whose symbols can be resolved");
-    }
+    if (library == nullptr) return not_loaded(path, text_or_empty(dlerror()));
     const auto describe = reinterpret_cast<DescribeFunction>(dlsym(library, "barycert_kernel_describe"));
     const auto weights = reinterpret_cast<WeightsFunction>(dlsym(library, "barycert_kernel_weights"));
     if (describe == nullptr || weights == nullptr) {
-        const char* const missing = describe == nullptr ? "barycert_kernel_describe" : "barycert_kernel_weights";
         dlclose(library);
-        return refused(path, "the library is not a kernel library", std::string("the function ") + missing, "none",
-                       "define it as barycert/kernel.h declares it, with C linkage and default visibility");
+        return no_kernel_library(path, describe == nullptr ? "barycert_kernel_describe" : "barycert_kernel_weights");
     }
     barycert_kernel_info info{};
     describe(&info);
     std::fesetenv(&before);
-    Result<Kernel> kernel = described(path, info, weights);
-    if (!kernel) dlclose(library);
+    Result<Kernel> kernel = described(path, info.abi,
+                                      {text_or_empty(info.name), text_or_empty(info.simplex),
+                                       text_or_empty(info.formula), text_or_empty(info.source)},
+                                      {info.declares_degenerate != 0, info.certifies != 0});
+    if (!kernel) {
+        dlclose(library);
+        return kernel;
+    }
+    kernel->weights = weights;
+    kernel->classify = reinterpret_cast<ClassifyFunction>(dlsym(library, "barycert_kernel_classify"));
+    kernel->interpolate = reinterpret_cast<CaseValueFunction>(dlsym(library, "barycert_kernel_value"));
+    if (kernel->classify != nullptr) kernel->rule = RegionRule::own;
+    return kernel;
+}
+
+Result<Kernel> load_contained_kernel(const std::string& path, double seconds) {
+    const ExactEnvironment environment;
+    if (Status whole = kernels::check_shared_library(path); !whole) return whole.error();
+    Result<std::shared_ptr<kernels::Host>> host = kernels::Host::start(path, seconds);
+    if (!host) return host.error();
+    const kernels::Description& d = (*host)->description();
+    if (d.error[0] != '\0') return not_loaded(path, d.error);
+    if (d.missing[0] != '\0') return no_kernel_library(path, d.missing);
+    Result<Kernel> kernel = described(path, d.abi, {d.name, d.simplex, d.formula, d.source},
+                                      {d.declares_degenerate != 0, d.certifies != 0});
+    if (!kernel) return kernel;
+    if (d.classifies) kernel->rule = RegionRule::own;
+    if (d.note[0] != '\0')
+        kernel->note = std::string("loading it changes the floating-point environment: ") + d.note +
+                       "; the audit sets it right again, a program that uses the library may not";
+    kernel->host = *host;
     return kernel;
 }
 

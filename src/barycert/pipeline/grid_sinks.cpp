@@ -227,6 +227,11 @@ Result<GridOutput> open_picture(const ResampleJob& a, const std::vector<std::str
     slice.height = static_cast<std::size_t>(grid.counts[h]);
     if (grid.spacing[w] > 0 && grid.spacing[h] > 0) slice.aspect = grid.spacing[w] / grid.spacing[h];
     if (a.range) slice.range = std::pair((*a.range)[0], (*a.range)[1]);
+    slice.title = columns.front();
+    for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k) {
+        if (k != w && k != h) slice.title += fmt::format(", {} = {}", "xyz"[k], base::shortest(grid.origin[k]));
+    }
+    slice.pixel_length = grid.spacing[w];
     auto sink = std::make_unique<PictureSink>(a.output, slice);
     const SliceCounts* const counts = &sink->counts();
     return GridOutput{std::move(sink), counts};

@@ -1,4 +1,5 @@
-/// The colour bar of a picture: a white panel with the colours from bottom to top and two numbers.
+/// The colour bar of a picture: a white panel with the colours from bottom to top, the numbers at its ends and, where
+/// there is room, round numbers between them.
 #pragma once
 
 #include <cstddef>
@@ -27,9 +28,16 @@ public:
 private:
     void put_text(const std::string& text, std::size_t r, std::size_t top, std::uint8_t* pixels) const;
 
+    struct Tick {
+        std::size_t row;  ///< from the top
+        std::string text;
+    };
+    void add_ticks(double low, double high);
+
     std::string low_, high_;
     bool one_number_;
     std::size_t height_, scale_, width_;
+    std::vector<Tick> ticks_;
 };
 
 }  // namespace barycert::io

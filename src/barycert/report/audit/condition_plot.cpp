@@ -100,7 +100,8 @@ void draw_kernel(Svg& svg, const Axis& x, const Axis& y, const KernelResult& k, 
     for (const Svg::Point& p : worst) svg.mark(p, look.mark, 3.2, look.colour);
 }
 
-void draw_legend(Svg& svg, const std::vector<const KernelResult*>& kernels, double left, double top) {
+void draw_legend(Svg& svg, const std::vector<const KernelResult*>& kernels, double left, double top,
+                 bool error_of_one) {
     const TextStyle small{.size = 12, .colour = "#555"};
     const auto sample = [&](double at, const Stroke& stroke) { svg.line({left, at}, {left + 28, at}, stroke); };
     double at = top;
@@ -117,6 +118,7 @@ void draw_legend(Svg& svg, const std::vector<const KernelResult*>& kernels, doub
     svg.text({left + 38, at + 26}, "median case of a bin", small);
     sample(at + 44, {.colour = "#000", .width = 2});
     svg.text({left + 38, at + 48}, "prediction: κ · 2⁻⁵³", small);
+    if (!error_of_one) return;
     sample(at + 66, {.colour = "#888", .width = 1.2, .dashes = "8 4"});
     svg.text({left + 38, at + 70}, "error of 1", small);
 }
@@ -137,22 +139,27 @@ std::string condition_plot(const AuditReport& report) {
         svg.text({70, 80}, "Nothing to show: no kernel on triangles or tetrahedra was off in a proper cell.");
         return std::move(svg).finish();
     }
-    double bits = 4, error = 55;
+    // Axes that fit what there is, and show four bits at least.
+    double low = Prediction::last_bits, bits = 0, error = 3;
     for (const KernelResult* k : kernels) {
         for (const Prediction::Bin& bin : k->prediction.bins()) {
+            low = std::min(low, static_cast<double>(bin.bits));
             bits = std::max(bits, bin.bits + 1.0);
             error = std::max(error, std::ceil(error_bits(bin.worst)) + 1);
         }
     }
-    const Axis x{
-        .low = 0, .high = bits, .from = 70, .to = 710, .title = "log2 κ: accuracy at risk from the cell's shape, bits"};
+    const Axis x{.low = low,
+                 .high = std::max(bits, low + 4),
+                 .from = 70,
+                 .to = 710,
+                 .title = "log2 κ: accuracy at risk from the cell's shape, bits"};
     const Axis y{
         .low = min_bits - 1, .high = error, .from = 500, .to = 60, .title = "log2 (error / 2⁻⁵³): accuracy lost, bits"};
     draw_frame(svg, x, y);
     draw_line_through(svg, x, y, {0, 53}, {1, 53}, {.colour = "#888", .width = 1.2, .dashes = "8 4"});
     draw_line_through(svg, x, y, {0, 0}, {1, 1}, {.colour = "#000", .width = 2});
     for (std::size_t i = kernels.size(); i-- > 0;) draw_kernel(svg, x, y, *kernels[i], looks[i]);
-    draw_legend(svg, kernels, 730, 76);
+    draw_legend(svg, kernels, 730, 76, y.high >= 53);
 
     const TextStyle small{.size = 12, .colour = "#555"};
     svg.text({70, 568},

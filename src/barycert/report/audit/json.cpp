@@ -6,6 +6,7 @@
 
 #include "barycert/audit/witness_json.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/report/audit/oracle_words.hpp"
 #include "barycert/report/common/environment_json.hpp"
 
 namespace barycert {
@@ -24,7 +25,10 @@ Json figure(double x) {
 void add_statistics(Json& j, const KernelStatistics& s) {
     j["cases"] = s.cases;
     j["wrong_cases"] = s.wrong_cases;
+    j["not_run"] = s.not_run;
     for (std::size_t f = 0; f < finding_count; ++f) j[std::string(finding_texts[f].name)] = s.counts[f];
+    j["worst_error"] = figure(s.errors.worst.value);
+    j["by_error"] = s.errors.counts;
     j["worst_weight_ulp"] = figure(s.weight_ulp.value);
     j["p999_weight_ulp"] = figure(s.p999_weight_ulp());
     j["worst_value_ulp"] = figure(s.value_ulp.value);
@@ -66,7 +70,8 @@ Json kernel_json(const Kernel& k) {
     j["fails"] = k.fails;
     j["declares_degenerate"] = k.declares_degenerate;
     j["certifies"] = k.certifies;
-    j["region_rule"] = k.rule == RegionRule::sign ? "sign" : "tolerant";
+    j["contained"] = k.host != nullptr;
+    j["region_rule"] = k.rule == RegionRule::sign ? "sign" : k.rule == RegionRule::own ? "own" : "tolerant";
     if (k.rule == RegionRule::tolerant) j["tolerance"] = k.tolerance;
     return j;
 }
@@ -104,6 +109,7 @@ std::string audit_json(const AuditReport& r) {
     j["cases"] = r.cases;
     for (const Region region : all_regions)
         j["regions"][std::string(name(region))] = r.regions[static_cast<std::size_t>(region)];
+    j["oracles"] = oracles_json(r.oracle, r.oracles);
     j["seconds"] = r.seconds;
     j["families"] = list(r.families, family_json);
     j["kernels"] = Json::array();

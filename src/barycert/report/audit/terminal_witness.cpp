@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "barycert/audit_report.hpp"
 #include "barycert/base/text.hpp"
@@ -49,9 +50,19 @@ std::string identity_line(const Replay& r) {
     return "";
 }
 
+/// The kernel in question first; without `all` nothing else, if there is one.
+std::vector<KernelAnswer> answers_to_show(const Replay& replay, bool all) {
+    std::vector<KernelAnswer> list = replay.answers;
+    const auto others = std::stable_partition(list.begin(), list.end(), [&](const KernelAnswer& a) {
+        return base::glob_match(replay.witness.kernel, a.kernel);
+    });
+    if (!all && others != list.begin()) list.erase(others, list.end());
+    return list;
+}
+
 }  // namespace
 
-std::string witness_text(const Replay& replay, const TerminalStyle& style) {
+std::string witness_text(const Replay& replay, const TerminalStyle& style, bool all) {
     const ExactEnvironment environment;
     const Colours paint(style.colour);
     const Witness& witness = replay.witness;
@@ -67,6 +78,7 @@ std::string witness_text(const Replay& replay, const TerminalStyle& style) {
         out += fmt::format("    family {}, case {}, seed {}\n", base::printable(witness.family), witness.index,
                            witness.seed);
     }
+    if (witness.cell >= 0) out += fmt::format("    cell {} of {}\n", witness.cell, base::printable(witness.mesh));
     for (int i = 0; i < n; ++i)
         out += fmt::format("    v{}  ", i) + coordinates(c.stride(), [&](int axis) { return c.vertex(i, axis); });
     out += "    p   " +
@@ -80,28 +92,34 @@ std::string witness_text(const Replay& replay, const TerminalStyle& style) {
     out += "\n";
 
     std::size_t width = 5;
-    for (const KernelAnswer& a : replay.answers) width = std::max(width, a.kernel.size());
+    const std::vector<KernelAnswer> answers = answers_to_show(replay, all);
+    for (const KernelAnswer& a : answers) width = std::max(width, a.kernel.size());
     const auto row = [&](std::string_view mark, std::string_view kernel, std::string_view region,
-                         const std::array<std::string, 4>& cells, std::string_view ulps, std::string_view value,
-                         std::string_view text) {
+                         const std::array<std::string, 4>& cells, std::string_view error, std::string_view ulps,
+                         std::string_view value, std::string_view text) {
         std::string line = fmt::format("{:1} {:<{}}  {:<10}", mark, kernel, width, region);
         for (int i = 0; i < n; ++i) line += fmt::format(" {:>24}", cells[static_cast<std::size_t>(i)]);
-        return line + fmt::format(" {:>9} {:>10}  {}", ulps, value, text) + "\n";
+        return line + fmt::format(" {:>9} {:>9} {:>10}  {}", error, ulps, value, text) + "\n";
     };
     std::array<std::string, 4> cells{};
     for (int i = 0; i < n; ++i) cells[static_cast<std::size_t>(i)] = fmt::format("weight {}", i);
-    out += paint.bold(row("", "", "region", cells, "ulps", "value ulps", "findings"));
+    out += paint.bold(row("", "", "region", cells, "error", "ulps", "value ulps", "findings"));
     for (int i = 0; i < n; ++i)
         cells[static_cast<std::size_t>(i)] = base::shortest(answer.weights[static_cast<std::size_t>(i)]);
-    out += paint.good(row("=", "exact, correctly rounded", name(answer.region), cells, "", "",
+    out += paint.good(row("=", "exact, correctly rounded", name(answer.region), cells, "", "", "",
                           "value " + base::shortest(answer.value)));
-    for (const KernelAnswer& a : replay.answers) {
-        for (std::size_t i = 0; i < 4; ++i) cells[i] = a.status != 0 ? "declared" : base::shortest(a.weights[i]);
+    for (const KernelAnswer& a : answers) {
+        for (std::size_t i = 0; i < 4; ++i)
+            cells[i] = !a.answered ? "-" : a.status != 0 ? "declared" : base::shortest(a.weights[i]);
         const Comparison& r = a.comparison;
-        const std::string line = row(a.kernel == witness.kernel ? ">" : "", a.kernel, name(r.claimed), cells,
-                                     brief(a.worst_weight_ulp), brief(r.value_ulp), findings(r));
+        const std::string line =
+            row(a.kernel == witness.kernel ? ">" : "", a.kernel, name(r.claimed), cells, brief(r.relative_error),
+                brief(a.worst_weight_ulp), brief(r.value_ulp), findings(r));
         out += r.wrong() ? paint.bad(line) : line;
+        if (!a.detail.empty()) out += "      " + base::printable(a.detail) + "\n";
     }
+    if (answers.size() < replay.answers.size())
+        out += paint.dim(fmt::format("  {} other kernels: --all", replay.answers.size() - answers.size())) + "\n";
     return out + identity_line(replay);
 }
 
@@ -113,6 +131,7 @@ std::string kernels_text(const std::vector<Kernel>& kernels) {
         std::string promises = k.certifies ? "certifies every answer" : "no certificate";
         promises += k.declares_degenerate ? "; declares degenerate simplices" : "; never declares a simplex degenerate";
         if (k.rule == RegionRule::tolerant) promises += fmt::format("; inside if every weight >= -{}", k.tolerance);
+        if (k.rule == RegionRule::own) promises += "; inside by a rule of its own";
         out += "    promise  " + promises + "\n";
     }
     return out;

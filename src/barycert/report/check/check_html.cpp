@@ -11,10 +11,10 @@
 #include "barycert/environment.hpp"
 #include "barycert/report/check/check_html_cells.hpp"
 #include "barycert/report/check/check_html_histogram.hpp"
-#include "barycert/report/check/check_html_picture.hpp"
 #include "barycert/report/check/check_html_style.hpp"
 #include "barycert/report/check/check_words.hpp"
 #include "barycert/report/common/html_text.hpp"
+#include "barycert/report/common/page.hpp"
 
 namespace barycert {
 
@@ -40,7 +40,7 @@ std::string verdict(const CheckReport& r) {
     if (r.certified()) {
         const std::string what = r.cells == 0 ? "The mesh has no cells, so the conditions hold trivially."
                                               : fmt::format("{}.</p><p>{}", words(r).certified(), certified_sentence);
-        return fmt::format("<section class=\"verdict certified\"><b>Certified</b><p>{}</p></section>\n", what);
+        return fmt::format("<section class=\"verdict good\"><b>Certified</b><p>{}</p></section>\n", what);
     }
     // An open boundary follows from other defects, if there are any.
     std::string reasons, open;
@@ -57,7 +57,7 @@ std::string verdict(const CheckReport& r) {
                                   : files_only
                                       ? "The cells partition a domain, but other arrays of the mesh do not fit them."
                                       : "The cells do not partition a domain.";
-    return fmt::format("<section class=\"verdict broken\"><b>NOT certified</b><p>{} Found:</p><ul>{}</ul></section>\n",
+    return fmt::format("<section class=\"verdict bad\"><b>NOT certified</b><p>{} Found:</p><ul>{}</ul></section>\n",
                        what, reasons.empty() ? open : reasons);
 }
 
@@ -127,15 +127,17 @@ std::string defects(const CheckReport& r, bool breaking) {
             where += (i == 0 ? "" : "; ") + html_escaped(place_text(r, f.places[i]));
         if (shown > 0 && shown < f.count)
             where += f.at_least ? "; and more" : fmt::format("; and {} more", grouped(f.count - shown));
-        rows += fmt::format("<tr><td class=\"k\"><b>{}</b></td><td>{}{}</td><td>{}</td><td class=\"n\">{}</td></tr>\n",
-                            spaced(t.name), html_escaped(t.text),
-                            where.empty() ? "" : fmt::format("<div class=\"places\">{}</div>", where),
-                            html_escaped(t.remedy), words(r).count_of(f));
+        rows += fmt::format(
+            "<tr><td class=\"k\"><b>{}</b></td><td>{}{}</td><td{}>{}</td><td class=\"n\" "
+            "data-l=\"count\">{}</td></tr>\n",
+            spaced(t.name), html_escaped(t.text),
+            where.empty() ? "" : fmt::format("<div class=\"places\">{}</div>", where),
+            breaking ? " data-l=\"remedy\"" : "", html_escaped(t.remedy), words(r).count_of(f));
     }
     if (rows.empty()) return "";
     return fmt::format(
-        "<h2>{}</h2>\n<table><tr><th>defect</th><th>what it is, and where</th><th>{}</th><th "
-        "class=\"n\">count</th></tr>\n"
+        "<h2>{}</h2>\n<table class=\"stack\"><tr><th class=\"h\">defect</th><th class=\"h\">what it is, and where</th>"
+        "<th class=\"h\">{}</th><th class=\"h n\">count</th></tr>\n"
         "{}</table>\n",
         breaking ? breaking_heading : harmless_heading, breaking ? "remedy" : "", rows);
 }
@@ -146,7 +148,8 @@ std::string contacts(const CheckReport& r) {
         "<h2>Pairs of cells that overlap or touch</h2>\n"
         "<p class=\"small\">Each with an exact common point: in hexadecimal where doubles are such a point, else "
         "rounded and as exact fractions.</p>\n"
-        "<table><tr><th>cells</th><th>how they meet</th><th>common point</th></tr>\n";
+        "<table class=\"stack\"><tr><th class=\"h\">cells</th><th class=\"h\">how they meet</th><th class=\"h\">common "
+        "point</th></tr>\n";
     const std::size_t shown = std::min(r.contacts.size(), max_contacts);
     for (std::size_t i = 0; i < shown; ++i) {
         const CellContact& c = r.contacts[i];
@@ -239,12 +242,8 @@ std::string exhibits(const CheckReport& r, const Mesh& mesh) {
 
 std::string check_html(const CheckReport& r, const Mesh& mesh, const std::string& mesh_name) {
     const ExactEnvironment environment;
-    const std::string name = html_escaped(mesh_name);
-    std::string out = fmt::format(
-        "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\"><head><meta charset=\"utf-8\"/>\n"
-        "<meta name=\"viewport\" content=\"width=device-width\"/>\n<title>{}: {}</title>\n<style>{}</style></head>\n"
-        "<body>\n<h1>Mesh certificate of <b>{}</b></h1>\n",
-        name, r.certified() ? "certified" : "NOT certified", html_style, name);
+    std::string out = page_head(mesh_name + (r.certified() ? ": certified" : ": NOT certified"), html_style) +
+                      fmt::format("<h1>Mesh certificate of <b>{}</b></h1>\n", html_escaped(mesh_name));
     out += verdict(r);
     // Without a structure there are no measures, and nothing that could be drawn.
     const bool looked_at = r.find(DefectKind::bad_structure) == nullptr;
@@ -259,10 +258,10 @@ std::string check_html(const CheckReport& r, const Mesh& mesh, const std::string
     out += conditions(r, mesh) + defects(r, true) + contacts(r);
     if (cells) out += exhibits(r, mesh) + histograms(r);
     out += defects(r, false);
-    return out + fmt::format(
-                     "<footer>Made by barycert {} check: {}. Signs, counts, contacts and the verdict are exact; angles "
-                     "and ratios are plain double precision.</footer>\n</body></html>\n",
-                     html_escaped(measure_environment().version), words(r).checked());
+    return out + page_foot(fmt::format(
+                     "Made by barycert {} check: {}. Signs, counts, contacts and the verdict are exact; angles and "
+                     "ratios are plain double precision.",
+                     measure_environment().version, words(r).checked()));
 }
 
 }  // namespace barycert

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "barycert/report/check/check_html_cells.hpp"
-#include "barycert/report/check/check_html_picture.hpp"
 #include "barycert/report/check/check_html_view.hpp"
 #include "barycert/report/common/html_text.hpp"
+#include "barycert/report/common/picture.hpp"
 
 namespace barycert::report {
 namespace {

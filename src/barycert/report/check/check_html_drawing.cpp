@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "barycert/report/check/check_html_cells.hpp"
-#include "barycert/report/check/check_html_picture.hpp"
 #include "barycert/report/check/check_html_view.hpp"
+#include "barycert/report/common/picture.hpp"
 
 namespace barycert::report {
 namespace {
@@ -181,7 +181,7 @@ double scale_of(const std::vector<Shown>& views, const Scene& scene) {
     return std::isfinite(scale) ? scale : 1;
 }
 
-std::string figure(double x) {
+std::string measure_text(double x) {
     return std::isinf(x) ? "∞" : std::isnan(x) ? "unknown" : fmt::format("{:.4g}", x + 0.0);
 }
 
@@ -193,15 +193,15 @@ std::string facts(const CheckReport& r, const Mesh& mesh, Mesh::Index cell, std:
     std::string out =
         fmt::format("<p>{}<b>cell {}</b>, nodes {}<br/>", swatch, r.cell_number(cell), fmt::join(nodes, " "));
     if (std::isnan(m.volume[c])) return out + "not measured: it has a node twice</p>\n";
-    out += fmt::format("angles {}° to {}°, {} {}<br/>", figure(m.min_angle[c]), figure(m.max_angle[c]),
+    out += fmt::format("angles {}° to {}°, {} {}<br/>", measure_text(m.min_angle[c]), measure_text(m.max_angle[c]),
                        r.dimension == 2 ? "area" : "volume",
                        std::isinf(m.volume[c])                     ? "beyond the largest double"
                        : m.volume[c] == 0 && m.orientation[c] != 0 ? "too small for a double"
-                                                                   : figure(m.volume[c]));
+                                                                   : measure_text(m.volume[c]));
     const double kappa = m.condition[c];
-    out += fmt::format("condition {}{}, aspect {}, radius / edge {}</p>\n", figure(kappa),
+    out += fmt::format("condition {}{}, aspect {}, radius / edge {}</p>\n", measure_text(kappa),
                        std::isfinite(kappa) ? fmt::format(" ({:.1f} bits)", std::max(0.0, std::log2(kappa))) : "",
-                       figure(m.aspect[c]), figure(m.radius_edge[c]));
+                       measure_text(m.aspect[c]), measure_text(m.radius_edge[c]));
     return out;
 }
 
@@ -212,7 +212,7 @@ std::string exhibit_card(const CheckReport& r, const Mesh& mesh, const Exhibit& 
     const std::vector<Shown> views = views_of(mesh, scene);
     const double scale = scale_of(views, scene);
     std::string out =
-        fmt::format("<figure class=\"half card\"><h3><span class=\"badge{}\">{}</span> {}</h3>\n<div class=\"views\">",
+        fmt::format("<figure class=\"card\"><h3><span class=\"badge{}\">{}</span> {}</h3>\n<div class=\"views\">",
                     e.defect ? " problem" : "", number, e.what);
     const bool pair = e.cells[1] >= 0;
     const auto cells = r.cell_number(e.cells);

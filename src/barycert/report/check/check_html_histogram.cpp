@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "barycert/check.hpp"
-#include "barycert/report/check/check_html_picture.hpp"
 #include "barycert/report/check/check_words.hpp"
 #include "barycert/report/common/html_text.hpp"
+#include "barycert/report/common/picture.hpp"
 #include "barycert/report/common/svg.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
@@ -203,7 +203,7 @@ std::string histogram_figure(const CheckReport& r, const std::vector<double>& va
                              const HistogramText& text) {
     const Histogram h = histogram(values, rule);
     const Distribution d = distribution(values);
-    std::string out = fmt::format("<figure class=\"half\"><h3>{}</h3>\n", html_escaped(text.title));
+    std::string out = fmt::format("<figure><h3>{}</h3>\n", html_escaped(text.title));
     if (d.min_cell >= 0) {
         const auto figure = [](double x) { return std::isinf(x) ? "∞" : fmt::format("{:.4g}", x + 0.0); };
         out += fmt::format("<p class=\"small\">least {} · median {} · most {} · worst in cell <b>{}</b></p>\n",

@@ -12,9 +12,9 @@
 #include "barycert/base/text.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/report/check/check_html_cells.hpp"
-#include "barycert/report/check/check_html_picture.hpp"
 #include "barycert/report/check/check_html_view.hpp"
 #include "barycert/report/check/check_words.hpp"
+#include "barycert/report/common/picture.hpp"
 
 namespace barycert::report {
 namespace {

@@ -1,4 +1,4 @@
-/// The style of HTML reports: one column, wide screens and phones, light and dark, screen and paper; no scripts.
+/// The style of HTML reports: one column, wide screens and phones, light and dark, screen and paper.
 #pragma once
 
 #include <string_view>
@@ -7,42 +7,70 @@ namespace barycert::report {
 
 /// Okabe and Ito's colours: told apart by most eyes.
 inline constexpr std::string_view page_style = R"(
-:root{color-scheme:light dark;--ink:#1d2227;--soft:#59636c;--paper:#fff;--line:#dde2e6;--panel:#f5f7f8;
- --good:#00694c;--good-bg:#eaf6f1;--bad:#a50d26;--bad-bg:#fdeeee;--bar:#0072b2;--bar-bad:#c8102e}
+:root{color-scheme:light dark;--ink:#1d2227;--soft:#59636c;--paper:#fff;--line:#dde2e6;--panel:#f5f7f8;--ground:var(--paper);
+ --good:#00694c;--good-bg:#eaf6f1;--bad:#a50d26;--bad-bg:#fdeeee;--bar:#0072b2;--bar-bad:#c8102e;--second:#c67f00}
 @media (prefers-color-scheme:dark){:root{--ink:#e4e8eb;--soft:#a3adb5;--paper:#15191c;--line:#333b41;--panel:#1e2428;
- --good:#5fd0a8;--good-bg:#12281f;--bad:#ff8f9c;--bad-bg:#331a1e;--bar:#56b4e9;--bar-bad:#ff7a88}}
+ --good:#5fd0a8;--good-bg:#12281f;--bad:#ff8f9c;--bad-bg:#331a1e;--bar:#56b4e9;--bar-bad:#ff7a88;--second:#e6ab4a}}
 *{box-sizing:border-box}
-body{margin:0 auto;padding:28px 20px 40px;max-width:1040px;background:var(--paper);color:var(--ink);
+body{margin:0 auto;padding:28px 20px 40px;max-width:1120px;background:var(--paper);color:var(--ink);
  font:16px/1.5 system-ui,"Helvetica Neue",Arial,"DejaVu Sans",sans-serif}
 h1{font-size:17px;font-weight:normal;color:var(--soft);margin:0 0 12px;overflow-wrap:anywhere}
 h2{font-size:20px;margin:36px 0 10px;border-bottom:1px solid var(--line);padding-bottom:4px;break-after:avoid}
 h3{font-size:16px;margin:18px 0 4px;break-after:avoid}
 p{margin:6px 0}
-.verdict{border-left:10px solid;padding:14px 20px;border-radius:4px;margin:0 0 18px}
-.verdict b{display:block;font-size:28px;line-height:1.25;margin-bottom:4px;overflow-wrap:anywhere}
+.verdict{border-left:10px solid;padding:14px 20px;border-radius:4px;margin:0 0 18px;overflow-wrap:anywhere}
+.verdict b{display:block;font-size:28px;line-height:1.25;margin-bottom:4px}
+.verdict ul{margin:6px 0;padding-left:22px}
 .verdict.good{border-color:var(--good);background:var(--good-bg)}.verdict.good b{color:var(--good)}
 .verdict.bad{border-color:var(--bad);background:var(--bad-bg)}.verdict.bad b{color:var(--bad)}
+.tiles{display:flex;flex-wrap:wrap;gap:10px;margin:0 0 12px}
+.tiles div{border:1px solid var(--line);border-radius:4px;padding:8px 14px;min-width:104px}
+.tiles b{display:block;font-size:20px}.tiles span{color:var(--soft);font-size:14px}
 .scroll{overflow-x:auto}
 table{border-collapse:collapse;width:100%;margin:8px 0}
 th,td{text-align:left;vertical-align:top;padding:6px 14px 6px 0;border-bottom:1px solid var(--line)}
 th{font-size:14px;color:var(--soft);font-weight:normal}
+th[scope=row]{color:inherit}
 tr{break-inside:avoid}
 th.n,td.n{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}
-td.bad{color:var(--bad);font-weight:bold}
-.small{color:var(--soft);font-size:14px}
-.card{border:1px solid var(--line);border-radius:4px;background:var(--panel);padding:10px 14px;margin:8px 0;break-inside:avoid}
-.card p{margin:2px 0;overflow-wrap:anywhere}
+td.bad,b.bad{color:var(--bad);font-weight:bold}.ok{color:var(--good)}
+.small,figcaption{color:var(--soft);font-size:14px}
+.card{border:1px solid var(--line);border-radius:4px;background:var(--panel);--ground:var(--panel);padding:10px 14px;
+ margin:8px 0;break-inside:avoid}
+.card h3{margin:0 0 2px}.card p{margin:2px 0;overflow-wrap:anywhere}
 code{font:13px/1.4 ui-monospace,"DejaVu Sans Mono",monospace;overflow-wrap:anywhere}
 .bars td{border:0;padding:1px 12px 1px 0;font-size:14px}
 .bars td.w{width:100%;padding-right:0}
-.bar{display:block;height:14px;border-radius:2px;background:var(--bar);min-width:2px}
-.bar.bad{background:var(--bar-bad)}
+.bars .bar{display:block;height:14px;border-radius:2px;background:var(--bar);min-width:2px}
+.bars .bar.bad{background:var(--bar-bad)}
+button{font:inherit;color:inherit;background:none;border:0;padding:0;text-align:inherit;cursor:pointer}
+button:focus-visible{outline:2px solid var(--bar);outline-offset:2px}
+th button{text-decoration:underline dotted;text-underline-offset:3px}
+th[aria-sort]{color:var(--ink)}th[aria-sort=ascending] button::after{content:" \25B2"}
+th[aria-sort=descending] button::after{content:" \25BC"}
+button.copy{font-size:13px;border:1px solid var(--line);border-radius:4px;background:var(--paper);padding:1px 9px;margin-left:8px}
+.figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,470px),1fr));gap:18px 24px}
+figure{margin:0;break-inside:avoid}
+svg{max-width:100%;height:auto;vertical-align:top}
+svg text{font-size:12px;fill:var(--ink)}
+svg path{fill:none;stroke-linejoin:round;stroke-linecap:round}
+.m{text-anchor:middle}.e{text-anchor:end}
+svg .tick{fill:var(--soft)}svg .title{font-size:13px}svg .bad{fill:var(--bad)}
+svg .grid{stroke:var(--line)}svg .axis{stroke:var(--soft)}
+svg .bar{fill:var(--bar)}svg .bar.bad{fill:var(--bar-bad)}
+svg .halo{stroke:var(--ground);stroke-width:4px;fill:var(--ground)}svg .lead{stroke:var(--soft);stroke-width:.7px}
 footer{margin-top:40px;border-top:1px solid var(--line);padding-top:10px;color:var(--soft);font-size:14px;overflow-wrap:anywhere}
 @media (max-width:560px){body{padding:16px 12px;font-size:15px}.verdict{padding:10px 14px}.verdict b{font-size:23px}
- th,td{padding-right:10px}}
+ th,td{padding-right:10px}
+ .stack,.stack tbody,.stack tr,.stack td{display:block;width:auto}.stack tr{padding:6px 0;border-bottom:1px solid var(--line)}
+ .stack tr:has(th.h){display:none}.stack td{border:0;padding:1px 0}.stack td.n{text-align:left}
+ .stack td[data-l]::before{content:attr(data-l) ": ";color:var(--soft)}}
 @page{margin:12mm}
-@media print{:root{--ink:#000;--soft:#444;--paper:#fff;--panel:#fff;--line:#ccc;--good:#00694c;--good-bg:#fff;--bad:#a50d26;
- --bad-bg:#fff;--bar:#0072b2;--bar-bad:#c8102e}body{padding:0;max-width:none;font-size:12px;print-color-adjust:exact}}
+@media print{:root{color-scheme:light;--ink:#000;--soft:#444;--paper:#fff;--panel:#fff;--line:#ccc;--good:#00694c;
+ --good-bg:#fff;--bad:#a50d26;--bad-bg:#fff;--bar:#0072b2;--bar-bad:#c8102e;--second:#c67f00}
+ body{padding:0;max-width:none;font-size:12px;print-color-adjust:exact;-webkit-print-color-adjust:exact}
+ h2{font-size:16px;margin-top:22px}.small,figcaption,th,code{font-size:10.5px}th,td{padding:3px 8px 3px 0}
+ button.copy{display:none}.scroll{overflow:visible}}
 )";
 
 }  // namespace barycert::report

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -8,7 +9,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/common/html_text.hpp"
-#include "barycert/report/common/page_style.hpp"
+#include "barycert/report/common/page.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 #include "barycert/report/verify/verify_words.hpp"
 
@@ -45,21 +46,24 @@ std::string verdict_rows(const VerifySummary& s) {
 
 std::string value_rows(const VerifySummary& s) {
     if (s.columns.empty()) return "<p>The results have no values to compare.</p>\n";
-    std::string out =
-        "<div class=\"scroll\"><table><tr><th>value</th><th>column</th><th class=\"n\">compared</th><th "
-        "class=\"n\">bits "
-        "right, %</th><th class=\"n\">max ulps</th><th class=\"n\">max error</th><th class=\"n\">wrong</th></tr>\n";
+    std::string out = "<table class=\"stack\"><tr>";
+    constexpr std::array heads{"value", "column", "compared", "bits right, %", "max ulps", "max error", "wrong"};
+    for (std::size_t i = 0; i < heads.size(); ++i)
+        out += fmt::format("<th scope=\"col\" class=\"h{}\">{}</th>", i < 2 ? "" : " n", heads[i]);
+    out += "</tr>\n";
     for (std::size_t c = 0; c < s.columns.size(); ++c) {
         const ValueErrors& e = s.verdicts.columns[c];
         const std::uint64_t wrong = e.over + e.missing + e.spurious;
-        out += fmt::format(
-            "<tr><td>{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
-            "class=\"n\">{}</td><td class=\"n{}\">{}</td></tr>\n",
-            text(s.columns[c]), text(s.found_in[c]), e.values, percent(e.identical, e.values), brief(e.max_ulps),
-            brief(e.max_relative), wrong != 0 ? " bad" : "", wrong);
+        out += fmt::format("<tr><td><b>{}</b></td><td data-l=\"{}\">{}</td>", text(s.columns[c]), heads[1],
+                           text(s.found_in[c]));
+        const std::array figures{std::to_string(e.values), percent(e.identical, e.values), brief(e.max_ulps),
+                                 brief(e.max_relative), std::to_string(wrong)};
+        for (std::size_t i = 0; i < figures.size(); ++i)
+            out += fmt::format("<td class=\"n{}\" data-l=\"{}\">{}</td>",
+                               i + 1 == figures.size() && wrong != 0 ? " bad" : "", heads[i + 2], figures[i]);
+        out += "</tr>\n";
     }
-    return out +
-           "</table></div>\n<p class=\"small\">Errors are told in parts of the range of the field, max - min.</p>\n";
+    return out + "</table>\n<p class=\"small\">Errors are told in parts of the range of the field, max - min.</p>\n";
 }
 
 std::string histograms(const VerifySummary& s) {
@@ -106,17 +110,11 @@ std::string notes(const VerifySummary& s) {
 
 std::string verify_html(const VerifySummary& s, const Environment& environment) {
     const ExactEnvironment exact;
-    std::string out =
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>\n<meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\"/>\n";
-    out += fmt::format(
-        "<title>barycert verify: {}</title>\n<style>{}</style></head>\n<body>\n<h1>barycert verify: {} on "
-        "{}</h1>\n",
-        text(s.results), page_style, text(s.results), text(s.mesh));
+    std::string out = page_head("barycert verify: " + s.results) +
+                      fmt::format("<h1>barycert verify: {} on {}</h1>\n", text(s.results), text(s.mesh));
     out += verdict_section(s) + verdict_rows(s) + "<h2>Values</h2>\n" + value_rows(s) + histograms(s) + examples(s) +
            notes(s);
-    out += fmt::format("<footer>{}</footer>\n</body></html>\n", text(environment_line(environment)));
-    return out;
+    return out + page_foot(environment_line(environment));
 }
 
 }  // namespace barycert

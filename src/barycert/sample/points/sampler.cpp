@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <bit>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -202,30 +201,6 @@ private:
     std::vector<std::optional<std::size_t>> refused_;
 };
 
-/// The rows in the order in which the index has their cells, roughly: what is near is then read together.
-std::vector<std::uint32_t> order_by_place(std::span<const Mesh::Index> cells, const std::vector<Place>& places,
-                                          std::size_t cell_count) {
-    std::vector<std::uint32_t> order(cells.size());
-    constexpr int bucket_bits = 12;
-    constexpr std::size_t buckets = std::size_t{1} << bucket_bits;
-    if (cells.size() < buckets) {
-        std::iota(order.begin(), order.end(), 0);
-        return order;
-    }
-    const int shift = std::max(0, static_cast<int>(std::bit_width(cell_count)) - bucket_bits);
-    std::vector<std::uint32_t> next(buckets + 1, 0), bucket(cells.size());
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        // Those outside come first.
-        bucket[i] =
-            cells[i] < 0 ? 0 : 1 + (static_cast<std::uint32_t>(places[static_cast<std::size_t>(cells[i])]) >> shift);
-        ++next[bucket[i]];
-    }
-    std::uint32_t sum = 0;
-    for (std::uint32_t& n : next) sum += std::exchange(n, sum);
-    for (std::size_t i = 0; i < cells.size(); ++i) order[next[bucket[i]]++] = static_cast<std::uint32_t>(i);
-    return order;
-}
-
 }  // namespace
 
 Sampler::Sampler(std::unique_ptr<SamplerData> data) : data_(std::move(data)) {}
@@ -322,7 +297,7 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     }
     resize(*data_, options, count, out);
     const std::vector<locate::Place>& places = data_->located().places();
-    const std::vector<std::uint32_t> order = order_by_place(cells, places, data_->index().cell_count());
+    const locate::CellIndex& index = data_->index();
     std::vector<double> whole;  // rows with what is hidden
     sample::BlockRows rows = rows_from(*data_, 0, out);
     if (data_->hidden != 0) {
@@ -341,10 +316,15 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
             for (std::size_t at = first; at < last; at += locate::chunk_size) {
                 const std::size_t n = std::min(locate::chunk_size, last - at);
                 for (std::size_t i = 0; i < n; ++i) {
-                    const std::size_t row = order[at + i];
+                    const std::size_t row = at + i;
                     for (std::size_t k = 0; k < d; ++k) records[i].at[k] = points[d * row + k];
                     records[i].number = static_cast<std::uint32_t>(row);
+                    // Cells come in any order: where they are is asked for ahead, and so are they.
+                    constexpr std::size_t ahead = 64;
+                    if (row + ahead < count && cells[row + ahead] >= 0)
+                        __builtin_prefetch(&places[static_cast<std::size_t>(cells[row + ahead])]);
                     owner[i] = cells[row] < 0 ? -1 : places[static_cast<std::size_t>(cells[row])];
+                    if (owner[i] >= 0) __builtin_prefetch(&index.cells[static_cast<std::size_t>(owner[i])]);
                     feature[i] = features[row];
                 }
                 sampler(records.data(), n, owner.data(), feature.data());

@@ -1,4 +1,4 @@
-#include "barycert/report/check/check_html_picture.hpp"
+#include "barycert/report/common/picture.hpp"
 
 #include <fmt/format.h>
 

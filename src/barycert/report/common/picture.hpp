@@ -1,4 +1,4 @@
-/// Pictures for the HTML report: bars, polygons and dots that take their looks from the page's style sheet by
+/// Pictures in HTML reports: bars, polygons and dots that take their looks from the page's style sheet by
 /// class, and labels that keep clear of each other. Unlike Svg's they are no files of their own.
 ///
 /// Coordinates are pixels, y downwards. All text that comes in is escaped.

@@ -1,0 +1,46 @@
+/// What a kernel says of cases, whether it runs in this process or in one of its own.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+
+#include "barycert/kernels.hpp"
+#include "barycert/simplex.hpp"
+
+namespace barycert::audit {
+
+/// What to hand to a kernel: weights that are not an answer.
+inline constexpr std::array<double, 4> unset_weights = [] {
+    std::array<double, 4> w{};
+    w.fill(std::numeric_limits<double>::quiet_NaN());
+    return w;
+}();
+
+struct Statement {
+    bool ran = true;       ///< false: the kernel has been given up, and was not asked
+    bool answered = true;  ///< false: it ran and gave no answer
+    int status = 0;        ///< 1: declared degenerate
+    std::array<double, 4> weights = unset_weights;
+    Region claimed = Region::degenerate;  ///< by the kernel's rule
+    double value = std::numeric_limits<double>::quiet_NaN();
+    std::uint8_t incidents = 0;  ///< kernels::Incident
+};
+
+struct Asked {
+    double ns = -1;      ///< per evaluation; -1 unless asked for
+    std::string detail;  ///< what it did besides answering, in words; empty if nothing
+};
+
+/// Asks for cases of the kernel's simplex, at most 256 of them, and sets as many statements. Runs in the exact
+/// environment, whatever the kernel leaves behind. `timed`: a kernel in a process of its own runs once more against the
+/// clock; others are timed in any case.
+Asked ask_kernel(const Kernel& kernel, std::span<const Case> cases, std::span<Statement> statements, bool timed);
+
+/// Region and value from status and weights, by the functions of a kernel that runs in this process. Requires an
+/// ExactEnvironment.
+void complete(Statement& statement, const Kernel& kernel, const Case& c);
+
+}  // namespace barycert::audit

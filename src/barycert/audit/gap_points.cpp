@@ -1,0 +1,81 @@
+#include "barycert/audit/gap_points.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "barycert/audit/combine.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/mesh/adjacency.hpp"
+
+namespace barycert::audit {
+
+GapPoints::GapPoints(const Mesh& mesh)
+    : mesh_(mesh),
+      neighbours_(mesh::compute_neighbours(mesh)),
+      first_(mesh.point_count() + 1),
+      around_(mesh.cells.size()) {
+    // Cells sorted by their nodes, by counting.
+    for (const Mesh::Index node : mesh.cells) ++first_[static_cast<std::size_t>(node) + 1];
+    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    for (std::size_t k = 0; k < mesh.cells.size(); ++k)
+        around_[next[static_cast<std::size_t>(mesh.cells[k])]++] = static_cast<Mesh::Index>(k / mesh.corners());
+}
+
+Case GapPoints::case_of(Mesh::Index cell, const std::array<double, 3>& point) const {
+    Case c;
+    c.simplex = mesh_.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron;
+    const auto corners = mesh_.corners(), d = static_cast<std::size_t>(mesh_.dimension);
+    for (std::size_t i = 0; i < corners; ++i) {
+        const auto node = static_cast<std::size_t>(mesh_.cells[static_cast<std::size_t>(cell) * corners + i]);
+        std::copy_n(&mesh_.points[node * d], d, &c.vertices[i * d]);
+    }
+    c.point = point;
+    return c;
+}
+
+GapPoint GapPoints::make(Feature feature, std::uint64_t seed, std::uint64_t index) const {
+    base::Random random = base::Random::stream(seed, base::hash64("gaps") + static_cast<std::uint64_t>(feature), index);
+    const auto corners = mesh_.corners();
+    const std::size_t used = feature == Feature::face ? 3 : feature == Feature::edge ? 2 : 1;
+    std::size_t cell = 0;
+    std::array<std::size_t, 4> order{0, 1, 2, 3};
+    // A facet at the hull has one cell: draw again, but not for ever.
+    for (int attempt = 0; attempt < 16; ++attempt) {
+        cell = random.below(mesh_.cell_count());
+        for (std::size_t i = corners - 1; i > 0; --i) std::swap(order[random.below(i + 1)], order[i]);
+        if (used + 1 != corners || neighbours_[cell * corners + order[corners - 1]] >= 0) break;
+    }
+    GapPoint p;
+    Case c = case_of(static_cast<Mesh::Index>(cell), {});
+    const Case whole = c;
+    for (std::size_t i = 0; i < used; ++i) {
+        p.nodes.push_back(mesh_.cells[cell * corners + order[i]]);
+        for (int axis = 0; axis < mesh_.dimension; ++axis)
+            c.vertex(static_cast<int>(i), axis) = whole.vertex(static_cast<int>(order[i]), axis);
+    }
+    p.point = used == 1 ? combination(c, {1, 0, 0, 0}, 1) : random_point(c, random, static_cast<int>(used));
+    if (random.coin()) {
+        const auto axis = random.below(static_cast<std::uint64_t>(mesh_.dimension));
+        const int ulps = random.integer(1, 4);
+        const bool up = random.coin();
+        for (int i = 0; i < ulps; ++i) {
+            // A coordinate of zero moves by an ulp of the largest, in a direction of its own.
+            if (p.point[axis] == 0) {
+                move_by_ulp(whole, p.point[axis], static_cast<int>(axis), random);
+            } else {
+                p.point[axis] = up ? base::next_up(p.point[axis]) : base::next_down(p.point[axis]);
+            }
+        }
+    }
+    for (const Mesh::Index node : p.nodes) {
+        const auto k = static_cast<std::size_t>(node);
+        p.cells.insert(p.cells.end(), around_.begin() + static_cast<std::ptrdiff_t>(first_[k]),
+                       around_.begin() + static_cast<std::ptrdiff_t>(first_[k + 1]));
+    }
+    std::sort(p.cells.begin(), p.cells.end());
+    p.cells.erase(std::unique(p.cells.begin(), p.cells.end()), p.cells.end());
+    return p;
+}
+
+}  // namespace barycert::audit

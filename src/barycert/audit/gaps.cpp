@@ -1,0 +1,251 @@
+#include "barycert/audit_gaps.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <thread>
+
+#include "barycert/audit/asking.hpp"
+#include "barycert/audit/gap_points.hpp"
+#include "barycert/audit/judge.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/kernels/channel.hpp"
+
+namespace barycert {
+
+using namespace audit;
+
+namespace {
+
+/// A kernel, or exact arithmetic, under a rule.
+struct Claimant {
+    const Kernel* kernel = nullptr;
+    ClaimRule rule = ClaimRule::exact;
+};
+
+bool claims(ClaimRule rule, double tolerance, std::span<const double> weights) {
+    return std::all_of(weights.begin(), weights.end(), [&](double w) {
+        if (!std::isfinite(w)) return false;
+        return rule == ClaimRule::strict ? w > 0 : rule == ClaimRule::exact ? w >= 0 : w >= -tolerance;
+    });
+}
+
+/// What one thread has learnt.
+struct Found {
+    std::vector<ClaimResult> results;
+    OracleCounts oracles;
+    std::optional<std::pair<std::uint64_t, Disagreement>> quarrel;
+};
+
+/// Whether `a` comes first: faces, edges, vertices, in each by number.
+bool before(const ClaimWitness& a, const ClaimWitness& b) {
+    return std::pair(a.feature, a.index) < std::pair(b.feature, b.index);
+}
+
+void keep_first(ClaimResult& result, ClaimFault fault, const ClaimWitness& witness) {
+    for (auto& [kind, kept] : result.witnesses) {
+        if (kind != fault) continue;
+        if (before(witness, kept)) kept = witness;
+        return;
+    }
+    result.witnesses.emplace_back(fault, witness);
+}
+
+class Finder {
+public:
+    Finder(const GapsOptions& options, const Mesh& mesh, const std::vector<Claimant>& claimants)
+        : options_(options), mesh_(mesh), points_(mesh), claimants_(claimants) {
+        bool core = true;
+        for (const Claimant& c : claimants)
+            core = core && (c.kernel == nullptr || !(c.kernel->core || c.kernel->certifies));
+        judge_ = Judge(OracleChoice::automatic, core);
+    }
+
+    void run(std::size_t feature, std::uint64_t index, Found& found) const {
+        const GapPoint p = points_.make(claim_features[feature], options_.seed, index);
+        std::vector<Case> cases;
+        std::vector<OracleAnswer> answers;
+        std::vector<bool> holds;
+        for (const Mesh::Index cell : p.cells) {
+            cases.push_back(points_.case_of(cell, p.point));
+            std::optional<Disagreement> disagreement;
+            answers.push_back(judge_.decide(cases.back(), index, found.oracles, disagreement));
+            if (disagreement && (!found.quarrel || index < found.quarrel->first))
+                found.quarrel = {index, *disagreement};
+            holds.push_back(answers.back().region == Region::interior || answers.back().region == Region::boundary);
+        }
+        ClaimWitness witness{claim_features[feature], index, p.nodes, p.point, numbers(p.cells, holds), {}};
+        std::vector<Statement> said(cases.size());
+        const Kernel* asked = nullptr;
+        const auto n = mesh_.corners();
+        for (std::size_t k = 0; k < claimants_.size(); ++k) {
+            const Claimant& who = claimants_[k];
+            if (who.kernel != nullptr && who.kernel != asked) {
+                ask(*who.kernel, cases, said);
+                asked = who.kernel;
+            }
+            std::vector<bool> claimed;
+            for (std::size_t i = 0; i < cases.size(); ++i) {
+                if (who.kernel == nullptr) {
+                    // Of exact arithmetic signs are exact where rounded weights may be zero.
+                    claimed.push_back(who.rule == ClaimRule::strict  ? answers[i].region == Region::interior
+                                      : who.rule == ClaimRule::exact ? holds[i]
+                                                                     : claims(who.rule, options_.tolerance,
+                                                                              std::span(answers[i].weights).first(n)));
+                    continue;
+                }
+                const Statement& s = said[i];
+                claimed.push_back(s.ran && s.answered && s.status == 0 &&
+                                  (who.rule == ClaimRule::own
+                                       ? s.claimed == Region::interior || s.claimed == Region::boundary
+                                       : claims(who.rule, options_.tolerance, std::span(s.weights).first(n))));
+            }
+            witness.claimants = numbers(p.cells, claimed);
+            judge(found.results[k], feature, holds, claimed, witness);
+        }
+    }
+
+private:
+    static void ask(const Kernel& kernel, std::span<const Case> cases, std::span<Statement> said) {
+        for (std::size_t i = 0; i < cases.size(); i += kernels::batch_size) {
+            const std::size_t count = std::min(kernels::batch_size, cases.size() - i);
+            ask_kernel(kernel, cases.subspan(i, count), said.subspan(i, count), false);
+        }
+    }
+
+    std::vector<Mesh::Index> numbers(const std::vector<Mesh::Index>& cells, const std::vector<bool>& chosen) const {
+        std::vector<Mesh::Index> list;
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            if (chosen[i]) list.push_back(mesh_.cell_number(cells[i]));
+        }
+        return list;
+    }
+
+    static void judge(ClaimResult& result, std::size_t feature, const std::vector<bool>& holds,
+                      const std::vector<bool>& claimed, const ClaimWitness& witness) {
+        ClaimCounts& counts = result.by_feature[feature];
+        const auto fault = [&](ClaimFault f) {
+            ++counts.faults[static_cast<std::size_t>(f)];
+            keep_first(result, f, witness);
+        };
+        if (witness.holders.empty()) {
+            ++counts.outside;
+            if (!witness.claimants.empty()) fault(ClaimFault::outside_claimed);
+            return;
+        }
+        ++counts.inside;
+        if (witness.claimants.empty()) fault(ClaimFault::gap);
+        if (witness.claimants.size() > 1) fault(ClaimFault::several);
+        bool first = true, wrong = false, wrong_first = false;
+        for (std::size_t i = 0; i < claimed.size(); ++i) {
+            if (!claimed[i]) continue;
+            wrong = wrong || !holds[i];
+            wrong_first = wrong_first || (first && !holds[i]);
+            first = false;
+        }
+        if (wrong) fault(ClaimFault::wrong);
+        if (wrong_first) fault(ClaimFault::wrong_first);
+    }
+
+    const GapsOptions& options_;
+    const Mesh& mesh_;
+    GapPoints points_;
+    const std::vector<Claimant>& claimants_;
+    Judge judge_{OracleChoice::automatic, false};
+};
+
+void merge(ClaimResult& to, const ClaimResult& from) {
+    for (std::size_t f = 0; f < 3; ++f) {
+        to.by_feature[f].inside += from.by_feature[f].inside;
+        to.by_feature[f].outside += from.by_feature[f].outside;
+        for (std::size_t k = 0; k < claim_fault_count; ++k) to.by_feature[f].faults[k] += from.by_feature[f].faults[k];
+    }
+    for (const auto& [fault, witness] : from.witnesses) keep_first(to, fault, witness);
+}
+
+std::vector<Claimant> claimants_of(const std::vector<Kernel>& kernels, Simplex simplex) {
+    std::vector<Claimant> all;
+    for (const ClaimRule rule : {ClaimRule::strict, ClaimRule::exact, ClaimRule::tolerant})
+        all.push_back({nullptr, rule});
+    for (const Kernel& kernel : kernels) {
+        if (kernel.simplex != simplex || kernel.perspective) continue;
+        for (const ClaimRule rule : all_claim_rules) {
+            if (rule != ClaimRule::own || kernel.rule != RegionRule::sign) all.push_back({&kernel, rule});
+        }
+    }
+    return all;
+}
+
+}  // namespace
+
+ClaimCounts ClaimResult::total() const {
+    ClaimCounts sum;
+    for (const ClaimCounts& c : by_feature) {
+        sum.inside += c.inside;
+        sum.outside += c.outside;
+        for (std::size_t k = 0; k < claim_fault_count; ++k) sum.faults[k] += c.faults[k];
+    }
+    return sum;
+}
+
+Result<GapsReport> find_gaps(const GapsOptions& options, const Mesh& mesh, const std::string& name, Verdict verdict) {
+    const ExactEnvironment exact;
+    GapsReport report;
+    report.environment = measure_environment();
+    if (const Status ok = check_environment(report.environment); !ok) return ok.error();
+    if (mesh.cell_count() == 0) return Error{.what = "the mesh has no cells", .file = name};
+    const Simplex simplex = mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron;
+    const std::vector<Claimant> claimants = claimants_of(options.kernels, simplex);
+    if (claimants.back().kernel == nullptr)
+        return Error{.what = "no kernel for the cells of the mesh",
+                     .file = name,
+                     .expected = "a kernel for a " + std::string(barycert::name(simplex)),
+                     .remedy = "`barycert kernels` lists them"};
+    report.mesh = name;
+    report.dimension = mesh.dimension;
+    report.verdict = verdict;
+    report.seed = options.seed;
+    report.count = options.count;
+    report.tolerance = options.tolerance;
+    report.threads =
+        options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    for (const Claimant& c : claimants)
+        report.results.push_back({c.kernel == nullptr ? "" : c.kernel->name, c.rule, {}, {}});
+
+    const auto start = std::chrono::steady_clock::now();
+    const Finder finder(options, mesh, claimants);
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(report.threads));
+    tbb::task_arena arena(report.threads);
+    tbb::enumerable_thread_specific<Found> found([&] { return Found{report.results, {}, {}}; });
+    const std::size_t first = mesh.dimension == 2 ? 1 : 0;  // in the plane no cells share a face
+    arena.execute([&] {
+        for (std::size_t feature = first; feature < 3; ++feature) {
+            tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, options.count, 64), [&](const auto& range) {
+                const ExactEnvironment environment;
+                for (std::uint64_t i = range.begin(); i != range.end(); ++i) finder.run(feature, i, found.local());
+            });
+        }
+    });
+    const std::pair<std::uint64_t, Disagreement>* quarrel = nullptr;
+    for (const Found& local : found) {
+        report.oracles.add(local.oracles);
+        for (std::size_t k = 0; k < report.results.size(); ++k) merge(report.results[k], local.results[k]);
+        if (local.quarrel && (quarrel == nullptr || local.quarrel->first < quarrel->first)) quarrel = &*local.quarrel;
+    }
+    if (quarrel != nullptr) return error_of(quarrel->second, "gaps", quarrel->first, options.seed);
+    for (ClaimResult& r : report.results)
+        std::sort(r.witnesses.begin(), r.witnesses.end(),
+                  [](const auto& a, const auto& b) { return a.first < b.first; });
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return report;
+}
+
+}  // namespace barycert

@@ -1,0 +1,67 @@
+#include "barycert/audit/judge.hpp"
+
+#include "barycert/base/random.hpp"
+#include "barycert/base/text.hpp"
+
+namespace barycert::audit {
+namespace {
+
+std::string told(const OracleAnswer& a, const Case& c) {
+    std::string text(name(a.region));
+    for (int i = 0; i < vertex_count(c.simplex); ++i)
+        text += (i == 0 ? ", weights " : " ") + base::hexadecimal(a.weights[static_cast<std::size_t>(i)]);
+    return text + ", value " + base::hexadecimal(a.value);
+}
+
+}  // namespace
+
+OracleAnswer Judge::decide(const Case& c, std::uint64_t index, OracleCounts& counts,
+                           std::optional<Disagreement>& disagreement) const {
+    const auto confirm = [&](const char* first, const OracleAnswer& answer, const char* second, Oracle oracle,
+                             std::uint64_t& agreed) {
+        const OracleAnswer other = oracle(c);
+        ++agreed;
+        if (!same_answer(answer, other)) disagreement = Disagreement{first, second, answer, other, c};
+    };
+    if (choice_ == OracleChoice::cgal) {
+        ++counts.cgal;
+        return cgal_(c);
+    }
+    // Not every n-th: families number their cases by patterns of their own.
+    const std::uint64_t dice = base::mix64(index);
+    const bool in_sample = choice_ == OracleChoice::automatic && dice % cgal_share == 0;
+    if (core_) {
+        if (const std::optional<OracleAnswer> answer = ask_core(c)) {
+            ++counts.core;
+            if (dice % integers_share == 0) confirm("the core", *answer, "integers", ask_oracle, counts.also_integers);
+            if (in_sample) confirm("the core", *answer, "CGAL", cgal_, counts.also_cgal);
+            return *answer;
+        }
+    }
+    const OracleAnswer answer = ask_oracle(c);
+    ++counts.integers;
+    if (!answer.narrow) ++counts.wide;
+    if (choice_ == OracleChoice::both || in_sample || (choice_ == OracleChoice::automatic && !answer.narrow))
+        confirm("integers", answer, "CGAL", cgal_, counts.also_cgal);
+    return answer;
+}
+
+Error error_of(const Disagreement& d, const std::string& family, std::uint64_t index, std::uint64_t seed) {
+    std::string numbers;
+    const int count = vertex_count(d.c.simplex) * d.c.stride();
+    for (int i = 0; i < count; ++i) numbers += " " + base::hexadecimal(d.c.vertices[static_cast<std::size_t>(i)]);
+    numbers += ", point";
+    for (int i = 0; i < space_dimension(d.c.simplex); ++i)
+        numbers += " " + base::hexadecimal(d.c.point[static_cast<std::size_t>(i)]);
+    numbers += ", values";
+    for (int i = 0; i < vertex_count(d.c.simplex); ++i)
+        numbers += " " + base::hexadecimal(d.c.values[static_cast<std::size_t>(i)]);
+    return {.what = "two oracles disagree, so nothing is said of any kernel: family " + family + ", case " +
+                    std::to_string(index) + ", seed " + std::to_string(seed) + ", " + std::string(name(d.c.simplex)) +
+                    (d.c.perspective ? " in perspective" : "") + ", vertices" + numbers,
+            .expected = d.first + ": " + told(d.first_answer, d.c),
+            .found = d.second + ": " + told(d.second_answer, d.c),
+            .remedy = "one of them has a defect: report the case"};
+}
+
+}  // namespace barycert::audit

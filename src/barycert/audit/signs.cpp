@@ -1,0 +1,93 @@
+#include <algorithm>
+#include <cmath>
+
+#include "barycert/audit/asking.hpp"
+#include "barycert/audit_signs.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/oracle.hpp"
+
+namespace barycert {
+
+using namespace audit;
+
+namespace {
+
+/// Vertex 2 is the one off the side; the others lie in x = y.
+constexpr std::size_t apex = 2;
+
+std::size_t place(int i, int j) {
+    return static_cast<std::size_t>(j) * SignPicture::side + static_cast<std::size_t>(i);
+}
+
+SignPicture exact_picture(Simplex s, bool perspective) {
+    SignPicture picture{.kernel = {}, .simplex = s, .perspective = perspective, .signs = {}, .wrong = 0};
+    picture.signs.resize(std::size_t{SignPicture::side} * SignPicture::side);
+    for (int j = 0; j < SignPicture::side; ++j) {
+        for (int i = 0; i < SignPicture::side; ++i)
+            picture.signs[place(i, j)] = ask_oracle(sign_case(s, perspective, i, j)).signs[apex];
+    }
+    return picture;
+}
+
+std::int8_t sign_of(const Statement& s) {
+    const double w = s.weights[apex];
+    if (!s.answered || s.status != 0 || !std::isfinite(w)) return 2;
+    return static_cast<std::int8_t>(w > 0 ? 1 : w < 0 ? -1 : 0);
+}
+
+SignPicture picture_of(const Kernel& kernel, const SignPicture& exact) {
+    SignPicture picture = exact;
+    picture.kernel = kernel.name;
+    std::vector<Case> cases(SignPicture::side);
+    std::vector<Statement> statements(SignPicture::side);
+    for (int j = 0; j < SignPicture::side; ++j) {
+        for (int i = 0; i < SignPicture::side; ++i)
+            cases[static_cast<std::size_t>(i)] = sign_case(kernel.simplex, kernel.perspective, i, j);
+        ask_kernel(kernel, cases, statements, false);
+        for (int i = 0; i < SignPicture::side; ++i) {
+            std::int8_t& sign = picture.signs[place(i, j)];
+            const std::int8_t seen = sign_of(statements[static_cast<std::size_t>(i)]);
+            picture.wrong += seen != sign ? 1 : 0;
+            sign = seen;
+        }
+    }
+    return picture;
+}
+
+}  // namespace
+
+Case sign_case(Simplex s, bool perspective, int i, int j) {
+    Case c;
+    c.simplex = s;
+    c.perspective = perspective;
+    c.values = {1, 2, 3, 4};
+    const auto set = [&](int vertex, double x, double y, double z) {
+        c.vertex(vertex, 0) = x;
+        c.vertex(vertex, 1) = y;
+        if (c.stride() == 3) c.vertex(vertex, 2) = z;
+    };
+    const bool solid = s == Simplex::tetrahedron;
+    set(0, 12, 12, solid ? 12 : perspective ? 1 : 0.5);
+    set(1, 24, 24, solid ? 24 : perspective ? 2 : 0.5);
+    set(2, 24, 12, solid ? 30 : perspective ? 3 : 0.5);
+    if (solid) set(3, 48, 48, 7);
+    c.point = {0.5 + i * 0x1p-53, 0.5 + j * 0x1p-53, space_dimension(s) == 3 ? 0.5 : 0.0};
+    return c;
+}
+
+std::vector<SignPicture> sign_pictures(const std::vector<Kernel>& kernels) {
+    const ExactEnvironment environment;
+    std::vector<SignPicture> pictures;
+    for (const Kernel& k : kernels) {
+        if (k.simplex == Simplex::segment) continue;
+        auto exact = std::find_if(pictures.begin(), pictures.end(), [&](const SignPicture& p) {
+            return p.kernel.empty() && p.simplex == k.simplex && p.perspective == k.perspective;
+        });
+        if (exact == pictures.end()) exact = pictures.insert(exact, exact_picture(k.simplex, k.perspective));
+        const SignPicture of = *exact;
+        pictures.push_back(picture_of(k, of));
+    }
+    return pictures;
+}
+
+}  // namespace barycert

@@ -1,0 +1,233 @@
+// A second oracle: CGAL's kernel of exact predicates and exact constructions, rounded by MPFR.
+//
+// Tetrahedron and triangle: the sign of weight i is the orientation with the point in place of vertex i, times that of
+// the simplex; the weight is the quotient of the volumes or areas. Triangle in space: the point's projection to the
+// plane, and tetrahedra with a common apex off it. Segment: the point's projection to the line. Perspective: the line
+// from the eye through (x, y, 1) is met with the plane of the vertices (x w, y w, w).
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <mpfr.h>
+
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "barycert/environment.hpp"
+#include "barycert/oracle.hpp"
+
+namespace barycert {
+namespace {
+
+using Epeck = CGAL::Exact_predicates_exact_constructions_kernel;
+using Number = Epeck::FT;
+using Point2 = Epeck::Point_2;
+using Point3 = Epeck::Point_3;
+
+/// GMP's rational in CGAL's exact number, whichever of its types that is.
+template <class Exact>
+mpq_srcptr rational(const Exact& x) {
+    if constexpr (requires { x.mpq(); }) {
+        return x.mpq();
+    } else if constexpr (requires { x.get_mpq_t(); }) {
+        return x.get_mpq_t();
+    } else {
+        return x.backend().data();
+    }
+}
+
+/// MPFR's numbers as doubles: 53 bits, and the range that mpfr_subnormalize() wants.
+class Rounder {
+public:
+    Rounder() {
+        mpfr_init2(number_, 53);
+        mpq_init(quotient_);
+    }
+    ~Rounder() {
+        mpfr_clear(number_);
+        mpq_clear(quotient_);
+    }
+    Rounder(const Rounder&) = delete;
+    Rounder& operator=(const Rounder&) = delete;
+
+    /// The quotient, to nearest, ties to even, subnormals and overflow included. Requires a divisor other than 0.
+    double operator()(const Number& x, const Number& divisor) {
+        const mpfr_exp_t low = mpfr_get_emin(), high = mpfr_get_emax();
+        mpfr_set_emin(-1073);
+        mpfr_set_emax(1024);
+        // Not reduced: that takes longer than all else, and MPFR does not ask for it.
+        mpq_srcptr a = rational(x.exact()), b = rational(divisor.exact());
+        mpz_mul(mpq_numref(quotient_), mpq_numref(a), mpq_denref(b));
+        mpz_mul(mpq_denref(quotient_), mpq_denref(a), mpq_numref(b));
+        if (mpz_sgn(mpq_denref(quotient_)) < 0) {
+            mpz_neg(mpq_numref(quotient_), mpq_numref(quotient_));
+            mpz_neg(mpq_denref(quotient_), mpq_denref(quotient_));
+        }
+        const int inexact = mpfr_set_q(number_, quotient_, MPFR_RNDN);
+        mpfr_subnormalize(number_, inexact, MPFR_RNDN);
+        const double result = mpfr_get_d(number_, MPFR_RNDN);
+        mpfr_set_emin(low);
+        mpfr_set_emax(high);
+        return result;
+    }
+
+private:
+    mpfr_t number_;
+    mpq_t quotient_;
+};
+
+/// Weights as parts of a whole, and their signs as CGAL's predicates tell them; nothing if there are none.
+struct Found {
+    std::array<Number, 4> parts;
+    Number whole;
+    std::array<int, 4> signs{};
+};
+
+Point2 point2(const double* x) {
+    return {x[0], x[1]};
+}
+
+Point3 point3(const double* x) {
+    return {x[0], x[1], x[2]};
+}
+
+std::optional<Found> tetrahedron(const Case& c) {
+    std::array<Point3, 4> v;
+    for (std::size_t i = 0; i < 4; ++i) v[i] = point3(&c.vertices[3 * i]);
+    const int whole = CGAL::orientation(v[0], v[1], v[2], v[3]);
+    if (whole == 0) return std::nullopt;
+    const Point3 p = point3(c.point.data());
+    Found f;
+    f.whole = CGAL::volume(v[0], v[1], v[2], v[3]);
+    for (std::size_t i = 0; i < 4; ++i) {
+        std::array<Point3, 4> w = v;
+        w[i] = p;
+        f.signs[i] = CGAL::orientation(w[0], w[1], w[2], w[3]) * whole;
+        f.parts[i] = CGAL::volume(w[0], w[1], w[2], w[3]);
+    }
+    return f;
+}
+
+std::optional<Found> triangle(const Case& c) {
+    std::array<Point2, 3> v;
+    for (std::size_t i = 0; i < 3; ++i) v[i] = point2(&c.vertices[2 * i]);
+    const int whole = CGAL::orientation(v[0], v[1], v[2]);
+    if (whole == 0) return std::nullopt;
+    const Point2 p = point2(c.point.data());
+    Found f;
+    f.whole = CGAL::area(v[0], v[1], v[2]);
+    for (std::size_t i = 0; i < 3; ++i) {
+        std::array<Point2, 3> w = v;
+        w[i] = p;
+        f.signs[i] = CGAL::orientation(w[0], w[1], w[2]) * whole;
+        f.parts[i] = CGAL::area(w[0], w[1], w[2]);
+    }
+    return f;
+}
+
+/// Of a point in the plane of three others: with an apex off the plane.
+Found in_plane(const std::array<Point3, 3>& v, const Point3& p) {
+    const Point3 apex = v[0] + CGAL::cross_product(v[1] - v[0], v[2] - v[0]);
+    const int whole = CGAL::orientation(v[0], v[1], v[2], apex);
+    Found f;
+    f.whole = CGAL::volume(v[0], v[1], v[2], apex);
+    for (std::size_t i = 0; i < 3; ++i) {
+        std::array<Point3, 3> w = v;
+        w[i] = p;
+        f.signs[i] = CGAL::orientation(w[0], w[1], w[2], apex) * whole;
+        f.parts[i] = CGAL::volume(w[0], w[1], w[2], apex);
+    }
+    return f;
+}
+
+std::optional<Found> triangle3d(const Case& c) {
+    std::array<Point3, 3> v;
+    for (std::size_t i = 0; i < 3; ++i) v[i] = point3(&c.vertices[3 * i]);
+    if (CGAL::collinear(v[0], v[1], v[2])) return std::nullopt;
+    return in_plane(v, Epeck::Plane_3(v[0], v[1], v[2]).projection(point3(c.point.data())));
+}
+
+std::optional<Found> segment(const Case& c) {
+    const Point3 a = point3(&c.vertices[0]), b = point3(&c.vertices[3]);
+    if (a == b) return std::nullopt;
+    const Point3 q = Epeck::Line_3(a, b).projection(point3(c.point.data()));
+    const Epeck::Vector_3 edge = b - a;
+    Found f;
+    f.parts[1] = (q - a) * edge;
+    f.parts[0] = (b - q) * edge;
+    f.whole = edge.squared_length();
+    // The half-spaces behind the ends: planes normal to the segment.
+    f.signs[0] = Epeck::Plane_3(b, a - b).oriented_side(q);
+    f.signs[1] = Epeck::Plane_3(a, b - a).oriented_side(q);
+    return f;
+}
+
+std::optional<Found> perspective(const Case& c) {
+    if (CGAL::orientation(point2(&c.vertices[0]), point2(&c.vertices[3]), point2(&c.vertices[6])) == CGAL::ZERO)
+        return std::nullopt;
+    std::array<Point3, 3> v;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Number w = c.vertices[3 * i + 2];
+        v[i] = Point3(c.vertices[3 * i] * w, c.vertices[3 * i + 1] * w, w);
+    }
+    const Epeck::Line_3 ray(Point3(0, 0, 0), Point3(c.point[0], c.point[1], 1));
+    const auto met = CGAL::intersection(ray, Epeck::Plane_3(v[0], v[1], v[2]));
+    if (!met) return std::nullopt;
+    const Point3* const point = boost::get<Point3>(&*met);
+    return point == nullptr ? std::nullopt : std::optional(in_plane(v, *point));
+}
+
+std::optional<Found> found(const Case& c) {
+    if (c.perspective) return perspective(c);
+    switch (c.simplex) {
+        case Simplex::segment:
+            return segment(c);
+        case Simplex::triangle:
+            return triangle(c);
+        case Simplex::triangle3d:
+            return triangle3d(c);
+        case Simplex::tetrahedron:
+            break;
+    }
+    return tetrahedron(c);
+}
+
+}  // namespace
+
+OracleAnswer ask_cgal(const Case& c) {
+    const ExactEnvironment environment;
+    OracleAnswer a;
+    const std::optional<Found> f = found(c);
+    if (!f) {
+        a.region = Region::degenerate;
+        a.feature = Feature::degenerate;
+        a.weights.fill(std::numeric_limits<double>::quiet_NaN());
+        a.value = std::numeric_limits<double>::quiet_NaN();
+        return a;
+    }
+    Rounder rounded;
+    Number value = 0;
+    int nonzero = 0;
+    bool negative = false;
+    const auto count = static_cast<std::size_t>(vertex_count(c.simplex));
+    for (std::size_t i = 0; i < count; ++i) {
+        a.signs[i] = static_cast<std::int8_t>(f->signs[i]);
+        negative = negative || f->signs[i] < 0;
+        if (f->signs[i] != 0) {
+            a.support = static_cast<std::uint8_t>(a.support | (1U << i));
+            ++nonzero;
+        }
+        a.weights[i] = rounded(f->parts[i], f->whole);
+        value += f->parts[i] * Number(c.values[i]);
+    }
+    a.value = rounded(value, f->whole);
+    const bool whole = nonzero == static_cast<int>(count);
+    a.region = negative ? Region::outside : whole ? Region::interior : Region::boundary;
+    a.feature = negative       ? Feature::outside
+                : whole        ? Feature::interior
+                : nonzero == 1 ? Feature::vertex
+                : nonzero == 2 ? Feature::edge
+                               : Feature::face;
+    return a;
+}
+
+}  // namespace barycert

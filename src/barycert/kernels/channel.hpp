@@ -1,0 +1,88 @@
+/// The memory that the program shares with the process of a user's kernel, and what the two say to each other.
+///
+/// Three processes: the program; its server, forked when the library is named, which has no other thread and so may
+/// fork at any time; and the workers, which the server forks, one for each thread that asks. A worker loads the library
+/// and answers batches. When it dies, the program has the server fork another.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "barycert/kernels.hpp"
+#include "barycert/simplex.hpp"
+
+namespace barycert::kernels {
+
+/// Cases in one batch.
+inline constexpr std::size_t batch_size = 256;
+
+/// What a kernel does besides answering, as bits.
+enum Incident : std::uint8_t {
+    incident_crashed = 1,      ///< its process ended; there is no answer
+    incident_hung = 2,         ///< no answer in time; there is no answer
+    incident_beside = 4,       ///< touched memory beside its arrays, or wrote to its input
+    incident_environment = 8,  ///< came back with another rounding mode or flush-to-zero
+    incident_printed = 16,     ///< wrote to stdout or stderr
+};
+
+/// What a worker writes of one case. The program believes none of it: a kernel may have written there.
+struct Answer {
+    int status = 0;
+    int region = 0;  ///< of the kernel's own classification
+    std::array<double, 4> weights{};
+    double value = 0;  ///< of the kernel's own function of values
+    std::uint8_t incidents = 0;
+};
+
+/// Texts of barycert_kernel_info, cut to their room.
+struct Description {
+    int abi = 0, declares_degenerate = 0, certifies = 0;
+    bool classifies = false, interpolates = false;
+    char name[256] = {}, simplex[64] = {}, formula[1024] = {}, source[1024] = {};
+    char error[1024] = {};  ///< why it could not be loaded; then nothing else is set
+    char missing[64] = {};  ///< the function that it has not
+    char note[128] = {};    ///< what loading it did to the floating-point environment
+};
+
+enum class Command : char { describe = 'd', run = 'r' };
+
+struct Channel {
+    // From the program.
+    Simplex simplex = Simplex::tetrahedron;
+    int stride = 3;  ///< numbers of a vertex
+    std::uint32_t first = 0, count = 0;
+    bool timed = false;  ///< also run all of it again, without checks, against the clock
+    std::array<Case, batch_size> cases;
+
+    // From the worker.
+    std::atomic<std::uint32_t> current{0};   ///< the case that is being run
+    std::atomic<std::uint32_t> complete{0};  ///< answers below this one are complete
+    std::atomic<bool> beside{false};         ///< it died of a touch beside its arrays
+    std::array<Answer, batch_size> answers;
+    double ns = -1;           ///< per evaluation, if timed
+    char detail[160] = {};    ///< of the first incident of the batch that it survived
+    Description description;  ///< after Command::describe
+};
+
+static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "shared by processes");
+
+/// Loads the library at `path` and answers commands from the socket until it closes. Called in a process of its own,
+/// which it ends. `printed` is a file for what the library writes to stdout or stderr.
+[[noreturn]] void run_worker(Channel& channel, int socket, int printed, const char* path);
+
+/// Forks workers for the program at the other end of the socket, until that closes. Likewise.
+[[noreturn]] void run_server(Channel* channels, int socket, const char* path);
+
+/// The program's request to the server, with the worker's socket for `fork_worker`; the answer is an int.
+struct ServerRequest {
+    enum Kind : std::uint32_t {
+        fork_worker,  ///< answers the process id, or -errno
+        end_worker,   ///< ends the worker of the channel if it runs still; answers its status as waitpid tells it
+    } kind = fork_worker;
+    std::uint32_t channel = 0;
+};
+
+}  // namespace barycert::kernels

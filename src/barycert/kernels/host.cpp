@@ -1,0 +1,253 @@
+// The program's side: workers are asked for answers, and replaced where they die.
+#include "barycert/kernels/host.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <new>
+
+#include "barycert/base/text.hpp"
+#include "barycert/kernels/host_limits.hpp"
+
+namespace barycert::kernels {
+namespace {
+
+constexpr std::size_t channels_size = max_workers * sizeof(Channel);
+
+Error no_process(const std::string& path, std::string found) {
+    return {.what = "cannot run the kernel library in a process of its own",
+            .file = path,
+            .found = std::move(found),
+            .remedy = "run it in this process with --in-process if you trust it"};
+}
+
+/// How a process ended, in words.
+std::string ending(int status) {
+    if (WIFSIGNALED(status)) {
+        const char* const name = sigabbrev_np(WTERMSIG(status));
+        const char* const text = sigdescr_np(WTERMSIG(status));
+        return fmt::format("SIG{} ({})", name == nullptr ? "?" : name, text == nullptr ? "" : text);
+    }
+    return fmt::format("it called exit, status {}", WIFEXITED(status) ? WEXITSTATUS(status) : -1);
+}
+
+bool socket_pair(int (&ends)[2], int type) {
+    return socketpair(AF_UNIX, type | SOCK_CLOEXEC, 0, ends) == 0;
+}
+
+[[noreturn]] void become_server(Channel* channels, int socket, const char* path) {
+    for (int signal = 1; signal < 32; ++signal) std::signal(signal, SIG_DFL);
+    // What the terminal sends is meant for the program, whose end is this process's end.
+    for (const int signal : {SIGINT, SIGQUIT, SIGHUP}) std::signal(signal, SIG_IGN);
+    if (socket != 3) dup2(socket, 3);
+    close_range(4, ~0U, 0);
+    const int null = open("/dev/null", O_RDWR);
+    for (const int stream : {0, 1, 2}) dup2(null, stream);
+    if (null > 3) close(null);
+    run_server(channels, 3, path);
+}
+
+}  // namespace
+
+Result<std::shared_ptr<Host>> Host::start(const std::string& path, double seconds) {
+    const std::shared_ptr<Host> host(new Host);
+    // Without a slash dlopen would search the system's library folders instead of the working directory.
+    host->path_ = path.find('/') == std::string::npos ? "./" + path : path;
+    host->milliseconds_ = static_cast<int>(std::clamp(seconds * 1000, 1.0, 1e9));
+    void* const memory =
+        mmap(nullptr, channels_size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (memory == MAP_FAILED) return no_process(path, std::strerror(errno));
+    host->channels_ = static_cast<Channel*>(memory);
+    for (std::uint32_t i = 0; i < max_workers; ++i) {
+        host->free_.push_back({max_workers - 1 - i, -1});
+    }
+    int ends[2];
+    if (!socket_pair(ends, SOCK_SEQPACKET)) return no_process(path, std::strerror(errno));
+    host->server_socket_ = ends[0];
+    host->server_ = fork();
+    if (host->server_ == 0) become_server(host->channels_, ends[1], host->path_.c_str());
+    const int why = errno;
+    close(ends[1]);
+    if (host->server_ < 0) return no_process(path, std::strerror(why));
+
+    Worker worker = host->take();
+    const int usual = host->milliseconds_;
+    host->milliseconds_ = std::max(usual, loading_milliseconds);
+    const End end = host->begin(worker) ? host->command(worker, Command::describe) : End::died;
+    host->milliseconds_ = usual;
+    if (end != End::done) {
+        const int status = host->end(worker);
+        host->give_back(worker);
+        return Error{.what = "cannot load the kernel library",
+                     .file = path,
+                     .found = end == End::hung ? fmt::format("it did not load within {} s", loading_milliseconds / 1000)
+                                               : "its process ended while it was loaded: " + ending(status),
+                     .remedy = "look at its constructors and at barycert_kernel_describe"};
+    }
+    host->description_ = host->channel(worker).description;
+    host->give_back(worker);
+    return host;
+}
+
+Host::~Host() {
+    for (const Worker& worker : free_) {
+        if (worker.socket >= 0) close(worker.socket);
+    }
+    if (server_socket_ >= 0) close(server_socket_);
+    if (server_ > 0) {
+        while (waitpid(server_, nullptr, 0) < 0 && errno == EINTR) {
+        }
+    }
+    if (channels_ != nullptr) munmap(channels_, channels_size);
+}
+
+Host::Worker Host::take() {
+    std::unique_lock lock(mutex_);
+    freed_.wait(lock, [&] { return !free_.empty(); });
+    const Worker worker = free_.back();
+    free_.pop_back();
+    return worker;
+}
+
+void Host::give_back(const Worker& worker) {
+    {
+        const std::lock_guard lock(mutex_);
+        free_.push_back(worker);
+    }
+    freed_.notify_one();
+}
+
+/// -1 if the server is gone.
+int Host::ask_server(const ServerRequest& request, int with_socket) {
+    const std::lock_guard lock(server_mutex_);
+    alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> control{};
+    ServerRequest copy = request;
+    iovec part{&copy, sizeof copy};
+    msghdr message{};
+    message.msg_iov = &part;
+    message.msg_iovlen = 1;
+    if (with_socket >= 0) {
+        message.msg_control = control.data();
+        message.msg_controllen = control.size();
+        cmsghdr* const c = CMSG_FIRSTHDR(&message);
+        c->cmsg_level = SOL_SOCKET;
+        c->cmsg_type = SCM_RIGHTS;
+        c->cmsg_len = CMSG_LEN(sizeof(int));
+        std::memcpy(CMSG_DATA(c), &with_socket, sizeof with_socket);
+    }
+    if (sendmsg(server_socket_, &message, MSG_NOSIGNAL) < 0) return -1;
+    int answer = -1;
+    ssize_t got = 0;
+    do {
+        got = recv(server_socket_, &answer, sizeof answer, 0);
+    } while (got < 0 && errno == EINTR);
+    return got == sizeof answer ? answer : -1;
+}
+
+bool Host::begin(Worker& worker) {
+    if (worker.socket >= 0) return true;
+    int ends[2];
+    if (!socket_pair(ends, SOCK_STREAM)) return false;
+    new (&channel(worker)) Channel;
+    const int pid = ask_server({ServerRequest::fork_worker, worker.channel}, ends[1]);
+    close(ends[1]);
+    if (pid <= 0) {
+        close(ends[0]);
+        return false;
+    }
+    worker.socket = ends[0];
+    return true;
+}
+
+/// Ends the worker and returns its status.
+int Host::end(Worker& worker) {
+    if (worker.socket < 0) return 0;
+    close(worker.socket);
+    worker.socket = -1;
+    return ask_server({ServerRequest::end_worker, worker.channel}, -1);
+}
+
+/// Returns when it is done, dead, or in the same case for too long.
+Host::End Host::command(Worker& worker, Command command) {
+    char letter = static_cast<char>(command);
+    if (send(worker.socket, &letter, 1, MSG_NOSIGNAL) != 1) return End::died;
+    constexpr std::uint32_t nowhere = ~0U;
+    for (std::uint32_t seen = nowhere;;) {
+        pollfd ready{worker.socket, POLLIN, 0};
+        const int count = poll(&ready, 1, milliseconds_);
+        if (count < 0 && errno == EINTR) continue;
+        if (count == 0) {
+            const std::uint32_t now = channel(worker).current.load(std::memory_order_relaxed);
+            if (now == seen || command == Command::describe) return End::hung;
+            seen = now;
+            continue;
+        }
+        const ssize_t got = recv(worker.socket, &letter, 1, 0);
+        if (got < 0 && errno == EINTR) continue;
+        return got == 1 ? End::done : End::died;
+    }
+}
+
+Host::Batch Host::run(std::span<const Case> cases, std::span<Reply> replies, bool timed) {
+    Batch batch;
+    std::fill(replies.begin(), replies.end(), Reply{});
+    const auto count = static_cast<std::uint32_t>(std::min(cases.size(), batch_size));
+    if (count == 0) return batch;
+    Worker worker = take();
+    std::uint32_t first = 0;
+    std::string end_of_last;
+    while (first < count && patience_left_ > 0) {
+        if (!begin(worker)) {
+            patience_left_ = 0;
+            break;
+        }
+        Channel& c = channel(worker);
+        c.simplex = cases[0].simplex;
+        c.stride = cases[0].stride();
+        c.first = first;
+        c.count = count;
+        c.timed = timed;
+        c.beside = false;
+        c.current = c.complete = first;
+        std::copy_n(cases.begin(), count, c.cases.begin());
+        const End how = command(worker, Command::run);
+        const std::uint32_t complete = std::clamp(c.complete.load(std::memory_order_acquire), first, count);
+        const std::uint32_t answered = how == End::done ? count : complete;
+        for (std::uint32_t i = first; i < answered; ++i) replies[i] = {c.answers[i], true, true};
+        if (how == End::done) {
+            if (timed && c.ns > 0) batch.ns = c.ns;
+            c.detail[sizeof c.detail - 1] = '\0';
+            if (batch.detail.empty()) batch.detail = base::printable(c.detail);
+            break;
+        }
+        // All answered: it died when it ran again, against the clock.
+        const std::uint32_t culprit =
+            complete < count ? complete : std::min(c.current.load(std::memory_order_relaxed), count - 1);
+        const bool beside = c.beside;
+        const int status = end(worker);
+        Reply& reply = replies[culprit];
+        reply = {};
+        reply.ran = true;
+        reply.answer.weights.fill(std::numeric_limits<double>::quiet_NaN());
+        reply.answer.incidents = how == End::hung ? incident_hung : beside ? incident_beside : incident_crashed;
+        end_of_last = how == End::hung ? fmt::format("no answer within {} s", milliseconds_ / 1000.0)
+                      : beside         ? std::string("touched memory beside its arrays, or wrote to its input")
+                                       : ending(status);
+        patience_left_ -= how == End::hung ? patience_for_hang : 1;
+        first = complete < count ? culprit + 1 : count;
+    }
+    give_back(worker);
+    if (!end_of_last.empty()) batch.detail = end_of_last;
+    return batch;
+}
+
+}  // namespace barycert::kernels

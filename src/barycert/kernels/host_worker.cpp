@@ -1,0 +1,334 @@
+// The process that runs a user's kernel: guard pages around its arrays, and a look at what it left behind.
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cfenv>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <string>
+
+#include "barycert/environment.hpp"
+#include "barycert/kernel.h"
+#include "barycert/kernels/channel.hpp"
+
+namespace barycert::kernels {
+namespace {
+
+struct Functions {
+    void (*describe)(barycert_kernel_info*) = nullptr;
+    WeightsFunction weights = nullptr;
+    ClassifyFunction classify = nullptr;
+    CaseValueFunction value = nullptr;
+};
+
+[[noreturn]] void give_up() {
+    _exit(127);
+}
+
+/// Four arrays, each at the end of a page of its own with a page before and after it that may not be touched. The
+/// kernel reads its input through pages that it cannot write to.
+class GuardedArrays {
+public:
+    enum Array : std::size_t { vertices, point, values, weights };
+
+    GuardedArrays() : page_(static_cast<std::size_t>(sysconf(_SC_PAGESIZE))) {
+        const int file = memfd_create("arrays", MFD_CLOEXEC);
+        if (file < 0 || ftruncate(file, static_cast<off_t>(arrays * page_)) != 0) give_up();
+        void* const inner = mmap(nullptr, arrays * page_, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+        void* const outer = mmap(nullptr, size(), PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        if (inner == MAP_FAILED || outer == MAP_FAILED) give_up();
+        inner_ = static_cast<char*>(inner);
+        outer_ = static_cast<char*>(outer);
+        for (std::size_t a = 0; a < arrays; ++a) {
+            const int access = a == weights ? PROT_READ | PROT_WRITE : PROT_READ;
+            if (mmap(outer_ + (2 * a + 1) * page_, page_, access, MAP_SHARED | MAP_FIXED, file,
+                     static_cast<off_t>(a * page_)) == MAP_FAILED)
+                give_up();
+        }
+        close(file);
+        std::memset(inner_, filler, arrays * page_);
+    }
+
+    /// The last `count` numbers of an array's page: as the kernel gets them, and to write to.
+    double* outer(Array a, std::size_t count) const { return end(outer_ + (2 * a + 1) * page_, count); }
+    double* inner(Array a, std::size_t count) const { return end(inner_ + a * page_, count); }
+
+    bool holds(const void* address) const {
+        const char* const p = static_cast<const char*>(address);
+        return p >= outer_ && p < outer_ + size();
+    }
+
+    /// One of the 64 bytes in front of `count` weights was written to.
+    bool written_before(std::size_t count) const {
+        const char* const stop = inner_ + (weights + 1) * page_ - count * sizeof(double);
+        return std::any_of(stop - 64, stop, [](char c) { return c != static_cast<char>(filler); });
+    }
+    void mend_before(std::size_t count) {
+        std::memset(inner_ + weights * page_, filler, page_ - count * sizeof(double));
+    }
+
+private:
+    static constexpr std::size_t arrays = 4;
+    static constexpr int filler = 0xa5;
+    std::size_t size() const { return (2 * arrays + 1) * page_; }
+    double* end(char* page, std::size_t count) const {
+        return reinterpret_cast<double*>(page + page_ - count * sizeof(double));
+    }
+    std::size_t page_;
+    char* inner_ = nullptr;
+    char* outer_ = nullptr;
+};
+
+// For the handler of signals.
+Channel* the_channel = nullptr;
+const GuardedArrays* the_arrays = nullptr;
+
+/// Notes where the fault was, and lets it happen again.
+void on_fault(int signal, siginfo_t* info, void*) {
+    if (the_arrays != nullptr && the_arrays->holds(info->si_addr)) the_channel->beside = true;
+    std::signal(signal, SIG_DFL);
+}
+
+void set_signals() {
+    // The program's own handlers are not for this process.
+    for (int signal = 1; signal < 32; ++signal) std::signal(signal, SIG_DFL);
+    // Nor is what the terminal sends: an end by Ctrl-C is no crash of the kernel's.
+    for (const int signal : {SIGINT, SIGQUIT, SIGHUP}) std::signal(signal, SIG_IGN);
+    sigset_t none;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, nullptr);
+    static char stack[1 << 16];  // a kernel may have used up its own
+    stack_t alternative{};
+    alternative.ss_sp = stack;
+    alternative.ss_size = sizeof stack;
+    sigaltstack(&alternative, nullptr);
+    struct sigaction action {};
+    action.sa_sigaction = on_fault;
+    action.sa_flags = SA_SIGINFO | SA_ONSTACK;
+    sigaction(SIGSEGV, &action, nullptr);
+    sigaction(SIGBUS, &action, nullptr);
+}
+
+void set_streams(int printed) {
+    fcntl(printed, F_SETFL, O_APPEND);
+    const int null = open("/dev/null", O_RDONLY);
+    dup2(null, 0);
+    close(null);
+    dup2(printed, 1);
+    dup2(printed, 2);
+    std::setvbuf(stdout, nullptr, _IONBF, 0);
+}
+
+/// What is not as it should be in the floating-point environment, in words; nothing if all is.
+const char* changed_environment() {
+    if (rounds_correctly()) return nullptr;
+    const int rounding = std::fegetround();
+    if (rounding == FE_UPWARD) return "rounding upward";
+    if (rounding == FE_DOWNWARD) return "rounding downward";
+    if (rounding == FE_TOWARDZERO) return "rounding toward zero";
+    volatile double small = std::numeric_limits<double>::min();
+    small = small / 2;
+    if (small == 0) return "subnormal results flushed to zero";
+    volatile double subnormal = std::numeric_limits<double>::denorm_min();
+    if (subnormal + subnormal == 0) return "subnormal operands taken as zero";
+    return "floating-point exceptions or precision changed";
+}
+
+template <std::size_t n>
+void put(char (&to)[n], const char* text) {
+    std::snprintf(to, n, "%s", text == nullptr ? "" : text);
+}
+
+class WorkerProcess {
+public:
+    WorkerProcess(Channel& channel, int printed) : channel_(channel), printed_(printed) {}
+
+    Description load(const char* path) {
+        Description d;
+        void* const library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+        if (const char* change = changed_environment()) put(d.note, change);
+        ExactEnvironment::renew();
+        if (library == nullptr) {
+            put(d.error, dlerror());
+            return d;
+        }
+        find(library, "barycert_kernel_describe", f_.describe);
+        find(library, "barycert_kernel_weights", f_.weights);
+        find(library, "barycert_kernel_classify", f_.classify);
+        find(library, "barycert_kernel_value", f_.value);
+        if (f_.describe == nullptr || f_.weights == nullptr) {
+            put(d.missing, f_.describe == nullptr ? "barycert_kernel_describe" : "barycert_kernel_weights");
+            return d;
+        }
+        barycert_kernel_info info{};
+        f_.describe(&info);
+        ExactEnvironment::renew();
+        d.abi = info.abi;
+        d.declares_degenerate = info.declares_degenerate;
+        d.certifies = info.certifies;
+        d.classifies = f_.classify != nullptr;
+        d.interpolates = f_.value != nullptr;
+        put(d.name, info.name);
+        put(d.simplex, info.simplex);
+        put(d.formula, info.formula);
+        put(d.source, info.source);
+        if (has_printed()) forget_printed();  // a greeting is not an answer's affair
+        return d;
+    }
+
+    void run() {
+        channel_.detail[0] = '\0';
+        const std::uint32_t first = channel_.first;
+        const auto count = std::min<std::uint32_t>(channel_.count, batch_size);
+        ask(first, count);
+        if (has_printed() && !watches_) {  // by which case? Look after each, from now on
+            watches_ = true;
+            forget_printed();
+            channel_.detail[0] = '\0';
+            ask(first, count);
+        }
+        channel_.ns = channel_.timed && count > 0 ? measure(count) : -1;
+    }
+
+    const GuardedArrays& arrays() const { return arrays_; }
+
+private:
+    template <class Function>
+    static void find(void* library, const char* name, Function& function) {
+        function = reinterpret_cast<Function>(dlsym(library, name));
+    }
+
+    void ask(std::uint32_t first, std::uint32_t count) {
+        channel_.complete.store(first, std::memory_order_relaxed);
+        for (std::uint32_t i = first; i < count; ++i) {
+            channel_.current.store(i, std::memory_order_relaxed);
+            channel_.answers[i] = ask(channel_.cases[i]);
+            channel_.complete.store(i + 1, std::memory_order_release);
+        }
+    }
+
+    Answer ask(const Case& c) {
+        const auto n = static_cast<std::size_t>(vertex_count(channel_.simplex)),
+                   numbers = n * static_cast<std::size_t>(channel_.stride),
+                   d = static_cast<std::size_t>(space_dimension(channel_.simplex));
+        const double* const vertices = arrays_.outer(GuardedArrays::vertices, numbers);
+        const double* const point = arrays_.outer(GuardedArrays::point, d);
+        double* const weights = arrays_.outer(GuardedArrays::weights, n);
+        std::copy_n(c.vertices.data(), numbers, arrays_.inner(GuardedArrays::vertices, numbers));
+        std::copy_n(c.point.data(), d, arrays_.inner(GuardedArrays::point, d));
+        double* const inner = arrays_.inner(GuardedArrays::weights, n);
+        std::fill_n(inner, n, std::numeric_limits<double>::quiet_NaN());
+        Answer a;
+        a.status = f_.weights(vertices, point, weights);
+        look(a, n);
+        a.weights.fill(std::numeric_limits<double>::quiet_NaN());
+        std::copy_n(arrays_.inner(GuardedArrays::weights, n), n, a.weights.begin());
+        if (a.status == 0 && f_.classify != nullptr) {
+            a.region = f_.classify(vertices, point, weights);
+            look(a, n);
+        }
+        if (a.status == 0 && f_.value != nullptr) {
+            std::copy_n(c.values.data(), n, arrays_.inner(GuardedArrays::values, n));
+            a.value = f_.value(vertices, point, arrays_.outer(GuardedArrays::values, n));
+            look(a, n);
+        }
+        if (watches_ && has_printed()) {
+            a.incidents |= incident_printed;
+            tell_printed();
+        }
+        return a;
+    }
+
+    /// What the function that was just called left behind.
+    void look(Answer& a, std::size_t n) {
+        if (!rounds_correctly()) [[unlikely]] {
+            a.incidents |= incident_environment;
+            tell(changed_environment());
+            ExactEnvironment::renew();
+        }
+        if (arrays_.written_before(n)) [[unlikely]] {
+            a.incidents |= incident_beside;
+            tell("wrote in front of the weights");
+            arrays_.mend_before(n);
+        }
+    }
+
+    bool has_printed() const {
+        struct stat s {};
+        return fstat(printed_, &s) == 0 && s.st_size > 0;
+    }
+    void forget_printed() const {
+        if (ftruncate(printed_, 0) != 0) give_up();
+    }
+    void tell_printed() {
+        char text[100] = {};
+        const ssize_t got = pread(printed_, text, sizeof text - 1, 0);
+        if (channel_.detail[0] == '\0')
+            std::snprintf(channel_.detail, sizeof channel_.detail, "wrote \"%.*s\"",
+                          static_cast<int>(std::max<ssize_t>(got, 0)), text);
+        forget_printed();
+    }
+    void tell(const char* text) {
+        if (channel_.detail[0] == '\0') put(channel_.detail, text);
+    }
+
+    /// The time of a plain call, without the copying and looking above.
+    double measure(std::uint32_t count) {
+        double weights[4];
+        const auto start = std::chrono::steady_clock::now();
+        for (std::uint32_t i = 0; i < count; ++i) {
+            channel_.current.store(i, std::memory_order_relaxed);
+            const Case& c = channel_.cases[i];
+            f_.weights(c.vertices.data(), c.point.data(), weights);
+        }
+        const auto stop = std::chrono::steady_clock::now();
+        ExactEnvironment::renew();
+        if (watches_) forget_printed();
+        return std::chrono::duration<double, std::nano>(stop - start).count() / count;
+    }
+
+    Channel& channel_;
+    int printed_;
+    GuardedArrays arrays_;
+    Functions f_;
+    bool watches_ = false;
+};
+
+}  // namespace
+
+void run_worker(Channel& channel, int socket, int printed, const char* path) {
+    const ExactEnvironment environment;
+    the_channel = &channel;
+    set_signals();
+    set_streams(printed);
+    // Not where a library that closes what it did not open would find it.
+    const int own_socket = fcntl(socket, F_DUPFD_CLOEXEC, 200), own_printed = fcntl(printed, F_DUPFD_CLOEXEC, 200);
+    if (own_socket < 0 || own_printed < 0) give_up();
+    close(socket);
+    close(printed);
+    WorkerProcess process(channel, own_printed);
+    the_arrays = &process.arrays();
+    const Description description = process.load(path);
+    for (;;) {
+        char command = 0;
+        const ssize_t got = read(own_socket, &command, 1);
+        if (got < 0 && errno == EINTR) continue;
+        if (got != 1) _exit(0);
+        if (command == static_cast<char>(Command::describe)) {
+            channel.description = description;
+        } else {
+            process.run();
+        }
+        if (write(own_socket, &command, 1) != 1) _exit(0);
+    }
+}
+
+}  // namespace barycert::kernels

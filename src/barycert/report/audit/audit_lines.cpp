@@ -1,0 +1,83 @@
+// Witnesses and families in words.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "barycert/base/text.hpp"
+#include "barycert/report/audit/audit_words.hpp"
+#include "barycert/report/common/terminal_text.hpp"
+
+namespace barycert::report {
+
+std::string place_of(const Witness& w) {
+    return fmt::format("{}, case {}{}", base::printable(w.family), w.index,
+                       w.cell < 0 ? "" : fmt::format(", cell {} of {}", w.cell, base::printable(w.mesh)));
+}
+
+std::string shows(const Witness& w) {
+    if (w.reason.ends_with("_ulp")) return brief(w.magnitude) + " ulps";
+    if (!w.detail.empty()) return base::printable(w.detail);
+    if (w.reason == "false_declaration") return "declared degenerate";
+    if (w.reason == "missed_degenerate") return "weights up to " + brief(w.magnitude);
+    return std::isfinite(w.magnitude) ? "a weight off by " + brief(w.magnitude) : "a weight that is not finite";
+}
+
+std::string replay_command(const AuditReport& report, const KernelResult& k, const Witness& w,
+                           const TerminalStyle& style) {
+    std::string libraries;
+    for (const std::string& library : style.library_arguments) libraries += " --kernel-library " + shell_word(library);
+    libraries += style.kernel_arguments;
+    if (!style.witness_path.empty()) {
+        return fmt::format("{} replay {}{} --kernel {} --reason {}", style.command, shell_word(style.witness_path),
+                           libraries, shell_word(k.kernel.name), w.reason);
+    }
+    std::string command = style.command + " replay" + libraries;
+    const auto family =
+        std::find_if(report.families.begin(), report.families.end(), [&](const auto& f) { return f.name == w.family; });
+    if (family != report.families.end() && family->needs_mesh) {
+        for (const std::string& mesh : style.mesh_arguments) command += " --mesh " + shell_word(mesh);
+    }
+    return command + fmt::format(" --kernel {} --family {} --case {} --seed {}", shell_word(k.kernel.name),
+                                 shell_word(w.family), w.index, w.seed);
+}
+
+std::vector<FamilyLine> family_lines(const AuditReport& report) {
+    struct Row {
+        std::uint64_t cases = 0;
+        std::vector<std::pair<std::uint64_t, std::string>> wrong;  ///< wrong cases and kernel
+    };
+    std::map<std::pair<std::size_t, Simplex>, Row> rows;
+    for (const KernelResult& k : report.kernels) {
+        for (const FamilyResult& f : k.families) {
+            Row& row = rows[{f.family, k.kernel.simplex}];
+            row.cases = f.statistics.cases;
+            row.wrong.emplace_back(f.statistics.wrong_cases,
+                                   base::printable(k.kernel.name.substr(k.kernel.name.find('.') + 1)));
+        }
+    }
+    std::vector<FamilyLine> lines;
+    for (auto& [key, row] : rows) {
+        std::stable_sort(row.wrong.begin(), row.wrong.end(),
+                         [](const auto& a, const auto& b) { return a.first > b.first; });
+        const std::uint64_t worst = row.wrong.front().first;
+        const auto with = [&](std::uint64_t n) {
+            return static_cast<std::size_t>(
+                std::count_if(row.wrong.begin(), row.wrong.end(), [&](const auto& w) { return w.first == n; }));
+        };
+        const std::string more = with(worst) > 1 ? fmt::format(" (+{} more)", with(worst) - 1) : "";
+        lines.push_back({.family = report.families[key.first].name,
+                         .simplex = std::string(name(key.second)),
+                         .cases = row.cases,
+                         .clean = with(0),
+                         .kernels = row.wrong.size(),
+                         .median = row.wrong[(row.wrong.size() - 1) / 2].first,
+                         .worst = worst,
+                         .worst_kernel = worst == 0 ? "-" : row.wrong.front().second + more});
+    }
+    return lines;
+}
+
+}  // namespace barycert::report

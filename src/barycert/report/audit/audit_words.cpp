@@ -1,0 +1,183 @@
+#include "barycert/report/audit/audit_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "barycert/base/text.hpp"
+#include "barycert/report/common/terminal_text.hpp"
+
+namespace barycert::report {
+namespace {
+
+std::uint64_t exactly(const KernelStatistics& s, Region r) {
+    std::uint64_t n = 0;
+    for (const std::uint64_t claimed : s.confusion[static_cast<std::size_t>(r)]) n += claimed;
+    return n;
+}
+
+std::string names_of(const AuditReport& report, auto which) {
+    std::string names;
+    for (const KernelResult& k : report.kernels) {
+        if (which(k)) names += (names.empty() ? "" : ", ") + base::printable(k.kernel.name);
+    }
+    return names;
+}
+
+std::size_t wrong_kernels(const AuditReport& report) {
+    return static_cast<std::size_t>(std::count_if(report.kernels.begin(), report.kernels.end(),
+                                                  [](const auto& k) { return k.total.wrong_cases != 0; }));
+}
+
+}  // namespace
+
+std::string percent(const Share& share) {
+    return share.whole == 0 ? "-" : percent(share.part, share.whole);
+}
+
+Share inside_called_outside(const KernelStatistics& s) {
+    return {count_of(s, Finding::false_outside), exactly(s, Region::interior) + exactly(s, Region::boundary)};
+}
+
+Share outside_called_inside(const KernelStatistics& s) {
+    return {count_of(s, Finding::false_inside), exactly(s, Region::outside)};
+}
+
+Share wrong_on_meshes(const AuditReport& report, const KernelResult& k) {
+    Share share;
+    for (const FamilyResult& f : k.families) {
+        if (!report.families[f.family].needs_mesh) continue;
+        share.part += f.statistics.wrong_cases;
+        share.whole += f.statistics.cases;
+    }
+    return share;
+}
+
+bool perfect(const KernelStatistics& s) {
+    return s.wrong_cases == 0 && s.errors.worst.value <= 0;
+}
+
+Share unanswered(const KernelStatistics& s) {
+    return {s.errors.unanswered(), s.errors.total()};
+}
+
+double worst_on_meshes(const AuditReport& report, const KernelResult& k) {
+    double worst = -1;
+    for (const FamilyResult& f : k.families) {
+        if (report.families[f.family].needs_mesh) worst = std::max(worst, f.statistics.errors.worst.value);
+    }
+    return worst;
+}
+
+std::string usual_error(const KernelStatistics& s) {
+    const double within = s.errors.within(0.99);
+    if (within <= 0) return brief(within);
+    if (std::isinf(within)) return ">=100";
+    const auto exponent = static_cast<int>(std::lround(std::log10(within)));
+    return exponent < 0 ? fmt::format("<1e{}", exponent) : "<" + brief(within);
+}
+
+std::string incidents(const KernelStatistics& s) {
+    std::string out;
+    for (const Finding f :
+         {Finding::crashed, Finding::hung, Finding::out_of_bounds, Finding::changed_environment, Finding::printed}) {
+        if (count_of(s, f) != 0)
+            out += fmt::format("{}{} in {} cases", out.empty() ? "" : ", ", name(f), count_of(s, f));
+    }
+    if (s.not_run != 0) out += fmt::format("{}given up: {} cases were not run", out.empty() ? "" : "; ", s.not_run);
+    return out;
+}
+
+bool any_wrong(const AuditReport& report) {
+    return wrong_kernels(report) != 0;
+}
+
+std::string verdict_sentence(const AuditReport& report) {
+    const std::size_t all = report.kernels.size(), wrong = wrong_kernels(report);
+    if (all == 1) {
+        const KernelResult& k = report.kernels.front();
+        const std::string name = base::printable(k.kernel.name);
+        return wrong == 0 ? fmt::format("{}: no wrong answer in {} cases", name, k.total.cases)
+                          : fmt::format("{} is wrong in {} % of {} cases", name,
+                                        percent(k.total.wrong_cases, k.total.cases), k.total.cases);
+    }
+    if (wrong == 0) return fmt::format("none of {} kernels gives a wrong answer", all);
+    return fmt::format("{} of {} kernels give wrong answers", wrong, all);
+}
+
+std::string kernel_sentence(const AuditReport& report, const KernelResult& k) {
+    const KernelStatistics& s = k.total;
+    const Share out = inside_called_outside(s), in = outside_called_inside(s), none = unanswered(s);
+    std::string text;
+    const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
+    if (in.whole != 0) add(fmt::format("takes {} % of the points outside for inside", percent(in)));
+    if (out.whole != 0)
+        add(fmt::format("{}{} % of {} inside for outside", in.whole == 0 ? "takes " : "", percent(out),
+                        in.whole == 0 ? "the points" : "those"));
+    if (none.part != 0) add(fmt::format("gives no finite answer to {} % of the cases", percent(none)));
+    if (const std::string beside = incidents(s); !beside.empty()) add(beside);
+    const double worst = s.errors.worst.value, meshes = worst_on_meshes(report, k);
+    if (worst == 0 && none.part == 0) {
+        add("every weight is correctly rounded");
+    } else if (worst >= 0) {
+        const double usual = s.errors.within(0.99);
+        add(usual == 0 ? "99 % of its answers have no error"
+                       : fmt::format("99 % of its answers are off by {}",
+                                     std::isinf(usual) ? "up to 100 and more" : "less than " + brief(usual)));
+        add(fmt::format("the worst is off by {}", brief(worst)));
+        if (meshes >= 0 && meshes != worst) add(fmt::format("the worst on meshes by {}", brief(meshes)));
+    }
+    return text;
+}
+
+std::vector<std::string> verdict_details(const AuditReport& report) {
+    std::vector<std::string> lines;
+    if (report.kernels.size() == 1) {
+        std::string text = kernel_sentence(report, report.kernels.front());
+        if (text.empty()) return {};
+        text.front() = static_cast<char>(text.front() >= 'a' && text.front() <= 'z' ? text.front() - 32 : text.front());
+        return {text + "."};
+    }
+    if (any_wrong(report)) {
+        const KernelResult& k = report.kernels.front();
+        lines.push_back(fmt::format("Worst: {}, wrong in {} % of its cases: {}.", base::printable(k.kernel.name),
+                                    percent(k.total.wrong_cases, k.total.cases), kernel_sentence(report, k)));
+    }
+    const std::string broken =
+        names_of(report, [](const KernelResult& k) { return count_of(k.total, Finding::false_certificate) != 0; });
+    if (!broken.empty()) lines.push_back("Certified and wrong all the same: " + broken + ".");
+    const std::string right = names_of(report, [](const KernelResult& k) { return perfect(k.total); });
+    if (!right.empty()) lines.push_back("Right in every case, to the last bit: " + right + ".");
+    const std::string clean =
+        names_of(report, [](const KernelResult& k) { return k.total.wrong_cases == 0 && !perfect(k.total); });
+    if (!clean.empty()) lines.push_back("No wrong sign or region, but rounding errors: " + clean + ".");
+    return lines;
+}
+
+std::string cases_sentence(const AuditReport& report) {
+    std::string regions;
+    for (const Region r : all_regions)
+        regions += fmt::format("{}{} {}", r == Region::interior ? "" : ", ",
+                               report.regions[static_cast<std::size_t>(r)], name(r));
+    return fmt::format("{} cases of {} families, exactly {}", report.cases, report.families.size(), regions);
+}
+
+std::vector<MeshLine> mesh_lines(const AuditReport& report, std::string_view command) {
+    if (report.meshes.empty()) return {MeshLine{.text = "meshes: none"}};
+    std::vector<MeshLine> lines;
+    const auto line = [&](Verdict verdict, std::string_view text, const std::string& hint) {
+        std::string names;
+        for (std::size_t i = 0; i < report.meshes.size(); ++i) {
+            if (report.verdicts[i] == verdict) names += (names.empty() ? "" : ", ") + base::printable(report.meshes[i]);
+        }
+        if (!names.empty())
+            lines.push_back({fmt::format("meshes, {}: {}{}", text, names, hint), verdict == Verdict::not_certified});
+    };
+    line(Verdict::certified, "certified to be partitions", "");
+    line(Verdict::not_certified, "NOT certified to be partitions", fmt::format(" (why: {} check MESH)", command));
+    line(Verdict::not_checked, "not checked", "");
+    return lines;
+}
+
+}  // namespace barycert::report

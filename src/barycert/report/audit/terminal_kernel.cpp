@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "barycert/base/text.hpp"
+#include "barycert/report/audit/audit_words.hpp"
+#include "barycert/report/audit/oracle_words.hpp"
+#include "barycert/report/audit/terminal_tables.hpp"
+#include "barycert/report/common/terminal_text.hpp"
+
+namespace barycert::report {
+namespace {
+
+constexpr std::size_t kernel_text_width = 100;
+
+std::string what_it_is(const Kernel& k) {
+    std::string out;
+    const auto line = [&](std::string_view what, const std::string& text) {
+        if (!text.empty()) out += wrapped(fmt::format("{:<8} {}", what, base::printable(text)), kernel_text_width);
+    };
+    line("formula", k.formula);
+    line("source", k.source);
+    line("fails", k.fails);
+    return out;
+}
+
+/// The families, most wrong cases first, in the order of the report where they are equal.
+std::string kernel_families(const AuditReport& report, const KernelResult& k, const Colours& paint) {
+    std::vector<const FamilyResult*> families;
+    std::size_t width = 6;
+    for (const FamilyResult& f : k.families) {
+        families.push_back(&f);
+        width = std::max(width, report.families[f.family].name.size());
+    }
+    std::stable_sort(families.begin(), families.end(), [](const FamilyResult* a, const FamilyResult* b) {
+        return a->statistics.wrong_cases > b->statistics.wrong_cases;
+    });
+    const auto row = [&](const auto&... cells) {
+        return fmt::format("{:<{}} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>8} {:>8}", cells...);
+    };
+    std::string out =
+        paint.bold(row("family", width, "cases", "wrong", "in as", "out as", "no", "error", "error", "error")) + "\n" +
+        paint.bold(row("", width, "", "%", "out %", "in %", "ans. %", "99 %", "max", "ulps")) + "\n";
+    for (const FamilyResult* f : families) {
+        const KernelStatistics& s = f->statistics;
+        const std::string line =
+            row(report.families[f->family].name, width, brief_count(s.cases), percent(s.wrong_cases, s.cases),
+                percent(inside_called_outside(s)), percent(outside_called_inside(s)), percent(unanswered(s)),
+                usual_error(s), brief(s.errors.worst.value), brief(s.weight_ulp.value));
+        out += (s.wrong_cases == 0 ? paint.good(line) : line) + "\n";
+    }
+    return out;
+}
+
+std::string kernel_findings(const AuditReport& report, const KernelResult& k, const TerminalStyle& style,
+                            const Colours& paint) {
+    std::string out;
+    for (const Witness& w : k.witnesses) {
+        const auto finding = finding_named(w.reason);
+        const std::string head = finding ? fmt::format("{}: {} {}: {}", w.reason, count_of(k.total, *finding),
+                                                       *finding < Finding::opposite_sign ? "cases" : "weights",
+                                                       finding_texts[static_cast<std::size_t>(*finding)].meaning)
+                                         : w.reason;
+        out += fmt::format("{}\n    {}: {}\n    {}\n", paint.bold(head), place_of(w), shows(w),
+                           paint.dim(replay_command(report, k, w, style)));
+    }
+    return out.empty() ? "No witness: every weight and value is correctly rounded.\n" : out;
+}
+
+}  // namespace
+
+std::string kernel_text(const AuditReport& report, const TerminalStyle& style) {
+    const Colours paint(style.colour);
+    const KernelResult& k = report.kernels.front();
+    const std::string verdict = verdict_sentence(report);
+    std::string out = (any_wrong(report) ? paint.bad(verdict) : paint.good(verdict)) + "\n";
+    for (const std::string& line : verdict_details(report)) out += wrapped(line, kernel_text_width);
+    out += fmt::format("{} ns an evaluation\n\n", brief_time(k.ns)) + what_it_is(k.kernel) + "\n";
+    out += kernel_families(report, k, paint) + "\n";
+    out += paint.bold("Worst case of each finding, and the command that replays it:") + "\n" +
+           kernel_findings(report, k, style, paint) + "\n";
+    out += wrapped(cases_sentence(report), kernel_text_width) + wrapped(oracle_line(report.oracles), kernel_text_width);
+    for (const MeshLine& line : mesh_lines(report, style.command)) {
+        const std::string text = wrapped(line.text, kernel_text_width, ", ");
+        out += line.bad ? paint.bad(text) : text;
+    }
+    out += fmt::format("seed {}, {} cases per family and simplex, {} threads, {:.1f} s\n", report.seed, report.count,
+                       report.threads, report.seconds);
+    return out + environment_line(report.environment) + "\n";
+}
+
+}  // namespace barycert::report

@@ -1,0 +1,182 @@
+// Kernels in a process of their own: each accident is told with the case that did it, and the audit goes on.
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "audit_helpers.hpp"
+#include "barycert/audit/asking.hpp"
+
+namespace barycert::audit {
+namespace {
+
+constexpr std::uint64_t some = 2000;
+
+std::string library(const std::string& name) {
+    return std::string(BARYCERT_UNRULY_DIR) + "/unruly-" + name + ".so";
+}
+
+Kernel contained(const std::string& name, double seconds = 1) {
+    return load_contained_kernel(library(name), seconds).value();
+}
+
+/// As in unruly_kernel.c.
+bool unruly(const Case& c) {
+    const auto bits = std::bit_cast<std::uint64_t>(c.point[0]);
+    return (bits ^ (bits >> 11) ^ (bits >> 23)) % 32 == 0;
+}
+
+std::uint64_t unruly_cases(const std::string& family, std::uint64_t count) {
+    std::uint64_t n = 0;
+    for (std::uint64_t i = 0; i < count; ++i)
+        n += unruly(make_case(family_named(family), Simplex::tetrahedron, 1, i, own_meshes())) ? 1 : 0;
+    return n;
+}
+
+void expect_same_figures(const KernelStatistics& a, const KernelStatistics& b) {
+    EXPECT_EQ(a.cases, b.cases);
+    EXPECT_EQ(a.wrong_cases, b.wrong_cases);
+    EXPECT_EQ(a.counts, b.counts);
+    EXPECT_EQ(a.confusion, b.confusion);
+    EXPECT_EQ(a.weight_ulp.value, b.weight_ulp.value);
+    EXPECT_EQ(a.value_ulp.value, b.value_ulp.value);
+    EXPECT_EQ(a.partition_residual.value, b.partition_residual.value);
+}
+
+TEST(contained, a_kernel_that_behaves_has_the_same_figures_as_in_this_process) {
+    const Kernel inside = load_kernel_library(library("quiet")).value(), apart = contained("quiet");
+    EXPECT_EQ(inside.name, apart.name);
+    EXPECT_EQ(apart.weights, nullptr);
+    for (const char* family : {"mesh.faces", "huge", "degenerate.plane"})
+        expect_same_figures(statistics_of(inside, family, some, own_meshes()),
+                            statistics_of(apart, family, some, own_meshes()));
+    const AuditReport report = audit_of({apart}, {family_named("mesh.inside")}, some, own_meshes());
+    EXPECT_GT(report.kernels[0].ns, 1);
+    EXPECT_LT(report.kernels[0].ns, 10000);
+}
+
+TEST(contained, every_accident_is_told_with_its_case) {
+    struct Accident {
+        const char* name;
+        Finding finding;
+        const char* says;
+        bool answers;
+    };
+    const std::uint64_t expected = unruly_cases("mesh.inside", some);
+    ASSERT_GT(expected, some / 64);
+    for (const Accident& a : {
+             Accident{"crash", Finding::crashed, "SIGFPE", false},
+                 Accident{"exit", Finding::crashed, "it called exit, status ", false},
+                 Accident{"after", Finding::out_of_bounds, "beside its arrays", false},
+                 Accident{"before", Finding::out_of_bounds, "in front of the weights", true},
+                 Accident{"input", Finding::out_of_bounds, "wrote to its input", false},
+                 Accident{"read-after", Finding::out_of_bounds, "beside its arrays", false},
+                 Accident{"stack", Finding::crashed, "SIGSEGV", false},
+                 Accident{"round", Finding::changed_environment, "rounding upward", true},
+#if defined(__x86_64__)
+                 Accident{"flush", Finding::changed_environment, "flushed to zero", true},
+#endif
+                 Accident {
+                 "print", Finding::printed, "wrote \"point ", true
+             }
+         }) {
+        SCOPED_TRACE(a.name);
+        const AuditReport report = audit_of({contained(a.name)}, {family_named("mesh.inside")}, some, own_meshes());
+        const KernelResult& k = report.kernels.at(0);
+        EXPECT_EQ(k.total.cases, some);
+        EXPECT_EQ(k.total.not_run, 0U);
+        EXPECT_EQ(count_of(k.total, a.finding), expected);
+        EXPECT_EQ(k.total.wrong_cases, expected);
+        ASSERT_FALSE(k.witnesses.empty());
+        const Witness& w = k.witnesses.front();
+        EXPECT_EQ(w.reason, name(a.finding));
+        EXPECT_TRUE(unruly(w.c));
+        EXPECT_NE(w.detail.find(a.says), std::string::npos) << w.detail;
+        const Replay replay = replay_witness(w, {k.kernel});
+        EXPECT_EQ(replay.not_reproduced, "");
+        EXPECT_EQ(replay.answers.at(0).answered, a.answers);
+        // What it answers in those cases is right, or not there at all.
+        EXPECT_EQ(k.total.confusion[0][0], a.answers ? some : some - expected);
+    }
+}
+
+TEST(contained, a_hang_costs_the_time_limit_and_no_more) {
+    const std::uint64_t expected = unruly_cases("mesh.inside", 200);
+    ASSERT_GT(expected, 0U);
+    ASSERT_LT(expected, 14U);
+    const KernelStatistics s = statistics_of(contained("hang", 0.05), "mesh.inside", 200, own_meshes());
+    EXPECT_EQ(count_of(s, Finding::hung), expected);
+    EXPECT_EQ(s.wrong_cases, expected);
+    EXPECT_EQ(s.cases, 200U);
+}
+
+TEST(contained, the_time_limit_is_for_a_case_and_not_for_all) {
+    ASSERT_GT(unruly_cases("mesh.inside", 256), 5U);  // in one batch, 0.15 s each
+    const KernelStatistics s = statistics_of(contained("slow", 0.5), "mesh.inside", 256, own_meshes());
+    EXPECT_EQ(s.wrong_cases, 0U);
+    EXPECT_EQ(s.cases, 256U);
+}
+
+TEST(contained, figures_do_not_depend_on_threads) {
+    for (const char* name : {"crash", "print", "round"}) {
+        const auto figures = [&](int threads) {
+            return audit_of({contained(name)}, {family_named("mesh.faces")}, some, own_meshes(), threads)
+                .kernels.at(0)
+                .total;
+        };
+        expect_same_figures(figures(1), figures(4));
+    }
+}
+
+TEST(contained, what_never_answers_is_given_up_and_said_to_be) {
+    const AuditReport report = audit_of({contained("always")}, {family_named("mesh.inside")}, 5000, own_meshes());
+    const KernelStatistics& s = report.kernels.at(0).total;
+    EXPECT_GE(count_of(s, Finding::crashed), 1024U);
+    EXPECT_LT(count_of(s, Finding::crashed), 1100U);
+    EXPECT_EQ(s.cases, count_of(s, Finding::crashed));
+    EXPECT_EQ(s.cases + s.not_run, 5000U);
+    EXPECT_EQ(report.cases, 5000U);
+    EXPECT_EQ(report.regions[0] + report.regions[1] + report.regions[2], 5000U);
+}
+
+TEST(contained, what_does_not_load_is_refused) {
+    const Result<Kernel> loading = load_contained_kernel(library("loading"));
+    ASSERT_FALSE(loading.has_value());
+    EXPECT_NE(loading.error().found.find("SIGABRT"), std::string::npos) << loading.error().message();
+    const Result<Kernel> none = load_contained_kernel(library("none"));
+    ASSERT_FALSE(none.has_value());
+    EXPECT_EQ(none.error().what, "cannot load the kernel library");
+}
+
+TEST(contained, a_kernel_s_own_rule_and_values_are_what_is_judged) {
+    const Kernel inside = load_kernel_library(library("rule")).value(), apart = contained("rule");
+    EXPECT_EQ(inside.rule, RegionRule::own);
+    EXPECT_EQ(apart.rule, RegionRule::own);
+    EXPECT_TRUE(apart.host != nullptr);
+    const char* const family = "random";
+    const KernelStatistics own = statistics_of(apart, family, some, own_meshes());
+    expect_same_figures(own, statistics_of(inside, family, some, own_meshes()));
+    // By signs it is right; by its rule, points up to a quarter outside are inside.
+    const KernelStatistics plain = statistics_of(contained("quiet"), family, some, own_meshes());
+    EXPECT_EQ(count_of(plain, Finding::false_inside), 0U);
+    EXPECT_GT(count_of(own, Finding::false_inside), 10U);
+    EXPECT_EQ(count_of(own, Finding::false_outside), 0U);
+    EXPECT_EQ(count_of(own, Finding::opposite_sign), 0U);
+    // Its values are off by one, those of the sum are not.
+    EXPECT_GT(own.value_ulp.value, 0x1p51);
+    EXPECT_LT(plain.p999_value_ulp(), 0x1p40);
+}
+
+TEST(contained, a_classification_of_degenerate_or_nonsense_is_a_false_declaration) {
+    Kernel k = load_kernel_library(library("rule")).value();
+    for (const ClassifyFunction f :
+         {ClassifyFunction([](const double*, const double*, const double*) { return 3; }),
+          ClassifyFunction([](const double*, const double*, const double*) { return 77; })}) {
+        k.classify = f;
+        const KernelStatistics s = statistics_of(k, "mesh.inside", 100, own_meshes());
+        EXPECT_EQ(count_of(s, Finding::false_declaration), 100U);
+    }
+}
+
+}  // namespace
+}  // namespace barycert::audit

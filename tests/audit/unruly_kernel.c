@@ -1,0 +1,134 @@
+/* A user's kernel that is right and, in about one case of 32, does what UNRULY says: each an accident that an audit has
+ * to survive and to name. */
+#define _GNU_SOURCE
+#include <fenv.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "barycert/kernel.h"
+
+#define QUIET 0
+#define CRASH 1
+#define EXIT 2
+#define HANG 3
+#define AFTER 4
+#define BEFORE 5
+#define INPUT 6
+#define READ_AFTER 7
+#define ROUND 8
+#define FLUSH 9
+#define PRINT 10
+#define STACK 11
+#define ALWAYS 12
+#define LOADING 13
+#define RULE 14
+#define LOADED_FLUSH 15
+#define SLOW 16
+
+void barycert_kernel_describe(struct barycert_kernel_info* info) {
+    info->abi = BARYCERT_KERNEL_ABI;
+    info->name = "unruly";
+    info->simplex = "tetrahedron";
+}
+
+#if UNRULY == LOADED_FLUSH
+__attribute__((constructor)) static void flush(void) {
+    __builtin_ia32_ldmxcsr(__builtin_ia32_stmxcsr() | 0x8000);
+}
+#endif
+
+#if UNRULY == LOADING
+__attribute__((constructor)) static void crash(void) {
+    abort();
+}
+#endif
+
+static double volume(const double* a, const double* b, const double* c, const double* d) {
+    double u[3], v[3], w[3];
+    int i;
+    for (i = 0; i < 3; ++i) {
+        u[i] = b[i] - a[i];
+        v[i] = c[i] - a[i];
+        w[i] = d[i] - a[i];
+    }
+    return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
+}
+
+/* The tests know this condition as well. */
+static int unruly(const double* point) {
+    unsigned long long bits;
+    memcpy(&bits, point, sizeof bits);
+    return (bits ^ (bits >> 11) ^ (bits >> 23)) % 32 == 0;
+}
+
+#if UNRULY == STACK
+static int dig(volatile int depth) {
+    volatile char room[4096];
+    room[0] = (char)depth;
+    return dig(depth + 1) + room[0];
+}
+#endif
+
+int barycert_kernel_weights(const double* vertices, const double* point, double* weights) {
+    const double *a = vertices, *b = a + 3, *c = b + 3, *d = c + 3;
+    const double whole = volume(a, b, c, d);
+    weights[0] = volume(point, b, c, d) / whole;
+    weights[1] = volume(a, point, c, d) / whole;
+    weights[2] = volume(a, b, point, d) / whole;
+    weights[3] = volume(a, b, c, point) / whole;
+    if (unruly(point)) {
+#if UNRULY == CRASH
+        raise(SIGFPE);
+#elif UNRULY == EXIT
+        exit(3);
+#elif UNRULY == HANG
+        for (;;) pause();
+#elif UNRULY == SLOW
+        usleep(150000);
+#elif UNRULY == AFTER
+        weights[4] = 1;
+#elif UNRULY == BEFORE
+        weights[-1] = 1;
+#elif UNRULY == INPUT
+        ((double*)vertices)[0] = 0;
+#elif UNRULY == READ_AFTER
+        weights[0] += 0 * vertices[12];
+#elif UNRULY == ROUND
+        fesetround(FE_UPWARD);
+#elif UNRULY == FLUSH
+        __builtin_ia32_ldmxcsr(__builtin_ia32_stmxcsr() | 0x8000);
+#elif UNRULY == PRINT
+        printf("point %g\n", point[0]);
+#elif UNRULY == STACK
+        weights[0] += dig(0);
+#endif
+    }
+#if UNRULY == ALWAYS
+    abort();
+#endif
+    return 0;
+}
+
+#if UNRULY == RULE
+/* A tolerance of its own, and a value that is one too large. */
+int barycert_kernel_classify(const double* vertices, const double* point, const double* weights) {
+    int i;
+    (void)vertices;
+    (void)point;
+    for (i = 0; i < 4; ++i) {
+        if (weights[i] < -0.25) return BARYCERT_OUTSIDE;
+    }
+    return BARYCERT_INTERIOR;
+}
+
+double barycert_kernel_value(const double* vertices, const double* point, const double* values) {
+    double weights[4], sum = 1;
+    int i;
+    barycert_kernel_weights(vertices, point, weights);
+    for (i = 0; i < 4; ++i) sum += weights[i] * values[i];
+    return sum;
+}
+#endif

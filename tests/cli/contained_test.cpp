@@ -1,0 +1,172 @@
+// A user's kernel that misbehaves, as the user meets it: the audit survives, tells the case, and the command replays
+// it.
+
+#include <gtest/gtest.h>
+
+#include "process.hpp"
+
+namespace barycert::cli_test {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string unruly(const std::string& fault) {
+    return std::string(BARYCERT_CLI_UNRULY_DIR) + "/cli-unruly-" + fault + ".so";
+}
+
+Words audit_of(const std::string& fault, Words more = {}) {
+    Words words{"audit", "--kernel-library", unruly(fault), "--family", "mesh.inside", "--count", "300"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+/// The last line that begins with "    barycert replay".
+std::string replay_command(const std::string& table) {
+    std::string command;
+    for (const std::string& line : lines_of(table)) {
+        if (line.rfind("    barycert replay ", 0) == 0) command = line.substr(4);
+    }
+    return command;
+}
+
+TEST(contained, accidents_are_told_and_replayed) {
+    for (const auto& [fault, finding] : {std::pair("crash", "crashed"), std::pair("after", "out_of_bounds"),
+                                         std::pair("round", "changed_environment"), std::pair("print", "printed")}) {
+        SCOPED_TRACE(fault);
+        const Ended r = run(audit_of(fault, {"--fail-on", finding}));
+        EXPECT_EQ(r.code, 1);
+        EXPECT_TRUE(contains(r.err, std::string("fails: tetrahedron.unruly: ") + finding + " = 9, limit 0")) << r.err;
+        EXPECT_FALSE(contains(r.out, "point 1\n")) << "the kernel's own output";
+        EXPECT_TRUE(contains(r.out, std::string(finding) + " in 9 cases")) << r.out;
+        EXPECT_TRUE(contains(r.out, "decided: "));
+        const Ended again = run_shell(replay_command(r.out));
+        EXPECT_EQ(again.code, 0) << again.err;
+        EXPECT_TRUE(contains(again.out, finding)) << again.out;
+        EXPECT_TRUE(contains(again.out, "    cell ")) << again.out;
+    }
+}
+
+TEST(contained, a_hang_is_ended_by_the_time_limit) {
+    const Ended r = run(audit_of("hang", {"--time-limit", "0.05", "--json", "-"}));
+    EXPECT_EQ(r.code, 0) << r.err;
+    const Json report = parse(r.out);
+    EXPECT_EQ(report["kernels"][0]["hung"], 9);
+    EXPECT_EQ(report["kernels"][0]["contained"], true);
+    EXPECT_EQ(report["witnesses"][0]["detail"], "no answer within 0.05 s");
+    EXPECT_TRUE(report["witnesses"][0]["cell"].is_number_unsigned());
+}
+
+TEST(contained, a_library_that_dies_while_it_is_loaded_is_an_error) {
+    const Ended r = run(audit_of("loading"));
+    EXPECT_EQ(r.code, 2);
+    EXPECT_EQ(r.out, "");
+    EXPECT_TRUE(contains(r.err, "its process ended while it was loaded: SIGABRT")) << r.err;
+}
+
+#if defined(__x86_64__)
+TEST(contained, a_library_that_changes_the_environment_when_loaded_is_told_of) {
+    const Ended r = run(audit_of("loaded_flush", {"--quiet", "--fail-on", "any"}));
+    EXPECT_EQ(r.code, 0);
+    EXPECT_TRUE(contains(r.err, "note: ")) << r.err;
+    EXPECT_TRUE(contains(r.err, "loading it changes the floating-point environment: subnormal results flushed to zero"))
+        << r.err;
+}
+#endif
+
+TEST(contained, the_list_of_kernels_loads_it_apart_as_well) {
+    const Ended r = run({"kernels", "--kernel-library", unruly("loading")});
+    EXPECT_EQ(r.code, 2);
+    EXPECT_TRUE(contains(r.err, "SIGABRT")) << r.err;
+    EXPECT_TRUE(contains(run({"kernels", "--kernel-library", unruly("rule")}).out, "inside by a rule of its own"));
+}
+
+TEST(contained, in_process_is_as_it_was) {
+    const auto figures = [](Words more) {
+        Json kernel = parse(run(audit_of("quiet", std::move(more))).out)["kernels"][0];
+        for (const char* own : {"ns", "contained"}) kernel.erase(own);
+        return kernel;
+    };
+    EXPECT_EQ(figures({"--json", "-"}), figures({"--json", "-", "--in-process"}));
+    // In this process a crash is the audit's own.
+    EXPECT_NE(run(audit_of("crash", {"--in-process"})).signal, 0);
+}
+
+TEST(contained, a_rule_of_its_own_or_of_the_command_line) {
+    const auto kernel = [](const std::string& fault, Words more) {
+        Words words{"audit", "--kernel-library", unruly(fault), "--family", "random", "--count", "1000", "--json", "-"};
+        words.insert(words.end(), more.begin(), more.end());
+        return parse(run(words).out)["kernels"][0];
+    };
+    const Json plain = kernel("quiet", {}), tolerant = kernel("quiet", {"--class-tolerance", "0.25"}),
+               own = kernel("rule", {}), both = kernel("rule", {"--class-tolerance", "0"});
+    EXPECT_EQ(plain["region_rule"], "sign");
+    EXPECT_EQ(plain["false_inside"], 0);
+    EXPECT_EQ(tolerant["region_rule"], "tolerant");
+    EXPECT_EQ(tolerant["tolerance"], 0.25);
+    EXPECT_GT(tolerant["false_inside"], 10);
+    EXPECT_EQ(own["region_rule"], "own");
+    EXPECT_EQ(own["false_inside"], tolerant["false_inside"]) << "the library has the same rule";
+    EXPECT_EQ(both["false_inside"], own["false_inside"]) << "its own rule stands";
+}
+
+TEST(oracle, choices_agree_and_are_told) {
+    const auto report = [](const Words& choice) {
+        Words words{
+            "audit",  "--kernel", "tetrahedron.inverse", "--family", "huge", "--family", "mesh.faces", "--count", "300",
+            "--json", "-"};
+        words.insert(words.end(), choice.begin(), choice.end());
+        return parse(run(words).out);
+    };
+    const Json usual = report({});
+    EXPECT_EQ(usual["oracles"]["choice"], "automatic");
+    for (const char* choice : {"integers", "cgal", "both"}) {
+        const Json other = report({"--oracle", choice});
+        EXPECT_EQ(other["oracles"]["choice"], choice);
+        EXPECT_EQ(other["oracles"]["disagreements"], 0);
+        EXPECT_EQ(other["regions"], usual["regions"]);
+        EXPECT_EQ(other["kernels"][0]["wrong_cases"], usual["kernels"][0]["wrong_cases"]);
+        EXPECT_EQ(other["oracles"]["also_cgal"], std::string(choice) == "both" ? 600 : 0);
+    }
+    EXPECT_EQ(run({"audit", "--oracle", "coin"}).code, 2);
+}
+
+TEST(gaps, a_table_json_and_limits) {
+    const Words base{"gaps",     mesh("bracket"),     "--kernel", "tetrahedron.unsigned-volume",
+                     "--kernel", "tetrahedron.exact", "--count",  "500"};
+    const auto with = [&](Words more) {
+        more.insert(more.begin(), base.begin(), base.end());
+        return run(more);
+    };
+    const Ended table = with({});
+    EXPECT_EQ(table.code, 0) << table.err;
+    EXPECT_TRUE(
+        contains(table.out, "certified to be a partition; seed 1, 500 points on faces, edges and vertices each"));
+    EXPECT_TRUE(contains(table.out, "exact arithmetic"));
+    EXPECT_TRUE(contains(table.out, "made on the "));
+    const Json report = parse(with({"--json", "-", "--rule", "exact"}).out);
+    ASSERT_EQ(report["results"].size(), 3U);
+    for (const Json& r : report["results"]) {
+        EXPECT_EQ(r["inside"].get<int>() + r["outside"].get<int>(), 1500);
+        EXPECT_EQ(r["features"].size(), 3U);
+        if (r["kernel"].is_null() || r["kernel"] == "tetrahedron.exact") {
+            EXPECT_EQ(r["gaps"], 0);
+            EXPECT_EQ(r["wrong"], 0);
+            EXPECT_EQ(r["several"], report["results"][0]["several"]);
+        } else {
+            EXPECT_GT(r["wrong"], 100);
+        }
+    }
+    EXPECT_EQ(with({"--rule", "exact", "--fail-on", "gaps"}).code, 0);
+    const Ended fails = with({"--fail-on", "wrong>10", "--quiet"});
+    EXPECT_EQ(fails.code, 1);
+    EXPECT_TRUE(contains(fails.err, "fails: tetrahedron.unsigned-volume, exact: wrong = "));
+    EXPECT_EQ(with({"--fail-on", "zzz"}).code, 2);
+    EXPECT_EQ(run({"gaps", mesh("plate"), "--kernel", "segment.*"}).code, 2);
+    EXPECT_EQ(run({"gaps", "no-such-mesh"}).code, 2);
+    const Ended library = run({"gaps", mesh("bracket"), "--kernel-library", unruly("crash"), "--count", "50"});
+    EXPECT_EQ(library.code, 0) << library.err;
+    EXPECT_TRUE(contains(library.out, "tetrahedron.unruly"));
+}
+
+}  // namespace
+}  // namespace barycert::cli_test

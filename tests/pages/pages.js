@@ -1,0 +1,261 @@
+// The HTML pages of audit, check and verify in Chromium.
+//
+//   node pages.js PROGRAM DATA FOLDER CHROMIUM
+//
+// PROGRAM  barycert; DATA its folder of meshes; FOLDER is replaced, pages and pictures of them go there
+// Exit code 77: playwright-core is missing (NODE_PATH names the folder it is in).
+"use strict";
+const { execFileSync } = require("child_process");
+const fs = require("fs");
+const path = require("path");
+const { pathToFileURL } = require("url");
+
+const [program, data, folder, chromium] = process.argv.slice(2);
+let playwright;
+try {
+  playwright = require("playwright-core");
+} catch (error) {
+  console.log("skipped: playwright-core is missing; `./run pages` installs it");
+  process.exit(77);
+}
+
+let failures = 0;
+function check(ok, what) {
+  if (!ok) {
+    ++failures;
+    console.log("FAILS: " + what);
+  }
+}
+
+/// Runs the program; the page that --html names.
+function made(name, args, { code = 0, input = "" } = {}) {
+  let ended = 0;
+  try {
+    execFileSync(program, [...args, "--quiet", "--html", name], { cwd: folder, input, stdio: ["pipe", "pipe", "inherit"] });
+  } catch (error) {
+    ended = error.status;
+  }
+  if (ended !== code) throw new Error(`exit code ${ended}, not ${code}: barycert ${args.join(" ")}`);
+  return name;
+}
+
+function makePages() {
+  const mesh = (name) => path.join(data, "meshes", name);
+  // A mesh with a name that would be a tag, and one of its nodes moved.
+  const nasty = "a<img src=x onerror=alert(1)>&\"b";
+  fs.copyFileSync(mesh("cube-hole.ele"), path.join(folder, nasty + ".ele"));
+  const nodes = fs.readFileSync(mesh("cube-hole.node"), "utf8").replace(/^408 0\.4/m, "408 0.5");
+  fs.writeFileSync(path.join(folder, nasty + ".node"), nodes);
+  // Results with all kinds of errors.
+  let rows = "x,y,z,attribute0\n";
+  for (let i = 0; i < 200; ++i) {
+    const [x, y, z] = [i / 200, ((i * 7) % 200) / 200, ((i * 31) % 200) / 200];
+    rows += `${x},${y},${z},${i % 3 === 0 ? "nan" : i}\n`;
+  }
+  fs.writeFileSync(path.join(folder, nasty + ".csv"), rows);
+  return {
+    audit: made("audit.html", ["audit", "--count", "300", "--json", "audit.json"]),
+    nasty: made("nasty.html", ["audit", nasty, "--count", "50", "--family", "mesh.*", "--kernel", "*.kahan", "--kernel", "*.exact"]),
+    one: made("one.html", ["audit", "--count", "200", "--kernel", "tetrahedron.cramer"]),
+    right: made("right.html", ["audit", "--count", "50", "--kernel", "tetrahedron.exact"]),
+    check: made("check.html", ["check", mesh("flange")]),
+    broken: made("broken.html", ["check", nasty], { code: 1 }),
+    plane: made("plane.html", ["check", mesh("plate")]),
+    verify: made("verify.html", ["verify", mesh("cube-hole"), "--results", nasty + ".csv"], { code: 1 }),
+  };
+}
+
+/// Texts whose contrast with their ground is below 4.5 (WCAG AA), as far as grounds are plain colours.
+function poorContrast() {
+  const canvas = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
+  function parsed(colour) {
+    canvas.clearRect(0, 0, 1, 1);
+    canvas.fillStyle = colour;
+    canvas.fillRect(0, 0, 1, 1);
+    return Array.from(canvas.getImageData(0, 0, 1, 1).data);
+  }
+  function light([r, g, b]) {
+    const linear = [r, g, b].map((c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4));
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2];
+  }
+  function ground(element) {
+    for (let e = element; e; e = e.parentElement) {
+      const colour = parsed(getComputedStyle(e).backgroundColor);
+      if (colour[3] === 255) return colour;
+    }
+    return [255, 255, 255, 255];
+  }
+  const poor = new Map();
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+    const element = node.parentElement;
+    if (!node.textContent.trim() || ["SCRIPT", "STYLE", "title"].includes(element.tagName)) continue;
+    if (element.matches("svg .halo")) continue; // lies under the text itself
+    const style = getComputedStyle(element);
+    const colour = parsed(element.closest("svg") ? style.fill : style.color);
+    const [a, b] = [light(colour), light(ground(element))];
+    const contrast = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+    if (contrast < 4.5) poor.set(`${element.tagName}.${element.getAttribute("class")}`, contrast.toFixed(2));
+  }
+  return Array.from(poor, ([what, contrast]) => `${what} ${contrast}`);
+}
+
+/// What any reader of the page's structure asks for.
+function structure() {
+  const wrong = [];
+  if (document.documentElement.lang !== "en") wrong.push("no language");
+  if (!document.title) wrong.push("no title");
+  if (document.querySelectorAll("h1").length !== 1) wrong.push("not one h1");
+  if (document.querySelectorAll("main").length !== 1) wrong.push("not one main");
+  let level = 1;
+  for (const h of document.querySelectorAll("h1,h2,h3")) {
+    const now = Number(h.tagName[1]);
+    if (now > level + 1) wrong.push("a level of headings is left out before " + h.textContent);
+    level = now;
+  }
+  for (const img of document.images) {
+    if (!img.alt) wrong.push("img without alt");
+    if (!img.complete || img.naturalWidth === 0) wrong.push("img that does not show");
+  }
+  for (const svg of document.querySelectorAll("svg")) {
+    if (svg.getAttribute("role") !== "img" || !svg.querySelector("title")) wrong.push("svg without title");
+  }
+  for (const table of document.querySelectorAll("table:not(.bars)")) {
+    if (!table.querySelector("th")) wrong.push("table without heads");
+  }
+  for (const alien of document.querySelectorAll("[onerror],[onclick],link,iframe,object,embed,a[href]")) wrong.push(alien.outerHTML);
+  return wrong;
+}
+
+/// Elements that stick out of the page, other than what scrolls by itself.
+function stickingOut() {
+  const width = document.documentElement.clientWidth;
+  const out = [];
+  for (const e of document.body.querySelectorAll("*")) {
+    const box = e.getBoundingClientRect();
+    if (box.width === 0 || box.right <= width + 1 || e.closest(".scroll") || e.closest("svg,details:not([open])")) continue;
+    out.push(`${e.tagName}.${e.className} to ${Math.round(box.right)} of ${width}`);
+  }
+  return out;
+}
+
+async function main() {
+  fs.rmSync(folder, { recursive: true, force: true });
+  fs.mkdirSync(folder, { recursive: true });
+  const pages = makePages();
+  const browser = await playwright.chromium.launch({ executablePath: chromium, args: ["--no-sandbox"] });
+
+  async function opened(name, options, look) {
+    const context = await browser.newContext(options);
+    await context.grantPermissions(["clipboard-read", "clipboard-write"]).catch(() => {});
+    const page = await context.newPage();
+    const where = `${name} ${JSON.stringify(options)}`;
+    const url = pathToFileURL(path.join(folder, pages[name])).href;
+    page.on("console", (message) => check(false, `${where}: console: ${message.text()}`));
+    page.on("pageerror", (error) => check(false, `${where}: ${error}`));
+    page.on("dialog", (dialog) => { check(false, `${where}: dialog ${dialog.message()}`); dialog.dismiss(); });
+    page.on("request", (request) => {
+      if (request.url() !== url && !request.url().startsWith("data:")) check(false, `${where}: asks for ${request.url()}`);
+    });
+    await page.goto(url, { waitUntil: "load" });
+    await look(page, where);
+    await context.close();
+  }
+
+  for (const name of Object.keys(pages)) {
+    for (const colorScheme of ["light", "dark"]) {
+      for (const width of [1400, 390]) {
+        await opened(name, { viewport: { width, height: 900 }, colorScheme }, async (page, where) => {
+          const scroll = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+          check(scroll[0] <= scroll[1], `${where}: ${scroll[0]} pixels wide`);
+          for (const what of await page.evaluate(stickingOut)) check(false, `${where}: sticks out: ${what}`);
+          for (const what of await page.evaluate(structure)) check(false, `${where}: ${what}`);
+          for (const what of await page.evaluate(poorContrast)) check(false, `${where}: contrast: ${what}`);
+          const ground = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+          check((ground === "rgb(255, 255, 255)") === (colorScheme === "light"), `${where}: ground ${ground}`);
+          const picture = path.join(folder, `${name}-${width}-${colorScheme}.png`);
+          await page.screenshot({ path: picture, fullPage: false });
+          if (process.env.FULL_PAGES) await page.screenshot({ path: picture.replace(".png", "-full.png"), fullPage: true });
+        });
+      }
+    }
+    // Everything that is shown is there without JavaScript, too.
+    const words = {};
+    for (const javaScriptEnabled of [true, false]) {
+      await opened(name, { javaScriptEnabled }, async (page) => {
+        words[javaScriptEnabled] = (await page.locator("main").textContent()).replace(/Copy/g, "").replace(/\s+/g, " ");
+      });
+    }
+    check(words[true] === words[false], `${name}: without JavaScript the words are others`);
+  }
+
+  const report = JSON.parse(fs.readFileSync(path.join(folder, "audit.json"), "utf8"));
+  await opened("audit", { viewport: { width: 1400, height: 900 } }, async (page) => {
+    // The league table is the JSON's.
+    const rows = () => page.$$eval("table.league tbody tr", (all) => all.map((tr) => ({
+      name: tr.cells[0].textContent, numbers: Array.from(tr.cells).slice(1).map((c) => Number(c.dataset.v)) })));
+    const first = await rows();
+    const exactly = (kernel, region) => Object.values(kernel.confusion[region]).reduce((a, b) => a + b, 0);
+    const none = (x) => (x === null ? -1 : x === Number.MAX_VALUE ? Infinity : x);
+    const share = (part, whole) => (whole === 0 ? -1 : part / whole);
+    check(first.length === report.kernels.length, "a row for each kernel");
+    report.kernels.forEach((k, i) => {
+      const wanted = [share(k.wrong_cases, k.cases),
+        share(k.false_outside, exactly(k, "interior") + exactly(k, "boundary")),
+        share(k.false_inside, exactly(k, "outside")), share(k.by_error[22], k.cases - exactly(k, "degenerate")),
+        undefined, none(k.worst_error), none(k.worst_weight_ulp), k.cases,
+        Math.max(-1, ...k.families.filter((f) => f.name.startsWith("mesh.")).map((f) => none(f.worst_error))), k.ns];
+      check(first[i].name === k.name, `row ${i} is ${first[i].name}, not ${k.name}`);
+      wanted.forEach((x, c) => check(x === undefined || first[i].numbers[c] === x,
+        `${k.name}, column ${c}: ${first[i].numbers[c]}, in the JSON ${x}`));
+    });
+    // Every head sorts, down and up; the rows stay the same ones.
+    const heads = page.locator("table.league thead th button");
+    for (let c = 0; c < (await heads.count()); ++c) {
+      const keys = async () => (await rows()).map((r) => (c === 0 ? r.name : r.numbers[c - 1]));
+      const order = (a, b) => (c === 0 ? a.localeCompare(b) : a - b || 0);
+      const sorted = (all, sign) => all.every((x, i) => i === 0 || sign * order(all[i - 1], x) <= 0 || all[i - 1] === x);
+      await heads.nth(c).click();
+      check(sorted(await keys(), c === 0 ? 1 : -1), `column ${c} does not sort`);
+      await heads.nth(c).click();
+      check(sorted(await keys(), c === 0 ? -1 : 1), `column ${c} does not sort the other way`);
+      check((await rows()).length === first.length, "rows are lost");
+      check((await page.locator("th[aria-sort]").count()) === 1, "one column is the sorted one");
+    }
+    // By keyboard, too.
+    await heads.nth(0).focus();
+    await page.keyboard.press("Enter");
+    check((await page.locator("table.league th[aria-sort=ascending]").count()) === 1, "no sorting by keyboard");
+    // The commands are copied as they stand there.
+    const codes = page.locator("code.copy");
+    check((await codes.count()) === (await page.locator("button.copy").count()), "a button for each command");
+    for (const i of [0, (await codes.count()) - 1]) {
+      const code = codes.nth(i);
+      await code.locator("xpath=following-sibling::button[1]").click();
+      const copied = await page.evaluate(() => navigator.clipboard.readText());
+      check(copied === (await code.textContent()), `copied: ${copied}`);
+    }
+    // A copied command of a witness does what it says: it exits with 0.
+    const command = (await codes.first().textContent()).split(" ").slice(1);
+    execFileSync(program, command, { cwd: folder, stdio: ["ignore", "ignore", "inherit"] });
+    // Pictures of signs: the exact one first in each kind, and all of them differ.
+    const pictures = await page.$$eval(".signs", (kinds) => kinds.map((kind) => Array.from(kind.querySelectorAll("img"), (i) => i.src)));
+    check(pictures.length === 4, `${pictures.length} kinds of pictures of signs`);
+    for (const kind of pictures) check(new Set(kind).size === kind.length, "the same picture twice");
+    check((await page.locator(".signs figure:first-child.exact").count()) === pictures.length, "no exact picture first");
+  });
+  // On paper nothing is left out that the screen has, and the ground is white.
+  await opened("audit", { colorScheme: "dark" }, async (page) => {
+    await page.emulateMedia({ media: "print", colorScheme: "dark" });
+    check((await page.evaluate(() => getComputedStyle(document.body).backgroundColor)) === "rgb(255, 255, 255)", "dark paper");
+    await page.pdf({ path: path.join(folder, "audit.pdf") });
+  });
+  await browser.close();
+  console.log(failures === 0 ? `${Object.keys(pages).length} pages: all well` : `${failures} failures`);
+  process.exit(failures === 0 ? 0 : 1);
+}
+
+main().catch((error) => {
+  console.log("FAILS: " + (error.stack || error));
+  process.exit(1);
+});

@@ -1,0 +1,190 @@
+// The audit as an HTML page: well-formed, what is in it, and that it is what the JSON says.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "barycert/audit_report.hpp"
+#include "barycert/audit_signs.hpp"
+#include "barycert/report/common/page.hpp"
+#include "small_audit.hpp"
+#include "well_formed.hpp"
+
+namespace barycert::report_test {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string page_of(const AuditReport& report, const AuditPage& page = {}) {
+    return audit_html(report, page).value();
+}
+
+AuditReport only_kernel(const std::string& name) {
+    AuditReport report = audited();
+    std::erase_if(report.kernels, [&](const KernelResult& k) { return k.kernel.name != name; });
+    return report;
+}
+
+/// The cells of the row that starts with a head: shown, and sorted by.
+struct Cells {
+    std::vector<std::string> shown;
+    std::vector<double> numbers;
+};
+Cells row_of(const std::string& page, const std::string& table, const std::string& head) {
+    const std::size_t from = page.find(table);
+    const std::size_t first = page.find("<th scope=\"row\">" + head + "</th>", from), last = page.find("</tr>", first);
+    Cells cells;
+    if (first == std::string::npos || last == std::string::npos) return cells;
+    const std::string row = page.substr(first, last - first);
+    static const std::regex cell("<td class=\"n[^\"]*\" data-v=\"([^\"]*)\">([^<]*)</td>");
+    for (std::sregex_iterator it(row.begin(), row.end(), cell), end; it != end; ++it) {
+        cells.numbers.push_back(std::stod((*it)[1]));
+        cells.shown.push_back((*it)[2]);
+    }
+    return cells;
+}
+
+double share(const Json& part, std::uint64_t whole) {
+    return whole == 0 ? -1 : part.get<double>() / static_cast<double>(whole);
+}
+
+std::uint64_t exactly(const Json& kernel, const char* region) {
+    std::uint64_t n = 0;
+    for (const Json& claimed : kernel["confusion"][region]) n += claimed.get<std::uint64_t>();
+    return n;
+}
+
+double figure(const Json& x) {
+    if (x.is_null()) return -1;
+    const double number = x.get<double>();
+    return number == std::numeric_limits<double>::max() ? std::numeric_limits<double>::infinity() : number;
+}
+
+TEST(audit_html, is_well_formed_with_and_without_pictures) {
+    std::vector<Kernel> kernels;
+    for (const KernelResult& k : audited().kernels) kernels.push_back(k.kernel);
+    expect_well_formed(page_of(audited()), true);
+    const std::string page = page_of(audited(), {.command_line = "a && b < c", .signs = sign_pictures(kernels)});
+    expect_well_formed(page, true);
+    EXPECT_TRUE(has(page, "<code class=\"copy\">a &amp;&amp; b &lt; c</code>"));
+    EXPECT_TRUE(has(page, "src=\"data:image/png;base64,iVBOR"));
+    EXPECT_LT(page.size(), 2'000'000U);
+    expect_well_formed(page_of(only_kernel("triangle.signed-area")), true);
+}
+
+TEST(audit_html, the_league_is_the_json) {
+    const std::string page = page_of(audited());
+    const Json report = Json::parse(audit_json(audited()));
+    std::size_t at = 0;
+    for (const Json& k : report["kernels"]) {
+        const std::string name = k["name"];
+        SCOPED_TRACE(name);
+        // In the same order.
+        const std::size_t here = page.find("<th scope=\"row\">" + name + "</th>");
+        ASSERT_NE(here, std::string::npos);
+        EXPECT_GT(here, at);
+        at = here;
+        const Cells cells = row_of(page, "Kernels, worst first", name);
+        ASSERT_EQ(cells.numbers.size(), 10U);
+        const std::uint64_t cases = k["cases"];
+        EXPECT_EQ(cells.shown[7], std::to_string(cases));
+        EXPECT_EQ(cells.numbers[7], cases);
+        EXPECT_EQ(cells.numbers[0], share(k["wrong_cases"], cases));
+        EXPECT_EQ(cells.numbers[1], share(k["false_outside"], exactly(k, "interior") + exactly(k, "boundary")));
+        EXPECT_EQ(cells.numbers[2], share(k["false_inside"], exactly(k, "outside")));
+        EXPECT_EQ(cells.numbers[3], share(k["by_error"].back(), cases - exactly(k, "degenerate")));
+        EXPECT_EQ(cells.numbers[5], figure(k["worst_error"]));
+        EXPECT_EQ(cells.numbers[6], figure(k["worst_weight_ulp"]));
+        double meshes = -1;
+        for (const Json& f : k["families"]) {
+            if (f["name"].get<std::string>().starts_with("mesh.")) meshes = std::max(meshes, figure(f["worst_error"]));
+        }
+        EXPECT_EQ(cells.numbers[8], meshes);
+        EXPECT_EQ(cells.numbers[9], k["ns"]);
+        // The bars of its histogram hold the cases that by_error has.
+        std::uint64_t errors = 0, bars = 0;
+        for (const Json& n : k["by_error"]) errors += n.get<std::uint64_t>();
+        const std::size_t figure_at = page.find("<title>" + name + ": number of cases");
+        EXPECT_EQ(figure_at == std::string::npos, errors == 0);
+        if (errors == 0) continue;
+        const std::string svg = page.substr(figure_at, page.find("</svg>", figure_at) - figure_at);
+        static const std::regex bar(": ([0-9]+) cases</title>");
+        for (std::sregex_iterator it(svg.begin(), svg.end(), bar), end; it != end; ++it) bars += std::stoull((*it)[1]);
+        EXPECT_EQ(bars, errors);
+        EXPECT_EQ(errors, cases - exactly(k, "degenerate"));
+    }
+}
+
+TEST(audit_html, every_witness_of_the_json_has_its_command) {
+    const std::string page = page_of(audited(), {.style = {.witness_path = "it's.json"}});
+    const Json report = Json::parse(audit_json(audited()));
+    EXPECT_GT(report["witnesses"].size(), 100U);
+    for (const Json& w : report["witnesses"]) {
+        const std::string command = "barycert replay 'it'\\''s.json' --kernel " + w["kernel"].get<std::string>() +
+                                    " --reason " + w["reason"].get<std::string>();
+        EXPECT_TRUE(has(page, "<code class=\"copy\">" + command + "</code>")) << command;
+    }
+}
+
+TEST(audit_html, of_one_kernel_its_families) {
+    const AuditReport report = only_kernel("tetrahedron.cramer");
+    const std::string page = page_of(report);
+    const Json kernel = Json::parse(audit_json(report))["kernels"][0];
+    EXPECT_TRUE(has(page, "tetrahedron.cramer is wrong in "));
+    EXPECT_TRUE(has(page, "<dt>formula</dt>"));
+    for (const Json& f : kernel["families"]) {
+        const std::size_t at = page.find(">" + f["name"].get<std::string>() + "</th>");
+        ASSERT_NE(at, std::string::npos) << f["name"];
+        const std::string row = page.substr(at, page.find("</tr>", at) - at);
+        EXPECT_TRUE(has(row, "data-v=\"" + std::to_string(f["cases"].get<int>()) + "\""));
+    }
+}
+
+TEST(audit_html, verdicts) {
+    EXPECT_TRUE(has(page_of(audited()), "<section class=\"verdict bad\"><b>"));
+    EXPECT_TRUE(has(page_of(audited()), "Certified and wrong all the same: tetrahedron.stubborn."));
+    const std::string right = page_of(only_kernel("triangle.exact"));
+    EXPECT_TRUE(has(right, "<section class=\"verdict good\"><b>triangle.exact: no wrong answer in "));
+    EXPECT_TRUE(has(right, "No witness: every weight and value is correctly rounded."));
+}
+
+TEST(audit_html, text_from_outside_stays_text) {
+    AuditReport report = audited();
+    const std::string evil = "<script>alert(1)</script>&\"'\x1b\xff";
+    report.meshes = {evil};
+    report.verdicts = {Verdict::not_certified};
+    for (KernelResult& k : report.kernels) {
+        k.kernel.name = "triangle." + evil;
+        k.kernel.formula = k.kernel.source = k.kernel.fails = evil;
+        for (Witness& w : k.witnesses) w.kernel = k.kernel.name;
+    }
+    for (Family& f : report.families) f.name = f.tests = evil;
+    std::vector<SignPicture> signs = sign_pictures(kernels_matching("triangle.signed-area"));
+    signs.back().kernel = evil;
+    const AuditPage page{
+        .style = {.command = evil, .witness_path = {}, .mesh_arguments = {evil}, .library_arguments = {evil}},
+        .command_line = evil,
+        .signs = signs};
+    expect_well_formed(page_of(report, page), true);
+    EXPECT_FALSE(has(page_of(report, page), "<script>alert"));
+    report.kernels.resize(1);
+    expect_well_formed(page_of(report, page), true);
+    EXPECT_FALSE(has(page_of(report, page), "<script>alert"));
+}
+
+TEST(page, base64) {
+    using report::data_uri;
+    EXPECT_EQ(data_uri("a/b", ""), "data:a/b;base64,");
+    EXPECT_EQ(data_uri("a/b", "M"), "data:a/b;base64,TQ==");
+    EXPECT_EQ(data_uri("a/b", "Ma"), "data:a/b;base64,TWE=");
+    EXPECT_EQ(data_uri("a/b", "Man"), "data:a/b;base64,TWFu");
+    EXPECT_EQ(data_uri("a/b", std::string_view("\xff\x00\xfe\x7f", 4)), "data:a/b;base64,/wD+fw==");
+}
+
+}  // namespace
+}  // namespace barycert::report_test
