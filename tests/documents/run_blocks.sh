@@ -25,6 +25,7 @@ document=$1 sources=$2 programs=$3 examples=$4 folder=$5
 not_run() {
     case $1 in
         "./run test"* | "./run bench"* | "./run asan"* | "./run pages"* | "./run lint"* | "./run flags"*) why="takes minutes" ;;
+        "./run findings"* | "./run systems"* | "./run libraries"*) why="needs other systems" ;;
         "sudo "* | "apt-get "*) why="installs packages" ;;
         "cmake "* | "git clone "* | "cd "*) why="builds; tests/install does that" ;;
         "./run barycert mesh "*)

@@ -7,17 +7,24 @@
 namespace barycert::io::testing {
 namespace {
 
-bool numpy_is_there() {
-    return std::system("python3 -c 'import numpy' >/dev/null 2>&1") == 0;
+/// The first python3 of the path that has NumPy, or Debian's; empty: there is none.
+const std::string& python_with_numpy() {
+    static const std::string found = [] {
+        for (const char* const python : {"python3", "/usr/bin/python3"})
+            if (std::system((std::string(python) + " -c 'import numpy' >/dev/null 2>&1").c_str()) == 0)
+                return std::string(python);
+        return std::string();
+    }();
+    return found;
 }
 
 bool python(const TemporaryFolder& folder, const std::string& script) {
     put(folder / "script.py", script);
-    return std::system(("cd '" + folder / "." + "' && python3 script.py").c_str()) == 0;
+    return std::system(("cd '" + folder / "." + "' && " + python_with_numpy() + " script.py").c_str()) == 0;
 }
 
 TEST(NumPy, reads_what_is_written) {
-    if (!numpy_is_there()) GTEST_SKIP() << "python3 has no numpy";
+    if (python_with_numpy().empty()) GTEST_SKIP() << "no python3 with numpy";
     const TemporaryFolder folder;
     const RowData data =
         random_rows(5000, {.dimension = 3, .fields = {{"p"}, {"it's \\ \n"}, {"\xC3\xA4"}}, .distances = true}, 21);
@@ -45,7 +52,7 @@ assert b''.join(f + b'\n' for f in a['feature']) == open('features', 'rb').read(
 }
 
 TEST(NumPy, writes_what_is_read) {
-    if (!numpy_is_there()) GTEST_SKIP() << "python3 has no numpy";
+    if (python_with_numpy().empty()) GTEST_SKIP() << "no python3 with numpy";
     const TemporaryFolder folder;
     const std::vector<double> points = random_rows(3000, {.dimension = 3}, 22).points;
     put(folder / "points", bits_of(points));
@@ -90,7 +97,7 @@ np.savetxt('blanks.csv', a)
 }
 
 TEST(NumPy, columns_are_carried_through_as_they_are) {
-    if (!numpy_is_there()) GTEST_SKIP() << "python3 has no numpy";
+    if (python_with_numpy().empty()) GTEST_SKIP() << "no python3 with numpy";
     const TemporaryFolder folder;
     ASSERT_TRUE(python(folder, R"(
 import numpy as np

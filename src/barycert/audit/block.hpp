@@ -42,7 +42,7 @@ struct Quarrel {
 
 /// What one thread has learnt in one job.
 struct JobResult {
-    explicit JobResult(std::size_t kernels) : kernels(kernels) {}
+    explicit JobResult(std::size_t count) : kernels(count) {}
 
     std::vector<BlockResult> kernels;
     std::array<std::uint64_t, 4> regions{};  ///< cases by exact region

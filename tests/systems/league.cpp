@@ -1,0 +1,148 @@
+#include "systems/league.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace barycert::systems {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string share(std::uint64_t count, std::uint64_t of) {
+    if (of == 0) return "-";
+    if (count == 0) return "0";
+    const double percent = 100 * static_cast<double>(count) / static_cast<double>(of);
+    return percent < 0.001 ? fmt::format("{} (<0.001 %)", count) : fmt::format("{} ({:.2g} %)", count, percent);
+}
+
+std::string percent(std::uint64_t count, std::uint64_t of) {
+    if (count == 0) return "0";
+    const double p = 100 * static_cast<double>(count) / static_cast<double>(of);
+    return p >= 99.95 && count != of ? "99.9" : fmt::format("{:.2g}", p);
+}
+
+/// Over meshes; 0 if there are none.
+double median(std::vector<double> numbers) {
+    if (numbers.empty()) return 0;
+    std::sort(numbers.begin(), numbers.end());
+    return numbers[numbers.size() / 2];
+}
+
+Json tally_json(const Tally& t) {
+    Json j{{"points", t.points},
+           {"inside", t.inside},
+           {"outside", t.outside},
+           {"inside_called_outside", t.missed},
+           {"outside_called_inside", t.invented}};
+    j["owner_does_not_contain"] = t.has_cells ? Json(t.wrong_cell) : Json();
+    j["max_value_error"] = !t.has_values ? Json() : std::isfinite(t.max_error) ? Json(t.max_error) : Json("inf");
+    return j;
+}
+
+void summary(std::string& text, const League& league, int dimension) {
+    text +=
+        "| system | version | inside called outside | outside called inside | owner does not contain the point | "
+        "worst value error / range | ns a random point |\n|---|---|---|---|---|---|---|\n";
+    for (const Standing& s : league.standings) {
+        if (s.dimension != dimension) continue;
+        if (!s.why_not.empty()) {
+            text += fmt::format("| {} | {} | | | | | |\n", s.name, s.why_not);
+            continue;
+        }
+        const Tally& t = s.total;
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.0f} |\n", s.name, s.version, share(t.missed, t.inside),
+                            share(t.invented, t.outside), t.has_cells ? share(t.wrong_cell, t.inside - t.missed) : "-",
+                            t.has_values ? fmt::format("{:.2g}", t.max_error) : "-", median(s.ns));
+    }
+}
+
+/// What ended before it answered, in words.
+void failures(std::string& text, const League& league, int dimension) {
+    for (const Standing& s : league.standings) {
+        if (s.dimension != dimension || s.failures.empty()) continue;
+        text += fmt::format("\n{}, not counted above:\n\n", s.name);
+        for (const std::string& failure : s.failures) text += fmt::format("- {}\n", failure);
+    }
+}
+
+void by_set(std::string& text, const League& league, int dimension) {
+    std::string rule = "|---|";
+    text += "| points |";
+    for (const Standing& s : league.standings) {
+        if (s.dimension != dimension || !s.why_not.empty()) continue;
+        text += ' ' + s.name + " |";
+        rule += "---|";
+    }
+    text += '\n' + rule + '\n';
+    for (const auto& [set, recipe] : league.sets) {
+        std::string line = "| " + set + " |";
+        bool any = false;
+        for (const Standing& s : league.standings) {
+            if (s.dimension != dimension || !s.why_not.empty()) continue;
+            const auto found = s.by_set.find(set);
+            if (found == s.by_set.end()) {
+                line += " |";
+                continue;
+            }
+            any = true;
+            const Tally& t = found->second;
+            line += fmt::format(" {} / {} / {} |", percent(t.missed, t.points), percent(t.invented, t.points),
+                                t.has_cells ? percent(t.wrong_cell, t.points) : "-");
+        }
+        if (any) text += line + '\n';
+    }
+}
+
+}  // namespace
+
+void Tally::add(const Verdicts& v, bool cells, bool values) {
+    points += v.rows;
+    inside += v.inside;
+    outside += v.outside;
+    missed += v.missed;
+    invented += v.invented;
+    wrong_cell += v.wrong_cell;
+    has_cells = has_cells || cells;
+    has_values = has_values || values;
+    if (values) max_error = std::max(max_error, v.columns.at(0).max_relative);
+}
+
+std::string league_markdown(const League& league) {
+    std::string text = fmt::format("{} points of each set on each mesh, seed {}.\n", league.count, league.seed);
+    for (const int dimension : {3, 2}) {
+        text += dimension == 3 ? "\n### Tetrahedra\n\n" : "\n### Triangles\n\n";
+        summary(text, league, dimension);
+        failures(text, league, dimension);
+        text +=
+            "\nBy set of points, in percent of its points: inside called outside / outside called inside / owner "
+            "does not contain the point.\n\n";
+        by_set(text, league, dimension);
+    }
+    text += "\nSets of points:\n\n";
+    for (const auto& [name, recipe] : league.sets) text += fmt::format("- {}: {}\n", name, recipe);
+    text += "\nMeshes:\n\n";
+    for (const auto& [name, about] : league.meshes) text += fmt::format("- {}: {}\n", name, about);
+    return text;
+}
+
+std::string league_json(const League& league) {
+    Json j{{"schema", 1}, {"command", "systems"}, {"seed", league.seed}, {"count", league.count}};
+    for (const auto& [name, about] : league.meshes) j["meshes"][name] = about;
+    for (const auto& [name, recipe] : league.sets) j["sets"][name] = recipe;
+    j["systems"] = Json::array();
+    for (const Standing& s : league.standings) {
+        Json row{{"name", s.name}, {"version", s.version}, {"dimension", s.dimension}};
+        if (!s.why_not.empty()) row["not_run"] = s.why_not;
+        row["total"] = tally_json(s.total);
+        row["ns_a_random_point"] = s.ns.empty() ? Json() : Json(median(s.ns));
+        for (const auto& [name, t] : s.by_set) row["by_set"][name] = tally_json(t);
+        for (const auto& [name, t] : s.by_mesh) row["by_mesh"][name] = tally_json(t);
+        row["failures"] = s.failures;
+        j["systems"].push_back(row);
+    }
+    return j.dump(2) + "\n";
+}
+
+}  // namespace barycert::systems

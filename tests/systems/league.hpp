@@ -1,0 +1,50 @@
+/// What systems answered, held against the exact owners and values.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "barycert/verify.hpp"
+
+namespace barycert::systems {
+
+/// A system as it is asked: `command SYSTEM TASK FOLDER`, see exchange.hpp.
+struct System {
+    std::string name;
+    std::string command;  ///< program and its first argument
+    bool own_triangulation = false;
+    int dimension = 0;  ///< 0: both
+    int limit = 60;     ///< seconds for one mesh; then it is taken not to end
+};
+
+struct Tally {
+    std::uint64_t points = 0, inside = 0, outside = 0;
+    std::uint64_t missed = 0, invented = 0, wrong_cell = 0;
+    bool has_cells = false, has_values = false;
+    double max_error = 0;  ///< of a value, in parts of the field's range
+
+    void add(const Verdicts& verdicts, bool cells, bool values);
+};
+
+struct Standing {
+    std::string name, version;
+    int dimension = 3;
+    Tally total;
+    std::map<std::string, Tally> by_set, by_mesh;
+    std::vector<std::string> failures;  ///< meshes on which it ended by itself, or did not in time
+    std::vector<double> ns;             ///< a random point of the box, mesh by mesh
+    std::string why_not = {};           ///< it is not installed
+};
+
+struct League {
+    std::uint64_t seed = 1, count = 0;  ///< points of each set and mesh
+    std::vector<std::pair<std::string, std::string>> meshes, sets;
+    std::vector<Standing> standings;
+};
+
+std::string league_markdown(const League& league);
+std::string league_json(const League& league);
+
+}  // namespace barycert::systems
