@@ -1,6 +1,6 @@
-/* A right kernel for `barycert audit --kernel-library`: ratios of signed volumes in GMP's rationals. Signs are exact, so
- * it has no finding; weights are truncated, so off by less than an ulp. And a rule of its own: the signs, told by the
- * numbers themselves and not by weights that may underflow. */
+/* A right kernel for `barycert audit --kernel-library`: ratios of signed volumes in GMP's rationals. Signs are exact,
+ * so it has no finding; weights are truncated, so off by less than an ulp. And a rule of its own: the signs, told by
+ * the numbers themselves and not by weights that may underflow. */
 #include <gmp.h>
 
 #include "barycert/kernel.h"
@@ -76,8 +76,10 @@ int barycert_kernel_classify(const double* v, const double* p, const double* wei
     mpq_inits(w[0], w[1], w[2], w[3], NULL);
     if (solve(v, p, w)) region = BARYCERT_DEGENERATE;
     for (i = 0; i < 4 && region < BARYCERT_OUTSIDE; ++i) {
-        if (mpq_sgn(w[i]) < 0) region = BARYCERT_OUTSIDE;
-        else if (mpq_sgn(w[i]) == 0) region = BARYCERT_BOUNDARY;
+        if (mpq_sgn(w[i]) < 0)
+            region = BARYCERT_OUTSIDE;
+        else if (mpq_sgn(w[i]) == 0)
+            region = BARYCERT_BOUNDARY;
     }
     mpq_clears(w[0], w[1], w[2], w[3], NULL);
     return region;

@@ -31,7 +31,7 @@ struct TerminalStyle {
     std::vector<std::string> mesh_arguments = {};     ///< as the user gave them, repeated in replay commands
     std::vector<std::string> library_arguments = {};  ///< likewise: the user's kernel libraries
     std::string kernel_arguments = {};  ///< likewise: options of how these are run and judged, " --in-process ..."
-    bool wide = false;                                ///< the audit's whole table, whatever its width
+    bool wide = false;                  ///< the audit's whole table, whatever its width
 };
 
 /// One line: version, rounding, SIMD target, compiler.

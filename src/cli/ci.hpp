@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "barycert/audit_baseline.hpp"
-#include "barycert/base/named_file.hpp"
 #include "barycert/audit_ci.hpp"
+#include "barycert/base/named_file.hpp"
 #include "barycert/result.hpp"
 
 namespace CLI {

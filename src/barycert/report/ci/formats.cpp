@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "barycert/base/text.hpp"
 #include "barycert/audit_ci.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report/common/html_text.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "barycert/base/text.hpp"
 #include "barycert/audit_ci.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert {
