@@ -20,13 +20,14 @@ Words audit_of(const std::string& fault, Words more = {}) {
     return words;
 }
 
-/// The last line that begins with "    barycert replay".
-std::string replay_command(const std::string& table) {
-    std::string command;
+/// The first line that begins with "    barycert replay" after the one of the finding.
+std::string replay_command(const std::string& table, const std::string& finding) {
+    bool found = false;
     for (const std::string& line : lines_of(table)) {
-        if (line.rfind("    barycert replay ", 0) == 0) command = line.substr(4);
+        found = found || line.rfind(finding + ": ", 0) == 0;
+        if (found && line.rfind("    barycert replay ", 0) == 0) return line.substr(4);
     }
-    return command;
+    return {};
 }
 
 TEST(contained, accidents_are_told_and_replayed) {
@@ -37,9 +38,9 @@ TEST(contained, accidents_are_told_and_replayed) {
         EXPECT_EQ(r.code, 1);
         EXPECT_TRUE(contains(r.err, std::string("fails: tetrahedron.unruly: ") + finding + " = 9, limit 0")) << r.err;
         EXPECT_FALSE(contains(r.out, "point 1\n")) << "the kernel's own output";
-        EXPECT_TRUE(contains(r.out, std::string(finding) + " in 9 cases")) << r.out;
+        EXPECT_TRUE(contains(r.out, std::string("\n") + finding + ": 9 cases: ")) << r.out;
         EXPECT_TRUE(contains(r.out, "decided: "));
-        const Ended again = run_shell(replay_command(r.out));
+        const Ended again = run_shell(replay_command(r.out, finding));
         EXPECT_EQ(again.code, 0) << again.err;
         EXPECT_TRUE(contains(again.out, finding)) << again.out;
         EXPECT_TRUE(contains(again.out, "    cell ")) << again.out;

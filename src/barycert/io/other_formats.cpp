@@ -26,7 +26,7 @@ constexpr std::array formats{
     OtherFormat{" .vol ", "a mesh of Netgen", Way::meshio, ""},
     OtherFormat{" .su2 ", "a mesh of SU2", Way::meshio, ""},
     OtherFormat{" .unv .universal ", "a universal file of I-deas", Way::gmsh, ""},
-    OtherFormat{" .bdf .nas .fem ", "a file of Nastran", Way::meshio, ""},
+    OtherFormat{" .bdf .nas .fem ", "a file of Nastran", Way::gmsh_or_meshio, ""},
     OtherFormat{" .foam .openfoam ", "a case of OpenFOAM", Way::other, foam_remedy},
     OtherFormat{" .xml ", "an XML file, perhaps a mesh of DOLFIN", Way::meshio, ""},
     OtherFormat{" .avs .ugrid .mdpa .f3grid .h5m .hmf .post .dato .tec .dat ", "a mesh of another program", Way::meshio,
@@ -173,6 +173,10 @@ Error other_format_error(const OtherFormat& format, const std::string& path) {
             break;
         case Way::gmsh:
             remedy = "convert it with `gmsh " + in + " -save -format msh41 -o " + shell_word(stem + ".msh") + "`";
+            break;
+        case Way::gmsh_or_meshio:
+            remedy = "convert it with `gmsh " + in + " -save -format msh41 -o " + shell_word(stem + ".msh") +
+                     "`, or, if it has lines GRID*, with `meshio convert " + in + " " + shell_word(stem + ".vtu") + "`";
             break;
         case Way::mesher:
             remedy = "mesh it with `gmsh -3 " + in + " -format msh41 -o " + shell_word(stem + ".msh") +

@@ -11,13 +11,14 @@ namespace barycert::io {
 
 /// How to get at the mesh.
 enum class Way {
-    meshio,   ///< `meshio convert IN OUT.vtu`
-    gmsh,     ///< `gmsh IN -save -format msh41 -o OUT.msh`
-    mesher,   ///< a geometry: `gmsh -3 IN -format msh41 -o OUT.msh`
-    surface,  ///< `barycert mesh IN`
-    pyvista,  ///< several blocks: by pyvista
-    unpack,   ///< compressed
-    other,    ///< as its remedy tells
+    meshio,          ///< `meshio convert IN OUT.vtu`
+    gmsh,            ///< `gmsh IN -save -format msh41 -o OUT.msh`
+    gmsh_or_meshio,  ///< either, by the form of the file
+    mesher,          ///< a geometry: `gmsh -3 IN -format msh41 -o OUT.msh`
+    surface,         ///< `barycert mesh IN`
+    pyvista,         ///< several blocks: by pyvista
+    unpack,          ///< compressed
+    other,           ///< as its remedy tells
 };
 
 struct OtherFormat {

@@ -160,7 +160,8 @@ std::string cases_sentence(const AuditReport& report) {
     for (const Region r : all_regions)
         regions += fmt::format("{}{} {}", r == Region::interior ? "" : ", ",
                                report.regions[static_cast<std::size_t>(r)], name(r));
-    return fmt::format("{} cases of {} families, exactly {}", report.cases, report.families.size(), regions);
+    return fmt::format("{} cases of {} famil{}, exactly {}", report.cases, report.families.size(),
+                       report.families.size() == 1 ? "y" : "ies", regions);
 }
 
 std::vector<MeshLine> mesh_lines(const AuditReport& report, std::string_view command) {

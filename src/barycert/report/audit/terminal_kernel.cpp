@@ -76,7 +76,9 @@ std::string kernel_text(const AuditReport& report, const TerminalStyle& style) {
     const std::string verdict = verdict_sentence(report);
     std::string out = (any_wrong(report) ? paint.bad(verdict) : paint.good(verdict)) + "\n";
     for (const std::string& line : verdict_details(report)) out += wrapped(line, kernel_text_width);
-    out += fmt::format("{} ns an evaluation\n\n", brief_time(k.ns)) + what_it_is(k.kernel) + "\n";
+    if (k.ns > 0) out += brief_time(k.ns) + " ns an evaluation\n";
+    const std::string what = what_it_is(k.kernel);
+    out += (what.empty() ? "" : "\n" + what) + "\n";
     out += kernel_families(report, k, paint) + "\n";
     out += paint.bold("Worst case of each finding, and the command that replays it:") + "\n" +
            kernel_findings(report, k, style, paint) + "\n";
