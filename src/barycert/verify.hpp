@@ -102,6 +102,9 @@ struct WrongRow {
 /// Points nearer to the mesh than that, in parts of the diagonal of its box, are outside by rounding or a tolerance.
 inline constexpr double near_distance = 1e-9;
 
+/// Distances take up to some hundred microseconds a row: no more than so many rows are measured.
+inline constexpr std::size_t max_measured = 1000;
+
 /// What was found.
 struct Verdicts {
     std::uint64_t rows = 0, right = 0, missed = 0, invented = 0, wrong_cell = 0, wrong_value = 0;
@@ -109,12 +112,14 @@ struct Verdicts {
     std::uint64_t on_boundary = 0;          ///< of all rows: on a face, an edge or a vertex of their owner
     std::uint64_t missed_on_boundary = 0;   ///< of those missed
     std::uint64_t invented_zero = 0;        ///< of those invented: every value is 0
-    std::uint64_t invented_near = 0;   ///< of those invented: the mesh is nearer than near_distance of its diagonal
-    double invented_distance = 0;      ///< of those invented: from the farthest point to the nearest cell
-    std::uint64_t several = 0;         ///< rows in more than one cell, as far as they were looked at
-    std::uint64_t by_other_cell = 0;   ///< right by the value of a cell that is not the owner
-    std::vector<ValueErrors> columns;  ///< as Sampler::columns()
-    std::vector<WrongRow> examples;    ///< the worst of each kind, worst first, kinds in the order of RowVerdict
+    std::uint64_t invented_near = 0;      ///< of those measured: the mesh is nearer than near_distance of its diagonal
+    double invented_distance = 0;         ///< of those measured: from the farthest point to the nearest cell
+    std::uint64_t invented_measured = 0;  ///< of those invented: how far they lie outside is known, see measure()
+    std::uint64_t several = 0;            ///< rows in more than one cell, as far as they were looked at
+    std::uint64_t by_other_cell = 0;      ///< right by the value of a cell that is not the owner
+    std::vector<ValueErrors> columns;     ///< as Sampler::columns()
+    std::vector<WrongRow> examples;       ///< the worst of each kind, worst first, kinds in the order of RowVerdict
+    std::vector<WrongRow> invented_rows;  ///< to be measured: all, or max_measured chosen by a hash of their numbers
 
     std::uint64_t wrong() const { return rows - right; }
     /// Adds what was found in rows that came after.
@@ -129,11 +134,13 @@ public:
     /// Holds rows against the exact ones. Returns an Error if sizes do not fit, or a coordinate is not finite.
     Result<Verdicts> verify(const ClaimedRows& rows) const;
 
+    /// How far rows invented lie outside, and the farthest of them as examples. To be called once, after the verdicts
+    /// of all parts of the rows were added.
+    Status measure(Verdicts& verdicts) const;
+
     /// What errors are relative to, a column.
     const std::vector<double>& ranges() const { return ranges_; }
     const VerifyOptions& options() const { return options_; }
-    /// Rows invented count as near up to this distance.
-    double near() const { return near_; }
 
 private:
     const Sampler& sampler_;

@@ -106,7 +106,9 @@ TEST(VerifyLaws, R1_R2_R3_R4_AnyCellThatContainsThePointIsRight) {
             const Verifier verifier(sampler, options);
             ClaimedRows rows{points, claims.cells, claims.inside, claims.values, 0};
             const std::string what = "mesh " + std::to_string(n) + " of dimension " + std::to_string(d);
-            const Verdicts found = verifier.verify(rows).value();
+            Verdicts found = verifier.verify(rows).value();
+            ASSERT_LE(found.invented, max_measured);
+            ASSERT_TRUE(verifier.measure(found));
             expect_verdicts(found, claims.verdicts, what);
             for (const WrongRow& row : found.examples) EXPECT_EQ(row.verdict, claims.verdicts[row.row]) << what;
             EXPECT_EQ(found.examples.size(), found.wrong()) << what;
@@ -131,7 +133,10 @@ TEST(VerifyLaws, D1_BlocksAndThreads) {
     const ClaimedRows rows{points, claims.cells, claims.inside, claims.values, 0};
     VerifyOptions options;
     options.examples = 7;
-    const Verdicts whole = Verifier(sampler, options).verify(rows).value();
+    Verdicts whole = Verifier(sampler, options).verify(rows).value();
+    ASSERT_TRUE(Verifier(sampler, options).measure(whole));
+    EXPECT_GT(whole.invented, max_measured) << "not all are measured";
+    EXPECT_EQ(whole.invented_measured, max_measured);
     for (const int threads : {1, 2, 5}) {
         options.threads = threads;
         const Verifier verifier(sampler, options);
@@ -143,6 +148,9 @@ TEST(VerifyLaws, D1_BlocksAndThreads) {
             pieces.add(verifier.verify(part).value(), options.examples);
             first += size;
         }
+        ASSERT_TRUE(verifier.measure(pieces));
+        EXPECT_EQ(pieces.invented_distance, whole.invented_distance);
+        EXPECT_EQ(pieces.invented_measured, whole.invented_measured);
         EXPECT_EQ(pieces.right, whole.right);
         EXPECT_EQ(pieces.wrong_value, whole.wrong_value);
         EXPECT_EQ(pieces.by_other_cell, whole.by_other_cell);

@@ -45,11 +45,15 @@ protected:
         return row;
     }
 
-    Verdicts verify(VerifyOptions options = {}) const {
-        return Verifier(*sampler_, options).verify({points_, cells_, {}, values_, 0}).value();
+    Verdicts measured(const ClaimedRows& rows, const VerifyOptions& options) const {
+        const Verifier verifier(*sampler_, options);
+        Verdicts found = verifier.verify(rows).value();
+        EXPECT_TRUE(verifier.measure(found));
+        return found;
     }
+    Verdicts verify(VerifyOptions options = {}) const { return measured({points_, cells_, {}, values_, 0}, options); }
     Verdicts verify_values(VerifyOptions options = {}) const {
-        return Verifier(*sampler_, options).verify({points_, {}, {}, values_, 0}).value();
+        return measured({points_, {}, {}, values_, 0}, options);
     }
 
     static constexpr std::size_t rows_ = 500;

@@ -242,11 +242,13 @@ private:
         };
         pipeline::StagesOf<ResultBlock> stages(threads);
         Status done = stages.run(next, work, keep);
+        Stopwatch watch;
+        if (done) done = Verifier(*sampler_, job_.options).measure(summary_.verdicts);
         for (const Note& note : source_->notes()) {
             // Which columns are not compared has been told.
             if (note.kind != Note::Kind::left_out) summary_.notes.push_back(note);
         }
-        summary_.seconds.sample = stages.seconds();
+        summary_.seconds.sample = stages.seconds() + watch.lap();
         return done;
     }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "barycert/base/random.hpp"
 #include "barycert/verify.hpp"
 
 namespace barycert {
@@ -30,8 +31,6 @@ void Verdicts::add(const Verdicts& other, std::size_t examples_of_each) {
     on_boundary += other.on_boundary;
     missed_on_boundary += other.missed_on_boundary;
     invented_zero += other.invented_zero;
-    invented_near += other.invented_near;
-    invented_distance = std::max(invented_distance, other.invented_distance);
     several += other.several;
     by_other_cell += other.by_other_cell;
     if (columns.size() < other.columns.size()) columns.resize(other.columns.size());
@@ -42,6 +41,11 @@ void Verdicts::add(const Verdicts& other, std::size_t examples_of_each) {
         if (x.severity != y.severity) return x.severity > y.severity;
         return x.row < y.row;
     });
+    // The same rows, whatever the parts.
+    invented_rows.insert(invented_rows.end(), other.invented_rows.begin(), other.invented_rows.end());
+    const auto before = [](const WrongRow& x, const WrongRow& y) { return base::mix64(x.row) < base::mix64(y.row); };
+    std::sort(invented_rows.begin(), invented_rows.end(), before);
+    if (invented_rows.size() > max_measured) invented_rows.resize(max_measured);
     std::size_t of_kind = 0;
     RowVerdict kind = RowVerdict::right;
     std::erase_if(examples, [&](const WrongRow& row) {

@@ -44,11 +44,7 @@ Status wrong_size(const char* what, std::size_t expected, std::size_t found) {
 class BlockVerifier {
 public:
     BlockVerifier(const Sampler& sampler, const Verifier& verifier, const ClaimedRows& claimed)
-        : sampler_(sampler),
-          options_(verifier.options()),
-          ranges_(verifier.ranges()),
-          near_(verifier.near()),
-          claimed_(claimed) {}
+        : sampler_(sampler), options_(verifier.options()), ranges_(verifier.ranges()), claimed_(claimed) {}
 
     Result<Verdicts> run() {
         const auto d = static_cast<std::size_t>(sampler_.locator().mesh().dimension);
@@ -59,9 +55,7 @@ public:
         exact.threads = 1;
         if (Status done = sampler_.sample(claimed_.points, exact, table_, claimed_.first_row); !done)
             return done.error();
-        for (std::size_t row = 0; row < rows; ++row) {
-            if (Status done = look_at(row); !done) return done.error();
-        }
+        for (std::size_t row = 0; row < rows; ++row) look_at(row);
         if (Status done = look_again(); !done) return done.error();
         Verdicts none;
         none.add(found_, options_.examples);  // orders examples
@@ -104,7 +98,7 @@ private:
         return !locate::cell_signs(data.index, place, at.data(), tests_).contains();
     }
 
-    Status look_at(std::size_t row) {
+    void look_at(std::size_t row) {
         const bool inside = table_.cells[row] >= 0, said = says_inside(row);
         ++(inside ? found_.inside : found_.outside);
         if (inside && table_.features[row] != Feature::interior) ++found_.on_boundary;
@@ -116,27 +110,19 @@ private:
             found_.missed_on_boundary += boundary ? 1 : 0;
             keep(row, RowVerdict::missed, boundary ? 0 : 1);
         } else if (!inside) {
-            return invented(row);
+            invent(row);
         } else if (over(row, values(row)) && may_be_in_several(row)) {
             again_.push_back(row);
         } else {
             settle(row, values(row), 1);
         }
-        return Done{};
     }
 
-    Status invented(std::size_t row) {
+    void invent(std::size_t row) {
         ++found_.invented;
         const double* const v = claims(row);
         found_.invented_zero += columns() != 0 && std::all_of(v, v + columns(), [](double x) { return x == 0; });
-        const Locator& locator = sampler_.locator();
-        const auto d = static_cast<std::size_t>(locator.mesh().dimension);
-        const auto nearest = locator.nearest(claimed_.points.data() + d * row, std::numeric_limits<double>::infinity());
-        if (!nearest) return nearest.error();
-        found_.invented_near += nearest->distance <= near_ ? 1 : 0;
-        found_.invented_distance = std::max(found_.invented_distance, nearest->distance);
-        keep(row, RowVerdict::invented, nearest->distance).distance = nearest->distance;
-        return Done{};
+        found_.invented_rows.push_back(wrong_row(row, RowVerdict::invented, 0));
     }
 
     bool over(std::size_t row, const double* exact) const {
@@ -194,6 +180,11 @@ private:
     }
 
     WrongRow& keep(std::size_t row, RowVerdict verdict, double severity) {
+        found_.examples.push_back(wrong_row(row, verdict, severity));
+        return found_.examples.back();
+    }
+
+    WrongRow wrong_row(std::size_t row, RowVerdict verdict, double severity) const {
         WrongRow wrong;
         wrong.verdict = verdict;
         wrong.row = claimed_.first_row + row;
@@ -211,14 +202,12 @@ private:
             wrong.claimed = claims(row)[wrong.column];
             wrong.value = values(row)[wrong.column];
         }
-        found_.examples.push_back(wrong);
-        return found_.examples.back();
+        return wrong;
     }
 
     const Sampler& sampler_;
     const VerifyOptions& options_;
     const std::vector<double>& ranges_;
-    const double near_;
     const ClaimedRows& claimed_;
     Table table_;
     TierCounts tests_;
@@ -285,6 +274,36 @@ Result<Verdicts> Verifier::verify(const ClaimedRows& rows) const {
         all.add(**part, options_.examples);
     }
     return all;
+}
+
+Status Verifier::measure(Verdicts& verdicts) const {
+    const ExactEnvironment environment;
+    std::vector<WrongRow>& rows = verdicts.invented_rows;
+    std::vector<std::optional<Error>> errors(rows.size());
+    locate::in_arena(options_.threads, [&] {
+        tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+            const ExactEnvironment of_task;
+            constexpr double anywhere = std::numeric_limits<double>::infinity();
+            const auto nearest = sampler_.locator().nearest(rows[i].point.data(), anywhere);
+            if (!nearest) {
+                errors[i] = nearest.error();
+            } else {
+                rows[i].severity = rows[i].distance = nearest->distance;
+            }
+        });
+    });
+    for (const std::optional<Error>& error : errors) {
+        if (error) return *error;
+    }
+    verdicts.invented_measured = rows.size();
+    for (const WrongRow& row : rows) {
+        verdicts.invented_near += row.distance <= near_ ? 1 : 0;
+        verdicts.invented_distance = std::max(verdicts.invented_distance, row.distance);
+    }
+    Verdicts measured;
+    measured.examples = std::exchange(rows, {});
+    verdicts.add(measured, options_.examples);
+    return Done{};
 }
 
 }  // namespace barycert

@@ -86,6 +86,7 @@ std::string verify_json(const VerifySummary& s, const Environment& environment) 
     j["on_boundary"] = v.on_boundary;
     j["missed_on_boundary"] = v.missed_on_boundary;
     j["invented_zero"] = v.invented_zero;
+    j["invented_measured"] = v.invented_measured;
     j["invented_near"] = v.invented_near;
     j["invented_distance"] = figure(v.invented_distance);
     j["by_other_cell"] = v.by_other_cell;

@@ -50,7 +50,9 @@ std::vector<VerdictLine> verdict_table(const VerifySummary& summary) {
     std::string invented = "in no cell, and said to be inside";
     if (v.invented_zero != 0) invented += fmt::format("; {} have the value 0", v.invented_zero);
     if (v.invented != 0) {
-        invented += fmt::format("; the farthest {} from the mesh", brief(v.invented_distance));
+        const bool all = v.invented_measured == v.invented;
+        invented += all ? "; " : fmt::format("; of {} of them ", v.invented_measured);
+        invented += fmt::format("the farthest {} from the mesh", brief(v.invented_distance));
         if (v.invented_near != 0)
             invented += fmt::format(", {} nearer than {} of its diagonal", v.invented_near, brief(near_distance));
     }
