@@ -42,8 +42,7 @@ int call_kernel(const double* vertices, const double* point, double* weights) {
     const py::object answer =
         callable_kernel->function(py::array_t<double>({n, d}, vertices), py::array_t<double>(d, point));
     if (answer.is_none()) return 1;
-    const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(answer);
-    if (!numbers) throw py::error_already_set();
+    const py::array_t<double, py::array::c_style | py::array::forcecast> numbers(answer);
     if (numbers.ndim() != 1 || numbers.size() != n)
         throw Exception({.what = "what the kernel returned",
                          .expected = std::to_string(n) + " weights, or None for a degenerate simplex",

@@ -25,7 +25,7 @@ namespace py = pybind11;
 /// Node indices of any integer type, each of which must be a node.
 template <class T>
 std::vector<Mesh::Index> indices_as(const py::array& cells, std::size_t columns, std::size_t nodes) {
-    const Array<T> array = Array<T>::ensure(cells);
+    const Array<T> array(cells);
     const std::span<const T> all = span_of(array);
     std::vector<Mesh::Index> out(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -209,6 +209,12 @@ void bind_mesh(py::module_& module) {
                     m.sampler_of(field_of("value", values), of_cells, Progress(std::move(progress))));
             },
             py::arg("values").noconvert(), py::arg("of_cells"), py::arg("progress"))
+        .def(
+            "bare_sampler",
+            [](const MeshObject& m, py::object progress) {
+                return std::const_pointer_cast<BoundSampler>(m.bare_sampler(Progress(std::move(progress))));
+            },
+            py::arg("progress"))
         .def("gradients", &gradients_of, py::arg("values").noconvert(), py::arg("progress"))
         .def("write", &write, py::arg("path"), py::arg("comment"), py::arg("data"));
     module.def("read", &read, py::arg("path"));

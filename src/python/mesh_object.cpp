@@ -91,4 +91,11 @@ std::shared_ptr<const BoundSampler> MeshObject::sampler_of(Field field, bool of_
                      take(Sampler::build(geometry->locator(progress), {{&fields->point_fields.front(), of_cells}}))});
 }
 
+std::shared_ptr<const BoundSampler> MeshObject::bare_sampler(const Progress& progress) const {
+    const std::shared_ptr<Geometry> geometry = geometry_;
+    const py::gil_scoped_release unlocked;
+    return std::make_shared<const BoundSampler>(
+        BoundSampler{geometry, nullptr, take(Sampler::build(geometry->locator(progress), {}))});
+}
+
 }  // namespace barycert::python

@@ -53,6 +53,8 @@ public:
     std::shared_ptr<const BoundSampler> sampler(const std::vector<std::string>& names, const Progress& progress);
     /// Of a field of nodes or cells that the mesh does not have.
     std::shared_ptr<const BoundSampler> sampler_of(Field field, bool of_cells, const Progress& progress) const;
+    /// Of no field.
+    std::shared_ptr<const BoundSampler> bare_sampler(const Progress& progress) const;
 
 private:
     std::vector<Field>& fields_to_change(bool of_cells);

@@ -84,7 +84,7 @@ class CheckReport:
         self.verdict: str = core.verdict
         self.certified: bool = core.certified
         self.defects: List[Defect] = [
-            Defect(**{**defect, "places": tuple(Place(*place) for place in defect["places"])}) for defect in core.defects
+            Defect(places=tuple(Place(*place) for place in defect.pop("places")), **defect) for defect in core.defects
         ]
         self.contacts: List[Contact] = [Contact(**contact) for contact in core.contacts]
         self._mesh = mesh

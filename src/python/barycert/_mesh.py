@@ -116,7 +116,8 @@ class Mesh:
             )
         if indices.dtype.kind not in "iu":
             _core.fail("type of the cells", expected="integers", found=str(indices.dtype))
-        core = _core.Mesh(coordinates, contiguous(indices, indices.dtype.newbyteorder("=")), [] if numbers is None else numbers)
+        left = [] if numbers is None else numbers.tolist()
+        core = _core.Mesh(coordinates, contiguous(indices, indices.dtype.newbyteorder("=")), left)
         self._set_core(core, notes)
         self.point_data.update(point_data or {})
         self.cell_data.update(cell_data or {})
@@ -465,7 +466,8 @@ def _unpickle(
     notes: Sequence[str],
 ) -> Mesh:
     mesh = Mesh.__new__(Mesh)
-    mesh._set_core(_core.Mesh(contiguous(points), contiguous(cells, np.int32), [] if numbers is None else numbers), notes)
+    left = [] if numbers is None else numbers.tolist()
+    mesh._set_core(_core.Mesh(contiguous(points), contiguous(cells, np.int32), left), notes)
     mesh.point_data.update(point_data)
     mesh.cell_data.update(cell_data)
     return mesh

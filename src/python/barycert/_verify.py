@@ -139,7 +139,7 @@ def verify(
     """
     rows, shape = points_of(points, mesh.dimension)
     count = len(rows)
-    if values is None and cells is None and inside is None:
+    if (values is None or (isinstance(values, Mapping) and not values)) and cells is None and inside is None:
         _core.fail("nothing to compare", expected="values, cells or inside")
     if values is None:
         claimed: Dict[str, Any] = {}
@@ -164,8 +164,7 @@ def verify(
         if claimed:
             sampler = mesh._core.sampler(list(claimed), tell)
         else:
-            # Where no values are compared any field does.
-            sampler = mesh._core.sampler_of(np.zeros((len(mesh.points), 1)), False, tell)
+            sampler = mesh._core.bare_sampler(tell)
         table = None
         if claimed:
             parts = []
@@ -181,8 +180,6 @@ def verify(
             None if inside is None else flat(np.asarray(inside) != 0, np.uint8, "inside"),
             table, tolerance, exact, outside_value, examples, threads, tell,
         )  # fmt: skip
-    columns = [ColumnErrors(**c) for c in found.pop("columns")] if claimed else []
-    wrong = [WrongRow(**{**row, "feature": Feature(row["feature"])}) for row in found.pop("examples")]
-    if not claimed:
-        found.pop("columns", None)
+    columns = [ColumnErrors(**c) for c in found.pop("columns")]
+    wrong = [WrongRow(feature=Feature(row.pop("feature")), **row) for row in found.pop("examples")]
     return Verification(columns=columns, examples=wrong, **found)
