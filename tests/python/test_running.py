@@ -245,6 +245,7 @@ def test_memory_comes_back():
 
 def test_errors_have_parts(tmp_path):
     path = tmp_path / "broken.node"
+    (tmp_path / "broken.ele").write_text("1 4 0\n1 1 2 3 4\n")
     path.write_text("4 3 0 0\n1 0 0 0\n2 1 0 x\n3 0 1 0\n4 0 0 1\n")
     with pytest.raises(barycert.Error) as info:
         barycert.read(path)
