@@ -33,14 +33,21 @@ struct Callable {
 };
 const Callable* callable_kernel = nullptr;
 std::mutex callable_kernel_in_use;
+thread_local bool in_callable = false;
 
 /// The weights that the callable returns, or None: declared degenerate. What it raises ends the audit.
 int call_kernel(const double* vertices, const double* point, double* weights) {
     const py::gil_scoped_acquire lock;
     const Simplex simplex = callable_kernel->simplex;
     const int n = vertex_count(simplex), d = space_dimension(simplex);
-    const py::object answer =
-        callable_kernel->function(py::array_t<double>({n, d}, vertices), py::array_t<double>(d, point));
+    struct Within {
+        Within() { in_callable = true; }
+        ~Within() { in_callable = false; }
+    };
+    const py::object answer = [&] {
+        const Within within;
+        return callable_kernel->function(py::array_t<double>({n, d}, vertices), py::array_t<double>(d, point));
+    }();
     if (answer.is_none()) return 1;
     const py::array_t<double, py::array::c_style | py::array::forcecast> numbers(answer);
     if (numbers.ndim() != 1 || numbers.size() != n)
@@ -165,6 +172,9 @@ std::shared_ptr<AuditReport> audit(const Request& request, std::uint64_t count, 
     for (const auto& [name, mesh] : meshes) source.add(name, mesh->mesh());
     std::unique_lock<std::mutex> turn;
     if (callable.function) {
+        if (in_callable)
+            throw Exception(
+                {.what = "an audit of a callable within an audit", .remedy = "begin it when the other has ended"});
         turn = std::unique_lock(callable_kernel_in_use);
         callable_kernel = &callable;
     }

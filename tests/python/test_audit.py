@@ -97,6 +97,8 @@ def test_what_a_callable_raises_ends_the_audit():
     ):
         with pytest.raises(barycert.Error, match=message):
             barycert.audit(solve, count=10, **arguments)
+    with pytest.raises(barycert.Error, match="within an audit"):
+        barycert.audit(lambda v, p: barycert.audit(solve, count=10), count=10)
     # And the next one is as if nothing had been.
     assert barycert.audit(exact_kernel, declares_degenerate=True, count=5, families="random")
 

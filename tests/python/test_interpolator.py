@@ -99,6 +99,12 @@ def test_triangulates_as_scipy_does(case):
     ):
         np.testing.assert_array_equal(made(at), expected)
     del interpolate
+    # A triangulation of scaled points is one of the points.
+    scaled = spatial.Delaunay(points * 2)
+    f = barycert.Interpolator(points, scaled, values)
+    np.testing.assert_array_equal(f.points, points)
+    with pytest.raises(barycert.Error, match="their triangulation"):
+        barycert.Interpolator(points[:-1], scaled, values[:-1])
 
 
 def test_takes_a_triangulation_of_matplotlib():
@@ -194,6 +200,9 @@ def test_bad_input_is_named(case):
         barycert.Interpolator(points)
     with pytest.raises(ValueError):
         barycert.Interpolator(points, cells, values[:-1])
+    for masked in (np.ma.masked_less(values, 0.5), np.ma.masked_less(values, 0.5) + 1j):
+        with pytest.raises(barycert.Error, match="masked"):
+            barycert.Interpolator(points, cells, masked)
 
 
 def test_blocks_do_not_show(case):

@@ -127,6 +127,26 @@ def test_ctrl_c_ends_long_work(what):
     assert output == "interrupted\n"
 
 
+def in_child(mesh, at):
+    fresh = barycert.Mesh(mesh.points, mesh.cells, point_data={"T": mesh.points[:, 0]})
+    return mesh.sample(at, "T"), fresh.sample(at, "T"), fresh.certified
+
+
+@pytest.mark.parametrize("method", ["fork", "spawn"])
+def test_processes_work_on_a_mesh(mesh, method):
+    import multiprocessing
+
+    at = np.random.default_rng(4).random((50_000, 3)) * 12
+    expected = mesh.sample(at, "T")
+    with multiprocessing.get_context(method).Pool(2) as pool:
+        jobs = [pool.apply_async(in_child, (mesh, at)) for _ in range(3)]
+        for job in jobs:
+            old, fresh, certified = job.get(timeout=120)
+            np.testing.assert_array_equal(old, expected)
+            np.testing.assert_array_equal(fresh, expected)
+            assert certified
+
+
 def test_progress_is_told(mesh):
     calls = []
 

@@ -18,6 +18,8 @@ def contiguous(array: Any, dtype: Any = np.float64) -> np.ndarray:
 
 def real(array: Any, what: str) -> np.ndarray:
     """An array of real numbers, as it is; Error if it is of another kind."""
+    if isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array):
+        _core.fail(f"masked entries of the {what}", remedy="say what they are: .filled(numpy.nan)")
     array = np.asarray(array)
     if array.dtype.kind not in "fiub":
         _core.fail(f"type of the {what}", expected="real numbers", found=str(array.dtype))

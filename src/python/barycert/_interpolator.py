@@ -60,7 +60,7 @@ class Interpolator:
         if values is None:
             _core.fail("Interpolator without values", expected="Interpolator(points, cells, values)")
         self.mesh = _mesh_of(points, cells)
-        values = np.asarray(values)
+        values = np.asanyarray(values)
         self._complex = values.dtype.kind == "c"
         self._values = values
         if self._complex:
@@ -161,8 +161,6 @@ def _mesh_of(points: Any, cells: Any) -> Mesh:
         except ImportError:
             _core.fail("no cells, and no SciPy to make a Delaunay triangulation", remedy="pass cells, or install SciPy")
         cells = Delaunay(exact_doubles(points, "points"))
-    if isinstance(points, Mesh):
-        return points
     return Mesh(points, cells)
 
 
@@ -170,6 +168,8 @@ def _parts(values: np.ndarray) -> np.ndarray:
     """Real and imaginary parts as a last axis."""
     if values.dtype.itemsize > 16:
         _core.fail("type of the values", expected="complex64 or complex128", found=str(values.dtype))
+    if np.ma.is_masked(values):
+        _core.fail("masked entries of the values", remedy="say what they are: .filled(numpy.nan)")
     return np.stack([values.real, values.imag], axis=-1)
 
 

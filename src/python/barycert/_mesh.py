@@ -70,7 +70,8 @@ class Mesh:
         points: (n, 2) or (n, 3) coordinates of the nodes, real numbers in any unit; finite. Or a whole mesh, without
             `cells`: of meshio, pyvista, VTK (vtkUnstructuredGrid, vtkPolyData), matplotlib (Triangulation) or SciPy
             (Delaunay); its fields come along.
-        cells: (m, 3) triangles with 2 coordinates, (m, 4) tetrahedra with 3: node indices of any integer type, from 0.
+        cells: (m, 3) triangles with 2 coordinates, (m, 4) tetrahedra with 3: node indices of any integer type, from 0; or a
+            SciPy Delaunay or matplotlib Triangulation of the points.
             With 6 or 10 columns cells of second order, nodes at mid-edges in VTK's order: edges 01 12 02 (03 13 23).
         point_data, cell_data: fields, name to array (n, ...) or (m, ...).
 
@@ -92,11 +93,16 @@ class Mesh:
     ) -> None:
         numbers: Optional[np.ndarray] = None
         notes: List[str] = []
-        if cells is None or _is_mesh_like(cells):
+        if cells is None or hasattr(cells, "simplices") or hasattr(cells, "triangles"):
             from ._exchange import parts_of
 
             parts = parts_of(points if cells is None else cells)
-            points, cells, numbers, notes = parts.points, parts.cells, parts.cell_numbers, parts.notes
+            if cells is None:
+                points = parts.points
+            elif len(points) != len(parts.points):
+                # The points need not be those that were triangulated: they may have been scaled for that.
+                _core.fail("points and their triangulation", expected=f"{len(parts.points)} points", found=str(len(points)))
+            cells, numbers, notes = parts.cells, parts.cell_numbers, parts.notes
             point_data = {**parts.point_data, **(point_data or {})}
             cell_data = {**parts.cell_data, **(cell_data or {})}
         coordinates = exact_doubles(points, "points")
@@ -451,10 +457,6 @@ class Mesh:
         if not members:
             _core.fail("the mesh has no fields", remedy="put one into mesh.point_data or mesh.cell_data")
         return values.view(np.dtype(members)).reshape(shape)
-
-
-def _is_mesh_like(cells: Any) -> bool:
-    return any(hasattr(cells, name) for name in ("simplices", "triangles", "GetCells"))
 
 
 def _unpickle(
