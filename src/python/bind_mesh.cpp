@@ -35,7 +35,7 @@ std::vector<Mesh::Index> indices_as(const py::array& cells, std::size_t columns,
                  .expected = nodes == 0 ? "no cells, as there are no nodes" : "0 to " + std::to_string(nodes - 1),
                  .found = std::to_string(all[i]),
                  .remedy = "indices count from 0: see where they were made"});
-        out[i] = static_cast<Mesh::Index>(all[i]);
+        out[i] = static_cast<Mesh::Index>(all[i]);  // NOLINT(bugprone-signed-char-misuse): chars are numbers here
     }
     return out;
 }
