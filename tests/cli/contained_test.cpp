@@ -57,6 +57,25 @@ TEST(contained, a_hang_is_ended_by_the_time_limit) {
     EXPECT_TRUE(report["witnesses"][0]["cell"].is_number_unsigned());
 }
 
+TEST(contained, given_up_is_worse_than_a_baseline_and_not_other_cases) {
+    const Scratch scratch;
+    const auto audit = [&](const std::string& fault, Words more) {
+        // After 16 hangs it is not asked again.
+        more.insert(more.end(), {"--count", "1000", "--quiet", "--time-limit", "0.02"});
+        return run(audit_of(fault, more));
+    };
+    const std::string sound = scratch.path("sound.json"), hangs = scratch.path("hangs.json");
+    ASSERT_EQ(audit("quiet", {"--json", sound}).code, 0);
+    const Ended worse = audit("hang", {"--baseline", sound, "--json", hangs, "--annotations"});
+    EXPECT_EQ(worse.code, 1) << worse.err;
+    EXPECT_TRUE(contains(worse.err, "worse: tetrahedron.unruly in mesh.inside: not_run 0 -> ")) << worse.err;
+    EXPECT_TRUE(contains(worse.out, "::error ") && contains(worse.out, "not_run 0 -> ")) << worse.out;
+    const Ended same = audit("hang", {"--baseline", hangs});
+    EXPECT_EQ(same.code, 0) << same.err;
+    EXPECT_TRUE(contains(same.err, "; in 1 pairs the kernel was given up")) << same.err;
+    EXPECT_EQ(audit("quiet", {"--baseline", hangs}).code, 0);
+}
+
 TEST(contained, a_library_that_dies_while_it_is_loaded_is_an_error) {
     const Ended r = run(audit_of("loading"));
     EXPECT_EQ(r.code, 2);

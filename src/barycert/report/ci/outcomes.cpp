@@ -106,6 +106,9 @@ std::string baseline_text(const BaselineComparison& comparison, const std::strin
     changes("better", comparison.better);
     out += fmt::format("baseline {}: {} figures worse, {} better, in {} pairs of kernel and family",
                        base::printable(path), comparison.worse.size(), comparison.better.size(), comparison.compared);
+    if (comparison.given_up != 0)
+        out += fmt::format("; in {} pairs the kernel was given up, and no figure but not_run is compared",
+                           comparison.given_up);
     if (comparison.not_now != 0)
         out += fmt::format("; {} pairs of the baseline are not in this audit", comparison.not_now);
     if (comparison.not_before != 0)
