@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "barycert/base/decades.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
@@ -77,9 +78,7 @@ std::pair<std::size_t, std::size_t> used_bins(const ValueErrors& errors) {
 }
 
 std::string bin_label(std::size_t bin) {
-    if (bin == 0) return "right";
-    if (bin == 21) return ">= 100";
-    return fmt::format("< 1e{:+03d}", static_cast<int>(bin) - 18);
+    return bin == 0 ? "right" : base::decade_label(bin);
 }
 
 std::string example_sentence(const VerifySummary& summary, const WrongRow& row) {
