@@ -4,6 +4,7 @@
 #include "barycert/audit_search.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/report/audit/audit_words.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert {
@@ -26,12 +27,7 @@ std::string plain_case(const SearchReport& report, const SearchFind& f, const Te
         out += fmt::format("    v{}  {}\n", i, numbers(c.stride(), [&](int axis) { return c.vertex(i, axis); }));
     out += fmt::format("    p   {}\n", numbers(space_dimension(c.simplex),
                                                [&](int axis) { return c.point[static_cast<std::size_t>(axis)]; }));
-    if (!style.witness_path.empty()) {
-        out += fmt::format("    {} replay {} --kernel {} --reason {}", style.command, shell_word(style.witness_path),
-                           shell_word(report.kernel.name), f.reason);
-        for (const std::string& library : style.library_arguments) out += " --kernel-library " + shell_word(library);
-        out += "\n";
-    }
+    if (!style.witness_path.empty()) out += "    " + replay_from_file(report.kernel.name, f.reason, style) + "\n";
     return out;
 }
 
