@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "barycert/audit_ci.hpp"
+#include "barycert/base/json_text.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report/common/html_text.hpp"
@@ -136,7 +137,7 @@ std::string ci_sarif(const CiReport& report) {
     j["$schema"] = "https://json.schemastore.org/sarif-2.1.0.json";
     j["version"] = "2.1.0";
     j["runs"] = Json::array({run});
-    return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return base::json_text(j, 1);
 }
 
 std::string ci_annotations(const CiReport& report) {
