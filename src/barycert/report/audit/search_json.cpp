@@ -29,6 +29,7 @@ std::string search_json(const SearchReport& r) {
     j["threads"] = r.threads;
     j["seconds"] = r.seconds;
     j["stopped"] = r.stopped;
+    j["given_up"] = r.given_up;
     j["wrong_cases"] = r.wrong_cases;
     j["finds"] = Json::array();
     j["witnesses"] = Json::array();
