@@ -34,7 +34,8 @@ int run_drift(const DriftArguments& a) {
     DriftOptions options{.kernels = {}, .count = a.count, .seed = a.seed};
     const std::vector<std::string> usual{"triangle.scanline-increments.float32", "triangle.scanline-increments",
                                          "triangle.bilinear", "triangle.signed-area", "triangle.exact"};
-    const auto kernels = select_kernels(a.kernels.empty() && a.libraries.empty() ? usual : a.kernels, a.libraries);
+    const auto kernels =
+        select_kernels(a.kernels.empty() && a.libraries.empty() ? usual : a.kernels, a.libraries, KernelRules{});
     if (!kernels) return fail(kernels.error());
     options.kernels = *kernels;
     const Result<DriftReport> report = measure_drift(options);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "barycert/base/decades.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/report/common/terminal_text.hpp"
@@ -68,6 +70,14 @@ std::vector<VerdictLine> verdict_table(const VerifySummary& summary) {
          summary.columns.empty() ? "not compared: no column of values"
          : summary.exact         ? "not the exact value, rounded once"
                          : fmt::format("off by more than {} of the range, or NaN", base::shortest(summary.tolerance))}};
+}
+
+std::string_view meaning(RowVerdict verdict) {
+    constexpr std::array<std::string_view, 5> meanings{
+        "right rows", "points in a cell that are said to be outside", "points in no cell that are said to be inside",
+        "points inside that are not in the cell named",
+        "values off by more than the tolerance, or NaN where one is due"};
+    return meanings[static_cast<std::size_t>(verdict)];
 }
 
 std::pair<std::size_t, std::size_t> used_bins(const ValueErrors& errors) {
