@@ -7,6 +7,7 @@
 #include <charconv>
 #include <chrono>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -101,10 +102,15 @@ std::optional<double> figure(const SearchReport& report, const std::string& name
     if (name == "any" || name == "wrong_cases") return static_cast<double>(report.wrong_cases);
     const bool finding = finding_named(name).has_value();
     if (!finding && name != "worst_weight_ulp" && name != "worst_value_ulp") return std::nullopt;
+    bool mute = report.given_up;
     for (const SearchFind& f : report.finds) {
         if (f.reason == name) return finding ? static_cast<double>(f.cases) : f.found.magnitude;
+        mute = mute || f.reason == barycert::name(Finding::not_finite) ||
+               f.reason == barycert::name(Finding::false_declaration) || f.reason == barycert::name(Finding::crashed) ||
+               f.reason == barycert::name(Finding::hung);
     }
-    return 0;
+    // A kernel that gave no weights where there are some has no error to measure: it is worse than any.
+    return finding || !mute ? 0 : std::numeric_limits<double>::infinity();
 }
 
 Result<std::vector<Threshold>> read_rules(const std::vector<std::string>& texts) {

@@ -124,14 +124,20 @@ TEST(search, what_hardly_answers_is_given_up) {
     EXPECT_TRUE(contains(search_of("hang", {"--time-limit", "0.02"}).out, "given up before 1000000 cases"));
 }
 
+// There is no error to measure, which is worse than any.
+TEST(search, a_kernel_that_never_answers_breaks_a_rule_on_errors) {
+    const Ended r = search_of("always", {"--steps", "5000", "--quiet", "--fail-on", "worst_weight_ulp>1e300"});
+    EXPECT_EQ(r.code, 1);
+    EXPECT_TRUE(contains(r.err, "worst_weight_ulp = inf, limit 1e+300")) << r.err;
+}
+
 TEST(search, apart_or_not_a_kernel_that_behaves_shows_the_same) {
     const auto witnesses = [](const Words& more) {
-        return parse(search_of("quiet", plus({"--steps", "4000", "--witnesses", "-"}, more)).out)["witnesses"];
+        return parse(search_of("quiet", plus({"--steps", "1000", "--witnesses", "-"}, more)).out)["witnesses"];
     };
     const Json apart = witnesses({});
     EXPECT_GT(apart.size(), 3U);
-    EXPECT_EQ(apart, witnesses({"--in-process"}));
-    EXPECT_EQ(apart, witnesses({"--threads", "1"}));
+    EXPECT_EQ(apart, witnesses({"--in-process", "--threads", "1"}));
     for (const Json& w : apart) EXPECT_FALSE(w.contains("detail"));
 }
 
