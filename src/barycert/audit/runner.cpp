@@ -10,7 +10,6 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
-#include <span>
 #include <thread>
 
 #include "barycert/audit/asking.hpp"
@@ -78,10 +77,7 @@ void collect_witnesses(KernelResult& result, const AuditOptions& options, const 
         w.c = make_case(family, result.kernel.simplex, options.seed, worst.index, meshes, &origin);
         w.mesh = origin.mesh;
         w.cell = origin.cell;
-        if (reason <= static_cast<std::size_t>(Finding::printed)) {
-            Statement again;
-            w.detail = ask_kernel(result.kernel, std::span(&w.c, 1), std::span(&again, 1), false).detail;
-        }
+        if (reason <= static_cast<std::size_t>(Finding::printed)) w.detail = incident_of(result.kernel, w.c);
         result.witnesses.push_back(std::move(w));
     }
 }
