@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <bit>
@@ -213,6 +214,18 @@ TEST(contained, what_never_answers_is_given_up_and_said_to_be) {
     ASSERT_FALSE(report.kernels[0].witnesses.empty());
     EXPECT_NE(report.kernels[0].witnesses[0].detail.find("SIGABRT"), std::string::npos);
     EXPECT_EQ(report.regions[0] + report.regions[1] + report.regions[2], 5000U);
+}
+
+TEST(contained, few_open_files_are_enough) {
+    rlimit usual{};
+    ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &usual), 0);
+    rlimit few = usual;
+    few.rlim_cur = 100;
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &few), 0);
+    const Result<Kernel> kernel = load_contained_kernel(library("quiet"));
+    setrlimit(RLIMIT_NOFILE, &usual);
+    ASSERT_TRUE(kernel.has_value()) << kernel.error().message();
+    EXPECT_EQ(statistics_of(*kernel, "mesh.inside", some, own_meshes()).wrong_cases, 0U);
 }
 
 TEST(contained, what_does_not_load_is_refused) {

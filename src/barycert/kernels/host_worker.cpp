@@ -149,6 +149,12 @@ void put(char (&to)[n], const char* text) {
     std::snprintf(to, n, "%s", text == nullptr ? "" : text);
 }
 
+/// A copy of the descriptor where a library that closes what it did not open would not find it, if there may be one.
+int out_of_the_way(int descriptor) {
+    const int copy = fcntl(descriptor, F_DUPFD_CLOEXEC, 200);
+    return copy >= 0 ? copy : fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+}
+
 class WorkerProcess {
 public:
     WorkerProcess(Channel& channel, int printed) : channel_(channel), printed_(printed) {}
@@ -330,8 +336,7 @@ void run_worker(Channel& channel, int socket, int printed, const char* path) {
     the_channel = &channel;
     set_signals();
     set_streams(printed);
-    // Not where a library that closes what it did not open would find it.
-    const int own_socket = fcntl(socket, F_DUPFD_CLOEXEC, 200), own_printed = fcntl(printed, F_DUPFD_CLOEXEC, 200);
+    const int own_socket = out_of_the_way(socket), own_printed = out_of_the_way(printed);
     if (own_socket < 0 || own_printed < 0) give_up();
     close(socket);
     close(printed);
