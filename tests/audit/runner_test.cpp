@@ -1,6 +1,10 @@
 // The runner: independent of threads, bounded, honest about what it was given.
 
 #include <gtest/gtest.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 
 #include "audit_helpers.hpp"
@@ -112,6 +116,32 @@ TEST(Runner, PerspectiveKernelsMeetPerspectiveCasesAlone) {
     options.kernels = kernels_matching("triangle.signed-area");
     options.families = {family_named("perspective.ordinary")};
     EXPECT_FALSE(run_audit(options, {}));
+}
+
+/// A kernel with tasks of its own: while it waits for them, its thread looks for other work.
+int with_tasks(const double* v, const double* p, double* w) {
+    std::atomic<int> sum{0};
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, 8, 1),
+        [&](const auto& range) {
+            const auto until = std::chrono::steady_clock::now() + std::chrono::microseconds(5);
+            while (std::chrono::steady_clock::now() < until) {
+            }
+            sum += range.begin();
+        },
+        tbb::simple_partitioner());
+    const int status = kernel_named("tetrahedron.signed-volume").weights(v, p, w);
+    return sum == 28 ? status : 1;
+}
+
+TEST(Runner, KernelsMayHaveTasksOfTheirOwn) {
+    Kernel k = kernel_named("tetrahedron.signed-volume");
+    const auto figures = [&] {
+        return without_times(audit_of({k}, {family_named("mesh.faces")}, 2000, own_meshes(), 4));
+    };
+    const std::string alone = figures();
+    k.weights = with_tasks;
+    EXPECT_EQ(figures(), alone);
 }
 
 /// Finite weights so far off that sums over them overflow, in either direction.

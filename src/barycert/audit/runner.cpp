@@ -147,7 +147,9 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
                 for (std::uint64_t b = range.begin(); b != range.end(); ++b) {
                     const std::uint64_t first = b * block_size;
                     const std::uint64_t last = std::min(first + block_size, options.count);
-                    run_block(job, first, last, results.local());
+                    // A kernel that waits for tasks of its own must not begin another block meanwhile: a thread has
+                    // room for one.
+                    tbb::this_task_arena::isolate([&] { run_block(job, first, last, results.local()); });
                     const std::uint64_t now = done += last - first;
                     if (options.progress && telling.try_lock()) {
                         options.progress({now, total, family.name});
