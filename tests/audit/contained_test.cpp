@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <bit>
@@ -186,6 +187,8 @@ TEST(contained, the_end_of_the_server_is_no_fault_of_the_kernel) {
     ask_kernel(k, std::span(&c, 1), std::span(&said, 1), false);
     EXPECT_TRUE(said.answered);
     kill(after[0], SIGKILL);
+    siginfo_t ended{};  // when it has ended, its workers have been told to; it is left for the Host to wait for
+    ASSERT_EQ(waitid(P_PID, static_cast<id_t>(after[0]), &ended, WEXITED | WNOWAIT), 0);
     EXPECT_EQ(ask_kernel(k, std::span(&c, 1), std::span(&said, 1), false).detail, "");
     EXPECT_FALSE(said.ran);
     EXPECT_EQ(said.incidents, 0);
