@@ -78,12 +78,16 @@ Closest closest(const ExactIndex& index, const double* x, double limit) {
 std::array<double, 4> weights_in(const ExactIndex& index, Mesh::Index cell, const double* x) {
     std::array<double, 3> point{};
     index.project(x, point.data());
+    return weights_on_axes(index, cell, point.data());
+}
+
+std::array<double, 4> weights_on_axes(const ExactIndex& index, Mesh::Index cell, const double* point) {
     std::array<double, 12> vertices{};
     const auto d = static_cast<std::size_t>(index.mesh.dimension);
     double* out = vertices.data();
     for (const Mesh::Index node : corners_of(index, cell))
         out = std::copy_n(index.mesh.points.data() + d * static_cast<std::size_t>(node), d, out);
-    const Result<Weights> weights = barycentric_weights(index.simplex(), vertices.data(), point.data());
+    const Result<Weights> weights = barycentric_weights(index.simplex(), vertices.data(), point);
     return weights ? weights->weights : std::array<double, 4>{};
 }
 

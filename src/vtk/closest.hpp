@@ -21,4 +21,7 @@ Closest closest(const ExactIndex& index, const double* x, double limit);
 /// Correctly rounded weights of the point in a cell of the mesh that is not degenerate. Requires finite coordinates.
 std::array<double, 4> weights_in(const ExactIndex& index, Mesh::Index cell, const double* x);
 
+/// The same for a point on the axes of the mesh.
+std::array<double, 4> weights_on_axes(const ExactIndex& index, Mesh::Index cell, const double* point);
+
 }  // namespace barycert::in_vtk

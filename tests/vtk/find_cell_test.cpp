@@ -35,7 +35,7 @@ Found find(vtkBarycertLocator* locator, double* x, vtkGenericCell* cell) {
 }
 
 // Every owner is the lowest cell that the oracle finds, and every weight the oracle's.
-void expect_exact(const Mesh& mesh, vtkDataSet* data, int normal, double plane, std::size_t of_each) {
+void expect_exact_cells(const Mesh& mesh, vtkDataSet* data, int normal, double plane, std::size_t of_each) {
     vtkNew<vtkBarycertLocator> locator;
     locator->SetDataSet(data);
     locator->BuildLocator();
@@ -75,17 +75,17 @@ TEST(FindCell, IsTheLowestExactOwner) {
     for (const char* const name : {"cube-hole", "flange", "lattice-box", "needle-slit", "torus"}) {
         SCOPED_TRACE(name);
         const Mesh mesh = own_mesh(name);
-        expect_exact(mesh, grid_of(mesh), -1, 0, 40);
+        expect_exact_cells(mesh, grid_of(mesh), -1, 0, 40);
     }
 }
 
 TEST(FindCell, IsExactOnTrianglesInAPlaneAcrossAnyAxis) {
     const Mesh mesh = own_mesh("plate");
     ASSERT_EQ(mesh.dimension, 2);
-    expect_exact(mesh, grid_of(mesh, 0.1), 2, 0.1, 40);
+    expect_exact_cells(mesh, grid_of(mesh, 0.1), 2, 0.1, 40);
     for (int normal = 0; normal < 3; ++normal) {
         SCOPED_TRACE(normal);
-        expect_exact(mesh, surface_of(mesh, normal, -0.7), normal, -0.7, 40);
+        expect_exact_cells(mesh, surface_of(mesh, normal, -0.7), normal, -0.7, 40);
     }
 }
 
