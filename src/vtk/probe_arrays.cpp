@@ -84,7 +84,10 @@ void ProbeArrays::add_point_arrays(vtkDataSet& source, vtkDataSet& output, vtkId
     vtkPointData* const out = output.GetPointData();
     vtkPointData* const from = source.GetPointData();
     if (categorical) out->SetCopyAttribute(vtkDataSetAttributes::SCALARS, 2, vtkDataSetAttributes::INTERPOLATE);
-    out->InterpolateAllocate(from, points, points);
+    // In the order of vtkProbeFilter: attributes come first.
+    vtkDataSetAttributes::FieldList list(1);
+    list.InitializeFieldList(from);
+    out->InterpolateAllocate(list, points, points);
     for (int i = 0; i < out->GetNumberOfArrays(); ++i) {
         vtkAbstractArray* const to = out->GetAbstractArray(i);
         vtkAbstractArray* const its = source_of(from, out, i, to);
@@ -108,7 +111,9 @@ void ProbeArrays::add_point_arrays(vtkDataSet& source, vtkDataSet& output, vtkId
 void ProbeArrays::add_cell_arrays(vtkDataSet& source, vtkDataSet& output, vtkIdType points, double outside) {
     vtkNew<vtkCellData> made;
     made->CopyAllOn(vtkDataSetAttributes::COPYTUPLE);
-    made->CopyAllocate(source.GetCellData(), points, points);
+    vtkDataSetAttributes::FieldList list(1);
+    list.InitializeFieldList(source.GetCellData());
+    made->CopyAllocate(list, points, points);
     for (int i = 0; i < made->GetNumberOfArrays(); ++i) {
         vtkDataArray* const to = made->GetArray(i);
         if (to == nullptr || to->GetName() == nullptr || output.GetPointData()->HasArray(to->GetName()) != 0) continue;

@@ -11,6 +11,7 @@
 
 #include <vtkCell.h>
 #include <vtkDataSet.h>
+#include <vtkGarbageCollector.h>
 #include <vtkGenericCell.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
@@ -48,6 +49,12 @@ vtkObjectBase* vtkBarycertLocator::NewInstanceInternal() const {
     vtkBarycertLocator* const made = New();
     made->Tolerant = Tolerant;
     return made;
+}
+
+// A data set may have this as its locator, and VTK's locator has the data set.
+void vtkBarycertLocator::ReportReferences(vtkGarbageCollector* collector) {
+    Superclass::ReportReferences(collector);
+    vtkGarbageCollectorReport(collector, internals_->other, "Other");
 }
 
 void vtkBarycertLocator::PrintSelf(ostream& os, vtkIndent indent) {
@@ -315,7 +322,18 @@ int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3]
 
 void vtkBarycertLocator::FindCellsWithinBounds(double* bbox, vtkIdList* cells) {
     cells->Reset();
-    if (vtkStaticCellLocator* const other = Other()) other->FindCellsWithinBounds(bbox, cells);
+    vtkStaticCellLocator* const other = Other();
+    if (other == nullptr) return;
+    vtkNew<vtkIdList> candidates;  // all cells of the buckets that the box meets
+    other->FindCellsWithinBounds(bbox, candidates);
+    for (vtkIdType i = 0; i < candidates->GetNumberOfIds(); ++i) {
+        const vtkIdType cell = candidates->GetId(i);
+        double its[6];
+        DataSet->GetCellBounds(cell, its);
+        bool meets = true;
+        for (int a = 0; a < 6; a += 2) meets = meets && its[a] <= bbox[a + 1] && bbox[a] <= its[a + 1];
+        if (meets) cells->InsertNextId(cell);
+    }
 }
 
 void vtkBarycertLocator::FindCellsAlongLine(const double p1[3], const double p2[3], double tolerance,

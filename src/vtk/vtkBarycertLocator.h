@@ -74,8 +74,8 @@ public:
                           int& subId, vtkIdType& cellId) override;
     int IntersectWithLine(const double p1[3], const double p2[3], double tol, double& t, double x[3], double pcoords[3],
                           int& subId, vtkIdType& cellId, vtkGenericCell* cell) override;
-    /// The first point of every cell that the line meets, along the line, and the cells; each may be null. Returns 0 if
-    /// it meets none, -1 if p1 lies in a cell, else 1.
+    /// The first point of every cell that the line meets within GetTolerance(), along the line, and the cells; each may
+    /// be null. Returns 0 if it meets none, -1 if p1 lies in a cell, else 1.
     int IntersectWithLine(const double p1[3], const double p2[3], vtkPoints* points, vtkIdList* cellIds) override;
 
     void FindCellsWithinBounds(double* bbox, vtkIdList* cells) override;
@@ -97,6 +97,7 @@ protected:
     vtkBarycertLocator();
     ~vtkBarycertLocator() override;
     vtkObjectBase* NewInstanceInternal() const override;
+    void ReportReferences(vtkGarbageCollector* collector) override;
 
 private:
     vtkBarycertLocator(const vtkBarycertLocator&) = delete;
