@@ -204,11 +204,11 @@ void bind_mesh(py::module_& module) {
             py::arg("names"), py::arg("progress"))
         .def(
             "sampler_of",
-            [](const MeshObject& m, const Array<double>& values, bool of_cells, py::object progress) {
+            [](const MeshObject& m, const Array<double>& values, py::object progress) {
                 return std::const_pointer_cast<BoundSampler>(
-                    m.sampler_of(field_of("value", values), of_cells, Progress(std::move(progress))));
+                    m.sampler_of(field_of("value", values), Progress(std::move(progress))));
             },
-            py::arg("values").noconvert(), py::arg("of_cells"), py::arg("progress"))
+            py::arg("values").noconvert(), py::arg("progress"))
         .def(
             "bare_sampler",
             [](const MeshObject& m, py::object progress) {
