@@ -77,7 +77,10 @@ struct ClaimCounts {
 struct ClaimResult {
     std::string kernel;  ///< empty: exact arithmetic
     ClaimRule rule = ClaimRule::exact;
-    std::array<ClaimCounts, 3> by_feature{};                     ///< face, edge, vertex
+    std::array<ClaimCounts, 3> by_feature{};  ///< face, edge, vertex
+    /// Pairs of point and cell to which the kernel gave no answer: it ended, took too long, or had been given up for
+    /// that and was no longer asked. The cell does not claim the point then.
+    std::uint64_t unanswered = 0;
     std::vector<std::pair<ClaimFault, ClaimWitness>> witnesses;  ///< the first of each fault
 
     ClaimCounts total() const;

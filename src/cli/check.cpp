@@ -54,16 +54,24 @@ std::vector<base::NamedFile> outputs(const CheckArguments& a) {
     std::vector<base::NamedFile> files{{"--vtu", a.vtu}};
     for (const TextOutput& t : text_outputs) files.push_back({t.option, a.*t.path});
     if (a.fixed.empty()) return files;
-    for (std::string& path : tetgen_files(a.fixed)) files.push_back({"--fix-orientation", std::move(path)});
+    if (const auto fixed = written_mesh_files(a.fixed); fixed) {
+        for (const std::string& path : *fixed) files.push_back({"--fix-orientation", path});
+    }
     return files;
+}
+
+bool is_vtk(const std::string& path) {
+    return path.ends_with(".vtu") || path.ends_with(".vtk");
 }
 
 /// What can be checked of the outputs before the work.
 Status check_files(const CheckArguments& a, bool table) {
     if (a.vtu == "-")
         return Error{.what = "--vtu cannot write to stdout", .remedy = "name a file: its data are binary"};
-    if (a.vtk_data && a.vtu.empty())
-        return Error{.what = "--vtk-data is for the file of --vtu", .remedy = "leave it out, or give --vtu FILE"};
+    if (const auto fixed = written_mesh_files(a.fixed); !a.fixed.empty() && !fixed) return fixed.error();
+    if (a.vtk_data && a.vtu.empty() && !is_vtk(a.fixed))
+        return Error{.what = "--vtk-data is for VTK's files",
+                     .remedy = "leave it out, or give --vtu FILE, or --fix-orientation FILE.vtu"};
     std::vector<base::NamedFile> inputs = base::named_files("the mesh", mesh_files(a.mesh));
     if (!a.plc.empty()) {
         for (base::NamedFile& file : base::named_files("the PLC of --conforms-to", plc_files(a.plc)))
@@ -75,7 +83,9 @@ Status check_files(const CheckArguments& a, bool table) {
 }
 
 /// write_tetgen leaves no file of another mesh beside its own. Told before the work.
-Status check_nothing_in_the_way(const Mesh& mesh, const std::string& stem) {
+Status check_nothing_in_the_way(const Mesh& mesh, const std::string& path) {
+    if (const auto files = written_mesh_files(path); files && files->size() == 1) return Done{};
+    const std::string stem = tetgen_stem(path);
     for (const auto& [suffix, written] :
          {std::pair(".face", !mesh.faces.empty()), {".neigh", !mesh.neighbours.empty()}}) {
         std::error_code ignored;
@@ -149,7 +159,8 @@ int run_check(const CheckArguments& a) {
     }
     if (!a.vtu.empty()) written.push_back(write_measures(report, *mesh, a.vtu, a.vtk_data.value_or(VtkData::raw)));
     if (!a.fixed.empty())
-        written.push_back(write_tetgen(with_positive_cells(*mesh, report.measures.orientation), a.fixed));
+        written.push_back(write_mesh(with_positive_cells(*mesh, report.measures.orientation), a.fixed,
+                                     {.comment = {}, .data = a.vtk_data.value_or(VtkData::raw)}));
     if (table) {
         const TerminalStyle style{.colour = colour_on_stdout(), .command = command_name()};
         written.push_back(write_output("-", check_text(report, *mesh, name, style)));
@@ -173,7 +184,7 @@ void add_check(CLI::App& app, int& exit_code) {
     const auto a = std::make_shared<CheckArguments>();
     file_option(*sub, "MESH", a->mesh,
                 "A mesh: TetGen's .node/.ele (with .face and .neigh if present) or Triangle's, Gmsh's .msh, VTK's .vtu "
-                ".vtk .vtp .pvtu .vtm .pvd")
+                ".vtk .vtp .pvtu .vtm .pvd .vtu.series")
         ->required();
     sub->add_flag("--delaunay", a->delaunay, "Also test exactly whether every interior facet is locally Delaunay");
     file_option(*sub, "--conforms-to", a->plc,
@@ -194,8 +205,8 @@ void add_check(CLI::App& app, int& exit_code) {
     for (const TextOutput& t : text_outputs) file_option(*sub, t.option, (*a).*t.path, t.help);
     file_option(*sub, "--vtu", a->vtu, "Write the mesh with measures and defects of each cell as VTU, for ParaView");
     file_option(*sub, "--fix-orientation", a->fixed,
-                "Write a copy in which no cell has negative volume: STEM.node, STEM.ele (.face, .neigh)")
-        ->type_name("STEM");
+                "Write a copy in which no cell has negative volume: .vtu .vtk .msh, or TetGen's STEM.node, STEM.ele "
+                "(.face, .neigh)");
     vtk_data_option(*sub, a->vtk_data);
     sub->add_flag("--quiet", a->quiet, "Print no table and no progress");
     sub->callback([a, &exit_code] { exit_code = run_check(*a); });

@@ -27,6 +27,10 @@
 #define RULE 14
 #define LOADED_FLUSH 15
 #define SLOW 16
+#define RAISE 17
+#define ONCE 18
+#define SLOW_LOADING 19
+#define SLOW_PRINT 20
 
 void barycert_kernel_describe(struct barycert_kernel_info* info) {
     info->abi = BARYCERT_KERNEL_ABI;
@@ -43,6 +47,12 @@ __attribute__((constructor)) static void flush(void) {
 #if UNRULY == LOADING
 __attribute__((constructor)) static void crash(void) {
     abort();
+}
+#endif
+
+#if UNRULY == SLOW_LOADING
+__attribute__((constructor)) static void load(void) {
+    usleep(500000);
 }
 #endif
 
@@ -91,7 +101,7 @@ int barycert_kernel_weights(const double* vertices, const double* point, double*
 #elif UNRULY == AFTER
         weights[4] = 1;
 #elif UNRULY == BEFORE
-        weights[-1] = 1;
+        for (int i = 1; i <= 8; ++i) weights[-i] = 1;
 #elif UNRULY == INPUT
         ((double*)vertices)[0] = 0;
 #elif UNRULY == READ_AFTER
@@ -102,10 +112,20 @@ int barycert_kernel_weights(const double* vertices, const double* point, double*
         __builtin_ia32_ldmxcsr(__builtin_ia32_stmxcsr() | 0x8000);
 #elif UNRULY == PRINT
         printf("point %g\n", point[0]);
+#elif UNRULY == RAISE
+        raise(SIGSEGV);
+#elif UNRULY == ONCE
+        static int printed;
+        if (!printed++) printf("once\n");
+#elif UNRULY == SLOW_PRINT
+        printf("slow\n");
 #elif UNRULY == STACK
         weights[0] += dig(0);
 #endif
     }
+#if UNRULY == SLOW_PRINT
+    usleep(300000);
+#endif
 #if UNRULY == ALWAYS
     abort();
 #endif

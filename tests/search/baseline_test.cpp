@@ -131,6 +131,10 @@ TEST_F(BaselineFile, BadFilesAreRefusedWithTheirPlace) {
             .message()
             .find("a family of k"),
         std::string::npos);
+    // Nested so deeply that to copy it, or to write it down, would take more than the stack.
+    const std::string deep = std::string(1000000, '[') + std::string(1000000, ']');
+    EXPECT_NE(error_of(deep).message().find("expected JSON"), std::string::npos);
+    EXPECT_NE(error_of("{\"schema\": " + deep + "}").message().find("expected JSON"), std::string::npos);
     // Cut anywhere, a report is refused, and nothing else happens.
     const std::string whole = audit_json(audit({kernel_named("tetrahedron.cramer")}, "random", 20));
     for (std::size_t n = 0; n + 3 < whole.size(); n += 97) error_of(whole.substr(0, n));

@@ -93,6 +93,7 @@ public:
                 asked = who.kernel;
             }
             std::vector<bool> claimed;
+            std::uint64_t& unanswered = found.results[k].unanswered;
             for (std::size_t i = 0; i < cases.size(); ++i) {
                 if (who.kernel == nullptr) {
                     // Of exact arithmetic signs are exact where rounded weights may be zero.
@@ -103,7 +104,8 @@ public:
                     continue;
                 }
                 const Statement& s = said[i];
-                claimed.push_back(s.ran && s.answered && s.status == 0 &&
+                if (!s.answered) ++unanswered;
+                claimed.push_back(s.answered && s.status == 0 &&
                                   (who.rule == ClaimRule::own
                                        ? s.claimed == Region::interior || s.claimed == Region::boundary
                                        : claims(who.rule, options_.tolerance, std::span(s.weights).first(n))));
@@ -168,6 +170,7 @@ void merge(ClaimResult& to, const ClaimResult& from) {
         to.by_feature[f].outside += from.by_feature[f].outside;
         for (std::size_t k = 0; k < claim_fault_count; ++k) to.by_feature[f].faults[k] += from.by_feature[f].faults[k];
     }
+    to.unanswered += from.unanswered;
     for (const auto& [fault, witness] : from.witnesses) keep_first(to, fault, witness);
 }
 
@@ -218,7 +221,7 @@ Result<GapsReport> find_gaps(const GapsOptions& options, const Mesh& mesh, const
     report.threads =
         options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     for (const Claimant& c : claimants)
-        report.results.push_back({c.kernel == nullptr ? "" : c.kernel->name, c.rule, {}, {}});
+        report.results.push_back({c.kernel == nullptr ? "" : c.kernel->name, c.rule, {}, 0, {}});
 
     const auto start = std::chrono::steady_clock::now();
     const Finder finder(options, mesh, claimants);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "barycert/audit/parsed_json.hpp"
 #include "barycert/audit/witness_json.hpp"
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
@@ -166,7 +167,7 @@ Result<std::vector<Witness>> read_witnesses(const std::string& path) {
         error.remedy += "; witnesses are made with `barycert audit --witnesses FILE`";
         return error;
     }
-    const Json all = Json::parse(*text, nullptr, false);
+    const Json all = audit::parsed_json<Json>(*text);
     if (all.is_discarded())
         return Error{.what = "not a witness file",
                      .file = path,

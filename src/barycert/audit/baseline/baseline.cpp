@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "barycert/audit/mesh_draws.hpp"
+#include "barycert/audit/parsed_json.hpp"
 #include "barycert/base/input_file.hpp"
 #include "barycert/environment.hpp"
 
@@ -136,7 +137,7 @@ Result<Baseline> read_baseline(const std::string& path) {
         error.what = "cannot read the baseline";
         return error;
     }
-    const Json all = Json::parse(*text, nullptr, false);
+    const Json all = parsed_json<Json>(*text);
     if (all.is_discarded())
         return Error{
             .what = "not a baseline", .file = path, .expected = "JSON", .found = "something else", .remedy = remedy};

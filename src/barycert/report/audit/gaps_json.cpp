@@ -42,6 +42,7 @@ Json claims_json(const ClaimResult& r, int dimension) {
     Json j;
     j["kernel"] = r.kernel.empty() ? Json(nullptr) : Json(r.kernel);
     j["rule"] = name(r.rule);
+    j["unanswered"] = r.unanswered;
     add_claims(j, r.total());
     j["features"] = Json::array();
     for (std::size_t f = 0; f < 3; ++f) {
