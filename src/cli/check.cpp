@@ -14,6 +14,7 @@
 #include "barycert/io.hpp"
 #include "barycert/report.hpp"
 #include "barycert/vtk.hpp"
+#include "ci.hpp"
 #include "command.hpp"
 #include "files.hpp"
 #include "options.hpp"
@@ -28,6 +29,7 @@ struct CheckArguments {
     std::uint64_t examples = 10, contacts = 20;
     int threads = 0;
     bool delaunay = false, quiet = false;
+    CiOptions ci;
 };
 
 /// A report that is text: in a file, or on stdout in place of the table.
@@ -78,7 +80,7 @@ Status check_files(const CheckArguments& a, bool table) {
             inputs.push_back(std::move(file));
     }
     std::vector<base::NamedFile> written = outputs(a);
-    if (table) written.push_back({"the table", "-"});
+    add_ci_outputs(a.ci, table, written);
     return base::check_outputs(inputs, std::move(written));
 }
 
@@ -118,9 +120,19 @@ Status write_measures(const CheckReport& report, Mesh mesh, const std::string& p
     return write_vtu(mesh, path, data);
 }
 
+/// The file to point at: of several the first that is there.
+std::string mesh_artifact(const std::string& mesh) {
+    for (const std::string& path : mesh_files(mesh)) {
+        std::error_code ignored;
+        if (std::filesystem::exists(path, ignored)) return path;
+    }
+    return mesh;
+}
+
 int run_check(const CheckArguments& a) {
-    const bool table = !a.quiet && std::none_of(text_outputs.begin(), text_outputs.end(),
-                                                [&](const TextOutput& t) { return a.*t.path == "-"; });
+    const bool table =
+        !a.quiet && !a.ci.on_stdout() &&
+        std::none_of(text_outputs.begin(), text_outputs.end(), [&](const TextOutput& t) { return a.*t.path == "-"; });
     if (const Status ok = check_files(a, table); !ok) return fail(ok.error());
     Progress progress(!a.quiet && stderr_is_terminal());
     progress.stage("checking: reading");
@@ -165,10 +177,10 @@ int run_check(const CheckArguments& a) {
         const TerminalStyle style{.colour = colour_on_stdout(), .command = command_name()};
         written.push_back(write_output("-", check_text(report, *mesh, name, style)));
     }
+    if (a.ci.asked())
+        write_ci(a.ci, check_outcomes(report, *mesh, name, mesh_artifact(a.mesh), measure_environment()), written);
     if (!a.quiet) tell_important(mesh->notes);
-    for (const Status& status : written) {
-        if (!status) return fail(status.error());
-    }
+    if (const Status ok = all_written(written); !ok) return fail(ok.error());
     return report.certified() ? exit_clean : exit_findings;
 }
 
@@ -208,6 +220,7 @@ void add_check(CLI::App& app, int& exit_code) {
                 "Write a copy in which no cell has negative volume: .vtu .vtk .msh, or TetGen's STEM.node, STEM.ele "
                 "(.face, .neigh)");
     vtk_data_option(*sub, a->vtk_data);
+    add_ci_options(*sub, a->ci, "what breaks the certificate");
     sub->add_flag("--quiet", a->quiet, "Print no table and no progress");
     sub->callback([a, &exit_code] { exit_code = run_check(*a); });
 }

@@ -27,4 +27,8 @@ CLI::Option* file_option(CLI::App& sub, const std::string& name, std::vector<std
 /// Writes `bytes` to a file that appears whole or not at all; "-" is stdout.
 Status write_output(const std::string& path, std::string_view bytes);
 
+/// The first that is an error, once all was tried: a file that could not be written does not cost the user the others,
+/// the fruit of the whole run.
+Status all_written(const std::vector<Status>& written);
+
 }  // namespace barycert::cli
