@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "barycert/kernel.h"
+#include "signed_volumes.h"
 
 #define QUIET 0
 #define CRASH 1
@@ -56,17 +57,6 @@ __attribute__((constructor)) static void load(void) {
 }
 #endif
 
-static double volume(const double* a, const double* b, const double* c, const double* d) {
-    double u[3], v[3], w[3];
-    int i;
-    for (i = 0; i < 3; ++i) {
-        u[i] = b[i] - a[i];
-        v[i] = c[i] - a[i];
-        w[i] = d[i] - a[i];
-    }
-    return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
-}
-
 /* The tests know this condition as well. */
 static int unruly(const double* point) {
     unsigned long long bits;
@@ -83,12 +73,7 @@ static int dig(volatile int depth) {
 #endif
 
 int barycert_kernel_weights(const double* vertices, const double* point, double* weights) {
-    const double *a = vertices, *b = a + 3, *c = b + 3, *d = c + 3;
-    const double whole = volume(a, b, c, d);
-    weights[0] = volume(point, b, c, d) / whole;
-    weights[1] = volume(a, point, c, d) / whole;
-    weights[2] = volume(a, b, point, d) / whole;
-    weights[3] = volume(a, b, c, point) / whole;
+    signed_volumes(vertices, point, weights);
     if (unruly(point)) {
 #if UNRULY == CRASH
         raise(SIGFPE);

@@ -8,6 +8,7 @@
 #include "barycert/audit/parsed_json.hpp"
 #include "barycert/audit/witness_json.hpp"
 #include "barycert/base/input_file.hpp"
+#include "barycert/base/json_text.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 
@@ -155,7 +156,7 @@ std::string witnesses_json(const AuditReport& report) {
     for (const KernelResult& k : report.kernels) {
         for (const Witness& w : k.witnesses) out["witnesses"].push_back(audit::witness_json(w));
     }
-    return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return base::json_text(out, 1);
 }
 
 Result<std::vector<Witness>> read_witnesses(const std::string& path) {
