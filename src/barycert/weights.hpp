@@ -64,7 +64,8 @@ struct Value {
 Result<Value> interpolate(Simplex simplex, const double* vertices, const double* point, const double* values);
 
 /// Returns the sign of the exact, not rounded, value less `threshold`: whether the field is above, at or below it. So a
-/// value can be rounded once to any other type. Returns an Error if a number is not finite or the simplex is degenerate.
+/// value can be rounded once to any other type. Returns an Error if a number is not finite or the simplex is
+/// degenerate.
 Result<Sign> compare_value(Simplex simplex, const double* vertices, const double* point, const double* values,
                            double threshold);
 

@@ -151,10 +151,10 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
                     // room for one.
                     tbb::this_task_arena::isolate([&] { run_block(job, first, last, results.local()); });
                     const std::uint64_t now = done += last - first;
-                    if (options.progress && telling.try_lock()) {
+                    const std::unique_lock turn(telling, std::try_to_lock);
+                    if (options.progress && turn) {
                         options.progress({now, total, family.name});
                         ExactEnvironment::renew();
-                        telling.unlock();
                     }
                 }
             });
