@@ -117,6 +117,15 @@ TEST(contained, the_time_limit_is_for_a_case_and_not_for_all) {
     EXPECT_EQ(s.cases, 256U);
 }
 
+TEST(contained, nor_is_it_for_loading_the_library) {
+    const std::uint64_t expected = unruly_cases("mesh.inside", 100);
+    ASSERT_GT(expected, 0U);
+    const KernelStatistics s = statistics_of(contained("late", 0.02), "mesh.inside", 100, own_meshes());
+    EXPECT_EQ(count_of(s, Finding::hung), 0U);
+    EXPECT_EQ(count_of(s, Finding::crashed), expected);
+    EXPECT_EQ(s.cases, 100U);
+}
+
 TEST(contained, figures_do_not_depend_on_threads) {
     for (const char* name : {"crash", "print", "round"}) {
         const auto figures = [&](int threads) {

@@ -27,6 +27,7 @@
 #define RULE 14
 #define LOADED_FLUSH 15
 #define SLOW 16
+#define LATE 17
 
 void barycert_kernel_describe(struct barycert_kernel_info* info) {
     info->abi = BARYCERT_KERNEL_ABI;
@@ -43,6 +44,13 @@ __attribute__((constructor)) static void flush(void) {
 #if UNRULY == LOADING
 __attribute__((constructor)) static void crash(void) {
     abort();
+}
+#endif
+
+#if UNRULY == LATE
+/* Takes its time to load, and crashes, so that it is loaded again. */
+__attribute__((constructor)) static void wait(void) {
+    usleep(200000);
 }
 #endif
 
@@ -80,7 +88,7 @@ int barycert_kernel_weights(const double* vertices, const double* point, double*
     weights[2] = volume(a, b, point, d) / whole;
     weights[3] = volume(a, b, c, point) / whole;
     if (unruly(point)) {
-#if UNRULY == CRASH
+#if UNRULY == CRASH || UNRULY == LATE
         raise(SIGFPE);
 #elif UNRULY == EXIT
         exit(3);

@@ -80,11 +80,7 @@ Result<std::shared_ptr<Host>> Host::start(const std::string& path, double second
     if (host->server_ < 0) return no_process(path, std::strerror(why));
 
     Worker worker = host->take();
-    const int usual = host->milliseconds_;
-    host->milliseconds_ = std::max(usual, loading_milliseconds);
-    const End end = host->begin(worker) ? host->command(worker, Command::describe) : End::died;
-    host->milliseconds_ = usual;
-    if (end != End::done) {
+    if (const End end = host->begin(worker); end != End::done) {
         const int status = host->end(worker);
         host->give_back(worker);
         return Error{.what = "cannot load the kernel library",
@@ -153,19 +149,21 @@ int Host::ask_server(const ServerRequest& request, int with_socket) {
     return got == sizeof answer ? answer : -1;
 }
 
-bool Host::begin(Worker& worker) {
-    if (worker.socket >= 0) return true;
+/// Forks a worker, unless it runs, and waits until it has loaded the library: the time for a case does not begin
+/// before.
+Host::End Host::begin(Worker& worker) {
+    if (worker.socket >= 0) return End::done;
     int ends[2];
-    if (!socket_pair(ends, SOCK_STREAM)) return false;
+    if (!socket_pair(ends, SOCK_STREAM)) return End::died;
     new (&channel(worker)) Channel;
     const int pid = ask_server({ServerRequest::fork_worker, worker.channel}, ends[1]);
     close(ends[1]);
     if (pid <= 0) {
         close(ends[0]);
-        return false;
+        return End::died;
     }
     worker.socket = ends[0];
-    return true;
+    return command(worker, Command::describe, std::max(milliseconds_, loading_milliseconds));
 }
 
 /// Ends the worker and returns its status.
@@ -177,13 +175,13 @@ int Host::end(Worker& worker) {
 }
 
 /// Returns when it is done, dead, or in the same case for too long.
-Host::End Host::command(Worker& worker, Command command) {
+Host::End Host::command(Worker& worker, Command command, int milliseconds) {
     char letter = static_cast<char>(command);
     if (send(worker.socket, &letter, 1, MSG_NOSIGNAL) != 1) return End::died;
     constexpr std::uint32_t nowhere = ~0U;
     for (std::uint32_t seen = nowhere;;) {
         pollfd ready{worker.socket, POLLIN, 0};
-        const int count = poll(&ready, 1, milliseconds_);
+        const int count = poll(&ready, 1, milliseconds);
         if (count < 0 && errno == EINTR) continue;
         if (count == 0) {
             const std::uint32_t now = channel(worker).current.load(std::memory_order_relaxed);
@@ -206,7 +204,8 @@ Host::Batch Host::run(std::span<const Case> cases, std::span<Reply> replies, boo
     std::uint32_t first = 0;
     std::string end_of_last;
     while (first < count && patience_left_ > 0) {
-        if (!begin(worker)) {
+        if (begin(worker) != End::done) {
+            end(worker);
             patience_left_ = 0;
             break;
         }
@@ -219,7 +218,7 @@ Host::Batch Host::run(std::span<const Case> cases, std::span<Reply> replies, boo
         c.beside = false;
         c.current = c.complete = first;
         std::copy_n(cases.begin(), count, c.cases.begin());
-        const End how = command(worker, Command::run);
+        const End how = command(worker, Command::run, milliseconds_);
         const std::uint32_t complete = std::clamp(c.complete.load(std::memory_order_acquire), first, count);
         const std::uint32_t answered = how == End::done ? count : complete;
         for (std::uint32_t i = first; i < answered; ++i) replies[i] = {c.answers[i], true, true};

@@ -53,9 +53,9 @@ private:
     Worker take();
     void give_back(const Worker& worker);
     int ask_server(const ServerRequest& request, int with_socket);
-    bool begin(Worker& worker);
+    End begin(Worker& worker);
     int end(Worker& worker);
-    End command(Worker& worker, Command command);
+    End command(Worker& worker, Command command, int milliseconds);
     Channel& channel(const Worker& worker) { return channels_[worker.channel]; }
 
     std::string path_;
