@@ -122,6 +122,9 @@ void Tally::add(const Verdicts& v, bool cells, bool values) {
 std::string league_markdown(const League& league) {
     std::string text = fmt::format("{} points of each set on each mesh, seed {}.\n", league.count, league.seed);
     for (const int dimension : {3, 2}) {
+        if (std::none_of(league.standings.begin(), league.standings.end(),
+                         [&](const Standing& s) { return s.dimension == dimension; }))
+            continue;
         text += dimension == 3 ? "\n### Tetrahedra\n\n" : "\n### Triangles\n\n";
         summary(text, league, dimension);
         failures(text, league, dimension);

@@ -124,7 +124,8 @@ int main(int count, char** words) {
     if (count != 4 || std::string(words[2]) != "locate") return 2;
     const std::string system = words[1];
     const Question question(words[3]);
-    vtkSMPTools::Initialize(1);
+    // Initialize(1) would not reach the sorting with which vtkStaticCellLocator makes its index.
+    vtkSMPTools::SetBackend("Sequential");
     const vtkSmartPointer<vtkUnstructuredGrid> grid = grid_of(question);
     Answer answer;
     answer.owners.resize(question.point_count());

@@ -137,6 +137,9 @@ int main(int count, char** words) {
     std::erase_if(meshes, [&](const NamedMesh& m) { return !only_meshes.empty() && !contains(only_meshes, m.name); });
     describe(meshes, league);
     for (const int dimension : {3, 2}) {
+        if (std::none_of(meshes.begin(), meshes.end(),
+                         [&](const NamedMesh& m) { return m.mesh.dimension == dimension; }))
+            continue;
         for (const System& system : all) {
             if ((system.dimension != 0 && system.dimension != dimension) ||
                 (!only_systems.empty() && !contains(only_systems, system.name)))
