@@ -50,7 +50,7 @@ __attribute__((constructor)) static void crash(void) {
 #if UNRULY == LATE
 /* Takes its time to load, and crashes, so that it is loaded again. */
 __attribute__((constructor)) static void wait(void) {
-    usleep(200000);
+    usleep(600000);
 }
 #endif
 
