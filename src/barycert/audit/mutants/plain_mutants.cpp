@@ -79,7 +79,7 @@ int volume_dropped(const double* v, const double* p, double* w) {
     return status;
 }
 
-/// One weight rounded to single precision.
+/// One weight goes through a float.
 int volume_single(const double* v, const double* p, double* w) {
     const int status = signed_volume(v, p, w);
     if (status == 0) w[2] = static_cast<double>(static_cast<float>(w[2]));
