@@ -1,4 +1,5 @@
-# VTK is for tests, as a judge, and for benchmarks, as a peer: barycert reads and writes VTK's files without it.
+# VTK is for src/vtk, whose classes are VTK's, for tests, as a judge, and for benchmarks, as a peer: barycert reads and
+# writes VTK's files without it.
 # barycert_find_vtk(COMPONENTS...): sets VTK_FOUND and vtk_targets. Eigen must have been looked up before: VTK's package
 # brings a FindEigen3 of its own.
 macro(barycert_find_vtk)

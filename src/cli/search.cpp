@@ -107,7 +107,7 @@ std::optional<double> figure(const SearchReport& report, const std::string& name
         if (f.reason == name) return finding ? static_cast<double>(f.cases) : f.found.magnitude;
         mute = mute || f.reason == barycert::name(Finding::not_finite) ||
                f.reason == barycert::name(Finding::false_declaration) || f.reason == barycert::name(Finding::crashed) ||
-               f.reason == barycert::name(Finding::hung);
+               f.reason == barycert::name(Finding::hung) || f.reason == barycert::name(Finding::out_of_bounds);
     }
     // A kernel that gave no weights where there are some has no error to measure: it is worse than any.
     return finding || !mute ? 0 : std::numeric_limits<double>::infinity();

@@ -215,6 +215,7 @@ void bind_audit(py::module_& module) {
         py::arg("families"), py::arg("meshes"), py::arg("threads"), py::arg("oracle"), py::arg("progress"));
     module.def("finding_names", [] {
         std::vector<std::string> names;
+        names.reserve(finding_count);
         for (const FindingText& text : finding_texts) names.emplace_back(text.name);
         return names;
     });

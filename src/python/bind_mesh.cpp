@@ -35,7 +35,7 @@ std::vector<Mesh::Index> indices_as(const py::array& cells, std::size_t columns,
                  .expected = nodes == 0 ? "no cells, as there are no nodes" : "0 to " + std::to_string(nodes - 1),
                  .found = std::to_string(all[i]),
                  .remedy = "indices count from 0: see where they were made"});
-        out[i] = static_cast<Mesh::Index>(all[i]);
+        out[i] = static_cast<Mesh::Index>(all[i]);  // NOLINT(bugprone-signed-char-misuse): chars are numbers here
     }
     return out;
 }
@@ -204,11 +204,11 @@ void bind_mesh(py::module_& module) {
             py::arg("names"), py::arg("progress"))
         .def(
             "sampler_of",
-            [](const MeshObject& m, const Array<double>& values, bool of_cells, py::object progress) {
+            [](const MeshObject& m, const Array<double>& values, py::object progress) {
                 return std::const_pointer_cast<BoundSampler>(
-                    m.sampler_of(field_of("value", values), of_cells, Progress(std::move(progress))));
+                    m.sampler_of(field_of("value", values), Progress(std::move(progress))));
             },
-            py::arg("values").noconvert(), py::arg("of_cells"), py::arg("progress"))
+            py::arg("values").noconvert(), py::arg("progress"))
         .def(
             "bare_sampler",
             [](const MeshObject& m, py::object progress) {

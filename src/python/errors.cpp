@@ -38,6 +38,7 @@ void bind_errors(py::module_& module) {
                                   PyExc_ValueError, nullptr);
     if (error_type == nullptr) throw py::error_already_set();
     module.attr("Error") = py::handle(error_type);
+    // NOLINTNEXTLINE(performance-unnecessary-value-param): the type of pybind11's translators
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
             if (thrown) std::rethrow_exception(thrown);

@@ -81,14 +81,13 @@ std::shared_ptr<const BoundSampler> MeshObject::sampler(const std::vector<std::s
     return made;
 }
 
-std::shared_ptr<const BoundSampler> MeshObject::sampler_of(Field field, bool of_cells, const Progress& progress) const {
+std::shared_ptr<const BoundSampler> MeshObject::sampler_of(Field field, const Progress& progress) const {
     const std::shared_ptr<Geometry> geometry = geometry_;
     const auto fields = std::make_shared<Mesh>();
     fields->point_fields.push_back(std::move(field));
     const py::gil_scoped_release unlocked;
-    return std::make_shared<const BoundSampler>(
-        BoundSampler{geometry, fields,
-                     take(Sampler::build(geometry->locator(progress), {{&fields->point_fields.front(), of_cells}}))});
+    return std::make_shared<const BoundSampler>(BoundSampler{
+        geometry, fields, take(Sampler::build(geometry->locator(progress), {{&fields->point_fields.front()}}))});
 }
 
 std::shared_ptr<const BoundSampler> MeshObject::bare_sampler(const Progress& progress) const {

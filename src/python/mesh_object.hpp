@@ -51,8 +51,8 @@ public:
 
     /// Of the fields with these names, or all; the last one is kept.
     std::shared_ptr<const BoundSampler> sampler(const std::vector<std::string>& names, const Progress& progress);
-    /// Of a field of nodes or cells that the mesh does not have.
-    std::shared_ptr<const BoundSampler> sampler_of(Field field, bool of_cells, const Progress& progress) const;
+    /// Of a field of nodes that the mesh does not have.
+    std::shared_ptr<const BoundSampler> sampler_of(Field field, const Progress& progress) const;
     /// Of no field.
     std::shared_ptr<const BoundSampler> bare_sampler(const Progress& progress) const;
 

@@ -1,7 +1,6 @@
 #include "vtk/exact_index.hpp"
 
-#include <algorithm>
-#include <limits>
+#include <cmath>
 #include <list>
 #include <mutex>
 #include <utility>
@@ -9,6 +8,7 @@
 #include <vtkCallbackCommand.h>
 #include <vtkDataSet.h>
 
+#include "barycert/grid.hpp"
 #include "vtk/simplices.hpp"
 
 namespace barycert::in_vtk {
@@ -66,6 +66,15 @@ void remember(vtkDataSet& data, vtkMTimeType time, std::shared_ptr<const ExactIn
     cache().entries.push_back({&data, time, std::move(index)});
 }
 
+// The edge of a square or cube that would hold about 8 cells if they were spread over the box of the mesh.
+double some_cells(const Mesh& mesh) {
+    const Bounds3 box = bounds_of_cells(mesh);
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    double size = 8 / static_cast<double>(mesh.cell_count());
+    for (std::size_t a = 0; a < d; ++a) size *= box.high[a] - box.low[a];
+    return std::pow(size, 1.0 / mesh.dimension);
+}
+
 // One that was made for the same cells: of a shallow copy, or before point data changed.
 std::shared_ptr<const ExactIndex> made_before(const ExactIndex& index) {
     const std::lock_guard lock(cache().access);
@@ -97,6 +106,7 @@ std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data) {
             index = std::move(before);
         } else if (Result<Locator> locator = Locator::build(made->mesh)) {
             made->locator = std::move(*locator);
+            made->near = some_cells(made->mesh);
         } else {
             made->reason = locator.error().message();
         }

@@ -28,6 +28,8 @@ struct ExactIndex {
     double plane = 0;                  ///< its coordinate on that axis
     std::array<int, 3> axes{0, 1, 2};  ///< axis of space of each axis of the mesh
 
+    double near = 0;  ///< some cell sizes: the cell of a point so near is worth a look
+
     bool exact() const { return reason.empty(); }
     Simplex simplex() const { return mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron; }
     vtkIdType id(Mesh::Index cell) const {

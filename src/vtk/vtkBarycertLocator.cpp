@@ -21,6 +21,7 @@
 #include <vtkStaticCellLocator.h>
 
 #include "barycert/environment.hpp"
+#include "barycert/weights.hpp"
 #include "vtk/closest.hpp"
 
 using namespace barycert;
@@ -155,13 +156,37 @@ static Mesh::Index owner(const in_vtk::ExactIndex& index, const double* x) {
     std::array<double, 3> point{};
     if (!index.locator || !std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2])) return -1;
     if (!index.project(x, point.data())) return -1;
-    // Points come one near the other, mostly. Any cell is a valid hint; the answer does not depend on it.
-    thread_local Mesh::Index last = -1;
+    // Where points come one near the other, the last cell saves most of the search; elsewhere it lengthens it. The
+    // answer does not depend on it.
+    struct Last {
+        const in_vtk::ExactIndex* index = nullptr;
+        std::array<double, 3> point{};
+        Mesh::Index cell = -1;
+    };
+    thread_local Last last;
     const auto count = static_cast<Mesh::Index>(index.mesh.cell_count());
-    const Result<Location> location = index.locator->locate(point.data(), last < count ? last : -1);
+    bool near = last.index == &index && last.cell < count;
+    for (std::size_t a = 0; a < 3; ++a) near = near && std::abs(point[a] - last.point[a]) <= index.near;
+    const Result<Location> location = index.locator->locate(point.data(), near ? last.cell : -1);
     if (!location) return -1;
-    if (location->cell >= 0) last = location->cell;
+    if (location->cell >= 0) last = {&index, point, location->cell};
     return location->cell;
+}
+
+// From the vertices that VTK has just fetched: those of the mesh would be fetched from memory a second time.
+static std::array<double, 4> weights_in(const in_vtk::ExactIndex& index, vtkCell& cell, const double* x) {
+    const auto d = static_cast<std::size_t>(index.mesh.dimension);
+    std::array<double, 12> vertices{};
+    for (std::size_t k = 0; k <= d; ++k) {
+        std::array<double, 3> vertex{}, on_axes{};
+        cell.Points->GetPoint(static_cast<vtkIdType>(k), vertex.data());
+        index.project(vertex.data(), on_axes.data());
+        std::copy_n(on_axes.begin(), d, vertices.data() + d * k);
+    }
+    std::array<double, 3> point{};
+    index.project(x, point.data());
+    const Result<Weights> weights = barycentric_weights(index.simplex(), vertices.data(), point.data());
+    return weights ? weights->weights : std::array<double, 4>{};
 }
 
 // As vtkTetra and vtkTriangle have them: all weights but the first.
@@ -197,9 +222,8 @@ vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell*
     }
     Mesh::Index found = owner(*index, x);
     std::array<double, 4> its{};
-    if (found >= 0) {
-        its = in_vtk::weights_in(*index, found, x);
-    } else if (Tolerant && tol2 > 0) {
+    const bool outside = found < 0;
+    if (outside && Tolerant && tol2 > 0) {
         const in_vtk::Closest nearest = in_vtk::closest(*index, x, std::sqrt(tol2));
         found = nearest.cell;
         its = nearest.weights;
@@ -207,6 +231,7 @@ vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell*
     if (found < 0) return -1;
     const vtkIdType id = index->id(found);
     if (cell != nullptr) DataSet->GetCell(id, cell);
+    if (!outside) its = cell != nullptr ? weights_in(*index, *cell, x) : in_vtk::weights_in(*index, found, x);
     set_parametric(its, static_cast<int>(index->mesh.corners()), pcoords, weights);
     return id;
 }

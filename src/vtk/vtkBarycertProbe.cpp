@@ -68,7 +68,7 @@ vtkStandardNewMacro(vtkBarycertProbe);
 
 vtkBarycertProbe::vtkBarycertProbe() {
     SetNumberOfInputPorts(2);
-    SetValidPointMaskArrayName("vtkValidPointMask");
+    vtkBarycertProbe::SetValidPointMaskArrayName("vtkValidPointMask");
 }
 
 vtkBarycertProbe::~vtkBarycertProbe() {

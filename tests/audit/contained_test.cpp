@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
+#include <cstdlib>
 #include <fstream>
+#include <new>
 
 #include "audit_helpers.hpp"
 #include "barycert/audit/asking.hpp"
@@ -165,6 +169,23 @@ TEST(contained, output_is_told_though_it_comes_but_once) {
         EXPECT_EQ(said[before == 0 ? 1 : 0].incidents, kernels::incident_printed);
         EXPECT_EQ(asked.detail, "wrote \"once\\n\"");
     }
+}
+
+/// Shared by this process and those that it forks.
+std::atomic<bool>* ended_here = nullptr;
+
+TEST(contained, what_the_program_does_at_its_end_is_not_done_by_a_kernel_s_exit) {
+    void* const shared =
+        mmap(nullptr, sizeof(std::atomic<bool>), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    ASSERT_NE(shared, MAP_FAILED);
+    ended_here = new (shared) std::atomic<bool>(false);
+    ASSERT_EQ(std::atexit([] { *ended_here = true; }), 0);
+    const Kernel k = contained("exit");
+    const Case loud = case_that_is(true);
+    Statement said;
+    EXPECT_EQ(ask_kernel(k, std::span(&loud, 1), std::span(&said, 1), false).detail, "it called exit, status 3");
+    EXPECT_EQ(said.incidents, kernels::incident_crashed);
+    EXPECT_FALSE(*ended_here);
 }
 
 /// Processes that this one has forked.

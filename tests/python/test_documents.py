@@ -5,6 +5,7 @@ import doctest
 import importlib
 import os
 import pkgutil
+import re
 import shutil
 import subprocess
 import sys
@@ -69,6 +70,17 @@ def test_the_picture(folder):
     assert picture.shape[:2] == (420, 520)
     # Coloured, and not all in one colour.
     assert len({tuple(pixel) for row in picture[100:300:20, 100:400:20] for pixel in row}) > 5
+
+
+def test_bindings_stand_on_public_headers():
+    folder = os.path.join(SOURCES, "src", "python")
+    includes = set()
+    for name in os.listdir(folder):
+        if name.endswith((".cpp", ".hpp")):
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
+                includes |= set(re.findall(r'#include ["<](barycert/[^">]*)[">]', file.read()))
+    assert len(includes) > 15
+    assert all(include.count("/") == 1 for include in includes), includes
 
 
 def members(node):

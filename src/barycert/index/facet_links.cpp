@@ -64,7 +64,7 @@ void link_block(CellIndex& index, std::size_t first, std::size_t last, Memory<d>
     for (std::size_t place = std::max(first + ahead, last) - ahead; place < last; ++place) finish(place);
     memory.table.for_each_waiting([&](std::uint32_t number, std::uint32_t tag, std::uint8_t side) {
         HashedFacet facet = at(number);
-        facet.start = tag / parts;  // all of a part have the same remainder
+        facet.start = static_cast<std::uint32_t>(tag / parts);  // all of a part have the same remainder
         facet.tag = tag;
         facet.side = side;
         block.open[part_of(tag)].push_back(facet);

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -334,6 +335,8 @@ private:
 void run_worker(Channel& channel, int socket, int printed, const char* path) {
     const ExactEnvironment environment;
     the_channel = &channel;
+    // A kernel that calls exit() must not end what the program, of which this process is a copy, wants to end itself.
+    if (on_exit([](int status, void*) { _exit(status); }, nullptr) != 0) give_up();
     set_signals();
     set_streams(printed);
     const int own_socket = out_of_the_way(socket), own_printed = out_of_the_way(printed);

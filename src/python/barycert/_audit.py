@@ -125,8 +125,7 @@ def audit(
     Raises:
         Error: no such kernel, library or family. What the callable raises ends the audit.
     """
-    if not _core.has_audit:
-        _core.fail("this build of barycert has no audit", remedy="build it with -DBARYCERT_AUDIT=ON")
+    _need_audit()
     callable_kernel = None
     libraries: List[str] = []
     catalogue = list(against)
@@ -149,11 +148,18 @@ def audit(
     return AuditReport(core)
 
 
+def _need_audit() -> None:
+    if not _core.has_audit:
+        _core.fail("this build of barycert has no audit", remedy="build it with -DBARYCERT_AUDIT=ON")
+
+
 def kernels() -> List[Dict[str, Any]]:
     """The catalogue of kernels: dicts with name, simplex, formula, source, fails and more."""
+    _need_audit()
     return json.loads(_core.kernels())["kernels"]
 
 
 def families() -> List[Dict[str, Any]]:
     """The families of cases: dicts with name, after, parameters, simplices and more."""
+    _need_audit()
     return json.loads(_core.families())["families"]

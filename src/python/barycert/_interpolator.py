@@ -80,7 +80,7 @@ class Interpolator:
         if not self._complex and np.iscomplexobj(fill_value):
             _core.fail("fill_value", expected="a real number, as the values are", found=repr(fill_value))
         with Teller(progress) as tell:
-            self._sampler = self.mesh._core.sampler_of(self._rows, False, tell)
+            self._sampler = self.mesh._core.sampler_of(self._rows, tell)
 
     @property
     def points(self) -> np.ndarray:
