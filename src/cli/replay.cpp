@@ -122,7 +122,7 @@ void add_replay(CLI::App& app, int& exit_code) {
     auto* sub = app.add_subcommand("replay", "Show witnesses: a kernel's weights beside the exact ones");
     sub->footer("Exit codes: 0 done; 1 a witness of a file is not reproduced; 2 usage or input error.");
     const auto a = std::make_shared<ReplayArguments>();
-    file_option(*sub, "FILE", a->file, "Witnesses from `barycert audit --witnesses FILE`, or its --json report");
+    file_option(*sub, "FILE", a->file, "Witnesses from `barycert audit` or `search`: --witnesses FILE or --json FILE");
     sub->add_option("--kernel", a->kernel, "Show only witnesses of matching kernels; with --case, mark this kernel")
         ->type_name("NAME|GLOB");
     sub->add_option("--reason", a->reason, "Show only witnesses of this kind of finding")->type_name("NAME|GLOB");

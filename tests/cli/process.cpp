@@ -128,29 +128,6 @@ Ended run_shell(const std::string& line, How how) {
     return run({"-c", line}, how);
 }
 
-Scratch::Scratch() {
-    std::string name = (fs::temp_directory_path() / "barycert-cli-XXXXXX").string();
-    EXPECT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-}
-
-Scratch::~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-}
-
-std::string Scratch::put(const std::string& name, const std::string& text) const {
-    std::ofstream(path(name), std::ios::binary) << text;
-    return path(name);
-}
-
-Words Scratch::names() const {
-    Words names;
-    for (const auto& entry : fs::directory_iterator(folder_)) names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
-}
-
 std::string read_file(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
     EXPECT_TRUE(in) << path;

@@ -3,10 +3,11 @@
 
 #include <sys/types.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "scratch.hpp"
 
 namespace barycert::cli_test {
 
@@ -41,21 +42,7 @@ Ended run(const Words& arguments, const How& how = {});
 /// Runs a line of shell in which `barycert` is the program.
 Ended run_shell(const std::string& line, How how = {});
 
-/// A folder for one test, removed with all in it at the end.
-class Scratch {
-public:
-    Scratch();
-    ~Scratch();
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
-    std::string folder() const { return folder_.string(); }
-    std::string put(const std::string& name, const std::string& text) const;
-    Words names() const;  ///< of all in it, sorted
-
-private:
-    std::filesystem::path folder_;
-};
+using test::Scratch;
 
 std::string read_file(const std::string& path);
 nlohmann::json parse(const std::string& text);  ///< discarded, and a failure of the test, if it is not JSON

@@ -8,7 +8,8 @@ A program tries one system on one thing, holds what it answers against barycert,
     figures      what was counted, by name
     summary      the same in one line
 
-The judge is `barycert verify` on files that the system wrote, or on columns that numpy wrote with what it said.
+Where points, cells and values are in question the judge is `barycert verify`, on files that the system wrote or on columns
+that numpy wrote with what it said; elsewhere the program's own docstring says what its answers are held against.
 """
 
 import itertools

@@ -6,6 +6,7 @@
 /// It prints its version. This header is for those in C++17 (VTK 9.1 does not compile as C++20) and in C++20.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -39,6 +40,11 @@ void write_array(const std::string& path, const std::vector<T>& array) {
         std::fprintf(stderr, "cannot write %s\n", path.c_str());
         std::exit(2);
     }
+}
+
+/// Seconds from some moment on.
+inline double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 /// What a system is asked.

@@ -51,19 +51,29 @@ void summary(std::string& text, const League& league, int dimension) {
             text += fmt::format("| {} | {} | | | | | |\n", s.name, s.why_not);
             continue;
         }
+        if (s.total.points == 0) {
+            text += fmt::format("| {} | {} | no answers | | | | |\n", s.name, s.version);
+            continue;
+        }
         const Tally& t = s.total;
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.0f} |\n", s.name, s.version, share(t.missed, t.inside),
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", s.name, s.version, share(t.missed, t.inside),
                             share(t.invented, t.outside), t.has_cells ? share(t.wrong_cell, t.inside - t.missed) : "-",
-                            t.has_values ? fmt::format("{:.2g}", t.max_error) : "-", median(s.ns));
+                            t.has_values ? fmt::format("{:.2g}", t.max_error) : "-",
+                            s.ns.empty() ? "-" : fmt::format("{:.0f}", median(s.ns)));
     }
 }
 
 /// What ended before it answered, in words.
 void failures(std::string& text, const League& league, int dimension) {
     for (const Standing& s : league.standings) {
-        if (s.dimension != dimension || s.failures.empty()) continue;
-        text += fmt::format("\n{}, not counted above:\n\n", s.name);
-        for (const std::string& failure : s.failures) text += fmt::format("- {}\n", failure);
+        if (s.dimension != dimension) continue;
+        const auto list = [&](const char* what, const std::vector<std::string>& reasons) {
+            if (reasons.empty()) return;
+            text += fmt::format("\n{}, {}:\n\n", s.name, what);
+            for (const std::string& reason : reasons) text += fmt::format("- {}\n", reason);
+        };
+        list("not counted above", s.failures);
+        list("counted, but not timed", s.not_timed);
     }
 }
 
@@ -112,6 +122,9 @@ void Tally::add(const Verdicts& v, bool cells, bool values) {
 std::string league_markdown(const League& league) {
     std::string text = fmt::format("{} points of each set on each mesh, seed {}.\n", league.count, league.seed);
     for (const int dimension : {3, 2}) {
+        if (std::none_of(league.standings.begin(), league.standings.end(),
+                         [&](const Standing& s) { return s.dimension == dimension; }))
+            continue;
         text += dimension == 3 ? "\n### Tetrahedra\n\n" : "\n### Triangles\n\n";
         summary(text, league, dimension);
         failures(text, league, dimension);
@@ -140,6 +153,7 @@ std::string league_json(const League& league) {
         for (const auto& [name, t] : s.by_set) row["by_set"][name] = tally_json(t);
         for (const auto& [name, t] : s.by_mesh) row["by_mesh"][name] = tally_json(t);
         row["failures"] = s.failures;
+        row["not_timed"] = s.not_timed;
         j["systems"].push_back(row);
     }
     return j.dump(2) + "\n";

@@ -10,15 +10,6 @@
 
 namespace barycert::systems {
 
-/// A system as it is asked: `command SYSTEM TASK FOLDER`, see exchange.hpp.
-struct System {
-    std::string name;
-    std::string command;  ///< program and its first argument
-    bool own_triangulation = false;
-    int dimension = 0;  ///< 0: both
-    int limit = 60;     ///< seconds for one mesh; then it is taken not to end
-};
-
 struct Tally {
     std::uint64_t points = 0, inside = 0, outside = 0;
     std::uint64_t missed = 0, invented = 0, wrong_cell = 0;
@@ -33,9 +24,11 @@ struct Standing {
     int dimension = 3;
     Tally total;
     std::map<std::string, Tally> by_set, by_mesh;
-    std::vector<std::string> failures;  ///< meshes on which it ended by itself, or did not in time
-    std::vector<double> ns;             ///< a random point of the box, mesh by mesh
-    std::string why_not = {};           ///< it is not installed
+    std::vector<std::string> failures;  ///< meshes on which it ended by itself, or did not in time: not counted
+    std::vector<std::string>
+        not_timed;             ///< meshes that are counted, but on which it failed when it was asked for times
+    std::vector<double> ns;    ///< a random point of the box, mesh by mesh
+    std::string why_not = {};  ///< it is not installed
 };
 
 struct League {

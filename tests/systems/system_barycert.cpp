@@ -1,18 +1,9 @@
 // barycert itself, asked as the others are.
-#include <chrono>
 #include <cstdio>
 #include <string>
 
 #include "barycert/sampler.hpp"
 #include "systems/exchange.hpp"
-
-namespace {
-
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-}  // namespace
 
 int main(int count, char** words) {
     using namespace barycert;
@@ -24,14 +15,14 @@ int main(int count, char** words) {
     mesh.cells = question.cells;
     mesh.point_fields = {{"f", 1, question.values}};
     systems::Answer answer;
-    const double start = now();
+    const double start = systems::now();
     const Sampler sampler = Sampler::build(mesh, {}, {.threads = 1}).value();
-    const double built = now();
+    const double built = systems::now();
     SampleOptions options;
     options.threads = 1;
     const Table rows = sampler.sample(question.points, options).value();
     answer.index_seconds = built - start;
-    answer.seconds = now() - built;
+    answer.seconds = systems::now() - built;
     answer.owners.assign(rows.cells.begin(), rows.cells.end());
     answer.sampled = rows.values;
     answer.write(question.folder);

@@ -19,7 +19,6 @@
 #include <CGAL/spatial_sort.h>
 #include <CGAL/version.h>
 
-#include <chrono>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -29,13 +28,10 @@
 namespace {
 
 using barycert::systems::Answer;
+using barycert::systems::now;
 using barycert::systems::Question;
 using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Inexact = CGAL::Simple_cartesian<double>;
-
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// Triangles in the plane. Vertices know the number of their node, faces their own.
 template <class Kernel>

@@ -23,7 +23,6 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkVersion.h>
 
-#include <chrono>
 #include <limits>
 
 #include "systems/exchange.hpp"
@@ -31,13 +30,10 @@
 namespace {
 
 using barycert::systems::Answer;
+using barycert::systems::now;
 using barycert::systems::Question;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 vtkSmartPointer<vtkPoints> points_of(const std::vector<double>& coordinates, std::size_t dimension) {
     auto points = vtkSmartPointer<vtkPoints>::New();
@@ -128,7 +124,8 @@ int main(int count, char** words) {
     if (count != 4 || std::string(words[2]) != "locate") return 2;
     const std::string system = words[1];
     const Question question(words[3]);
-    vtkSMPTools::Initialize(1);
+    // Initialize(1) would not reach the sorting with which vtkStaticCellLocator makes its index.
+    vtkSMPTools::SetBackend("Sequential");
     const vtkSmartPointer<vtkUnstructuredGrid> grid = grid_of(question);
     Answer answer;
     answer.owners.resize(question.point_count());

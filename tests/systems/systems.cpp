@@ -2,155 +2,96 @@
 //
 //     systems [--count N] [--seed N] [--mesh NAME]... [--system NAME]... [--json FILE] [--list]
 //
-// The table goes to the standard output, as Markdown. Each system runs in a process of its own, on one thread.
-#include <sys/wait.h>
+// The table goes to the standard output, as Markdown. Each system runs in a process of its own, on one thread. Exits
+// with 1 if barycert is wrong somewhere, and with 2 if nothing could be asked.
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <map>
+#include <optional>
 #include <string>
 
-#include "barycert/sampler.hpp"
-#include "systems/exchange.hpp"
-#include "systems/league.hpp"
+#include "barycert/base/output_file.hpp"
+#include "systems/asking.hpp"
 #include "systems/point_sets.hpp"
-#include "systems/test_meshes.hpp"
 
 namespace {
 
 using namespace barycert;
 using namespace barycert::systems;
-namespace fs = std::filesystem;
 
-/// A folder that goes when it is done with.
-class Folder {
-public:
-    Folder() {
-        std::string name = (fs::temp_directory_path() / "barycert-systems-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) std::exit(2);
-        path_ = name;
-    }
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    const std::string& path() const { return path_; }
-    std::string operator/(const char* name) const { return path_ + '/' + name; }
+using Names = std::vector<std::string>;
 
-private:
-    std::string path_;
-};
+constexpr int usage_error = 2;
 
-/// What a command prints; returns how it ended, as the shell tells: 0 well, 124 by `timeout`.
-int run(const std::string& command, std::string& output) {
-    output.clear();
-    std::FILE* const pipe = ::popen(command.c_str(), "r");
-    if (pipe == nullptr) return -1;
-    char buffer[4096];
-    while (std::fgets(buffer, sizeof buffer, pipe) != nullptr) output += buffer;
-    while (!output.empty() && output.back() == '\n') output.pop_back();
-    const int status = ::pclose(pipe);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+int fail(const std::string& text) {
+    std::fprintf(stderr, "systems: error: %s\n", text.c_str());
+    return usage_error;
 }
 
-/// The python3 that has the module; the first of the path need not be the one that Debian's packages are for.
-std::string python_with(const std::string& module) {
-    std::string ignored;
-    for (const char* const python : {"python3", "/usr/bin/python3"})
-        if (run(std::string(python) + " -c 'import " + module + "' 2>/dev/null", ignored) == 0) return python;
+bool contains(const Names& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// What is wrong with the names that were given; nothing if all are known.
+std::string unknown_name(const char* kind, const Names& given, const Names& known) {
+    for (const std::string& name : given) {
+        if (!contains(known, name))
+            return fmt::format("no {} is called '{}'; there are: {}", kind, name, fmt::join(known, "; "));
+    }
     return {};
 }
 
-std::vector<System> all_systems() {
-    std::vector<System> all{{"barycert", BARYCERT_SYSTEM_BARYCERT " all"}};
-#ifdef BARYCERT_SYSTEM_VTK
-    all.push_back({"vtkStaticCellLocator", BARYCERT_SYSTEM_VTK " static-locator"});
-    all.push_back({"vtkCellTreeLocator", BARYCERT_SYSTEM_VTK " cell-tree"});
-    all.push_back({"vtkCellLocator", BARYCERT_SYSTEM_VTK " cell-locator"});
-    all.push_back({"vtkProbeFilter", BARYCERT_SYSTEM_VTK " probe"});
-    all.push_back({"vtkResampleWithDataSet", BARYCERT_SYSTEM_VTK " resample"});
-#endif
-    all.push_back({"CGAL locate, exact predicates", BARYCERT_SYSTEM_CGAL " exact-predicates", true});
-    all.push_back({"CGAL locate, plain doubles", BARYCERT_SYSTEM_CGAL " inexact", true, 0, 10});
-    const std::string script = " " BARYCERT_SYSTEM_PYTHON " ", scipy = python_with("scipy"),
-                      matplotlib = python_with("matplotlib");
-    const auto by = [&](const std::string& python, const char* system) {
-        return python.empty() ? python : python + script + system;
-    };
-    all.push_back({"SciPy find_simplex", by(scipy, "find_simplex"), true});
-    all.push_back({"SciPy LinearNDInterpolator", by(scipy, "LinearNDInterpolator"), true});
-    all.push_back({"matplotlib TrapezoidMapTriFinder", by(matplotlib, "TriFinder"), false, 2});
-    return all;
+template <class Items>
+Names names_of(const Items& items) {
+    Names names;
+    for (const auto& item : items) names.push_back(item.name);
+    return names;
 }
 
-/// Asks a system for one mesh, and judges its answers. Returns why there are none.
-std::string ask(const System& system, const NamedMesh& asked, const League& league, Standing& standing) {
-    const Folder folder;
-    const auto call = [&](const char* task) -> std::string {
-        std::string version;
-        const int code = run("timeout " + std::to_string(system.limit) + ' ' + system.command + ' ' + task + ' ' +
-                                 folder.path() + " 2>/dev/null",
-                             version);
-        if (code == 124) return "did not end in " + std::to_string(system.limit) + " s";
-        if (code != 0) return "ended by itself with code " + std::to_string(code);
-        standing.version = version;
-        return {};
-    };
-    Mesh mesh = asked.mesh;
-    write_array(folder / "dimension.i32", std::vector<std::int32_t>{mesh.dimension});
-    write_array(folder / "nodes.f64", mesh.points);
-    write_array(folder / "values.f64", mesh.point_fields.at(0).data);
-    if (system.own_triangulation) {
-        if (const std::string why = call("triangulate"); !why.empty()) return why;
-        mesh.cells = read_array<std::int32_t>(folder / "cells.i32");
-    } else {
-        write_array(folder / "cells.i32", mesh.cells);
+/// The meshes and sets of points that are in the table.
+void describe(const std::vector<NamedMesh>& meshes, League& league) {
+    for (const NamedMesh& m : meshes) {
+        league.meshes.emplace_back(m.name, m.about);
+        for (const PointSet& set : make_points(m.mesh, 0, 0).sets) {
+            const std::pair<std::string, std::string> named(set.name, set.recipe);
+            if (std::find(league.sets.begin(), league.sets.end(), named) == league.sets.end())
+                league.sets.push_back(named);
+        }
     }
-    const Points points = make_points(mesh, league.count, league.seed);
-    write_array(folder / "points.f64", points.coordinates);
-    if (const std::string why = call("locate"); !why.empty()) return why;
-    const auto owners = read_array<std::int64_t>(folder / "owners.i64");
-    const auto sampled = read_array<double>(folder / "sampled.f64"),
-               seconds = read_array<double>(folder / "seconds.f64");
-    const std::size_t count = points.coordinates.size() / static_cast<std::size_t>(mesh.dimension);
-    if ((owners.size() != count && !owners.empty()) || (sampled.size() != count && !sampled.empty()) ||
-        seconds.size() != 2)
-        return "wrote something else";
-    const Locator locator = Locator::build(mesh).value();
-    std::vector<FieldChoice> fields;
-    if (!sampled.empty()) fields.push_back({.field = &mesh.point_fields.at(0)});
-    const Sampler sampler = Sampler::build(locator, fields).value();
-    const Verifier verifier(sampler, {});
-    for (const PointSet& set : points.sets) {
-        ClaimedRows rows;
-        const auto d = static_cast<std::size_t>(mesh.dimension);
-        rows.points = std::span(points.coordinates).subspan(d * set.first, d * set.count);
-        if (!owners.empty()) rows.cells = std::span(owners).subspan(set.first, set.count);
-        if (!sampled.empty()) rows.values = std::span(sampled).subspan(set.first, set.count);
-        const Verdicts verdicts = verifier.verify(rows).value();
-        for (Tally* const tally : {&standing.total, &standing.by_set[set.name], &standing.by_mesh[asked.name]})
-            tally->add(verdicts, !owners.empty(), !sampled.empty());
-    }
-
-    // Times are of random points in the box alone: what users ask for.
-    const Points more = make_points(mesh, 20000, league.seed + 1);
-    const auto box =
-        std::find_if(more.sets.begin(), more.sets.end(), [](const PointSet& set) { return set.name == "box"; });
-    const auto d = static_cast<std::size_t>(mesh.dimension);
-    const auto random = std::span(more.coordinates).subspan(d * box->first, d * box->count);
-    write_array(folder / "points.f64", std::vector<double>(random.begin(), random.end()));
-    if (const std::string why = call("locate"); !why.empty()) return "random points alone: " + why;
-    standing.ns.push_back(1e9 * read_array<double>(folder / "seconds.f64").at(1) / static_cast<double>(box->count));
-    return {};
 }
 
-bool chosen(const std::vector<std::string>& names, const std::string& name) {
-    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+Standing standing_of(const System& system, int dimension, const std::vector<NamedMesh>& meshes, const League& league) {
+    Standing standing;
+    standing.name = system.name;
+    standing.dimension = dimension;
+    if (system.command.empty()) {
+        standing.why_not = "not installed";
+        return standing;
+    }
+    for (const NamedMesh& mesh : meshes) {
+        if (mesh.mesh.dimension != dimension) continue;
+        std::fprintf(stderr, "systems: %s, %s\n", system.name.c_str(), mesh.name.c_str());
+        ask(system, mesh, league, standing);
+    }
+    return standing;
+}
+
+/// Why no system has answered.
+std::string no_answers(const League& league) {
+    std::string why = "no system has answered for any point";
+    for (const Standing& s : league.standings) {
+        if (!s.why_not.empty()) why += fmt::format("\n  {}: {}", s.name, s.why_not);
+        for (const std::string& failure : s.failures) why += fmt::format("\n  {}: {}", s.name, failure);
+    }
+    return why;
+}
+
+/// barycert is in the table to be judged as well.
+bool barycert_is_wrong(const Standing& s) {
+    return s.name == "barycert" && (s.total.missed + s.total.invented + s.total.wrong_cell != 0 ||
+                                    s.total.max_error != 0 || !s.failures.empty() || !s.not_timed.empty());
 }
 
 }  // namespace
@@ -160,16 +101,22 @@ int main(int count, char** words) {
                  "./run systems");
     League league;
     league.count = 5000;
-    std::vector<std::string> only_meshes, only_systems;
+    Names only_meshes, only_systems;
     std::string json;
     bool list = false;
-    app.add_option("--count", league.count, "Points of each set on each mesh")->capture_default_str();
+    app.add_option("--count", league.count, "Points of each set on each mesh")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 100000000));
     app.add_option("--seed", league.seed, "Of the points")->capture_default_str();
     app.add_option("--mesh", only_meshes, "Only this mesh; may be repeated");
     app.add_option("--system", only_systems, "Only this system; may be repeated");
     app.add_option("--json", json, "Also write all counts");
     app.add_flag("--list", list, "Print the names of systems and meshes");
-    CLI11_PARSE(app, count, words);
+    try {
+        app.parse(count, words);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : usage_error;
+    }
 
     const std::vector<System> all = all_systems();
     std::vector<NamedMesh> meshes = meshes_for_systems();
@@ -178,46 +125,35 @@ int main(int count, char** words) {
         for (const NamedMesh& m : meshes) std::printf("mesh    %s: %s\n", m.name.c_str(), m.about.c_str());
         return 0;
     }
-    std::erase_if(meshes, [&](const NamedMesh& m) { return !chosen(only_meshes, m.name); });
-    for (const NamedMesh& m : meshes) {
-        league.meshes.emplace_back(m.name, m.about);
-        if (m.mesh.cell_count() == 0) continue;
-        for (const PointSet& set : make_points(m.mesh, 0, 0).sets) {
-            const std::pair<std::string, std::string> named(set.name, set.recipe);
-            if (std::find(league.sets.begin(), league.sets.end(), named) == league.sets.end())
-                league.sets.push_back(named);
-        }
-    }
-    for (const int dimension : {3, 2}) {
-        for (const System& system : all) {
-            if ((system.dimension != 0 && system.dimension != dimension) || !chosen(only_systems, system.name))
-                continue;
-            Standing standing;
-            standing.name = system.name;
-            standing.dimension = dimension;
-            if (system.command.empty()) standing.why_not = "not installed";
-            for (const NamedMesh& mesh : meshes) {
-                if (mesh.mesh.dimension != dimension || system.command.empty()) continue;
-                std::fprintf(stderr, "systems: %s, %s\n", system.name.c_str(), mesh.name.c_str());
-                if (const std::string failure = ask(system, mesh, league, standing); !failure.empty())
-                    standing.failures.push_back(mesh.name + ": " + failure);
-            }
-            league.standings.push_back(standing);
-        }
-    }
-    std::fputs(league_markdown(league).c_str(), stdout);
+    for (const std::string& wrong :
+         {unknown_name("mesh", only_meshes, names_of(meshes)), unknown_name("system", only_systems, names_of(all))})
+        if (!wrong.empty()) return fail(wrong);
+    std::optional<base::OutputFile> file;
     if (!json.empty()) {
-        std::ofstream file(json);
-        file << league_json(league);
-        if (!file.flush()) {
-            std::fprintf(stderr, "systems: cannot write %s\n", json.c_str());
-            return 2;
+        file.emplace(json);
+        if (const Status good = file->status(); !good) return fail(good.error().message());
+    }
+
+    std::erase_if(meshes, [&](const NamedMesh& m) { return !only_meshes.empty() && !contains(only_meshes, m.name); });
+    describe(meshes, league);
+    for (const int dimension : {3, 2}) {
+        if (std::none_of(meshes.begin(), meshes.end(),
+                         [&](const NamedMesh& m) { return m.mesh.dimension == dimension; }))
+            continue;
+        for (const System& system : all) {
+            if ((system.dimension != 0 && system.dimension != dimension) ||
+                (!only_systems.empty() && !contains(only_systems, system.name)))
+                continue;
+            league.standings.push_back(standing_of(system, dimension, meshes, league));
         }
     }
-    // barycert is in the table to be judged as well.
-    const auto wrong = [](const Standing& s) {
-        return s.name == "barycert" && (s.total.missed + s.total.invented + s.total.wrong_cell != 0 ||
-                                        s.total.max_error != 0 || !s.failures.empty());
-    };
-    return std::any_of(league.standings.begin(), league.standings.end(), wrong) ? 1 : 0;
+    if (std::all_of(league.standings.begin(), league.standings.end(),
+                    [](const Standing& s) { return s.total.points == 0; }))
+        return fail(no_answers(league));
+    std::fputs(league_markdown(league).c_str(), stdout);
+    if (file) {
+        file->write(league_json(league));
+        if (const Status written = file->commit(); !written) return fail(written.error().message());
+    }
+    return std::any_of(league.standings.begin(), league.standings.end(), barycert_is_wrong) ? 1 : 0;
 }

@@ -8,17 +8,17 @@ class Failures : public ::testing::Test {
 protected:
     /// Runs with the given words after the input's path and expects `message` in the error and no further files.
     void expect_failure(const std::string& input, const std::string& message, std::vector<std::string> more = {}) {
-        const std::size_t before = folder_.file_count();
+        const std::size_t before = folder_.names().size();
         more.insert(more.begin(), input);
         const Outcome run = run_tetgen(std::move(more));
         EXPECT_EQ(run.code, 2) << input;
         EXPECT_EQ(run.out, "");
         EXPECT_TRUE(run.err.starts_with("error: ")) << run.err;
         EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
-        EXPECT_EQ(folder_.file_count(), before) << "files are left";
+        EXPECT_EQ(folder_.names().size(), before) << "files are left";
     }
     void expect_bad_file(const std::string& name, const std::string& text, const std::string& message) {
-        const std::string path = folder_.write(name, text);
+        const std::string path = folder_.put(name, text);
         expect_failure(path, path + message);
     }
 
@@ -26,12 +26,12 @@ protected:
 };
 
 TEST_F(Failures, BeforeReading) {
-    expect_failure(folder_ / "none.poly", "none.poly: no such file");
+    expect_failure(folder_.path("none.poly"), "none.poly: no such file");
     expect_bad_file("cube.obj", cube_off(), ": unknown kind of PLC: expected one of .poly .smesh .off .stl .ply");
     expect_bad_file("cube", cube_off(), ": unknown kind of PLC");
     expect_bad_file("empty.poly", "", ": cannot read: expected a PLC, found an empty file");
-    std::filesystem::create_directory(folder_ / "folder.poly");
-    expect_failure(folder_ / "folder.poly", "folder.poly: cannot read: expected a file, found a directory");
+    std::filesystem::create_directory(folder_.path("folder.poly"));
+    expect_failure(folder_.path("folder.poly"), "folder.poly: cannot read: expected a file, found a directory");
 }
 
 // A file cut anywhere must be refused. In a .poly only what follows the facets may be missing, as in TetGen.
@@ -56,30 +56,30 @@ TEST_F(Failures, NumbersThatTheEndOfTheFileMayHaveCut) {
     const std::string poly = cube_poly(), off = cube_off();
     expect_bad_file("cut.poly", poly.substr(0, poly.size() - 1), ":23" + message);
     expect_bad_file("cut.off", off.substr(0, off.size() - 1), ":16" + message);
-    const std::string apart = folder_.write("apart.poly", "0\n6 0\n" + side_rows(0, "1\n", "") + "0\n");
+    const std::string apart = folder_.put("apart.poly", "0\n6 0\n" + side_rows(0, "1\n", "") + "0\n");
     const std::string rows = "8 3 0 0\n" + cube_rows(0, true);
-    const std::string nodes = folder_.write("apart.node", rows.substr(0, rows.size() - 1));
+    const std::string nodes = folder_.put("apart.node", rows.substr(0, rows.size() - 1));
     expect_failure(apart, nodes + ":9" + message);
     // Another end than a line end is one, too.
-    EXPECT_EQ(run_tetgen({folder_.write("whole.off", off.substr(0, off.size() - 1) + " ")}).code, 0);
+    EXPECT_EQ(run_tetgen({folder_.put("whole.off", off.substr(0, off.size() - 1) + " ")}).code, 0);
 }
 
 // A pipe without a writer is told at once; one that has been written to is a file.
 TEST_F(Failures, Pipes) {
-    ASSERT_EQ(mkfifo((folder_ / "pipe.off").c_str(), 0600), 0);
-    expect_failure(folder_ / "pipe.off",
+    ASSERT_EQ(mkfifo((folder_.path("pipe.off")).c_str(), 0600), 0);
+    expect_failure(folder_.path("pipe.off"),
                    "pipe.off: cannot read the file: expected data, found nothing: a pipe that "
                    "nobody writes to");
-    ASSERT_EQ(mkfifo((folder_ / "pipe.node").c_str(), 0600), 0);
-    const std::string apart = folder_.write("pipe.poly", "0\n6 0\n" + side_rows(0, "1\n", "") + "0\n");
+    ASSERT_EQ(mkfifo((folder_.path("pipe.node")).c_str(), 0600), 0);
+    const std::string apart = folder_.put("pipe.poly", "0\n6 0\n" + side_rows(0, "1\n", "") + "0\n");
     expect_failure(apart, "pipe.node: cannot read the file");
     // What is written stays in the pipe as long as somebody has it open for reading.
-    const int reader = open((folder_ / "pipe.off").c_str(), O_RDONLY | O_NONBLOCK);
-    const int writer = open((folder_ / "pipe.off").c_str(), O_WRONLY);
+    const int reader = open((folder_.path("pipe.off")).c_str(), O_RDONLY | O_NONBLOCK);
+    const int writer = open((folder_.path("pipe.off")).c_str(), O_WRONLY);
     const std::string off = cube_off();
     ASSERT_EQ(write(writer, off.data(), off.size()), static_cast<ssize_t>(off.size()));
     close(writer);
-    const Outcome run = run_tetgen({folder_ / "pipe.off"});
+    const Outcome run = run_tetgen({folder_.path("pipe.off")});
     close(reader);
     EXPECT_EQ(run.code, 0) << run.err;
 }
@@ -97,15 +97,15 @@ TEST_F(Failures, Contradictory) {
     expect_bad_file("index.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", ":6: no such node");
     expect_bad_file("binary.ply", "ply\nformat binary_little_endian 1.0\n", ":2: cannot read a binary .ply");
     expect_bad_file("short.stl", std::string(90, 'x'), ": neither a text nor a whole binary .stl");
-    const std::string apart = folder_.write("apart.poly", "0\n6 0\n" + side_rows(0, "1\n", "") + "0\n");
+    const std::string apart = folder_.put("apart.poly", "0\n6 0\n" + side_rows(0, "1\n", "") + "0\n");
     expect_failure(apart, "apart.node: no such file");
 }
 
 TEST_F(Failures, SelfIntersecting) {
-    const std::string path = folder_.write("crossed.off",
-                                           "OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n.2 .2 -.5\n.3 .2 .5\n.2 .3 .5\n"
-                                           ".2 .2 2\n3 0 1 2\n3 0 1 3\n3 1 2 3\n3 0 2 3\n3 4 5 6\n3 4 5 7\n3 5 6 7\n"
-                                           "3 4 6 7\n");
+    const std::string path = folder_.put("crossed.off",
+                                         "OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n.2 .2 -.5\n.3 .2 .5\n.2 .3 .5\n"
+                                         ".2 .2 2\n3 0 1 2\n3 0 1 3\n3 1 2 3\n3 0 2 3\n3 4 5 6\n3 4 5 7\n3 5 6 7\n"
+                                         "3 4 6 7\n");
     expect_failure(path, path + ": the facets intersect each other");
     expect_failure(path, "intersects facet #");
 }
@@ -118,7 +118,7 @@ TEST_F(Failures, NotWatertight) {
 }
 
 TEST_F(Failures, BadOptionValues) {
-    const std::string cube = folder_.write("cube.off", cube_off());
+    const std::string cube = folder_.put("cube.off", cube_off());
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
              {"--quality", "0.9"},     {"--quality", "nan"},  {"--quality", "1.2x"},  {"--min-dihedral", "-1"},
              {"--min-dihedral", "90"}, {"--max-volume", "0"}, {"--max-volume", "-1"}, {"--max-volume", "inf"},
@@ -133,16 +133,16 @@ TEST_F(Failures, BadOptionValues) {
 }
 
 TEST_F(Failures, UnwritableOutput) {
-    const std::string cube = folder_.write("cube.off", cube_off());
-    expect_failure(cube, folder_ / "none/cube", {"--output", folder_ / "none/cube"});
+    const std::string cube = folder_.put("cube.off", cube_off());
+    expect_failure(cube, folder_.path("none/cube"), {"--output", folder_.path("none/cube")});
     expect_failure(cube, cube + "/cube", {"--output", cube + "/cube"});
     // A folder stands where the nodes should go: found out by the writer, in the child.
-    std::filesystem::create_directory(folder_ / "taken.node");
-    expect_failure(cube, folder_ / "taken.node", {"--output", folder_ / "taken"});
+    std::filesystem::create_directory(folder_.path("taken.node"));
+    expect_failure(cube, folder_.path("taken.node"), {"--output", folder_.path("taken")});
 }
 
 TEST_F(Failures, Timeout) {
-    const std::string cube = folder_.write("cube.off", cube_off());
+    const std::string cube = folder_.put("cube.off", cube_off());
     expect_failure(cube, cube + ": TetGen did not end within 0.2 s", {"--max-volume", "1e-9", "--timeout", "0.2"});
 }
 

@@ -72,7 +72,7 @@ Mesh expect_cube(const std::string& input) {
 TEST(Formats, Poly) {
     const Scratch folder;
     for (const int base : {0, 1}) {
-        const Mesh mesh = expect_cube(folder.write("cube.poly", cube_poly(base)));
+        const Mesh mesh = expect_cube(folder.put("cube.poly", cube_poly(base)));
         EXPECT_EQ(mesh.index_base, base);
         EXPECT_EQ(mesh.face_markers, std::vector<std::int64_t>(12, 7));
     }
@@ -80,7 +80,7 @@ TEST(Formats, Poly) {
 
 TEST(Formats, PolyWithNodesApart) {
     const Scratch folder;
-    folder.write(
+    folder.put(
         "cube.node", "# nodes\n8 3 1 1\n" + [] {
             std::string rows;
             for (std::size_t i = 0; i < 8; ++i) {
@@ -90,45 +90,45 @@ TEST(Formats, PolyWithNodesApart) {
             }
             return rows;
         }());
-    const Mesh mesh = expect_cube(folder.write("cube.poly", "0\n6 0\n" + side_rows(0, "1\n", "") + "0\n"));
+    const Mesh mesh = expect_cube(folder.put("cube.poly", "0\n6 0\n" + side_rows(0, "1\n", "") + "0\n"));
     ASSERT_EQ(mesh.point_fields.size(), 1U);
     EXPECT_EQ(mesh.point_fields[0].data[7], 0.7);
     EXPECT_EQ(mesh.point_markers[7], 5);
 
     // Writing over the PLC's own nodes would destroy it.
-    const std::string before = contents(folder / "cube.node");
-    EXPECT_EQ(run_tetgen({folder / "cube.poly", "--output", folder / "cube"}).code, 2);
-    EXPECT_EQ(contents(folder / "cube.node"), before);
+    const std::string before = contents(folder.path("cube.node"));
+    EXPECT_EQ(run_tetgen({folder.path("cube.poly"), "--output", folder.path("cube")}).code, 2);
+    EXPECT_EQ(contents(folder.path("cube.node")), before);
 }
 
 TEST(Formats, Smesh) {
     const Scratch folder;
     const Mesh mesh =
-        expect_cube(folder.write("cube.smesh", "8 3\n" + cube_rows(1, true) + "6 1\n" + side_rows(1, "", " 3")));
+        expect_cube(folder.put("cube.smesh", "8 3\n" + cube_rows(1, true) + "6 1\n" + side_rows(1, "", " 3")));
     EXPECT_EQ(mesh.face_markers, std::vector<std::int64_t>(12, 3));
 }
 
 TEST(Formats, Off) {
     const Scratch folder;
-    expect_cube(folder.write("cube.off", cube_off()));
-    expect_cube(folder.write("comments.off",
-                             "OFF # geometry\n# counts\n8 6 0\n" + cube_rows(0, false) + side_rows(0, "", " 255 0 0")));
-    expect_cube(folder.write("from-one.off", "OFF\n8 6 0\n" + cube_rows(0, false) + side_rows(1, "", "")));
+    expect_cube(folder.put("cube.off", cube_off()));
+    expect_cube(folder.put("comments.off",
+                           "OFF # geometry\n# counts\n8 6 0\n" + cube_rows(0, false) + side_rows(0, "", " 255 0 0")));
+    expect_cube(folder.put("from-one.off", "OFF\n8 6 0\n" + cube_rows(0, false) + side_rows(1, "", "")));
 }
 
 TEST(Formats, Stl) {
     const Scratch folder;
-    expect_cube(folder.write("text.stl", cube_stl_text()));
-    expect_cube(folder.write("binary.stl", cube_stl_binary()));
+    expect_cube(folder.put("text.stl", cube_stl_text()));
+    expect_cube(folder.put("binary.stl", cube_stl_binary()));
 }
 
 TEST(Formats, Ply) {
     const Scratch folder;
-    expect_cube(folder.write("cube.ply", cube_ply("property float x\nproperty float y\nproperty float z\n", "")));
+    expect_cube(folder.put("cube.ply", cube_ply("property float x\nproperty float y\nproperty float z\n", "")));
     // Columns go by name: this one lists z first.
-    expect_cube(folder.write("order.ply", cube_ply("property float z\nproperty float x\nproperty float y\n"
-                                                   "property uchar red\n",
-                                                   " 255")));
+    expect_cube(folder.put("order.ply", cube_ply("property float z\nproperty float x\nproperty float y\n"
+                                                 "property uchar red\n",
+                                                 " 255")));
 }
 
 // Numbers that TetGen's own reader would misread: octal 010, a gap in the numbers, a number with a Fortran exponent.
@@ -136,15 +136,15 @@ TEST(Formats, NumbersAreReadRightlyOrRefused) {
     const Scratch folder;
     std::string octal = cube_poly();
     octal.replace(octal.find("1 1 0 0"), 7, "1 010 0 0");
-    const Outcome run = run_tetgen({folder.write("octal.poly", octal)});
+    const Outcome run = run_tetgen({folder.put("octal.poly", octal)});
     ASSERT_EQ(run.code, 0) << run.err;
-    const Mesh mesh = read_tetgen(folder / "octal.1").value();
+    const Mesh mesh = read_tetgen(folder.path("octal.1")).value();
     EXPECT_EQ(*std::max_element(mesh.points.begin(), mesh.points.end()), 10);
 
     for (const std::string wrong : {"1 nan 0 0", "1 1.0D+00 0 0", "5 1 0 0", "1 inf 0 0", "1 1 0 0 9"}) {
         std::string text = cube_poly();
         text.replace(text.find("1 1 0 0"), 7, wrong);
-        const Outcome refused = run_tetgen({folder.write("wrong.poly", text)});
+        const Outcome refused = run_tetgen({folder.put("wrong.poly", text)});
         EXPECT_EQ(refused.code, 2) << wrong;
         EXPECT_NE(refused.err.find("wrong.poly:3: "), std::string::npos) << refused.err;
     }
@@ -153,16 +153,16 @@ TEST(Formats, NumbersAreReadRightlyOrRefused) {
 // What was read can be written again to the same bytes: no bit of a coordinate is lost.
 TEST(Formats, OutputRoundTrip) {
     const Scratch folder;
-    const std::string input = folder.write("cube.poly", cube_poly(1));
+    const std::string input = folder.put("cube.poly", cube_poly(1));
     ASSERT_EQ(run_tetgen({input, "--quality", "1.1", "--max-volume", "0.003", "--order", "2"}).code, 0);
-    const Mesh mesh = read_tetgen(folder / "cube.1").value();
+    const Mesh mesh = read_tetgen(folder.path("cube.1")).value();
     ASSERT_GT(mesh.cell_count(), 300U);
     const std::string comment = "Generated by barycert-tetgen cube.poly --quality 1.1 --max-volume 0.003 --order 2";
-    ASSERT_TRUE(write_tetgen(mesh, folder / "again", {.comment = comment}));
+    ASSERT_TRUE(write_tetgen(mesh, folder.path("again"), {.comment = comment}));
     for (const std::string extension : {".node", ".ele", ".face", ".neigh"}) {
-        EXPECT_EQ(contents(folder / ("cube.1" + extension)), contents(folder / ("again" + extension))) << extension;
+        EXPECT_EQ(contents(folder.path("cube.1" + extension)), contents(folder.path("again" + extension))) << extension;
     }
-    EXPECT_NE(contents(folder / "cube.1.ele").find("# " + comment + "\n"), std::string::npos);
+    EXPECT_NE(contents(folder.path("cube.1.ele")).find("# " + comment + "\n"), std::string::npos);
 }
 
 TEST(Formats, SharedShapes) {
@@ -170,9 +170,9 @@ TEST(Formats, SharedShapes) {
     if (!std::filesystem::exists(plcs)) GTEST_SKIP() << "no folder " << plcs;
     const Scratch folder;
     for (const std::string name : {"slit-1.smesh", "spike-10-10.smesh", "wedge-1.smesh", "fandisk.off"}) {
-        const Outcome run = run_tetgen({(plcs / name).string(), "--quality", "--output", folder / name});
+        const Outcome run = run_tetgen({(plcs / name).string(), "--quality", "--output", folder.path(name)});
         ASSERT_EQ(run.code, 0) << run.err;
-        EXPECT_GT(read_tetgen(folder / name).value().cell_count(), 20U) << name;
+        EXPECT_GT(read_tetgen(folder.path(name)).value().cell_count(), 20U) << name;
     }
 }
 

@@ -19,36 +19,9 @@
 #include <vector>
 
 #include "barycert/io.hpp"
+#include "scratch.hpp"
 
 namespace barycert::test {
-
-/// A folder that vanishes with the object.
-class Scratch {
-public:
-    Scratch() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "barycert-XXXXXX").string();
-        if (mkdtemp(pattern.data()) == nullptr) std::abort();
-        path_ = pattern;
-    }
-    ~Scratch() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-
-    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-    std::string write(const std::string& name, const std::string& bytes) const {
-        std::ofstream(path_ / name, std::ios::binary) << bytes;
-        return *this / name;
-    }
-    std::size_t file_count() const {
-        return static_cast<std::size_t>(std::distance(std::filesystem::recursive_directory_iterator(path_), {}));
-    }
-
-private:
-    std::filesystem::path path_;
-};
 
 inline std::string contents(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
@@ -67,8 +40,8 @@ inline Outcome run_tetgen(std::vector<std::string> words) {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
-    const std::string out = streams / "out";
-    const std::string err = streams / "err";
+    const std::string out = streams.path("out");
+    const std::string err = streams.path("err");
     const pid_t child = fork();
     if (child == 0) {
         if (std::freopen(out.c_str(), "w", stdout) == nullptr) _exit(127);

@@ -9,11 +9,11 @@ namespace {
 class TetgenOptions : public ::testing::Test {
 protected:
     Mesh mesh_with(std::vector<std::string> words, const std::string& text = cube_poly()) {
-        words.insert(words.begin(), {folder_.write("part.poly", text), "--output", folder_ / "out"});
+        words.insert(words.begin(), {folder_.put("part.poly", text), "--output", folder_.path("out")});
         const Outcome run = run_tetgen(std::move(words));
         EXPECT_EQ(run.code, 0) << run.err;
         EXPECT_EQ(run.out, "");
-        return read_tetgen(folder_ / "out").value();
+        return read_tetgen(folder_.path("out")).value();
     }
 
     /// A flat box: its coarsest mesh has cells of bad shape.
@@ -117,7 +117,7 @@ TEST_F(TetgenOptions, SecondOrderNodesLieAtMidEdges) {
         }
     }
     EXPECT_EQ(mesh.face_mid_nodes.size(), mesh.faces.size());
-    EXPECT_NE(contents(folder_ / "out.ele").find(" 10 0\n"), std::string::npos);
+    EXPECT_NE(contents(folder_.path("out.ele")).find(" 10 0\n"), std::string::npos);
 }
 
 TEST_F(TetgenOptions, IndexBase) {
@@ -140,23 +140,23 @@ TEST_F(TetgenOptions, RegionsBecomeCellFields) {
 }
 
 TEST_F(TetgenOptions, SwitchDLooksForIntersections) {
-    const Outcome run = run_tetgen({folder_.write("cube.poly", cube_poly()), "--switches", "pd"});
+    const Outcome run = run_tetgen({folder_.put("cube.poly", cube_poly()), "--switches", "pd"});
     EXPECT_EQ(run.code, 0);
     EXPECT_NE(run.err.find("No faces are intersecting"), std::string::npos) << run.err;
-    EXPECT_EQ(folder_.file_count(), 1U);
+    EXPECT_EQ(folder_.names().size(), 1U);
 }
 
 TEST_F(TetgenOptions, OutputIsNumberedAsTetgenNumbers) {
-    ASSERT_EQ(run_tetgen({folder_.write("cube.off", cube_off()), "--quiet"}).code, 0);
-    EXPECT_TRUE(std::filesystem::exists(folder_ / "cube.1.node"));
-    ASSERT_EQ(run_tetgen({folder_.write("cube.1.off", cube_off())}).code, 0);
-    EXPECT_TRUE(std::filesystem::exists(folder_ / "cube.2.node"));
-    ASSERT_EQ(run_tetgen({folder_.write("cube.v3.off", cube_off())}).code, 0);
-    EXPECT_TRUE(std::filesystem::exists(folder_ / "cube.v3.1.node"));
+    ASSERT_EQ(run_tetgen({folder_.put("cube.off", cube_off()), "--quiet"}).code, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder_.path("cube.1.node")));
+    ASSERT_EQ(run_tetgen({folder_.put("cube.1.off", cube_off())}).code, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder_.path("cube.2.node")));
+    ASSERT_EQ(run_tetgen({folder_.put("cube.v3.off", cube_off())}).code, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder_.path("cube.v3.1.node")));
 }
 
 TEST_F(TetgenOptions, QuietIsSilentAndHelpIsNot) {
-    const Outcome quiet = run_tetgen({folder_.write("cube.off", cube_off()), "--quiet"});
+    const Outcome quiet = run_tetgen({folder_.put("cube.off", cube_off()), "--quiet"});
     EXPECT_EQ(quiet.err + quiet.out, "");
     const Outcome help = run_tetgen({"--help"});
     EXPECT_EQ(help.code, 0);

@@ -14,16 +14,27 @@ T volume(Vector3<T> q0, Vector3<T> q1, Vector3<T> q2, Vector3<T> q3) {
     return determinant(q1 - q0, q2 - q0, q3 - q0);
 }
 
-/// Each weight a volume with the point first, over V(a,b,c,d); the order of the vertices carries the sign.
 template <class T>
-int signed_volume(const T* v, const T* p, T* w) {
+T volume(const T* v) {
+    return volume(at3(v, 0), at3(v, 1), at3(v, 2), at3(v, 3));
+}
+
+/// Each weight a volume with the point first, over `whole`; the order of the vertices carries the sign.
+template <class T>
+void volumes_over(T whole, const T* v, const T* p, T* w) {
     const auto a = at3(v, 0), b = at3(v, 1), c = at3(v, 2), d = at3(v, 3), q = at3(p, 0);
-    const T whole = volume(a, b, c, d);
-    if (whole == 0) return 1;
     w[0] = volume(q, b, c, d) / whole;
     w[1] = volume(q, a, d, c) / whole;
     w[2] = volume(q, a, b, d) / whole;
     w[3] = volume(q, a, c, b) / whole;
+}
+
+/// Volumes with the point in place of a vertex over V(a,b,c,d).
+template <class T>
+int signed_volume(const T* v, const T* p, T* w) {
+    const T whole = volume(v);
+    if (whole == 0) return 1;
+    volumes_over(whole, v, p, w);
     return 0;
 }
 

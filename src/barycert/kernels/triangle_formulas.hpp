@@ -7,15 +7,28 @@
 namespace barycert::kernels {
 namespace {
 
-/// W_a = bc x bp / ab x ac and cyclic: each weight its own signed area over the common whole.
+/// Twice the signed area.
 template <class T>
-int signed_area(const T* v, const T* p, T* w) {
+T twice_area(const T* v) {
+    const auto a = at2(v, 0);
+    return cross(at2(v, 1) - a, at2(v, 2) - a);
+}
+
+/// Each weight its own signed area, bc x bp and cyclic, over `whole`.
+template <class T>
+void areas_over(T whole, const T* v, const T* p, T* w) {
     const auto a = at2(v, 0), b = at2(v, 1), c = at2(v, 2), q = at2(p, 0);
-    const T whole = cross(b - a, c - a);
-    if (whole == 0) return 1;
     w[0] = cross(c - b, q - b) / whole;
     w[1] = cross(a - c, q - c) / whole;
     w[2] = cross(b - a, q - a) / whole;
+}
+
+/// W_a = bc x bp / ab x ac and cyclic: each weight its own signed area over the common whole.
+template <class T>
+int signed_area(const T* v, const T* p, T* w) {
+    const T whole = twice_area(v);
+    if (whole == 0) return 1;
+    areas_over(whole, v, p, w);
     return 0;
 }
 

@@ -6,9 +6,6 @@
 
 #include "library.hpp"
 
-#define BARYCERT_TEXT_OF(x) #x
-#define BARYCERT_TEXT(x) BARYCERT_TEXT_OF(x)
-
 namespace {
 
 RTCDevice device() {

@@ -25,36 +25,25 @@ int area_swapped(const double* v, const double* p, double* w) {
 
 /// b - c where b - a belongs.
 int area_wrong_origin(const double* v, const double* p, double* w) {
-    const auto a = at2(v, 0), b = at2(v, 1), c = at2(v, 2), q = at2(p, 0);
-    const double whole = cross(b - a, c - a);
-    if (whole == 0) return 1;
-    w[0] = cross(c - b, q - b) / whole;
-    w[1] = cross(a - c, q - c) / whole;
-    w[2] = cross(b - c, q - a) / whole;
-    return 0;
+    const int status = signed_area(v, p, w);
+    if (status == 0) w[2] = cross(at2(v, 1) - at2(v, 2), at2(p, 0) - at2(v, 0)) / twice_area(v);
+    return status;
 }
 
 int area_absolute(const double* v, const double* p, double* w) {
-    const auto a = at2(v, 0), b = at2(v, 1), c = at2(v, 2), q = at2(p, 0);
-    const double whole = magnitude(cross(b - a, c - a));
-    if (whole == 0) return 1;
-    w[0] = cross(c - b, q - b) / whole;
-    w[1] = cross(a - c, q - c) / whole;
-    w[2] = cross(b - a, q - a) / whole;
-    return 0;
+    const int status = signed_area(v, p, w);
+    if (status == 0 && twice_area(v) < 0) {
+        for (int i = 0; i < 3; ++i) w[i] = -w[i];
+    }
+    return status;
 }
 
 int area_flat_at_1e12(const double* v, const double* p, double* w) {
-    const auto a = at2(v, 0), b = at2(v, 1), c = at2(v, 2);
-    return magnitude(cross(b - a, c - a)) < 1e-12 ? 1 : signed_area(v, p, w);
+    return magnitude(twice_area(v)) < 1e-12 ? 1 : signed_area(v, p, w);
 }
 
 int area_guarded(const double* v, const double* p, double* w) {
-    const auto a = at2(v, 0), b = at2(v, 1), c = at2(v, 2), q = at2(p, 0);
-    const double whole = cross(b - a, c - a) + 1e-50;
-    w[0] = cross(c - b, q - b) / whole;
-    w[1] = cross(a - c, q - c) / whole;
-    w[2] = cross(b - a, q - a) / whole;
+    areas_over(twice_area(v) + 1e-50, v, p, w);
     return 0;
 }
 
@@ -82,17 +71,12 @@ int volume_wrong_index(const double* v, const double* p, double* w) {
     return status;
 }
 
-/// The last of the three products of a determinant.
+/// A determinant without the last of the three products with its minors.
 int volume_dropped(const double* v, const double* p, double* w) {
-    const auto a = at3(v, 0), b = at3(v, 1), c = at3(v, 2), d = at3(v, 3), q = at3(p, 0);
-    const double whole = volume(a, b, c, d);
-    if (whole == 0) return 1;
-    const auto r = b - q, minor = cross(c - q, d - q);
-    w[0] = (r.x * minor.x + r.y * minor.y) / whole;
-    w[1] = volume(q, a, d, c) / whole;
-    w[2] = volume(q, a, b, d) / whole;
-    w[3] = volume(q, a, c, b) / whole;
-    return 0;
+    const int status = signed_volume(v, p, w);
+    const auto q = at3(p, 0), edge = at3(v, 1) - q, minor = cross(at3(v, 2) - q, at3(v, 3) - q);
+    if (status == 0) w[0] = (edge.x * minor.x + edge.y * minor.y) / volume(v);
+    return status;
 }
 
 /// One weight goes through a float.
@@ -104,24 +88,19 @@ int volume_single(const double* v, const double* p, double* w) {
 
 int volume_absolute(const double* v, const double* p, double* w) {
     const int status = signed_volume(v, p, w);
-    if (status == 0 && volume(at3(v, 0), at3(v, 1), at3(v, 2), at3(v, 3)) < 0) {
+    if (status == 0 && volume(v) < 0) {
         for (int i = 0; i < 4; ++i) w[i] = -w[i];
     }
     return status;
 }
 
 int volume_guarded(const double* v, const double* p, double* w) {
-    const auto a = at3(v, 0), b = at3(v, 1), c = at3(v, 2), d = at3(v, 3), q = at3(p, 0);
-    const double whole = volume(a, b, c, d) + 1e-50;
-    w[0] = volume(q, b, c, d) / whole;
-    w[1] = volume(q, a, d, c) / whole;
-    w[2] = volume(q, a, b, d) / whole;
-    w[3] = volume(q, a, c, b) / whole;
+    volumes_over(volume(v) + 1e-50, v, p, w);
     return 0;
 }
 
 int volume_flat_at_1e12(const double* v, const double* p, double* w) {
-    return magnitude(volume(at3(v, 0), at3(v, 1), at3(v, 2), at3(v, 3))) < 1e-12 ? 1 : signed_volume(v, p, w);
+    return magnitude(volume(v)) < 1e-12 ? 1 : signed_volume(v, p, w);
 }
 
 int volume_clamped(const double* v, const double* p, double* w) {

@@ -1,0 +1,81 @@
+/// The league itself: what fails is told in the right place, and no answer passes for a good one.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "scratch.hpp"
+#include "systems/asking.hpp"
+
+namespace barycert::systems {
+namespace {
+
+/// A system that answers `times` times and then fails; in a folder whose name the shell would take apart.
+class Failing : public ::testing::Test {
+protected:
+    System answering(int times) {
+        const std::string folder = scratch_.path("it's a $HOME");
+        std::filesystem::create_directory(folder);
+        const std::string script =
+            scratch_.put("it's a $HOME/system.sh",
+                         "here=$(dirname \"$0\"); echo >>\"$here/calls\"\n"
+                         "if [ $(wc -l <\"$here/calls\") -gt " +
+                             std::to_string(times) +
+                             " ]; then echo 'first line' >&2; echo 'out of luck' >&2; exit 3; fi\n"
+                             "exec \"" BARYCERT_SYSTEM_BARYCERT "\" all \"$@\"\n");
+        return {"failing", {"sh", script}};
+    }
+
+    Standing asked(const System& system) {
+        static const std::vector<NamedMesh> meshes = meshes_for_systems();
+        Standing standing;
+        standing.name = system.name;
+        ask(system, meshes.at(0), league_, standing);
+        league_.standings = {standing};
+        return standing;
+    }
+
+    League league_{.seed = 1, .count = 10, .meshes = {}, .sets = {}, .standings = {}};
+
+private:
+    test::Scratch scratch_;
+};
+
+constexpr const char* reason = "lattice: ended by itself with code 3: out of luck";
+
+TEST_F(Failing, never) {
+    const Standing s = asked(answering(2));
+    EXPECT_EQ(s.total.points, 80U);
+    EXPECT_EQ(s.total.missed + s.total.invented + s.total.wrong_cell, 0U);
+    EXPECT_TRUE(s.failures.empty());
+    EXPECT_TRUE(s.not_timed.empty());
+    EXPECT_EQ(s.ns.size(), 1U);
+}
+
+TEST_F(Failing, at_once) {
+    const Standing s = asked(answering(0));
+    EXPECT_EQ(s.total.points, 0U);
+    EXPECT_EQ(s.failures, std::vector<std::string>{reason});
+    EXPECT_TRUE(s.not_timed.empty());
+    const std::string text = league_markdown(league_);
+    EXPECT_NE(text.find("failing, not counted above:\n\n- " + std::string(reason)), std::string::npos) << text;
+    EXPECT_NE(text.find("| no answers |"), std::string::npos) << text;
+}
+
+// What it answered before counts.
+TEST_F(Failing, when_it_is_timed) {
+    const Standing s = asked(answering(1));
+    EXPECT_EQ(s.total.points, 80U);
+    EXPECT_TRUE(s.failures.empty());
+    EXPECT_EQ(s.not_timed, std::vector<std::string>{reason});
+    EXPECT_TRUE(s.ns.empty());
+    const std::string text = league_markdown(league_);
+    EXPECT_NE(text.find("failing, counted, but not timed:\n\n- " + std::string(reason)), std::string::npos) << text;
+    EXPECT_EQ(text.find("not counted above"), std::string::npos) << text;
+    const auto json = nlohmann::json::parse(league_json(league_)).at("systems").at(0);
+    EXPECT_TRUE(json.at("failures").empty());
+    EXPECT_EQ(json.at("not_timed"), (nlohmann::json{reason}));
+    EXPECT_TRUE(json.at("ns_a_random_point").is_null());
+}
+
+}  // namespace
+}  // namespace barycert::systems
