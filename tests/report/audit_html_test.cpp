@@ -153,6 +153,29 @@ TEST(audit_html, verdicts) {
     EXPECT_TRUE(has(right, "No witness: every weight and value is correctly rounded."));
 }
 
+TEST(audit_html, commands_begin_as_the_user_calls_the_program) {
+    AuditReport report = audited();
+    report.verdicts.assign(report.meshes.size(), Verdict::not_certified);
+    EXPECT_TRUE(has(page_of(report, {.style = {.command = "./run barycert"}}), "(why: ./run barycert check MESH)"));
+}
+
+TEST(audit_html, no_time_where_nothing_was_timed) {
+    AuditReport report = only_kernel("triangle.signed-area");
+    EXPECT_TRUE(has(page_of(report), " ns an evaluation"));
+    report.kernels.front().ns = 0;
+    EXPECT_FALSE(has(page_of(report), " ns an evaluation"));
+    report.kernels.push_back(report.kernels.front());
+    EXPECT_EQ(row_of(page_of(report), "Kernels, worst first", "triangle.signed-area").shown.back(), "-");
+}
+
+TEST(audit_html, says_how_it_was_made_once) {
+    const std::string page = page_of(audited()), line = environment_line(audited().environment);
+    const std::size_t at = page.find(line);
+    ASSERT_NE(at, std::string::npos);
+    EXPECT_EQ(page.find(line, at + 1), std::string::npos);
+    EXPECT_TRUE(has(page, "<dd>seed 1, 30 cases per family and simplex, 2 threads, "));
+}
+
 TEST(audit_html, text_from_outside_stays_text) {
     AuditReport report = audited();
     const std::string evil = "<script>alert(1)</script>&\"'\x1b\xff";
@@ -161,7 +184,12 @@ TEST(audit_html, text_from_outside_stays_text) {
     for (KernelResult& k : report.kernels) {
         k.kernel.name = "triangle." + evil;
         k.kernel.formula = k.kernel.source = k.kernel.fails = evil;
-        for (Witness& w : k.witnesses) w.kernel = k.kernel.name;
+        k.kernel.note = evil;
+        for (Witness& w : k.witnesses) {
+            w.kernel = k.kernel.name;
+            w.family = w.mesh = w.detail = evil;
+            w.cell = 7;
+        }
     }
     for (Family& f : report.families) f.name = f.tests = evil;
     std::vector<SignPicture> signs = sign_pictures(kernels_matching("triangle.signed-area"));
@@ -172,6 +200,15 @@ TEST(audit_html, text_from_outside_stays_text) {
         .signs = signs};
     expect_well_formed(page_of(report, page), true);
     EXPECT_FALSE(has(page_of(report, page), "<script>alert"));
+    // They are there, as text: the note, and of a witness its family, mesh and detail.
+    const std::string text = "&lt;script&gt;alert(1)&lt;/script&gt;&amp;&quot;'";
+    const std::string full = page_of(report, page);
+    EXPECT_TRUE(has(full, "<p>" + text));
+    const std::size_t worst = full.find("Worst: " + text);
+    ASSERT_NE(worst, std::string::npos);
+    const std::string line = full.substr(worst, full.find("</p>", worst) - worst);
+    EXPECT_TRUE(has(line, ", cell 7 of " + text)) << line;
+    EXPECT_TRUE(has(line, ": " + text)) << line;
     report.kernels.resize(1);
     expect_well_formed(page_of(report, page), true);
     EXPECT_FALSE(has(page_of(report, page), "<script>alert"));

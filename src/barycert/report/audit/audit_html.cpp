@@ -38,13 +38,13 @@ dd{margin:0;overflow-wrap:anywhere}
  dl{grid-template-columns:1fr;gap:0}dd{margin-bottom:6px}}
 )";
 
-std::string verdict_html(const AuditReport& r) {
+std::string verdict_html(const AuditReport& r, const TerminalStyle& style) {
     std::string out = fmt::format("<section class=\"verdict {}\"><b>{}</b>", any_wrong(r) ? "bad" : "good",
                                   html_escaped(verdict_sentence(r)));
     for (const std::string& line : verdict_details(r)) out += fmt::format("<p>{}</p>", html_escaped(line));
     out += "</section>\n<p>" + html_escaped(cases_sentence(r)) + ".</p>\n";
     out += "<p>" + html_escaped(oracle_line(r.oracles)) + ".</p>\n";
-    for (const MeshLine& line : mesh_lines(r, "barycert"))
+    for (const MeshLine& line : mesh_lines(r, style.command))
         out += fmt::format("<p{}>{}</p>\n", line.bad ? " class=\"bad\"" : "", html_escaped(line.text));
     return out;
 }
@@ -56,15 +56,9 @@ std::string made_html(const AuditReport& r, const AuditPage& page) {
     };
     if (!page.command_line.empty())
         line("command", fmt::format("<code class=\"copy\">{}</code>", html_escaped(page.command_line)));
-    line("seed", std::to_string(r.seed));
-    line("cases", fmt::format("{} per family and simplex", r.count));
-    line("threads", fmt::format("{}, {:.1f} s", r.threads, r.seconds));
-    const Environment& e = r.environment;
-    line("version", html_escaped(e.version + ", " + e.compiler));
-    line("arithmetic", html_escaped(fmt::format("rounding {}, contraction {}, subnormals {}", e.rounding,
-                                                e.contraction ? "ON" : "off", e.flush_to_zero ? "FLUSHED" : "kept")));
-    line("processor", html_escaped(fmt::format("SIMD {}{}, {} threads", e.simd, e.fma ? ", fused multiply-add" : "",
-                                               e.hardware_threads)));
+    line("run", html_escaped(how_it_was_made(r)));
+    line("by", html_escaped(environment_line(r.environment)));
+    line("on", fmt::format("a processor of {} threads", r.environment.hardware_threads));
     return out +
            "</dl>\n<p class=\"small\">The same seed gives the same cases on every machine; figures other than times do "
            "not depend on the number of threads.</p>\n";
@@ -79,7 +73,7 @@ Result<std::string> audit_html(const AuditReport& r, const AuditPage& page) {
     const bool one = r.kernels.size() == 1;
     std::string out = page_head("barycert audit: " + verdict_sentence(r), audit_style);
     out += "<h1>barycert audit: floating-point kernels for barycentric weights, held against exact arithmetic</h1>\n" +
-           verdict_html(r);
+           verdict_html(r, page.style);
     if (one) {
         out += kernel_families_html(r, r.kernels.front());
     } else {
@@ -87,7 +81,7 @@ Result<std::string> audit_html(const AuditReport& r, const AuditPage& page) {
     }
     out += *signs + error_histograms_html(r) + witnesses_html(r, page.style);
     if (!one) out += families_html(r);
-    return out + made_html(r, page) + page_foot(environment_line(r.environment), true);
+    return out + made_html(r, page) + page_foot("barycert " + r.environment.version, true);
 }
 
 }  // namespace barycert

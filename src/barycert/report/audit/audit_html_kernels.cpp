@@ -87,16 +87,9 @@ std::string error_histogram(const KernelResult& k) {
 
 std::string witness_html(const AuditReport& report, const KernelResult& k, const Witness& w,
                          const TerminalStyle& style) {
-    const auto finding = finding_named(w.reason);
-    const std::string what =
-        finding ? fmt::format("{} {}: {}", count_of(k.total, *finding),
-                              *finding < Finding::opposite_sign ? "cases" : "weights",
-                              finding_texts[static_cast<std::size_t>(*finding)].meaning)
-                : std::string(w.reason == "worst_value_ulp" ? "the largest error of a value"
-                                                            : "the largest error of a weight, in ulps");
     return fmt::format("<p><b>{}</b>: {}. Worst: {}: {}.</p><p><code class=\"copy\">{}</code></p>\n",
-                       html_escaped(w.reason), html_escaped(what), html_escaped(place_of(w)), html_escaped(shows(w)),
-                       html_escaped(replay_command(report, k, w, style)));
+                       html_escaped(w.reason), html_escaped(finding_sentence(k, w)), html_escaped(place_of(w)),
+                       html_escaped(shows(w)), html_escaped(replay_command(report, k, w, style)));
 }
 
 }  // namespace
@@ -122,18 +115,13 @@ std::string kernel_families_html(const AuditReport& r, const KernelResult& k) {
     line("formula", k.kernel.formula);
     line("source", k.kernel.source);
     line("fails", k.kernel.fails);
-    line("time", brief_time(k.ns) + " ns an evaluation");
+    if (k.ns > 0) line("time", brief_time(k.ns) + " ns an evaluation");
     out = "<dl>\n" + out + "</dl>\n";
     out += fmt::format(
         "<h2>Families of cases</h2>\n<div class=\"scroll\" tabindex=\"0\"><table class=\"sortable league\"><thead><tr>"
         "<th scope=\"col\">family</th>{}</tr></thead>\n<tbody>\n",
         statistics_heads);
-    std::vector<const FamilyResult*> families;
-    for (const FamilyResult& f : k.families) families.push_back(&f);
-    std::stable_sort(families.begin(), families.end(), [](const FamilyResult* a, const FamilyResult* b) {
-        return a->statistics.wrong_cases > b->statistics.wrong_cases;
-    });
-    for (const FamilyResult* f : families)
+    for (const FamilyResult* f : families_worst_first(k))
         out += fmt::format("<tr><th scope=\"row\" title=\"{}\">{}</th>{}</tr>\n",
                            html_escaped(r.families[f->family].tests), html_escaped(r.families[f->family].name),
                            statistics_cells(f->statistics));
