@@ -3,7 +3,7 @@
 //   node pages.js PROGRAM DATA FOLDER CHROMIUM
 //
 // PROGRAM  barycert; DATA its folder of meshes; FOLDER is replaced, pages and pictures of them go there
-// Exit code 77: playwright-core is missing (NODE_PATH names the folder it is in).
+// Exit code 77: playwright-core is missing (NODE_PATH names the folder it is in); 1 if BARYCERT_PAGES_REQUIRED is set.
 "use strict";
 const { execFileSync } = require("child_process");
 const fs = require("fs");
@@ -15,8 +15,8 @@ let playwright;
 try {
   playwright = require("playwright-core");
 } catch (error) {
-  console.log("skipped: playwright-core is missing; `./run pages` installs it");
-  process.exit(77);
+  console.log("playwright-core is missing; `./run pages` installs it");
+  process.exit(process.env.BARYCERT_PAGES_REQUIRED ? 1 : 77);
 }
 
 let failures = 0;
@@ -139,6 +139,34 @@ function stickingOut() {
   return out;
 }
 
+/// A4 without the margins of the style's @page, in CSS pixels.
+const paperWidth = Math.floor(((210 - 2 * 12) / 25.4) * 96);
+
+/// How many parts of each kind can be seen.
+function shownParts() {
+  const count = {};
+  for (const e of document.body.querySelectorAll("h1,h2,h3,th,td,img,svg,figcaption,dt,dd,p,code")) {
+    const box = e.getBoundingClientRect();
+    const shown = getComputedStyle(e).visibility === "visible" && box.width > 0 && box.height > 0;
+    count[e.tagName] = (count[e.tagName] || 0) + (shown ? 1 : 0);
+  }
+  return count;
+}
+
+/// Elements that end beyond the paper, or hide a part of what is in them: paper does not scroll.
+function cutOff() {
+  const out = [];
+  for (const e of document.body.querySelectorAll("*")) {
+    if (e.closest("svg") && e.tagName !== "svg") continue;
+    const box = e.getBoundingClientRect();
+    if (box.width === 0) continue;
+    const hides = getComputedStyle(e).overflowX !== "visible" && e.scrollWidth > e.clientWidth + 1;
+    if (hides || box.left < -1 || box.right > document.documentElement.clientWidth + 1)
+      out.push(`${e.tagName}.${e.className} from ${Math.round(box.left)} to ${Math.round(box.right)}`);
+  }
+  return out;
+}
+
 async function main() {
   fs.rmSync(folder, { recursive: true, force: true });
   fs.mkdirSync(folder, { recursive: true });
@@ -244,12 +272,31 @@ async function main() {
     for (const kind of pictures) check(new Set(kind).size === kind.length, "the same picture twice");
     check((await page.locator(".signs figure:first-child.exact").count()) === pictures.length, "no exact picture first");
   });
-  // On paper nothing is left out that the screen has, and the ground is white.
-  await opened("audit", { colorScheme: "dark" }, async (page) => {
-    await page.emulateMedia({ media: "print", colorScheme: "dark" });
-    check((await page.evaluate(() => getComputedStyle(document.body).backgroundColor)) === "rgb(255, 255, 255)", "dark paper");
-    await page.pdf({ path: path.join(folder, "audit.pdf") });
-  });
+  // On paper nothing is left out that the screen has, nothing is cut off, and the ground is white.
+  for (const name of Object.keys(pages)) {
+    await opened(name, { viewport: { width: paperWidth, height: 1000 }, colorScheme: "dark" }, async (page, where) => {
+      const onScreen = await page.evaluate(shownParts);
+      await page.emulateMedia({ media: "print", colorScheme: "dark" });
+      const ground = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+      check(ground === "rgb(255, 255, 255)", `${where}: dark paper`);
+      await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+      for (const [what, count] of Object.entries(await page.evaluate(shownParts)))
+        check(count >= onScreen[what], `${where}: on paper ${count} ${what}, on the screen ${onScreen[what]}`);
+      for (const what of await page.evaluate(cutOff)) check(false, `${where}: cut off on paper: ${what}`);
+      check((await page.locator("details:not([open])").count()) === 0, `${where}: folded on paper`);
+      await page.screenshot({ path: path.join(folder, `${name}-print.png`), fullPage: Boolean(process.env.FULL_PAGES) });
+      await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+      // Printing itself opens what is folded, and folds it again.
+      const folds = await page.locator("details").count();
+      await page.evaluate(() => {
+        window.whenPrinted = null;
+        addEventListener("beforeprint", () => { window.whenPrinted = document.querySelectorAll("details[open]").length; });
+      });
+      await page.pdf({ path: path.join(folder, `${name}.pdf`), format: "A4" });
+      check((await page.evaluate(() => window.whenPrinted)) === folds, `${where}: what is folded is printed so`);
+      check((await page.locator("details[open]").count()) === 0, `${where}: stays unfolded after printing`);
+    });
+  }
   await browser.close();
   console.log(failures === 0 ? `${Object.keys(pages).length} pages: all well` : `${failures} failures`);
   process.exit(failures === 0 ? 0 : 1);

@@ -36,6 +36,8 @@ dl{display:grid;grid-template-columns:max-content 1fr;gap:4px 18px;margin:8px 0}
 dd{margin:0;overflow-wrap:anywhere}
 @media (max-width:560px){.league tbody th{white-space:normal;overflow-wrap:anywhere;min-width:132px}
  dl{grid-template-columns:1fr;gap:0}dd{margin-bottom:6px}}
+@media print{.league,.league thead th{font-size:9.5px}.league th,.league td{padding:2px 6px 2px 0}
+ .league tbody th,td{white-space:normal;overflow-wrap:anywhere}.league th:first-child{position:static}}
 )";
 
 std::string verdict_html(const AuditReport& r, const TerminalStyle& style) {
