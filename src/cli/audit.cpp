@@ -30,6 +30,7 @@ struct AuditArguments {
     std::uint64_t seed = 1;
     int threads = 0;
     std::string json, html, witnesses, plot;
+    std::vector<std::string> others;
     bool quiet = false, no_check = false, wide = false;
     OracleChoice oracle = OracleChoice::automatic;
     std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>();
@@ -56,6 +57,7 @@ Status check_files(const AuditArguments& a, bool table) {
         }
     }
     for (const std::string& library : a.libraries) inputs.push_back({"--kernel-library", library});
+    for (const std::string& file : a.others) inputs.push_back({"--with", file});
     std::vector<base::NamedFile> outputs{
         {"--json", a.json}, {"--html", a.html}, {"--witnesses", a.witnesses}, {"--plot", a.plot}};
     add_ci_files(a.ci, inputs, outputs);
@@ -64,12 +66,26 @@ Status check_files(const AuditArguments& a, bool table) {
 }
 
 /// The page, with the pictures of signs in the order of the report.
-Status write_page(const AuditReport& report, const AuditArguments& a, const TerminalStyle& style) {
+Status write_page(const AuditReport& report, const AuditArguments& a, const TerminalStyle& style,
+                  const std::vector<OtherResults>& others) {
     std::vector<Kernel> kernels;
     for (const KernelResult& k : report.kernels) kernels.push_back(k.kernel);
-    const Result<std::string> page =
-        audit_html(report, {.style = style, .command_line = command_line(), .signs = sign_pictures(kernels)});
+    const Result<std::string> page = audit_html(
+        report, {.style = style, .command_line = command_line(), .signs = sign_pictures(kernels), .others = others});
     return page ? write_output(a.html, *page) : Status(page.error());
+}
+
+/// The files of --with.
+Result<std::vector<OtherResults>> read_others(const AuditArguments& a) {
+    std::vector<OtherResults> others;
+    if (!a.others.empty() && a.html.empty())
+        return Error{.what = "--with needs --html", .remedy = "it adds to the page"};
+    for (const std::string& file : a.others) {
+        Result<OtherResults> read = read_other_results(file);
+        if (!read) return read.error();
+        others.push_back(std::move(*read));
+    }
+    return others;
 }
 
 /// The mutation score of the families.
@@ -92,16 +108,13 @@ int run_mutants(const AuditArguments& a, const AuditOptions& options, const Mesh
 /// Options that say something of kernels under audit.
 Status check_mutants_alone(const AuditArguments& a) {
     if (!a.mutants) return Done{};
-    const std::pair<const char*, bool> others[] = {{"--kernel", !a.kernels.empty()},
-                                                   {"--kernel-library", !a.libraries.empty()},
-                                                   {"--witnesses", !a.witnesses.empty()},
-                                                   {"--plot", !a.plot.empty()},
-                                                   {"--html", !a.html.empty()},
-                                                   {"--fail-on", !a.fail_on.empty()},
-                                                   {"--baseline", !a.ci.baseline.empty()},
-                                                   {"--junit", !a.ci.junit.empty()},
-                                                   {"--sarif", !a.ci.sarif.empty()},
-                                                   {"--annotations", a.ci.annotations}};
+    const std::pair<const char*, bool> others[] = {
+        {"--kernel", !a.kernels.empty()},      {"--kernel-library", !a.libraries.empty()},
+        {"--witnesses", !a.witnesses.empty()}, {"--plot", !a.plot.empty()},
+        {"--html", !a.html.empty()},           {"--with", !a.others.empty()},
+        {"--fail-on", !a.fail_on.empty()},     {"--baseline", !a.ci.baseline.empty()},
+        {"--junit", !a.ci.junit.empty()},      {"--sarif", !a.ci.sarif.empty()},
+        {"--annotations", a.ci.annotations}};
     for (const auto& [option, given] : others) {
         if (given)
             return Error{.what = std::string("--mutants and ") + option,
@@ -121,6 +134,8 @@ int run_audit(const AuditArguments& a) {
     const bool table =
         !a.quiet && a.json != "-" && a.html != "-" && a.witnesses != "-" && a.plot != "-" && !a.ci.on_stdout();
     if (const Status ok = check_files(a, table); !ok) return fail(ok.error());
+    const auto others = read_others(a);
+    if (!others) return fail(others.error());
     AuditOptions options;
     options.count = a.count;
     options.seed = a.seed;
@@ -160,7 +175,7 @@ int run_audit(const AuditArguments& a) {
                               .library_arguments = a.libraries,
                               .kernel_arguments = words_of(*a.rules),
                               .wide = a.wide};
-    if (!a.html.empty()) written.push_back(write_page(*report, a, style));
+    if (!a.html.empty()) written.push_back(write_page(*report, a, style, *others));
     if (table) written.push_back(write_output("-", audit_text(*report, style)));
     const Result<bool> worse = write_ci(a.ci, *report, rules, *baseline, options.kernels, a.libraries, written);
     for (const Status& status : written) {
@@ -220,6 +235,8 @@ void add_audit(CLI::App& app, int& exit_code) {
     file_option(*sub, "--html", a->html,
                 "Write the report as an HTML page with pictures, histograms and witnesses; - is stdout and suppresses "
                 "the table");
+    file_option(*sub, "--with", a->others,
+                "Also show on that page what `./run flags --json FILE` or `./run systems --json FILE` wrote");
     file_option(*sub, "--witnesses", a->witnesses, "Write the worst cases as JSON, for `barycert replay`; - is stdout");
     file_option(*sub, "--plot", a->plot,
                 "Plot the errors of the kernels over the condition numbers of the cells, as SVG; - is stdout");

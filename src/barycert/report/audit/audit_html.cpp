@@ -83,7 +83,7 @@ Result<std::string> audit_html(const AuditReport& r, const AuditPage& page) {
     }
     out += *signs + error_histograms_html(r) + witnesses_html(r, page.style);
     if (!one) out += families_html(r);
-    return out + made_html(r, page) + page_foot("barycert " + r.environment.version, true);
+    return out + others_html(page.others) + made_html(r, page) + page_foot("barycert " + r.environment.version, true);
 }
 
 }  // namespace barycert

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "barycert/base/text.hpp"
+#include "barycert/report/audit/audit_html_cells.hpp"
 #include "barycert/report/audit/audit_html_parts.hpp"
 #include "barycert/report/audit/audit_words.hpp"
 #include "barycert/report/common/html_text.hpp"
@@ -14,21 +15,6 @@
 
 namespace barycert::report {
 namespace {
-
-/// A cell with a number: what is shown, and what is sorted by.
-std::string number_cell(const std::string& shown, double number, bool bad = false) {
-    return fmt::format("<td class=\"n{}\" data-v=\"{}\">{}</td>", bad ? " bad" : "",
-                       std::isinf(number) ? "Infinity" : base::shortest(number), html_escaped(shown));
-}
-
-std::string share_cell(const Share& share, bool red) {
-    const double x = share.whole == 0 ? -1 : static_cast<double>(share.part) / static_cast<double>(share.whole);
-    return number_cell(percent(share), x, red && share.part != 0);
-}
-
-std::string count_cell(std::uint64_t n) {
-    return number_cell(std::to_string(n), static_cast<double>(n));
-}
 
 constexpr std::string_view statistics_heads =
     "<th scope=\"col\" class=\"n\">wrong, %</th>"
