@@ -41,8 +41,7 @@ struct SystemsLeague {
         std::string not_run = {};  ///< why; then there are no counts
         std::uint64_t points = 0, inside = 0, outside = 0;
         std::uint64_t inside_called_outside = 0, outside_called_inside = 0;
-        std::optional<std::uint64_t> wrong_owner =
-            {};  ///< named, and does not contain the point; nothing if it names none
+        std::optional<std::uint64_t> wrong_owner = {};  ///< not containing the point; nothing if it names none
         std::optional<double> max_value_error = {};  ///< in parts of the field's range; nothing if it gives no values
         std::optional<double> ns = {};               ///< a random point
         std::vector<std::string> failures = {};      ///< meshes without answers or times, and why

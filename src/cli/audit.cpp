@@ -65,13 +65,16 @@ Status check_files(const AuditArguments& a, bool table) {
     return base::check_outputs(inputs, std::move(outputs));
 }
 
-/// The page, with the pictures of signs in the order of the report.
+/// The page, with the pictures of signs and the maps in the order of the report.
 Status write_page(const AuditReport& report, const AuditArguments& a, const TerminalStyle& style,
-                  const std::vector<OtherResults>& others) {
+                  const MeshSource& meshes, const std::vector<OtherResults>& others) {
     std::vector<Kernel> kernels;
     for (const KernelResult& k : report.kernels) kernels.push_back(k.kernel);
-    const Result<std::string> page = audit_html(
-        report, {.style = style, .command_line = command_line(), .signs = sign_pictures(kernels), .others = others});
+    const Result<std::string> page = audit_html(report, {.style = style,
+                                                         .command_line = command_line(),
+                                                         .signs = sign_pictures(kernels),
+                                                         .maps = mesh_maps(kernels, meshes, a.seed, a.threads),
+                                                         .others = others});
     return page ? write_output(a.html, *page) : Status(page.error());
 }
 
@@ -175,7 +178,7 @@ int run_audit(const AuditArguments& a) {
                               .library_arguments = a.libraries,
                               .kernel_arguments = words_of(*a.rules),
                               .wide = a.wide};
-    if (!a.html.empty()) written.push_back(write_page(*report, a, style, *others));
+    if (!a.html.empty()) written.push_back(write_page(*report, a, style, *meshes, *others));
     if (table) written.push_back(write_output("-", audit_text(*report, style)));
     const Result<bool> worse = write_ci(a.ci, *report, rules, *baseline, options.kernels, a.libraries, written);
     for (const Status& status : written) {

@@ -214,6 +214,50 @@ TEST(audit_html, text_from_outside_stays_text) {
     EXPECT_FALSE(has(page_of(report, page), "<script>alert"));
 }
 
+/// Two pixels of two cells, one of them beside the mesh.
+MeshMap small_map() {
+    MeshMap map;
+    map.mesh = "a & b";
+    map.axis = 1;
+    map.at = 0.5;
+    map.low = {0, -1};
+    map.high = {2, 1};
+    map.width = 3;
+    map.height = 1;
+    map.pixels = {0, 1, -1};
+    map.cells = {7, 9};
+    const double none = std::numeric_limits<double>::infinity();
+    map.kernels.push_back({.kernel = "triangle.a<b", .errors = {3e-9, 2e-16}, .cases = 8, .wrong = 2});
+    map.kernels.push_back({.kernel = "triangle.silent", .errors = {0, none}, .cases = 8, .wrong = 4});
+    map.kernels.push_back({.kernel = "triangle.right", .errors = {0, 0}, .cases = 8, .wrong = 0});
+    map.kernels.push_back({.kernel = "triangle.gone", .errors = {-1, -1}, .cases = 0, .wrong = 0});
+    map.left_out = 3;
+    return map;
+}
+
+TEST(audit_html, maps_of_meshes) {
+    EXPECT_FALSE(has(page_of(audited()), "Maps of the mesh"));
+    MeshMap none;
+    none.mesh = "<broken>";
+    none.why_not = "node 3 is <not> finite";
+    const std::string page = page_of(audited(), {.maps = {small_map(), none}});
+    expect_well_formed(page, true);
+    EXPECT_TRUE(has(page, "<h2>Maps of the meshes</h2>"));
+    EXPECT_TRUE(has(page, "<h3>a &amp; b</h3>"));
+    EXPECT_TRUE(has(page, "section at y = 0.5, x from 0 to 2 to the right, z from -1 to 1 upwards; 2 cells are seen."));
+    EXPECT_TRUE(has(page, " 4 of 7 kernels, worst first, without variants; others: --kernel NAME."));
+    EXPECT_TRUE(has(page, "triangle.a&lt;b<br/>largest error <b>3e-09</b>, in cell 7; 25.0 % of the points wrong"));
+    EXPECT_TRUE(has(page, "triangle.silent<br/>no finite answer in cell 9; 50.0 % of the points wrong"));
+    EXPECT_TRUE(has(page, "triangle.right<br/>no error; 0 % of the points wrong"));
+    EXPECT_TRUE(has(page, "triangle.gone<br/>given up; "));
+    EXPECT_TRUE(has(page, "No map: node 3 is &lt;not&gt; finite"));
+    // From 2e-16 to 3e-9: eight powers of ten have a colour.
+    EXPECT_TRUE(has(page, "</i>&lt; 1e-15</span>"));
+    EXPECT_TRUE(has(page, "</i>&lt; 1e-8</span>"));
+    EXPECT_FALSE(has(page, "</i>&lt; 1e-16</span>"));
+    EXPECT_FALSE(has(page, "</i>&lt; 1e-7</span>"));
+}
+
 TEST(page, base64) {
     using report::data_uri;
     EXPECT_EQ(data_uri("a/b", ""), "data:a/b;base64,");

@@ -27,8 +27,11 @@ constexpr std::string_view audit_style = R"(
 .signs{display:grid;grid-template-columns:repeat(auto-fill,minmax(160px,1fr));gap:14px 16px;align-items:start}
 .signs img{display:block;width:100%;max-width:256px;height:auto;border:1px solid var(--line)}
 .signs figcaption{font-size:13px;line-height:1.3;overflow-wrap:anywhere}
+.maps{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,240px),1fr));gap:14px 18px;align-items:start}
+.maps img{display:block;width:100%;height:auto;max-width:320px;image-rendering:pixelated;border:1px solid var(--line)}
+.maps figcaption{overflow-wrap:anywhere;line-height:1.35}
 .signs .exact img{outline:3px solid var(--good)}
-.key i{display:inline-block;width:12px;height:12px;margin:0 5px 0 14px;border:1px solid var(--line);vertical-align:-1px}
+.key span{white-space:nowrap}.key i{display:inline-block;width:12px;height:12px;margin:0 5px 0 14px;border:1px solid var(--line);vertical-align:-1px}
 svg .dot{fill:var(--bar);fill-opacity:.75}svg .dot.front{fill:var(--good);fill-opacity:1}
 svg .front{stroke:var(--good);stroke-width:1.6px}svg text.front{fill:var(--good);stroke:none;font-size:11px}
 details{margin:4px 0}summary{cursor:pointer;color:var(--soft);font-size:14px}
@@ -72,6 +75,8 @@ Result<std::string> audit_html(const AuditReport& r, const AuditPage& page) {
     const ExactEnvironment environment;
     const Result<std::string> signs = signs_html(page.signs);
     if (!signs) return signs.error();
+    const Result<std::string> maps = maps_html(r, page.maps);
+    if (!maps) return maps.error();
     const bool one = r.kernels.size() == 1;
     std::string out = page_head("barycert audit: " + verdict_sentence(r), audit_style);
     out += "<h1>barycert audit: floating-point kernels for barycentric weights, held against exact arithmetic</h1>\n" +
@@ -81,7 +86,7 @@ Result<std::string> audit_html(const AuditReport& r, const AuditPage& page) {
     } else {
         out += league_html(r) + pareto_html(r);
     }
-    out += *signs + error_histograms_html(r) + witnesses_html(r, page.style);
+    out += *signs + *maps + error_histograms_html(r) + witnesses_html(r, page.style);
     if (!one) out += families_html(r);
     return out + others_html(page.others) + made_html(r, page) + page_foot("barycert " + r.environment.version, true);
 }

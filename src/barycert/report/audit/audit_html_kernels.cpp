@@ -82,7 +82,8 @@ std::string witness_html(const AuditReport& report, const KernelResult& k, const
 
 std::string league_html(const AuditReport& r) {
     std::string out = fmt::format(
-        "<h2>Kernels, worst first</h2>\n<div class=\"scroll\" tabindex=\"0\"><table class=\"sortable league\"><thead>"
+        "<h2>Kernels, worst first</h2>\n<div class=\"scroll\" tabindex=\"0\"><table class=\"sortable league "
+        "kernels\"><thead>"
         "<tr><th scope=\"col\">kernel</th>{}<th scope=\"col\" class=\"n\">largest error on meshes</th>"
         "<th scope=\"col\" class=\"n\">ns</th></tr></thead>\n<tbody>\n",
         statistics_heads);
