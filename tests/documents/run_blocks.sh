@@ -32,10 +32,6 @@ not_run() {
             [ ! -x "$programs/barycert-tetgen" ] || return 1
             why="this build has no barycert-tetgen"
             ;;
-        "./run barycert "*.vtu* | "./run barycert "*.vtk*)
-            ! "$programs/barycert" check none.vtu 2>&1 | grep -q "no VTK" && return 1
-            why="this build has no VTK"
-            ;;
         *) return 1 ;;
     esac
 }

@@ -1,12 +1,12 @@
 #!/bin/sh
 # The promise of `./run`, kept or not: on a bare Debian 12 with nothing but its base system, a fresh clone audits and
-# passes its tests. Run by hand, as root, where debootstrap is installed; it needs about 5 GB in TMPDIR.
+# passes its tests, and samples VTK's files without VTK. Run by hand, as root, where debootstrap is installed; it needs about 5 GB in TMPDIR.
 #   tests/install/bare-debian.sh [MIRROR]
 # MIRROR: a Debian archive; the first that this machine's apt uses for bookworm if left out.
-# STEPS="audit test" by default; STEPS=audit for the short half. KEEP=1 leaves the system for a look inside.
+# STEPS="sample audit test" by default; each can be had alone. sample: a .vtu by VTK's writer goes in, a .vtu with values comes out, without VTK. KEEP=1 leaves the system for a look inside.
 set -eu
 root=$(CDPATH= cd -- "$(dirname -- "$0")/../.." && pwd)
-steps=${STEPS-audit test}
+steps=${STEPS-sample audit test}
 
 say() { printf '%s\n' "bare-debian: $*"; }
 die() { say "error: $*" >&2; exit 2; }
@@ -82,10 +82,16 @@ inside() {
 }
 
 for step in $steps; do
-    timed "./run $step" -- inside "./run $step" >"$place/$step.log" 2>&1 ||
-        { tail -n 60 "$place/$step.log" >&2; die "./run $step failed"; }
+    words=$step
+    [ $step != sample ] || words="barycert sample data/vtk/bracket.vtu --points data/meshes/bracket --output values.vtu"
+    timed "./run $words" -- inside "./run $words" >"$place/$step.log" 2>&1 ||
+        { tail -n 60 "$place/$step.log" >&2; die "./run $words failed"; }
     tail -n 1 "$place/$step.log"
     case $step in
+        sample)
+            ! inside "dpkg -s libvtk9-dev >/dev/null 2>&1" || die "VTK was installed"
+            inside "./run barycert verify data/vtk/bracket.vtu --results values.vtu --exact" || die "values.vtu is not right"
+            ;;
         audit)
             for file in audit.json witnesses.json; do
                 [ -s "$system/barycert/$file" ] || die "./run audit left no $file"
