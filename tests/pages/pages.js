@@ -41,7 +41,7 @@ function made(name, args, { code = 0, input = "" } = {}) {
 
 function makePages() {
   const mesh = (name) => path.join(data, "meshes", name);
-  const others = (name) => path.join(__dirname, "..", "report", "others", name + ".json");
+  const others = (name) => path.join(data, "measured", name + ".json");
   // A mesh with a name that would be a tag, and one of its nodes moved.
   const nasty = "a<img src=x onerror=alert(1)>&\"b";
   fs.copyFileSync(mesh("cube-hole.ele"), path.join(folder, nasty + ".ele"));
