@@ -27,11 +27,11 @@ constexpr std::string_view audit_style = R"(
 .signs{display:grid;grid-template-columns:repeat(auto-fill,minmax(160px,1fr));gap:14px 16px;align-items:start}
 .signs img{display:block;width:100%;max-width:256px;height:auto;border:1px solid var(--line)}
 .signs figcaption{font-size:13px;line-height:1.3;overflow-wrap:anywhere}
-.maps{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,240px),1fr));gap:14px 18px;align-items:start}
+.maps{display:grid;grid-template-columns:repeat(auto-fill,minmax(160px,1fr));gap:14px 18px;align-items:start}
 .maps img{display:block;width:100%;height:auto;max-width:320px;image-rendering:pixelated;border:1px solid var(--line)}
 .maps figcaption{overflow-wrap:anywhere;line-height:1.35}
 .signs .exact img{outline:3px solid var(--good)}
-.key span{white-space:nowrap}.key i{display:inline-block;width:12px;height:12px;margin:0 5px 0 14px;border:1px solid var(--line);vertical-align:-1px}
+.key span,.league thead span{white-space:nowrap}.key i{display:inline-block;width:12px;height:12px;margin:0 5px 0 14px;border:1px solid var(--line);vertical-align:-1px}
 svg .dot{fill:var(--bar);fill-opacity:.75}svg .dot.front{fill:var(--good);fill-opacity:1}
 svg .front{stroke:var(--good);stroke-width:1.6px}svg text.front{fill:var(--good);stroke:none;font-size:11px}
 details{margin:4px 0}summary{cursor:pointer;color:var(--soft);font-size:14px}
@@ -40,7 +40,7 @@ dd{margin:0;overflow-wrap:anywhere}
 @media (max-width:560px){.league tbody th{white-space:normal;overflow-wrap:anywhere;min-width:132px}
  dl{grid-template-columns:1fr;gap:0}dd{margin-bottom:6px}}
 @media print{.league,.league thead th{font-size:9.5px}.league th,.league td{padding:2px 6px 2px 0}
- .league tbody th,td{white-space:normal;overflow-wrap:anywhere}.league th:first-child{position:static}}
+ .league tbody th,td{white-space:normal;overflow-wrap:anywhere}.league tbody th{min-width:108px}.league th:first-child{position:static}}
 )";
 
 std::string verdict_html(const AuditReport& r, const TerminalStyle& style) {

@@ -16,6 +16,17 @@ std::string escaped_line(std::string_view text) {
     return html_escaped(base::printable(text));
 }
 
+/// Flags begin with hyphens, at which lines would be broken.
+std::string unbroken_words(std::string_view text) {
+    std::string out;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find(' ', at), text.size());
+        out += fmt::format("{}<span>{}</span>", at == 0 ? "" : " ", escaped_line(text.substr(at, end - at)));
+        at = end + 1;
+    }
+    return out;
+}
+
 bool column_changes(const FlagsMatrix& m, std::size_t column) {
     return std::any_of(m.rows.begin(), m.rows.end(),
                        [&](const FlagsMatrix::Row& row) { return row.cells[column].changed != 0; });
@@ -28,9 +39,8 @@ std::string flags_table(const FlagsMatrix& m, auto part, bool red) {
         "</th>";
     for (std::size_t c = 0; c < m.columns.size(); ++c) {
         if (column_changes(m, c))
-            out +=
-                fmt::format("<th scope=\"col\" class=\"n\" title=\"{}\">{} {}</th>", escaped_line(m.columns[c].flags),
-                            escaped_line(m.columns[c].compiler), escaped_line(m.columns[c].label));
+            out += fmt::format("<th scope=\"col\" class=\"n\" title=\"{}\">{}</th>", escaped_line(m.columns[c].flags),
+                               unbroken_words(m.columns[c].compiler + " " + m.columns[c].label));
     }
     out += "</tr></thead>\n<tbody>\n";
     for (const FlagsMatrix::Row& row : m.rows) {
@@ -47,7 +57,7 @@ std::string flags_html(const FlagsMatrix& m) {
     std::string same, compilers;
     for (std::size_t c = 0; c < m.columns.size(); ++c) {
         if (!column_changes(m, c))
-            same += fmt::format("{}{} {}", same.empty() ? "" : ", ", m.columns[c].compiler, m.columns[c].label);
+            same += fmt::format("{}{} {}", same.empty() ? "" : "; ", m.columns[c].compiler, m.columns[c].label);
     }
     for (const std::string& compiler : m.compilers) compilers += (compilers.empty() ? "" : "; ") + compiler;
     std::string out = fmt::format(
