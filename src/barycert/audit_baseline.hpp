@@ -17,6 +17,7 @@ namespace barycert {
 struct BaselineEntry {
     std::string kernel, family;
     std::uint64_t cases = 0;
+    std::uint64_t not_run = 0;               ///< of the others: cases left out, as the kernel had been given up
     std::array<std::uint64_t, 4> regions{};  ///< cases by exact region: tells the same cases from others
     std::vector<double> figures;             ///< in the order of baseline_figures(); -1: none
 };
@@ -28,8 +29,8 @@ struct Baseline {
     std::vector<BaselineEntry> entries;
 };
 
-/// The names of the figures that are compared: wrong_cases, each class of finding, errors and residuals. Less is better
-/// of each.
+/// The names of the figures that are compared: wrong_cases, not_run, each class of finding, errors and residuals. Less
+/// is better of each.
 const std::vector<std::string>& baseline_figures();
 
 /// Reads what `barycert audit --json` wrote. Errors: the file cannot be read, is not JSON or of another schema, or a
@@ -45,11 +46,16 @@ struct BaselineChange {
 };
 
 struct BaselineComparison {
-    std::uint64_t compared = 0;          ///< pairs of kernel and family
+    std::uint64_t compared = 0;  ///< pairs of kernel and family
+    /// Of those: in which the kernel was given up on one side at least. There not_run alone is compared, and where it
+    /// was given up on both, nothing.
+    std::uint64_t given_up = 0;
     std::uint64_t not_now = 0;           ///< pairs of the baseline that this audit does not have
     std::uint64_t not_before = 0;        ///< pairs of this audit that the baseline does not have
     std::vector<BaselineChange> worse;   ///< in the order of the report
     std::vector<BaselineChange> better;  ///< likewise
+
+    void add(BaselineChange change);  ///< to the one or the other, if it is one
 };
 
 /// Errors: other cases, told by their exact regions (a mesh has changed, or barycert's families); nothing in common.

@@ -77,7 +77,10 @@ struct ClaimCounts {
 struct ClaimResult {
     std::string kernel;  ///< empty: exact arithmetic
     ClaimRule rule = ClaimRule::exact;
-    std::array<ClaimCounts, 3> by_feature{};                     ///< face, edge, vertex
+    std::array<ClaimCounts, 3> by_feature{};  ///< face, edge, vertex
+    /// Pairs of point and cell to which the kernel gave no answer: it ended, took too long, or had been given up for
+    /// that and was no longer asked. The cell does not claim the point then.
+    std::uint64_t unanswered = 0;
     std::vector<std::pair<ClaimFault, ClaimWitness>> witnesses;  ///< the first of each fault
 
     ClaimCounts total() const;
@@ -87,8 +90,9 @@ struct GapsOptions {
     std::vector<Kernel> kernels;  ///< those for the cells of the mesh take part
     std::uint64_t count = 10000;  ///< points on faces, on edges and on vertices each
     std::uint64_t seed = 1;
-    int threads = 0;           ///< 0: one per core
-    double tolerance = 1e-10;  ///< of ClaimRule::tolerant
+    int threads = 0;                    ///< 0: one per core
+    double tolerance = 1e-10;           ///< of ClaimRule::tolerant
+    std::vector<ClaimRule> rules = {};  ///< no others are looked at; empty: all
 };
 
 struct GapsReport {
@@ -105,8 +109,8 @@ struct GapsReport {
 };
 
 /// `name` is what the user calls the mesh, `verdict` what is known of it. Points depend on seed and mesh alone. Errors:
-/// a floating-point environment in which results cannot be exact; a mesh without cells; no kernel for its cells; two
-/// oracles that disagree.
+/// a floating-point environment in which results cannot be exact; a mesh without cells; no kernel for its cells, or
+/// none that has one of the rules; two oracles that disagree.
 Result<GapsReport> find_gaps(const GapsOptions& options, const Mesh& mesh, const std::string& name, Verdict verdict);
 
 /// The features of ClaimResult::by_feature.

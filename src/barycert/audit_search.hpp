@@ -9,8 +9,9 @@
 /// where a weight, or the whole determinant, is zero: beside these sets the condition number of a sign is unbounded.
 /// The idea of a search led by condition numbers is that of ATOMU (Zou, Zeng, Xiong, Fu, Zhang, Su, POPL 2020).
 ///
-/// The result depends on the kernel's answers, the options and nothing else, unless time or the user ends the search.
-/// The number of threads changes nothing.
+/// The result depends on the kernel's answers, the options and nothing else, unless time or the user ends the search,
+/// or the kernel is given up. The number of threads changes nothing. A kernel in a process of its own
+/// (load_contained_kernel) may crash or hang: that is a finding, too, whose plainest case is the plainest that was met.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +35,7 @@ struct SearchProgress {
 };
 
 struct SearchOptions {
-    Kernel kernel;                                  ///< runs in this process, on several threads at once
+    Kernel kernel;                                  ///< asked on several threads at once
     std::vector<Family> families = all_families();  ///< those for other kernels or from meshes are passed over
     std::uint64_t family_count = 200;               ///< cases of each family to start with
     std::uint64_t steps = 1000000;                  ///< cases in all
@@ -68,6 +69,9 @@ struct SearchReport {
     int threads = 0;
     double seconds = 0;
     bool stopped = false;  ///< by time or by the user: the same options may give another result
+    /// The kernel, in a process of its own, failed to answer too often: the rest of the steps was not made, and what
+    /// was found depends on threads and time.
+    bool given_up = false;
     std::uint64_t wrong_cases = 0;
     std::vector<SearchFind> finds;  ///< in the order of Finding, then the errors
 };

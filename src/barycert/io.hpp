@@ -25,9 +25,9 @@ struct ReadOptions {
 };
 
 /// Reads a mesh: TetGen's or Triangle's files by their stem or any one of them; a file of Gmsh, .msh (gmsh.hpp); and
-/// VTK's .vtu, .vtk, .vtp, .pvtu, .vtm and .pvd (vtk.hpp). The format is told by the first bytes, or else by the
-/// suffix. Returns an Error if it cannot be read: a file of another format is named as what it is, with the command
-/// that converts it.
+/// VTK's .vtu, .vtk, .vtp, .pvtu, .vtm, .pvd and .vtu.series (vtk.hpp). The format is told by the first bytes, or else
+/// by the suffix. Returns an Error if it cannot be read: a file of another format is named as what it is, with the
+/// command that converts it.
 Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options = {});
 
 /// The paths of all files that read_mesh(path) may read.
@@ -54,6 +54,10 @@ Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOption
 /// Writes the mesh as its path ends: .msh (gmsh.hpp), .vtu and .vtk (vtk.hpp), and TetGen's files by .node, .ele or a
 /// stem. Error: another suffix; as these writers.
 Status write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options = {});
+
+/// The paths of the files that write_mesh may write, or replace: the path itself, or STEM.node, .ele, .face and .neigh.
+/// Error: another suffix.
+Result<std::vector<std::string>> written_mesh_files(const std::string& path);
 
 // Streams of points: CSV, NPY and .node files, block by block, so that memory does not grow with their number; the
 // nodes of meshes.

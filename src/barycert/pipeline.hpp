@@ -44,9 +44,9 @@ struct SamplingJob {
     std::string mesh;  ///< as for read_mesh
     std::vector<FieldFile> field_files = {};
     /// Fields that change from step to step: each path has one *, and each file that it matches is a step, in natural
-    /// order (2 before 10); or it is a .pvd file. Where the output has {step} in its name, each step has an output of
-    /// its own, in which what the * stood for takes that place; points are located once, and values of one step at a
-    /// time are in memory. Else the steps of NAME, 256 at most, are columns NAME@STEP.
+    /// order (2 before 10); or it is a .pvd or .vtu.series file. Where the output has {step} in its name, each step has
+    /// an output of its own, in which what the * stood for takes that place; points are located once, and values of one
+    /// step at a time are in memory. Else the steps of NAME, 256 at most, are columns NAME@STEP.
     std::vector<FieldFile> series = {};
     std::vector<std::string> fields = {};  ///< names, see Sampler::build; empty: all
     std::string output;                    ///< the format goes by the suffix; "-" is CSV on stdout

@@ -97,6 +97,11 @@ struct FieldChoice {
     std::string name = {};                 ///< of the columns; empty: that of the field
 };
 
+/// The fields of these names, or what is made of them, as Sampler::build chooses them (empty: all fields as they are).
+/// Reads of the mesh its fields, its dimension and whether it has nodes at mid-edges; its fields must stay. Returns an
+/// Error if there is no such field, or if one is chosen twice.
+Result<std::vector<FieldChoice>> choose_fields(const Mesh& mesh, const std::vector<std::string>& names);
+
 /// Thread-safe: any number of threads may sample at the same time.
 class Sampler {
 public:

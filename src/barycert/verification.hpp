@@ -5,6 +5,8 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "barycert/notes.hpp"
@@ -34,8 +36,8 @@ struct VerifyJob {
     VerifyOptions options = {};
     bool tolerance_given = false;  ///< else 1e-6 is taken where values are single precision throughout
 
-    std::string report;                ///< as SamplingJob::report
-    std::string html;                  ///< likewise
+    /// Where the caller will write reports, after what it calls them: as SamplingJob::report.
+    std::vector<std::pair<std::string, std::string>> reports = {};
     std::string program = "barycert";  ///< how the user calls the program, for commands in messages
     std::function<void(const JobProgress&)> progress = {};
 };
@@ -61,6 +63,27 @@ struct VerifySummary {
     std::string program;
     SampleSeconds seconds;
 };
+
+/// A rule of --fail-on: more such rows than that fail.
+struct VerifyLimit {
+    RowVerdict verdict = RowVerdict::missed;
+    std::uint64_t most = 0;
+};
+
+/// NAME or NAME>NUMBER, with NAME missed, invented, wrong_cell or wrong_value.
+Result<VerifyLimit> parse_verify_limit(std::string_view text);
+
+/// Every kind, 0 of it: what fails without a rule.
+std::vector<VerifyLimit> strict_limits();
+
+/// Whether rows could be of that kind: wrong_cell takes a column of cells, wrong_value one of values.
+bool compared(const VerifySummary& summary, RowVerdict verdict);
+
+/// Error: a limit on what was not compared. Nothing could fail.
+Status check_limits(const VerifySummary& summary, const std::vector<VerifyLimit>& limits);
+
+/// Those that are exceeded.
+std::vector<VerifyLimit> exceeded(const Verdicts& verdicts, const std::vector<VerifyLimit>& limits);
 
 /// Returns an Error if an input cannot be read, or the results have no column that could be compared.
 Result<VerifySummary> verify_files(const VerifyJob& job);

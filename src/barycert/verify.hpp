@@ -66,6 +66,11 @@ constexpr std::string_view name(RowVerdict v) {
                                          : "wrong value";
 }
 
+/// The same as in JSON and in rules of --fail-on.
+constexpr std::string_view handle(RowVerdict v) {
+    return v == RowVerdict::wrong_cell ? "wrong_cell" : v == RowVerdict::wrong_value ? "wrong_value" : name(v);
+}
+
 /// Errors of the values of one column, of rows that are inside and say so.
 struct ValueErrors {
     std::uint64_t values = 0;     ///< compared: both are numbers
@@ -122,6 +127,13 @@ struct Verdicts {
     std::vector<WrongRow> invented_rows;  ///< to be measured: all, or max_measured chosen by a hash of their numbers
 
     std::uint64_t wrong() const { return rows - right; }
+    std::uint64_t of(RowVerdict v) const {
+        return v == RowVerdict::right        ? right
+               : v == RowVerdict::missed     ? missed
+               : v == RowVerdict::invented   ? invented
+               : v == RowVerdict::wrong_cell ? wrong_cell
+                                             : wrong_value;
+    }
     /// Adds what was found in rows that came after.
     void add(const Verdicts& other, std::size_t examples);
 };

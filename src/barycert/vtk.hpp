@@ -15,8 +15,8 @@ namespace barycert {
 
 /// Reads a mesh: an unstructured grid or polygon data in XML (.vtu, .vtp) or in the legacy format (.vtk); the pieces of
 /// a partitioned one (.pvtu), of the blocks of a multiblock data set (.vtm, .vtpd, .vtpc); the first step of a series
-/// (.pvd). Which of them it is, is told by its first bytes. ASCII, base64, raw, compressed by zlib, LZ4 or LZMA, of
-/// either byte order, in one piece or several.
+/// (.pvd, .vtu.series). Which of them it is, is told by its first bytes. ASCII, base64, raw, compressed by zlib, LZ4 or
+/// LZMA, of either byte order, in one piece or several.
 ///
 /// - Tetrahedra make a mesh of dimension 3. Where there are none, triangles make one of dimension 2, and all points
 ///   must have z = 0. All cells are linear or all are quadratic (VTK_QUADRATIC_TETRA, VTK_QUADRATIC_TRIANGLE), whose
@@ -68,8 +68,9 @@ struct SeriesStep {
     std::vector<std::string> files;  ///< as they can be opened
 };
 
-/// The steps of a series (.pvd) in the order of the file: entries of one time that follow each other are one step.
-/// Error: no such file; no well-formed XML, another kind; an entry without a file, a time that is no finite number.
+/// The steps of a series (.pvd, or ParaView's .vtu.series) in the order of the file: entries of one time that follow
+/// each other are one step. Error: no such file; no well-formed XML, another kind; an entry without a file, a time that
+/// is no finite number.
 Result<std::vector<SeriesStep>> read_series(const std::string& path);
 
 /// Writes the mesh as its path ends: .vtu as write_vtu does; .vtk in the legacy format, binary (`data` raw) or as text

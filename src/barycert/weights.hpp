@@ -31,6 +31,7 @@
 #include <span>
 
 #include "barycert/batch.hpp"
+#include "barycert/predicates.hpp"
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"
 #include "barycert/tiers.hpp"
@@ -61,6 +62,12 @@ struct Value {
 /// Returns the value at `point` of the linear field with `values[i]` at vertex i, or an Error if a coordinate is not
 /// finite.
 Result<Value> interpolate(Simplex simplex, const double* vertices, const double* point, const double* values);
+
+/// Returns the sign of the exact, not rounded, value less `threshold`: whether the field is above, at or below it. So a
+/// value can be rounded once to any other type. Returns an Error if a number is not finite or the simplex is
+/// degenerate.
+Result<Sign> compare_value(Simplex simplex, const double* vertices, const double* point, const double* values,
+                           double threshold);
 
 /// Weights of many cases: out[n * j + i] is weight i of case j, n = vertex_count(simplex). Returns an Error if a
 /// coordinate is not finite, if out.size() is not n times the number of cases, or if the sizes of the queries do not

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -14,7 +15,7 @@
 #include "barycert/audit_report.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
-#include "ci.hpp"
+#include "baseline.hpp"
 #include "command.hpp"
 #include "files.hpp"
 #include "progress.hpp"
@@ -24,6 +25,7 @@ namespace {
 
 struct AuditArguments {
     CiOptions ci;
+    std::string baseline;
     bool mutants = false;
     std::vector<std::string> meshes, kernels, families, libraries, fail_on;
     std::uint64_t count = 10000;
@@ -60,8 +62,8 @@ Status check_files(const AuditArguments& a, bool table) {
     for (const std::string& file : a.others) inputs.push_back({"--with", file});
     std::vector<base::NamedFile> outputs{
         {"--json", a.json}, {"--html", a.html}, {"--witnesses", a.witnesses}, {"--plot", a.plot}};
-    add_ci_files(a.ci, inputs, outputs);
-    if (table) outputs.push_back({"the table", "-"});
+    if (!a.baseline.empty()) inputs.push_back({"--baseline", a.baseline});
+    add_ci_outputs(a.ci, table, outputs);
     return base::check_outputs(inputs, std::move(outputs));
 }
 
@@ -102,32 +104,26 @@ int run_mutants(const AuditArguments& a, const AuditOptions& options, const Mesh
     if (table)
         written.push_back(
             write_output("-", mutants_text(*report, {.colour = colour_on_stdout(), .command = command_name()})));
-    for (const Status& status : written) {
-        if (!status) return fail(status.error());
-    }
+    if (const Status ok = all_written(written); !ok) return fail(ok.error());
     return report->caught() == report->mutants.size() ? exit_clean : exit_findings;
 }
 
-/// Options that say something of kernels under audit.
-Status check_mutants_alone(const AuditArguments& a) {
-    if (!a.mutants) return Done{};
-    const std::pair<const char*, bool> others[] = {
-        {"--kernel", !a.kernels.empty()},      {"--kernel-library", !a.libraries.empty()},
-        {"--witnesses", !a.witnesses.empty()}, {"--plot", !a.plot.empty()},
-        {"--html", !a.html.empty()},           {"--with", !a.others.empty()},
-        {"--fail-on", !a.fail_on.empty()},     {"--baseline", !a.ci.baseline.empty()},
-        {"--junit", !a.ci.junit.empty()},      {"--sarif", !a.ci.sarif.empty()},
-        {"--annotations", a.ci.annotations}};
-    for (const auto& [option, given] : others) {
-        if (given)
-            return Error{.what = std::string("--mutants and ") + option,
-                         .remedy = "--mutants audits kernels of its own"};
+/// Other options than these say something of kernels under audit, or of reports on them.
+Status check_mutants_alone(const CLI::App& sub) {
+    static constexpr std::array<std::string_view, 10> with_mutants{"MESH",       "--family",  "--oracle", "--count",
+                                                                   "--seed",     "--threads", "--json",   "--mutants",
+                                                                   "--no-check", "--quiet"};
+    if (sub.count("--mutants") == 0) return Done{};
+    for (const CLI::Option* option : sub.get_options()) {
+        const std::string name = option->get_name();
+        if (option->count() != 0 && std::find(with_mutants.begin(), with_mutants.end(), name) == with_mutants.end())
+            return Error{.what = "--mutants and " + name,
+                         .remedy = "leave " + name + " out: --mutants audits kernels of its own"};
     }
     return Done{};
 }
 
 int run_audit(const AuditArguments& a) {
-    if (const Status ok = check_mutants_alone(a); !ok) return fail(ok.error());
     std::vector<Threshold> rules;
     for (const std::string& text : a.fail_on) {
         const Result<Threshold> rule = parse_threshold(text);
@@ -152,9 +148,10 @@ int run_audit(const AuditArguments& a) {
     options.families = *families;
     // Without a family that draws from meshes barycert's own need not be there.
     const bool wanted = std::any_of(families->begin(), families->end(), [](const Family& f) { return f.needs_mesh; });
-    const Result<MeshSource> meshes = wanted || !a.meshes.empty() ? load_meshes(a.meshes, !a.no_check) : MeshSource();
+    const Result<MeshSource> meshes =
+        wanted || !a.meshes.empty() ? load_meshes(a.meshes, !a.no_check, a.threads) : MeshSource();
     if (!meshes) return fail(meshes.error());
-    const auto baseline = read_ci_baseline(a.ci, options, *meshes);
+    const auto baseline = read_comparable_baseline(a.baseline, options, *meshes);
     if (!baseline) return fail(baseline.error());
 
     Progress progress(!a.quiet && stderr_is_terminal());
@@ -180,10 +177,8 @@ int run_audit(const AuditArguments& a) {
                               .wide = a.wide};
     if (!a.html.empty()) written.push_back(write_page(*report, a, style, *meshes, *others));
     if (table) written.push_back(write_output("-", audit_text(*report, style)));
-    const Result<bool> worse = write_ci(a.ci, *report, rules, *baseline, options.kernels, a.libraries, written);
-    for (const Status& status : written) {
-        if (!status) return fail(status.error());
-    }
+    const Result<bool> worse = write_audit_ci(a.ci, *report, rules, *baseline, options.kernels, a.libraries, written);
+    if (const Status ok = all_written(written); !ok) return fail(ok.error());
     if (!worse) return fail(worse.error());
     const auto broken = violations(*report, rules);
     for (const Violation& v : broken)
@@ -251,14 +246,20 @@ void add_audit(CLI::App& app, int& exit_code) {
                         names)
         ->type_name("RULE")
         ->allow_extra_args(false);
-    add_ci_options(*sub, a->ci);
+    file_option(*sub, "--baseline", a->baseline,
+                "Compare with the --json report of an earlier audit of the same seed, count and meshes; exit with 1 if "
+                "a figure got worse");
+    add_ci_options(*sub, a->ci, "broken rules and what got worse than the baseline");
     sub->add_flag("--mutants", a->mutants,
                   "Audit kernels with seeded faults instead, and show which family catches which; exit with 1 if one "
                   "is not caught");
     sub->add_flag("--wide", a->wide, "Print all counts, the families and a witness of each kernel: 160 columns");
     sub->add_flag("--no-check", a->no_check, "Do not check whether the meshes are partitions (see `barycert check`)");
     sub->add_flag("--quiet", a->quiet, "Print no table and no progress");
-    sub->callback([a, &exit_code] { exit_code = run_audit(*a); });
+    sub->callback([a, sub, &exit_code] {
+        const Status ok = check_mutants_alone(*sub);
+        exit_code = ok ? run_audit(*a) : fail(ok.error());
+    });
 }
 
 }  // namespace barycert::cli

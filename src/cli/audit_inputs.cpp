@@ -3,6 +3,7 @@
 #include "audit_inputs.hpp"
 
 #include <fmt/format.h>
+#include <tbb/task_arena.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -70,7 +71,7 @@ Result<std::vector<std::string>> own_meshes() {
     return paths;
 }
 
-Result<MeshSource> load_meshes(const std::vector<std::string>& paths, bool certify) {
+Result<MeshSource> load_meshes(const std::vector<std::string>& paths, bool certify, int threads) {
     std::vector<std::string> from = paths;
     if (from.empty()) {
         auto own = own_meshes();
@@ -78,14 +79,17 @@ Result<MeshSource> load_meshes(const std::vector<std::string>& paths, bool certi
         from = *own;
     }
     MeshSource source;
+    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
     for (const std::string& path : from) {
-        Result<Mesh> mesh = read_mesh(path, {.faces = false, .neighbours = false, .threads = 0});
+        Result<Mesh> mesh = read_mesh(path, {.faces = false, .neighbours = false, .threads = threads});
         if (!mesh) return mesh.error();
         if (mesh->cell_count() == 0) return Error{.what = "the mesh has no cells", .file = path};
         CheckOptions verdict;
         verdict.verdict_only = true;
+        verdict.threads = threads;
         const Certificate certificate = certify ? check_mesh(*mesh, verdict).certificate : Certificate();
-        source.add(paths.empty() ? fs::path(path).stem().string() : path, std::move(*mesh), certificate);
+        arena.execute(
+            [&] { source.add(paths.empty() ? fs::path(path).stem().string() : path, std::move(*mesh), certificate); });
     }
     return source;
 }

@@ -21,8 +21,8 @@ namespace barycert::cli {
 Result<std::vector<std::string>> own_meshes();
 
 /// The meshes named by the user, or barycert's own if none is.
-/// `certify`: check each (see check.hpp), so that its certificate is known.
-Result<MeshSource> load_meshes(const std::vector<std::string>& paths, bool certify);
+/// `certify`: check each (see check.hpp), so that its certificate is known. `threads`: 0 is all.
+Result<MeshSource> load_meshes(const std::vector<std::string>& paths, bool certify, int threads);
 
 /// How the kernels of the user's libraries are run, and how it is told what they claim.
 struct KernelRules {
@@ -40,8 +40,7 @@ std::string words_of(const KernelRules& rules);
 
 /// Catalogue entries that match any of the globs ("*" if there are none), then the kernels of the libraries.
 Result<std::vector<Kernel>> select_kernels(const std::vector<std::string>& globs,
-                                           const std::vector<std::string>& libraries,
-                                           const KernelRules& rules = {true, 1, {}});
+                                           const std::vector<std::string>& libraries, const KernelRules& rules);
 Result<std::vector<Family>> select_families(const std::vector<std::string>& globs);
 
 /// Refuses "-1" and 2^64 where a seed or the number of a case is due: the parser would take both for 2^64 - 1.

@@ -14,6 +14,7 @@
 #include "barycert/io.hpp"
 #include "barycert/report.hpp"
 #include "barycert/vtk.hpp"
+#include "ci.hpp"
 #include "command.hpp"
 #include "files.hpp"
 #include "options.hpp"
@@ -28,6 +29,7 @@ struct CheckArguments {
     std::uint64_t examples = 10, contacts = 20;
     int threads = 0;
     bool delaunay = false, quiet = false;
+    CiOptions ci;
 };
 
 /// A report that is text: in a file, or on stdout in place of the table.
@@ -54,28 +56,38 @@ std::vector<base::NamedFile> outputs(const CheckArguments& a) {
     std::vector<base::NamedFile> files{{"--vtu", a.vtu}};
     for (const TextOutput& t : text_outputs) files.push_back({t.option, a.*t.path});
     if (a.fixed.empty()) return files;
-    for (std::string& path : tetgen_files(a.fixed)) files.push_back({"--fix-orientation", std::move(path)});
+    if (const auto fixed = written_mesh_files(a.fixed); fixed) {
+        for (const std::string& path : *fixed) files.push_back({"--fix-orientation", path});
+    }
     return files;
+}
+
+bool is_vtk(const std::string& path) {
+    return path.ends_with(".vtu") || path.ends_with(".vtk");
 }
 
 /// What can be checked of the outputs before the work.
 Status check_files(const CheckArguments& a, bool table) {
     if (a.vtu == "-")
         return Error{.what = "--vtu cannot write to stdout", .remedy = "name a file: its data are binary"};
-    if (a.vtk_data && a.vtu.empty())
-        return Error{.what = "--vtk-data is for the file of --vtu", .remedy = "leave it out, or give --vtu FILE"};
+    if (const auto fixed = written_mesh_files(a.fixed); !a.fixed.empty() && !fixed) return fixed.error();
+    if (a.vtk_data && a.vtu.empty() && !is_vtk(a.fixed))
+        return Error{.what = "--vtk-data is for VTK's files",
+                     .remedy = "leave it out, or give --vtu FILE, or --fix-orientation FILE.vtu"};
     std::vector<base::NamedFile> inputs = base::named_files("the mesh", mesh_files(a.mesh));
     if (!a.plc.empty()) {
         for (base::NamedFile& file : base::named_files("the PLC of --conforms-to", plc_files(a.plc)))
             inputs.push_back(std::move(file));
     }
     std::vector<base::NamedFile> written = outputs(a);
-    if (table) written.push_back({"the table", "-"});
+    add_ci_outputs(a.ci, table, written);
     return base::check_outputs(inputs, std::move(written));
 }
 
 /// write_tetgen leaves no file of another mesh beside its own. Told before the work.
-Status check_nothing_in_the_way(const Mesh& mesh, const std::string& stem) {
+Status check_nothing_in_the_way(const Mesh& mesh, const std::string& path) {
+    if (const auto files = written_mesh_files(path); files && files->size() == 1) return Done{};
+    const std::string stem = tetgen_stem(path);
     for (const auto& [suffix, written] :
          {std::pair(".face", !mesh.faces.empty()), {".neigh", !mesh.neighbours.empty()}}) {
         std::error_code ignored;
@@ -108,9 +120,19 @@ Status write_measures(const CheckReport& report, Mesh mesh, const std::string& p
     return write_vtu(mesh, path, data);
 }
 
+/// The file to point at: of several the first that is there.
+std::string mesh_artifact(const std::string& mesh) {
+    for (const std::string& path : mesh_files(mesh)) {
+        std::error_code ignored;
+        if (std::filesystem::exists(path, ignored)) return path;
+    }
+    return mesh;
+}
+
 int run_check(const CheckArguments& a) {
-    const bool table = !a.quiet && std::none_of(text_outputs.begin(), text_outputs.end(),
-                                                [&](const TextOutput& t) { return a.*t.path == "-"; });
+    const bool table =
+        !a.quiet && !a.ci.on_stdout() &&
+        std::none_of(text_outputs.begin(), text_outputs.end(), [&](const TextOutput& t) { return a.*t.path == "-"; });
     if (const Status ok = check_files(a, table); !ok) return fail(ok.error());
     Progress progress(!a.quiet && stderr_is_terminal());
     progress.stage("checking: reading");
@@ -149,15 +171,16 @@ int run_check(const CheckArguments& a) {
     }
     if (!a.vtu.empty()) written.push_back(write_measures(report, *mesh, a.vtu, a.vtk_data.value_or(VtkData::raw)));
     if (!a.fixed.empty())
-        written.push_back(write_tetgen(with_positive_cells(*mesh, report.measures.orientation), a.fixed));
+        written.push_back(write_mesh(with_positive_cells(*mesh, report.measures.orientation), a.fixed,
+                                     {.comment = {}, .data = a.vtk_data.value_or(VtkData::raw)}));
     if (table) {
         const TerminalStyle style{.colour = colour_on_stdout(), .command = command_name()};
         written.push_back(write_output("-", check_text(report, *mesh, name, style)));
     }
+    if (a.ci.asked())
+        write_ci(a.ci, check_outcomes(report, *mesh, name, mesh_artifact(a.mesh), measure_environment()), written);
     if (!a.quiet) tell_important(mesh->notes);
-    for (const Status& status : written) {
-        if (!status) return fail(status.error());
-    }
+    if (const Status ok = all_written(written); !ok) return fail(ok.error());
     return report.certified() ? exit_clean : exit_findings;
 }
 
@@ -173,7 +196,7 @@ void add_check(CLI::App& app, int& exit_code) {
     const auto a = std::make_shared<CheckArguments>();
     file_option(*sub, "MESH", a->mesh,
                 "A mesh: TetGen's .node/.ele (with .face and .neigh if present) or Triangle's, Gmsh's .msh, VTK's .vtu "
-                ".vtk .vtp .pvtu .vtm .pvd")
+                ".vtk .vtp .pvtu .vtm .pvd .vtu.series")
         ->required();
     sub->add_flag("--delaunay", a->delaunay, "Also test exactly whether every interior facet is locally Delaunay");
     file_option(*sub, "--conforms-to", a->plc,
@@ -194,9 +217,10 @@ void add_check(CLI::App& app, int& exit_code) {
     for (const TextOutput& t : text_outputs) file_option(*sub, t.option, (*a).*t.path, t.help);
     file_option(*sub, "--vtu", a->vtu, "Write the mesh with measures and defects of each cell as VTU, for ParaView");
     file_option(*sub, "--fix-orientation", a->fixed,
-                "Write a copy in which no cell has negative volume: STEM.node, STEM.ele (.face, .neigh)")
-        ->type_name("STEM");
+                "Write a copy in which no cell has negative volume: .vtu .vtk .msh, or TetGen's STEM.node, STEM.ele "
+                "(.face, .neigh)");
     vtk_data_option(*sub, a->vtk_data);
+    add_ci_options(*sub, a->ci, "what breaks the certificate");
     sub->add_flag("--quiet", a->quiet, "Print no table and no progress");
     sub->callback([a, &exit_code] { exit_code = run_check(*a); });
 }

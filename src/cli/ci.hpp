@@ -1,13 +1,11 @@
-/// Options for continuous integration: --baseline, --junit, --sarif, --annotations.
+/// Reports for continuous integration: --junit, --sarif, --annotations.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "barycert/audit_baseline.hpp"
-#include "barycert/audit_ci.hpp"
 #include "barycert/base/named_file.hpp"
+#include "barycert/ci.hpp"
 #include "barycert/result.hpp"
 
 namespace CLI {
@@ -17,26 +15,21 @@ class App;
 namespace barycert::cli {
 
 struct CiOptions {
-    std::string baseline, junit, sarif;
+    std::string junit, sarif;
     bool annotations = false;
 
+    bool asked() const { return !junit.empty() || !sarif.empty() || annotations; }
     /// True if a report takes stdout for itself.
     bool on_stdout() const { return junit == "-" || sarif == "-"; }
 };
 
-void add_ci_options(CLI::App& sub, CiOptions& o);
+/// `failures`: what is reported as failed, as in "broken rules".
+void add_ci_options(CLI::App& sub, CiOptions& o, const std::string& failures);
 
-/// The files, for check_outputs().
-void add_ci_files(const CiOptions& o, std::vector<base::NamedFile>& inputs, std::vector<base::NamedFile>& outputs);
+/// The outputs, for check_outputs(). Annotations follow the table; without one stdout is theirs alone.
+void add_ci_outputs(const CiOptions& o, bool table, std::vector<base::NamedFile>& outputs);
 
-/// Before the work: the baseline, if there is one, and whether the audit will meet its cases.
-Result<std::optional<Baseline>> read_ci_baseline(const CiOptions& o, const AuditOptions& options,
-                                                 const MeshSource& meshes);
-
-/// After it: what is asked for, the annotations last, on stdout. What got worse goes to stderr. Each
-/// write's status is added. Returns true if something is worse than the baseline.
-Result<bool> write_ci(const CiOptions& o, const AuditReport& report, const std::vector<Threshold>& rules,
-                      const std::optional<Baseline>& baseline, const std::vector<Kernel>& kernels,
-                      const std::vector<std::string>& libraries, std::vector<Status>& written);
+/// What is asked for, the annotations last, on stdout. Each write's status is added.
+void write_ci(const CiOptions& o, const CiReport& report, std::vector<Status>& written);
 
 }  // namespace barycert::cli

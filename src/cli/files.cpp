@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -35,6 +36,11 @@ Status write_output(const std::string& path, std::string_view bytes) {
     base::OutputFile file(path);
     file.write(bytes);
     return file.commit();
+}
+
+Status all_written(const std::vector<Status>& written) {
+    const auto wrong = std::find_if(written.begin(), written.end(), [](const Status& status) { return !status; });
+    return wrong == written.end() ? Status(Done{}) : *wrong;
 }
 
 }  // namespace barycert::cli

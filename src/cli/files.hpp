@@ -17,7 +17,7 @@ namespace barycert::cli {
 
 /// What MESH may be.
 inline constexpr const char* mesh_help =
-    "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, VTK's .vtu .vtk .pvtu .vtm .pvd";
+    "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, VTK's .vtu .vtk .pvtu .vtm .pvd .vtu.series";
 
 /// An option, or argument, that names a file or mesh: the empty string is refused.
 CLI::Option* file_option(CLI::App& sub, const std::string& name, std::string& path, const std::string& help);
@@ -26,5 +26,9 @@ CLI::Option* file_option(CLI::App& sub, const std::string& name, std::vector<std
 
 /// Writes `bytes` to a file that appears whole or not at all; "-" is stdout.
 Status write_output(const std::string& path, std::string_view bytes);
+
+/// The first that is an error, once all was tried: a file that could not be written does not cost the user the others,
+/// the fruit of the whole run.
+Status all_written(const std::vector<Status>& written);
 
 }  // namespace barycert::cli

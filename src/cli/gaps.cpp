@@ -10,6 +10,7 @@
 #include "audit_inputs.hpp"
 #include "barycert/audit_gaps.hpp"
 #include "barycert/audit_report.hpp"
+#include "barycert/base/named_limit.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/check.hpp"
 #include "barycert/io.hpp"
@@ -34,13 +35,10 @@ struct GapsLimit {
 
 /// NAME or NAME>NUMBER.
 Result<GapsLimit> parse_gaps_limit(const std::string& text) {
-    const std::size_t sign = text.find('>');
+    const base::NamedLimit limit = base::named_limit(text);
     for (std::size_t f = 0; f < claim_fault_count; ++f) {
         const auto fault = static_cast<ClaimFault>(f);
-        if (name(fault) != text.substr(0, sign)) continue;
-        if (sign == std::string::npos) return GapsLimit{fault, 0};
-        if (const auto most = base::parse_double(text.substr(sign + 1)); most && *most >= 0)
-            return GapsLimit{fault, *most};
+        if (name(fault) == limit.name && limit.most) return GapsLimit{fault, *limit.most};
     }
     return Error{.what = "unknown rule",
                  .expected = "gaps, several, wrong, wrong_first or outside_claimed, perhaps >NUMBER",
@@ -64,20 +62,20 @@ Result<GapsReport> gaps_of(GapsArguments& a) {
     Result<std::vector<Kernel>> kernels = select_kernels(a.kernels, a.libraries, rules);
     if (!kernels) return kernels.error();
     a.options.kernels = std::move(*kernels);
+    for (const ClaimRule rule : all_claim_rules) {
+        if (std::find(a.rule_names.begin(), a.rule_names.end(), name(rule)) != a.rule_names.end())
+            a.options.rules.push_back(rule);
+    }
     const Result<Mesh> mesh = read_mesh(a.mesh, {.faces = false, .neighbours = false, .threads = a.options.threads});
     if (!mesh) return mesh.error();
     Verdict verdict = Verdict::not_checked;
     if (!a.no_check) {
         CheckOptions check;
         check.verdict_only = true;
+        check.threads = a.options.threads;
         verdict = check_mesh(*mesh, check).certificate.verdict_on(*mesh);
     }
-    Result<GapsReport> report = find_gaps(a.options, *mesh, a.mesh, verdict);
-    if (!report || a.rule_names.empty()) return report;
-    std::erase_if(report->results, [&](const ClaimResult& r) {
-        return std::find(a.rule_names.begin(), a.rule_names.end(), name(r.rule)) == a.rule_names.end();
-    });
-    return report;
+    return find_gaps(a.options, *mesh, a.mesh, verdict);
 }
 
 int run_gaps(GapsArguments& a) {
@@ -98,9 +96,7 @@ int run_gaps(GapsArguments& a) {
         style.colour = colour_on_stdout();
         written.push_back(write_output("-", gaps_text(*report, style)));
     }
-    for (const Status& status : written) {
-        if (!status) return fail(status.error());
-    }
+    if (const Status ok = all_written(written); !ok) return fail(ok.error());
     bool fails = false;
     for (const ClaimResult& r : report->results) {
         for (const GapsLimit& limit : limits) {

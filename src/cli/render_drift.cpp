@@ -18,6 +18,7 @@ struct DriftArguments {
     std::uint64_t count = 10000;
     std::uint64_t seed = 1;
     bool quiet = false;
+    std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>();
 };
 
 int run_drift(const DriftArguments& a) {
@@ -34,7 +35,8 @@ int run_drift(const DriftArguments& a) {
     DriftOptions options{.kernels = {}, .count = a.count, .seed = a.seed};
     const std::vector<std::string> usual{"triangle.scanline-increments.float32", "triangle.scanline-increments",
                                          "triangle.bilinear", "triangle.signed-area", "triangle.exact"};
-    const auto kernels = select_kernels(a.kernels.empty() && a.libraries.empty() ? usual : a.kernels, a.libraries);
+    const auto kernels =
+        select_kernels(a.kernels.empty() && a.libraries.empty() ? usual : a.kernels, a.libraries, *a.rules);
     if (!kernels) return fail(kernels.error());
     options.kernels = *kernels;
     const Result<DriftReport> report = measure_drift(options);
@@ -98,6 +100,7 @@ void add_render_drift(CLI::App& render, int& exit_code) {
         ->allow_extra_args(false);
     file_option(*sub, "--kernel-library", a->libraries,
                 "A shared library with a kernel of yours; alone without --kernel");
+    add_containment(*sub, a->rules);
     seed_and_count(*sub, a->count, a->seed, "Cases per size");
     sub->add_flag("--quiet", a->quiet, "Print no table");
     sub->callback([a, &exit_code] { exit_code = run_drift(*a); });

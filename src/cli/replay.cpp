@@ -59,7 +59,7 @@ Result<std::vector<Witness>> made_again(const ReplayArguments& a, const std::vec
     }
     MeshSource meshes;
     if (family.needs_mesh) {
-        auto loaded = load_meshes(a.meshes, false);
+        auto loaded = load_meshes(a.meshes, false, 0);
         if (!loaded) return loaded.error();
         meshes = std::move(*loaded);
         if (!meshes.supplies(*simplex))

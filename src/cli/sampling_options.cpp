@@ -43,7 +43,8 @@ OutsidePolicy policy_of(const std::string& text) {
 std::optional<FieldFile> series_of(FieldFile::Of of, const std::string& text) {
     const std::size_t sign = text.find('@'), equals = text.find('=');
     if (sign == std::string::npos || sign == 0 || sign + 1 == text.size()) return std::nullopt;
-    const bool of_steps = text.find('*', sign) != std::string::npos || text.find(".pvd", sign) != std::string::npos;
+    const bool of_steps = text.find('*', sign) != std::string::npos || text.find(".pvd", sign) != std::string::npos ||
+                          text.find(".series", sign) != std::string::npos;
     if (equals != std::string::npos && (equals < sign || !of_steps)) return std::nullopt;
     return FieldFile{of, text.substr(0, sign), text.substr(sign + 1)};
 }
@@ -94,9 +95,10 @@ void add_field_files(CLI::App& sub, std::vector<FieldFile>& files, const std::st
                  std::string("Add a field: one row of numbers per node or per cell (text with blanks or commas, or "
                              ".npy); FILE:COLUMN: a column of a CSV or structured .npy file, or an array of another "
                              "mesh") +
-                     (series == nullptr ? ""
-                                        : "; NAME@'step-*.npy': a series, one file a step in natural order, or a .pvd "
-                                          "file. {step} in --output: a file for each step; else columns NAME@STEP")},
+                     (series == nullptr
+                          ? ""
+                          : "; NAME@'step-*.npy': a series, one file a step in natural order, or a .pvd "
+                            "or .vtu.series file. {step} in --output: a file for each step; else columns NAME@STEP")},
           Option{"--point-field", FieldFile::Of::points, "Like " + either + "; the rows belong to nodes"},
           Option{"--cell-field", FieldFile::Of::cells, "Like " + either + "; the rows belong to cells"}}) {
         sub.add_option_function<std::vector<std::string>>(

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <chrono>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -29,6 +30,7 @@ struct SearchArguments {
     double seconds = 0;
     int threads = 0;
     bool quiet = false;
+    std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>();
 };
 
 volatile sig_atomic_t interrupted = 0;
@@ -81,7 +83,10 @@ Result<Kernel> chosen_kernel(const SearchArguments& a) {
                      .found = a.kernel.empty() ? "neither" : "both",
                      .remedy = "`barycert kernels` lists the names"};
     }
-    if (!a.library.empty()) return load_kernel_library(a.library);
+    if (!a.library.empty()) {
+        const Result<std::vector<Kernel>> one = select_kernels({}, {a.library}, *a.rules);
+        return one ? one->front() : Result<Kernel>(one.error());
+    }
     const std::vector<Kernel> kernels = kernels_matching(a.kernel);
     if (kernels.size() != 1) {
         return Error{.what = "which kernel",
@@ -97,10 +102,15 @@ std::optional<double> figure(const SearchReport& report, const std::string& name
     if (name == "any" || name == "wrong_cases") return static_cast<double>(report.wrong_cases);
     const bool finding = finding_named(name).has_value();
     if (!finding && name != "worst_weight_ulp" && name != "worst_value_ulp") return std::nullopt;
+    bool mute = report.given_up;
     for (const SearchFind& f : report.finds) {
         if (f.reason == name) return finding ? static_cast<double>(f.cases) : f.found.magnitude;
+        mute = mute || f.reason == barycert::name(Finding::not_finite) ||
+               f.reason == barycert::name(Finding::false_declaration) || f.reason == barycert::name(Finding::crashed) ||
+               f.reason == barycert::name(Finding::hung);
     }
-    return 0;
+    // A kernel that gave no weights where there are some has no error to measure: it is worse than any.
+    return finding || !mute ? 0 : std::numeric_limits<double>::infinity();
 }
 
 Result<std::vector<Threshold>> read_rules(const std::vector<std::string>& texts) {
@@ -171,11 +181,10 @@ int run_search(const SearchArguments& a) {
                             .command = command_name(),
                             .witness_path = a.witnesses.empty() ? a.json : a.witnesses};
         if (!a.library.empty()) style.library_arguments.push_back(a.library);
+        style.kernel_arguments = words_of(*a.rules);
         written.push_back(write_output("-", search_text(*report, style)));
     }
-    for (const Status& status : written) {
-        if (!status) return fail(status.error());
-    }
+    if (const Status ok = all_written(written); !ok) return fail(ok.error());
     int code = exit_clean;
     for (const Threshold& rule : *rules) {
         const double value = figure(*report, rule.name).value_or(0);
@@ -197,6 +206,7 @@ void add_search(CLI::App& app, int& exit_code) {
     sub->add_option("KERNEL", a->kernel, "The kernel, as `barycert kernels` lists it");
     file_option(*sub, "--kernel-library", a->library,
                 "Instead: a shared library with a kernel of yours (see barycert/kernel.h)");
+    add_containment(*sub, a->rules);
     sub->add_option("--steps", a->steps, "Cases to make")
         ->capture_default_str()
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48))

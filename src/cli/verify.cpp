@@ -1,16 +1,15 @@
 // barycert verify: results of any tool, held against the exact ones.
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <memory>
 
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report.hpp"
 #include "barycert/verification.hpp"
+#include "ci.hpp"
 #include "command.hpp"
 #include "files.hpp"
 #include "progress.hpp"
@@ -21,42 +20,30 @@ namespace {
 
 struct VerifyArguments {
     VerifyJob job;
-    std::vector<std::string> values;   ///< FIELD=COLUMN
-    std::vector<std::string> fail_on;  ///< KIND or KIND=COUNT
+    std::vector<std::string> fail_on;
+    std::string json, html;
+    CiOptions ci;
     bool quiet = false;
 };
 
-struct Limit {
-    const char* name;
-    std::uint64_t Verdicts::*count;
-};
-constexpr std::array<Limit, 4> limits{{{"missed", &Verdicts::missed},
-                                       {"invented", &Verdicts::invented},
-                                       {"wrong-cell", &Verdicts::wrong_cell},
-                                       {"wrong-value", &Verdicts::wrong_value}}};
-
-/// KIND=COUNT: more than COUNT such rows fail.
-std::pair<const Limit*, std::uint64_t> limit_of(const std::string& text) {
-    const std::size_t sign = text.find('=');
-    const std::string kind = text.substr(0, sign);
-    const auto* const limit =
-        std::find_if(limits.begin(), limits.end(), [&](const Limit& l) { return l.name == kind; });
-    const auto count = sign == std::string::npos ? std::optional<double>(0) : base::parse_double(text.substr(sign + 1));
-    if (limit == limits.end() || !count || !(*count >= 0) || std::floor(*count) != *count || *count > 0x1p53)
-        throw CLI::ValidationError(
-            "--fail-on", "expected missed, invented, wrong-cell or wrong-value, perhaps =COUNT, found \"" + text + '"');
-    return {limit, static_cast<std::uint64_t>(*count)};
-}
-
-bool fails(const VerifyArguments& a, const Verdicts& v) {
-    if (a.fail_on.empty()) return v.wrong() != 0;
-    return std::any_of(a.fail_on.begin(), a.fail_on.end(), [&](const std::string& text) {
-        const auto [limit, count] = limit_of(text);
-        return v.*limit->count > count;
-    });
+/// Tells which limits of --fail-on are exceeded.
+void tell_failures(const VerifySummary& summary, const std::vector<VerifyLimit>& failures) {
+    for (const VerifyLimit& limit : failures)
+        tell(fmt::format("fails: {}: {} = {}, limit {}\n", base::printable(summary.results), handle(limit.verdict),
+                         summary.verdicts.of(limit.verdict), limit.most));
 }
 
 int run_verify(VerifyArguments& a) {
+    std::vector<VerifyLimit> limits;
+    for (const std::string& text : a.fail_on) {
+        const Result<VerifyLimit> limit = parse_verify_limit(text);
+        if (!limit) return fail(limit.error());
+        limits.push_back(*limit);
+    }
+    const bool table = !a.quiet && a.json != "-" && a.html != "-" && !a.ci.on_stdout();
+    std::vector<base::NamedFile> outputs{{"--json", a.json}, {"--html", a.html}};
+    add_ci_outputs(a.ci, table, outputs);
+    for (const base::NamedFile& file : outputs) a.job.reports.emplace_back(file.what, file.path);
     Progress progress(!a.quiet && stderr_is_terminal());
     a.job.progress = [&](const JobProgress& p) {
         p.done == 0 ? progress.stage(p.stage) : progress.count(p.stage, p.done);
@@ -65,17 +52,19 @@ int run_verify(VerifyArguments& a) {
     const Result<VerifySummary> summary = verify_files(a.job);
     progress.clear();
     if (!summary) return fail(summary.error());
+    if (const Status ok = check_limits(*summary, limits); !ok) return fail(ok.error());
     if (!a.quiet) tell_important(summary->notes);
+    const Environment environment = measure_environment();
     std::vector<Status> written;
-    if (!a.job.report.empty())
-        written.push_back(write_output(a.job.report, verify_json(*summary, measure_environment())));
-    if (!a.job.html.empty()) written.push_back(write_output(a.job.html, verify_html(*summary, measure_environment())));
-    if (!a.quiet && a.job.report != "-" && a.job.html != "-")
-        written.push_back(write_output("-", verify_text(*summary, colour_on_stdout())));
-    for (const Status& status : written) {
-        if (!status) return fail(status.error());
-    }
-    return fails(a, summary->verdicts) ? exit_findings : exit_clean;
+    if (!a.json.empty()) written.push_back(write_output(a.json, verify_json(*summary, environment)));
+    if (!a.html.empty()) written.push_back(write_output(a.html, verify_html(*summary, environment)));
+    if (table) written.push_back(write_output("-", verify_text(*summary, colour_on_stdout())));
+    if (limits.empty()) limits = strict_limits();
+    write_ci(a.ci, verify_outcomes(*summary, limits, environment), written);
+    if (const Status ok = all_written(written); !ok) return fail(ok.error());
+    const std::vector<VerifyLimit> failures = exceeded(summary->verdicts, limits);
+    if (!a.fail_on.empty()) tell_failures(*summary, failures);
+    return failures.empty() ? exit_clean : exit_findings;
 }
 
 }  // namespace
@@ -140,25 +129,20 @@ void add_verify(CLI::App& app, int& exit_code) {
         ->capture_default_str()
         ->check(CLI::Range(0, 100000).description(""))
         ->type_name("N");
-    sub->add_option_function<std::vector<std::string>>(
-           "--fail-on",
-           [a](const std::vector<std::string>& all) {
-               for (const std::string& text : all) {
-                   limit_of(text);
-                   a->fail_on.push_back(text);
-               }
-           },
-           "Exit with 1 only if there are more than COUNT (default 0) such rows: missed, invented, wrong-cell, "
-           "wrong-value")
+    sub->add_option(
+           "--fail-on", a->fail_on,
+           "Exit with 1 only if there are more than NUMBER (0 if omitted) such rows; NAME is missed, invented, "
+           "wrong_cell or wrong_value; several with commas, or repeated")
         ->delimiter(',')
         ->allow_extra_args(false)
-        ->type_name("KIND[=COUNT]");
+        ->type_name("NAME[>NUMBER]");
     sub->add_option("--threads", a->job.options.threads, "Number of threads; 0: all")
         ->capture_default_str()
         ->check(CLI::Range(0, 4096).description(""))
         ->type_name("N");
-    file_option(*sub, "--json", a->job.report, "Write the report as JSON; - is stdout");
-    file_option(*sub, "--html", a->job.html, "Write the report as an HTML page; - is stdout");
+    file_option(*sub, "--json", a->json, "Write the report as JSON; - is stdout");
+    file_option(*sub, "--html", a->html, "Write the report as an HTML page; - is stdout");
+    add_ci_options(*sub, a->ci, "kinds of wrong rows (see --fail-on)");
     sub->add_flag("--quiet", a->quiet, "Print no report and no progress");
     sub->callback([=, &exit_code] {
         a->job.tolerance_given = tolerance->count() != 0;

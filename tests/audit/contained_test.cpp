@@ -1,11 +1,17 @@
 // Kernels in a process of their own: each accident is told with the case that did it, and the audit goes on.
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 
+#include <algorithm>
 #include <bit>
+#include <fstream>
 
 #include "audit_helpers.hpp"
 #include "barycert/audit/asking.hpp"
+#include "barycert/kernels/channel.hpp"
 
 namespace barycert::audit {
 namespace {
@@ -72,6 +78,7 @@ TEST(contained, every_accident_is_told_with_its_case) {
                  Accident{"input", Finding::out_of_bounds, "wrote to its input", false},
                  Accident{"read-after", Finding::out_of_bounds, "beside its arrays", false},
                  Accident{"stack", Finding::crashed, "SIGSEGV", false},
+                 Accident{"raise", Finding::crashed, "SIGSEGV", false},
                  Accident{"round", Finding::changed_environment, "rounding upward", true},
 #if defined(__x86_64__)
                  Accident{"flush", Finding::changed_environment, "flushed to zero", true},
@@ -117,6 +124,76 @@ TEST(contained, the_time_limit_is_for_a_case_and_not_for_all) {
     EXPECT_EQ(s.cases, 256U);
 }
 
+Case case_that_is(bool unruly_one) {
+    for (std::uint64_t i = 0;; ++i) {
+        Case c = make_case(family_named("mesh.inside"), Simplex::tetrahedron, 1, i, own_meshes());
+        if (unruly(c) == unruly_one) return c;
+    }
+}
+
+TEST(contained, a_case_that_is_run_again_has_its_time_again) {
+    const Kernel k = contained("slow-print", 0.4);
+    const Case quiet = case_that_is(false), loud = case_that_is(true);
+    Statement said;
+    ask_kernel(k, std::span(&quiet, 1), std::span(&said, 1), false);
+    EXPECT_EQ(said.incidents, 0);
+    // 0.3 s; then again, to see whether it is this case that prints; then again, against the clock.
+    ask_kernel(k, std::span(&loud, 1), std::span(&said, 1), true);
+    EXPECT_TRUE(said.answered);
+    EXPECT_EQ(said.incidents, kernels::incident_printed);
+}
+
+TEST(contained, loading_counts_in_no_case) {
+    // Each thread's process loads the library anew, and so does one that takes a crashed one's place.
+    const KernelStatistics s = statistics_of(contained("slow-loading", 0.1), "mesh.inside", some, own_meshes());
+    EXPECT_EQ(s.wrong_cases, 0U);
+    EXPECT_EQ(s.cases, some);
+}
+
+TEST(contained, output_is_told_though_it_comes_but_once) {
+    for (const std::size_t before : {0, 3}) {  // in the first batch of a process each case is watched
+        const Kernel k = contained("once");
+        const Case quiet = case_that_is(false), loud = case_that_is(true);
+        std::vector<Statement> said(3);
+        for (std::size_t i = 0; i < before; ++i) {
+            ask_kernel(k, std::span(&quiet, 1), std::span(said).first(1), false);
+            EXPECT_EQ(said[0].incidents, 0);
+        }
+        const std::vector<Case> cases{quiet, loud, quiet};
+        const Asked asked = ask_kernel(k, cases, said, false);
+        EXPECT_EQ(said[0].incidents + said[1].incidents + said[2].incidents, kernels::incident_printed);
+        EXPECT_EQ(said[before == 0 ? 1 : 0].incidents, kernels::incident_printed);
+        EXPECT_EQ(asked.detail, "wrote \"once\\n\"");
+    }
+}
+
+/// Processes that this one has forked.
+std::vector<pid_t> children() {
+    std::vector<pid_t> list;
+    std::ifstream file("/proc/thread-self/children");
+    for (pid_t p = 0; file >> p;) list.push_back(p);
+    return list;
+}
+
+TEST(contained, the_end_of_the_server_is_no_fault_of_the_kernel) {
+    const std::vector<pid_t> before = children();
+    const Kernel k = contained("quiet");
+    std::vector<pid_t> after = children();
+    std::erase_if(after, [&](pid_t p) { return std::find(before.begin(), before.end(), p) != before.end(); });
+    if (after.empty()) GTEST_SKIP() << "this system does not list child processes";
+    ASSERT_EQ(after.size(), 1U);
+    const Case c = case_that_is(false);
+    Statement said;
+    ask_kernel(k, std::span(&c, 1), std::span(&said, 1), false);
+    EXPECT_TRUE(said.answered);
+    kill(after[0], SIGKILL);
+    siginfo_t ended{};  // when it has ended, its workers have been told to; it is left for the Host to wait for
+    ASSERT_EQ(waitid(P_PID, static_cast<id_t>(after[0]), &ended, WEXITED | WNOWAIT), 0);
+    EXPECT_EQ(ask_kernel(k, std::span(&c, 1), std::span(&said, 1), false).detail, "");
+    EXPECT_FALSE(said.ran);
+    EXPECT_EQ(said.incidents, 0);
+}
+
 TEST(contained, figures_do_not_depend_on_threads) {
     for (const char* name : {"crash", "print", "round"}) {
         const auto figures = [&](int threads) {
@@ -136,7 +213,22 @@ TEST(contained, what_never_answers_is_given_up_and_said_to_be) {
     EXPECT_EQ(s.cases, count_of(s, Finding::crashed));
     EXPECT_EQ(s.cases + s.not_run, 5000U);
     EXPECT_EQ(report.cases, 5000U);
+    // The witness says how it failed, for which the kernel is asked once more.
+    ASSERT_FALSE(report.kernels[0].witnesses.empty());
+    EXPECT_NE(report.kernels[0].witnesses[0].detail.find("SIGABRT"), std::string::npos);
     EXPECT_EQ(report.regions[0] + report.regions[1] + report.regions[2], 5000U);
+}
+
+TEST(contained, few_open_files_are_enough) {
+    rlimit usual{};
+    ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &usual), 0);
+    rlimit few = usual;
+    few.rlim_cur = 100;
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &few), 0);
+    const Result<Kernel> kernel = load_contained_kernel(library("quiet"));
+    setrlimit(RLIMIT_NOFILE, &usual);
+    ASSERT_TRUE(kernel.has_value()) << kernel.error().message();
+    EXPECT_EQ(statistics_of(*kernel, "mesh.inside", some, own_meshes()).wrong_cases, 0U);
 }
 
 TEST(contained, what_does_not_load_is_refused) {

@@ -8,6 +8,7 @@
 
 #include "audit_helpers.hpp"
 #include "barycert/audit/gap_points.hpp"
+#include "barycert/audit_report.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert::audit {
@@ -146,6 +147,22 @@ TEST(gaps, needs_a_kernel_for_the_cells) {
     ASSERT_FALSE(report.has_value());
     EXPECT_EQ(report.error().expected, "a kernel for a triangle");
     EXPECT_FALSE(find_gaps(options, Mesh(), "empty", Verdict::not_checked).has_value());
+}
+
+TEST(gaps, what_a_kernel_does_not_answer_is_counted) {
+    const Kernel always = load_contained_kernel(std::string(BARYCERT_UNRULY_DIR) + "/unruly-always.so").value();
+    const Mesh mesh = own_mesh("bracket");
+    GapsOptions options;
+    options.kernels = {always, kernel_named("tetrahedron.signed-volume")};
+    options.count = 30;
+    const GapsReport report = find_gaps(options, mesh, "mesh", Verdict::not_checked).value();
+    const OracleCounts& o = report.oracles;
+    for (const ClaimRule rule : {ClaimRule::strict, ClaimRule::exact, ClaimRule::tolerant}) {
+        EXPECT_EQ(result_of(report, always.name, rule).unanswered, o.core + o.integers + o.cgal);
+        EXPECT_EQ(result_of(report, "tetrahedron.signed-volume", rule).unanswered, 0U);
+        EXPECT_EQ(result_of(report, "", rule).unanswered, 0U);
+    }
+    EXPECT_NE(gaps_text(report, {}).find("gave no answer to"), std::string::npos);
 }
 
 }  // namespace

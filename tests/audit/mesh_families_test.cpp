@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
 #include "audit_helpers.hpp"
+#include "barycert/audit/gap_points.hpp"
 #include "barycert/audit/mesh_draws.hpp"
+#include "barycert/base/finite.hpp"
 #include "barycert/base/random.hpp"
 
 namespace barycert::audit {
@@ -86,6 +89,45 @@ TEST(MeshFamilies, NodalValuesComeFromTheField) {
         met.insert(static_cast<std::size_t>(field - mesh.point_fields.begin()));
     }
     EXPECT_EQ(met.size(), mesh.point_fields.size());  // every field has its turn
+}
+
+/// Two tetrahedra, or triangles, as large as doubles allow; a field that is not finite everywhere.
+Mesh largest_mesh(int dimension) {
+    constexpr double most = std::numeric_limits<double>::max();
+    Mesh m;
+    m.dimension = dimension;
+    if (dimension == 3) {
+        m.points = {0, 0, 0, most, 0, 0, 0, most, 0, 0, 0, most, -most, -most, -most};
+        m.cells = {0, 1, 2, 3, 1, 2, 0, 4};
+    } else {
+        m.points = {0, 0, most, 0, 0, most, -most, -most};
+        m.cells = {0, 1, 2, 0, 2, 3};
+    }
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    m.point_fields.push_back({"T", 1, {1, nan, 3, HUGE_VAL, 5}});
+    m.point_fields.back().data.resize(m.point_count());
+    return m;
+}
+
+TEST(MeshFamilies, CasesAreFiniteWhateverTheMesh) {
+    for (const int dimension : {2, 3}) {
+        MeshSource source;
+        source.add("largest", largest_mesh(dimension));
+        for (const Family& f : all_families()) {
+            for (const Simplex s : all_simplices) {
+                if (!f.needs_mesh || !f.applies_to(s) || !source.supplies(s)) continue;
+                for (std::uint64_t i = 0; i < 500; ++i) {
+                    const Case c = make_case(f, s, 1, i, source);
+                    ASSERT_TRUE(base::all_finite(c.vertices)) << f.name;
+                    ASSERT_TRUE(base::all_finite(c.point)) << f.name;
+                    ASSERT_TRUE(base::all_finite(c.values)) << f.name;
+                }
+            }
+        }
+        const Mesh mesh = largest_mesh(dimension);
+        const GapPoints points(mesh);
+        for (std::uint64_t i = 0; i < 500; ++i) ASSERT_TRUE(base::all_finite(points.make(Feature::edge, 1, i).point));
+    }
 }
 
 TEST(MeshFamilies, AMeshSuppliesItsOwnSimplicesOnly) {

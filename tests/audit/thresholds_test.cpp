@@ -62,6 +62,17 @@ TEST(Thresholds, SilenceIsNotAccuracy) {
             EXPECT_EQ(violations(r, {{name, 1e300}}).size(), 1U) << name;
         }
     }
+    // Nor is a process that ends in every case, for whatever reason, a pass.
+    for (const Finding f : {Finding::crashed, Finding::hung, Finding::out_of_bounds}) {
+        AuditReport r = audit_of({kernel_named("tetrahedron.kahan")}, {family_named("random.inside")}, 1);
+        KernelStatistics& s = r.kernels.at(0).total;
+        s = {};
+        Comparison c;
+        c.weight_ulps.fill(-1);
+        c.counts[static_cast<std::size_t>(f)] = 1;
+        s.add(c, Region::interior, 0);
+        EXPECT_EQ(violations(r, {{"worst_weight_ulp", 1e300}}).size(), 1U) << name(f);
+    }
     // On degenerate simplices there is nothing to measure, and declaring them is right.
     Kernel k = kernel_named("tetrahedron.kahan");
     k.weights = declares_everything;

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "barycert/kernel.h"
+#include "signed_volumes.h"
 
 #define QUIET 0
 #define CRASH 1
@@ -27,6 +28,10 @@
 #define RULE 14
 #define LOADED_FLUSH 15
 #define SLOW 16
+#define RAISE 17
+#define ONCE 18
+#define SLOW_LOADING 19
+#define SLOW_PRINT 20
 
 void barycert_kernel_describe(struct barycert_kernel_info* info) {
     info->abi = BARYCERT_KERNEL_ABI;
@@ -46,16 +51,11 @@ __attribute__((constructor)) static void crash(void) {
 }
 #endif
 
-static double volume(const double* a, const double* b, const double* c, const double* d) {
-    double u[3], v[3], w[3];
-    int i;
-    for (i = 0; i < 3; ++i) {
-        u[i] = b[i] - a[i];
-        v[i] = c[i] - a[i];
-        w[i] = d[i] - a[i];
-    }
-    return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
+#if UNRULY == SLOW_LOADING
+__attribute__((constructor)) static void load(void) {
+    usleep(500000);
 }
+#endif
 
 /* The tests know this condition as well. */
 static int unruly(const double* point) {
@@ -73,12 +73,7 @@ static int dig(volatile int depth) {
 #endif
 
 int barycert_kernel_weights(const double* vertices, const double* point, double* weights) {
-    const double *a = vertices, *b = a + 3, *c = b + 3, *d = c + 3;
-    const double whole = volume(a, b, c, d);
-    weights[0] = volume(point, b, c, d) / whole;
-    weights[1] = volume(a, point, c, d) / whole;
-    weights[2] = volume(a, b, point, d) / whole;
-    weights[3] = volume(a, b, c, point) / whole;
+    signed_volumes(vertices, point, weights);
     if (unruly(point)) {
 #if UNRULY == CRASH
         raise(SIGFPE);
@@ -91,7 +86,7 @@ int barycert_kernel_weights(const double* vertices, const double* point, double*
 #elif UNRULY == AFTER
         weights[4] = 1;
 #elif UNRULY == BEFORE
-        weights[-1] = 1;
+        for (int i = 1; i <= 8; ++i) weights[-i] = 1;
 #elif UNRULY == INPUT
         ((double*)vertices)[0] = 0;
 #elif UNRULY == READ_AFTER
@@ -102,10 +97,20 @@ int barycert_kernel_weights(const double* vertices, const double* point, double*
         __builtin_ia32_ldmxcsr(__builtin_ia32_stmxcsr() | 0x8000);
 #elif UNRULY == PRINT
         printf("point %g\n", point[0]);
+#elif UNRULY == RAISE
+        raise(SIGSEGV);
+#elif UNRULY == ONCE
+        static int printed;
+        if (!printed++) printf("once\n");
+#elif UNRULY == SLOW_PRINT
+        printf("slow\n");
 #elif UNRULY == STACK
         weights[0] += dig(0);
 #endif
     }
+#if UNRULY == SLOW_PRINT
+    usleep(300000);
+#endif
 #if UNRULY == ALWAYS
     abort();
 #endif

@@ -178,6 +178,13 @@ TEST(Witness, MalformedFilesAreRefused) {
     EXPECT_NE(refusal(replaced("\"witnesses\"", "\"others\"")).find("witnesses"), std::string::npos);
     EXPECT_NE(refusal("[]").find("schema"), std::string::npos);
     EXPECT_FALSE(read_witnesses("/nowhere/at/all.json"));
+    // Nested so deeply that to copy it would take more than the stack.
+    const std::string deep = std::string(1000000, '[') + std::string(1000000, ']');
+    EXPECT_NE(refusal(deep).find("JSON"), std::string::npos);
+    for (const char* part : {"1,", "\"triangle\"", "\"0x1p-2\"", "[\"0x1p-2\",\"0.25\"]"}) {
+        const bool comma = part[1] == ',';
+        EXPECT_NE(refusal(replaced(part, comma ? deep + "," : deep)).find("JSON"), std::string::npos) << part;
+    }
     // Perspective: depths are above zero, and only triangles have it.
     const std::string depths =
         R"({"schema":1,"witnesses":[{"simplex":"triangle","perspective":true,"vertices":[["0","0","1"],["1","0","2"],["0","1","3"]],"point":["0x1p-2","0.25"]}]})";

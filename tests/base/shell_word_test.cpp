@@ -31,7 +31,7 @@ TEST(ShellWord, one_word_to_a_shell_whatever_it_holds) {
           std::string("(x)"),       std::string("{a,b}"), std::string("!x"),
           std::string("new\nline"), std::string("tab\t"), std::string("na\xc3\xafve"),
           std::string("a=b"),       std::string("?[x]"),  std::string("\033[1m it's 5 % \\ \xff\""),
-          std::string("ends\n\n")})
+          std::string("ends\n\n"),  std::string("-\0337")})
         EXPECT_EQ(through_shell(shell_word(text)), "[" + text + "]");
 }
 

@@ -234,6 +234,30 @@ TEST(check, the_copy_has_positive_cells_and_all_else) {
     }
 }
 
+TEST(check, the_copy_in_other_formats) {
+    const Scratch scratch;
+    const std::string mixed = put_mixed(scratch);
+    for (const std::string name : {"fixed.vtu", "fixed.vtk", "fixed.msh"}) {
+        const std::string file = scratch.path(name);
+        const Ended r = run(check(mixed, {"--fix-orientation", file, "--quiet"}));
+        EXPECT_EQ(r.code, 0) << r.err;
+        const auto j = parse(run(check(file, {"--json", "-"})).out);
+        EXPECT_EQ(j["orientation"]["positive"], 2) << name;
+        EXPECT_EQ(j["orientation"]["negative"], 0) << name;
+    }
+    EXPECT_EQ(scratch.names(), (Words{"fixed.msh", "fixed.vtk", "fixed.vtu", "mixed.ele", "mixed.node"}));
+    const Ended over = run(check(scratch.path("fixed.vtu"), {"--fix-orientation", scratch.path("fixed.vtu")}));
+    EXPECT_EQ(over.code, 2);
+    EXPECT_TRUE(contains(over.err, "--fix-orientation would overwrite the mesh")) << over.err;
+    const Ended other = run(check(mixed, {"--fix-orientation", scratch.path("fixed.stl")}));
+    EXPECT_EQ(other.code, 2);
+    EXPECT_TRUE(contains(other.err, "fixed.stl: unknown format of a mesh to be written")) << other.err;
+    const Ended text =
+        run(check(mixed, {"--fix-orientation", scratch.path("text.vtu"), "--vtk-data", "ascii", "--quiet"}));
+    EXPECT_EQ(text.code, 0) << text.err;
+    EXPECT_TRUE(contains(read_file(scratch.path("text.vtu")), "format=\"ascii\""));
+}
+
 TEST(check, the_copy_does_not_mix_with_another_mesh) {
     const Scratch scratch;
     const std::string m = put_mesh(scratch, "m", two_cells);

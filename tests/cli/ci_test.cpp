@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "process.hpp"
+#include "sample_meshes.hpp"
 
 namespace barycert::cli_test {
 namespace {
@@ -104,6 +105,26 @@ TEST(ci, other_cases_are_refused_before_the_work) {
     EXPECT_EQ(run(audit_of("tetrahedron.cramer", {"--baseline", scratch.path("none")})).code, 2);
 }
 
+// Two reports on one stream would be none.
+TEST(ci, annotations_share_stdout_with_the_table_alone) {
+    const Scratch scratch;
+    const std::string two = put_two_cells(scratch);
+    const std::string rows = scratch.put("r.csv", six_rows);
+    const Words audit = audit_of("triangle.exact", {}), check{"check", two}, verify{"verify", two, "--results", rows};
+    for (const Words& command : {audit, check, verify}) {
+        for (const char* report : {"--json", "--html", "--junit", "--sarif"})
+            expect_error(plus(command, {report, "-", "--annotations"}), "--annotations");
+        const Ended both = run(plus(command, {"--junit", "-", "--sarif", "-"}));
+        EXPECT_EQ(both.code, 2);
+        EXPECT_EQ(both.out, "");
+    }
+    for (const char* report : {"--witnesses", "--plot"})
+        expect_error(plus(audit, {report, "-", "--annotations"}), "--annotations");
+    const Ended table = run(plus(check, {"--annotations"}));
+    EXPECT_EQ(table.code, 0) << table.err;
+    EXPECT_TRUE(contains(table.out, "certified"));
+}
+
 TEST(ci, a_users_library_is_the_place_of_its_results) {
     const Ended r = run({"audit", "--quiet", "--count", "50", "--family", "random", "--kernel-library",
                          BARYCERT_SWAPPED_KERNEL, "--sarif", "-"});
@@ -128,7 +149,14 @@ TEST(mutants, the_score_is_shown_and_every_one_is_caught) {
 }
 
 TEST(mutants, options_about_other_kernels_are_refused) {
-    for (const Words& more : {Words{"--kernel", "*"}, {"--fail-on", "any"}, {"--plot", "p.svg"}, {"--annotations"}}) {
+    for (const Words& more : {Words{"--kernel", "*"},
+                              {"--fail-on", "any"},
+                              {"--plot", "p.svg"},
+                              {"--annotations"},
+                              {"--class-tolerance", "1e-9"},
+                              {"--time-limit", "1"},
+                              {"--in-process"},
+                              {"--wide"}}) {
         Words words{"audit", "--mutants"};
         words.insert(words.end(), more.begin(), more.end());
         const Ended r = run(words);

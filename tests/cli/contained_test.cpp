@@ -57,6 +57,27 @@ TEST(contained, a_hang_is_ended_by_the_time_limit) {
     EXPECT_TRUE(report["witnesses"][0]["cell"].is_number_unsigned());
 }
 
+TEST(contained, given_up_is_worse_than_a_baseline_and_not_other_cases) {
+    const Scratch scratch;
+    const auto audit = [&](const std::string& fault, const Words& more) {
+        // After 16 hangs it is not asked again.
+        Words words{"audit", "--kernel-library", unruly(fault),  "--family", "mesh.inside", "--count",
+                    "1000",  "--quiet",          "--time-limit", "0.02"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words);
+    };
+    const std::string sound = scratch.path("sound.json"), hangs = scratch.path("hangs.json");
+    ASSERT_EQ(audit("quiet", {"--json", sound}).code, 0);
+    const Ended worse = audit("hang", {"--baseline", sound, "--json", hangs, "--annotations"});
+    EXPECT_EQ(worse.code, 1) << worse.err;
+    EXPECT_TRUE(contains(worse.err, "worse: tetrahedron.unruly in mesh.inside: not_run 0 -> ")) << worse.err;
+    EXPECT_TRUE(contains(worse.out, "::error ") && contains(worse.out, "not_run 0 -> ")) << worse.out;
+    const Ended same = audit("hang", {"--baseline", hangs});
+    EXPECT_EQ(same.code, 0) << same.err;
+    EXPECT_TRUE(contains(same.err, "; in 1 pairs the kernel was given up")) << same.err;
+    EXPECT_EQ(audit("quiet", {"--baseline", hangs}).code, 0);
+}
+
 TEST(contained, a_library_that_dies_while_it_is_loaded_is_an_error) {
     const Ended r = run(audit_of("loading"));
     EXPECT_EQ(r.code, 2);
@@ -123,7 +144,10 @@ TEST(oracle, choices_agree_and_are_told) {
     for (const char* choice : {"integers", "cgal", "both"}) {
         const Json other = report({"--oracle", choice});
         EXPECT_EQ(other["oracles"]["choice"], choice);
-        EXPECT_EQ(other["oracles"]["disagreements"], 0);
+        // Who decided all of the cases; of two who disagree nothing would be told.
+        EXPECT_EQ(other["cases"], 600);
+        EXPECT_EQ(other["oracles"]["core"], 0);
+        EXPECT_EQ(other["oracles"][choice == std::string("cgal") ? "cgal" : "integers"], 600);
         EXPECT_EQ(other["regions"], usual["regions"]);
         EXPECT_EQ(other["kernels"][0]["wrong_cases"], usual["kernels"][0]["wrong_cases"]);
         EXPECT_EQ(other["oracles"]["also_cgal"], std::string(choice) == "both" ? 600 : 0);
@@ -164,6 +188,12 @@ TEST(gaps, a_table_json_and_limits) {
     EXPECT_EQ(with({"--fail-on", "zzz"}).code, 2);
     EXPECT_EQ(run({"gaps", mesh("plate"), "--kernel", "segment.*"}).code, 2);
     EXPECT_EQ(run({"gaps", "no-such-mesh"}).code, 2);
+    // Neither kernel has a rule of its own: a limit on it could not be exceeded.
+    const Ended own = with({"--rule", "own", "--fail-on", "gaps"});
+    EXPECT_EQ(own.code, 2);
+    EXPECT_EQ(own.out, "");
+    EXPECT_TRUE(contains(own.err, "no kernel has a rule of its own")) << own.err;
+    EXPECT_EQ(with({"--kernel", "tetrahedron.vtk-tolerance", "--rule", "own"}).code, 0);
     const Ended library = run({"gaps", mesh("bracket"), "--kernel-library", unruly("crash"), "--count", "50"});
     EXPECT_EQ(library.code, 0) << library.err;
     EXPECT_TRUE(contains(library.out, "tetrahedron.unruly"));

@@ -130,7 +130,7 @@ TEST_F(Series, of_folders_and_names_with_signs) {
               "x,y,z,cell,feature,T@5");
 }
 
-// Meshes with arrays are steps, too: by a pattern, or by a .pvd file, whose times are their names.
+// Meshes with arrays are steps, too: by a pattern, or by a .pvd or .vtu.series file, whose times are their names.
 TEST_F(Series, of_vtk_files) {
     put_steps({1, 2});
     for (const std::string step : {"1", "2"}) {
@@ -142,11 +142,15 @@ TEST_F(Series, of_vtk_files) {
                 "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\"><Collection>\n"
                 "<DataSet timestep=\"0.5\" file=\"m-1.vtu\"/>\n<DataSet timestep=\"2\" file=\"m-2.vtu\"/>\n"
                 "</Collection></VTKFile>\n");
+    scratch.put("all.vtu.series",
+                "{\"file-series-version\": \"1.0\", \"files\": [{\"name\": \"m-1.vtu\", \"time\": 0.5},\n"
+                "{\"name\": \"m-2.vtu\", \"time\": 2}]}\n");
     const std::string ends = "0.25,0.25,0.25,0,interior,";
-    for (const std::string series : {"m-*.vtu", "m-*.vtu:T", "all.pvd", "all.pvd:T"}) {
+    for (const std::string series :
+         {"m-*.vtu", "m-*.vtu:T", "all.pvd", "all.pvd:T", "all.vtu.series", "all.vtu.series:T"}) {
         const Ended r = run_there({"--field", "T@" + series, "--fields", "T", "--output", "-"});
         ASSERT_EQ(r.code, 0) << series << r.err;
-        const bool times = contains(series, "pvd");
+        const bool times = contains(series, "all");
         EXPECT_EQ(lines_of(r.out)[0], std::string("x,y,z,cell,feature,T@") + (times ? "0.5,T@2" : "1,T@2")) << series;
         EXPECT_EQ(lines_of(r.out)[1], ends + "4.5,9") << series;
     }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "process.hpp"
+#include "sample_meshes.hpp"
 
 namespace barycert::cli_test {
 namespace {
@@ -77,6 +78,67 @@ TEST(search, a_users_kernel_and_rules) {
     EXPECT_EQ(
         run({"search", "triangle.bilinear", "--steps", "2000", "--quiet", "--fail-on", "worst_weight_ulp>1e300"}).code,
         0);
+}
+
+/// A search of a kernel that misbehaves, in a process of its own.
+Ended search_of(const std::string& fault, const Words& more) {
+    Words words{"search", "--kernel-library", BARYCERT_CLI_UNRULY_DIR "/cli-unruly-" + fault + ".so"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+}
+
+TEST(search, a_crash_is_told_with_its_case_and_the_search_goes_on) {
+    const Scratch scratch;
+    const std::string file = scratch.path("w.json");
+    const Ended r = search_of("crash", {"--family", "mesh.*", "--family", "random.inside", "--steps", "3000",
+                                        "--witnesses", file, "--fail-on", "crashed"});
+    EXPECT_EQ(r.signal, 0);
+    EXPECT_EQ(r.code, 1) << r.err;
+    EXPECT_TRUE(contains(r.err, "fails: tetrahedron.unruly: crashed = ")) << r.err;
+    EXPECT_TRUE(contains(r.out, "\ncrashed\n    SIGFPE (Floating point exception)\n")) << r.out;
+    EXPECT_TRUE(contains(r.out, "worst_weight_ulp")) << "what it answers is searched as well";
+    // The command shows the crash again.
+    bool shown = false;
+    for (const std::string& line : lines_of(r.out)) {
+        if (line.rfind("    barycert replay ", 0) != 0 || !contains(line, "--reason crashed")) continue;
+        const Ended again = run_shell(line.substr(4));
+        EXPECT_EQ(again.code, 0) << again.err;
+        EXPECT_TRUE(contains(again.out, "SIGFPE")) << again.out;
+        shown = true;
+    }
+    EXPECT_TRUE(shown) << r.out;
+    // In this process it is the search's own.
+    EXPECT_NE(search_of("crash", {"--steps", "3000", "--in-process"}).signal, 0);
+}
+
+TEST(search, what_hardly_answers_is_given_up) {
+    for (const auto& [fault, finding] : {std::pair("hang", "hung"), std::pair("crash", "crashed")}) {
+        const Ended r = search_of(fault, {"--steps", "1000000", "--time-limit", "0.02", "--json", "-"});
+        EXPECT_EQ(r.code, 0) << r.err;
+        const Json report = parse(r.out);
+        EXPECT_EQ(report["given_up"], true) << fault;
+        EXPECT_LT(report["steps"], 100000) << fault;
+        EXPECT_EQ(report["finds"][0]["reason"], finding);
+        EXPECT_NE(report["finds"][0]["found"]["detail"], "");
+    }
+    EXPECT_TRUE(contains(search_of("hang", {"--time-limit", "0.02"}).out, "given up before 1000000 cases"));
+}
+
+// There is no error to measure, which is worse than any.
+TEST(search, a_kernel_that_never_answers_breaks_a_rule_on_errors) {
+    const Ended r = search_of("always", {"--steps", "5000", "--quiet", "--fail-on", "worst_weight_ulp>1e300"});
+    EXPECT_EQ(r.code, 1);
+    EXPECT_TRUE(contains(r.err, "worst_weight_ulp = inf, limit 1e+300")) << r.err;
+}
+
+TEST(search, apart_or_not_a_kernel_that_behaves_shows_the_same) {
+    const auto witnesses = [](const Words& more) {
+        return parse(search_of("quiet", plus({"--steps", "1000", "--witnesses", "-"}, more)).out)["witnesses"];
+    };
+    const Json apart = witnesses({});
+    EXPECT_GT(apart.size(), 3U);
+    EXPECT_EQ(apart, witnesses({"--in-process", "--threads", "1"}));
+    for (const Json& w : apart) EXPECT_FALSE(w.contains("detail"));
 }
 
 TEST(search, bad_usage_is_told) {

@@ -67,9 +67,9 @@ TEST(verify, each_kind_of_error_is_named) {
         EXPECT_TRUE(contains(shown.out, "x,y,z,cell,feature")) << shown.out;
     }
     // Thresholds.
-    EXPECT_EQ(run({"verify", two, "--results", bad, "--fail-on", "missed=1"}).code, 0);
-    EXPECT_EQ(run({"verify", two, "--results", bad, "--fail-on", "missed=1,wrong-value"}).code, 1);
-    EXPECT_EQ(run({"verify", two, "--results", bad, "--fail-on", "wrong-value", "--tolerance", "1e-6"}).code, 0);
+    EXPECT_EQ(run({"verify", two, "--results", bad, "--fail-on", "missed>1"}).code, 0);
+    EXPECT_EQ(run({"verify", two, "--results", bad, "--fail-on", "missed>1,wrong_value"}).code, 1);
+    EXPECT_EQ(run({"verify", two, "--results", bad, "--fail-on", "wrong_value", "--tolerance", "1e-6"}).code, 0);
     expect_error({"verify", two, "--results", bad, "--fail-on", "bad"}, "expected missed, invented");
     // Nothing is compared that the user takes out.
     EXPECT_EQ(report_of({"verify", two, "--results", bad, "--cell-column", "none"}, 1)["wrong_cell"], 0);

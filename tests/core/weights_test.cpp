@@ -45,6 +45,24 @@ void expect_laws(const Case& c) {
         sum += (*exact)[i] * Q(c.values[i]);
     }
     EXPECT_TRUE(nearest(v.value, sum)) << describe(c);  // V1
+    // Which side of a number the exact value is on: of its own rounding, of numbers around it, and of any other.
+    for (const double t : {v.value, std::nextafter(v.value, infinity), std::nextafter(v.value, -infinity), 0.0,
+                           c.values[0], c.vertices[0], -max}) {
+        if (!std::isfinite(t)) continue;
+        const Result<Sign> side = compare_value(c.simplex, c.vertices.data(), c.point.data(), c.values.data(), t);
+        ASSERT_TRUE(side) << side.error().message();
+        EXPECT_EQ(*side, static_cast<Sign>(sgn(Q(sum - Q(t))))) << t << ' ' << describe(c);
+    }
+}
+
+TEST(CompareValue, RefusesWhatHasNoValue) {
+    const double flat[] = {0, 0, 1, 1, 2, 2}, cell[] = {0, 0, 1, 0, 0, 1}, p[] = {0.25, 0.25}, f[] = {1, 2, 3};
+    const double bad[] = {0.25, std::nan("")}, bad_values[] = {1, infinity, 3};
+    EXPECT_EQ(*compare_value(Simplex::triangle, cell, p, f, 1.75), Sign::zero);
+    EXPECT_FALSE(compare_value(Simplex::triangle, flat, p, f, 1));
+    EXPECT_FALSE(compare_value(Simplex::triangle, cell, bad, f, 1));
+    EXPECT_FALSE(compare_value(Simplex::triangle, cell, p, bad_values, 1));
+    EXPECT_FALSE(compare_value(Simplex::triangle, cell, p, f, infinity));
 }
 
 TEST(LawW2V1, RoundedFromRationals) {

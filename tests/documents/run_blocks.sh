@@ -26,6 +26,7 @@ not_run() {
     case $1 in
         "./run test"* | "./run bench"* | "./run asan"* | "./run pages"* | "./run lint"* | "./run flags"*) why="takes minutes" ;;
         "./run findings"* | "./run systems"* | "./run libraries"*) why="needs other systems" ;;
+        "./run python"* | "python3 -m venv "*) why="needs the package for Python; tests/python does that" ;;
         "sudo "* | "apt-get "*) why="installs packages" ;;
         "cmake "* | "git clone "* | "cd "*) why="builds; tests/install does that" ;;
         "./run barycert mesh "*)

@@ -97,6 +97,8 @@ TEST(EveryEnvironment, WeightsAndValues) {
                 out.add(static_cast<int>(weights->tier));
                 out.add(value->value);
                 out.add(static_cast<int>(value->tier));
+                const auto side = compare_value(s, c.vertices.data(), c.point.data(), c.values.data(), value->value);
+                out.add(side ? static_cast<int>(*side) : 9);
                 double point[3];
                 out.add(point_from_weights(s, c.vertices.data(), c.values.data(), point).has_value());
                 for (int k = 0; k < space_dimension(s); ++k) out.add(point[k]);

@@ -152,6 +152,9 @@ TEST(EveryEnvironment, Check) {
                 out.add(std::string_view(check_json(report, "mesh", {})));
                 out.add(std::string_view(check_text(report, s.mesh, "mesh", {})));
                 out.add(std::string_view(check_html(report, s.mesh, "mesh")));
+                const CiReport ci = check_outcomes(report, s.mesh, "mesh", "", {});
+                for (const auto& text : {ci_junit(ci), ci_sarif(ci), ci_annotations(ci)})
+                    out.add(std::string_view(text));
             });
         }
     }
@@ -626,6 +629,33 @@ TEST(EveryEnvironment, SearchMutantsAndReportsForCi) {
         out.add(std::string_view(search_json(found)));
         out.add(std::string_view(search_text(found, {})));
         out.add(std::string_view(witnesses_json(found)));
+    });
+}
+
+TEST(EveryEnvironment, VerifiedResults) {
+    const Folder folder;
+    folder.put("two.node", "5 3 1 0\n0 0 0 0 1\n1 1 0 0 3\n2 0 1 0 5\n3 0 0 1 9.1\n4 1 1 1 15\n");
+    folder.put("two.ele", "2 4 0\n0 0 1 2 3\n1 1 2 3 4\n");
+    folder.put("rows.csv",
+               "x,y,z,cell,attribute0\n.1,.2,.3,0,4.2\n.5,.5,.5,-1,nan\n.1,.1,.1,1,2.4\n2,2,2,1,0\n"
+               ".3,.3,.3,0,5.230000000000001\n1e-320,.1,.1,0,2.21\n");
+    expect_same_everywhere("verified results", [&](Answers& out) {
+        VerifyJob job;
+        job.mesh = folder.path("two");
+        job.results = folder.path("rows.csv");
+        job.options.threads = 2;
+        Result<VerifySummary> summary = verify_files(job);
+        out.add(summary.has_value());
+        if (!summary) return;
+        EXPECT_GT(summary->verdicts.wrong(), 2U);
+        summary->seconds = {};
+        out.add(std::string_view(verify_json(*summary, {})));
+        out.add(std::string_view(verify_text(*summary, false)));
+        out.add(std::string_view(verify_html(*summary, {})));
+        const std::vector<VerifyLimit> limits{parse_verify_limit("missed>1").value(),
+                                              parse_verify_limit("wrong_value").value()};
+        const CiReport ci = verify_outcomes(*summary, limits, {});
+        for (const auto& text : {ci_junit(ci), ci_sarif(ci), ci_annotations(ci)}) out.add(std::string_view(text));
     });
 }
 

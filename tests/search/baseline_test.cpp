@@ -80,6 +80,45 @@ TEST_F(BaselineFile, OneWrongCaseMoreIsWorse) {
     EXPECT_EQ(c.worse[0].after, c.worse[0].before + 1);
 }
 
+/// As if the kernel had been given up after all but `left` cases.
+AuditReport given_up(AuditReport r, std::uint64_t left) {
+    KernelStatistics& s = r.kernels[0].families[0].statistics;
+    s.not_run = s.cases - left;
+    s.cases = left;
+    s.confusion = {};
+    s.confusion[0][0] = left;
+    s.wrong_cases = left;
+    s.counts[static_cast<std::size_t>(Finding::crashed)] = left;
+    return r;
+}
+
+// Fewer cases are then no other cases, and figures of those that were asked say nothing of the others.
+TEST_F(BaselineFile, AKernelThatIsGivenUpIsComparedByTheCasesThatItWasNotAsked) {
+    const AuditReport sound = audit({kernel_named("tetrahedron.cramer")}, "random*");
+    const AuditReport broken = given_up(sound, 20);
+    const std::string family = broken.families[broken.kernels[0].families[0].family].name;
+    const auto worse = compare_with_baseline(broken, put(audit_json(sound)));
+    ASSERT_TRUE(worse) << worse.error().message();
+    ASSERT_EQ(worse->worse.size(), 1U);
+    EXPECT_EQ(worse->worse[0].figure, "not_run");
+    EXPECT_EQ(worse->worse[0].family, family);
+    EXPECT_EQ(worse->worse[0].before, 0);
+    EXPECT_EQ(worse->worse[0].after, 280);
+    EXPECT_TRUE(worse->better.empty());
+    EXPECT_EQ(worse->compared, 2U);
+    EXPECT_EQ(worse->given_up, 1U);
+    const auto better = compare_with_baseline(sound, put(audit_json(broken)));
+    ASSERT_TRUE(better) << better.error().message();
+    ASSERT_EQ(better->better.size(), 1U);
+    EXPECT_EQ(better->better[0].figure, "not_run");
+    EXPECT_TRUE(better->worse.empty());
+    // Given up on both sides, the number of cases depends on the threads.
+    const auto both = compare_with_baseline(given_up(sound, 21), put(audit_json(broken)));
+    ASSERT_TRUE(both) << both.error().message();
+    EXPECT_TRUE(both->worse.empty() && both->better.empty());
+    EXPECT_EQ(both->given_up, 1U);
+}
+
 TEST_F(BaselineFile, WhatOneSideLacksIsCounted) {
     const Baseline b =
         put(audit_json(audit({kernel_named("tetrahedron.cramer"), kernel_named("tetrahedron.kahan")}, "random*")));
@@ -131,6 +170,10 @@ TEST_F(BaselineFile, BadFilesAreRefusedWithTheirPlace) {
             .message()
             .find("a family of k"),
         std::string::npos);
+    // Nested so deeply that to copy it, or to write it down, would take more than the stack.
+    const std::string deep = std::string(1000000, '[') + std::string(1000000, ']');
+    EXPECT_NE(error_of(deep).message().find("expected JSON"), std::string::npos);
+    EXPECT_NE(error_of("{\"schema\": " + deep + "}").message().find("expected JSON"), std::string::npos);
     // Cut anywhere, a report is refused, and nothing else happens.
     const std::string whole = audit_json(audit({kernel_named("tetrahedron.cramer")}, "random", 20));
     for (std::size_t n = 0; n + 3 < whole.size(); n += 97) error_of(whole.substr(0, n));

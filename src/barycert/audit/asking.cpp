@@ -38,7 +38,9 @@ Asked ask_in_process(const Kernel& kernel, std::span<const Case> cases, std::spa
 
 Asked ask_host(const Kernel& kernel, std::span<const Case> cases, std::span<Statement> statements, bool timed) {
     std::array<kernels::Host::Reply, kernels::batch_size> replies;
-    const kernels::Host::Batch batch = kernel.host->run(cases, std::span(replies).first(cases.size()), timed);
+    using Host = kernels::Host;
+    const Host::Batch batch = kernel.host->run(cases, std::span(replies).first(cases.size()),
+                                               timed ? Host::Asking::timed : Host::Asking::usual);
     const auto n = static_cast<std::size_t>(vertex_count(kernel.simplex));
     const bool interpolates = kernel.host->description().interpolates;
     for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -68,6 +70,13 @@ void complete(Statement& s, const Kernel& kernel, const Case& c) {
         ExactEnvironment::renew();
     }
     s.claimed = claim(kernel, s, static_cast<std::size_t>(vertex_count(c.simplex)), own);
+}
+
+std::string incident_of(const Kernel& kernel, const Case& c) {
+    const ExactEnvironment environment;
+    if (kernel.host == nullptr) return {};
+    kernels::Host::Reply reply;
+    return kernel.host->run(std::span(&c, 1), std::span(&reply, 1), kernels::Host::Asking::given_up_too).detail;
 }
 
 Asked ask_kernel(const Kernel& kernel, std::span<const Case> cases, std::span<Statement> statements, bool timed) {

@@ -60,12 +60,15 @@ private:
 };
 
 /// Whether sums as above, not watched, show that both residuals are below `partition` and `reproduction` also when they
-/// are rounded, for these were.
+/// are rounded, for these were. What is rounded to infinity is not below infinity.
 bool below(const Case& c, const double* weights, double partition, double reproduction) {
     // So that squares of all that is made of doubles are in range.
     if constexpr (std::numeric_limits<Long>::digits < 64 || std::numeric_limits<Long>::max_exponent < 8192)
         return false;
     constexpr Long slack = 16 * long_ulp, tiny = 0x1p-1070, before = 1 - Long(0x1p-52);
+    constexpr double largest = std::numeric_limits<double>::max();
+    partition = std::min(partition, largest);
+    reproduction = std::min(reproduction, largest);
     const int n = vertex_count(c.simplex);
     Long sum = -1, size = 1;
     for (int i = 0; i < n; ++i) {
@@ -89,9 +92,12 @@ bool below(const Case& c, const double* weights, double partition, double reprod
 }
 
 /// The length of a vector whose components are at most these, rounded up: scaled by the largest, so that squares
-/// neither over- nor underflow.
+/// neither over- nor underflow. Infinite if the sums of a component overflowed, to infinity or to none.
 double length_bound(const std::array<double, 3>& components) {
     constexpr double u = 0x1p-53;
+    for (const double x : components) {
+        if (!std::isfinite(x)) return std::numeric_limits<double>::infinity();
+    }
     const double max = std::max({components[0], components[1], components[2]});
     if (!(max > 0)) return 0;
     double squares = 0;

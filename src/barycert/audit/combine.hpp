@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "barycert/base/random.hpp"
 #include "barycert/base/ulp.hpp"
@@ -46,6 +47,15 @@ inline std::array<double, 3> random_point(const Case& c, base::Random& random, i
 
 inline void set_vertex(Case& c, int i, const std::array<double, 3>& p) {
     for (int axis = 0; axis < space_dimension(c.simplex); ++axis) c.vertex(i, axis) = p[static_cast<std::size_t>(axis)];
+}
+
+/// Kernels and oracles are asked of finite points alone: where the recipe of a point leaves the range of doubles, as in
+/// meshes as large as that, the end of the range, or zero if there is no telling which.
+inline void keep_finite(std::array<double, 3>& point) {
+    for (double& x : point) {
+        if (std::isinf(x)) x = std::copysign(std::numeric_limits<double>::max(), x);
+        if (std::isnan(x)) x = 0;
+    }
 }
 
 /// Moves a coordinate by one ulp, up or down. The neighbour of zero would be a subnormal, a test of underflow and not

@@ -1,19 +1,14 @@
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "barycert/audit_findings.hpp"
+#include "barycert/base/decades.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert {
-namespace {
 
-/// Of the bins up to the last but two, the first aside.
-constexpr std::array<double, 20> error_edges{1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8,
-                                             1e-7,  1e-6,  1e-5,  1e-4,  1e-3,  1e-2,  1e-1,  1,     10,   100};
-
-}  // namespace
+static_assert(ErrorSizes::bins == base::decade_bins + 1, "the last is for those without an answer");
 
 void ErrorSizes::add(double error, std::uint64_t index) {
     const ExactEnvironment environment;
@@ -23,8 +18,7 @@ void ErrorSizes::add(double error, std::uint64_t index) {
     if (std::isinf(error)) {
         bin = bins - 1;
     } else if (error > 0) {
-        bin = 1 + static_cast<std::size_t>(std::upper_bound(error_edges.begin(), error_edges.end(), error) -
-                                           error_edges.begin());
+        bin = base::decade_bin(error);
     }
     ++counts[bin];
     if (!std::isinf(error)) worst.include(error, index);
@@ -46,9 +40,9 @@ double ErrorSizes::within(double share) const {
     const auto wanted = static_cast<std::uint64_t>(std::ceil(held(share) * static_cast<double>(all)));
     std::uint64_t seen = counts[0];
     if (seen >= wanted) return 0;
-    for (std::size_t i = 1; i <= error_edges.size(); ++i) {
+    for (std::size_t i = 1; i <= base::decade_edges.size(); ++i) {
         seen += counts[i];
-        if (seen >= wanted) return error_edges[i - 1];
+        if (seen >= wanted) return base::decade_edges[i - 1];
     }
     return std::numeric_limits<double>::infinity();
 }

@@ -46,6 +46,7 @@ Case make_case(const Family& family, Simplex s, std::uint64_t seed, std::uint64_
     if (family.needs_mesh) {
         const Draw draw = family.mesh_recipe(random, meshes, s);
         c = draw.simplex;
+        keep_finite(c.point);
         if (origin != nullptr) *origin = {draw.from->name, draw.from->mesh.cell_number(draw.cell)};
     } else {
         family.recipe(c, random, index);

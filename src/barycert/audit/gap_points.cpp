@@ -68,6 +68,7 @@ GapPoint GapPoints::make(Feature feature, std::uint64_t seed, std::uint64_t inde
             }
         }
     }
+    keep_finite(p.point);
     for (const Mesh::Index node : p.nodes) {
         const auto k = static_cast<std::size_t>(node);
         p.cells.insert(p.cells.end(), around_.begin() + static_cast<std::ptrdiff_t>(first_[k]),

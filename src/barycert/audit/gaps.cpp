@@ -93,6 +93,7 @@ public:
                 asked = who.kernel;
             }
             std::vector<bool> claimed;
+            std::uint64_t& unanswered = found.results[k].unanswered;
             for (std::size_t i = 0; i < cases.size(); ++i) {
                 if (who.kernel == nullptr) {
                     // Of exact arithmetic signs are exact where rounded weights may be zero.
@@ -103,7 +104,8 @@ public:
                     continue;
                 }
                 const Statement& s = said[i];
-                claimed.push_back(s.ran && s.answered && s.status == 0 &&
+                if (!s.answered) ++unanswered;
+                claimed.push_back(s.answered && s.status == 0 &&
                                   (who.rule == ClaimRule::own
                                        ? s.claimed == Region::interior || s.claimed == Region::boundary
                                        : claims(who.rule, options_.tolerance, std::span(s.weights).first(n))));
@@ -168,19 +170,39 @@ void merge(ClaimResult& to, const ClaimResult& from) {
         to.by_feature[f].outside += from.by_feature[f].outside;
         for (std::size_t k = 0; k < claim_fault_count; ++k) to.by_feature[f].faults[k] += from.by_feature[f].faults[k];
     }
+    to.unanswered += from.unanswered;
     for (const auto& [fault, witness] : from.witnesses) keep_first(to, fault, witness);
 }
 
-std::vector<Claimant> claimants_of(const std::vector<Kernel>& kernels, Simplex simplex) {
+/// Exact arithmetic first, then the kernels, under each of the rules.
+Result<std::vector<Claimant>> claimants_of(const GapsOptions& options, Simplex simplex, const std::string& mesh) {
     std::vector<Claimant> all;
-    for (const ClaimRule rule : {ClaimRule::strict, ClaimRule::exact, ClaimRule::tolerant})
-        all.push_back({nullptr, rule});
-    for (const Kernel& kernel : kernels) {
+    const auto wanted = [&](ClaimRule rule) {
+        return options.rules.empty() ||
+               std::find(options.rules.begin(), options.rules.end(), rule) != options.rules.end();
+    };
+    for (const ClaimRule rule : {ClaimRule::strict, ClaimRule::exact, ClaimRule::tolerant}) {
+        if (wanted(rule)) all.push_back({nullptr, rule});
+    }
+    bool any = false, own = false;
+    for (const Kernel& kernel : options.kernels) {
         if (kernel.simplex != simplex || kernel.perspective) continue;
+        any = true;
+        own = own || kernel.rule != RegionRule::sign;
         for (const ClaimRule rule : all_claim_rules) {
-            if (rule != ClaimRule::own || kernel.rule != RegionRule::sign) all.push_back({&kernel, rule});
+            if (wanted(rule) && (rule != ClaimRule::own || kernel.rule != RegionRule::sign))
+                all.push_back({&kernel, rule});
         }
     }
+    if (!any)
+        return Error{.what = "no kernel for the cells of the mesh",
+                     .file = mesh,
+                     .expected = "a kernel for a " + std::string(barycert::name(simplex)),
+                     .remedy = "`barycert kernels` lists them"};
+    if (!options.rules.empty() && wanted(ClaimRule::own) && !own)
+        return Error{.what = "no kernel has a rule of its own",
+                     .expected = "one that classifies points or has a tolerance",
+                     .remedy = "leave out the rule own, or name such a kernel"};
     return all;
 }
 
@@ -203,12 +225,8 @@ Result<GapsReport> find_gaps(const GapsOptions& options, const Mesh& mesh, const
     if (const Status ok = check_environment(report.environment); !ok) return ok.error();
     if (mesh.cell_count() == 0) return Error{.what = "the mesh has no cells", .file = name};
     const Simplex simplex = mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron;
-    const std::vector<Claimant> claimants = claimants_of(options.kernels, simplex);
-    if (claimants.back().kernel == nullptr)
-        return Error{.what = "no kernel for the cells of the mesh",
-                     .file = name,
-                     .expected = "a kernel for a " + std::string(barycert::name(simplex)),
-                     .remedy = "`barycert kernels` lists them"};
+    const Result<std::vector<Claimant>> claimants = claimants_of(options, simplex, name);
+    if (!claimants) return claimants.error();
     report.mesh = name;
     report.dimension = mesh.dimension;
     report.verdict = verdict;
@@ -217,11 +235,11 @@ Result<GapsReport> find_gaps(const GapsOptions& options, const Mesh& mesh, const
     report.tolerance = options.tolerance;
     report.threads =
         options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    for (const Claimant& c : claimants)
-        report.results.push_back({c.kernel == nullptr ? "" : c.kernel->name, c.rule, {}, {}});
+    for (const Claimant& c : *claimants)
+        report.results.push_back({c.kernel == nullptr ? "" : c.kernel->name, c.rule, {}, 0, {}});
 
     const auto start = std::chrono::steady_clock::now();
-    const Finder finder(options, mesh, claimants);
+    const Finder finder(options, mesh, *claimants);
     tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(report.threads));
     tbb::task_arena arena(report.threads);
     tbb::enumerable_thread_specific<Found> found([&] { return Found{report.results, {}, {}}; });

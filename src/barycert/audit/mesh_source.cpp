@@ -1,6 +1,7 @@
 #include "barycert/audit/mesh_draws.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -44,8 +45,9 @@ Draw draw_of_nodes(const PreparedMesh& from, Mesh::Index cell, std::array<Mesh::
         for (int axis = 0; axis < space_dimension(s); ++axis) {
             draw.simplex.vertex(i, axis) = mesh.points[node * d + static_cast<std::size_t>(axis)];
         }
-        draw.simplex.values[static_cast<std::size_t>(i)] =
-            field == nullptr ? random.uniform(-1, 1) : field->data[node * components + component];
+        double& value = draw.simplex.values[static_cast<std::size_t>(i)];
+        if (field != nullptr) value = field->data[node * components + component];
+        if (field == nullptr || !std::isfinite(value)) value = random.uniform(-1, 1);
     }
     return draw;
 }

@@ -10,7 +10,6 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
-#include <span>
 #include <thread>
 
 #include "barycert/audit/asking.hpp"
@@ -78,10 +77,7 @@ void collect_witnesses(KernelResult& result, const AuditOptions& options, const 
         w.c = make_case(family, result.kernel.simplex, options.seed, worst.index, meshes, &origin);
         w.mesh = origin.mesh;
         w.cell = origin.cell;
-        if (reason <= static_cast<std::size_t>(Finding::printed)) {
-            Statement again;
-            w.detail = ask_kernel(result.kernel, std::span(&w.c, 1), std::span(&again, 1), false).detail;
-        }
+        if (reason <= static_cast<std::size_t>(Finding::printed)) w.detail = incident_of(result.kernel, w.c);
         result.witnesses.push_back(std::move(w));
     }
 }
@@ -151,12 +147,14 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
                 for (std::uint64_t b = range.begin(); b != range.end(); ++b) {
                     const std::uint64_t first = b * block_size;
                     const std::uint64_t last = std::min(first + block_size, options.count);
-                    run_block(job, first, last, results.local());
+                    // A kernel that waits for tasks of its own must not begin another block meanwhile: a thread has
+                    // room for one.
+                    tbb::this_task_arena::isolate([&] { run_block(job, first, last, results.local()); });
                     const std::uint64_t now = done += last - first;
-                    if (options.progress && telling.try_lock()) {
+                    const std::unique_lock turn(telling, std::try_to_lock);
+                    if (options.progress && turn) {
                         options.progress({now, total, family.name});
                         ExactEnvironment::renew();
-                        telling.unlock();
                     }
                 }
             });

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "barycert/base/text.hpp"
+#include "barycert/base/named_limit.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert {
@@ -24,13 +24,14 @@ const std::vector<Figure>& figures() {
         f.emplace_back("any", wrong);
         f.emplace_back("wrong_cases", wrong);
         // A kernel that gives no finite weight where there is one to give has no error to measure: it is worse than
-        // any.
+        // any. (One that touched memory beside its arrays may have died of it.)
         const auto size = [&](const char* name, double (*figure)(const KernelStatistics&)) {
             f.emplace_back(name, [figure](const KernelStatistics& s) {
                 const auto seen = [&](Finding x) { return s.counts[static_cast<std::size_t>(x)] != 0; };
                 const double value = figure(s);
                 const bool mute = value < 0 && (seen(Finding::not_finite) || seen(Finding::false_declaration) ||
-                                                seen(Finding::crashed) || seen(Finding::hung) || s.not_run != 0);
+                                                seen(Finding::crashed) || seen(Finding::hung) ||
+                                                seen(Finding::out_of_bounds) || s.not_run != 0);
                 return mute ? std::numeric_limits<double>::infinity() : value;
             });
         };
@@ -55,8 +56,8 @@ const Figure* figure_named(std::string_view name) {
 
 Result<Threshold> parse_threshold(std::string_view text) {
     const ExactEnvironment environment;
-    const std::size_t sign = text.find('>');
-    Threshold rule{std::string(text.substr(0, sign)), 0};
+    const base::NamedLimit limit = base::named_limit(text);
+    Threshold rule{std::string(limit.name), 0};
     if (figure_named(rule.name) == nullptr) {
         std::string names;
         for (const auto& [name, value] : figures()) names += (names.empty() ? "" : ", ") + name;
@@ -64,14 +65,10 @@ Result<Threshold> parse_threshold(std::string_view text) {
                      .expected = "NAME or NAME>NUMBER with NAME one of " + names,
                      .found = '"' + std::string(text) + '"'};
     }
-    if (sign != std::string_view::npos) {
-        const auto limit = base::parse_double(text.substr(sign + 1));
-        if (!limit || !(*limit >= 0))
-            return Error{.what = "bad limit in a rule",
-                         .expected = "a number >= 0 after >",
-                         .found = '"' + std::string(text) + '"'};
-        rule.limit = *limit;
-    }
+    if (!limit.most)
+        return Error{
+            .what = "bad limit in a rule", .expected = "a number >= 0 after >", .found = '"' + std::string(text) + '"'};
+    rule.limit = *limit.most;
     return rule;
 }
 

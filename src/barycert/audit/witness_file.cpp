@@ -5,8 +5,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "barycert/audit/parsed_json.hpp"
 #include "barycert/audit/witness_json.hpp"
 #include "barycert/base/input_file.hpp"
+#include "barycert/base/json_text.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 
@@ -154,7 +156,7 @@ std::string witnesses_json(const AuditReport& report) {
     for (const KernelResult& k : report.kernels) {
         for (const Witness& w : k.witnesses) out["witnesses"].push_back(audit::witness_json(w));
     }
-    return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return base::json_text(out, 1);
 }
 
 Result<std::vector<Witness>> read_witnesses(const std::string& path) {
@@ -166,7 +168,7 @@ Result<std::vector<Witness>> read_witnesses(const std::string& path) {
         error.remedy += "; witnesses are made with `barycert audit --witnesses FILE`";
         return error;
     }
-    const Json all = Json::parse(*text, nullptr, false);
+    const Json all = audit::parsed_json<Json>(*text);
     if (all.is_discarded())
         return Error{.what = "not a witness file",
                      .file = path,

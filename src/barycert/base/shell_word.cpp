@@ -8,8 +8,8 @@
 namespace barycert::base {
 namespace {
 
-/// A word that is not printable: printf makes its bytes. Line ends after the last other byte are lost in "$(...)" and
-/// follow as they are.
+/// A word that is not printable: printf makes its bytes, also of -, which at the front would begin an option of its.
+/// Line ends after the last other byte are lost in "$(...)" and follow as they are.
 std::string word_of_bytes(std::string_view text) {
     const std::size_t end = text.find_last_not_of('\n') + 1;
     std::string word = "\"$(printf '";
@@ -17,7 +17,7 @@ std::string word_of_bytes(std::string_view text) {
         const auto byte = static_cast<unsigned char>(c);
         std::array<char, 5> octal{};
         std::snprintf(octal.data(), octal.size(), "\\%03o", static_cast<unsigned>(byte));
-        const bool plain = byte >= 0x20 && byte < 0x7f && c != '\'' && c != '\\';
+        const bool plain = byte >= 0x20 && byte < 0x7f && c != '\'' && c != '\\' && c != '-';
         word += c == '%' ? "%%" : plain ? std::string(1, c) : std::string(octal.data());
     }
     word += "')\"";

@@ -40,6 +40,9 @@ public:
     /// sum of weight i times value i, correctly rounded. Preconditions: one value a vertex, not degenerate.
     double interpolate(std::span<const double> values) const;
 
+    /// Sign of that sum, not rounded, less t. The same preconditions.
+    int compare(std::span<const double> values, double t) const;
+
 private:
     static constexpr int denominator = 4;   ///< its place behind the numerators
     static constexpr int narrow_limbs = 8;  ///< of the widest product of four numbers of two limbs

@@ -204,6 +204,21 @@ double ExactWeights::interpolate(std::span<const double> values) const {
                           unit.exponent - 1074);
 }
 
+int ExactWeights::compare(std::span<const double> values, double t) const {
+    Unit unit;
+    unit.add(scaled(t));
+    for (const double value : values) unit.add(scaled(value));
+    std::uint64_t buffer[narrow_limbs];
+    // A fifth product, of the denominator, beside the four of interpolate(): at most two bits more.
+    Integer sum =
+        Integer(sign_of(denominator) >= 0, magnitude(denominator, buffer)) * unit.multiple<Integer>(scaled(t));
+    for (int i = 0; i < count_; ++i) {
+        sum = sum + Integer(sign_of(i) < 0, magnitude(i, buffer)) *
+                        unit.multiple<Integer>(scaled(values[static_cast<std::size_t>(i)]));
+    }
+    return sum.sign() * orientation();
+}
+
 Sign exact_orient2d(const double* a, const double* b, const double* c) {
     return with_lattice<3, 2>({a, b, c}, false, []<class T>(const Lattice<3, 2, T>& lattice) {
         T ab[2], ac[2];

@@ -1,5 +1,7 @@
 #include "barycert/weights.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <type_traits>
 #include <vector>
@@ -173,6 +175,18 @@ Result<Value> interpolate(Simplex simplex, const double* vertices, const double*
     v.tier = Tier::exact;
     v.degenerate = core::exact_values(w, n, at, 0, 1, &v.value).degenerate;
     return v;
+}
+
+Result<Sign> compare_value(Simplex simplex, const double* vertices, const double* point, const double* values,
+                           double threshold) {
+    if (!core::all_finite(simplex, vertices, point)) return core::not_finite_error(simplex, vertices, point);
+    const std::span<const double> nodal(values, static_cast<std::size_t>(vertex_count(simplex)));
+    if (!std::isfinite(threshold) ||
+        !std::all_of(nodal.begin(), nodal.end(), [](double v) { return std::isfinite(v); }))
+        return Error{.what = "a value cannot be compared", .expected = "finite nodal values and a finite threshold"};
+    const core::ExactWeights w(simplex, vertices, point);
+    if (w.degenerate()) return Error{.what = "a degenerate simplex has no values"};
+    return static_cast<Sign>(w.compare(nodal, threshold));
 }
 
 Status barycentric_weights(const CaseArrays& cases, std::span<double> out, TierCounts* tiers) {

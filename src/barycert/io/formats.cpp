@@ -26,8 +26,8 @@ bool has_suffix(std::string_view path, std::string_view suffix) {
 }
 
 bool is_vtk_file(std::string_view path) {
-    constexpr std::array<std::string_view, 9> suffixes_of_vtk{".vtu", ".vtk",  ".vtp",  ".pvtu", ".pvtp",
-                                                              ".vtm", ".vtpd", ".vtpc", ".pvd"};
+    constexpr std::array<std::string_view, 10> suffixes_of_vtk{".vtu", ".vtk",  ".vtp",  ".pvtu", ".pvtp",
+                                                               ".vtm", ".vtpd", ".vtpc", ".pvd",  ".series"};
     return std::any_of(suffixes_of_vtk.begin(), suffixes_of_vtk.end(),
                        [&](std::string_view suffix) { return has_suffix(path, suffix); });
 }

@@ -41,4 +41,10 @@ Status write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions&
     }
 }
 
+Result<std::vector<std::string>> written_mesh_files(const std::string& path) {
+    const Result<io::MeshFormat> format = io::mesh_output_format(path);
+    if (!format) return format.error();
+    return *format == io::MeshFormat::tetgen ? tetgen_files(path) : std::vector<std::string>{path};
+}
+
 }  // namespace barycert

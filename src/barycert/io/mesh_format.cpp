@@ -37,7 +37,9 @@ std::optional<MeshFormat> format_by_suffix(const std::string& path) {
 std::optional<MeshFormat> format_by_content(std::string_view head) {
     if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
     if (head.starts_with("$MeshFormat") || head.starts_with("$NOD")) return MeshFormat::gmsh;
-    if (head.starts_with("# vtk DataFile") || head.find("<VTKFile") != std::string_view::npos) return MeshFormat::vtk;
+    if (head.starts_with("# vtk DataFile") || head.find("<VTKFile") != std::string_view::npos ||
+        head.find("\"file-series-version\"") != std::string_view::npos)
+        return MeshFormat::vtk;
     return std::nullopt;
 }
 

@@ -41,6 +41,6 @@ Error other_format_error(const OtherFormat& format, const std::string& path);
 std::string gmsh_command(const std::string& path, const std::string& more = {});
 
 inline constexpr const char* formats_read =
-    "a file of Gmsh (.msh), VTK (.vtu .vtk .pvtu .vtm .pvd), TetGen or Triangle (.node .ele)";
+    "a file of Gmsh (.msh), VTK (.vtu .vtk .pvtu .vtm .pvd .vtu.series), TetGen or Triangle (.node .ele)";
 
 }  // namespace barycert::io

@@ -58,6 +58,7 @@ struct Channel {
     std::array<Case, batch_size> cases;
 
     // From the worker.
+    std::atomic<std::uint64_t> begun{0};     ///< cases begun since it started, those run again counted again
     std::atomic<std::uint32_t> current{0};   ///< the case that is being run
     std::atomic<std::uint32_t> complete{0};  ///< answers below this one are complete
     std::atomic<bool> beside{false};         ///< it died of a touch beside its arrays
@@ -67,7 +68,8 @@ struct Channel {
     Description description;  ///< after Command::describe
 };
 
-static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "shared by processes");
+static_assert(std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<std::uint32_t>::is_always_lock_free,
+              "shared by processes");
 
 /// Loads the library at `path` and answers commands from the socket until it closes. Called in a process of its own,
 /// which it ends. `printed` is a file for what the library writes to stdout or stderr.

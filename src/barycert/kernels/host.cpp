@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <new>
@@ -40,6 +41,22 @@ std::string ending(int status) {
     return fmt::format("it called exit, status {}", WIFEXITED(status) ? WEXITSTATUS(status) : -1);
 }
 
+std::string not_loaded_within(int milliseconds) {
+    return fmt::format("it did not load within {} s", milliseconds / 1000.0);
+}
+
+/// Whether the socket has something to read, its end included, within that time; signals do not prolong it.
+bool readable(int socket, int milliseconds) {
+    using Clock = std::chrono::steady_clock;
+    const auto until = Clock::now() + std::chrono::milliseconds(milliseconds);
+    for (;;) {
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
+        pollfd ready{socket, POLLIN, 0};
+        const int count = poll(&ready, 1, static_cast<int>(std::max<std::int64_t>(left, 0)));
+        if (count >= 0 || errno != EINTR) return count != 0;
+    }
+}
+
 bool socket_pair(int (&ends)[2], int type) {
     return socketpair(AF_UNIX, type | SOCK_CLOEXEC, 0, ends) == 0;
 }
@@ -62,7 +79,8 @@ Result<std::shared_ptr<Host>> Host::start(const std::string& path, double second
     const std::shared_ptr<Host> host(new Host);
     // Without a slash dlopen would search the system's library folders instead of the working directory.
     host->path_ = path.find('/') == std::string::npos ? "./" + path : path;
-    host->milliseconds_ = static_cast<int>(std::clamp(seconds * 1000, 1.0, 1e9));
+    host->milliseconds_ = seconds > 1e-3 ? static_cast<int>(std::min(seconds * 1000, 1e9)) : 1;
+    host->loading_milliseconds_ = std::max(host->milliseconds_, min_loading_milliseconds);
     void* const memory =
         mmap(nullptr, channels_size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (memory == MAP_FAILED) return no_process(path, std::strerror(errno));
@@ -80,16 +98,14 @@ Result<std::shared_ptr<Host>> Host::start(const std::string& path, double second
     if (host->server_ < 0) return no_process(path, std::strerror(why));
 
     Worker worker = host->take();
-    const int usual = host->milliseconds_;
-    host->milliseconds_ = std::max(usual, loading_milliseconds);
-    const End end = host->begin(worker) ? host->command(worker, Command::describe) : End::died;
-    host->milliseconds_ = usual;
+    const End end = host->begin(worker);
     if (end != End::done) {
         const int status = host->end(worker);
         host->give_back(worker);
+        if (end == End::no_process) return no_process(path, "no process for it could be started");
         return Error{.what = "cannot load the kernel library",
                      .file = path,
-                     .found = end == End::hung ? fmt::format("it did not load within {} s", loading_milliseconds / 1000)
+                     .found = end == End::hung ? not_loaded_within(host->loading_milliseconds_)
                                                : "its process ended while it was loaded: " + ending(status),
                      .remedy = "look at its constructors and at barycert_kernel_describe"};
     }
@@ -153,22 +169,23 @@ int Host::ask_server(const ServerRequest& request, int with_socket) {
     return got == sizeof answer ? answer : -1;
 }
 
-bool Host::begin(Worker& worker) {
-    if (worker.socket >= 0) return true;
+/// Loading the library is no part of a case: it has a limit of its own whenever a process is started.
+Host::End Host::begin(Worker& worker) {
+    if (worker.socket >= 0) return End::done;
     int ends[2];
-    if (!socket_pair(ends, SOCK_STREAM)) return false;
+    if (!socket_pair(ends, SOCK_STREAM)) return End::no_process;
     new (&channel(worker)) Channel;
     const int pid = ask_server({ServerRequest::fork_worker, worker.channel}, ends[1]);
     close(ends[1]);
     if (pid <= 0) {
         close(ends[0]);
-        return false;
+        return End::no_process;
     }
     worker.socket = ends[0];
-    return true;
+    return command(worker, Command::describe, loading_milliseconds_);
 }
 
-/// Ends the worker and returns its status.
+/// Ends the worker and returns its status; -1 if the server, and with it every worker, is gone.
 int Host::end(Worker& worker) {
     if (worker.socket < 0) return 0;
     close(worker.socket);
@@ -176,19 +193,17 @@ int Host::end(Worker& worker) {
     return ask_server({ServerRequest::end_worker, worker.channel}, -1);
 }
 
-/// Returns when it is done, dead, or in the same case for too long.
-Host::End Host::command(Worker& worker, Command command) {
+/// Returns when it is done, dead, or in the same case for too long: at two looks, so that a program that was stopped
+/// and goes on again does not take that time for the kernel's.
+Host::End Host::command(Worker& worker, Command command, int milliseconds) {
     char letter = static_cast<char>(command);
     if (send(worker.socket, &letter, 1, MSG_NOSIGNAL) != 1) return End::died;
-    constexpr std::uint32_t nowhere = ~0U;
-    for (std::uint32_t seen = nowhere;;) {
-        pollfd ready{worker.socket, POLLIN, 0};
-        const int count = poll(&ready, 1, milliseconds_);
-        if (count < 0 && errno == EINTR) continue;
-        if (count == 0) {
-            const std::uint32_t now = channel(worker).current.load(std::memory_order_relaxed);
-            if (now == seen || command == Command::describe) return End::hung;
-            seen = now;
+    constexpr std::uint64_t nothing = ~std::uint64_t{0};
+    for (std::uint64_t seen = nothing;;) {
+        if (!readable(worker.socket, milliseconds)) {
+            const std::uint64_t begun = channel(worker).begun.load(std::memory_order_relaxed);
+            if (begun == seen || command == Command::describe) return End::hung;
+            seen = begun;
             continue;
         }
         const ssize_t got = recv(worker.socket, &letter, 1, 0);
@@ -197,7 +212,7 @@ Host::End Host::command(Worker& worker, Command command) {
     }
 }
 
-Host::Batch Host::run(std::span<const Case> cases, std::span<Reply> replies, bool timed) {
+Host::Batch Host::run(std::span<const Case> cases, std::span<Reply> replies, Asking asking) {
     Batch batch;
     std::fill(replies.begin(), replies.end(), Reply{});
     const auto count = static_cast<std::uint32_t>(std::min(cases.size(), batch_size));
@@ -205,8 +220,10 @@ Host::Batch Host::run(std::span<const Case> cases, std::span<Reply> replies, boo
     Worker worker = take();
     std::uint32_t first = 0;
     std::string end_of_last;
-    while (first < count && patience_left_ > 0) {
-        if (!begin(worker)) {
+    const bool timed = asking == Asking::timed;
+    while (first < count && (patience_left_ > 0 || asking == Asking::given_up_too)) {
+        const End begun = begin(worker);
+        if (begun == End::no_process) {
             patience_left_ = 0;
             break;
         }
@@ -219,7 +236,7 @@ Host::Batch Host::run(std::span<const Case> cases, std::span<Reply> replies, boo
         c.beside = false;
         c.current = c.complete = first;
         std::copy_n(cases.begin(), count, c.cases.begin());
-        const End how = command(worker, Command::run);
+        const End how = begun == End::done ? command(worker, Command::run, milliseconds_) : begun;
         const std::uint32_t complete = std::clamp(c.complete.load(std::memory_order_acquire), first, count);
         const std::uint32_t answered = how == End::done ? count : complete;
         for (std::uint32_t i = first; i < answered; ++i) replies[i] = {c.answers[i], true, true};
@@ -234,14 +251,19 @@ Host::Batch Host::run(std::span<const Case> cases, std::span<Reply> replies, boo
             complete < count ? complete : std::min(c.current.load(std::memory_order_relaxed), count - 1);
         const bool beside = c.beside;
         const int status = end(worker);
+        if (status < 0) {  // not the kernel's doing
+            patience_left_ = 0;
+            break;
+        }
         Reply& reply = replies[culprit];
         reply = {};
         reply.ran = true;
         reply.answer.weights.fill(std::numeric_limits<double>::quiet_NaN());
         reply.answer.incidents = how == End::hung ? incident_hung : beside ? incident_beside : incident_crashed;
-        end_of_last = how == End::hung ? fmt::format("no answer within {} s", milliseconds_ / 1000.0)
-                      : beside         ? std::string("touched memory beside its arrays, or wrote to its input")
-                                       : ending(status);
+        end_of_last = begun == End::hung ? not_loaded_within(loading_milliseconds_)
+                      : how == End::hung ? fmt::format("no answer within {} s", milliseconds_ / 1000.0)
+                      : beside           ? std::string("touched memory beside its arrays, or wrote to its input")
+                                         : ending(status);
         patience_left_ -= how == End::hung ? patience_for_hang : 1;
         first = complete < count ? culprit + 1 : count;
     }

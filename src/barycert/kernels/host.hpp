@@ -39,27 +39,33 @@ public:
         std::string detail;  ///< of the last case that it did not survive, else of the first with an incident
     };
 
+    enum class Asking {
+        usual,
+        timed,         ///< also against the clock
+        given_up_too,  ///< even if it has been given up
+    };
+
     /// Asks for at most batch_size cases of one simplex. From any thread.
-    Batch run(std::span<const Case> cases, std::span<Reply> replies, bool timed);
+    Batch run(std::span<const Case> cases, std::span<Reply> replies, Asking asking);
 
 private:
     struct Worker {
         std::uint32_t channel = 0;
         int socket = -1;  ///< -1: none runs
     };
-    enum class End { done, died, hung };
+    enum class End { done, died, hung, no_process };
 
     Host() = default;
     Worker take();
     void give_back(const Worker& worker);
     int ask_server(const ServerRequest& request, int with_socket);
-    bool begin(Worker& worker);
+    End begin(Worker& worker);
     int end(Worker& worker);
-    End command(Worker& worker, Command command);
+    End command(Worker& worker, Command command, int milliseconds);
     Channel& channel(const Worker& worker) { return channels_[worker.channel]; }
 
     std::string path_;
-    int milliseconds_ = 1000;
+    int milliseconds_ = 1000, loading_milliseconds_ = 0;
     Channel* channels_ = nullptr;
     int server_socket_ = -1;
     int server_ = -1;

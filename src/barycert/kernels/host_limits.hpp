@@ -13,7 +13,7 @@ inline constexpr std::uint32_t max_workers = 64;
 /// Bytes of a file that a worker may write, so that a kernel that prints without end does not fill the memory.
 inline constexpr rlim_t output_limit = rlim_t{1} << 26;
 
-/// The time that loading the library may take at least.
-inline constexpr int loading_milliseconds = 10000;
+/// The time that loading the library may take, or the limit for a case if that is more.
+inline constexpr int min_loading_milliseconds = 10000;
 
 }  // namespace barycert::kernels

@@ -37,12 +37,12 @@ bool receive(int socket, ServerRequest& request, int& with) {
     return true;
 }
 
-[[noreturn]] void become_worker(Channel& channel, int socket, const char* path) {
+[[noreturn]] void become_worker(Channel& channel, pid_t server, int socket, const char* path) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != server) _exit(0);  // it ended before that was set
     // Descriptors of the server are no affair of the library's.
     const int printed = memfd_create("printed", 0);
-    dup2(printed, 3);
-    dup2(socket, 4);
+    if (printed < 0 || dup2(printed, 3) < 0 || dup2(socket, 4) < 0) _exit(127);
     close_range(5, ~0U, 0);
     const rlimit no_core{0, 0}, output{output_limit, output_limit};
     setrlimit(RLIMIT_CORE, &no_core);
@@ -53,6 +53,7 @@ bool receive(int socket, ServerRequest& request, int& with) {
 }  // namespace
 
 void run_server(Channel* channels, int socket, const char* path) {
+    const pid_t self = getpid();
     std::array<pid_t, max_workers> workers{};
     ServerRequest request;
     int with = -1;
@@ -62,7 +63,7 @@ void run_server(Channel* channels, int socket, const char* path) {
             pid_t& worker = workers[request.channel];
             if (request.kind == ServerRequest::fork_worker) {
                 worker = fork();
-                if (worker == 0) become_worker(channels[request.channel], with, path);
+                if (worker == 0) become_worker(channels[request.channel], self, with, path);
                 answer = worker < 0 ? -errno : worker;
             } else if (worker > 0) {
                 kill(worker, SIGKILL);

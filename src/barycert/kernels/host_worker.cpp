@@ -91,10 +91,12 @@ private:
 Channel* the_channel = nullptr;
 const GuardedArrays* the_arrays = nullptr;
 
-/// Notes where the fault was, and lets it happen again.
+/// Notes where the fault was, and ends as if there were no handler. Raised, for a signal that was sent would not come
+/// again by itself.
 void on_fault(int signal, siginfo_t* info, void*) {
-    if (the_arrays != nullptr && the_arrays->holds(info->si_addr)) the_channel->beside = true;
+    if (the_arrays != nullptr && info->si_code > 0 && the_arrays->holds(info->si_addr)) the_channel->beside = true;
     std::signal(signal, SIG_DFL);
+    std::raise(signal);  // blocked until the handler returns
 }
 
 void set_signals() {
@@ -147,6 +149,12 @@ void put(char (&to)[n], const char* text) {
     std::snprintf(to, n, "%s", text == nullptr ? "" : text);
 }
 
+/// A copy of the descriptor where a library that closes what it did not open would not find it, if there may be one.
+int out_of_the_way(int descriptor) {
+    const int copy = fcntl(descriptor, F_DUPFD_CLOEXEC, 200);
+    return copy >= 0 ? copy : fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+}
+
 class WorkerProcess {
 public:
     WorkerProcess(Channel& channel, int printed) : channel_(channel), printed_(printed) {}
@@ -189,12 +197,19 @@ public:
         const std::uint32_t first = channel_.first;
         const auto count = std::min<std::uint32_t>(channel_.count, batch_size);
         ask(first, count);
-        if (has_printed() && !watches_) {  // by which case? Look after each, from now on
+        if (!watches_ && has_printed()) {  // by which case? Look after each, from now on
             watches_ = true;
-            forget_printed();
+            char text[sizeof channel_.detail];
+            read_printed(text);
             channel_.detail[0] = '\0';
             ask(first, count);
+            if (!prints_ && first < count) {  // once and never again: by one of these cases
+                channel_.answers[first].incidents |= incident_printed;
+                tell(text);
+                prints_ = true;
+            }
         }
+        watches_ = prints_;
         channel_.ns = channel_.timed && count > 0 ? measure(count) : -1;
     }
 
@@ -209,10 +224,15 @@ private:
     void ask(std::uint32_t first, std::uint32_t count) {
         channel_.complete.store(first, std::memory_order_relaxed);
         for (std::uint32_t i = first; i < count; ++i) {
-            channel_.current.store(i, std::memory_order_relaxed);
+            begin(i);
             channel_.answers[i] = ask(channel_.cases[i]);
             channel_.complete.store(i + 1, std::memory_order_release);
         }
+    }
+
+    void begin(std::uint32_t i) {
+        channel_.current.store(i, std::memory_order_relaxed);
+        channel_.begun.fetch_add(1, std::memory_order_relaxed);
     }
 
     Answer ask(const Case& c) {
@@ -242,7 +262,10 @@ private:
         }
         if (watches_ && has_printed()) {
             a.incidents |= incident_printed;
-            tell_printed();
+            prints_ = true;
+            char text[sizeof channel_.detail];
+            read_printed(text);
+            tell(text);
         }
         return a;
     }
@@ -268,29 +291,32 @@ private:
     void forget_printed() const {
         if (ftruncate(printed_, 0) != 0) give_up();
     }
-    void tell_printed() {
+    /// What was printed, in words, and nothing is left of it.
+    template <std::size_t room>
+    void read_printed(char (&words)[room]) const {
         char text[100] = {};
         const ssize_t got = pread(printed_, text, sizeof text - 1, 0);
-        if (channel_.detail[0] == '\0')
-            std::snprintf(channel_.detail, sizeof channel_.detail, "wrote \"%.*s\"",
-                          static_cast<int>(std::max<ssize_t>(got, 0)), text);
+        std::snprintf(words, room, "wrote \"%.*s\"", static_cast<int>(std::max<ssize_t>(got, 0)), text);
         forget_printed();
     }
     void tell(const char* text) {
         if (channel_.detail[0] == '\0') put(channel_.detail, text);
     }
 
-    /// The time of a plain call, without the copying and looking above.
+    /// The time of a plain call, without the copying and looking above. Weights go where it is known to do no harm to
+    /// write beside them, should the kernel do that.
     double measure(std::uint32_t count) {
-        double weights[4];
+        const auto n = static_cast<std::size_t>(vertex_count(channel_.simplex));
+        double* const weights = arrays_.outer(GuardedArrays::weights, n);
         const auto start = std::chrono::steady_clock::now();
         for (std::uint32_t i = 0; i < count; ++i) {
-            channel_.current.store(i, std::memory_order_relaxed);
+            begin(i);
             const Case& c = channel_.cases[i];
             f_.weights(c.vertices.data(), c.point.data(), weights);
         }
         const auto stop = std::chrono::steady_clock::now();
         ExactEnvironment::renew();
+        arrays_.mend_before(n);
         if (watches_) forget_printed();
         return std::chrono::duration<double, std::nano>(stop - start).count() / count;
     }
@@ -299,7 +325,8 @@ private:
     int printed_;
     GuardedArrays arrays_;
     Functions f_;
-    bool watches_ = false;
+    bool prints_ = false;  ///< has printed in answer to a case
+    bool watches_ = true;  ///< looks after each case whether it has printed: in the first batch, and once it has
 };
 
 }  // namespace
@@ -309,8 +336,7 @@ void run_worker(Channel& channel, int socket, int printed, const char* path) {
     the_channel = &channel;
     set_signals();
     set_streams(printed);
-    // Not where a library that closes what it did not open would find it.
-    const int own_socket = fcntl(socket, F_DUPFD_CLOEXEC, 200), own_printed = fcntl(printed, F_DUPFD_CLOEXEC, 200);
+    const int own_socket = out_of_the_way(socket), own_printed = out_of_the_way(printed);
     if (own_socket < 0 || own_printed < 0) give_up();
     close(socket);
     close(printed);

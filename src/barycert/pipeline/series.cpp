@@ -60,8 +60,8 @@ LabelledFile labelled(const std::string& label, const FieldFile& series, const s
     return step;
 }
 
-/// The steps of a .pvd file, by their times.
-Result<std::vector<LabelledFile>> steps_of_pvd(const FieldFile& series) {
+/// The steps of a .pvd or .vtu.series file, by their times.
+Result<std::vector<LabelledFile>> steps_of_file(const FieldFile& series) {
     const auto steps = read_series(series.path);
     if (!steps) return steps.error();
     std::vector<LabelledFile> found;
@@ -85,11 +85,13 @@ Result<std::vector<LabelledFile>> steps_of_pvd(const FieldFile& series) {
 Result<std::vector<LabelledFile>> matches_of(const FieldFile& series) {
     const std::string& pattern = series.path;
     if (std::count(pattern.begin(), pattern.end(), '*') != 1)
-        return Error{.what = "pattern of the series \"" + series.name + '"',
-                     .file = pattern,
-                     .expected = "one *, where the files of the steps differ, such as 'step-*.npy', or a .pvd file",
-                     .found = fmt::format("{}", std::count(pattern.begin(), pattern.end(), '*')),
-                     .remedy = "quote the pattern, so that the shell leaves it as it is; for one file write NAME=FILE"};
+        return Error{
+            .what = "pattern of the series \"" + series.name + '"',
+            .file = pattern,
+            .expected =
+                "one *, where the files of the steps differ, such as 'step-*.npy', or a .pvd or .vtu.series file",
+            .found = fmt::format("{}", std::count(pattern.begin(), pattern.end(), '*')),
+            .remedy = "quote the pattern, so that the shell leaves it as it is; for one file write NAME=FILE"};
     // FOLDER/BEFORE*AFTER/REST: entries of one folder are looked at.
     const std::size_t star = pattern.find('*'), slash = pattern.rfind('/', star), next = pattern.find('/', star);
     const std::string folder = slash == std::string::npos ? "" : pattern.substr(0, slash + 1);
@@ -131,15 +133,19 @@ Result<std::vector<LabelledFile>> matches_of(const FieldFile& series) {
     return found;
 }
 
-/// FILE.pvd, or FILE.pvd:COLUMN.
-std::optional<FieldFile> pvd_of(const FieldFile& series) {
+bool names_steps(const std::string& path) {
+    return io::has_suffix(path, ".pvd") || io::has_suffix(path, ".series");
+}
+
+/// FILE.pvd, or FILE.pvd:COLUMN; also of .vtu.series.
+std::optional<FieldFile> file_of_steps(const FieldFile& series) {
     FieldFile file = series;
-    if (io::has_suffix(file.path, ".pvd")) return file;
+    if (names_steps(file.path)) return file;
     const std::size_t colon = file.path.rfind(':');
     if (colon == std::string::npos || colon + 1 == file.path.size()) return std::nullopt;
     file.column = file.path.substr(colon + 1);
     file.path.resize(colon);
-    if (!io::has_suffix(file.path, ".pvd")) return std::nullopt;
+    if (!names_steps(file.path)) return std::nullopt;
     return file;
 }
 
@@ -148,8 +154,8 @@ std::optional<FieldFile> pvd_of(const FieldFile& series) {
 Result<std::vector<Step>> find_steps(const std::vector<FieldFile>& series) {
     std::vector<Step> steps;
     for (std::size_t s = 0; s < series.size(); ++s) {
-        const auto pvd = pvd_of(series[s]);
-        auto found = pvd ? steps_of_pvd(*pvd) : matches_of(series[s]);
+        const auto file = file_of_steps(series[s]);
+        auto found = file ? steps_of_file(*file) : matches_of(series[s]);
         if (!found) return found.error();
         if (s == 0) steps.resize(found->size());
         for (std::size_t i = 0; i < std::max(found->size(), steps.size()); ++i) {

@@ -48,8 +48,7 @@ Status check_job(const VerifyJob& job) {
     inputs.push_back({"--results", job.results});
     for (const FieldFile& file : job.field_files) inputs.push_back({"--field", file.path});
     std::vector<base::NamedFile> outputs;
-    if (!job.report.empty()) outputs.push_back({"--json", job.report});
-    if (!job.html.empty()) outputs.push_back({"--html", job.html});
+    for (const auto& [what, path] : job.reports) outputs.push_back({what, path});
     return base::check_outputs(inputs, std::move(outputs));
 }
 

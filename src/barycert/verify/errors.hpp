@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <tuple>
 
+#include "barycert/base/decades.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/ulp.hpp"
 #include "barycert/verify.hpp"
@@ -52,16 +54,12 @@ inline ValueError compare(double claimed, double exact, double range) {
     return error;
 }
 
+static_assert(std::tuple_size_v<decltype(ValueErrors::by_relative)> == base::decade_bins);
+
 /// Where in ValueErrors::by_ulps an error that is not 0 counts.
 inline std::size_t bin_of_ulps(double ulps, std::size_t bins) {
     const int exponent = std::ilogb(std::max(ulps, 0.5));
     return static_cast<std::size_t>(std::clamp(exponent + 2, 1, static_cast<int>(bins) - 1));
-}
-
-inline std::size_t bin_of_relative(double relative, std::size_t bins) {
-    std::size_t bin = 1;
-    for (double upper = 1e-17; bin + 1 < bins && !(relative < upper); upper *= 10) ++bin;
-    return bin;
 }
 
 inline void count(const ValueError& error, double claimed, const VerifyOptions& options, ValueErrors& to) {
@@ -89,7 +87,7 @@ inline void count(const ValueError& error, double claimed, const VerifyOptions& 
     to.max_ulps = std::max(to.max_ulps, error.ulps);
     to.max_relative = std::max(to.max_relative, error.relative);
     ++to.by_ulps[bin_of_ulps(error.ulps, to.by_ulps.size())];
-    ++to.by_relative[bin_of_relative(error.relative, to.by_relative.size())];
+    ++to.by_relative[base::decade_bin(error.relative)];
 }
 
 }  // namespace barycert::verify

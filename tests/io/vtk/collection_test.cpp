@@ -112,8 +112,56 @@ TEST(VtkCollections, blocks_and_series) {
     ASSERT_TRUE(first) << first.error().message();
     EXPECT_EQ(first->cell_count(), 2U);
     EXPECT_EQ(notes_of(*first), (Texts{"all steps but the first of a series of 2"}));
+    // The same series as ParaView writes it.
+    put(folder / "m.vtu.series",
+        "{\n  \"file-series-version\" : \"1.0\",\n  \"files\" : [\n    { \"name\" : \"0.vtu\", \"time\" : 0.5 },\n"
+        "    { \"name\" : \"1.vtu\", \"time\" : 0.5 },\n    { \"name\" : \"/x/y.vtu\", \"time\" : 10 }\n  ]\n}\n");
+    const Result<std::vector<SeriesStep>> same = read_series(folder / "m.vtu.series");
+    ASSERT_TRUE(same) << same.error().message();
+    ASSERT_EQ(same->size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ((*same)[i].time, (*steps)[i].time);
+        EXPECT_EQ((*same)[i].files, (*steps)[i].files);
+    }
+    const Result<Mesh> too = read_mesh(folder / "m.vtu.series");
+    ASSERT_TRUE(too) << too.error().message();
+    EXPECT_EQ(too->points, first->points);
+    EXPECT_EQ(notes_of(*too), (Texts{"all steps but the first of a series of 2"}));
+    EXPECT_EQ(mesh_files(folder / "m.vtu.series"),
+              (Texts{folder / "m.vtu.series", folder / "0.vtu", folder / "1.vtu", "/x/y.vtu"}));
     EXPECT_FALSE(read_series(folder / "m.vtm"));
     EXPECT_FALSE(read_series(folder / "none.pvd"));
+}
+
+TEST(VtkCollections, a_series_file_that_is_wrong) {
+    const TemporaryFolder folder;
+    const std::string whole = "{\"files\": [{\"name\": \"0.vtu\", \"time\": 0.5}]}";
+    put(folder / "s.vtu.series", whole);
+    EXPECT_TRUE(read_series(folder / "s.vtu.series"));
+    // Cut off anywhere it is no JSON.
+    for (std::size_t size = 1; size < whole.size(); ++size) {
+        put(folder / "s.vtu.series", whole.substr(0, size));
+        EXPECT_FALSE(read_series(folder / "s.vtu.series")) << size;
+    }
+    for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
+             {"{", "the series is no JSON"},
+             {"{}", "expected a member \"files\", an array, found none"},
+             {"{\"files\": 3}", "found number"},
+             {"{\"files\": [3]}", "entry 1 of \"files\""},
+             {"{\"files\": [{\"name\": \"\", \"time\": 1}]}", "a member \"name\""},
+             {"{\"files\": [{\"name\": \"a\", \"time\": \"1\"}]}",
+              "expected a member \"time\", a finite number, found string"},
+             {"{\"files\": [{\"name\": \"a\", \"time\": 1e999}]}", "the series"}}) {
+        put(folder / "s.vtu.series", text);
+        const Result<std::vector<SeriesStep>> steps = read_series(folder / "s.vtu.series");
+        ASSERT_FALSE(steps) << text;
+        EXPECT_NE(steps.error().message().find(message), std::string::npos) << text << '\n' << steps.error().message();
+    }
+    put(folder / "s.vtu.series", "{\"files\": []}");
+    EXPECT_FALSE(read_vtk(folder / "s.vtu.series"));
+    // A series that names itself does not go on for ever.
+    put(folder / "s.vtu.series", "{\"files\": [{\"name\": \"s.vtu.series\", \"time\": 0}]}");
+    EXPECT_FALSE(read_vtk(folder / "s.vtu.series"));
 }
 
 TEST(VtkCollections, what_is_refused) {

@@ -39,6 +39,25 @@ TEST_F(QuantityNames, have_their_columns) {
     EXPECT_EQ(columns({"mean(cell:E).y", "cell:E.x", "E.x"}), "mean(cell:E).y E.x cell:E.x");
 }
 
+// Bindings keep fields apart from the geometry: names need no more of a mesh than choose_fields says.
+TEST_F(QuantityNames, are_chosen_from_fields_alone) {
+    const Locator locator = Locator::build(mesh).value();
+    Mesh fields;
+    fields.dimension = mesh.dimension;
+    fields.point_fields = mesh.point_fields;
+    fields.cell_fields = mesh.cell_fields;
+    const std::vector<double> point{0.5, 0.25, 0.125};
+    for (const std::vector<std::string>& names :
+         {std::vector<std::string>{}, {"T", "w"}, {"|v|,grad(T)"}, {"mean(E)", "v.x"}}) {
+        const Sampler own = Sampler::build(mesh, names).value();
+        const Sampler chosen = Sampler::build(locator, choose_fields(fields, names).value()).value();
+        EXPECT_EQ(chosen.columns(), own.columns());
+        EXPECT_EQ(chosen.sample(point)->values, own.sample(point)->values);
+    }
+    EXPECT_NE(choose_fields(fields, {"none"}).error().message().find("\"none\""), std::string::npos);
+    EXPECT_FALSE(choose_fields(fields, {"T", "T"}));
+}
+
 TEST_F(QuantityNames, of_fields_go_before) {
     for (const std::string name : {"|v|", "grad(T)", "v.x", "mean(E)"}) {
         mesh.point_fields.push_back({name, 1, std::vector<double>(mesh.point_count(), 42)});

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
+#include "barycert/audit/json_members.hpp"
 #include "barycert/audit/mesh_draws.hpp"
+#include "barycert/audit/parsed_json.hpp"
 #include "barycert/base/input_file.hpp"
 #include "barycert/environment.hpp"
 
@@ -20,7 +23,7 @@ using Regions = std::array<std::uint64_t, 4>;
 
 /// As the JSON has it: the largest double stands for what is beyond.
 std::vector<double> figures_of(const KernelStatistics& s) {
-    std::vector<double> f{static_cast<double>(s.wrong_cases)};
+    std::vector<double> f{static_cast<double>(s.wrong_cases), static_cast<double>(s.not_run)};
     for (const std::uint64_t n : s.counts) f.push_back(static_cast<double>(n));
     for (const double x : {s.weight_ulp.value, s.p999_weight_ulp(), s.value_ulp.value, s.p999_value_ulp(),
                            s.partition_residual.value, s.reproduction_residual.value})
@@ -36,45 +39,14 @@ Regions regions_of(const KernelStatistics& s) {
     return r;
 }
 
-/// A member of the file, or an Exception that says what there is instead.
-const Json& member(const Json& object, const std::string& key, const std::string& where) {
-    if (!object.is_object() || !object.contains(key))
-        throw Exception({.what = where,
-                         .expected = "a member \"" + key + '"',
-                         .found = object.is_object() ? "none" : object.dump().substr(0, 40)});
-    return object.at(key);
-}
-
-std::uint64_t count_in(const Json& object, const std::string& key, const std::string& where) {
-    const Json& j = member(object, key, where);
-    if (!j.is_number_unsigned())
-        throw Exception({.what = where + ", " + key, .expected = "a count", .found = j.dump().substr(0, 40)});
-    return j.get<std::uint64_t>();
-}
-
 /// A figure that an older report does not have yet is none.
 double figure_in(const Json& object, const std::string& key, const std::string& where) {
     if (!object.is_object() || !object.contains(key)) return -1;
     const Json& j = object.at(key);
     if (j.is_null()) return -1;
     if (!j.is_number() || !(j.get<double>() >= 0))
-        throw Exception(
-            {.what = where + ", " + key, .expected = "a number >= 0 or null", .found = j.dump().substr(0, 40)});
+        throw Exception({.what = where + ", " + key, .expected = "a number >= 0 or null", .found = found_json(j)});
     return j.get<double>();
-}
-
-std::string text_in(const Json& object, const std::string& key, const std::string& where) {
-    const Json& j = member(object, key, where);
-    if (!j.is_string())
-        throw Exception({.what = where + ", " + key, .expected = "a string", .found = j.dump().substr(0, 40)});
-    return j.get<std::string>();
-}
-
-const Json& list_in(const Json& object, const std::string& key, const std::string& where) {
-    const Json& j = member(object, key, where);
-    if (!j.is_array())
-        throw Exception({.what = where + ", " + key, .expected = "an array", .found = j.dump().substr(0, 40)});
-    return j;
 }
 
 BaselineEntry entry_from(const Json& j, const std::string& kernel) {
@@ -84,6 +56,7 @@ BaselineEntry entry_from(const Json& j, const std::string& kernel) {
     const std::string where = kernel + " in " + e.family;
     e.cases = count_in(j, "cases", where);
     count_in(j, baseline_figures().front(), where);
+    if (j.contains("not_run")) e.not_run = count_in(j, "not_run", where);
     for (const std::string& figure : baseline_figures()) e.figures.push_back(figure_in(j, figure, where));
     const Json& confusion = member(j, "confusion", where);
     for (const Region exact : all_regions) {
@@ -107,6 +80,11 @@ Error not_comparable(const Baseline& b, std::string expected, std::string found,
             .remedy = std::move(remedy)};
 }
 
+bool given_up(const KernelResult& k) {
+    return std::any_of(k.families.begin(), k.families.end(),
+                       [](const FamilyResult& f) { return f.statistics.not_run != 0; });
+}
+
 std::string joined(const std::vector<std::string>& words) {
     std::string out;
     for (const std::string& w : words) out += (out.empty() ? "" : ", ") + w;
@@ -115,9 +93,13 @@ std::string joined(const std::vector<std::string>& words) {
 
 }  // namespace
 
+void BaselineComparison::add(BaselineChange change) {
+    if (change.after != change.before) (change.after > change.before ? worse : better).push_back(std::move(change));
+}
+
 const std::vector<std::string>& baseline_figures() {
     static const std::vector<std::string> names = [] {
-        std::vector<std::string> n{"wrong_cases"};
+        std::vector<std::string> n{"wrong_cases", "not_run"};
         for (const FindingText& f : finding_texts) n.emplace_back(f.name);
         for (const char* error : {"worst_weight_ulp", "p999_weight_ulp", "worst_value_ulp", "p999_value_ulp",
                                   "worst_partition_residual", "worst_reproduction_residual"})
@@ -136,7 +118,7 @@ Result<Baseline> read_baseline(const std::string& path) {
         error.what = "cannot read the baseline";
         return error;
     }
-    const Json all = Json::parse(*text, nullptr, false);
+    const Json all = parsed_json<Json>(*text);
     if (all.is_discarded())
         return Error{
             .what = "not a baseline", .file = path, .expected = "JSON", .found = "something else", .remedy = remedy};
@@ -186,9 +168,14 @@ Status check_comparable(const Baseline& b, const AuditOptions& options, const Me
 Result<BaselineComparison> compare_with_baseline(const AuditReport& report, const Baseline& b) {
     const ExactEnvironment environment;
     std::map<std::pair<std::string, std::string>, const BaselineEntry*> earlier;
-    for (const BaselineEntry& e : b.entries) earlier[{e.kernel, e.family}] = &e;
+    std::set<std::string> given_up_before;
+    for (const BaselineEntry& e : b.entries) {
+        earlier[{e.kernel, e.family}] = &e;
+        if (e.not_run != 0) given_up_before.insert(e.kernel);
+    }
     BaselineComparison result;
     for (const KernelResult& k : report.kernels) {
+        const bool twice = given_up_before.contains(k.kernel.name) && given_up(k);
         for (const FamilyResult& f : k.families) {
             const std::string& family = report.families[f.family].name;
             const auto at = earlier.find({k.kernel.name, family});
@@ -197,17 +184,25 @@ Result<BaselineComparison> compare_with_baseline(const AuditReport& report, cons
                 continue;
             }
             const BaselineEntry& before = *at->second;
+            ++result.compared;
+            if (before.not_run != 0 || f.statistics.not_run != 0) {
+                // Which cases it was asked is then another matter on each side. Given up on both, it depends on
+                // threads.
+                ++result.given_up;
+                if (!twice)
+                    result.add({k.kernel.name, family, "not_run", static_cast<double>(before.not_run),
+                                static_cast<double>(f.statistics.not_run)});
+                continue;
+            }
             if (before.cases != f.statistics.cases || before.regions != regions_of(f.statistics)) {
                 return not_comparable(b, "the same exact regions in " + family, "others",
                                       "a mesh, or barycert's families, have changed: make a new baseline");
             }
-            ++result.compared;
             const std::vector<double> after = figures_of(f.statistics);
             for (std::size_t i = 0; i < after.size(); ++i) {
                 // Where nothing could be measured, the findings tell why.
-                if (before.figures[i] < 0 || after[i] < 0 || after[i] == before.figures[i]) continue;
-                (after[i] > before.figures[i] ? result.worse : result.better)
-                    .push_back({k.kernel.name, family, baseline_figures()[i], before.figures[i], after[i]});
+                if (before.figures[i] < 0 || after[i] < 0) continue;
+                result.add({k.kernel.name, family, baseline_figures()[i], before.figures[i], after[i]});
             }
         }
     }

@@ -95,7 +95,7 @@ int volume_dropped(const double* v, const double* p, double* w) {
     return 0;
 }
 
-/// One product of six in single precision.
+/// One weight goes through a float.
 int volume_single(const double* v, const double* p, double* w) {
     const int status = signed_volume(v, p, w);
     if (status == 0) w[2] = static_cast<double>(static_cast<float>(w[2]));
@@ -138,7 +138,7 @@ int volume_closed(const double* v, const double* p, double* w) {
     return status;
 }
 
-/// A third of one where the cell is degenerate: finite, plausible, wrong.
+/// A quarter each where the cell is degenerate: finite, plausible, wrong.
 int volume_even(const double* v, const double* p, double* w) {
     if (signed_volume(v, p, w) != 0) w[0] = w[1] = w[2] = w[3] = 0.25;
     return 0;

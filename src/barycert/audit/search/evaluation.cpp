@@ -1,9 +1,10 @@
 #include "barycert/audit/search/evaluation.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <span>
 
+#include "barycert/audit/asking.hpp"
 #include "barycert/audit/comparison.hpp"
 #include "barycert/environment.hpp"
 
@@ -31,10 +32,11 @@ double relative_error(const OracleAnswer& exact, const Comparison& comparison) {
 Evaluation evaluate(const Kernel& kernel, const Case& c) {
     Evaluation e;
     e.exact = ask_oracle(c);
-    std::array<double, 4> weights = unset_weights;
-    const int status = kernel.weights(c.vertices.data(), c.point.data(), weights.data());
-    ExactEnvironment::renew();
-    e.comparison = compare(kernel, c, e.exact, status, weights);
+    Statement said;
+    e.detail = ask_kernel(kernel, std::span(&c, 1), std::span(&said, 1), false).detail;
+    e.ran = said.ran;
+    if (!e.ran) return e;
+    e.comparison = compare(kernel, c, e.exact, said);
     ExactEnvironment::renew();
     e.weight_ulp = *std::max_element(e.comparison.weight_ulps.begin(), e.comparison.weight_ulps.end());
     e.relative_error = relative_error(e.exact, e.comparison);
@@ -53,7 +55,9 @@ double badness(std::size_t reason, const Evaluation& e) {
     if (reason == witness_reasons) return std::isfinite(e.relative_error) ? e.relative_error : -1;
     if (e.comparison.counts[reason] == 0) return -1;
     if (is(reason, Finding::missed_degenerate)) return 0;
-    if (is(reason, Finding::not_finite) || is(reason, Finding::false_declaration)) return 1 / largest_weight(e.exact);
+    if (e.exact.region == Region::degenerate) return 0;
+    if (is_accident(reason) || is(reason, Finding::not_finite) || is(reason, Finding::false_declaration))
+        return 1 / largest_weight(e.exact);
     return std::isfinite(e.relative_error) ? e.relative_error : 0;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 #include "barycert/audit_findings.hpp"
@@ -11,10 +12,12 @@
 namespace barycert::audit {
 
 struct Evaluation {
+    bool ran = true;  ///< false: the kernel has been given up, and was not asked; the members below say nothing
     OracleAnswer exact;
     Comparison comparison;
     double weight_ulp = -1;      ///< largest error of a weight in ulps; -1 if undefined
     double relative_error = -1;  ///< relative_error()
+    std::string detail;          ///< what the kernel did besides answering, in words; empty if nothing
 };
 
 /// max |weight - exact| / max |exact|; -1 if degenerate, infinite if a weight is not finite or there is none.
@@ -29,6 +32,16 @@ inline constexpr std::string_view relative_error_reason = "worst_relative_error"
 
 constexpr std::string_view search_reason_name(std::size_t reason) {
     return reason < witness_reasons ? reason_name(reason) : relative_error_reason;
+}
+
+/// Findings that may have cost the kernel its process.
+constexpr bool is_accident(std::size_t reason) {
+    return reason <= static_cast<std::size_t>(Finding::out_of_bounds);
+}
+
+/// Findings of what a kernel in a process of its own did besides answering.
+constexpr bool is_incident(std::size_t reason) {
+    return reason <= static_cast<std::size_t>(Finding::printed);
 }
 
 /// The number of a reason, or search_reasons if there is none of that name.

@@ -10,7 +10,10 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
 #include <thread>
+#include <utility>
 
 #include "barycert/audit/search/moves.hpp"
 #include "barycert/base/random.hpp"
@@ -26,56 +29,72 @@ constexpr std::uint64_t walks_per_round = 32, steps_per_walk = 1000;
 constexpr std::uint64_t patience = 100;  ///< steps without a rise before the walk goes down
 constexpr std::size_t kept = 12;         ///< worst cases of a reason to start from
 
-struct Kept {
+/// A case that showed a reason, and what is told of it: the kernel may end before it could be asked again.
+struct Met {
     Case c;
     Height height;
-};
+    double magnitude = 0, weight_ulp = -1, relative_error = -1;
+    std::string detail;
+    int cost = std::numeric_limits<int>::max();  ///< plain_cost()
 
-/// The plainest case that showed a reason.
-struct Plain {
-    Case c;
-    int cost = std::numeric_limits<int>::max();
-
-    void include(const Plain& other) {
-        if (other.cost < cost) *this = other;
-    }
+    Met() = default;
+    Met(const Case& met, int its_cost, std::size_t reason, const Height& h, const Evaluation& e)
+        : c(met),
+          height(h),
+          magnitude(audit::magnitude(reason, e)),
+          weight_ulp(e.weight_ulp),
+          relative_error(e.relative_error),
+          detail(e.detail),
+          cost(its_cost) {}
 };
 
 /// What a walk, or all so far, have met.
 struct Harvest {
     std::uint64_t steps = 0, wrong_cases = 0;
     std::array<std::uint64_t, search_reasons> cases{};
-    std::array<std::vector<Kept>, search_reasons> worst;  ///< worst first, at most `kept`
-    std::array<Plain, finding_count> plain;               ///< of findings
+    std::array<std::vector<Met>, search_reasons> worst;  ///< worst first, at most `kept`
+    std::array<Met, finding_count> plain;                ///< the plainest of each finding
+    bool given_up = false;                               ///< the kernel failed to answer too often
 
     void add(const Case& c, const Evaluation& e) {
+        if (!e.ran) {
+            given_up = true;
+            return;
+        }
         ++steps;
         if (e.comparison.wrong()) ++wrong_cases;
+        std::optional<int> cost;
         for (std::size_t r = 0; r < search_reasons; ++r) {
             const Height h = height(r, e);
             if (h.shown < 0) continue;
             ++cases[r];
-            include(r, {c, h}, 1);
-            if (r < finding_count) plain[r].include({c, plain_cost(c)});
+            if (!cost) cost = plain_cost(c);
+            if (enters(r, h, 1)) include(r, Met(c, *cost, r, h, e), 1);
+            if (r < finding_count && *cost < plain[r].cost) plain[r] = Met(c, *cost, r, h, e);
         }
     }
 
+    bool enters(std::size_t r, const Height& h, std::size_t most) const {
+        return worst[r].size() < most || h > worst[r].back().height;
+    }
+
     /// Equal ones stay in the order of their coming.
-    void include(std::size_t r, const Kept& k, std::size_t most) {
-        std::vector<Kept>& list = worst[r];
-        if (list.size() >= most && !(k.height > list.back().height)) return;
-        const auto at = std::find_if(list.begin(), list.end(), [&](const Kept& x) { return k.height > x.height; });
-        list.insert(at, k);
+    void include(std::size_t r, const Met& m, std::size_t most) {
+        std::vector<Met>& list = worst[r];
+        if (!enters(r, m.height, most)) return;
+        const auto at = std::find_if(list.begin(), list.end(), [&](const Met& x) { return m.height > x.height; });
+        list.insert(at, m);
         if (list.size() > most) list.pop_back();
     }
 
     void take(const Harvest& other) {
         steps += other.steps;
         wrong_cases += other.wrong_cases;
+        given_up = given_up || other.given_up;
         for (std::size_t r = 0; r < search_reasons; ++r) {
             cases[r] += other.cases[r];
-            for (const Kept& k : other.worst[r]) include(r, k, kept);
-            if (r < finding_count) plain[r].include(other.plain[r]);
+            for (const Met& m : other.worst[r]) include(r, m, kept);
+            if (r < finding_count && other.plain[r].cost < plain[r].cost) plain[r] = other.plain[r];
         }
     }
 };
@@ -100,7 +119,7 @@ public:
     Harvest begin(std::size_t family, std::uint64_t steps) const {
         Harvest h;
         static const MeshSource none;
-        for (std::uint64_t i = 0; i < steps; ++i) {
+        for (std::uint64_t i = 0; i < steps && !h.given_up; ++i) {
             const Case c = make_case(families_[family], o_.kernel.simplex, o_.seed, i, none);
             // One that is beyond the range of exponents is made, but not asked.
             if (admissible(c, range_)) h.add(c, evaluate(o_.kernel, c));
@@ -120,14 +139,14 @@ public:
         Case asked;
         Evaluation answer;
         const auto ask = [&](const Case& c) -> const Evaluation* {
-            if (h.steps >= steps) return nullptr;
+            if (h.steps >= steps || h.given_up) return nullptr;
             asked = c;
             answer = evaluate(o_.kernel, c);
             h.add(c, answer);
-            return &answer;
+            return h.given_up ? nullptr : &answer;
         };
         // Moves that lead out of the range cost no step, but must come to an end, too.
-        for (std::uint64_t moves = 0; h.steps < steps && moves < 8 * steps; ++moves) {
+        for (std::uint64_t moves = 0; h.steps < steps && moves < 8 * steps && !h.given_up; ++moves) {
             Case next = here;
             if (random.below(8) == 0) {
                 jump_to_zero(next, evaluation, random, range_, ask);
@@ -155,7 +174,7 @@ private:
 
     Case start(const Harvest& before, std::size_t reason, base::Random& random) const {
         const auto kind = random.below(4);
-        const std::vector<Kept>& worst = before.worst[reason];
+        const std::vector<Met>& worst = before.worst[reason];
         if (kind < 2 && !worst.empty()) return worst[random.below(worst.size())].c;
         if (kind == 2 && !families_.empty()) {
             static const MeshSource none;
@@ -173,39 +192,65 @@ private:
     std::vector<std::size_t> targets_;  ///< reasons that walks go for, in turn
 };
 
-Witness witness_of(const SearchOptions& o, std::size_t reason, const Case& c) {
+Witness witness_of(const SearchOptions& o, std::size_t reason, const Met& met) {
     Witness w;
     w.kernel = o.kernel.name;
     w.reason = search_reason_name(reason);
     w.family = "search";
     w.seed = o.seed;
-    w.c = c;
+    w.magnitude = met.magnitude;
+    w.detail = is_incident(reason) ? met.detail : "";
+    w.c = met.c;
     return w;
 }
 
-SearchFind find_of(const SearchOptions& o, std::size_t reason, const Harvest& all, std::uint64_t& plain_steps) {
-    const ExactEnvironment environment;
-    SearchFind f;
-    f.reason = search_reason_name(reason);
-    f.cases = all.cases[reason];
-    f.found = witness_of(o, reason, all.worst[reason].front().c);
-    const Evaluation e = evaluate(o.kernel, f.found.c);
-    f.found.magnitude = magnitude(reason, e);
-    f.weight_ulp = e.weight_ulp;
-    f.relative_error = e.relative_error;
+struct Shown {
+    SearchFind find;
+    std::uint64_t plain_steps = 0;
+    bool given_up = false;
+};
+
+void set_plain(Shown& s, const Witness& plain, double weight_ulp, double relative_error) {
+    s.find.plain = plain;
+    s.find.plain_weight_ulp = weight_ulp;
+    s.find.plain_relative_error = relative_error;
+    for (int k = 0; k < coordinate_count(plain.c); ++k) s.find.plain_bits += significant_bits(coordinate(plain.c, k));
+}
+
+/// The plainest case that can be made of those met; false if the kernel was given up on the way.
+bool make_plain(const SearchOptions& o, std::size_t reason, const Harvest& all, Shown& s) {
     const auto plainest = [&](const Witness& w) {
-        return plainest_witness(o.kernel, w, &plain_steps, o.min_exponent, o.max_exponent);
+        return plainest_witness(o.kernel, w, &s.plain_steps, o.min_exponent, o.max_exponent);
     };
-    f.plain = plainest(f.found);
+    Witness plain = plainest(s.find.found);
     if (reason < finding_count) {
-        const Witness other = plainest(witness_of(o, reason, all.plain[reason].c));
-        if (plain_cost(other.c) < plain_cost(f.plain.c)) f.plain = other;
+        Witness other = plainest(witness_of(o, reason, all.plain[reason]));
+        if (plain_cost(other.c) < plain_cost(plain.c)) plain = std::move(other);
     }
-    const Evaluation p = evaluate(o.kernel, f.plain.c);
-    f.plain_weight_ulp = p.weight_ulp;
-    f.plain_relative_error = p.relative_error;
-    for (int k = 0; k < coordinate_count(f.plain.c); ++k) f.plain_bits += significant_bits(coordinate(f.plain.c, k));
-    return f;
+    const Evaluation p = evaluate(o.kernel, plain.c);
+    if (!p.ran) return false;
+    if (is_incident(reason)) plain.detail = p.detail;
+    set_plain(s, plain, p.weight_ulp, p.relative_error);
+    return true;
+}
+
+Shown shown(const SearchOptions& o, std::size_t reason, const Harvest& all) {
+    const ExactEnvironment environment;
+    const Met& worst = all.worst[reason].front();
+    Shown s;
+    s.find.reason = search_reason_name(reason);
+    s.find.cases = all.cases[reason];
+    s.find.found = witness_of(o, reason, worst);
+    s.find.weight_ulp = worst.weight_ulp;
+    s.find.relative_error = worst.relative_error;
+    // Each trial of an accident may cost a process, or the time limit: the plainest that was met is plain enough.
+    if (!is_accident(reason) && !all.given_up) {
+        if (make_plain(o, reason, all, s)) return s;
+        s.given_up = true;
+    }
+    const Met& plain = reason < finding_count ? all.plain[reason] : worst;
+    set_plain(s, witness_of(o, reason, plain), plain.weight_ulp, plain.relative_error);
+    return s;
 }
 
 Status check(const SearchOptions& o) {
@@ -215,7 +260,7 @@ Status check(const SearchOptions& o) {
                      .expected = "LOW:HIGH with -1074 <= LOW <= HIGH <= 1023",
                      .found = std::to_string(o.min_exponent) + ":" + std::to_string(o.max_exponent)};
     }
-    if (o.kernel.weights == nullptr) return Error{.what = "a search without a kernel"};
+    if (o.kernel.weights == nullptr && o.kernel.host == nullptr) return Error{.what = "a search without a kernel"};
     return Done{};
 }
 
@@ -261,7 +306,7 @@ Result<SearchReport> search_worst_case(const SearchOptions& o) {
         const std::uint64_t each = std::min(o.family_count, o.steps / families);
         round(families, [&](std::size_t i) { return search.begin(i, each); });
     }
-    while (!report.stopped && all.steps < o.steps) {
+    while (!report.stopped && !all.given_up && all.steps < o.steps) {
         const std::uint64_t left = o.steps - all.steps;
         const std::uint64_t tasks = std::min(walks_per_round, (left + steps_per_walk - 1) / steps_per_walk);
         const Harvest& before = all;
@@ -280,13 +325,16 @@ Result<SearchReport> search_worst_case(const SearchOptions& o) {
         const bool met = !all.worst[r].empty() && (r < finding_count || all.worst[r].front().height.shown > 0);
         if (met) reasons.push_back(r);
     }
-    report.finds.resize(reasons.size());
-    std::vector<std::uint64_t> plain_steps(reasons.size());
+    report.given_up = all.given_up;
+    std::vector<Shown> finds(reasons.size());
     arena.execute([&] {
-        tbb::parallel_for(std::size_t{0}, reasons.size(),
-                          [&](std::size_t i) { report.finds[i] = find_of(o, reasons[i], all, plain_steps[i]); });
+        tbb::parallel_for(std::size_t{0}, reasons.size(), [&](std::size_t i) { finds[i] = shown(o, reasons[i], all); });
     });
-    for (const std::uint64_t n : plain_steps) report.plain_steps += n;
+    for (Shown& s : finds) {
+        report.plain_steps += s.plain_steps;
+        report.given_up = report.given_up || s.given_up;
+        report.finds.push_back(std::move(s.find));
+    }
     report.seconds = elapsed();
     return report;
 }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "barycert/audit/witness_json.hpp"
+#include "barycert/base/json_text.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert {
@@ -13,7 +14,7 @@ std::string witnesses_json(const SearchReport& report) {
     out["schema"] = witness_schema;
     out["witnesses"] = nlohmann::ordered_json::array();
     for (const SearchFind& f : report.finds) out["witnesses"].push_back(audit::witness_json(f.plain));
-    return out.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return base::json_text(out, 1);
 }
 
 }  // namespace barycert

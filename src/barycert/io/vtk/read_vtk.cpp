@@ -14,6 +14,7 @@
 #include "barycert/io/vtk/grid_to_mesh.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/io/vtk/read_grid.hpp"
+#include "barycert/io/vtk/series_file.hpp"
 #include "barycert/io/vtk/xml_grids.hpp"
 #include "barycert/io/vtk/xml_reader.hpp"
 
@@ -33,6 +34,16 @@ bool is_xml(std::string_view bytes) {
     std::string_view text = bytes.substr(0, 4096);
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // byte order mark
     return io::next_word(text).starts_with('<');
+}
+
+/// The files that a file names; none where it holds data itself.
+Result<std::vector<io::CollectionFile>> files_named_in(std::string_view bytes, const std::string& path) {
+    if (io::is_series_file(bytes)) return io::series_files(bytes, path);
+    if (!is_xml(bytes)) return std::vector<io::CollectionFile>();
+    const Result<io::XmlTree> tree = io::parse_xml(bytes, path);
+    if (!tree) return tree.error();
+    if (!io::is_collection(*tree)) return std::vector<io::CollectionFile>();
+    return io::collection_files(*tree, bytes, path);
 }
 
 /// Of files that name files, each is read once.
@@ -68,6 +79,11 @@ private:
         }
         const std::string_view bytes = file->bytes();
         if (bytes.starts_with("# vtk")) return io::read_legacy(bytes, path, part_);
+        if (io::is_series_file(bytes)) {
+            const Result<std::vector<io::CollectionFile>> files = io::series_files(bytes, path);
+            if (!files) return files.error();
+            return read_first_step(*files, path);
+        }
         if (!is_xml(bytes)) {
             return Error{.what = bytes.empty() ? "the file is empty" : "not a file of VTK",
                          .file = path,
@@ -109,10 +125,8 @@ private:
     Result<io::RawGrid> read_first_step(const std::vector<io::CollectionFile>& files, const std::string& path) {
         const std::vector<SeriesStep> steps = io::steps_of(files);
         if (steps.empty()) {
-            return Error{.what = "a series without steps",
-                         .file = path,
-                         .expected = "an element DataSet for each step",
-                         .found = "none"};
+            return Error{
+                .what = "a series without steps", .file = path, .expected = "a file for each step", .found = "none"};
         }
         std::vector<io::CollectionFile> first;
         for (const std::string& file : steps.front().files) first.push_back({file, {}, 0});
@@ -206,13 +220,18 @@ Result<std::vector<SeriesStep>> read_series(const std::string& path) {
     return without_throwing<std::vector<SeriesStep>>(path, [&]() -> Result<std::vector<SeriesStep>> {
         const Result<base::MappedFile> file = base::MappedFile::open(path);
         if (!file) return file.error();
+        if (io::is_series_file(file->bytes())) {
+            const Result<std::vector<io::CollectionFile>> files = io::series_files(file->bytes(), path);
+            if (!files) return files.error();
+            return io::steps_of(*files);
+        }
         const Result<io::XmlTree> tree = io::parse_xml(file->bytes(), path);
         if (!tree) return tree.error();
         if (!io::is_series(*tree)) {
             return Error{.what = "the kind of the file",
                          .file = path,
                          .line = 1,
-                         .expected = "a VTKFile of type Collection (.pvd)",
+                         .expected = "a VTKFile of type Collection (.pvd), or ParaView's JSON (.vtu.series)",
                          .found = io::in_quotes(tree->root().attribute("type").value_or(tree->root().name))};
         }
         const Result<std::vector<io::CollectionFile>> files = io::collection_files(*tree, file->bytes(), path);
@@ -229,10 +248,8 @@ std::vector<std::string> vtk_mesh_files(const std::string& path) {
     std::set<std::string> known{path};
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Result<base::MappedFile> file = base::MappedFile::open(all[i]);
-        if (!file || !is_xml(file->bytes())) continue;
-        const Result<io::XmlTree> tree = io::parse_xml(file->bytes(), all[i]);
-        if (!tree || !io::is_collection(*tree)) continue;
-        const Result<std::vector<io::CollectionFile>> files = io::collection_files(*tree, file->bytes(), all[i]);
+        if (!file) continue;
+        const Result<std::vector<io::CollectionFile>> files = files_named_in(file->bytes(), all[i]);
         if (!files) continue;
         for (const io::CollectionFile& named : *files) {
             if (known.insert(named.path).second) all.push_back(named.path);

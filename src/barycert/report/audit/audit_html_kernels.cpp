@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "barycert/base/decades.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/report/audit/audit_html_cells.hpp"
 #include "barycert/report/audit/audit_html_parts.hpp"
@@ -39,9 +40,7 @@ constexpr std::string_view statistics_legend =
 
 std::string error_bin_label(std::size_t bin) {
     if (bin == 0) return "no error";
-    if (bin == ErrorSizes::bins - 1) return "no finite answer";
-    if (bin == ErrorSizes::bins - 2) return ">= 100";
-    return fmt::format("< 1e{:+03d}", static_cast<int>(bin) - 18);
+    return bin == ErrorSizes::bins - 1 ? "no finite answer" : base::decade_label(bin);
 }
 
 constexpr double histogram_width = 236, histogram_height = 92, histogram_floor = 74, histogram_top = 6;

@@ -49,16 +49,26 @@ std::string shows(const Witness& w) {
     return std::isfinite(w.magnitude) ? "a weight off by " + brief(w.magnitude) : "a weight that is not finite";
 }
 
+namespace {
+
+/// The user's libraries, and how they are run and judged.
+std::string kernel_words(const TerminalStyle& style) {
+    std::string words;
+    for (const std::string& library : style.library_arguments) words += " --kernel-library " + shell_word(library);
+    return words + style.kernel_arguments;
+}
+
+}  // namespace
+
+std::string replay_from_file(const std::string& kernel, const std::string& reason, const TerminalStyle& style) {
+    return fmt::format("{} replay {}{} --kernel {} --reason {}", style.command, shell_word(style.witness_path),
+                       kernel_words(style), shell_word(kernel), reason);
+}
+
 std::string replay_command(const AuditReport& report, const KernelResult& k, const Witness& w,
                            const TerminalStyle& style) {
-    std::string libraries;
-    for (const std::string& library : style.library_arguments) libraries += " --kernel-library " + shell_word(library);
-    libraries += style.kernel_arguments;
-    if (!style.witness_path.empty()) {
-        return fmt::format("{} replay {}{} --kernel {} --reason {}", style.command, shell_word(style.witness_path),
-                           libraries, shell_word(k.kernel.name), w.reason);
-    }
-    std::string command = style.command + " replay" + libraries;
+    if (!style.witness_path.empty()) return replay_from_file(k.kernel.name, w.reason, style);
+    std::string command = style.command + " replay" + kernel_words(style);
     const auto family =
         std::find_if(report.families.begin(), report.families.end(), [&](const auto& f) { return f.name == w.family; });
     if (family != report.families.end() && family->needs_mesh) {

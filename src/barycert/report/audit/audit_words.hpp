@@ -75,6 +75,8 @@ std::string broken_certificates(const KernelStatistics& s);
 std::string place_of(const Witness& w);
 /// What a witness shows.
 std::string shows(const Witness& w);
+/// The command that shows the witnesses of style.witness_path with that kernel and reason.
+std::string replay_from_file(const std::string& kernel, const std::string& reason, const TerminalStyle& style);
 /// The command that shows a witness.
 std::string replay_command(const AuditReport& report, const KernelResult& k, const Witness& w,
                            const TerminalStyle& style);

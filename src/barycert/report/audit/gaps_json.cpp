@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "barycert/audit_report.hpp"
+#include "barycert/base/json_text.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report/audit/oracle_words.hpp"
@@ -42,6 +43,7 @@ Json claims_json(const ClaimResult& r, int dimension) {
     Json j;
     j["kernel"] = r.kernel.empty() ? Json(nullptr) : Json(r.kernel);
     j["rule"] = name(r.rule);
+    j["unanswered"] = r.unanswered;
     add_claims(j, r.total());
     j["features"] = Json::array();
     for (std::size_t f = 0; f < 3; ++f) {
@@ -75,7 +77,7 @@ std::string gaps_json(const GapsReport& r) {
     j["seconds"] = r.seconds;
     j["results"] = Json::array();
     for (const ClaimResult& result : r.results) j["results"].push_back(claims_json(result, r.dimension));
-    return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return base::json_text(j, 1);
 }
 
 }  // namespace barycert

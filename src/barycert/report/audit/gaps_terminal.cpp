@@ -65,6 +65,13 @@ std::string gaps_text(const GapsReport& report, const TerminalStyle& style) {
         "hold it; first: the lowest of those that claim it does not hold it. outside: points that no cell holds, of\n"
         "these claimed: by a cell.\n",
         base::shortest(report.tolerance)));
+    for (const ClaimResult& r : report.results) {
+        if (r.unanswered == 0 || r.rule != ClaimRule::exact) continue;  // the same under each rule
+        out += fmt::format(
+            "{} gave no answer to {} pairs of point and cell (it ended, took too long, or was no longer asked for\n"
+            "that): the cell does not claim the point then.\n",
+            paint.bold(r.kernel), r.unanswered);
+    }
     std::string witnesses;
     for (const ClaimResult& r : report.results) {
         // The other rules have such points by their nature; the JSON names them.

@@ -1,13 +1,13 @@
 #include "barycert/audit_report.hpp"
 
-#include <algorithm>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "barycert/audit/witness_json.hpp"
+#include "barycert/base/json_text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report/audit/oracle_words.hpp"
 #include "barycert/report/common/environment_json.hpp"
+#include "barycert/report/common/json_figure.hpp"
 
 namespace barycert {
 
@@ -17,24 +17,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// null where there is no figure. JSON knows no infinity, and null would hide it: the largest double stands for it.
-Json figure(double x) {
-    return x >= 0 ? Json(std::min(x, std::numeric_limits<double>::max())) : Json(nullptr);
-}
-
 void add_statistics(Json& j, const KernelStatistics& s) {
     j["cases"] = s.cases;
     j["wrong_cases"] = s.wrong_cases;
     j["not_run"] = s.not_run;
     for (std::size_t f = 0; f < finding_count; ++f) j[std::string(finding_texts[f].name)] = s.counts[f];
-    j["worst_error"] = figure(s.errors.worst.value);
+    j["worst_error"] = magnitude(s.errors.worst.value);
     j["by_error"] = s.errors.counts;
-    j["worst_weight_ulp"] = figure(s.weight_ulp.value);
-    j["p999_weight_ulp"] = figure(s.p999_weight_ulp());
-    j["worst_value_ulp"] = figure(s.value_ulp.value);
-    j["p999_value_ulp"] = figure(s.p999_value_ulp());
-    j["worst_partition_residual"] = figure(s.partition_residual.value);
-    j["worst_reproduction_residual"] = figure(s.reproduction_residual.value);
+    j["worst_weight_ulp"] = magnitude(s.weight_ulp.value);
+    j["p999_weight_ulp"] = magnitude(s.p999_weight_ulp());
+    j["worst_value_ulp"] = magnitude(s.value_ulp.value);
+    j["p999_value_ulp"] = magnitude(s.p999_value_ulp());
+    j["worst_partition_residual"] = magnitude(s.partition_residual.value);
+    j["worst_reproduction_residual"] = magnitude(s.reproduction_residual.value);
     Json& confusion = j["confusion"];
     for (const Region exact : all_regions) {
         for (const Region claimed : all_regions) {
@@ -47,14 +42,14 @@ void add_statistics(Json& j, const KernelStatistics& s) {
 Json prediction_json(const Prediction& p) {
     Json j;
     j["cases"] = p.cases();
-    j["worst_factor"] = figure(p.worst_factor());
+    j["worst_factor"] = magnitude(p.worst_factor());
     j["bins"] = Json::array();
     for (const Prediction::Bin& bin : p.bins()) {
         Json b;
         b["bits"] = bin.bits;
         b["cases"] = bin.cases;
-        b["median_error"] = figure(bin.median);
-        b["worst_error"] = figure(bin.worst);
+        b["median_error"] = magnitude(bin.median);
+        b["worst_error"] = magnitude(bin.worst);
         j["bins"].push_back(std::move(b));
     }
     return j;
@@ -117,7 +112,7 @@ std::string audit_json(const AuditReport& r) {
     for (const KernelResult& k : r.kernels) {
         Json entry = kernel_json(k.kernel);
         add_statistics(entry, k.total);
-        entry["ns"] = figure(k.ns);
+        entry["ns"] = magnitude(k.ns);
         entry["prediction"] = prediction_json(k.prediction);
         entry["families"] = Json::array();
         for (const FamilyResult& f : k.families) {
@@ -130,21 +125,21 @@ std::string audit_json(const AuditReport& r) {
         for (const Witness& w : k.witnesses) witnesses.push_back(audit::witness_json(w));
     }
     j["witnesses"] = std::move(witnesses);
-    return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return base::json_text(j, 1);
 }
 
 std::string kernels_json(const std::vector<Kernel>& kernels) {
     Json j;
     j["schema"] = audit_schema;
     j["kernels"] = list(kernels, kernel_json);
-    return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return base::json_text(j, 1);
 }
 
 std::string families_json(const std::vector<Family>& families) {
     Json j;
     j["schema"] = audit_schema;
     j["families"] = list(families, family_json);
-    return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return base::json_text(j, 1);
 }
 
 }  // namespace barycert

@@ -7,6 +7,7 @@
 
 #include "barycert/audit_mutants.hpp"
 #include "barycert/audit_report.hpp"
+#include "barycert/base/json_text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report/common/environment_json.hpp"
 #include "barycert/report/common/json_figure.hpp"
@@ -87,7 +88,6 @@ std::string mutants_json(const MutantReport& report) {
     j["seconds"] = report.seconds;
     j["caught"] = report.caught();
     j["mutants"] = Json::array();
-    const auto number = [](double x) { return x >= 0 ? report::figure(x) : Json(nullptr); };
     for (const MutantResult& r : report.mutants) {
         Json m;
         m["name"] = r.mutant.kernel.name;
@@ -100,13 +100,13 @@ std::string mutants_json(const MutantReport& report) {
             Json one;
             one["family"] = c.family;
             one["figure"] = c.figure;
-            one["sound_figure"] = number(c.sound);
-            one["mutant_figure"] = number(c.mutant);
+            one["sound_figure"] = magnitude(c.sound);
+            one["mutant_figure"] = magnitude(c.mutant);
             m["catches"].push_back(std::move(one));
         }
         j["mutants"].push_back(std::move(m));
     }
-    return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return base::json_text(j, 1);
 }
 
 }  // namespace barycert

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "barycert/base/json_text.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report/common/environment_json.hpp"
@@ -30,7 +31,7 @@ std::string drift_json(const DriftReport& report) {
         }
         j["kernels"].push_back({{"name", curve.kernel.name}, {"sizes", std::move(sizes)}});
     }
-    return j.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return base::json_text(j, 1);
 }
 
 std::string texels_json(const std::vector<TexelResult>& results) {
@@ -60,7 +61,7 @@ std::string texels_json(const std::vector<TexelResult>& results) {
         rule["witnesses"] = std::move(witnesses);
         j["rules"].push_back(std::move(rule));
     }
-    return j.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return base::json_text(j, 1);
 }
 
 }  // namespace barycert

@@ -3,6 +3,7 @@
 #include "barycert/audit/witness_json.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/audit_search.hpp"
+#include "barycert/base/json_text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report/common/environment_json.hpp"
 #include "barycert/report/common/json_figure.hpp"
@@ -10,15 +11,6 @@
 namespace barycert {
 
 using namespace report;
-
-namespace {
-
-/// null where there is no figure.
-nlohmann::ordered_json error_json(double x) {
-    return x >= 0 ? report::figure(x) : nlohmann::ordered_json(nullptr);
-}
-
-}  // namespace
 
 std::string search_json(const SearchReport& r) {
     using Json = nlohmann::ordered_json;
@@ -37,6 +29,7 @@ std::string search_json(const SearchReport& r) {
     j["threads"] = r.threads;
     j["seconds"] = r.seconds;
     j["stopped"] = r.stopped;
+    j["given_up"] = r.given_up;
     j["wrong_cases"] = r.wrong_cases;
     j["finds"] = Json::array();
     j["witnesses"] = Json::array();
@@ -44,16 +37,16 @@ std::string search_json(const SearchReport& r) {
         Json find;
         find["reason"] = f.reason;
         find["cases"] = f.cases;
-        find["weight_ulp"] = error_json(f.weight_ulp);
-        find["relative_error"] = error_json(f.relative_error);
+        find["weight_ulp"] = magnitude(f.weight_ulp);
+        find["relative_error"] = magnitude(f.relative_error);
         find["found"] = audit::witness_json(f.found);
-        find["plain_weight_ulp"] = error_json(f.plain_weight_ulp);
-        find["plain_relative_error"] = error_json(f.plain_relative_error);
+        find["plain_weight_ulp"] = magnitude(f.plain_weight_ulp);
+        find["plain_relative_error"] = magnitude(f.plain_relative_error);
         find["plain_bits"] = f.plain_bits;
         j["finds"].push_back(std::move(find));
         j["witnesses"].push_back(audit::witness_json(f.plain));
     }
-    return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return base::json_text(j, 1);
 }
 
 }  // namespace barycert

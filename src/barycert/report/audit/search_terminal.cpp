@@ -4,6 +4,7 @@
 #include "barycert/audit_search.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/report/audit/audit_words.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert {
@@ -22,16 +23,12 @@ std::string numbers(int count, auto at) {
 std::string plain_case(const SearchReport& report, const SearchFind& f, const TerminalStyle& style) {
     const Case& c = f.plain.c;
     std::string out;
+    if (!f.plain.detail.empty()) out += "    " + base::printable(f.plain.detail) + "\n";
     for (int i = 0; i < vertex_count(c.simplex); ++i)
         out += fmt::format("    v{}  {}\n", i, numbers(c.stride(), [&](int axis) { return c.vertex(i, axis); }));
     out += fmt::format("    p   {}\n", numbers(space_dimension(c.simplex),
                                                [&](int axis) { return c.point[static_cast<std::size_t>(axis)]; }));
-    if (!style.witness_path.empty()) {
-        out += fmt::format("    {} replay {} --kernel {} --reason {}", style.command, shell_word(style.witness_path),
-                           shell_word(report.kernel.name), f.reason);
-        for (const std::string& library : style.library_arguments) out += " --kernel-library " + shell_word(library);
-        out += "\n";
-    }
+    if (!style.witness_path.empty()) out += "    " + replay_from_file(report.kernel.name, f.reason, style) + "\n";
     return out;
 }
 
@@ -48,6 +45,10 @@ std::string search_text(const SearchReport& report, const TerminalStyle& style) 
         out +=
             paint.bad(fmt::format("stopped before {} cases: another run may find something else", report.steps_asked)) +
             "\n";
+    if (report.given_up)
+        out += paint.bad(fmt::format("given up before {} cases: it crashed or gave no answer too often",
+                                     report.steps_asked)) +
+               "\n";
     if (report.finds.empty()) return out + paint.good("no fault and no error found") + "\n";
     out += fmt::format(
         "wrong: {} % of the cases met on the way (no measure of how often: the search goes where faults are)\n\n",

@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "barycert/base/json_text.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report/check/check_words.hpp"
@@ -181,7 +182,7 @@ std::string check_json(const CheckReport& r, const std::string& name, const Envi
     j["seconds"] = r.seconds;
     j["threads"] = r.threads;
     j["environment"] = environment_json(environment);
-    return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return base::json_text(j, 1);
 }
 
 }  // namespace barycert

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 
-#include "barycert/audit_ci.hpp"
+#include "barycert/base/json_text.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/ci.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report/common/html_text.hpp"
 
@@ -44,20 +45,14 @@ std::string uri_of(const std::string& path) {
     return path.starts_with('/') ? "file://" + out : out;
 }
 
-Json location_of(const CiOutcome& o) {
+Json location_of(const CiOutcome& o, const std::string& kind) {
     Json location;
     if (!o.artifact.empty()) location["physicalLocation"]["artifactLocation"]["uri"] = uri_of(o.artifact);
     Json logical;
     logical["fullyQualifiedName"] = o.subject;
-    logical["kind"] = "function";
+    logical["kind"] = kind;
     location["logicalLocations"] = Json::array({logical});
     return location;
-}
-
-std::string meaning_of(const std::string& rule) {
-    if (const auto finding = finding_named(rule))
-        return std::string(finding_texts[static_cast<std::size_t>(*finding)].meaning);
-    return rule + " of a kernel, over the cases of its families";
 }
 
 /// GitHub's rule for the data of a workflow command; `in_property`: for its properties.
@@ -77,6 +72,10 @@ std::string command_data(const std::string& text, bool in_property) {
 }
 
 }  // namespace
+
+bool CiReport::failed() const {
+    return failures(outcomes) != 0;
+}
 
 std::string ci_junit(const CiReport& report) {
     const ExactEnvironment environment;
@@ -112,7 +111,7 @@ std::string ci_sarif(const CiReport& report) {
         if (at == rules.end()) {
             Json rule;
             rule["id"] = o.rule;
-            rule["shortDescription"]["text"] = meaning_of(o.rule);
+            rule["shortDescription"]["text"] = o.meaning;
             driver["rules"].push_back(std::move(rule));
             at = rules.insert(rules.end(), o.rule);
         }
@@ -121,7 +120,7 @@ std::string ci_sarif(const CiReport& report) {
         r["ruleIndex"] = at - rules.begin();
         r["level"] = o.state == State::failed ? "error" : "note";
         r["message"]["text"] = o.subject + ": " + o.message;
-        r["locations"] = Json::array({location_of(o)});
+        r["locations"] = Json::array({location_of(o, report.kind)});
         // What stays the same from run to run, so that a system knows a result again.
         r["partialFingerprints"]["subjectAndName/v1"] = o.subject + " " + o.name;
         results.push_back(std::move(r));
@@ -136,7 +135,7 @@ std::string ci_sarif(const CiReport& report) {
     j["$schema"] = "https://json.schemastore.org/sarif-2.1.0.json";
     j["version"] = "2.1.0";
     j["runs"] = Json::array({run});
-    return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return base::json_text(j, 1);
 }
 
 std::string ci_annotations(const CiReport& report) {

@@ -15,4 +15,9 @@ inline nlohmann::ordered_json figure(double x) {
     return std::clamp(x, -max, max);
 }
 
+/// Of figures that are never below 0: a negative number says that there is none.
+inline nlohmann::ordered_json magnitude(double x) {
+    return x >= 0 ? figure(x) : nullptr;
+}
+
 }  // namespace barycert::report

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "barycert/base/json_text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/common/environment_json.hpp"
@@ -100,8 +101,7 @@ std::string contour_json(const ContourSummary& s, const Environment& environment
     j["seconds"] = seconds_json(s.seconds);
     j["threads"] = s.threads;
     j["environment"] = environment_json(environment);
-    // Names of fields and files may hold any bytes: JSON is UTF-8.
-    return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return base::json_text(j, 2);
 }
 
 }  // namespace barycert

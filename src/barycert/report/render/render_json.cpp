@@ -1,9 +1,10 @@
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "barycert/base/json_text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/common/environment_json.hpp"
+#include "barycert/report/common/json_figure.hpp"
 #include "barycert/report/common/notes_json.hpp"
 #include "barycert/report/render/render_words.hpp"
 
@@ -32,18 +33,17 @@ Json pixels_json(const RenderCounts& n) {
 }
 
 Json colours_json(const ColourRange& c) {
-    const auto figure = [](double x) { return std::isnan(x) ? Json(nullptr) : Json(x); };
     Json j;
     j["field"] = c.field;
-    j["low"] = figure(c.low);
-    j["high"] = figure(c.high);
+    j["low"] = report::figure(c.low);
+    j["high"] = report::figure(c.high);
     j["without_value"] = c.without_value;
     return j;
 }
 
 Json texel_error_json(const TexelError& e) {
     Json j;
-    j["texels"] = std::min(e.texels, std::numeric_limits<double>::max());
+    j["texels"] = report::figure(e.texels);
     j["column"] = e.column;
     j["row"] = e.row;
     return j;
@@ -70,8 +70,7 @@ std::string render_json(const RenderSummary& summary, const Environment& environ
     j["notes"] = report::notes_json(summary.notes);
     j["seconds"] = summary.seconds;
     j["environment"] = report::environment_json(environment);
-    // Names of fields and files may hold any bytes: JSON is UTF-8.
-    return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return base::json_text(j, 2);
 }
 
 }  // namespace barycert

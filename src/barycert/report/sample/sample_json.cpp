@@ -1,12 +1,11 @@
 #include "barycert/report.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "barycert/base/json_text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report/common/environment_json.hpp"
+#include "barycert/report/common/json_figure.hpp"
 #include "barycert/report/common/notes_json.hpp"
 
 namespace barycert {
@@ -58,7 +57,7 @@ Json outside_json(const SampleSummary& summary) {
     j["snapped"] = n.snapped;
     j["extrapolated"] = n.extrapolated;
     j["without_value"] = n.without_value;
-    j["farthest"] = std::min(n.farthest, std::numeric_limits<double>::max());
+    j["farthest"] = figure(n.farthest);
     return j;
 }
 
@@ -74,7 +73,6 @@ Json values_json(const SampleSummary& summary) {
 }
 
 Json picture_json(const SliceCounts& n) {
-    const auto figure = [](double x) { return std::isnan(x) ? Json(nullptr) : Json(x); };
     Json j;
     j["low"] = figure(n.low);
     j["high"] = figure(n.high);
@@ -134,8 +132,7 @@ std::string sample_json(const SampleSummary& summary, const Environment& environ
     j["seconds"] = seconds_json(summary.seconds);
     j["threads"] = summary.threads;
     j["environment"] = environment_json(environment);
-    // Names of fields and files may hold any bytes: JSON is UTF-8.
-    return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return base::json_text(j, 2);
 }
 
 }  // namespace barycert

@@ -1,7 +1,6 @@
-#include <algorithm>
-#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "barycert/base/json_text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/common/environment_json.hpp"
@@ -104,7 +103,7 @@ std::string verify_json(const VerifySummary& s, const Environment& environment) 
     j["seconds"] = seconds;
     j["threads"] = s.threads;
     j["environment"] = environment_json(environment);
-    return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return base::json_text(j, 2);
 }
 
 }  // namespace barycert

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
+#include "barycert/base/decades.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
@@ -69,6 +72,14 @@ std::vector<VerdictLine> verdict_table(const VerifySummary& summary) {
                          : fmt::format("off by more than {} of the range, or NaN", base::shortest(summary.tolerance))}};
 }
 
+std::string_view meaning(RowVerdict verdict) {
+    constexpr std::array<std::string_view, 5> meanings{
+        "right rows", "points in a cell that are said to be outside", "points in no cell that are said to be inside",
+        "points inside that are not in the cell named",
+        "values off by more than the tolerance, or NaN where one is due"};
+    return meanings[static_cast<std::size_t>(verdict)];
+}
+
 std::pair<std::size_t, std::size_t> used_bins(const ValueErrors& errors) {
     std::size_t first = 0, last = errors.by_relative.size() - 1;
     while (first < last && errors.by_relative[first] == 0) ++first;
@@ -77,9 +88,7 @@ std::pair<std::size_t, std::size_t> used_bins(const ValueErrors& errors) {
 }
 
 std::string bin_label(std::size_t bin) {
-    if (bin == 0) return "right";
-    if (bin == 21) return ">= 100";
-    return fmt::format("< 1e{:+03d}", static_cast<int>(bin) - 18);
+    return bin == 0 ? "right" : base::decade_label(bin);
 }
 
 std::string example_sentence(const VerifySummary& summary, const WrongRow& row) {

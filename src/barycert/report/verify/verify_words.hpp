@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct VerdictLine {
 };
 /// A line for each RowVerdict.
 std::vector<VerdictLine> verdict_table(const VerifySummary& summary);
+
+/// What a wrong row of that kind is, whatever the results.
+std::string_view meaning(RowVerdict verdict);
 
 /// The first and the last bin of ValueErrors::by_relative that has an entry. Precondition: some bin has.
 std::pair<std::size_t, std::size_t> used_bins(const ValueErrors& errors);

@@ -203,6 +203,10 @@ private:
 
 }  // namespace
 
+Result<std::vector<FieldChoice>> choose_fields(const Mesh& mesh, const std::vector<std::string>& names) {
+    return sample::quantities_named(mesh, names);
+}
+
 Sampler::Sampler(std::unique_ptr<SamplerData> data) : data_(std::move(data)) {}
 Sampler::Sampler(Sampler&&) noexcept = default;
 Sampler& Sampler::operator=(Sampler&&) noexcept = default;
@@ -219,7 +223,7 @@ Result<Sampler> Sampler::build(const Locator& locator, const std::vector<FieldCh
 }
 
 Result<Sampler> Sampler::build(const Mesh& mesh, const std::vector<std::string>& fields, const BuildOptions& options) {
-    Result<std::vector<FieldChoice>> chosen = sample::quantities_named(mesh, fields);
+    Result<std::vector<FieldChoice>> chosen = choose_fields(mesh, fields);
     if (!chosen) return chosen.error();
     Result<Locator> locator = Locator::build(mesh, options);
     if (!locator) return locator.error();

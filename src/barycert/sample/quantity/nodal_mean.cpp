@@ -17,6 +17,7 @@
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/sample/quantity/mean_lanes.hpp"
 
 namespace barycert::sample {
 namespace {
@@ -52,7 +53,7 @@ CellsOfNodes cells_of_nodes(const Mesh& mesh) {
     return of;
 }
 
-/// The mean at one node. Kept from node to node, for its memory.
+/// The mean at one node, in integers: where the filter is not certain. Kept from node to node, for its memory.
 class MeanAtNode {
 public:
     MeanAtNode(const Mesh& mesh, const Field& field)
@@ -154,13 +155,26 @@ Field nodal_mean(const Mesh& mesh, const Field& of_cells) {
     const auto components = static_cast<std::size_t>(of_cells.components);
     Field field{{}, of_cells.components, std::vector<double>(components * mesh.point_count())};
     const CellsOfNodes of = cells_of_nodes(mesh);
-    constexpr std::size_t nodes_of_task = 512;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.point_count(), nodes_of_task), [&](const auto& range) {
+    constexpr std::size_t cells_of_task = 4096, nodes_of_task = 512;
+    std::vector<CellVolume> volumes(mesh.cell_count());
+    using Range = tbb::blocked_range<std::size_t>;
+    tbb::parallel_for(Range(0, volumes.size(), cells_of_task), [&](const Range& range) {
         const ExactEnvironment environment;  // of a thread that may be the caller's
+        volume_lanes(mesh, range.begin(), range.size(), volumes.data() + range.begin());
+    });
+    const MeanInput input{of.begin, of.cells, volumes, of_cells.data, components};
+    tbb::parallel_for(Range(0, mesh.point_count(), nodes_of_task), [&](const Range& range) {
+        const ExactEnvironment environment;
+        std::vector<std::uint32_t> undecided(range.size());
+        double* const out = field.data.data() + components * range.begin();
+        undecided.resize(mean_lanes(input, range.begin(), range.size(), out, undecided.data()));
+        if (undecided.empty()) return;
         MeanAtNode mean(mesh, of_cells);
-        for (std::size_t i = range.begin(); i != range.end(); ++i)
-            mean(std::span(of.cells).subspan(of.begin[i], of.begin[i + 1] - of.begin[i]),
-                 field.data.data() + components * i);
+        for (const std::uint32_t i : undecided) {
+            const std::size_t node = range.begin() + i;
+            mean(std::span(of.cells).subspan(of.begin[node], of.begin[node + 1] - of.begin[node]),
+                 out + components * i);
+        }
     });
     return field;
 }

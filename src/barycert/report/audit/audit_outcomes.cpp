@@ -11,6 +11,12 @@ namespace {
 
 using State = CiOutcome::State;
 
+std::string meaning_of(const std::string& rule) {
+    if (const auto finding = finding_named(rule))
+        return std::string(finding_texts[static_cast<std::size_t>(*finding)].meaning);
+    return rule + " of a kernel, over the cases of its families";
+}
+
 /// Outcomes of one kernel.
 class KernelOutcomes {
 public:
@@ -59,8 +65,9 @@ public:
     std::vector<CiOutcome> take() { return std::move(all_); }
 
 private:
-    void add(std::string name, std::string rule, State state, std::string message) {
-        all_.push_back({kernel_.kernel.name, std::move(name), std::move(rule), state, std::move(message), artifact_});
+    void add(std::string name, const std::string& rule, State state, std::string message) {
+        all_.push_back(
+            {kernel_.kernel.name, std::move(name), rule, meaning_of(rule), state, std::move(message), artifact_});
     }
 
     const AuditReport& report_;
@@ -71,14 +78,10 @@ private:
 
 }  // namespace
 
-bool CiReport::failed() const {
-    return std::any_of(outcomes.begin(), outcomes.end(), [](const CiOutcome& o) { return o.state == State::failed; });
-}
-
 CiReport audit_outcomes(const AuditReport& report, const std::vector<Threshold>& rules,
                         const BaselineComparison* comparison, const std::map<std::string, std::string>& artifacts) {
     const ExactEnvironment environment;
-    CiReport ci{"barycert audit", report.environment, report.seconds, {}};
+    CiReport ci{"barycert audit", "function", report.environment, report.seconds};
     for (const KernelResult& k : report.kernels) {
         const auto artifact = artifacts.find(k.kernel.name);
         KernelOutcomes of(report, k, artifact == artifacts.end() ? "" : artifact->second);
@@ -106,6 +109,9 @@ std::string baseline_text(const BaselineComparison& comparison, const std::strin
     changes("better", comparison.better);
     out += fmt::format("baseline {}: {} figures worse, {} better, in {} pairs of kernel and family",
                        base::printable(path), comparison.worse.size(), comparison.better.size(), comparison.compared);
+    if (comparison.given_up != 0)
+        out += fmt::format("; in {} pairs the kernel was given up, and no figure but not_run is compared",
+                           comparison.given_up);
     if (comparison.not_now != 0)
         out += fmt::format("; {} pairs of the baseline are not in this audit", comparison.not_now);
     if (comparison.not_before != 0)

@@ -1,0 +1,65 @@
+// Rules of --fail-on for verified results.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <string>
+
+#include "barycert/base/named_limit.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/verification.hpp"
+
+namespace barycert {
+namespace {
+
+constexpr std::array<RowVerdict, 4> kinds_of_wrong{RowVerdict::missed, RowVerdict::invented, RowVerdict::wrong_cell,
+                                                   RowVerdict::wrong_value};
+
+}  // namespace
+
+Result<VerifyLimit> parse_verify_limit(std::string_view text) {
+    const ExactEnvironment environment;
+    const base::NamedLimit limit = base::named_limit(text);
+    const auto* const kind = std::find_if(kinds_of_wrong.begin(), kinds_of_wrong.end(),
+                                          [&](RowVerdict v) { return handle(v) == limit.name; });
+    if (kind == kinds_of_wrong.end() || !limit.most || std::floor(*limit.most) != *limit.most || *limit.most > 0x1p53)
+        return Error{.what = "unknown rule",
+                     .expected = "missed, invented, wrong_cell or wrong_value, perhaps >COUNT",
+                     .found = '"' + std::string(text) + '"'};
+    return VerifyLimit{*kind, static_cast<std::uint64_t>(*limit.most)};
+}
+
+std::vector<VerifyLimit> strict_limits() {
+    std::vector<VerifyLimit> all;
+    for (const RowVerdict v : kinds_of_wrong) all.push_back({v, 0});
+    return all;
+}
+
+bool compared(const VerifySummary& summary, RowVerdict verdict) {
+    if (verdict == RowVerdict::wrong_cell) return !summary.cell_column.empty();
+    return verdict != RowVerdict::wrong_value || !summary.columns.empty();
+}
+
+Status check_limits(const VerifySummary& summary, const std::vector<VerifyLimit>& limits) {
+    for (const VerifyLimit& limit : limits) {
+        const bool cells = limit.verdict == RowVerdict::wrong_cell;
+        if (!compared(summary, limit.verdict))
+            return Error{.what = "a rule that nothing could break: " + std::string(handle(limit.verdict)),
+                         .file = summary.results,
+                         .expected = cells ? "a column that names cells" : "a column of values of a field",
+                         .found = "none",
+                         .remedy = cells ? "name it with --cell-column, or leave the rule out"
+                                         : "name it with --value, or leave the rule out"};
+    }
+    return Done{};
+}
+
+std::vector<VerifyLimit> exceeded(const Verdicts& verdicts, const std::vector<VerifyLimit>& limits) {
+    std::vector<VerifyLimit> all;
+    std::copy_if(limits.begin(), limits.end(), std::back_inserter(all),
+                 [&](const VerifyLimit& l) { return verdicts.of(l.verdict) > l.most; });
+    return all;
+}
+
+}  // namespace barycert

@@ -1,0 +1,127 @@
+"""Arguments as the compiled part takes them: checked, and converted where they must be."""
+
+from __future__ import annotations
+
+from typing import Any, Callable, Optional, Tuple, Union
+
+import numpy as np
+
+from . import _core
+
+Progress = Union[None, bool, Callable[[str, int, int], Any]]
+
+
+def contiguous(array: Any, dtype: Any = np.float64) -> np.ndarray:
+    """The array itself, if it is of the type and contiguous in C order; else a copy."""
+    return np.asarray(array, dtype=dtype, order="C")
+
+
+def real(array: Any, what: str) -> np.ndarray:
+    """An array of real numbers, as it is; Error if it is of another kind."""
+    if isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array):
+        _core.fail(f"masked entries of the {what}", remedy="say what they are: .filled(numpy.nan)")
+    array = np.asarray(array)
+    if array.dtype.kind not in "fiub":
+        _core.fail(f"type of the {what}", expected="real numbers", found=str(array.dtype))
+    if array.dtype.itemsize > 8:
+        _core.fail(
+            f"type of the {what}",
+            expected="numbers that float64 can hold",
+            found=str(array.dtype),
+            remedy="round them yourself: .astype(float)",
+        )
+    return array
+
+
+def exact_doubles(array: Any, what: str) -> np.ndarray:
+    """Doubles of the same values; Error if an integer is not one."""
+    array = real(array, what)
+    doubles = array.astype(np.float64, order="C", copy=False)
+    if array.dtype.kind in "iu" and array.dtype.itemsize == 8 and array.size:
+        # 2**63 and 2**64 are doubles, but no integers of these types: they would come back as others.
+        inside = doubles < (2.0**63 if array.dtype.kind == "i" else 2.0**64)
+        back = np.where(inside, doubles, 0).astype(array.dtype)
+        if not (inside & (back == array)).all():
+            _core.fail(
+                f"an integer of the {what}",
+                expected="a number that a double represents",
+                found=str(array[~(inside & (back == array))][0]),
+            )
+    return np.asarray(doubles, order="C")
+
+
+def points_of(points: Any, dimension: int) -> Tuple[np.ndarray, Tuple[int, ...]]:
+    """Points as (n, dimension), without a copy where they are contiguous doubles, and their leading shape.
+
+    Also takes what has points: a mesh, a data set of pyvista or VTK."""
+    if hasattr(points, "GetPoints") or (hasattr(points, "points") and not isinstance(points, np.ndarray)):
+        from ._exchange import points_of_dataset
+
+        points = points_of_dataset(points, dimension)
+    array = exact_doubles(points, "points")
+    if array.ndim == 0 or (array.ndim == 1 and array.size != dimension) or array.shape[-1] != dimension:
+        _core.fail(
+            "shape of the points",
+            expected=f"(..., {dimension}): {dimension} coordinates each",
+            found=str(array.shape),
+        )
+    return array.reshape(-1, dimension), array.shape[:-1]
+
+
+def values_of(values: Any, count: int, what: str) -> Tuple[np.ndarray, Tuple[int, ...]]:
+    """Real values as doubles (count, components), and the shape of one value."""
+    array = exact_doubles(values, what)
+    if array.ndim == 0 or array.shape[0] != count:
+        _core.fail(f"shape of the {what}", expected=f"({count}, ...): one value each", found=str(array.shape))
+    shape = array.shape[1:]
+    components = int(np.prod(shape, dtype=np.int64))
+    if components == 0:
+        _core.fail(f"shape of the {what}", expected="at least one component", found=str(array.shape))
+    return array.reshape(count, components), shape
+
+
+def options_of(
+    outside: Optional[str], fill_value: float, limit: float, rounding: str, threads: int
+) -> _core.SampleOptions:
+    """outside None: fill_value, which is NaN unless it is given."""
+    if outside is None:
+        outside = "nan" if np.isnan(fill_value) else "fill"
+    return _core.SampleOptions(outside, float(fill_value), float(limit), rounding, int(threads))
+
+
+class Teller:
+    """Who is told of progress, for a `with` statement: None, a callable, or True for tqdm where that is installed."""
+
+    def __init__(self, progress: Progress) -> None:
+        self._bar: Any = None
+        self._stage = ""
+        self.callable: Optional[Callable[[str, int, int], Any]] = None
+        if progress is True:
+            try:
+                from tqdm.auto import tqdm
+            except ImportError:
+                return
+            self._new_bar = tqdm
+            self.callable = self._show
+        elif progress is not None and progress is not False:
+            if not callable(progress):
+                _core.fail("progress=", expected="None, True or a callable of (stage, done, total)", found=repr(progress))
+            self.callable = progress
+
+    def _show(self, stage: str, done: int, total: int) -> None:
+        if stage != self._stage or self._bar is None:
+            self._close()
+            self._stage = stage
+            self._bar = self._new_bar(total=total or None, desc=stage, unit_scale=True, leave=False)
+        self._bar.update(done - self._bar.n)
+
+    def _close(self) -> None:
+        if self._bar is not None:
+            self._bar.close()
+            self._bar = None
+
+    def __enter__(self) -> Optional[Callable[[str, int, int], Any]]:
+        return self.callable
+
+    def __exit__(self, *_: object) -> None:
+        self._close()

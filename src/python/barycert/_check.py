@@ -1,0 +1,116 @@
+"""What a check of a mesh found."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Dict, List, Tuple
+
+import numpy as np
+
+from . import _core
+
+if TYPE_CHECKING:
+    from ._mesh import Mesh
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a defect is: indices in the mesh."""
+
+    cells: Tuple[int, ...]
+    nodes: Tuple[int, ...]
+    detail: str
+
+
+@dataclass(frozen=True)
+class Defect:
+    """A kind of defect, how often it was found, and where.
+
+    Attributes:
+        kind: its name, such as "overlapping_cells".
+        count: how many; `at_least` if the search stopped there.
+        breaks: whether it breaks the certificate; `condition`: which one ("P1" to "P5"), or "".
+        text: what it is. remedy: what to do about it, or "".
+        places: the first of them.
+    """
+
+    kind: str
+    count: int
+    at_least: bool
+    breaks: bool
+    condition: str
+    text: str
+    remedy: str
+    places: Tuple[Place, ...]
+
+    def __repr__(self) -> str:
+        more = "at least " if self.at_least else ""
+        where = f", first: cells {self.places[0].cells}, nodes {self.places[0].nodes}" if self.places else ""
+        return f"<Defect {self.kind}: {more}{self.count} {self.text}{where}>"
+
+
+@dataclass(frozen=True)
+class Contact:
+    """Two cells that meet where they must not.
+
+    Attributes:
+        cells: the two. overlap: their interiors meet. dimension: of their intersection.
+        point: a common point, rounded; exact: the rounded one is common, too. fraction: it as exact fractions, texts.
+    """
+
+    cells: Tuple[int, int]
+    overlap: bool
+    dimension: int
+    point: Tuple[float, ...]
+    exact: bool
+    fraction: Tuple[str, ...]
+
+
+class CheckReport:
+    """What `Mesh.check` found. str() is the report as `barycert check` prints it; it is true if the mesh is certified.
+
+    Attributes:
+        verdict: "certified" or "not certified".
+        certified: bool.
+        defects: list of Defect; first those that break the certificate.
+        contacts: list of Contact: pairs of cells that overlap or touch where they must not.
+        measures: dict of arrays, one entry a cell: orientation (exact sign), volume (signed; areas in the plane; correctly
+            rounded), condition, radius_edge, aspect, min_angle, max_angle (degrees).
+    """
+
+    def __init__(self, core: _core.CheckReport, mesh: Mesh) -> None:
+        self._core = core
+        self.verdict: str = core.verdict
+        self.certified: bool = core.certified
+        self.defects: List[Defect] = [
+            Defect(places=tuple(Place(*place) for place in defect.pop("places")), **defect) for defect in core.defects
+        ]
+        self.contacts: List[Contact] = [Contact(**contact) for contact in core.contacts]
+        self._mesh = mesh
+
+    @property
+    def measures(self) -> Dict[str, np.ndarray]:
+        return self._core.measures
+
+    def text(self, name: str = "mesh") -> str:
+        """The report for a terminal."""
+        return self._core.text(name, False)
+
+    def to_dict(self, name: str = "mesh") -> Dict[str, Any]:
+        """All of it, as the JSON of `barycert check --json` has it."""
+        return json.loads(self._core.json(name))
+
+    def html(self, name: str = "mesh") -> str:
+        """The report as one self-contained page."""
+        return self._core.html(name)
+
+    def __bool__(self) -> bool:
+        return self.certified
+
+    def __str__(self) -> str:
+        return self.text()
+
+    def __repr__(self) -> str:
+        found = "; ".join(f"{'>= ' if d.at_least else ''}{d.count} {d.kind}" for d in self.defects)
+        return f"<barycert.CheckReport: {self.verdict}, {len(self._mesh.cells)} cells{': ' if found else ''}{found}>"

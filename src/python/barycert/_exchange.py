@@ -1,0 +1,314 @@
+"""Meshes of other packages: taken as they are, by what they have rather than by their types, and given back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple
+
+import numpy as np
+
+from . import _core
+
+if TYPE_CHECKING:
+    from ._mesh import Mesh
+
+# VTK's numbers of cell types; corners and nodes at mid-edges.
+_TETRA, _QUADRATIC_TETRA, _TRIANGLE, _QUADRATIC_TRIANGLE = 10, 24, 5, 22
+_COLUMNS = {_TETRA: 4, _QUADRATIC_TETRA: 10, _TRIANGLE: 3, _QUADRATIC_TRIANGLE: 6}
+_MESHIO = {"tetra": _TETRA, "tetra10": _QUADRATIC_TETRA, "triangle": _TRIANGLE, "triangle6": _QUADRATIC_TRIANGLE}
+_MESHIO_LOWER = ("vertex", "line", "line3")
+# Vertices, poly-vertices, lines, poly-lines, quadratic edges: of lower dimension than any cell of a mesh.
+_LOWER = (1, 2, 3, 4, 21)
+
+
+@dataclass
+class Parts:
+    """What a Mesh is made of."""
+
+    points: np.ndarray
+    cells: np.ndarray
+    cell_numbers: Optional[np.ndarray] = None
+    point_data: Dict[str, np.ndarray] = field(default_factory=dict)
+    cell_data: Dict[str, np.ndarray] = field(default_factory=dict)
+    notes: List[str] = field(default_factory=list)
+
+
+def parts_of(source: Any) -> Parts:
+    """The parts of a mesh of another package."""
+    from ._mesh import Mesh
+
+    if isinstance(source, Mesh):
+        cells = source.cells if source.mid_nodes is None else np.hstack([source.cells, source.mid_nodes])
+        return Parts(source.points, cells, source.cell_numbers, dict(source.point_data), dict(source.cell_data), source.notes)
+    if hasattr(source, "simplices"):  # scipy.spatial.Delaunay
+        return Parts(np.asarray(source.points), np.asarray(source.simplices))
+    if hasattr(source, "triangles"):  # matplotlib.tri.Triangulation
+        return _of_triangulation(source)
+    if hasattr(source, "celltypes") and hasattr(source, "cells"):  # pyvista.UnstructuredGrid
+        return _of_pyvista(source)
+    if hasattr(source, "GetPoints"):
+        return _of_vtk(source)
+    if hasattr(source, "cells") and hasattr(source, "points"):  # meshio.Mesh
+        return _of_meshio(source)
+    _core.fail(
+        "what a mesh is made of",
+        expected="points and cells, or a mesh of SciPy, matplotlib, meshio, pyvista or VTK",
+        found=type(source).__name__,
+    )
+
+
+def points_of_dataset(source: Any, dimension: int) -> np.ndarray:
+    """The points of a data set, in the plane without their z, which must be 0."""
+    if hasattr(source, "points"):
+        points = np.asarray(source.points)
+    elif source.GetPoints() is None:
+        _core.fail("a data set without points", found=type(source).__name__)
+    else:
+        points = _numpy(source.GetPoints().GetData())
+    if dimension == 2 and points.ndim == 2 and points.shape[1] == 3:
+        return _in_plane(points, "points beside a mesh in the plane")
+    return points
+
+
+def _in_plane(points: np.ndarray, what: str) -> np.ndarray:
+    off = np.flatnonzero(points[:, 2])
+    if off.size:
+        _core.fail(what, expected="z = 0 throughout", found=f"z = {points[off[0], 2]} at point {off[0]}")
+    return points[:, :2]
+
+
+def _of_triangulation(source: Any) -> Parts:
+    points = np.column_stack([source.x, source.y])
+    triangles = np.asarray(source.triangles)
+    mask = getattr(source, "mask", None)
+    if mask is None or not np.any(mask):
+        return Parts(points, triangles)
+    kept = np.flatnonzero(~np.asarray(mask))
+    note = f"left out: {triangles.shape[0] - kept.size} masked triangles"
+    return Parts(points, triangles[kept], kept, notes=[note])
+
+
+class _Cells:
+    """Cells of any kinds, block after block, of which those of the highest dimension make a mesh."""
+
+    def __init__(self) -> None:
+        self.blocks: List[Tuple[int, np.ndarray, np.ndarray]] = []
+        self.left_out: Dict[str, int] = {}
+
+    def add(self, kind: int, nodes: np.ndarray, numbers: np.ndarray) -> None:
+        if len(numbers):
+            self.blocks.append((kind, nodes, numbers))
+
+    def leave_out(self, what: str, count: int) -> None:
+        if count:
+            self.left_out[what] = self.left_out.get(what, 0) + count
+
+    def parts(self, points: np.ndarray, point_data: Dict[str, np.ndarray], cell_data: Dict[str, np.ndarray]) -> Parts:
+        solid = [b for b in self.blocks if b[0] in (_TETRA, _QUADRATIC_TETRA)]
+        for kind, _, numbers in self.blocks:
+            if solid and kind in (_TRIANGLE, _QUADRATIC_TRIANGLE):
+                self.leave_out("triangles beside tetrahedra", len(numbers))
+        chosen = solid or self.blocks
+        kinds = sorted({kind for kind, _, _ in chosen})
+        if len(kinds) > 1:
+            _core.fail("cells of first and second order in one mesh", remedy="make all of them linear, or all quadratic")
+        if not chosen:
+            _core.fail("a mesh without triangles and tetrahedra", found=self._others() or "no cells")
+        nodes = np.concatenate([b[1] for b in chosen])
+        numbers = np.concatenate([b[2] for b in chosen])
+        order = np.argsort(numbers, kind="stable")
+        nodes, numbers = nodes[order], numbers[order]
+        whole = numbers.size == 0 or (numbers[0] == 0 and numbers[-1] == numbers.size - 1 and not self.left_out)
+        notes = [f"left out: {count} {what}" for what, count in self.left_out.items()]
+        points = np.asarray(points)
+        if not solid and points.ndim == 2 and points.shape[1] == 3:
+            points = _in_plane(points, "triangles in space are no mesh")
+        return Parts(
+            points,
+            nodes,
+            None if whole else numbers.astype(np.int32),
+            dict(_numbers_only(point_data, notes)),
+            {name: values if whole else values[numbers] for name, values in _numbers_only(cell_data, notes)},
+            notes,
+        )
+
+    def _others(self) -> str:
+        return ", ".join(f"{count} {what}" for what, count in self.left_out.items())
+
+
+def _numbers_only(data: Dict[str, np.ndarray], notes: List[str]) -> List[Tuple[str, np.ndarray]]:
+    kept = []
+    for name, values in data.items():
+        values = np.asarray(values)
+        if values.dtype.kind in "fiub" and values.dtype.itemsize <= 8:
+            kept.append((name, values))
+        else:
+            notes.append(f'left out: array "{name}" of {values.dtype}')
+    return kept
+
+
+def _of_types(points: Any, connectivity: np.ndarray, offsets: np.ndarray, types: np.ndarray, ghost: Optional[np.ndarray],
+              point_data: Dict[str, np.ndarray], cell_data: Dict[str, np.ndarray]) -> Parts:
+    """VTK's arrays: the nodes of cell i are connectivity[offsets[i]:offsets[i + 1]]."""
+    cells = _Cells()
+    kept = np.ones(types.size, dtype=bool)
+    if ghost is not None:
+        # Duplicate, refined and hidden cells.
+        kept = (np.asarray(ghost) & (1 | 8 | 32)) == 0
+        cells.leave_out("ghost cells", int(np.count_nonzero(~kept)))
+    for kind in np.unique(types[kept]):
+        numbers = np.flatnonzero(kept & (types == kind))
+        if kind in _COLUMNS:
+            columns = _COLUMNS[int(kind)]
+            wrong = numbers[offsets[numbers + 1] - offsets[numbers] != columns]
+            if wrong.size:
+                _core.fail(f"nodes of cell {wrong[0]}", expected=str(columns),
+                           found=str(offsets[wrong[0] + 1] - offsets[wrong[0]]))
+            cells.add(int(kind), connectivity[offsets[numbers][:, None] + np.arange(columns)], numbers)
+        elif kind in _LOWER:
+            cells.leave_out("vertices and lines", numbers.size)
+        else:
+            _core.fail(
+                "cells of another kind",
+                expected="triangles or tetrahedra",
+                found=f"{numbers.size} cells of VTK's type {kind}, the first is cell {numbers[0]}",
+                remedy="vtkDataSetTriangleFilter, or pyvista's triangulate(), makes tetrahedra of them",
+            )
+    return cells.parts(points, point_data, cell_data)
+
+
+def _of_pyvista(source: Any) -> Parts:
+    types = np.asarray(source.celltypes)
+    flat = np.asarray(source.cells)
+    # Cell after cell: the number of its nodes, its nodes.
+    starts = np.empty(types.size + 1, dtype=np.int64)
+    if hasattr(source, "offset") and hasattr(source, "cell_connectivity"):
+        starts, flat = np.asarray(source.offset), np.asarray(source.cell_connectivity)
+        offsets, connectivity = starts, flat
+    else:
+        at = 0
+        for i in range(types.size):
+            starts[i] = at
+            at += int(flat[at]) + 1
+        starts[types.size] = at
+        mask = np.ones(flat.size, dtype=bool)
+        mask[starts[:-1]] = False
+        connectivity, offsets = flat[mask], starts - np.arange(types.size + 1)
+    point_data = {name: np.asarray(source.point_data[name]) for name in source.point_data.keys()}
+    cell_data = {name: np.asarray(source.cell_data[name]) for name in source.cell_data.keys()}
+    ghost = cell_data.pop("vtkGhostType", None)
+    return _of_types(np.asarray(source.points), connectivity, offsets, types, ghost, point_data, cell_data)
+
+
+def _numpy(array: Any) -> np.ndarray:
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    return vtk_to_numpy(array)
+
+
+def _arrays_of(attributes: Any, notes: List[str]) -> Dict[str, np.ndarray]:
+    arrays = {}
+    for i in range(attributes.GetNumberOfArrays()):
+        array = attributes.GetAbstractArray(i)
+        name = array.GetName()
+        if not name or not hasattr(array, "GetDataTypeAsString") or attributes.GetArray(i) is None:
+            notes.append(f"left out: array {name or i} that has no name or no numbers")
+            continue
+        arrays[name] = _numpy(array)
+    return arrays
+
+
+def _of_vtk(source: Any) -> Parts:
+    if source.GetPoints() is None:
+        _core.fail("a data set without points", found=type(source).__name__)
+    notes: List[str] = []
+    if hasattr(source, "GetCellTypesArray"):  # vtkUnstructuredGrid
+        grid = source.GetCells()
+        types = _numpy(source.GetCellTypesArray()) if grid.GetNumberOfCells() else np.empty(0, dtype=np.uint8)
+    elif hasattr(source, "GetPolys"):  # vtkPolyData
+        grid = source.GetPolys()
+        others = sum(part().GetNumberOfCells() for part in (source.GetVerts, source.GetLines, source.GetStrips))
+        if others:
+            _core.fail("polygon data with other cells than polygons", found=str(others), remedy="vtkTriangleFilter takes them out")
+        types = np.full(grid.GetNumberOfCells(), _TRIANGLE)
+    else:
+        _core.fail("a data set of VTK", expected="vtkUnstructuredGrid or vtkPolyData", found=type(source).__name__,
+                   remedy="vtkDataSetTriangleFilter makes an unstructured grid of it")
+    connectivity, offsets = _numpy(grid.GetConnectivityArray()), _numpy(grid.GetOffsetsArray())
+    cell_data = _arrays_of(source.GetCellData(), notes)
+    ghost = cell_data.pop("vtkGhostType", None)
+    parts = _of_types(_numpy(source.GetPoints().GetData()), connectivity, offsets, types, ghost,
+                      _arrays_of(source.GetPointData(), notes), cell_data)
+    parts.notes = notes + parts.notes
+    return parts
+
+
+def _of_meshio(source: Any) -> Parts:
+    cells = _Cells()
+    first = 0
+    for block in source.cells:
+        nodes, kind = np.asarray(block.data), block.type
+        numbers = np.arange(first, first + len(nodes))
+        first += len(nodes)
+        if kind in _MESHIO:
+            # Tetrahedra of second order stand in VTK's order.
+            cells.add(_MESHIO[kind], nodes, numbers)
+        elif kind in _MESHIO_LOWER:
+            cells.leave_out("vertices and lines", len(nodes))
+        else:
+            _core.fail("cells of another kind", expected="triangles or tetrahedra", found=f"{len(nodes)} cells {kind}")
+    cell_data = {name: np.concatenate([np.asarray(block) for block in blocks]) for name, blocks in source.cell_data.items()}
+    return cells.parts(np.asarray(source.points), dict(source.point_data), cell_data)
+
+
+# And back.
+
+
+def _all_nodes(mesh: Mesh) -> np.ndarray:
+    return mesh.cells if mesh.mid_nodes is None else np.hstack([mesh.cells, mesh.mid_nodes])
+
+
+def to_meshio(mesh: Mesh) -> Any:
+    import meshio
+
+    kind = ("triangle" if mesh.dimension == 2 else "tetra") if mesh.mid_nodes is None else (
+        "triangle6" if mesh.dimension == 2 else "tetra10")
+    return meshio.Mesh(
+        mesh.points.copy(),
+        [(kind, _all_nodes(mesh).copy())],
+        point_data={name: values.copy() for name, values in mesh.point_data.items()},
+        cell_data={name: [values.copy()] for name, values in mesh.cell_data.items()},
+    )
+
+
+def to_vtk(mesh: Mesh) -> Any:
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
+
+    nodes = _all_nodes(mesh).astype(np.int64)
+    points = np.zeros((len(mesh.points), 3))
+    points[:, : mesh.dimension] = mesh.points
+    grid = vtkUnstructuredGrid()
+    places = vtkPoints()
+    places.SetData(numpy_to_vtk(points, deep=True))
+    grid.SetPoints(places)
+    cells = vtkCellArray()
+    cells.SetData(
+        numpy_to_vtkIdTypeArray(np.arange(0, nodes.size + 1, nodes.shape[1], dtype=np.int64), deep=True),
+        numpy_to_vtkIdTypeArray(nodes.ravel(), deep=True),
+    )
+    kind = {columns: kind for kind, columns in _COLUMNS.items()}[nodes.shape[1]]
+    grid.SetCells(kind, cells)
+    for data, attributes in ((mesh.point_data, grid.GetPointData()), (mesh.cell_data, grid.GetCellData())):
+        for name, values in data.items():
+            array = numpy_to_vtk(np.ascontiguousarray(values.reshape(len(values), -1)), deep=True)
+            array.SetName(name)
+            attributes.AddArray(array)
+    return grid
+
+
+def to_pyvista(mesh: Mesh) -> Any:
+    import pyvista
+
+    return pyvista.wrap(to_vtk(mesh))

@@ -1,0 +1,177 @@
+"""Linear interpolation with the call of SciPy's LinearNDInterpolator."""
+
+from __future__ import annotations
+
+from typing import Any, Optional, Tuple
+
+import numpy as np
+
+from . import _core
+from ._arguments import Progress, Teller, exact_doubles, options_of, values_of
+from ._mesh import Mesh
+
+
+class Interpolator:
+    """Interpolates values at nodes over triangles or tetrahedra: exact cells, correctly rounded values.
+
+    It stands where scipy.interpolate.LinearNDInterpolator stands, and is called as that is:
+
+        f = Interpolator(points, cells, values)
+        f(p)        # p (..., d)
+        f(x, y)     # arrays that broadcast
+
+    Args:
+        points: (n, d) nodes, d = 2 or 3; or a mesh, and then no cells: a barycert.Mesh, a SciPy Delaunay, a matplotlib
+            Triangulation, a mesh of meshio, pyvista or VTK.
+        cells: (m, d + 1) node indices from 0, of any integer type, or of second order as for `Mesh`. None: SciPy's Delaunay
+            triangulation of the points, as LinearNDInterpolator makes it. `Interpolator(points, values)` is the same.
+        values: (n, ...) real or complex numbers at the nodes. float32 is converted, which is exact; results are float64
+            or complex128.
+        fill_value: what points outside get.
+        outside: instead of that: "nan"; "raise": an Error that names the first such point; "nearest": the value at the
+            nearest point of the mesh; "extrapolate": that of the function of the nearest cell.
+        limit: with "nearest", farther points get NaN.
+        rounding: "correct"; or "plain": evaluated in plain double, in cells that are exact all the same.
+        threads: 0 for as many as the machine has.
+
+    Each value is the exact interpolation in the owner, the lowest cell that contains the point, rounded once to nearest,
+    ties to even, for real and imaginary part alike; so it does not depend on threads, order or machine. A component is NaN
+    where a value of its cell is not finite. Coordinates that are not finite are an Error, where SciPy gives NaN.
+
+    Any number of threads may call it at the same time. It can be pickled and copied.
+    """
+
+    def __init__(
+        self,
+        points: Any,
+        cells: Any = None,
+        values: Any = None,
+        *,
+        fill_value: Any = np.nan,
+        outside: Optional[str] = None,
+        limit: float = np.inf,
+        rounding: str = "correct",
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> None:
+        if values is None:
+            # Interpolator(points or mesh, values), as SciPy has it.
+            cells, values = None, cells
+        if values is None:
+            _core.fail("Interpolator without values", expected="Interpolator(points, cells, values)")
+        self.mesh = _mesh_of(points, cells)
+        values = np.asanyarray(values)
+        self._complex = values.dtype.kind == "c"
+        self._values = values
+        if self._complex:
+            values = _parts(values)
+        self._rows, self._shape = values_of(values, len(self.mesh.points), "values")
+        if self._complex:
+            self._shape = self._shape[:-1]
+        self._fill_value = fill_value
+        self._outside, self._limit, self._rounding, self._threads = outside, limit, rounding, threads
+        # A complex number takes the place of two: it is put in afterwards.
+        self._fill_after = self._complex and (outside == "fill" or (outside is None and not np.isnan(fill_value)))
+        self._options = (
+            options_of("nan", np.nan, limit, rounding, threads)
+            if self._fill_after
+            else options_of(outside, np.real(fill_value), limit, rounding, threads)
+        )
+        if not self._complex and np.iscomplexobj(fill_value):
+            _core.fail("fill_value", expected="a real number, as the values are", found=repr(fill_value))
+        with Teller(progress) as tell:
+            self._sampler = self.mesh._core.sampler_of(self._rows, False, tell)
+
+    @property
+    def points(self) -> np.ndarray:
+        """(n, d) the nodes."""
+        return self.mesh.points
+
+    @property
+    def cells(self) -> np.ndarray:
+        """(m, d + 1) the vertices of the cells."""
+        return self.mesh.cells
+
+    @property
+    def values(self) -> np.ndarray:
+        """(n, ...) the values, as they were given."""
+        return self._values
+
+    def __call__(self, *args: Any, progress: Progress = None) -> np.ndarray:
+        """Values at points.
+
+        Args:
+            args: points (..., d); or d arrays of coordinates that broadcast, as one tuple or as several arguments. One
+                point of shape (d,) counts as (1, d), as in SciPy.
+            progress: a callable of (stage, done, total), or True for a bar of tqdm.
+
+        Returns:
+            (...) + the shape of one value.
+        """
+        rows, shape = self._coordinates(args)
+        with Teller(progress) as tell:
+            result = self._sampler.sample(rows, self._options, tell)
+            if self._fill_after:
+                cell, _ = _core.locate(self.mesh._core, rows, self._threads, tell)
+        if self._complex:
+            result = result.view(np.complex128)
+            if self._fill_after:
+                result[cell < 0] = self._fill_value
+        return result.reshape(shape + self._shape)
+
+    def _coordinates(self, args: Tuple[Any, ...]) -> Tuple[np.ndarray, Tuple[int, ...]]:
+        d = self.mesh.dimension
+        if len(args) == 1 and isinstance(args[0], tuple):
+            args = args[0]
+        if len(args) == 1:
+            points = exact_doubles(args[0], "points")
+            if points.ndim == 1:
+                points = points.reshape(-1, d) if points.size % d == 0 else points
+        else:
+            if len(args) != d:
+                _core.fail("number of coordinates", expected=f"points (..., {d}), or {d} arrays", found=str(len(args)))
+            points = np.stack(np.broadcast_arrays(*(exact_doubles(a, "coordinates") for a in args)), axis=-1)
+        if points.ndim == 0 or points.shape[-1] != d:
+            _core.fail("shape of the points", expected=f"(..., {d}): {d} coordinates each", found=str(points.shape))
+        return points.reshape(-1, d), points.shape[:-1]
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        options = {
+            "fill_value": self._fill_value,
+            "outside": self._outside,
+            "limit": self._limit,
+            "rounding": self._rounding,
+            "threads": self._threads,
+        }
+        return _unpickle, (self.mesh, self._values, options)
+
+    def __repr__(self) -> str:
+        kind = "triangles" if self.mesh.dimension == 2 else "tetrahedra"
+        return f"<barycert.Interpolator: {len(self.points)} nodes, {len(self.cells)} {kind}, values {self._values.shape}>"
+
+
+def _mesh_of(points: Any, cells: Any) -> Mesh:
+    if isinstance(points, Mesh):
+        if cells is not None:
+            _core.fail("cells of a mesh that has cells", expected="Interpolator(mesh, values)")
+        return points
+    if cells is None and isinstance(points, (np.ndarray, list, tuple)):
+        try:
+            from scipy.spatial import Delaunay
+        except ImportError:
+            _core.fail("no cells, and no SciPy to make a Delaunay triangulation", remedy="pass cells, or install SciPy")
+        cells = Delaunay(exact_doubles(points, "points"))
+    return Mesh(points, cells)
+
+
+def _parts(values: np.ndarray) -> np.ndarray:
+    """Real and imaginary parts as a last axis."""
+    if values.dtype.itemsize > 16:
+        _core.fail("type of the values", expected="complex64 or complex128", found=str(values.dtype))
+    if np.ma.is_masked(values):
+        _core.fail("masked entries of the values", remedy="say what they are: .filled(numpy.nan)")
+    return np.stack([values.real, values.imag], axis=-1)
+
+
+def _unpickle(mesh: Mesh, values: np.ndarray, options: Any) -> Interpolator:
+    return Interpolator(mesh, values, **options)

@@ -1,0 +1,103 @@
+"""Where points lie in a mesh."""
+
+from __future__ import annotations
+
+import enum
+from typing import TYPE_CHECKING, Any, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _core
+from ._arguments import Progress, Teller, options_of
+
+if TYPE_CHECKING:
+    from ._mesh import Mesh
+
+
+class Feature(enum.IntEnum):
+    """The open face of lowest dimension of the owner that holds a point. For triangles FACE is never used."""
+
+    INTERIOR = 0
+    FACE = 1
+    EDGE = 2
+    VERTEX = 3
+    OUTSIDE = 4
+
+
+class Location:
+    """Where points lie in a mesh: the result of `Mesh.locate`.
+
+    Attributes:
+        mesh: the mesh.
+        points: (..., d) the points; they cannot be written to.
+        cell: (...) int32, the owner: the lowest index among all cells that contain the point; -1 outside.
+        feature: (...) uint8, numbers of `Feature`.
+        inside: (...) bool.
+    """
+
+    def __init__(self, mesh: Mesh, points: np.ndarray, shape: Tuple[int, ...], cell: np.ndarray, feature: np.ndarray):
+        self.mesh = mesh
+        self._points = points
+        self._shape = shape
+        self._cell = cell
+        self._feature = feature
+        self._weights: Optional[np.ndarray] = None
+        self.points = points.reshape(shape + points.shape[1:])
+        self.cell = cell.reshape(shape)
+        self.feature = feature.reshape(shape)
+
+    @property
+    def inside(self) -> np.ndarray:
+        return self.cell >= 0
+
+    @property
+    def weights(self) -> np.ndarray:
+        """(..., d + 1) barycentric weights in the owner, in the order of its vertices in `mesh.cells`; each the exact one
+        rounded once, to nearest, ties to even. NaN outside. Computed when first asked for.
+
+        Of cells of second order these are the weights in the cell with straight sides; `matrix` has those of their
+        nodes."""
+        if self._weights is None:
+            self._weights = _core.weights_of(self.mesh._core, self._points, self._cell, None)
+        return self._weights.reshape(self._shape + (-1,))
+
+    def matrix(self, *, outside: str = "nan", limit: float = np.inf, progress: Progress = None) -> Any:
+        """The weights of the points on the nodes of the mesh, a scipy.sparse.csr_matrix (points, nodes): `matrix @ values`
+        interpolates any field of nodes.
+
+        Each entry is the exact weight rounded once, to nearest, ties to even; what is zero is left out. So sums over a row
+        need not be exactly 1, and products with nodal values, which NumPy rounds in each step, are not correctly rounded:
+        `sample` gives values that are. Points outside have empty rows with "nan"; with outside="nearest" or "extrapolate"
+        those of `Mesh.sample`."""
+        from scipy.sparse import csr_matrix
+
+        with Teller(progress) as tell:
+            begin, nodes, weights = _core.matrix(
+                self.mesh._core, self._points, self._cell, outside, float(limit), tell
+            )
+        return csr_matrix((weights, nodes, begin), shape=(len(self._cell), len(self.mesh.points)))
+
+    def sample(
+        self,
+        fields: Union[None, str, Sequence[str]] = None,
+        *,
+        outside: Optional[str] = None,
+        fill_value: float = np.nan,
+        limit: float = np.inf,
+        rounding: str = "correct",
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> np.ndarray:
+        """As `Mesh.sample` at these points, which are not located again."""
+        options = options_of(outside, fill_value, limit, rounding, threads)
+        with Teller(progress) as tell:
+            sampler = self.mesh._sampler(fields, tell)
+            rows = sampler.evaluate(self._points, self._cell, self._feature, options, tell)
+        return self.mesh._shaped(sampler, rows, fields, self._shape)
+
+    def __len__(self) -> int:
+        return len(self.cell)
+
+    def __repr__(self) -> str:
+        inside = int(np.count_nonzero(self._cell >= 0))
+        return f"<barycert.Location: {self._cell.size} points, {inside} inside, {self._cell.size - inside} outside>"

@@ -1,0 +1,491 @@
+"""Meshes: their geometry, fields, and what can be asked of them."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import MutableMapping
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _core
+from ._arguments import Progress, Teller, contiguous, exact_doubles, options_of, points_of, real, values_of
+from ._check import CheckReport
+from ._location import Location
+
+Fields = Union[None, str, Sequence[str]]
+
+
+class FieldData(MutableMapping):
+    """The fields of nodes or cells of a mesh, by name. What is put in is copied, as float64; what comes out cannot be
+    written to: put an array in again to change values."""
+
+    def __init__(self, core: _core.Mesh, of_cells: bool, count: int) -> None:
+        self._core = core
+        self._of_cells = of_cells
+        self._count = count
+        self._shapes: Dict[str, Tuple[int, ...]] = {}
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        array = self._core.field(name, self._of_cells)
+        if array is None:
+            raise KeyError(name)
+        return array.reshape((self._count,) + self._shape(name, array.shape[1]))
+
+    def _shape(self, name: str, components: int) -> Tuple[int, ...]:
+        return self._shapes.get(name, () if components == 1 else (components,))
+
+    def __setitem__(self, name: str, values: Any) -> None:
+        if not isinstance(name, str) or not name:
+            _core.fail("name of a field", expected="a text", found=repr(name))
+        rows, shape = values_of(values, self._count, f'values of field "{name}"')
+        self._core.set_field(name, rows, self._of_cells)
+        self._shapes[name] = shape
+
+    def __delitem__(self, name: str) -> None:
+        if name not in self:
+            raise KeyError(name)
+        self._core.remove_field(name, self._of_cells)
+        self._shapes.pop(name, None)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._core.field_names(self._of_cells)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._core.field_names(self._of_cells))
+
+    def __len__(self) -> int:
+        return len(self._core.field_names(self._of_cells))
+
+    def __repr__(self) -> str:
+        items = ", ".join(f"{name!r}: {self[name].shape}" for name in self)
+        return f"<{'cells' if self._of_cells else 'nodes'}: {{{items}}}>"
+
+
+class Mesh:
+    """A mesh of triangles in the plane or of tetrahedra in space.
+
+    Args:
+        points: (n, 2) or (n, 3) coordinates of the nodes, real numbers in any unit; finite. Or a whole mesh, without
+            `cells`: of meshio, pyvista, VTK (vtkUnstructuredGrid, vtkPolyData), matplotlib (Triangulation) or SciPy
+            (Delaunay); its fields come along.
+        cells: (m, 3) triangles with 2 coordinates, (m, 4) tetrahedra with 3: node indices of any integer type, from 0; or a
+            SciPy Delaunay or matplotlib Triangulation of the points.
+            With 6 or 10 columns cells of second order, nodes at mid-edges in VTK's order: edges 01 12 02 (03 13 23).
+        point_data, cell_data: fields, name to array (n, ...) or (m, ...).
+
+    The geometry is copied once and cannot be changed; fields can. The index for point location is made when it is first
+    needed. Any number of threads may use a mesh at the same time. Meshes can be pickled and copied.
+
+    Raises:
+        Error: shapes or types do not fit; an index is no node (it is named); a coordinate is not finite; a data set has
+            cells of other kinds.
+    """
+
+    def __init__(
+        self,
+        points: Any,
+        cells: Any = None,
+        *,
+        point_data: Optional[Mapping[str, Any]] = None,
+        cell_data: Optional[Mapping[str, Any]] = None,
+    ) -> None:
+        numbers: Optional[np.ndarray] = None
+        notes: List[str] = []
+        if cells is None or hasattr(cells, "simplices") or hasattr(cells, "triangles"):
+            from ._exchange import parts_of
+
+            parts = parts_of(points if cells is None else cells)
+            if cells is None:
+                points = parts.points
+            elif len(points) != len(parts.points):
+                # The points need not be those that were triangulated: they may have been scaled for that.
+                _core.fail("points and their triangulation", expected=f"{len(parts.points)} points", found=str(len(points)))
+            cells, numbers, notes = parts.cells, parts.cell_numbers, parts.notes
+            point_data = {**parts.point_data, **(point_data or {})}
+            cell_data = {**parts.cell_data, **(cell_data or {})}
+        coordinates = exact_doubles(points, "points")
+        if coordinates.ndim != 2 or coordinates.shape[1] not in (2, 3):
+            _core.fail("shape of the points of a mesh", expected="(n, 2) or (n, 3)", found=str(coordinates.shape))
+        indices = np.asarray(cells)
+        dimension = coordinates.shape[1]
+        columns = (3, 6) if dimension == 2 else (4, 10)
+        if indices.ndim != 2 or indices.shape[1] not in columns:
+            _core.fail(
+                "shape of the cells",
+                expected=f"(m, {columns[0]}), or (m, {columns[1]}) of second order, with {dimension} coordinates a point",
+                found=str(indices.shape),
+                remedy="triangles in space are no mesh; in a plane z = 0 pass points[:, :2]"
+                if dimension == 3 and indices.ndim == 2 and indices.shape[1] in (3, 6)
+                else "",
+            )
+        if indices.dtype.kind not in "iu":
+            _core.fail("type of the cells", expected="integers", found=str(indices.dtype))
+        left = [] if numbers is None else numbers.tolist()
+        core = _core.Mesh(coordinates, contiguous(indices, indices.dtype.newbyteorder("=")), left)
+        self._set_core(core, notes)
+        self.point_data.update(point_data or {})
+        self.cell_data.update(cell_data or {})
+
+    def _set_core(self, core: _core.Mesh, notes: Sequence[str] = ()) -> None:
+        self._core = core
+        self._more_notes = list(notes)
+        self._point_data = FieldData(core, False, len(core.points))
+        self._cell_data = FieldData(core, True, len(core.cells))
+
+    @classmethod
+    def _of_core(cls, core: _core.Mesh) -> Mesh:
+        mesh = cls.__new__(cls)
+        mesh._set_core(core)
+        return mesh
+
+    # What it is made of.
+
+    @property
+    def dimension(self) -> int:
+        """2: triangles in the plane; 3: tetrahedra."""
+        return self._core.dimension
+
+    @property
+    def points(self) -> np.ndarray:
+        """(n, d) float64, the nodes; cannot be written to."""
+        return self._core.points
+
+    @property
+    def cells(self) -> np.ndarray:
+        """(m, d + 1) int32, the vertices of the cells; cannot be written to."""
+        return self._core.cells
+
+    @property
+    def mid_nodes(self) -> Optional[np.ndarray]:
+        """(m, 3 or 6) int32, the nodes at mid-edges in VTK's order; None if the cells are linear."""
+        return self._core.mid_nodes
+
+    @property
+    def cell_numbers(self) -> Optional[np.ndarray]:
+        """(m,) int32, the number of each cell in the file or data set it came from; None if all its cells are here."""
+        return self._core.cell_numbers
+
+    @property
+    def point_markers(self) -> Optional[np.ndarray]:
+        """(n,) int64, the markers of the nodes in a file that had some."""
+        return self._core.point_markers
+
+    @property
+    def point_data(self) -> FieldData:
+        """Fields of the nodes, name to (n, ...)."""
+        return self._point_data
+
+    @property
+    def cell_data(self) -> FieldData:
+        """Fields of the cells, name to (m, ...)."""
+        return self._cell_data
+
+    @property
+    def notes(self) -> List[str]:
+        """What was left out, converted or guessed on the way from a file or data set."""
+        return self._more_notes + [text for text, _ in self._core.notes]
+
+    @property
+    def bounds(self) -> np.ndarray:
+        """(d, 2): low and high along each axis, over the nodes of cells."""
+        return np.array(_core.bounds(self._core)).T
+
+    @property
+    def certified(self) -> bool:
+        """Whether it is proved that the cells partition their domain: they meet in common faces or not at all. Makes the
+        index if there is none. `check` says why not."""
+        return _core.certified(self._core, None)
+
+    # What can be asked of it.
+
+    def locate(self, points: Any, *, threads: int = 0, progress: Progress = None) -> Location:
+        """The cell of each point: exact, and the same from run to run.
+
+        Args:
+            points: (..., d), finite; or a data set with points. Copied if they could be changed later.
+            threads: 0 for as many as the machine has.
+            progress: a callable of (stage, done, total); True for a bar of tqdm, where that is installed.
+
+        Raises:
+            Error: a coordinate is not finite (the point is named), or shapes do not fit.
+        """
+        rows, shape = points_of(points, self.dimension)
+        made_here = isinstance(points, (list, tuple)) or (
+            isinstance(points, np.ndarray) and not np.may_share_memory(rows, points)
+        )
+        if rows.flags.writeable and not made_here:
+            rows = rows.copy()
+        rows.flags.writeable = False
+        with Teller(progress) as tell:
+            cell, feature = _core.locate(self._core, rows, threads, tell)
+        return Location(self, rows, shape, cell, feature)
+
+    def locate_all(self, points: Any, *, threads: int = 0, progress: Progress = None) -> Tuple[np.ndarray, np.ndarray]:
+        """Every cell that holds each of n points (in the order of points.reshape(-1, d)).
+
+        Returns:
+            begin (n + 1) int64 and cells int32: those of point i are cells[begin[i]:begin[i + 1]], ascending.
+        """
+        rows, _ = points_of(points, self.dimension)
+        with Teller(progress) as tell:
+            return _core.locate_all(self._core, rows, threads, tell)
+
+    def nearest(self, points: Any, *, limit: float = np.inf, progress: Progress = None) -> Tuple[np.ndarray, np.ndarray]:
+        """The nearest cell to each point: exact, the lowest index among those as near.
+
+        Returns:
+            cells (...) int32, -1 where none is within `limit`; distances (...) float64, rounded to nearest, 0 inside, NaN
+            where there is no cell.
+        """
+        rows, shape = points_of(points, self.dimension)
+        with Teller(progress) as tell:
+            cells, distances = _core.nearest(self._core, rows, float(limit), tell)
+        return cells.reshape(shape), distances.reshape(shape)
+
+    def sample(
+        self,
+        points: Any,
+        fields: Fields = None,
+        *,
+        outside: Optional[str] = None,
+        fill_value: float = np.nan,
+        limit: float = np.inf,
+        rounding: str = "correct",
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> np.ndarray:
+        """Fields at points: each value is the exact interpolation in the owner, rounded once to nearest, ties to even.
+
+        Args:
+            points: (..., d), finite; or a data set with points.
+            fields: a name for one field; names, or None for all fields. What is made of fields has names, too: "v.x",
+                "|v|", "grad(T)", "mean(c)".
+            outside: what points outside get: "nan", "fill" (`fill_value`), "raise" (an Error), "nearest" (point fields at
+                the nearest point of the mesh, cell fields of its cell), "extrapolate" (the function of the nearest cell).
+                Unless it is given: `fill_value`.
+            limit: with "nearest", farther points get NaN.
+            rounding: "plain" evaluates in plain double, in cells that are exact all the same.
+
+        Returns:
+            Of one name an array (...) or (..., components); else a structured array (...), a member a field.
+        """
+        rows, shape = points_of(points, self.dimension)
+        options = options_of(outside, fill_value, limit, rounding, threads)
+        with Teller(progress) as tell:
+            sampler = self._sampler(fields, tell)
+            values = sampler.sample(rows, options, tell)
+        return self._shaped(sampler, values, fields, shape)
+
+    def resample(
+        self,
+        shape: Union[int, Sequence[int]],
+        bounds: Any = None,
+        fields: Fields = None,
+        *,
+        outside: Optional[str] = None,
+        fill_value: float = np.nan,
+        limit: float = np.inf,
+        rounding: str = "correct",
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> np.ndarray:
+        """Fields on a regular grid, many times faster than point by point.
+
+        Args:
+            shape: points along x, y (and z), ends included; one number for all axes.
+            bounds: (d, 2) low and high along each axis; None: the box of the mesh.
+            fields, outside, ...: as for `sample`.
+
+        Returns:
+            result[i, j, k] is at the i-th x, j-th y and k-th z of `grid_axes(shape, bounds)`, as of
+            numpy.meshgrid(x, y, z, indexing="ij"); otherwise as `sample`. In memory x runs fastest, as VTK has it:
+            result.ravel(order="F") is the array of a vtkImageData.
+        """
+        counts, box = self._grid(shape, bounds)
+        options = options_of(outside, fill_value, limit, rounding, threads)
+        with Teller(progress) as tell:
+            sampler = self._sampler(fields, tell)
+            values = sampler.on_grid(counts, box[:, 0].tolist(), box[:, 1].tolist(), options, tell)
+        flipped = self._shaped(sampler, values, fields, tuple(reversed(counts)))
+        axes = tuple(reversed(range(self.dimension)))
+        return flipped.transpose(axes + tuple(range(self.dimension, flipped.ndim)))
+
+    def grid_axes(self, shape: Union[int, Sequence[int]], bounds: Any = None) -> List[np.ndarray]:
+        """The coordinates of `resample`'s points along each axis, to the bit."""
+        counts, box = self._grid(shape, bounds)
+        return _core.grid_axes(counts, box[:, 0].tolist(), box[:, 1].tolist())
+
+    def gradient(self, field: Any, points: Any = None, *, progress: Progress = None) -> np.ndarray:
+        """The gradient of a field of nodes, each number the exact one rounded once.
+
+        Args:
+            field: its name, or values (n, ...) at the nodes.
+            points: None for the gradient in each cell; or (..., d), and the name of a field.
+
+        Returns:
+            (m, ..., d) in each cell, or at each point (..., components, d): derivatives by x, y, z come last. Where cells
+            meet, the gradient jumps, and a point gets that of its owner. NaN in degenerate cells, and outside.
+        """
+        if points is not None:
+            if not isinstance(field, str):
+                _core.fail("gradient at points", expected="the name of a field", found=type(field).__name__)
+            values = self.sample(points, f"grad({field})", progress=progress)
+            components = self.point_data[field].shape[1:] if field in self.point_data else ()
+            return values.reshape(values.shape[:-1] + components + (self.dimension,))
+        if self.mid_nodes is not None:
+            _core.fail(
+                "gradient in a cell of second order",
+                expected="points, as it is not the same everywhere in it",
+                remedy="pass points",
+            )
+        if isinstance(field, str):
+            if field not in self.point_data:
+                _core.fail("no such field of nodes", found=repr(field), expected=", ".join(self.point_data) or "none")
+            field = self.point_data[field]
+        values, shape = values_of(field, len(self.points), "values")
+        with Teller(progress) as tell:
+            gradients = self._core.gradients(values, tell)
+        return gradients.reshape((len(self.cells),) + shape + (self.dimension,))
+
+    def check(
+        self,
+        *,
+        delaunay: bool = False,
+        examples: int = 10,
+        contacts: int = 20,
+        verdict_only: bool = False,
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> CheckReport:
+        """Proves that the cells partition their domain, or finds why not: exact for all finite doubles.
+
+        Args:
+            delaunay: also test every interior facet.
+            examples: places kept of each defect. contacts: pairs of cells for which a common point is computed.
+            verdict_only: stop at the first defect that breaks the certificate.
+            progress: called with the name of each stage, 0, 0.
+        """
+        with Teller(progress) as tell:
+            return CheckReport(
+                _core.check(self._core, delaunay, examples, contacts, verdict_only, threads, tell), self
+            )
+
+    # Out and in.
+
+    def write(self, path: Union[str, os.PathLike], *, comment: str = "", data: str = "raw") -> None:
+        """Writes mesh and fields as the path ends: .vtu, .vtk, .msh (Gmsh), .node and .ele (TetGen, Triangle). The file
+        appears whole or not at all; every double reads back to the same bits.
+
+        data: how numbers of VTK's files are written: "raw", "zlib", "lz4", "lzma" or "ascii".
+        """
+        self._core.write(os.fspath(path), comment, data)
+
+    def to_meshio(self) -> Any:
+        """A meshio.Mesh with the fields."""
+        from ._exchange import to_meshio
+
+        return to_meshio(self)
+
+    def to_vtk(self) -> Any:
+        """A vtkUnstructuredGrid with the fields; triangles get z = 0."""
+        from ._exchange import to_vtk
+
+        return to_vtk(self)
+
+    def to_pyvista(self) -> Any:
+        """A pyvista.UnstructuredGrid with the fields; triangles get z = 0."""
+        from ._exchange import to_pyvista
+
+        return to_pyvista(self)
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        cells = self.cells if self.mid_nodes is None else np.hstack([self.cells, self.mid_nodes])
+        return _unpickle, (self.points, cells, self.cell_numbers, dict(self.point_data), dict(self.cell_data), self.notes)
+
+    def __copy__(self) -> Mesh:
+        return self.__deepcopy__({})
+
+    def __deepcopy__(self, _: Any) -> Mesh:
+        make, arguments = self.__reduce__()
+        return make(*arguments)
+
+    def __repr__(self) -> str:
+        kind = "triangles" if self.dimension == 2 else "tetrahedra"
+        order = "" if self.mid_nodes is None else " of second order"
+        text = f"<barycert.Mesh: {len(self.points)} nodes, {len(self.cells)} {kind}{order}"
+        for what, data in (("point_data", self.point_data), ("cell_data", self.cell_data)):
+            if data:
+                text += f", {what} {', '.join(data)}"
+        return text + ">"
+
+    # For this package.
+
+    def _grid(self, shape: Union[int, Sequence[int]], bounds: Any) -> Tuple[List[int], np.ndarray]:
+        counts = [int(shape)] * self.dimension if np.ndim(shape) == 0 else [int(n) for n in shape]  # type: ignore
+        box = self.bounds if bounds is None else np.asarray(real(bounds, "bounds"), dtype=float)
+        if len(counts) != self.dimension or box.shape != (self.dimension, 2):
+            _core.fail(
+                "shape and bounds of the grid",
+                expected=f"{self.dimension} numbers of points, bounds ({self.dimension}, 2)",
+                found=f"{len(counts)}, bounds {box.shape}",
+            )
+        return counts, box
+
+    def _sampler(self, fields: Fields, tell: Any) -> _core.Sampler:
+        if fields is not None and not isinstance(fields, str) and not list(fields):
+            _core.fail("no fields", expected="a name, names, or None for all")
+        return self._core.sampler([] if fields is None else [fields] if isinstance(fields, str) else list(fields), tell)
+
+    def _shape_of(self, name: str, components: int) -> Tuple[int, ...]:
+        for data in (self.point_data, self.cell_data):
+            shape = data._shapes.get(name)
+            if shape is not None and int(np.prod(shape, dtype=np.int64)) == components:
+                return shape
+        return () if components == 1 else (components,)
+
+    def _shaped(self, sampler: _core.Sampler, values: np.ndarray, fields: Fields, shape: Tuple[int, ...]) -> np.ndarray:
+        members: List[Tuple[str, Any, Tuple[int, ...]]] = []
+        for name, components in sampler.fields:
+            own = self._shape_of(name, components)
+            # Of two fields with one name that of the cells comes second.
+            taken = [member[0] for member in members]
+            members.append((f"cell:{name}" if name in taken else name, np.float64, own))
+        if isinstance(fields, str) and len(members) == 1:
+            return values.reshape(shape + members[0][2])
+        if not members:
+            _core.fail("the mesh has no fields", remedy="put one into mesh.point_data or mesh.cell_data")
+        return values.view(np.dtype(members)).reshape(shape)
+
+
+def _unpickle(
+    points: np.ndarray,
+    cells: np.ndarray,
+    numbers: Optional[np.ndarray],
+    point_data: Dict[str, np.ndarray],
+    cell_data: Dict[str, np.ndarray],
+    notes: Sequence[str],
+) -> Mesh:
+    mesh = Mesh.__new__(Mesh)
+    left = [] if numbers is None else numbers.tolist()
+    mesh._set_core(_core.Mesh(contiguous(points), contiguous(cells, np.int32), left), notes)
+    mesh.point_data.update(point_data)
+    mesh.cell_data.update(cell_data)
+    return mesh
+
+
+def read(path: Union[str, os.PathLike]) -> Mesh:
+    """Reads a mesh with its fields: TetGen's or Triangle's files by their stem or any one of them; .msh of Gmsh; .vtu,
+    .vtk, .vtp, .pvtu, .vtm and .pvd of VTK. The format is told by the contents.
+
+    What may change what results mean is a warning, all else that was left out, converted or guessed is in `notes`.
+
+    Raises:
+        Error: there is no such file, it is broken or of another kind; the message says where and why.
+    """
+    mesh = Mesh._of_core(_core.read(os.fspath(path)))
+    for text, important in mesh._core.notes:
+        if important:
+            warnings.warn(text, stacklevel=2)
+    return mesh

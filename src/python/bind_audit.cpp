@@ -1,0 +1,237 @@
+#include "bindings.hpp"
+#include "errors.hpp"
+
+#ifdef BARYCERT_WITH_AUDIT
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "barycert/audit.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/audit_signs.hpp"
+#include "barycert/kernels.hpp"
+#include "mesh_object.hpp"
+
+namespace barycert::python {
+namespace {
+
+namespace py = pybind11;
+
+/// A kernel in Python. Kernels are plain functions without data of their own, so there is one place for the callable:
+/// one audit at a time has it.
+struct Callable {
+    py::object function;
+    Simplex simplex = Simplex::tetrahedron;
+};
+const Callable* callable_kernel = nullptr;
+std::mutex callable_kernel_in_use;
+thread_local bool in_callable = false;
+
+/// The weights that the callable returns, or None: declared degenerate. What it raises ends the audit.
+int call_kernel(const double* vertices, const double* point, double* weights) {
+    const py::gil_scoped_acquire lock;
+    const Simplex simplex = callable_kernel->simplex;
+    const int n = vertex_count(simplex), d = space_dimension(simplex);
+    struct Within {
+        Within() { in_callable = true; }
+        ~Within() { in_callable = false; }
+    };
+    const py::object answer = [&] {
+        const Within within;
+        return callable_kernel->function(py::array_t<double>({n, d}, vertices), py::array_t<double>(d, point));
+    }();
+    if (answer.is_none()) return 1;
+    const py::array_t<double, py::array::c_style | py::array::forcecast> numbers(answer);
+    if (numbers.ndim() != 1 || numbers.size() != n)
+        throw Exception({.what = "what the kernel returned",
+                         .expected = std::to_string(n) + " weights, or None for a degenerate simplex",
+                         .found = py::repr(answer)});
+    std::copy_n(numbers.data(), n, weights);
+    return 0;
+}
+
+Simplex simplex_by_name(const std::string& word) {
+    const auto simplex = simplex_named(word);
+    if (!simplex)
+        throw Exception({.what = "simplex of the kernel",
+                         .expected = "segment, triangle, triangle3d or tetrahedron",
+                         .found = word});
+    return *simplex;
+}
+
+Kernel kernel_of(Simplex simplex, const std::string& name, bool declares, std::optional<double> tolerance) {
+    // How weights and nodal values make a value is the same for all kernels of a simplex.
+    const auto same = std::find_if(catalogue().begin(), catalogue().end(), [&](const Kernel& k) {
+        return k.simplex == simplex && !k.perspective && k.value != nullptr;
+    });
+    Kernel kernel;
+    kernel.name = std::string(barycert::name(simplex)) + "." + name;
+    kernel.simplex = simplex;
+    kernel.formula = "a callable of Python";
+    kernel.declares_degenerate = declares;
+    kernel.weights = call_kernel;
+    kernel.value = same->value;
+    if (tolerance) {
+        kernel.rule = RegionRule::tolerant;
+        kernel.tolerance = *tolerance;
+    }
+    return kernel;
+}
+
+std::vector<Kernel> kernels_named(const std::vector<std::string>& globs) {
+    std::vector<Kernel> all;
+    for (const std::string& glob : globs) {
+        const std::vector<Kernel> some = kernels_matching(glob);
+        if (some.empty())
+            throw Exception({.what = "no kernel of that name",
+                             .found = '"' + glob + '"',
+                             .remedy = "barycert.kernels() lists them"});
+        for (const Kernel& k : some) {
+            if (std::none_of(all.begin(), all.end(), [&](const Kernel& have) { return have.name == k.name; }))
+                all.push_back(k);
+        }
+    }
+    return all;
+}
+
+/// Those of these names, or all that need nothing that is not there.
+std::vector<Family> families_named(const std::vector<std::string>& globs, bool meshes) {
+    std::vector<Family> all;
+    if (globs.empty()) {
+        std::copy_if(all_families().begin(), all_families().end(), std::back_inserter(all),
+                     [&](const Family& f) { return meshes || !f.needs_mesh; });
+        return all;
+    }
+    for (const std::string& glob : globs) {
+        const std::vector<Family> some = families_matching(glob);
+        if (some.empty())
+            throw Exception({.what = "no family of that name",
+                             .found = '"' + glob + '"',
+                             .remedy = "barycert.families() lists them"});
+        all.insert(all.end(), some.begin(), some.end());
+    }
+    return all;
+}
+
+OracleChoice oracle_by_name(const std::string& word) {
+    for (const OracleChoice o :
+         {OracleChoice::automatic, OracleChoice::integers, OracleChoice::cgal, OracleChoice::both}) {
+        if (name(o) == word) return o;
+    }
+    throw Exception({.what = "oracle", .expected = "automatic, integers, cgal or both", .found = word});
+}
+
+struct Request {
+    py::object callable;  ///< or None
+    std::string simplex, name;
+    bool declares_degenerate = false;
+    std::optional<double> tolerance;
+    std::vector<std::string> libraries, catalogue;
+    bool contained = true;
+};
+
+std::shared_ptr<AuditReport> audit(const Request& request, std::uint64_t count, std::uint64_t seed,
+                                   const std::vector<std::string>& families,
+                                   const std::vector<std::pair<std::string, const MeshObject*>>& meshes, int threads,
+                                   const std::string& oracle, py::object progress_callable) {
+    const Progress progress(std::move(progress_callable));
+    AuditOptions options;
+    options.count = count;
+    options.seed = seed;
+    options.threads = threads;
+    options.oracle = oracle_by_name(oracle);
+    options.families = families_named(families, !meshes.empty());
+    options.progress = [&](const AuditProgress& p) { progress.tell(p.family, p.cases_done, p.cases_total); };
+    Callable callable;
+    if (!request.callable.is_none()) {
+        callable = {request.callable, simplex_by_name(request.simplex)};
+        options.kernels.push_back(
+            kernel_of(callable.simplex, request.name, request.declares_degenerate, request.tolerance));
+        // Python runs one thread at a time; and in this one it sees Ctrl-C.
+        options.threads = 1;
+    }
+    for (const std::string& path : request.libraries) {
+        const py::gil_scoped_release unlocked;
+        options.kernels.push_back(take(request.contained ? load_contained_kernel(path) : load_kernel_library(path)));
+        if (request.tolerance && options.kernels.back().rule == RegionRule::sign) {
+            options.kernels.back().rule = RegionRule::tolerant;
+            options.kernels.back().tolerance = *request.tolerance;
+        }
+    }
+    for (Kernel& kernel : kernels_named(request.catalogue)) options.kernels.push_back(std::move(kernel));
+    const py::gil_scoped_release unlocked;
+    MeshSource source;
+    for (const auto& [name, mesh] : meshes) source.add(name, mesh->mesh());
+    std::unique_lock<std::mutex> turn;
+    if (callable.function) {
+        if (in_callable)
+            throw Exception(
+                {.what = "an audit of a callable within an audit", .remedy = "begin it when the other has ended"});
+        turn = std::unique_lock(callable_kernel_in_use);
+        callable_kernel = &callable;
+    }
+    return std::make_shared<AuditReport>(take(run_audit(options, source)));
+}
+
+std::string html_of(const AuditReport& report) {
+    std::vector<Kernel> kernels;
+    for (const KernelResult& k : report.kernels) {
+        // A picture asks the kernel, and the callable is gone.
+        if (k.kernel.weights != call_kernel) kernels.push_back(k.kernel);
+    }
+    return take(audit_html(report, {.style = {}, .command_line = {}, .signs = sign_pictures(kernels)}));
+}
+
+}  // namespace
+
+void bind_audit(py::module_& module) {
+    module.attr("has_audit") = true;
+    py::class_<AuditReport, std::shared_ptr<AuditReport>>(module, "AuditReport")
+        .def("json", &audit_json)
+        .def(
+            "text", [](const AuditReport& r, bool wide) { return audit_text(r, {.wide = wide}); }, py::arg("wide"))
+        .def("html", &html_of);
+    module.def(
+        "audit",
+        [](py::object callable, std::string simplex, std::string name, bool declares_degenerate,
+           std::optional<double> tolerance, std::vector<std::string> libraries, std::vector<std::string> catalogue,
+           bool contained, std::uint64_t count, std::uint64_t seed, const std::vector<std::string>& families,
+           const std::vector<std::pair<std::string, const MeshObject*>>& meshes, int threads, const std::string& oracle,
+           py::object progress) {
+            return audit({std::move(callable), std::move(simplex), std::move(name), declares_degenerate, tolerance,
+                          std::move(libraries), std::move(catalogue), contained},
+                         count, seed, families, meshes, threads, oracle, std::move(progress));
+        },
+        py::arg("callable"), py::arg("simplex"), py::arg("name"), py::arg("declares_degenerate"), py::arg("tolerance"),
+        py::arg("libraries"), py::arg("catalogue"), py::arg("contained"), py::arg("count"), py::arg("seed"),
+        py::arg("families"), py::arg("meshes"), py::arg("threads"), py::arg("oracle"), py::arg("progress"));
+    module.def("finding_names", [] {
+        std::vector<std::string> names;
+        for (const FindingText& text : finding_texts) names.emplace_back(text.name);
+        return names;
+    });
+    module.def("kernels", [] { return kernels_json(catalogue()); });
+    module.def("families", [] { return families_json(all_families()); });
+}
+
+}  // namespace barycert::python
+
+#else
+
+namespace barycert::python {
+
+void bind_audit(pybind11::module_& module) {
+    module.attr("has_audit") = false;
+}
+
+}  // namespace barycert::python
+
+#endif

@@ -1,0 +1,130 @@
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.hpp"
+#include "barycert/check.hpp"
+#include "barycert/report.hpp"
+#include "bindings.hpp"
+#include "errors.hpp"
+#include "mesh_object.hpp"
+
+namespace barycert::python {
+namespace {
+
+namespace py = pybind11;
+
+/// A report with the mesh that it is of.
+struct BoundReport {
+    std::shared_ptr<Geometry> geometry;
+    CheckReport report;
+};
+using Shared = std::shared_ptr<BoundReport>;
+
+Shared check_of(const MeshObject& mesh, bool delaunay, std::size_t examples, std::size_t contacts, bool verdict_only,
+                int threads, py::object callable) {
+    const Progress progress(std::move(callable));
+    CheckOptions options{.threads = threads,
+                         .delaunay = delaunay,
+                         .examples = examples,
+                         .contacts = contacts,
+                         .verdict_only = verdict_only,
+                         .progress = [&](const char* stage) { progress.tell(stage, 0, 0); }};
+    const py::gil_scoped_release unlocked;
+    return std::make_shared<BoundReport>(BoundReport{mesh.geometry(), check_mesh(mesh.mesh(), options)});
+}
+
+/// A tuple of the numbers that are used.
+template <std::size_t n>
+py::tuple used(const std::array<Mesh::Index, n>& all) {
+    py::list list;
+    for (const Mesh::Index i : all) {
+        if (i >= 0) list.append(i);
+    }
+    return py::tuple(list);
+}
+
+py::list defects_of(const CheckReport& report) {
+    py::list defects;
+    for (const Defect& defect : report.defects) {
+        const DefectText& text = defect_text(defect.kind);
+        py::list places;
+        for (const DefectPlace& place : defect.places)
+            places.append(py::make_tuple(used(place.cells), used(place.nodes), std::string(place.detail)));
+        using namespace pybind11::literals;
+        defects.append(py::dict("kind"_a = std::string(text.name), "count"_a = defect.count,
+                                "at_least"_a = defect.at_least, "breaks"_a = text.breaks,
+                                "condition"_a = std::string(text.condition), "text"_a = std::string(text.text),
+                                "remedy"_a = std::string(text.remedy), "places"_a = places));
+    }
+    return defects;
+}
+
+py::list contacts_of(const CheckReport& report, int dimension) {
+    py::list contacts;
+    for (const CellContact& contact : report.contacts) {
+        py::list point, fraction;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
+            point.append(contact.common.point[k]);
+            fraction.append(contact.common.fraction[k]);
+        }
+        using namespace pybind11::literals;
+        contacts.append(py::dict("cells"_a = py::make_tuple(contact.cells[0], contact.cells[1]),
+                                 "overlap"_a = contact.overlap, "dimension"_a = contact.dimension,
+                                 "point"_a = py::tuple(point), "exact"_a = contact.common.exact,
+                                 "fraction"_a = py::tuple(fraction)));
+    }
+    return contacts;
+}
+
+py::dict measures_of(const Shared& bound) {
+    const CellMeasures& m = bound->report.measures;
+    py::dict measures;
+    const auto add = [&](const char* name, const auto& numbers) {
+        if (!numbers.empty()) measures[name] = view(numbers.data(), {extent(numbers.size())}, bound);
+    };
+    add("orientation", m.orientation);
+    add("volume", m.volume);
+    add("condition", m.condition);
+    add("radius_edge", m.radius_edge);
+    add("aspect", m.aspect);
+    add("min_angle", m.min_angle);
+    add("max_angle", m.max_angle);
+    return measures;
+}
+
+}  // namespace
+
+void bind_check(py::module_& module) {
+    py::class_<BoundReport, Shared>(module, "CheckReport")
+        .def_property_readonly("verdict",
+                               [](const BoundReport& r) { return std::string(name(r.report.certificate.verdict())); })
+        .def_property_readonly("certified", [](const BoundReport& r) { return r.report.certified(); })
+        .def_property_readonly("defects", [](const BoundReport& r) { return defects_of(r.report); })
+        .def_property_readonly("contacts",
+                               [](const BoundReport& r) { return contacts_of(r.report, r.geometry->mesh.dimension); })
+        .def_property_readonly("measures", &measures_of)
+        .def(
+            "text",
+            [](const BoundReport& r, const std::string& name, bool colour) {
+                return check_text(r.report, r.geometry->mesh, name, {.colour = colour});
+            },
+            py::arg("name"), py::arg("colour"))
+        .def(
+            "json",
+            [](const BoundReport& r, const std::string& name) {
+                return check_json(r.report, name, measure_environment());
+            },
+            py::arg("name"))
+        .def(
+            "html",
+            [](const BoundReport& r, const std::string& name) { return check_html(r.report, r.geometry->mesh, name); },
+            py::arg("name"));
+    module.def("check", &check_of, py::arg("mesh"), py::arg("delaunay"), py::arg("examples"), py::arg("contacts"),
+               py::arg("verdict_only"), py::arg("threads"), py::arg("progress"));
+}
+
+}  // namespace barycert::python

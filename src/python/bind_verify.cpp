@@ -1,0 +1,96 @@
+#include <pybind11/stl.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "arrays.hpp"
+#include "barycert/verify.hpp"
+#include "bindings.hpp"
+#include "errors.hpp"
+#include "mesh_object.hpp"
+
+namespace barycert::python {
+namespace {
+
+namespace py = pybind11;
+using namespace pybind11::literals;
+
+template <class T>
+std::span<const T> part(const std::optional<Array<T>>& array, std::size_t columns, std::size_t first, std::size_t n) {
+    if (!array) return {};
+    return span_of(*array).subspan(columns * first, columns * n);
+}
+
+py::dict row_of(const WrongRow& row, std::size_t dimension, const std::vector<std::string>& columns) {
+    py::list point;
+    for (std::size_t k = 0; k < dimension; ++k) point.append(row.point[k]);
+    const bool value = row.verdict == RowVerdict::wrong_value;
+    return py::dict("verdict"_a = std::string(name(row.verdict)), "row"_a = row.row, "point"_a = py::tuple(point),
+                    "claimed_cell"_a = row.claimed_cell, "cell"_a = row.exact.cell,
+                    "feature"_a = static_cast<int>(row.exact.feature), "cells"_a = row.cells,
+                    "column"_a = value ? columns[row.column] : std::string(), "claimed"_a = row.claimed,
+                    "value"_a = row.value, "ulps"_a = row.ulps, "relative"_a = row.relative,
+                    "distance"_a = row.distance);
+}
+
+py::dict dict_of(const Verdicts& v, const BoundSampler& bound, const std::vector<double>& ranges) {
+    const std::vector<std::string>& names = bound.sampler.columns();
+    py::list columns, examples;
+    for (std::size_t c = 0; c < v.columns.size(); ++c) {
+        const ValueErrors& e = v.columns[c];
+        columns.append(py::dict("name"_a = names[c], "range"_a = ranges[c], "values"_a = e.values,
+                                "identical"_a = e.identical, "over"_a = e.over, "missing"_a = e.missing,
+                                "spurious"_a = e.spurious, "max_ulps"_a = e.max_ulps,
+                                "max_relative"_a = e.max_relative));
+    }
+    for (const WrongRow& row : v.examples)
+        examples.append(row_of(row, static_cast<std::size_t>(bound.geometry->mesh.dimension), names));
+    return py::dict("rows"_a = v.rows, "right"_a = v.right, "missed"_a = v.missed, "invented"_a = v.invented,
+                    "wrong_cell"_a = v.wrong_cell, "wrong_value"_a = v.wrong_value, "inside"_a = v.inside,
+                    "outside"_a = v.outside, "on_boundary"_a = v.on_boundary,
+                    "invented_distance"_a = v.invented_distance, "columns"_a = columns, "examples"_a = examples);
+}
+
+/// points (n, dimension); cells (n), inside (n), values (n, columns), or None.
+py::dict verify(const BoundSampler& bound, const Array<double>& points, const std::optional<Array<std::int64_t>>& cells,
+                const std::optional<Array<std::uint8_t>>& inside, const std::optional<Array<double>>& values,
+                double tolerance, bool exact, std::optional<double> outside_value, std::size_t examples, int threads,
+                const py::object& callable) {
+    const Verifier verifier(bound.sampler, {.tolerance = tolerance,
+                                            .exact = exact,
+                                            .outside_value = outside_value,
+                                            .examples = examples,
+                                            .threads = threads});
+    const std::size_t d = static_cast<std::size_t>(bound.geometry->mesh.dimension),
+                      columns = bound.sampler.columns().size(), count = static_cast<std::size_t>(points.size()) / d;
+    const std::span<const double> all = span_of(points);
+    Verdicts verdicts;
+    verdicts.columns.resize(columns);
+    in_blocks(Progress(callable), "rows", count, [&](std::size_t first, std::size_t n) {
+        verdicts.add(take(verifier.verify({.points = all.subspan(d * first, d * n),
+                                           .cells = part(cells, 1, first, n),
+                                           .inside = part(inside, 1, first, n),
+                                           .values = part(values, columns, first, n),
+                                           .first_row = first})),
+                     examples);
+    });
+    {
+        const py::gil_scoped_release unlocked;
+        check(verifier.measure(verdicts));
+    }
+    return dict_of(verdicts, bound, verifier.ranges());
+}
+
+}  // namespace
+
+void bind_verify(py::module_& module) {
+    module.def("verify", &verify, py::arg("sampler"), py::arg("points").noconvert(), py::arg("cells"),
+               py::arg("inside"), py::arg("values"), py::arg("tolerance"), py::arg("exact"), py::arg("outside_value"),
+               py::arg("examples"), py::arg("threads"), py::arg("progress"));
+}
+
+}  // namespace barycert::python

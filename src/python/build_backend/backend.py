@@ -1,0 +1,123 @@
+"""Builds wheels of barycert with CMake (PEP 517), with nothing but the standard library: pip need fetch nothing."""
+
+import base64
+import hashlib
+import os
+import re
+import subprocess
+import sys
+import sysconfig
+import tarfile
+import tempfile
+import zipfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+
+
+def _project():
+    import tomllib
+
+    with open(os.path.join(ROOT, "pyproject.toml"), "rb") as file:
+        project = tomllib.load(file)["project"]
+    with open(os.path.join(ROOT, "CMakeLists.txt"), encoding="utf-8") as file:
+        project["version"] = re.search(r"project\(barycert VERSION ([0-9.]+)", file.read()).group(1)
+    return project
+
+
+def _metadata(project):
+    lines = [
+        "Metadata-Version: 2.1",
+        f"Name: {project['name']}",
+        f"Version: {project['version']}",
+        f"Summary: {project['description']}",
+        f"Requires-Python: {project['requires-python']}",
+        "License: Apache-2.0",
+    ]
+    lines += [f"Requires-Dist: {name}" for name in project["dependencies"]]
+    for extra, names in project["optional-dependencies"].items():
+        lines.append(f"Provides-Extra: {extra}")
+        lines += [f"Requires-Dist: {name}; extra == '{extra}'" for name in names]
+    with open(os.path.join(ROOT, project["readme"]), encoding="utf-8") as file:
+        return "\n".join([*lines, "Description-Content-Type: text/markdown", "", file.read()])
+
+
+def _tag():
+    version = f"cp{sys.version_info.major}{sys.version_info.minor}"
+    return f"{version}-{version}-" + sysconfig.get_platform().replace("-", "_").replace(".", "_")
+
+
+def _run(*command):
+    subprocess.run(command, check=True, cwd=ROOT)
+
+
+def _stage(settings, folder):
+    """Builds, and returns where below `folder` the package is, as it is to be installed."""
+    build = settings.get("prebuilt")
+    if build is None:
+        build = settings.get("build-dir", os.path.join(ROOT, "build", "wheel-" + sysconfig.get_config_var("SOABI")))
+        options = {
+            "CMAKE_BUILD_TYPE": "Release",
+            "BARYCERT_PYTHON": "ON",
+            "BARYCERT_AUDIT": settings.get("audit", "ON"),
+            "BARYCERT_CLI": "OFF",
+            "BARYCERT_TETGEN": "OFF",
+            "Python3_EXECUTABLE": sys.executable,
+        }
+        _run("cmake", "-S", ROOT, "-B", build, "-G", "Ninja", *(f"-D{name}={value}" for name, value in options.items()))
+        _run("cmake", "--build", build, "--target", "barycert_python")
+    _run("cmake", "--install", build, "--component", "python", "--prefix", folder, "--strip")
+    for path, _, files in os.walk(folder):
+        if "__init__.py" in files:
+            return path
+    raise RuntimeError(f"{build} has no package for Python: configure it with -DBARYCERT_PYTHON=ON")
+
+
+def _add_files(add, package):
+    for file in sorted(os.listdir(package)):
+        with open(os.path.join(package, file), "rb") as source:
+            add(f"barycert/{file}", source.read())
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    """Settings (pip --config-settings): build-dir=FOLDER; audit=OFF leaves out the audit, and GMP and MPFR with it;
+    prebuilt=FOLDER takes the package from a build by CMake that has it."""
+    del metadata_directory
+    project = _project()
+    base = f"{project['name']}-{project['version']}"
+    info = base + ".dist-info"
+    name = f"{base}-{_tag()}.whl"
+    record = []
+    with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(
+        os.path.join(wheel_directory, name), "w", zipfile.ZIP_DEFLATED
+    ) as wheel:
+
+        def add(path, content):
+            wheel.writestr(path, content)
+            digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
+            record.append(f"{path},sha256={digest},{len(content)}")
+
+        _add_files(add, _stage(config_settings or {}, folder))
+        with open(os.path.join(ROOT, "LICENSE"), "rb") as source:
+            add(f"{info}/LICENSE", source.read())
+        add(f"{info}/METADATA", _metadata(project).encode())
+        add(f"{info}/WHEEL", f"Wheel-Version: 1.0\nGenerator: barycert\nRoot-Is-Purelib: false\nTag: {_tag()}\n".encode())
+        wheel.writestr(f"{info}/RECORD", "\n".join([*record, f"{info}/RECORD,,", ""]))
+    return name
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    """What git knows of."""
+    del config_settings
+    project = _project()
+    base = f"{project['name']}-{project['version']}"
+    files = subprocess.run(["git", "ls-files", "-z"], check=True, cwd=ROOT, capture_output=True).stdout.decode().split("\0")
+    with tempfile.TemporaryDirectory() as folder, tarfile.open(
+        os.path.join(sdist_directory, base + ".tar.gz"), "w:gz", format=tarfile.PAX_FORMAT
+    ) as archive:
+        for file in filter(None, files):
+            archive.add(os.path.join(ROOT, file), f"{base}/{file}", recursive=False)
+        info = os.path.join(folder, "PKG-INFO")
+        with open(info, "w", encoding="utf-8") as out:
+            out.write(_metadata(project))
+        archive.add(info, f"{base}/PKG-INFO")
+    return base + ".tar.gz"

@@ -1,0 +1,60 @@
+#include "errors.hpp"
+
+#include <exception>
+#include <string>
+
+namespace barycert::python {
+namespace {
+
+namespace py = pybind11;
+
+/// Lives as long as the process, as types of exceptions do.
+PyObject* error_type = nullptr;
+
+void set_error(const Error& error) {
+    // The parts may hold bytes of any file.
+    const auto text = [](const std::string& s) {
+        return py::reinterpret_steal<py::object>(
+            PyUnicode_DecodeUTF8(s.data(), static_cast<Py_ssize_t>(s.size()), "backslashreplace"));
+    };
+    const py::object exception = py::handle(error_type)(text(error.message()));
+    exception.attr("what") = text(error.what);
+    exception.attr("file") = text(error.file);
+    exception.attr("line") = error.line;
+    exception.attr("expected") = text(error.expected);
+    exception.attr("found") = text(error.found);
+    exception.attr("remedy") = text(error.remedy);
+    PyErr_SetObject(error_type, exception.ptr());
+}
+
+}  // namespace
+
+void bind_errors(py::module_& module) {
+    error_type =
+        PyErr_NewExceptionWithDoc("barycert.Error",
+                                  "What went wrong with an input. str() is the whole message; its parts, empty "
+                                  "where they do not apply, are `what`, `file`, `line` (from 1; 0: none), "
+                                  "`expected`, `found` and `remedy`.",
+                                  PyExc_ValueError, nullptr);
+    if (error_type == nullptr) throw py::error_already_set();
+    module.attr("Error") = py::handle(error_type);
+    py::register_exception_translator([](std::exception_ptr thrown) {
+        try {
+            if (thrown) std::rethrow_exception(thrown);
+        } catch (const Exception& e) {
+            set_error(e.error());
+        }
+    });
+    module.def(
+        "fail",
+        [](std::string what, std::string expected, std::string found, std::string remedy) {
+            throw Exception({.what = std::move(what),
+                             .expected = std::move(expected),
+                             .found = std::move(found),
+                             .remedy = std::move(remedy)});
+        },
+        py::arg("what"), py::arg("expected") = "", py::arg("found") = "", py::arg("remedy") = "",
+        "Raises Error with these parts.");
+}
+
+}  // namespace barycert::python

@@ -1,0 +1,38 @@
+#include "options.hpp"
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "errors.hpp"
+
+namespace barycert::python {
+
+OutsidePolicy outside_policy(const std::string& outside, double fill, double limit) {
+    constexpr std::array<std::pair<std::string_view, Outside>, 5> words{{{"nan", Outside::nan},
+                                                                         {"raise", Outside::error},
+                                                                         {"fill", Outside::fill},
+                                                                         {"nearest", Outside::nearest},
+                                                                         {"extrapolate", Outside::extrapolate}}};
+    for (const auto& [word, kind] : words) {
+        if (word == outside) return {kind, fill, limit};
+    }
+    throw Exception({.what = "what points outside get (outside=)",
+                     .expected = "nan, raise, fill, nearest or extrapolate",
+                     .found = outside});
+}
+
+SampleOptions sample_options(const std::string& outside, double fill, double limit, const std::string& rounding,
+                             int threads) {
+    if (rounding != "correct" && rounding != "plain")
+        throw Exception({.what = "rounding of values (rounding=)", .expected = "correct or plain", .found = rounding});
+    if (threads < 0)
+        throw Exception({.what = "number of threads (threads=)",
+                         .expected = "0 for as many as the machine has, or more",
+                         .found = std::to_string(threads)});
+    return {.rounding = rounding == "plain" ? Rounding::plain : Rounding::correct,
+            .outside = outside_policy(outside, fill, limit),
+            .threads = threads};
+}
+
+}  // namespace barycert::python

@@ -1,0 +1,109 @@
+#include "vtk/exact_index.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <list>
+#include <mutex>
+#include <utility>
+
+#include <vtkCallbackCommand.h>
+#include <vtkDataSet.h>
+
+#include "vtk/simplices.hpp"
+
+namespace barycert::in_vtk {
+
+namespace {
+
+struct Entry {
+    const vtkObjectBase* data;
+    vtkMTimeType time;
+    std::shared_ptr<const ExactIndex> index;
+};
+
+struct Cache {
+    std::mutex making;  ///< held while an index is made, so that it is made once
+    std::mutex access;  ///< held while entries are read or changed
+    std::list<Entry> entries;
+};
+
+// Data sets may die after all static objects have: hence never destroyed.
+Cache& cache() {
+    static Cache& the = *new Cache;
+    return the;
+}
+
+std::shared_ptr<const ExactIndex> cached(const vtkDataSet& data, vtkMTimeType time) {
+    const std::lock_guard lock(cache().access);
+    // Times of modification never come twice: an address that is used again has another.
+    for (const Entry& entry : cache().entries)
+        if (entry.data == &data && entry.time == time) return entry.index;
+    return nullptr;
+}
+
+void forget(vtkObject* data, unsigned long, void*, void*) {
+    const std::lock_guard lock(cache().access);
+    cache().entries.remove_if([data](const Entry& entry) { return entry.data == data; });
+}
+
+bool same_cells(const ExactIndex& a, const ExactIndex& b) {
+    return a.normal == b.normal && a.plane == b.plane && a.reason == b.reason && a.mesh.cells == b.mesh.cells &&
+           a.ids == b.ids && a.mesh.points == b.mesh.points;
+}
+
+void remember(vtkDataSet& data, vtkMTimeType time, std::shared_ptr<const ExactIndex> index) {
+    const std::lock_guard lock(cache().access);
+    for (Entry& entry : cache().entries) {
+        if (entry.data != &data) continue;
+        entry.time = time;
+        entry.index = std::move(index);
+        return;
+    }
+    vtkCallbackCommand* const command = vtkCallbackCommand::New();
+    command->SetCallback(forget);
+    data.AddObserver(vtkCommand::DeleteEvent, command);
+    command->Delete();
+    cache().entries.push_back({&data, time, std::move(index)});
+}
+
+// One that was made for the same cells: of a shallow copy, or before point data changed.
+std::shared_ptr<const ExactIndex> made_before(const ExactIndex& index) {
+    const std::lock_guard lock(cache().access);
+    for (const Entry& entry : cache().entries)
+        if (entry.index->locator && same_cells(*entry.index, index)) return entry.index;
+    return nullptr;
+}
+
+}  // namespace
+
+void forget_index(const vtkDataSet& data) {
+    const std::lock_guard lock(cache().access);
+    // The entry stays, for its data set is observed once.
+    for (Entry& entry : cache().entries)
+        if (entry.data == &data) entry.time = 0;
+}
+
+std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data) {
+    const vtkMTimeType time = data.GetMTime();
+    if (std::shared_ptr<const ExactIndex> found = cached(data, time)) return found;
+    const std::lock_guard lock(cache().making);
+    if (std::shared_ptr<const ExactIndex> found = cached(data, time)) return found;
+
+    auto made = std::make_shared<ExactIndex>();
+    made->reason = read_simplices(data, *made);
+    std::shared_ptr<const ExactIndex> index = made;
+    if (made->reason.empty() && !made->mesh.cells.empty()) {
+        if (std::shared_ptr<const ExactIndex> before = made_before(*made)) {
+            index = std::move(before);
+        } else if (Result<Locator> locator = Locator::build(made->mesh)) {
+            made->locator = std::move(*locator);
+        } else {
+            made->reason = locator.error().message();
+        }
+    }
+    // Reading may have built the cells of a vtkPolyData.
+    remember(data, data.GetMTime(), index);
+    return index;
+}
+
+}  // namespace barycert::in_vtk

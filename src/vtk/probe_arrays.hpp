@@ -1,0 +1,81 @@
+/// The arrays that a probe gives its output, and how rows of a sampler come into them.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "barycert/sampler.hpp"
+#include "barycert/table.hpp"
+#include "vtk/exact_index.hpp"
+
+class vtkAbstractArray;
+class vtkCharArray;
+class vtkDataArray;
+
+namespace barycert::in_vtk {
+
+/// Where rows lie: sets the coordinates, on the axes of the mesh, of a row.
+using PlaceOfRow = std::function<void(std::size_t row, double* point)>;
+
+class ProbeArrays {
+public:
+    /// Adds to the point data of `output` the arrays that vtkProbeFilter would, of `points` tuples, all zero; real
+    /// numbers are `outside`. What is sampled of `source` is copied. `categorical`: the scalars are those of the vertex
+    /// of greatest weight.
+    ProbeArrays(const ExactIndex& index, vtkDataSet& source, vtkDataSet& output, vtkIdType points, bool categorical,
+                const char* mask_name, double outside);
+
+    /// What a sampler is to sample, in the order of its columns. Refers to this object.
+    std::vector<FieldChoice> choices() const;
+
+    /// Lets points outside have the values of the nearest cell: the last choice is the number of that cell.
+    void number_cells();
+
+    /// Writes rows whose points are ids[row], or first + row if there are no ids.
+    void write(const TableView& rows, const vtkIdType* ids, vtkIdType first, const PlaceOfRow& place);
+
+    vtkCharArray* mask() const { return mask_; }
+    /// Names of arrays of integers of which some are no doubles: their values are rounded before.
+    const std::vector<std::string>& inexact() const { return inexact_; }
+
+private:
+    struct Sampled {
+        vtkDataArray* to;
+        std::size_t field;   ///< in fields_
+        std::size_t column;  ///< the first in a row
+    };
+    struct Copied {
+        vtkAbstractArray* from;
+        vtkAbstractArray* to;
+    };
+    struct Row {
+        vtkIdType point;
+        std::size_t row;
+        Mesh::Index cell;
+        bool inside;
+    };
+
+    void add_point_arrays(vtkDataSet& source, vtkDataSet& output, vtkIdType points, bool categorical, double outside);
+    void add_cell_arrays(vtkDataSet& source, vtkDataSet& output, vtkIdType points, double outside);
+    Sign side(const Sampled& array, int component, const Row& row, const PlaceOfRow& place, double threshold) const;
+    template <class T>
+    void write_values(const Sampled& array, const TableView& rows, std::size_t stride, const PlaceOfRow& place,
+                      T* out) const;
+    void write_slowly(const Sampled& array, const TableView& rows, std::size_t stride, const PlaceOfRow& place) const;
+    void write_nodes(const PlaceOfRow& place) const;
+    void write_cells() const;
+
+    const ExactIndex& index_;
+    vtkCharArray* mask_ = nullptr;
+    std::vector<Field> fields_;
+    Field cells_;  ///< the number of each cell
+    std::vector<Sampled> sampled_;
+    std::vector<Copied> nearest_;  ///< of nodes: those of the vertex of greatest weight
+    std::vector<Copied> mixed_;    ///< of nodes, no numbers: VTK mixes them by weights
+    std::vector<Copied> of_cells_;
+    std::vector<std::string> inexact_;
+    std::vector<Row> rows_;  ///< those with a value, of the block that is being written
+    std::size_t columns_ = 0;
+};
+
+}  // namespace barycert::in_vtk

@@ -1,0 +1,362 @@
+#include "vtkBarycertLocator.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include <vtkCell.h>
+#include <vtkDataSet.h>
+#include <vtkGarbageCollector.h>
+#include <vtkGenericCell.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPoints.h>
+#include <vtkSmartPointer.h>
+#include <vtkStaticCellLocator.h>
+
+#include "barycert/environment.hpp"
+#include "vtk/closest.hpp"
+
+using namespace barycert;
+
+struct vtkBarycertLocator::Internals {
+    std::mutex building;
+    std::shared_ptr<const in_vtk::ExactIndex> index;
+    std::atomic<const in_vtk::ExactIndex*> built = nullptr;  ///< index, for threads that meet while it is made
+    vtkSmartPointer<vtkStaticCellLocator> other;
+    std::atomic<vtkStaticCellLocator*> other_built = nullptr;
+
+    void clear() {
+        built = nullptr;
+        other_built = nullptr;
+        index.reset();
+        other = nullptr;
+    }
+};
+
+vtkStandardNewMacro(vtkBarycertLocator);
+
+vtkBarycertLocator::vtkBarycertLocator() : internals_(std::make_unique<Internals>()) {}
+vtkBarycertLocator::~vtkBarycertLocator() = default;
+
+vtkObjectBase* vtkBarycertLocator::NewInstanceInternal() const {
+    vtkBarycertLocator* const made = New();
+    made->Tolerant = Tolerant;
+    return made;
+}
+
+// A data set may have this as its locator, and VTK's locator has the data set.
+void vtkBarycertLocator::ReportReferences(vtkGarbageCollector* collector) {
+    Superclass::ReportReferences(collector);
+    vtkGarbageCollectorReport(collector, internals_->other, "Other");
+}
+
+void vtkBarycertLocator::PrintSelf(ostream& os, vtkIndent indent) {
+    Superclass::PrintSelf(os, indent);
+    const in_vtk::ExactIndex* const index = internals_->built;
+    os << indent << "Tolerant: " << (Tolerant ? "On" : "Off") << "\n";
+    const char* const exact = index == nullptr ? "(not built)" : index->exact() ? "yes" : index->reason.c_str();
+    os << indent << "Exact: " << exact << "\n";
+}
+
+void vtkBarycertLocator::SetDataSet(vtkDataSet* data) {
+    if (data != DataSet) FreeSearchStructure();
+    Superclass::SetDataSet(data);
+}
+
+void vtkBarycertLocator::BuildLocator() {
+    if (DataSet == nullptr) {
+        vtkErrorMacro("there is no data set to build from");
+        return;
+    }
+    std::shared_ptr<const in_vtk::ExactIndex> index = in_vtk::exact_index(*DataSet);
+    if (index != internals_->index) {
+        internals_->clear();
+        internals_->index = std::move(index);
+        if (!internals_->index->exact())
+            vtkWarningMacro(
+                "not exact in this data set, a vtkStaticCellLocator answers: " << internals_->index->reason);
+    } else if (internals_->other) {
+        internals_->other->BuildLocator();
+    }
+    internals_->built = internals_->index.get();
+    BuildTime.Modified();
+}
+
+void vtkBarycertLocator::ForceBuildLocator() {
+    FreeSearchStructure();
+    if (DataSet != nullptr) in_vtk::forget_index(*DataSet);
+    BuildLocator();
+}
+
+void vtkBarycertLocator::FreeSearchStructure() {
+    internals_->clear();
+}
+
+void vtkBarycertLocator::ShallowCopy(vtkAbstractCellLocator* other) {
+    auto* const from = SafeDownCast(other);
+    if (from == nullptr) {
+        vtkErrorMacro("ShallowCopy takes a vtkBarycertLocator, not " << (other ? other->GetClassName() : "null"));
+        return;
+    }
+    SetDataSet(from->DataSet);
+    Tolerant = from->Tolerant;
+    CacheCellBounds = from->CacheCellBounds;
+    Tolerance = from->Tolerance;
+    internals_->clear();
+    internals_->index = from->internals_->index;
+    internals_->built = internals_->index.get();
+    if (internals_->index) BuildTime.Modified();
+}
+
+// The index; made at the first query if nobody has called BuildLocator. Null if there is no data set.
+const in_vtk::ExactIndex* vtkBarycertLocator::Ready() {
+    if (const in_vtk::ExactIndex* const index = internals_->built) return index;
+    const std::lock_guard lock(internals_->building);
+    if (internals_->built == nullptr) BuildLocator();
+    return internals_->built;
+}
+
+// VTK's locator, for what barycert does not answer. Null if there is no data set, or nothing in it.
+vtkStaticCellLocator* vtkBarycertLocator::Other() {
+    if (Ready() == nullptr || DataSet->GetNumberOfCells() == 0) return nullptr;
+    if (vtkStaticCellLocator* const other = internals_->other_built) return other;
+    const std::lock_guard lock(internals_->building);
+    if (!internals_->other) {
+        const auto made = vtkSmartPointer<vtkStaticCellLocator>::New();
+        made->SetDataSet(DataSet);
+        made->SetTolerance(Tolerance);
+        made->SetNumberOfCellsPerNode(NumberOfCellsPerNode);
+        made->BuildLocator();
+        internals_->other = made;
+    }
+    internals_->other_built = internals_->other.Get();
+    return internals_->other;
+}
+
+bool vtkBarycertLocator::GetExact() {
+    const in_vtk::ExactIndex* const index = Ready();
+    return index != nullptr && index->exact();
+}
+
+std::string vtkBarycertLocator::GetReason() {
+    const in_vtk::ExactIndex* const index = Ready();
+    return index == nullptr ? "there is no data set" : index->reason;
+}
+
+// The owner in the mesh, -1 outside.
+static Mesh::Index owner(const in_vtk::ExactIndex& index, const double* x) {
+    std::array<double, 3> point{};
+    if (!index.locator || !std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2])) return -1;
+    if (!index.project(x, point.data())) return -1;
+    // Points come one near the other, mostly. Any cell is a valid hint; the answer does not depend on it.
+    thread_local Mesh::Index last = -1;
+    const auto count = static_cast<Mesh::Index>(index.mesh.cell_count());
+    const Result<Location> location = index.locator->locate(point.data(), last < count ? last : -1);
+    if (!location) return -1;
+    if (location->cell >= 0) last = location->cell;
+    return location->cell;
+}
+
+// As vtkTetra and vtkTriangle have them: all weights but the first.
+static void set_parametric(const std::array<double, 4>& weights, int count, double* pcoords, double* out) {
+    for (int i = 0; i < 3; ++i) pcoords[i] = i + 1 < count ? weights[static_cast<std::size_t>(i) + 1] : 0;
+    std::copy_n(weights.begin(), count, out);
+}
+
+vtkIdType vtkBarycertLocator::FindCell(double x[3]) {
+    const in_vtk::ExactIndex* const index = Ready();
+    if (index == nullptr) return -1;
+    if (index->exact()) return index->id(owner(*index, x));
+    vtkNew<vtkGenericCell> cell;
+    std::array<double, 3> pcoords{};
+    std::vector<double> weights(static_cast<std::size_t>(DataSet->GetMaxCellSize()));
+    return FindCell(x, 0, cell, pcoords.data(), weights.data());
+}
+
+vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell* cell, double pcoords[3],
+                                       double* weights) {
+    int sub_id = 0;
+    return FindCell(x, tol2, cell, sub_id, pcoords, weights);
+}
+
+vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell* cell, int& subId, double pcoords[3],
+                                       double* weights) {
+    subId = 0;
+    const in_vtk::ExactIndex* const index = Ready();
+    if (index == nullptr) return -1;
+    if (!index->exact()) {
+        vtkStaticCellLocator* const other = Other();
+        return other != nullptr ? other->FindCell(x, tol2, cell, pcoords, weights) : -1;
+    }
+    Mesh::Index found = owner(*index, x);
+    std::array<double, 4> its{};
+    if (found >= 0) {
+        its = in_vtk::weights_in(*index, found, x);
+    } else if (Tolerant && tol2 > 0) {
+        const in_vtk::Closest nearest = in_vtk::closest(*index, x, std::sqrt(tol2));
+        found = nearest.cell;
+        its = nearest.weights;
+    }
+    if (found < 0) return -1;
+    const vtkIdType id = index->id(found);
+    if (cell != nullptr) DataSet->GetCell(id, cell);
+    set_parametric(its, static_cast<int>(index->mesh.corners()), pcoords, weights);
+    return id;
+}
+
+void vtkBarycertLocator::FindClosestPoint(const double x[3], double closestPoint[3], vtkIdType& cellId, int& subId,
+                                          double& dist2) {
+    vtkNew<vtkGenericCell> cell;
+    FindClosestPoint(x, closestPoint, cell, cellId, subId, dist2);
+}
+
+void vtkBarycertLocator::FindClosestPoint(const double x[3], double closestPoint[3], vtkGenericCell* cell,
+                                          vtkIdType& cellId, int& subId, double& dist2) {
+    cellId = -1;
+    const in_vtk::ExactIndex* const index = Ready();
+    if (index != nullptr && !index->exact()) {
+        if (vtkStaticCellLocator* const other = Other())
+            other->FindClosestPoint(x, closestPoint, cell, cellId, subId, dist2);
+        return;
+    }
+    int inside = 0;
+    double point[3] = {x[0], x[1], x[2]};
+    FindClosestPointWithinRadius(point, std::numeric_limits<double>::infinity(), closestPoint, cell, cellId, subId,
+                                 dist2, inside);
+}
+
+vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3],
+                                                           vtkIdType& cellId, int& subId, double& dist2) {
+    vtkNew<vtkGenericCell> cell;
+    return FindClosestPointWithinRadius(x, radius, closestPoint, cell, cellId, subId, dist2);
+}
+
+vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3],
+                                                           vtkGenericCell* cell, vtkIdType& cellId, int& subId,
+                                                           double& dist2) {
+    int inside = 0;
+    return FindClosestPointWithinRadius(x, radius, closestPoint, cell, cellId, subId, dist2, inside);
+}
+
+vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3],
+                                                           vtkGenericCell* cell, vtkIdType& cellId, int& subId,
+                                                           double& dist2, int& inside) {
+    cellId = -1;
+    const in_vtk::ExactIndex* const index = Ready();
+    if (index == nullptr) return 0;
+    if (!index->exact()) {
+        vtkStaticCellLocator* const other = Other();
+        return other == nullptr
+                   ? 0
+                   : other->FindClosestPointWithinRadius(x, radius, closestPoint, cell, cellId, subId, dist2, inside);
+    }
+    const ExactEnvironment environment;
+    const in_vtk::Closest found = in_vtk::closest(*index, x, radius);
+    if (found.cell < 0) return 0;
+    cellId = index->id(found.cell);
+    subId = 0;
+    dist2 = held(found.distance) * found.distance;
+    inside = found.inside ? 1 : 0;
+    std::copy_n(found.point.begin(), 3, closestPoint);
+    if (cell != nullptr) DataSet->GetCell(cellId, cell);
+    return 1;
+}
+
+int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3], double tol, double& t, double x[3],
+                                          double pcoords[3], int& subId) {
+    vtkIdType cell_id = -1;
+    return IntersectWithLine(p1, p2, tol, t, x, pcoords, subId, cell_id);
+}
+
+int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3], double tol, double& t, double x[3],
+                                          double pcoords[3], int& subId, vtkIdType& cellId) {
+    vtkNew<vtkGenericCell> cell;
+    return IntersectWithLine(p1, p2, tol, t, x, pcoords, subId, cellId, cell);
+}
+
+int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3], double tol, double& t, double x[3],
+                                          double pcoords[3], int& subId, vtkIdType& cellId, vtkGenericCell* cell) {
+    cellId = -1;
+    vtkStaticCellLocator* const other = Other();
+    return other == nullptr ? 0 : other->IntersectWithLine(p1, p2, tol, t, x, pcoords, subId, cellId, cell);
+}
+
+int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3], vtkPoints* points,
+                                          vtkIdList* cellIds) {
+    if (points != nullptr) points->Reset();
+    if (cellIds != nullptr) cellIds->Reset();
+    vtkNew<vtkIdList> candidates;
+    FindCellsAlongLine(p1, p2, Tolerance, candidates);
+    struct Hit {
+        double t;
+        vtkIdType cell;
+        std::array<double, 3> x;
+        bool operator<(const Hit& other) const { return std::pair(t, cell) < std::pair(other.t, other.cell); }
+    };
+    std::vector<Hit> hits;
+    vtkNew<vtkGenericCell> cell;
+    for (vtkIdType i = 0; i < candidates->GetNumberOfIds(); ++i) {
+        Hit hit{0, candidates->GetId(i), {}};
+        std::array<double, 3> pcoords{};
+        int sub_id = 0;
+        DataSet->GetCell(hit.cell, cell);
+        if (cell->IntersectWithLine(p1, p2, Tolerance, hit.t, hit.x.data(), pcoords.data(), sub_id) != 0)
+            hits.push_back(hit);
+    }
+    if (hits.empty()) return 0;
+    std::sort(hits.begin(), hits.end());
+    for (const Hit& hit : hits) {
+        if (points != nullptr) points->InsertNextPoint(hit.x.data());
+        if (cellIds != nullptr) cellIds->InsertNextId(hit.cell);
+    }
+    double start[3] = {p1[0], p1[1], p1[2]};
+    return FindCell(start) >= 0 ? -1 : 1;
+}
+
+void vtkBarycertLocator::FindCellsWithinBounds(double* bbox, vtkIdList* cells) {
+    cells->Reset();
+    vtkStaticCellLocator* const other = Other();
+    if (other == nullptr) return;
+    vtkNew<vtkIdList> candidates;  // all cells of the buckets that the box meets
+    other->FindCellsWithinBounds(bbox, candidates);
+    for (vtkIdType i = 0; i < candidates->GetNumberOfIds(); ++i) {
+        const vtkIdType cell = candidates->GetId(i);
+        double its[6];
+        DataSet->GetCellBounds(cell, its);
+        bool meets = true;
+        for (int a = 0; a < 6; a += 2) meets = meets && its[a] <= bbox[a + 1] && bbox[a] <= its[a + 1];
+        if (meets) cells->InsertNextId(cell);
+    }
+}
+
+void vtkBarycertLocator::FindCellsAlongLine(const double p1[3], const double p2[3], double tolerance,
+                                            vtkIdList* cells) {
+    cells->Reset();
+    if (vtkStaticCellLocator* const other = Other()) other->FindCellsAlongLine(p1, p2, tolerance, cells);
+}
+
+void vtkBarycertLocator::FindCellsAlongPlane(const double origin[3], const double normal[3], double tolerance,
+                                             vtkIdList* cells) {
+    cells->Reset();
+    if (vtkStaticCellLocator* const other = Other()) other->FindCellsAlongPlane(origin, normal, tolerance, cells);
+}
+
+bool vtkBarycertLocator::InsideCellBounds(double x[3], vtkIdType cellId) {
+    if (DataSet == nullptr || cellId < 0 || cellId >= DataSet->GetNumberOfCells()) return false;
+    double bounds[6];
+    DataSet->GetCellBounds(cellId, bounds);
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(bounds[2 * axis] <= x[axis] && x[axis] <= bounds[2 * axis + 1])) return false;
+    return true;
+}
+
+void vtkBarycertLocator::GenerateRepresentation(int level, vtkPolyData* surface) {
+    if (vtkStaticCellLocator* const other = Other()) other->GenerateRepresentation(level, surface);
+}

@@ -1,0 +1,114 @@
+/**
+ * @class   vtkBarycertLocator
+ * @brief   exact point location for tetrahedra and triangles
+ *
+ * FindCell returns the lowest id of all cells that contain the point exactly: neither the order of points nor the
+ * number of threads nor a tolerance matters, and a point of the mesh is always found. Parametric coordinates and
+ * weights are the exact ones rounded once, in the order of the cell's vertices.
+ *
+ * Data sets: vtkUnstructuredGrid or vtkPolyData. Cells are the linear tetrahedra; if there are none, the triangles,
+ * which must lie in one plane across an axis. Cells of a lower dimension, empty cells and ghost cells (vtkGhostType:
+ * duplicate, refined, hidden) are no cells to FindCell and FindClosestPoint. Any other data set goes, after a warning
+ * that says why, to a vtkStaticCellLocator: GetExact() is false then.
+ *
+ * FindClosestPoint and its variants are exact as well: the cell is the lowest of those nearest. FindCellsWithinBounds,
+ * FindCellsAlongLine, FindCellsAlongPlane, IntersectWithLine and GenerateRepresentation are those of
+ * vtkStaticCellLocator on all cells of the data set.
+ *
+ * Indexes are kept by data set and time of modification until the data set is deleted. So the instances that filters
+ * make of a prototype for every execution build nothing twice. Instances have the settings of their prototype.
+ *
+ * Any number of threads may call FindCell, FindClosestPoint and FindClosestPointWithinRadius at the same time, each
+ * with its own vtkGenericCell, and the variants without one; of the other methods, those that take a vtkGenericCell.
+ */
+#ifndef vtkBarycertLocator_h
+#define vtkBarycertLocator_h
+
+#include <memory>
+#include <string>
+
+#include <vtkAbstractCellLocator.h>
+
+class vtkStaticCellLocator;
+
+namespace barycert::in_vtk {
+struct ExactIndex;
+}
+
+class vtkBarycertLocator : public vtkAbstractCellLocator {
+public:
+    static vtkBarycertLocator* New();
+    vtkAbstractTypeMacro(vtkBarycertLocator, vtkAbstractCellLocator)
+    void PrintSelf(ostream& os, vtkIndent indent) override;
+
+    /// Off (the default): FindCell is exact and ignores its tolerance. On: a point outside all cells, but within the
+    /// tolerance of one (tol2 is its square), is given to the nearest, with the weights of the nearest point.
+    vtkSetMacro(Tolerant, bool);
+    vtkGetMacro(Tolerant, bool);
+    vtkBooleanMacro(Tolerant, bool);
+
+    /// Whether this class answers itself; else a vtkStaticCellLocator does. Builds the locator if that was not done.
+    bool GetExact();
+    /// Why it does not, or an empty string.
+    std::string GetReason();
+
+    vtkIdType FindCell(double x[3]) override;
+    vtkIdType FindCell(double x[3], double tol2, vtkGenericCell* cell, double pcoords[3], double* weights) override;
+    virtual vtkIdType FindCell(double x[3], double tol2, vtkGenericCell* cell, int& subId, double pcoords[3],
+                               double* weights);
+
+    void FindClosestPoint(const double x[3], double closestPoint[3], vtkIdType& cellId, int& subId,
+                          double& dist2) override;
+    void FindClosestPoint(const double x[3], double closestPoint[3], vtkGenericCell* cell, vtkIdType& cellId,
+                          int& subId, double& dist2) override;
+    vtkIdType FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3], vtkIdType& cellId,
+                                           int& subId, double& dist2) override;
+    vtkIdType FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3], vtkGenericCell* cell,
+                                           vtkIdType& cellId, int& subId, double& dist2) override;
+    vtkIdType FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3], vtkGenericCell* cell,
+                                           vtkIdType& cellId, int& subId, double& dist2, int& inside) override;
+
+    int IntersectWithLine(const double p1[3], const double p2[3], double tol, double& t, double x[3], double pcoords[3],
+                          int& subId) override;
+    int IntersectWithLine(const double p1[3], const double p2[3], double tol, double& t, double x[3], double pcoords[3],
+                          int& subId, vtkIdType& cellId) override;
+    int IntersectWithLine(const double p1[3], const double p2[3], double tol, double& t, double x[3], double pcoords[3],
+                          int& subId, vtkIdType& cellId, vtkGenericCell* cell) override;
+    /// The first point of every cell that the line meets within GetTolerance(), along the line, and the cells; each may
+    /// be null. Returns 0 if it meets none, -1 if p1 lies in a cell, else 1.
+    int IntersectWithLine(const double p1[3], const double p2[3], vtkPoints* points, vtkIdList* cellIds) override;
+
+    void FindCellsWithinBounds(double* bbox, vtkIdList* cells) override;
+    void FindCellsAlongLine(const double p1[3], const double p2[3], double tolerance, vtkIdList* cells) override;
+    void FindCellsAlongPlane(const double origin[3], const double normal[3], double tolerance, vtkIdList* cells);
+    bool InsideCellBounds(double x[3], vtkIdType cellId) override;
+
+    void SetDataSet(vtkDataSet* data) override;
+    /// Uses the index that is kept of the data set, or makes it.
+    void BuildLocator() override;
+    /// Makes the index anew, for data that were changed without Modified().
+    virtual void ForceBuildLocator();
+    void FreeSearchStructure() override;
+    void GenerateRepresentation(int level, vtkPolyData* surface) override;
+    /// Takes data set, settings and index of another one, which must be of this class.
+    virtual void ShallowCopy(vtkAbstractCellLocator* other);
+
+protected:
+    vtkBarycertLocator();
+    ~vtkBarycertLocator() override;
+    vtkObjectBase* NewInstanceInternal() const override;
+    void ReportReferences(vtkGarbageCollector* collector) override;
+
+private:
+    vtkBarycertLocator(const vtkBarycertLocator&) = delete;
+    void operator=(const vtkBarycertLocator&) = delete;
+
+    struct Internals;
+    const barycert::in_vtk::ExactIndex* Ready();
+    vtkStaticCellLocator* Other();
+
+    std::unique_ptr<Internals> internals_;
+    bool Tolerant = false;
+};
+
+#endif

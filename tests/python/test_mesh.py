@@ -1,0 +1,181 @@
+"""Meshes: what they are made of, files, copies."""
+
+import copy
+import os
+import pickle
+
+import numpy as np
+import pytest
+
+import barycert
+from conftest import delaunay, kuhn
+
+
+@pytest.mark.parametrize("dtype", [np.int8, np.uint8, np.int16, np.uint16, np.int32, np.uint32, np.int64, np.uint64, ">i4", ">i8"])
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_cells_of_any_integer_type(dtype, dimension):
+    points, cells = kuhn(2, dimension)
+    mesh = barycert.Mesh(points, cells.astype(dtype))
+    np.testing.assert_array_equal(mesh.cells, cells)
+    assert mesh.cells.dtype == np.int32 and mesh.dimension == dimension
+    np.testing.assert_array_equal(mesh.points, points)
+    np.testing.assert_array_equal(barycert.Mesh(points.tolist(), cells.tolist()).cells, cells)
+    np.testing.assert_array_equal(barycert.Mesh(np.asfortranarray(points), np.asfortranarray(cells.astype(dtype))).cells, cells)
+    np.testing.assert_array_equal(barycert.Mesh(points[::-1], cells[::2].astype(dtype)).cells, cells[::2])
+
+
+@pytest.mark.parametrize("dtype, bad", [(np.int64, -1), (np.int64, 2**40), (np.uint64, 2**63), (np.int8, -128), (np.int32, 9)])
+def test_indices_out_of_range_are_named(dtype, bad):
+    points, cells = kuhn(2, 2)
+    cells = cells.astype(dtype)
+    cells[5, 1] = bad
+    with pytest.raises(barycert.Error, match=rf"cells\[5, 1\] is no node: expected 0 to 8, found {bad};"):
+        barycert.Mesh(points, cells)
+
+
+def test_shapes_and_types_are_checked():
+    points, cells = kuhn(2, 3)
+    bad = points.copy()
+    bad[4, 2] = np.inf
+    for arguments, message in (
+        ((points[:, :1], cells), "shape of the points of a mesh"),
+        ((points, cells[:, :2]), "shape of the cells"),
+        ((points, cells[:, :3]), "triangles in space"),
+        ((points, cells.astype(float)), "expected integers, found float64"),
+        ((points, cells.ravel()), "shape of the cells"),
+        ((points.astype(str), cells), "real numbers"),
+        ((bad, cells), r"points\[4, 2\] is not finite"),
+        ((points.astype(np.longdouble), cells), "float64 can hold"),
+    ):
+        with pytest.raises(barycert.Error, match=message):
+            barycert.Mesh(*arguments)
+    with pytest.raises(barycert.Error, match="no cells, as there are no nodes"):
+        barycert.Mesh(np.zeros((0, 3)), cells)
+    empty = barycert.Mesh(np.zeros((0, 3)), np.zeros((0, 4), dtype=int))
+    assert empty.locate([[1, 2, 3]]).cell == -1
+
+
+def test_fields():
+    points, cells = kuhn(2, 2)
+    mesh = barycert.Mesh(points, cells, point_data={"T": points[:, 0]}, cell_data={"c": np.arange(8)})
+    mesh.point_data["v"] = np.ones((9, 2), dtype=np.float32)
+    mesh.point_data["tensor"] = np.arange(36).reshape(9, 2, 2)
+    assert list(mesh.point_data) == ["T", "v", "tensor"] and list(mesh.cell_data) == ["c"]
+    assert mesh.point_data["tensor"].shape == (9, 2, 2) and mesh.point_data["v"].dtype == np.float64
+    np.testing.assert_array_equal(mesh.point_data["tensor"], np.arange(36).reshape(9, 2, 2))
+    old = mesh.point_data["T"]
+    mesh.point_data["T"] = points[:, 1]
+    np.testing.assert_array_equal(old, points[:, 0])
+    np.testing.assert_array_equal(mesh.point_data["T"], points[:, 1])
+    assert mesh.sample([0.5, 1.5], "T") == 1.5
+    mesh.point_data["T"] = points[:, 0]
+    assert mesh.sample([0.5, 1.5], "T") == 0.5
+    del mesh.point_data["v"]
+    assert "v" not in mesh.point_data and len(mesh.point_data) == 2
+    for name in ("v", "none"):
+        with pytest.raises(KeyError):
+            mesh.point_data[name]
+        with pytest.raises(KeyError):
+            del mesh.point_data[name]
+    with pytest.raises(barycert.Error, match=r"one value each"):
+        mesh.point_data["bad"] = np.ones(8)
+    with pytest.raises(barycert.Error, match="at least one component"):
+        mesh.point_data["bad"] = np.ones((9, 0))
+    with pytest.raises(barycert.Error, match="name of a field"):
+        mesh.point_data[3] = np.ones(9)
+    assert repr(mesh) == "<barycert.Mesh: 9 nodes, 8 triangles, point_data T, tensor, cell_data c>"
+    assert "tensor" in repr(mesh.point_data)
+
+
+@pytest.mark.parametrize("suffix", ["vtu", "vtk", "msh", "node"])
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_files_give_back_the_mesh(tmp_path, suffix, dimension):
+    points, cells = delaunay(40, dimension, 3)
+    rng = np.random.default_rng(4)
+    mesh = barycert.Mesh(points, cells, point_data={"T": rng.random(40)}, cell_data={"c": rng.random(len(cells))})
+    path = tmp_path / f"mesh.{suffix}"
+    mesh.write(path)
+    again = barycert.read(path)
+    np.testing.assert_array_equal(again.points, points)
+    np.testing.assert_array_equal(again.cells, cells)
+    names = ("attribute0", "attribute0") if suffix == "node" else ("T", "c")
+    np.testing.assert_array_equal(again.point_data[names[0]], mesh.point_data["T"])
+    np.testing.assert_array_equal(again.cell_data[names[1]], mesh.cell_data["c"])
+    np.testing.assert_array_equal(barycert.read(str(path)).points, points)
+
+
+def test_writing(tmp_path):
+    points, cells = kuhn(1, 2)
+    mesh = barycert.Mesh(points, cells)
+    mesh.write(tmp_path / "a.vtu", data="ascii")
+    assert "ascii" in (tmp_path / "a.vtu").read_text()
+    with pytest.raises(barycert.Error, match="zlib"):
+        mesh.write(tmp_path / "b.vtu", data="what")
+    with pytest.raises(barycert.Error):
+        mesh.write(tmp_path / "b.what")
+    assert os.listdir(tmp_path) == ["a.vtu"]
+
+
+def test_reading_of_what_is_not_there(tmp_path):
+    with pytest.raises(barycert.Error) as info:
+        barycert.read(tmp_path / "none.vtu")
+    assert info.value.file.endswith("none.vtu")
+
+
+def test_the_projects_own_meshes(data):
+    stems = sorted({os.path.splitext(name)[0] for name in os.listdir(data) if name.endswith(".node")})
+    assert stems
+    mesh = barycert.read(os.path.join(data, stems[0]))
+    assert len(mesh.cells) > 0 and mesh.check().verdict in ("certified", "not certified")
+
+
+def test_what_changes_meaning_is_a_warning(tmp_path, recwarn):
+    points, cells = kuhn(1, 3)
+    barycert.Mesh(points, cells).write(tmp_path / "a.vtu")
+    mesh = barycert.read(tmp_path / "a.vtu")
+    assert not recwarn.list and mesh.notes == []
+
+
+def test_copies_and_pickles():
+    points, cells = kuhn(2, 3)
+    mesh = barycert.Mesh(points, cells, point_data={"t": np.ones((27, 2, 2))}, cell_data={"c": np.arange(48)})
+    for other in (pickle.loads(pickle.dumps(mesh)), copy.copy(mesh), copy.deepcopy(mesh)):
+        np.testing.assert_array_equal(other.points, points)
+        np.testing.assert_array_equal(other.cells, cells)
+        assert repr(other) == repr(mesh) and other.point_data["t"].shape == (27, 2, 2)
+        other.point_data["new"] = np.ones(27)
+        assert "new" not in mesh.point_data
+
+
+def test_second_order_cells():
+    points = np.array([[0, 0], [4, 0], [0, 4], [2, 0], [2, 2], [0, 2]], dtype=float)
+    mesh = barycert.Mesh(points, [[0, 1, 2, 3, 4, 5]], point_data={"q": points[:, 0] ** 2})
+    np.testing.assert_array_equal(mesh.cells, [[0, 1, 2]])
+    np.testing.assert_array_equal(mesh.mid_nodes, [[3, 4, 5]])
+    assert mesh.sample([1.0, 0.5], "q") == 1
+    np.testing.assert_array_equal(mesh.gradient("q", [[1.0, 0.5]]), [[2, 0]])
+    with pytest.raises(barycert.Error, match="pass points"):
+        mesh.gradient("q")
+    other = pickle.loads(pickle.dumps(mesh))
+    np.testing.assert_array_equal(other.mid_nodes, mesh.mid_nodes)
+
+
+def test_a_check_names_what_it_finds():
+    points = np.array([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]], dtype=float)
+    # The second triangle overlaps the first; the third is flat.
+    mesh = barycert.Mesh(points, [[0, 1, 2], [0, 1, 3], [1, 2, 4]])
+    report = mesh.check()
+    assert not report and not report.certified and report.verdict == "not certified"
+    kinds = {defect.kind: defect for defect in report.defects}
+    flat = kinds["degenerate_cell"]
+    assert flat.count == 1 and flat.breaks and flat.condition == "P1" and flat.places[0].cells == (2,) and flat.remedy
+    assert any(contact.overlap and set(contact.cells) == {0, 1} and contact.dimension == 2 for contact in report.contacts)
+    assert "degenerate_cell" in repr(report) and "not certified" in repr(report) and "degenerate_cell: 1" in repr(flat)
+    assert "NOT certified" in str(report) and report.html().startswith("<!DOCTYPE html")
+    assert report.to_dict("x")["verdict"] and report.to_dict()["schema"] == 1
+    np.testing.assert_array_equal(report.measures["orientation"], [1, 1, 0])
+    np.testing.assert_array_equal(report.measures["volume"], [2, 2, 0])
+    good = barycert.Mesh(points[:4], [[0, 1, 2], [1, 3, 2]]).check(delaunay=True)
+    assert good and good.defects == [] and repr(good) == "<barycert.CheckReport: certified, 2 cells>"
+    assert not barycert.Mesh(points, [[0, 1, 2], [0, 1, 3]]).check(verdict_only=True)
+    assert barycert.Mesh(points[:4], [[0, 1, 2], [1, 3, 2]]).certified and not mesh.certified

@@ -1,0 +1,35 @@
+// Figures that JSON cannot say, and text that is no UTF-8.
+
+#include "barycert/report/common/json_figure.hpp"
+
+#include <gtest/gtest.h>
+
+#include "barycert/base/json_text.hpp"
+
+namespace barycert::report {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double max = std::numeric_limits<double>::max();
+
+TEST(json_figure, no_figure_is_null_and_infinity_is_not) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_TRUE(figure(nan).is_null());
+    EXPECT_EQ(figure(infinity), max);
+    EXPECT_EQ(figure(-infinity), -max);
+    EXPECT_EQ(figure(-1), -1.0);
+    EXPECT_TRUE(magnitude(nan).is_null());
+    EXPECT_TRUE(magnitude(-1).is_null());
+    EXPECT_TRUE(magnitude(-infinity).is_null());
+    EXPECT_EQ(magnitude(0), 0.0);
+    EXPECT_EQ(magnitude(infinity), max);
+}
+
+TEST(json_text, is_utf8_and_ends_with_a_line_break) {
+    const nlohmann::ordered_json j{{"name", "a\xff"}};
+    EXPECT_EQ(base::json_text(j, 1), "{\n \"name\": \"a\xef\xbf\xbd\"\n}\n");
+    EXPECT_EQ(base::json_text(j, 2).substr(0, 5), "{\n  \"");
+}
+
+}  // namespace
+}  // namespace barycert::report
