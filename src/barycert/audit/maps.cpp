@@ -136,7 +136,7 @@ void fill_errors(MeshMap& map, const PreparedMesh& m, const std::vector<Mesh::In
         std::vector<Case> cases;
         for (std::size_t i = first; i < last; ++i) add_cases(m, cells[i], seed, cases);
         std::vector<OracleAnswer> answers;
-        for (const Case& c : cases) answers.push_back(ask_oracle(c));
+        std::transform(cases.begin(), cases.end(), std::back_inserter(answers), ask_oracle);
         std::vector<Statement> said(cases.size());
         for (std::size_t k = 0; k < kernels.size(); ++k) {
             ask_kernel(kernels[k], cases, said, false);
