@@ -7,6 +7,8 @@
 #include "barycert/audit.hpp"
 #include "barycert/audit_drift.hpp"
 #include "barycert/audit_gaps.hpp"
+#include "barycert/audit_maps.hpp"
+#include "barycert/audit_others.hpp"
 #include "barycert/audit_signs.hpp"
 #include "barycert/audit_texels.hpp"
 #include "barycert/report.hpp"
@@ -32,14 +34,17 @@ std::string families_text(const std::vector<Family>& families);
 
 /// What a page shows beside the report.
 struct AuditPage {
-    TerminalStyle style = {};             ///< for the commands that replay witnesses
-    std::string command_line = {};        ///< the one that made the page; empty: not told
-    std::vector<SignPicture> signs = {};  ///< see sign_pictures(); empty: no pictures
+    TerminalStyle style = {};               ///< for the commands that replay witnesses
+    std::string command_line = {};          ///< the one that made the page; empty: not told
+    std::vector<SignPicture> signs = {};    ///< see sign_pictures(); empty: no pictures
+    std::vector<MeshMap> maps = {};         ///< see mesh_maps()
+    std::vector<OtherResults> others = {};  ///< see read_other_results()
 };
 
-/// The verdict; the table of kernels; accuracy against speed; pictures of signs; sizes of errors; families; witnesses
-/// with commands; how it was made. UTF-8, self-contained: it asks for nothing from anywhere; a script sorts the table
-/// and copies commands, and without it the page reads the same. Well-formed XML, too. Errors: a picture cannot be made.
+/// The verdict; the table of kernels; accuracy against speed; pictures of signs; maps of meshes; sizes of errors;
+/// families; witnesses with commands; what other programs measured; how it was made. UTF-8, self-contained: it asks for
+/// nothing from anywhere; a script sorts the table and copies commands, and without it the page reads the same.
+/// Well-formed XML, too. Errors: a picture cannot be made.
 Result<std::string> audit_html(const AuditReport& report, const AuditPage& page);
 
 // Reports as JSON. Every member is documented in SCHEMA.md beside this file.

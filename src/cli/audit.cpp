@@ -32,6 +32,7 @@ struct AuditArguments {
     std::uint64_t seed = 1;
     int threads = 0;
     std::string json, html, witnesses, plot;
+    std::vector<std::string> others;
     bool quiet = false, no_check = false, wide = false;
     OracleChoice oracle = OracleChoice::automatic;
     std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>();
@@ -58,6 +59,7 @@ Status check_files(const AuditArguments& a, bool table) {
         }
     }
     for (const std::string& library : a.libraries) inputs.push_back({"--kernel-library", library});
+    for (const std::string& file : a.others) inputs.push_back({"--with", file});
     std::vector<base::NamedFile> outputs{
         {"--json", a.json}, {"--html", a.html}, {"--witnesses", a.witnesses}, {"--plot", a.plot}};
     if (!a.baseline.empty()) inputs.push_back({"--baseline", a.baseline});
@@ -65,13 +67,30 @@ Status check_files(const AuditArguments& a, bool table) {
     return base::check_outputs(inputs, std::move(outputs));
 }
 
-/// The page, with the pictures of signs in the order of the report.
-Status write_page(const AuditReport& report, const AuditArguments& a, const TerminalStyle& style) {
+/// The page, with the pictures of signs and the maps in the order of the report.
+Status write_page(const AuditReport& report, const AuditArguments& a, const TerminalStyle& style,
+                  const MeshSource& meshes, const std::vector<OtherResults>& others) {
     std::vector<Kernel> kernels;
     for (const KernelResult& k : report.kernels) kernels.push_back(k.kernel);
-    const Result<std::string> page =
-        audit_html(report, {.style = style, .command_line = command_line(), .signs = sign_pictures(kernels)});
+    const Result<std::string> page = audit_html(report, {.style = style,
+                                                         .command_line = command_line(),
+                                                         .signs = sign_pictures(kernels),
+                                                         .maps = mesh_maps(kernels, meshes, a.seed, a.threads),
+                                                         .others = others});
     return page ? write_output(a.html, *page) : Status(page.error());
+}
+
+/// The files of --with.
+Result<std::vector<OtherResults>> read_others(const AuditArguments& a) {
+    std::vector<OtherResults> others;
+    if (!a.others.empty() && a.html.empty())
+        return Error{.what = "--with needs --html", .remedy = "it adds to the page"};
+    for (const std::string& file : a.others) {
+        Result<OtherResults> read = read_other_results(file);
+        if (!read) return read.error();
+        others.push_back(std::move(*read));
+    }
+    return others;
 }
 
 /// The mutation score of the families.
@@ -114,6 +133,8 @@ int run_audit(const AuditArguments& a) {
     const bool table =
         !a.quiet && a.json != "-" && a.html != "-" && a.witnesses != "-" && a.plot != "-" && !a.ci.on_stdout();
     if (const Status ok = check_files(a, table); !ok) return fail(ok.error());
+    const auto others = read_others(a);
+    if (!others) return fail(others.error());
     AuditOptions options;
     options.count = a.count;
     options.seed = a.seed;
@@ -154,7 +175,7 @@ int run_audit(const AuditArguments& a) {
                               .library_arguments = a.libraries,
                               .kernel_arguments = words_of(*a.rules),
                               .wide = a.wide};
-    if (!a.html.empty()) written.push_back(write_page(*report, a, style));
+    if (!a.html.empty()) written.push_back(write_page(*report, a, style, *meshes, *others));
     if (table) written.push_back(write_output("-", audit_text(*report, style)));
     const Result<bool> worse = write_audit_ci(a.ci, *report, rules, *baseline, options.kernels, a.libraries, written);
     if (const Status ok = all_written(written); !ok) return fail(ok.error());
@@ -212,6 +233,8 @@ void add_audit(CLI::App& app, int& exit_code) {
     file_option(*sub, "--html", a->html,
                 "Write the report as an HTML page with pictures, histograms and witnesses; - is stdout and suppresses "
                 "the table");
+    file_option(*sub, "--with", a->others,
+                "Also show on that page what `./run flags --json FILE` or `./run systems --json FILE` wrote");
     file_option(*sub, "--witnesses", a->witnesses, "Write the worst cases as JSON, for `barycert replay`; - is stdout");
     file_option(*sub, "--plot", a->plot,
                 "Plot the errors of the kernels over the condition numbers of the cells, as SVG; - is stdout");

@@ -1,6 +1,7 @@
 // What an audit covers, and that the same seed finds the same.
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -154,6 +155,34 @@ TEST(audit, a_page_that_says_how_it_was_made) {
     const Ended out = run({"audit", "--count", "10", "--kernel", "segment.*", "--html", "-"}, there);
     EXPECT_TRUE(out.out.starts_with("<!DOCTYPE html>\n") && out.out.ends_with("</body></html>\n"));
     EXPECT_EQ(run({"audit", "--html", "-", "--json", "-"}, there).code, 2);
+}
+
+TEST(audit, a_page_with_what_others_measured) {
+    const Scratch scratch;
+    const std::string measured = std::string(BARYCERT_DATA_DIR) + "/measured/", page = scratch.path("page");
+    const Words audit{"audit", "--quiet", "--count", "10", "--kernel", "segment.*"};
+    const auto with = [&](Words more) {
+        more.insert(more.begin(), audit.begin(), audit.end());
+        return run(more);
+    };
+    const Ended r = with({"--html", page, "--with", measured + "flags.json", "--with", measured + "systems.json"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    const std::string text = read_file(page);
+    EXPECT_TRUE(contains(text, "<h2>Formulas under compiler flags</h2>"));
+    EXPECT_TRUE(contains(text, "<h2>Systems: point location and interpolation</h2>"));
+    // Refused before the work, with nothing written.
+    const std::string other = scratch.path("other"), cut = scratch.put("cut.json", "{\"command\": \"flags\", ");
+    const Ended bad = with({"--html", other, "--with", cut});
+    EXPECT_EQ(bad.code, 2);
+    EXPECT_TRUE(contains(bad.err, cut + ": neither a flags matrix nor a league of systems: expected JSON")) << bad.err;
+    EXPECT_FALSE(std::filesystem::exists(other));
+    EXPECT_EQ(with({"--html", other, "--with", scratch.path("none")}).code, 2);
+    const Ended alone = with({"--with", measured + "flags.json"});
+    EXPECT_EQ(alone.code, 2);
+    EXPECT_TRUE(contains(alone.err, "--with needs --html")) << alone.err;
+    const std::string same = scratch.put("same.json", read_file(measured + "flags.json"));
+    EXPECT_EQ(with({"--html", same, "--with", same}).code, 2) << "the page would replace its input";
+    EXPECT_EQ(read_file(same), read_file(measured + "flags.json"));
 }
 
 TEST(audit, quiet_says_nothing_and_writes_all) {

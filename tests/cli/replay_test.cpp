@@ -30,7 +30,8 @@ std::vector<Printed> printed_commands(const std::string& table) {
     return all;
 }
 
-/// Runs each command as a user would who copies it, and looks for the finding in the row of the kernel.
+/// Runs each command as a user would who copies it, and looks for the finding in the rows of the kernel, and for what
+/// is wider than a terminal.
 void expect_commands_work(const std::string& table, std::size_t at_least, const How& how) {
     const std::vector<Printed> commands = printed_commands(table);
     EXPECT_GE(commands.size(), at_least) << table;
@@ -40,10 +41,13 @@ void expect_commands_work(const std::string& table, std::size_t at_least, const 
         EXPECT_EQ(r.err, "");
         const std::size_t row = r.out.find("> " + p.kernel + " ");
         ASSERT_NE(row, std::string::npos) << p.command << '\n' << r.out;
-        const std::string line = r.out.substr(row, r.out.find('\n', row) - row);
+        // Region and errors, weights, findings.
+        const Words lines = lines_of(r.out.substr(row));
+        ASSERT_GE(lines.size(), 3U) << r.out;
         if (p.reason != "worst_weight_ulp") {
-            EXPECT_TRUE(contains(line, p.reason)) << p.command << '\n' << line;
+            EXPECT_TRUE(contains(lines[2], p.reason)) << p.command << '\n' << r.out;
         }
+        for (const std::string& line : lines_of(r.out)) EXPECT_LE(line.size(), 100U) << p.command << '\n' << line;
     }
 }
 
@@ -105,7 +109,8 @@ TEST(replay, the_kernel_in_question_first_and_the_others_with_all) {
     const Words lines = lines_of(all);
     const auto exact = std::find_if(lines.begin(), lines.end(), [](const auto& l) { return l.starts_with("= exact"); });
     ASSERT_NE(exact, lines.end());
-    EXPECT_TRUE((exact + 1)->starts_with("> tetrahedron.kahan "));
+    EXPECT_TRUE((exact + 2)->starts_with("> tetrahedron.kahan "));
+    for (const std::string& line : lines) EXPECT_LE(line.size(), 100U) << line;
     // Without a kernel in question all are shown.
     EXPECT_TRUE(contains(run({"replay", "--family", "lattice.tenths", "--case", "360", "--simplex", "tetrahedron"}).out,
                          "tetrahedron.cramer"));

@@ -554,7 +554,19 @@ TEST(EveryEnvironment, Audit) {
         out.add(std::string_view(audit_text(*report, {.wide = true})));
         const auto signs = sign_pictures(kernels_matching("*.signed-*"));
         for (const SignPicture& p : signs) out.add(static_cast<double>(p.wrong));
-        out.add(std::string_view(audit_html(*report, {.signs = signs}).value()));
+        const auto maps = mesh_maps(kernels_matching("*.signed-*"), meshes, 1, 2);
+        for (const MeshMap& map : maps) {
+            for (const std::int32_t pixel : map.pixels) out.add(static_cast<double>(pixel));
+            for (const double error : map.kernels.at(0).errors) out.add(error);
+        }
+        folder.put("others.json",
+                   R"({"schema": 1, "command": "systems", "seed": 1, "count": 2, "systems": [{"name": "a",
+            "version": "1", "dimension": 3, "total": {"points": 3, "inside": 2, "outside": 1, "inside_called_outside": 1,
+            "outside_called_inside": 1, "owner_does_not_contain": 0, "max_value_error": 0.1}, "ns_a_random_point": 0.3,
+            "failures": []}]})");
+        const auto others = read_other_results(folder.path("others.json"));
+        out.add(others.has_value());
+        out.add(std::string_view(audit_html(*report, {.signs = signs, .maps = maps, .others = {*others}}).value()));
         ErrorSizes sizes;
         for (const double error : {0.0, 5e-324, 0.1, 1e300}) sizes.add(error, 0);
         for (const double share : {0.25, 0.5, 0.99}) out.add(sizes.within(share));

@@ -1,10 +1,14 @@
 // The matrix of formulas and compiler flags: what must not change does not, what must does.
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <string>
 
+#include "barycert/audit_others.hpp"
 #include "matrix.hpp"
 
 namespace barycert::flags {
@@ -74,6 +78,16 @@ TEST(Flags, ReportsNameEverything) {
         for (const std::string* text : {&tables, &picture_text, &json_text}) EXPECT_TRUE(has(*text, row.kernel));
     }
     EXPECT_TRUE(has(picture_text, "prefers-color-scheme:dark"));
+    // `barycert audit --with` reads it.
+    const std::string path = ::testing::TempDir() + "flags-" + std::to_string(::getpid()) + ".json";
+    std::ofstream(path) << json_text;
+    const auto read = read_other_results(path);
+    std::filesystem::remove(path);
+    ASSERT_TRUE(read) << read.error().message();
+    const auto& matrix = std::get<FlagsMatrix>(*read);
+    ASSERT_EQ(matrix.rows.size(), measured().rows.size());
+    EXPECT_EQ(matrix.columns.size(), measured().columns.size());
+    EXPECT_EQ(matrix.rows.back().cells.back().changed, measured().rows.back().cells.back().changed);
     EXPECT_EQ(measure("/nonexistent/list", 1, 1).has_value(), false);
 }
 

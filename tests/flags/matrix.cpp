@@ -261,6 +261,7 @@ std::string markdown(const Matrix& m) {
 std::string json(const Matrix& m) {
     nlohmann::ordered_json j;
     j["schema"] = 1;
+    j["command"] = "flags";
     j["seed"] = m.seed;
     j["count"] = m.count;
     j["compilers"] = m.compilers;

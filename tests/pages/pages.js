@@ -3,7 +3,7 @@
 //   node pages.js PROGRAM DATA FOLDER CHROMIUM
 //
 // PROGRAM  barycert; DATA its folder of meshes; FOLDER is replaced, pages and pictures of them go there
-// Exit code 77: playwright-core is missing (NODE_PATH names the folder it is in).
+// Exit code 77: playwright-core is missing (NODE_PATH names the folder it is in); 1 if BARYCERT_PAGES_REQUIRED is set.
 "use strict";
 const { execFileSync } = require("child_process");
 const fs = require("fs");
@@ -15,8 +15,8 @@ let playwright;
 try {
   playwright = require("playwright-core");
 } catch (error) {
-  console.log("skipped: playwright-core is missing; `./run pages` installs it");
-  process.exit(77);
+  console.log("playwright-core is missing; `./run pages` installs it");
+  process.exit(process.env.BARYCERT_PAGES_REQUIRED ? 1 : 77);
 }
 
 let failures = 0;
@@ -41,6 +41,7 @@ function made(name, args, { code = 0, input = "" } = {}) {
 
 function makePages() {
   const mesh = (name) => path.join(data, "meshes", name);
+  const others = (name) => path.join(data, "measured", name + ".json");
   // A mesh with a name that would be a tag, and one of its nodes moved.
   const nasty = "a<img src=x onerror=alert(1)>&\"b";
   fs.copyFileSync(mesh("cube-hole.ele"), path.join(folder, nasty + ".ele"));
@@ -54,7 +55,7 @@ function makePages() {
   }
   fs.writeFileSync(path.join(folder, nasty + ".csv"), rows);
   return {
-    audit: made("audit.html", ["audit", "--count", "300", "--json", "audit.json"]),
+    audit: made("audit.html", ["audit", "--count", "300", "--json", "audit.json", "--with", others("flags"), "--with", others("systems")]),
     nasty: made("nasty.html", ["audit", nasty, "--count", "50", "--family", "mesh.*", "--kernel", "*.kahan", "--kernel", "*.exact"]),
     one: made("one.html", ["audit", "--count", "200", "--kernel", "tetrahedron.cramer"]),
     right: made("right.html", ["audit", "--count", "50", "--kernel", "tetrahedron.exact"]),
@@ -139,6 +140,34 @@ function stickingOut() {
   return out;
 }
 
+/// A4 without the margins of the style's @page, in CSS pixels.
+const paperWidth = Math.floor(((210 - 2 * 12) / 25.4) * 96);
+
+/// How many parts of each kind can be seen.
+function shownParts() {
+  const count = {};
+  for (const e of document.body.querySelectorAll("h1,h2,h3,th,td,img,svg,figcaption,dt,dd,p,code")) {
+    const box = e.getBoundingClientRect();
+    const shown = getComputedStyle(e).visibility === "visible" && box.width > 0 && box.height > 0;
+    count[e.tagName] = (count[e.tagName] || 0) + (shown ? 1 : 0);
+  }
+  return count;
+}
+
+/// Elements that end beyond the paper, or hide a part of what is in them: paper does not scroll.
+function cutOff() {
+  const out = [];
+  for (const e of document.body.querySelectorAll("*")) {
+    if (e.closest("svg") && e.tagName !== "svg") continue;
+    const box = e.getBoundingClientRect();
+    if (box.width === 0) continue;
+    const hides = getComputedStyle(e).overflowX !== "visible" && e.scrollWidth > e.clientWidth + 1;
+    if (hides || box.left < -1 || box.right > document.documentElement.clientWidth + 1)
+      out.push(`${e.tagName}.${e.className} from ${Math.round(box.left)} to ${Math.round(box.right)}`);
+  }
+  return out;
+}
+
 async function main() {
   fs.rmSync(folder, { recursive: true, force: true });
   fs.mkdirSync(folder, { recursive: true });
@@ -192,7 +221,7 @@ async function main() {
   const report = JSON.parse(fs.readFileSync(path.join(folder, "audit.json"), "utf8"));
   await opened("audit", { viewport: { width: 1400, height: 900 } }, async (page) => {
     // The league table is the JSON's.
-    const rows = () => page.$$eval("table.league tbody tr", (all) => all.map((tr) => ({
+    const rows = () => page.$$eval("table.kernels tbody tr", (all) => all.map((tr) => ({
       name: tr.cells[0].textContent, numbers: Array.from(tr.cells).slice(1).map((c) => Number(c.dataset.v)) })));
     const first = await rows();
     const exactly = (kernel, region) => Object.values(kernel.confusion[region]).reduce((a, b) => a + b, 0);
@@ -210,7 +239,7 @@ async function main() {
         `${k.name}, column ${c}: ${first[i].numbers[c]}, in the JSON ${x}`));
     });
     // Every head sorts, down and up; the rows stay the same ones.
-    const heads = page.locator("table.league thead th button");
+    const heads = page.locator("table.kernels thead th button");
     for (let c = 0; c < (await heads.count()); ++c) {
       const keys = async () => (await rows()).map((r) => (c === 0 ? r.name : r.numbers[c - 1]));
       const order = (a, b) => (c === 0 ? a.localeCompare(b) : a - b || 0);
@@ -220,12 +249,12 @@ async function main() {
       await heads.nth(c).click();
       check(sorted(await keys(), c === 0 ? -1 : 1), `column ${c} does not sort the other way`);
       check((await rows()).length === first.length, "rows are lost");
-      check((await page.locator("th[aria-sort]").count()) === 1, "one column is the sorted one");
+      check((await page.locator("table.kernels th[aria-sort]").count()) === 1, "one column is the sorted one");
     }
     // By keyboard, too.
     await heads.nth(0).focus();
     await page.keyboard.press("Enter");
-    check((await page.locator("table.league th[aria-sort=ascending]").count()) === 1, "no sorting by keyboard");
+    check((await page.locator("table.kernels th[aria-sort=ascending]").count()) === 1, "no sorting by keyboard");
     // The commands are copied as they stand there.
     const codes = page.locator("code.copy");
     check((await codes.count()) === (await page.locator("button.copy").count()), "a button for each command");
@@ -238,18 +267,53 @@ async function main() {
     // A copied command of a witness does what it says: it exits with 0.
     const command = (await codes.first().textContent()).split(" ").slice(1);
     execFileSync(program, command, { cwd: folder, stdio: ["ignore", "ignore", "inherit"] });
+    // So do the tables of flags and systems.
+    const tables = page.locator("h2:has-text('under compiler flags') ~ .scroll table, h2:has-text('Systems:') ~ .scroll table");
+    check((await tables.count()) === 4, `${await tables.count()} tables of flags and systems`);
+    for (let t = 0; t < (await tables.count()); ++t) {
+      const table = tables.nth(t);
+      const column = () => table.locator("tbody tr td.n:nth-of-type(3)").evaluateAll((all) => all.map((td) => Number(td.dataset.v)));
+      const before = await column();
+      await table.locator("thead th:nth-child(4) button").click();
+      const after = await column();
+      check(before.length > 5 && after.length === before.length, `table ${t}: ${after.length} rows`);
+      check(after.every((x, i) => i === 0 || after[i - 1] >= x), `table ${t} does not sort: ${after}`);
+    }
+    // Maps: pictures that differ from kernel to kernel.
+    const maps = await page.$$eval(".maps", (meshes) => meshes.map((m) => Array.from(m.querySelectorAll("img"), (i) => i.src)));
+    check(maps.length === 4, `${maps.length} maps`);
+    for (const kernels of maps) check(kernels.length === 6 && new Set(kernels).size > 2, "maps are the same");
     // Pictures of signs: the exact one first in each kind, and all of them differ.
     const pictures = await page.$$eval(".signs", (kinds) => kinds.map((kind) => Array.from(kind.querySelectorAll("img"), (i) => i.src)));
     check(pictures.length === 4, `${pictures.length} kinds of pictures of signs`);
     for (const kind of pictures) check(new Set(kind).size === kind.length, "the same picture twice");
     check((await page.locator(".signs figure:first-child.exact").count()) === pictures.length, "no exact picture first");
   });
-  // On paper nothing is left out that the screen has, and the ground is white.
-  await opened("audit", { colorScheme: "dark" }, async (page) => {
-    await page.emulateMedia({ media: "print", colorScheme: "dark" });
-    check((await page.evaluate(() => getComputedStyle(document.body).backgroundColor)) === "rgb(255, 255, 255)", "dark paper");
-    await page.pdf({ path: path.join(folder, "audit.pdf") });
-  });
+  // On paper nothing is left out that the screen has, nothing is cut off, and the ground is white.
+  for (const name of Object.keys(pages)) {
+    await opened(name, { viewport: { width: paperWidth, height: 1000 }, colorScheme: "dark" }, async (page, where) => {
+      const onScreen = await page.evaluate(shownParts);
+      await page.emulateMedia({ media: "print", colorScheme: "dark" });
+      const ground = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+      check(ground === "rgb(255, 255, 255)", `${where}: dark paper`);
+      await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+      for (const [what, count] of Object.entries(await page.evaluate(shownParts)))
+        check(count >= onScreen[what], `${where}: on paper ${count} ${what}, on the screen ${onScreen[what]}`);
+      for (const what of await page.evaluate(cutOff)) check(false, `${where}: cut off on paper: ${what}`);
+      check((await page.locator("details:not([open])").count()) === 0, `${where}: folded on paper`);
+      await page.screenshot({ path: path.join(folder, `${name}-print.png`), fullPage: Boolean(process.env.FULL_PAGES) });
+      await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+      // Printing itself opens what is folded, and folds it again.
+      const folds = await page.locator("details").count();
+      await page.evaluate(() => {
+        window.whenPrinted = null;
+        addEventListener("beforeprint", () => { window.whenPrinted = document.querySelectorAll("details[open]").length; });
+      });
+      await page.pdf({ path: path.join(folder, `${name}.pdf`), format: "A4" });
+      check((await page.evaluate(() => window.whenPrinted)) === folds, `${where}: what is folded is printed so`);
+      check((await page.locator("details[open]").count()) === 0, `${where}: stays unfolded after printing`);
+    });
+  }
   await browser.close();
   console.log(failures === 0 ? `${Object.keys(pages).length} pages: all well` : `${failures} failures`);
   process.exit(failures === 0 ? 0 : 1);

@@ -153,6 +153,29 @@ TEST(audit_html, verdicts) {
     EXPECT_TRUE(has(right, "No witness: every weight and value is correctly rounded."));
 }
 
+TEST(audit_html, commands_begin_as_the_user_calls_the_program) {
+    AuditReport report = audited();
+    report.verdicts.assign(report.meshes.size(), Verdict::not_certified);
+    EXPECT_TRUE(has(page_of(report, {.style = {.command = "./run barycert"}}), "(why: ./run barycert check MESH)"));
+}
+
+TEST(audit_html, no_time_where_nothing_was_timed) {
+    AuditReport report = only_kernel("triangle.signed-area");
+    EXPECT_TRUE(has(page_of(report), " ns an evaluation"));
+    report.kernels.front().ns = 0;
+    EXPECT_FALSE(has(page_of(report), " ns an evaluation"));
+    report.kernels.push_back(report.kernels.front());
+    EXPECT_EQ(row_of(page_of(report), "Kernels, worst first", "triangle.signed-area").shown.back(), "-");
+}
+
+TEST(audit_html, says_how_it_was_made_once) {
+    const std::string page = page_of(audited()), line = environment_line(audited().environment);
+    const std::size_t at = page.find(line);
+    ASSERT_NE(at, std::string::npos);
+    EXPECT_EQ(page.find(line, at + 1), std::string::npos);
+    EXPECT_TRUE(has(page, "<dd>seed 1, 30 cases per family and simplex, 2 threads, "));
+}
+
 TEST(audit_html, text_from_outside_stays_text) {
     AuditReport report = audited();
     const std::string evil = "<script>alert(1)</script>&\"'\x1b\xff";
@@ -161,7 +184,12 @@ TEST(audit_html, text_from_outside_stays_text) {
     for (KernelResult& k : report.kernels) {
         k.kernel.name = "triangle." + evil;
         k.kernel.formula = k.kernel.source = k.kernel.fails = evil;
-        for (Witness& w : k.witnesses) w.kernel = k.kernel.name;
+        k.kernel.note = evil;
+        for (Witness& w : k.witnesses) {
+            w.kernel = k.kernel.name;
+            w.family = w.mesh = w.detail = evil;
+            w.cell = 7;
+        }
     }
     for (Family& f : report.families) f.name = f.tests = evil;
     std::vector<SignPicture> signs = sign_pictures(kernels_matching("triangle.signed-area"));
@@ -172,9 +200,62 @@ TEST(audit_html, text_from_outside_stays_text) {
         .signs = signs};
     expect_well_formed(page_of(report, page), true);
     EXPECT_FALSE(has(page_of(report, page), "<script>alert"));
+    // They are there, as text: the note, and of a witness its family, mesh and detail.
+    const std::string text = "&lt;script&gt;alert(1)&lt;/script&gt;&amp;&quot;'";
+    const std::string full = page_of(report, page);
+    EXPECT_TRUE(has(full, "<p>" + text));
+    const std::size_t worst = full.find("Worst: " + text);
+    ASSERT_NE(worst, std::string::npos);
+    const std::string line = full.substr(worst, full.find("</p>", worst) - worst);
+    EXPECT_TRUE(has(line, ", cell 7 of " + text)) << line;
+    EXPECT_TRUE(has(line, ": " + text)) << line;
     report.kernels.resize(1);
     expect_well_formed(page_of(report, page), true);
     EXPECT_FALSE(has(page_of(report, page), "<script>alert"));
+}
+
+/// Two pixels of two cells, one of them beside the mesh.
+MeshMap small_map() {
+    MeshMap map;
+    map.mesh = "a & b";
+    map.axis = 1;
+    map.at = 0.5;
+    map.low = {0, -1};
+    map.high = {2, 1};
+    map.width = 3;
+    map.height = 1;
+    map.pixels = {0, 1, -1};
+    map.cells = {7, 9};
+    const double none = std::numeric_limits<double>::infinity();
+    map.kernels.push_back({.kernel = "triangle.a<b", .errors = {3e-9, 2e-16}, .cases = 8, .wrong = 2});
+    map.kernels.push_back({.kernel = "triangle.silent", .errors = {0, none}, .cases = 8, .wrong = 4});
+    map.kernels.push_back({.kernel = "triangle.right", .errors = {0, 0}, .cases = 8, .wrong = 0});
+    map.kernels.push_back({.kernel = "triangle.gone", .errors = {-1, -1}, .cases = 0, .wrong = 0});
+    map.left_out = 3;
+    return map;
+}
+
+TEST(audit_html, maps_of_meshes) {
+    EXPECT_FALSE(has(page_of(audited()), "Maps of the mesh"));
+    MeshMap none;
+    none.mesh = "<broken>";
+    none.why_not = "node 3 is <not> finite";
+    const std::string page = page_of(audited(), {.maps = {small_map(), none}});
+    expect_well_formed(page, true);
+    EXPECT_TRUE(has(page, "<h2>Maps of the meshes</h2>"));
+    EXPECT_TRUE(has(page, "<h3>a &amp; b</h3>"));
+    EXPECT_TRUE(has(page, "section at y = 0.5, x from 0 to 2 to the right, z from -1 to 1 upwards; 2 cells are seen."));
+    EXPECT_TRUE(has(page, " 4 of 7 kernels, worst first, without variants; others: --kernel NAME."));
+    EXPECT_TRUE(has(page, "triangle.a&lt;b<br/>largest error <b>3e-09</b>, in cell 7; 25.0 % of the points wrong"));
+    EXPECT_TRUE(has(page, "triangle.silent<br/>no finite answer in cell 9; 50.0 % of the points wrong"));
+    EXPECT_TRUE(has(page, "triangle.right<br/>no error; 0 % of the points wrong"));
+    EXPECT_TRUE(has(page, "triangle.gone<br/>given up; "));
+    EXPECT_TRUE(has(page, "No map: node 3 is &lt;not&gt; finite"));
+    // From 2e-16 to 3e-9: eight powers of ten have a colour.
+    EXPECT_TRUE(has(page, "</i>&lt; 1e-15</span>"));
+    EXPECT_TRUE(has(page, "</i>&lt; 1e-8</span>"));
+    EXPECT_FALSE(has(page, "</i>&lt; 1e-16</span>"));
+    EXPECT_FALSE(has(page, "</i>&lt; 1e-7</span>"));
 }
 
 TEST(page, base64) {

@@ -45,6 +45,40 @@ TEST(terminal_report, worst_first) {
     EXPECT_TRUE(contains(text_of(), "    certifies its answers, and "));
 }
 
+TEST(terminal_report, what_a_kernel_did_besides_stands_below_its_row) {
+    AuditReport report = audited();
+    KernelResult& k = report.kernels[1];
+    k.total.counts[static_cast<std::size_t>(Finding::crashed)] = 3;
+    k.total.not_run = 5;
+    for (const bool wide : {false, true}) {
+        const auto lines = lines_of(audit_text(report, {.wide = wide}));
+        const auto row = std::find_if(lines.begin(), lines.end(),
+                                      [&](const std::string& line) { return line.starts_with(k.kernel.name + " "); });
+        ASSERT_NE(row, lines.end());
+        EXPECT_EQ(row[1], "    crashed in 3 cases; given up: 5 cases were not run") << row[-1];
+    }
+}
+
+TEST(terminal_report, green_is_what_is_right_in_every_case) {
+    AuditReport report = audited();
+    std::erase_if(report.kernels, [](const KernelResult& k) { return k.kernel.name != "triangle.exact"; });
+    report.kernels.push_back(report.kernels.front());
+    report.kernels.back().kernel.name = "triangle.unmeasured";
+    // No weight can be measured in ulps where all exact ones are zero or degenerate.
+    report.kernels.back().total.weight_ulp = {};
+    for (const bool wide : {false, true}) {
+        const std::string text = audit_text(report, {.colour = true, .wide = wide});
+        EXPECT_TRUE(contains(text, "\033[32mtriangle.exact ")) << text;
+        EXPECT_TRUE(contains(text, "\033[32mtriangle.unmeasured ")) << text;
+    }
+}
+
+TEST(terminal_report, no_time_where_nothing_was_timed) {
+    AuditReport report = audited();
+    for (KernelResult& k : report.kernels) k.ns = 0;
+    for (const bool wide : {false, true}) EXPECT_FALSE(contains(audit_text(report, {.wide = wide}), " 0.0\n"));
+}
+
 TEST(terminal_report, columns_stand_under_each_other) {
     // No kernel's figures are wider than their columns: all rows end where the head ends.
     std::size_t head = 0, rows = 0;

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "barycert/audit/json_members.hpp"
 #include "barycert/audit/mesh_draws.hpp"
 #include "barycert/audit/parsed_json.hpp"
 #include "barycert/base/input_file.hpp"
@@ -38,45 +39,14 @@ Regions regions_of(const KernelStatistics& s) {
     return r;
 }
 
-/// A member of the file, or an Exception that says what there is instead.
-const Json& member(const Json& object, const std::string& key, const std::string& where) {
-    if (!object.is_object() || !object.contains(key))
-        throw Exception({.what = where,
-                         .expected = "a member \"" + key + '"',
-                         .found = object.is_object() ? "none" : object.dump().substr(0, 40)});
-    return object.at(key);
-}
-
-std::uint64_t count_in(const Json& object, const std::string& key, const std::string& where) {
-    const Json& j = member(object, key, where);
-    if (!j.is_number_unsigned())
-        throw Exception({.what = where + ", " + key, .expected = "a count", .found = j.dump().substr(0, 40)});
-    return j.get<std::uint64_t>();
-}
-
 /// A figure that an older report does not have yet is none.
 double figure_in(const Json& object, const std::string& key, const std::string& where) {
     if (!object.is_object() || !object.contains(key)) return -1;
     const Json& j = object.at(key);
     if (j.is_null()) return -1;
     if (!j.is_number() || !(j.get<double>() >= 0))
-        throw Exception(
-            {.what = where + ", " + key, .expected = "a number >= 0 or null", .found = j.dump().substr(0, 40)});
+        throw Exception({.what = where + ", " + key, .expected = "a number >= 0 or null", .found = found_json(j)});
     return j.get<double>();
-}
-
-std::string text_in(const Json& object, const std::string& key, const std::string& where) {
-    const Json& j = member(object, key, where);
-    if (!j.is_string())
-        throw Exception({.what = where + ", " + key, .expected = "a string", .found = j.dump().substr(0, 40)});
-    return j.get<std::string>();
-}
-
-const Json& list_in(const Json& object, const std::string& key, const std::string& where) {
-    const Json& j = member(object, key, where);
-    if (!j.is_array())
-        throw Exception({.what = where + ", " + key, .expected = "an array", .found = j.dump().substr(0, 40)});
-    return j;
 }
 
 BaselineEntry entry_from(const Json& j, const std::string& kernel) {

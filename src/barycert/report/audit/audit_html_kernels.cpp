@@ -7,6 +7,7 @@
 
 #include "barycert/base/decades.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/report/audit/audit_html_cells.hpp"
 #include "barycert/report/audit/audit_html_parts.hpp"
 #include "barycert/report/audit/audit_words.hpp"
 #include "barycert/report/common/html_text.hpp"
@@ -15,21 +16,6 @@
 
 namespace barycert::report {
 namespace {
-
-/// A cell with a number: what is shown, and what is sorted by.
-std::string number_cell(const std::string& shown, double number, bool bad = false) {
-    return fmt::format("<td class=\"n{}\" data-v=\"{}\">{}</td>", bad ? " bad" : "",
-                       std::isinf(number) ? "Infinity" : base::shortest(number), html_escaped(shown));
-}
-
-std::string share_cell(const Share& share, bool red) {
-    const double x = share.whole == 0 ? -1 : static_cast<double>(share.part) / static_cast<double>(share.whole);
-    return number_cell(percent(share), x, red && share.part != 0);
-}
-
-std::string count_cell(std::uint64_t n) {
-    return number_cell(std::to_string(n), static_cast<double>(n));
-}
 
 constexpr std::string_view statistics_heads =
     "<th scope=\"col\" class=\"n\">wrong, %</th>"
@@ -86,23 +72,17 @@ std::string error_histogram(const KernelResult& k) {
 
 std::string witness_html(const AuditReport& report, const KernelResult& k, const Witness& w,
                          const TerminalStyle& style) {
-    const auto finding = finding_named(w.reason);
-    const std::string what =
-        finding ? fmt::format("{} {}: {}", count_of(k.total, *finding),
-                              *finding < Finding::opposite_sign ? "cases" : "weights",
-                              finding_texts[static_cast<std::size_t>(*finding)].meaning)
-                : std::string(w.reason == "worst_value_ulp" ? "the largest error of a value"
-                                                            : "the largest error of a weight, in ulps");
     return fmt::format("<p><b>{}</b>: {}. Worst: {}: {}.</p><p><code class=\"copy\">{}</code></p>\n",
-                       html_escaped(w.reason), html_escaped(what), html_escaped(place_of(w)), html_escaped(shows(w)),
-                       html_escaped(replay_command(report, k, w, style)));
+                       html_escaped(w.reason), html_escaped(finding_sentence(k, w)), html_escaped(place_of(w)),
+                       html_escaped(shows(w)), html_escaped(replay_command(report, k, w, style)));
 }
 
 }  // namespace
 
 std::string league_html(const AuditReport& r) {
     std::string out = fmt::format(
-        "<h2>Kernels, worst first</h2>\n<div class=\"scroll\" tabindex=\"0\"><table class=\"sortable league\"><thead>"
+        "<h2>Kernels, worst first</h2>\n<div class=\"scroll\" tabindex=\"0\"><table class=\"sortable league "
+        "kernels\"><thead>"
         "<tr><th scope=\"col\">kernel</th>{}<th scope=\"col\" class=\"n\">largest error on meshes</th>"
         "<th scope=\"col\" class=\"n\">ns</th></tr></thead>\n<tbody>\n",
         statistics_heads);
@@ -121,18 +101,13 @@ std::string kernel_families_html(const AuditReport& r, const KernelResult& k) {
     line("formula", k.kernel.formula);
     line("source", k.kernel.source);
     line("fails", k.kernel.fails);
-    line("time", brief_time(k.ns) + " ns an evaluation");
+    if (k.ns > 0) line("time", brief_time(k.ns) + " ns an evaluation");
     out = "<dl>\n" + out + "</dl>\n";
     out += fmt::format(
         "<h2>Families of cases</h2>\n<div class=\"scroll\" tabindex=\"0\"><table class=\"sortable league\"><thead><tr>"
         "<th scope=\"col\">family</th>{}</tr></thead>\n<tbody>\n",
         statistics_heads);
-    std::vector<const FamilyResult*> families;
-    for (const FamilyResult& f : k.families) families.push_back(&f);
-    std::stable_sort(families.begin(), families.end(), [](const FamilyResult* a, const FamilyResult* b) {
-        return a->statistics.wrong_cases > b->statistics.wrong_cases;
-    });
-    for (const FamilyResult* f : families)
+    for (const FamilyResult* f : families_worst_first(k))
         out += fmt::format("<tr><th scope=\"row\" title=\"{}\">{}</th>{}</tr>\n",
                            html_escaped(r.families[f->family].tests), html_escaped(r.families[f->family].name),
                            statistics_cells(f->statistics));

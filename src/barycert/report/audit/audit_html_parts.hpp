@@ -27,6 +27,12 @@ std::string pareto_html(const AuditReport& report);
 /// Error: a picture cannot be made.
 Result<std::string> signs_html(const std::vector<SignPicture>& pictures);
 
+/// In which cells of the meshes kernels err. Error: a picture cannot be made.
+Result<std::string> maps_html(const AuditReport& report, const std::vector<MeshMap>& maps);
+
+/// What other programs measured: the flags matrix, the league of systems.
+std::string others_html(const std::vector<OtherResults>& others);
+
 /// Kinds of cases in the order that the page has them: "triangle", "triangle3d", ... "triangle.perspective".
 std::string kind_of(Simplex simplex, bool perspective);
 

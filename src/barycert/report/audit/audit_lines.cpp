@@ -12,6 +12,30 @@
 
 namespace barycert::report {
 
+std::vector<const FamilyResult*> families_worst_first(const KernelResult& k) {
+    std::vector<const FamilyResult*> families;
+    for (const FamilyResult& f : k.families) families.push_back(&f);
+    std::stable_sort(families.begin(), families.end(), [](const FamilyResult* a, const FamilyResult* b) {
+        return a->statistics.wrong_cases > b->statistics.wrong_cases;
+    });
+    return families;
+}
+
+std::string finding_sentence(const KernelResult& k, const Witness& w) {
+    const auto finding = finding_named(w.reason);
+    if (!finding)
+        return w.reason == "worst_value_ulp" ? "the largest error of a value, in ulps"
+                                             : "the largest error of a weight, in ulps";
+    return fmt::format("{} {}: {}", count_of(k.total, *finding),
+                       *finding < Finding::opposite_sign ? "cases" : "weights",
+                       finding_texts[static_cast<std::size_t>(*finding)].meaning);
+}
+
+std::string broken_certificates(const KernelStatistics& s) {
+    const std::uint64_t broken = count_of(s, Finding::false_certificate);
+    return broken == 0 ? "" : fmt::format("certifies its answers, and {} of them are wrong", broken);
+}
+
 std::string place_of(const Witness& w) {
     return fmt::format("{}, case {}{}", base::printable(w.family), w.index,
                        w.cell < 0 ? "" : fmt::format(", cell {} of {}", w.cell, base::printable(w.mesh)));

@@ -155,13 +155,22 @@ std::vector<std::string> verdict_details(const AuditReport& report) {
     return lines;
 }
 
-std::string cases_sentence(const AuditReport& report) {
+std::string regions_text(const AuditReport& report) {
     std::string regions;
     for (const Region r : all_regions)
         regions += fmt::format("{}{} {}", r == Region::interior ? "" : ", ",
                                report.regions[static_cast<std::size_t>(r)], name(r));
+    return regions;
+}
+
+std::string cases_sentence(const AuditReport& report) {
     return fmt::format("{} cases of {} famil{}, exactly {}", report.cases, report.families.size(),
-                       report.families.size() == 1 ? "y" : "ies", regions);
+                       report.families.size() == 1 ? "y" : "ies", regions_text(report));
+}
+
+std::string how_it_was_made(const AuditReport& report) {
+    return fmt::format("seed {}, {} cases per family and simplex, {} threads, {:.1f} s", report.seed, report.count,
+                       report.threads, report.seconds);
 }
 
 std::vector<MeshLine> mesh_lines(const AuditReport& report, std::string_view command) {

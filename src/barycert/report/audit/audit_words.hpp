@@ -47,8 +47,15 @@ bool any_wrong(const AuditReport& report);
 std::string kernel_sentence(const AuditReport& report, const KernelResult& k);
 /// Sentences below the verdict: the worst kernel, broken certificates, the kernels without a finding.
 std::vector<std::string> verdict_details(const AuditReport& report);
+/// How many cases lie in each region, exactly: "12 interior, 3 boundary, ...".
+std::string regions_text(const AuditReport& report);
 /// What was audited: cases, families, exact regions.
 std::string cases_sentence(const AuditReport& report);
+/// What makes the same report again, and how long it took: "seed 1, 100 cases per family and simplex, ...".
+std::string how_it_was_made(const AuditReport& report);
+
+/// The families of a kernel, most wrong cases first, in the order of the report where they are equal.
+std::vector<const FamilyResult*> families_worst_first(const KernelResult& k);
 
 /// The meshes by what is known of them: "meshes, certified to be partitions: a, b". `bad`: they are no partitions.
 struct MeshLine {
@@ -60,6 +67,10 @@ std::vector<MeshLine> mesh_lines(const AuditReport& report, std::string_view com
 /// What a kernel in a process of its own did besides answering; empty if nothing.
 std::string incidents(const KernelStatistics& s);
 
+/// What the witness's kind of finding means, and of a finding how often the kernel has it.
+std::string finding_sentence(const KernelResult& k, const Witness& w);
+/// "certifies its answers, and 3 of them are wrong"; empty if none is.
+std::string broken_certificates(const KernelStatistics& s);
 /// Where a witness comes from: family, case, cell of a mesh.
 std::string place_of(const Witness& w);
 /// What a witness shows.

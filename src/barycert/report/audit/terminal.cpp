@@ -84,9 +84,7 @@ std::string audit_text(const AuditReport& report, const TerminalStyle& style) {
         const std::string text = wrapped(line.text, width, ", ");
         out += line.bad ? paint.bad(text) : text;
     }
-    out += fmt::format("seed {}, {} cases per family and simplex, {} threads, {:.1f} s\n", report.seed, report.count,
-                       report.threads, report.seconds);
-    out += environment_line(report.environment) + "\n";
+    out += how_it_was_made(report) + "\n" + environment_line(report.environment) + "\n";
     const KernelResult& worst = report.kernels.front();
     if (const Witness* w = worst_witness(worst); w != nullptr)
         out += fmt::format("\nSee the worst kernel fail ({}, {}):\n    {}\n", w->reason, shows(*w),

@@ -27,22 +27,15 @@ std::string what_it_is(const Kernel& k) {
 
 /// The families, most wrong cases first, in the order of the report where they are equal.
 std::string kernel_families(const AuditReport& report, const KernelResult& k, const Colours& paint) {
-    std::vector<const FamilyResult*> families;
     std::size_t width = 6;
-    for (const FamilyResult& f : k.families) {
-        families.push_back(&f);
-        width = std::max(width, report.families[f.family].name.size());
-    }
-    std::stable_sort(families.begin(), families.end(), [](const FamilyResult* a, const FamilyResult* b) {
-        return a->statistics.wrong_cases > b->statistics.wrong_cases;
-    });
+    for (const FamilyResult& f : k.families) width = std::max(width, report.families[f.family].name.size());
     const auto row = [&](const auto&... cells) {
         return fmt::format("{:<{}} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>8} {:>8}", cells...);
     };
     std::string out =
         paint.bold(row("family", width, "cases", "wrong", "in as", "out as", "no", "error", "error", "error")) + "\n" +
         paint.bold(row("", width, "", "%", "out %", "in %", "ans. %", "99 %", "max", "ulps")) + "\n";
-    for (const FamilyResult* f : families) {
+    for (const FamilyResult* f : families_worst_first(k)) {
         const KernelStatistics& s = f->statistics;
         const std::string line =
             row(report.families[f->family].name, width, brief_count(s.cases), percent(s.wrong_cases, s.cases),
@@ -57,13 +50,9 @@ std::string kernel_findings(const AuditReport& report, const KernelResult& k, co
                             const Colours& paint) {
     std::string out;
     for (const Witness& w : k.witnesses) {
-        const auto finding = finding_named(w.reason);
-        const std::string head = finding ? fmt::format("{}: {} {}: {}", w.reason, count_of(k.total, *finding),
-                                                       *finding < Finding::opposite_sign ? "cases" : "weights",
-                                                       finding_texts[static_cast<std::size_t>(*finding)].meaning)
-                                         : w.reason;
-        out += fmt::format("{}\n    {}: {}\n    {}\n", paint.bold(head), place_of(w), shows(w),
-                           paint.dim(replay_command(report, k, w, style)));
+        out += paint.bold(w.reason + ": " + finding_sentence(k, w)) + "\n";
+        out +=
+            fmt::format("    {}: {}\n    {}\n", place_of(w), shows(w), paint.dim(replay_command(report, k, w, style)));
     }
     return out.empty() ? "No witness: every weight and value is correctly rounded.\n" : out;
 }
@@ -87,9 +76,7 @@ std::string kernel_text(const AuditReport& report, const TerminalStyle& style) {
         const std::string text = wrapped(line.text, kernel_text_width, ", ");
         out += line.bad ? paint.bad(text) : text;
     }
-    out += fmt::format("seed {}, {} cases per family and simplex, {} threads, {:.1f} s\n", report.seed, report.count,
-                       report.threads, report.seconds);
-    return out + environment_line(report.environment) + "\n";
+    return out + how_it_was_made(report) + "\n" + environment_line(report.environment) + "\n";
 }
 
 }  // namespace barycert::report

@@ -34,12 +34,10 @@ std::string kernel_table(const AuditReport& report, const Colours& paint) {
                 n(Finding::false_nonzero), n(Finding::not_finite), n(Finding::false_inside), n(Finding::false_outside),
                 n(Finding::false_declaration), n(Finding::missed_degenerate), brief(s.p999_weight_ulp()),
                 brief(s.weight_ulp.value), brief(s.p999_value_ulp()), brief_time(k.ns));
-        if (const std::string beside = incidents(s); !beside.empty()) out += paint.bad("    " + beside) + "\n";
-        const std::uint64_t broken = count_of(s, Finding::false_certificate);
-        const bool perfect = s.wrong_cases == 0 && s.weight_ulp.value == 0;
-        out += (perfect ? paint.good(line) : line) + "\n";
-        if (broken != 0)
-            out += paint.bad(fmt::format("    certifies its answers, and {} of them are wrong", broken)) + "\n";
+        out += (perfect(s) ? paint.good(line) : line) + "\n";
+        for (const std::string& beside : {incidents(s), broken_certificates(s)}) {
+            if (!beside.empty()) out += paint.bad("    " + beside) + "\n";
+        }
     }
     out += paint.dim(
         "wrong %: share of cases with a finding, over all families and over the families mesh.*. A finding is a wrong "
@@ -48,15 +46,6 @@ std::string kernel_table(const AuditReport& report, const Colours& paint) {
         "degenerate count cases.  "
         "ns: median time of one evaluation, over blocks of cases.\n");
     return out;
-}
-
-std::string exact_regions(const AuditReport& report) {
-    std::string out = "exactly: ";
-    for (const Region r : all_regions) {
-        out += fmt::format("{}{} {}", r == Region::interior ? "" : ", ", report.regions[static_cast<std::size_t>(r)],
-                           name(r));
-    }
-    return out + "\n";
 }
 
 std::string family_table(const AuditReport& report, const Colours& paint) {
@@ -97,13 +86,11 @@ std::string witness_list(const AuditReport& report, const TerminalStyle& style, 
 std::string wide_text(const AuditReport& report, const TerminalStyle& style) {
     const Colours paint(style.colour);
     std::string out = environment_line(report.environment) + "\n";
-    out += fmt::format(
-        "seed {}, {} cases per family and simplex, {} in all, {} kernels, {} families, {} threads, {:.1f} s\n",
-        report.seed, report.count, report.cases, report.kernels.size(), report.families.size(), report.threads,
-        report.seconds);
+    out += fmt::format("{}\n{} kernels, {} families, {} cases in all, exactly {}\n", how_it_was_made(report),
+                       report.kernels.size(), report.families.size(), report.cases, regions_text(report));
     for (const MeshLine& line : mesh_lines(report, style.command))
         out += (line.bad ? paint.bad(line.text) : line.text) + "\n";
-    out += exact_regions(report) + oracle_line(report.oracles) + "\n\n";
+    out += oracle_line(report.oracles) + "\n\n";
     out += kernel_table(report, paint) + "\n" + family_table(report, paint) + "\n";
     out += paint.bold("Worst witness of each kernel, and the command that replays it:") + "\n" +
            witness_list(report, style, paint);

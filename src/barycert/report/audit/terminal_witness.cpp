@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include "barycert/audit_report.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/report/audit/terminal_tables.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert {
@@ -20,7 +20,7 @@ std::string findings(const Comparison& r) {
     for (std::size_t f = 0; f < finding_count; ++f) {
         if (r.counts[f] != 0) out += (out.empty() ? "" : ", ") + std::string(finding_texts[f].name);
     }
-    return out.empty() ? "-" : out;
+    return out;
 }
 
 std::string coordinates(int count, auto at) {
@@ -41,13 +41,54 @@ std::string identity_line(const Replay& r) {
                                                               : "trilinear interpolation and ratios of signed volumes";
     switch (r.identity) {
         case IdentityVerdict::holds:
-            return fmt::format("    in exact arithmetic {} give the same weights here\n", what);
+            return fmt::format("    exactly, {} give the same weights here\n", what);
         case IdentityVerdict::fails:
-            return fmt::format("    in exact arithmetic {} DIFFER here: a fault of barycert\n", what);
+            return fmt::format("    exactly, {} DIFFER here: a fault of barycert\n", what);
         case IdentityVerdict::undefined:
             break;
     }
     return "";
+}
+
+constexpr std::size_t witness_width = 100;
+
+/// Two lines an answer, weights under each other, and a third for findings: one line would be too wide.
+std::string answer_table(const Replay& replay, const std::vector<KernelAnswer>& answers, const Colours& paint) {
+    const OracleAnswer& exact = replay.exact;
+    const auto n = static_cast<std::size_t>(vertex_count(replay.witness.c.simplex));
+    constexpr std::string_view right = "exact, correctly rounded";
+    std::size_t width = right.size();
+    for (const KernelAnswer& a : answers) width = std::max(width, a.kernel.size());
+    const auto row = [&](std::string_view mark, std::string_view kernel, std::string_view region,
+                         const std::string& figures) {
+        return fmt::format("{:1} {:<{}}  {:<10}  {}", mark, kernel, width, region, figures);
+    };
+    const auto figures = [](std::string_view error, std::string_view ulps, std::string_view value) {
+        return fmt::format("{:>9} {:>9} {:>10}", error, ulps, value);
+    };
+    // A double takes at most 24 characters, and there are at most four weights.
+    const auto weights = [&](auto cell) {
+        std::string line;
+        for (std::size_t i = 0; i < n; ++i) line += fmt::format(" {:>{}}", cell(i), witness_width / 4 - 1);
+        return line;
+    };
+    std::string out = paint.bold(row("", "kernel", "region", figures("error", "ulps", "value ulps"))) + "\n" +
+                      paint.bold(weights([](std::size_t i) { return fmt::format("weight {}", i); })) + "\n";
+    out += paint.good(row("=", right, name(exact.region), "value " + base::shortest(exact.value))) + "\n" +
+           paint.good(weights([&](std::size_t i) { return base::shortest(exact.weights[i]); })) + "\n";
+    for (const KernelAnswer& a : answers) {
+        const Comparison& r = a.comparison;
+        const bool wrong = r.wrong();
+        const auto line = [&](const std::string& text) { out += (wrong ? paint.bad(text) : text) + "\n"; };
+        line(row(a.kernel == replay.witness.kernel ? ">" : "", a.kernel, name(r.claimed),
+                 figures(brief(r.relative_error), brief(a.worst_weight_ulp), brief(r.value_ulp))));
+        line(weights([&](std::size_t i) {
+            return !a.answered ? "-" : a.status != 0 ? "declared" : base::shortest(a.weights[i]);
+        }));
+        if (wrong) line("      " + findings(r));
+        if (!a.detail.empty()) out += "      " + wrapped(base::printable(a.detail), witness_width - 6);
+    }
+    return out;
 }
 
 /// The kernel in question first; without `all` nothing else, if there is one.
@@ -67,7 +108,6 @@ std::string witness_text(const Replay& replay, const TerminalStyle& style, bool 
     const Colours paint(style.colour);
     const Witness& witness = replay.witness;
     const Case& c = witness.c;
-    const int n = vertex_count(c.simplex);
     const OracleAnswer& answer = replay.exact;
     std::string title(name(c.simplex));
     if (c.perspective) title += " in a window (vertices x, y, w)";
@@ -79,7 +119,7 @@ std::string witness_text(const Replay& replay, const TerminalStyle& style, bool 
                            witness.seed);
     }
     if (witness.cell >= 0) out += fmt::format("    cell {} of {}\n", witness.cell, base::printable(witness.mesh));
-    for (int i = 0; i < n; ++i)
+    for (int i = 0; i < vertex_count(c.simplex); ++i)
         out += fmt::format("    v{}  ", i) + coordinates(c.stride(), [&](int axis) { return c.vertex(i, axis); });
     out += "    p   " +
            coordinates(space_dimension(c.simplex), [&](int axis) { return c.point[static_cast<std::size_t>(axis)]; });
@@ -91,33 +131,8 @@ std::string witness_text(const Replay& replay, const TerminalStyle& style, bool 
                    : fmt::format(" (its vertices span {} dimensions)", replay.affine_dimension);
     out += "\n";
 
-    std::size_t width = 5;
     const std::vector<KernelAnswer> answers = answers_to_show(replay, all);
-    for (const KernelAnswer& a : answers) width = std::max(width, a.kernel.size());
-    const auto row = [&](std::string_view mark, std::string_view kernel, std::string_view region,
-                         const std::array<std::string, 4>& cells, std::string_view error, std::string_view ulps,
-                         std::string_view value, std::string_view text) {
-        std::string line = fmt::format("{:1} {:<{}}  {:<10}", mark, kernel, width, region);
-        for (int i = 0; i < n; ++i) line += fmt::format(" {:>24}", cells[static_cast<std::size_t>(i)]);
-        return line + fmt::format(" {:>9} {:>9} {:>10}  {}", error, ulps, value, text) + "\n";
-    };
-    std::array<std::string, 4> cells{};
-    for (int i = 0; i < n; ++i) cells[static_cast<std::size_t>(i)] = fmt::format("weight {}", i);
-    out += paint.bold(row("", "", "region", cells, "error", "ulps", "value ulps", "findings"));
-    for (int i = 0; i < n; ++i)
-        cells[static_cast<std::size_t>(i)] = base::shortest(answer.weights[static_cast<std::size_t>(i)]);
-    out += paint.good(row("=", "exact, correctly rounded", name(answer.region), cells, "", "", "",
-                          "value " + base::shortest(answer.value)));
-    for (const KernelAnswer& a : answers) {
-        for (std::size_t i = 0; i < 4; ++i)
-            cells[i] = !a.answered ? "-" : a.status != 0 ? "declared" : base::shortest(a.weights[i]);
-        const Comparison& r = a.comparison;
-        const std::string line =
-            row(a.kernel == witness.kernel ? ">" : "", a.kernel, name(r.claimed), cells, brief(r.relative_error),
-                brief(a.worst_weight_ulp), brief(r.value_ulp), findings(r));
-        out += r.wrong() ? paint.bad(line) : line;
-        if (!a.detail.empty()) out += "      " + base::printable(a.detail) + "\n";
-    }
+    out += answer_table(replay, answers, paint);
     if (answers.size() < replay.answers.size())
         out += paint.dim(fmt::format("  {} other kernels: --all", replay.answers.size() - answers.size())) + "\n";
     return out + identity_line(replay);

@@ -1,4 +1,4 @@
-/// The script of HTML pages: tables that sort, commands to copy.
+/// The script of HTML pages: tables that sort, commands to copy, and nothing folded on paper.
 #pragma once
 
 #include <string_view>
@@ -59,6 +59,15 @@ inline constexpr std::string_view page_script = R"js(
       else byHand();
     });
     code.after(button);
+  });
+  let opened = [];
+  addEventListener("beforeprint", function () {
+    opened = Array.from(document.querySelectorAll("details:not([open])"));
+    opened.forEach(function (fold) { fold.open = true; });
+  });
+  addEventListener("afterprint", function () {
+    opened.forEach(function (fold) { fold.open = false; });
+    opened = [];
   });
 })();
 )js";

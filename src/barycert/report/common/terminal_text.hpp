@@ -32,8 +32,9 @@ inline std::string brief(double x) {
     return fmt::format("{:.3g}", x);
 }
 
-/// Nanoseconds in at most five characters.
+/// Nanoseconds in at most five characters; "-" where nothing was timed.
 inline std::string brief_time(double ns) {
+    if (!(ns > 0)) return "-";
     return fmt::format(ns < 999.95    ? fmt::runtime("{:.1f}")
                        : ns < 99999.5 ? fmt::runtime("{:.0f}")
                                       : fmt::runtime("{:.0e}"),

@@ -1,0 +1,219 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "barycert/audit/asking.hpp"
+#include "barycert/audit/combine.hpp"
+#include "barycert/audit/comparison.hpp"
+#include "barycert/audit/mesh_draws.hpp"
+#include "barycert/audit_maps.hpp"
+#include "barycert/base/workers.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/oracle.hpp"
+
+namespace barycert {
+
+using namespace audit;
+
+namespace {
+
+/// The axes of the picture.
+struct Frame {
+    int axis = -1;
+    double at = 0;
+    std::array<std::size_t, 2> shown{0, 1};
+    std::size_t width = 0, height = 0;
+};
+
+/// The owners of the centres of a grid of pixels, row by row from the top.
+Result<std::vector<Mesh::Index>> owners_in(const Locator& locator, const PreparedMesh& m, const Frame& f, int threads) {
+    const auto d = static_cast<std::size_t>(m.mesh.dimension);
+    std::vector<double> points;
+    points.reserve(d * f.width * f.height);
+    const auto place = [&](std::size_t axis, std::size_t i, std::size_t of) {
+        const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(of);
+        return (1 - t) * m.low[axis] + t * m.high[axis];
+    };
+    for (std::size_t row = 0; row < f.height; ++row) {
+        for (std::size_t column = 0; column < f.width; ++column) {
+            std::array<double, 3> p{};
+            if (f.axis >= 0) p[static_cast<std::size_t>(f.axis)] = f.at;
+            p[f.shown[0]] = place(f.shown[0], column, f.width);
+            p[f.shown[1]] = place(f.shown[1], f.height - 1 - row, f.height);
+            points.insert(points.end(), p.begin(), p.begin() + static_cast<std::ptrdiff_t>(d));
+        }
+    }
+    std::vector<Mesh::Index> owners(f.width * f.height);
+    std::vector<Feature> features(owners.size());
+    const Status located = locator.locate(points, owners, features, nullptr, threads);
+    if (!located) return located.error();
+    return owners;
+}
+
+/// The first plane, from the middle outwards, that cuts at least half as much out of the mesh as any other; seen
+/// coarsely. Those near the ends are for plates.
+Result<Frame> best_frame(const Locator& locator, const PreparedMesh& m, int threads) {
+    if (m.mesh.dimension == 2) return Frame();
+    std::array<double, 3> extent{};
+    for (std::size_t k = 0; k < 3; ++k) extent[k] = m.high[k] / 2 - m.low[k] / 2;  // halved, for it may overflow
+    const double largest = std::max({extent[0], extent[1], extent[2]});
+    std::vector<std::pair<double, Frame>> planes;
+    for (const double t : {0.5, 0.375, 0.625, 0.25, 0.75, 0.125, 0.875, 0.0625, 0.9375, 0.03125, 0.96875}) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            Frame f{
+                static_cast<int>(k), (1 - t) * m.low[k] + t * m.high[k], {k == 0 ? 1U : 0U, k == 2 ? 1U : 2U}, 24, 24};
+            const auto owners = owners_in(locator, m, f, threads);
+            if (!owners) return owners.error();
+            const auto inside = std::count_if(owners->begin(), owners->end(), [](Mesh::Index c) { return c >= 0; });
+            const double sides = (extent[f.shown[0]] / largest) * (extent[f.shown[1]] / largest);
+            planes.emplace_back(static_cast<double>(inside) * sides, f);
+        }
+    }
+    const double most = std::max_element(planes.begin(), planes.end(), [](const auto& a, const auto& b) {
+                            return a.first < b.first;
+                        })->first;
+    return std::find_if(planes.begin(), planes.end(), [&](const auto& p) { return !(p.first < most / 2); })->second;
+}
+
+/// As long and as high as the mesh, but so that something is seen of thin ones.
+void set_size(Frame& f, const PreparedMesh& m) {
+    const auto extent = [&](std::size_t side) { return m.high[f.shown[side]] / 2 - m.low[f.shown[side]] / 2; };
+    const double across = extent(0), up = extent(1), larger = std::max(across, up);
+    const auto pixels = [&](double size) {
+        const double n = larger > 0 ? std::round(static_cast<double>(MeshMap::longer_side) * (size / larger)) : 0;
+        return std::max(static_cast<std::size_t>(n), MeshMap::shortest_side);
+    };
+    f.width = pixels(across);
+    f.height = pixels(up);
+}
+
+/// The cases of one cell.
+void add_cases(const PreparedMesh& m, Mesh::Index cell, std::uint64_t seed, std::vector<Case>& cases) {
+    base::Random random = base::Random::stream(seed, base::hash64("maps"), static_cast<std::uint64_t>(cell));
+    const auto n = m.mesh.corners();
+    std::array<Mesh::Index, 4> nodes{};
+    for (std::size_t i = 0; i < n; ++i) nodes[i] = m.mesh.cells[static_cast<std::size_t>(cell) * n + i];
+    Case c = draw_of_nodes(m, cell, nodes, n == 3 ? Simplex::triangle : Simplex::tetrahedron, random).simplex;
+    const int count = static_cast<int>(n);
+    c.point = random_point(c, random, count);
+    cases.push_back(c);
+    for (std::size_t facet = 0; facet < n; ++facet) {
+        const std::array<double, 4> on = random_weights(random, count - 1);
+        std::array<double, 4> w{};
+        for (std::size_t i = 0, k = 0; i < n; ++i) w[i] = i == facet ? 0 : on[k++];
+        c.point = combination(c, w, count);
+        cases.push_back(c);
+        const auto axis = static_cast<std::size_t>(random.below(static_cast<std::uint64_t>(m.mesh.dimension)));
+        move_by_ulp(c, c.point[axis], static_cast<int>(axis), random);
+        cases.push_back(c);
+    }
+}
+
+/// Float32 and the like: names with a second dot.
+bool is_variant(const std::string& name) {
+    return std::count(name.begin(), name.end(), '.') > 1;
+}
+
+/// One piece of the cells: as many as a kernel is asked for at once.
+struct Piece {
+    std::uint64_t cases = 0, wrong = 0;
+};
+
+void fill_errors(MeshMap& map, const PreparedMesh& m, const std::vector<Mesh::Index>& cells,
+                 const std::vector<Kernel>& kernels, std::uint64_t seed, int threads) {
+    const std::size_t cases_a_cell = 1 + 2 * m.mesh.corners(), cells_a_piece = 256 / cases_a_cell;
+    const std::size_t count = (cells.size() + cells_a_piece - 1) / cells_a_piece;
+    std::vector<Piece> pieces(count * kernels.size());
+    for (const Kernel& k : kernels)
+        map.kernels.push_back(
+            {.kernel = k.name, .errors = std::vector<double>(cells.size(), -1), .cases = 0, .wrong = 0});
+    base::share_work(threads, count, [&](std::size_t piece) {
+        const ExactEnvironment environment;
+        const std::size_t first = piece * cells_a_piece, last = std::min(first + cells_a_piece, cells.size());
+        std::vector<Case> cases;
+        for (std::size_t i = first; i < last; ++i) add_cases(m, cells[i], seed, cases);
+        std::vector<OracleAnswer> answers;
+        std::transform(cases.begin(), cases.end(), std::back_inserter(answers), ask_oracle);
+        std::vector<Statement> said(cases.size());
+        for (std::size_t k = 0; k < kernels.size(); ++k) {
+            ask_kernel(kernels[k], cases, said, false);
+            Piece& sums = pieces[piece * kernels.size() + k];
+            for (std::size_t i = 0; i < cases.size(); ++i) {
+                if (!said[i].ran) continue;
+                const Comparison r = compare(kernels[k], cases[i], answers[i], said[i]);
+                double& error = map.kernels[k].errors[first + i / cases_a_cell];
+                error = std::max(error, r.relative_error);
+                ++sums.cases;
+                sums.wrong += r.wrong() ? 1 : 0;
+            }
+        }
+        return true;
+    });
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        map.kernels[i % kernels.size()].cases += pieces[i].cases;
+        map.kernels[i % kernels.size()].wrong += pieces[i].wrong;
+    }
+}
+
+Status fill_map(MeshMap& map, const PreparedMesh& m, const std::vector<Kernel>& kernels, std::uint64_t seed,
+                int threads) {
+    BuildOptions options;
+    options.threads = threads;
+    const Result<Locator> locator = Locator::build(m.mesh, options);
+    if (!locator) return locator.error();
+    Result<Frame> frame = best_frame(*locator, m, threads);
+    if (!frame) return frame.error();
+    set_size(*frame, m);
+    const auto owners = owners_in(*locator, m, *frame, threads);
+    if (!owners) return owners.error();
+    std::vector<Mesh::Index> cells = *owners;
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    if (!cells.empty() && cells.front() < 0) cells.erase(cells.begin());
+    if (cells.empty()) return Error{.what = "no cell is large enough to be seen"};
+    map.axis = frame->axis;
+    map.at = frame->at;
+    map.low = {m.low[frame->shown[0]], m.low[frame->shown[1]]};
+    map.high = {m.high[frame->shown[0]], m.high[frame->shown[1]]};
+    map.width = frame->width;
+    map.height = frame->height;
+    for (const Mesh::Index owner : *owners)
+        map.pixels.push_back(
+            owner < 0 ? -1
+                      : static_cast<std::int32_t>(std::lower_bound(cells.begin(), cells.end(), owner) - cells.begin()));
+    fill_errors(map, m, cells, kernels, seed, threads);
+    for (const Mesh::Index cell : cells) map.cells.push_back(m.mesh.cell_number(cell));
+    return Done{};
+}
+
+}  // namespace
+
+std::vector<MeshMap> mesh_maps(const std::vector<Kernel>& kernels, const MeshSource& meshes, std::uint64_t seed,
+                               int threads) {
+    const ExactEnvironment environment;
+    std::vector<MeshMap> maps;
+    for (const auto& m : meshes.meshes()) {
+        if (maps.size() == MeshMap::max_meshes) break;
+        const Simplex simplex = m->mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron;
+        std::vector<Kernel> fit;
+        std::copy_if(kernels.begin(), kernels.end(), std::back_inserter(fit),
+                     [&](const Kernel& k) { return k.simplex == simplex && !k.perspective; });
+        if (fit.empty()) continue;
+        const std::size_t all = fit.size();
+        if (all > MeshMap::max_kernels) std::erase_if(fit, [](const Kernel& k) { return is_variant(k.name); });
+        fit.resize(std::min(fit.size(), MeshMap::max_kernels));
+        MeshMap map;
+        map.mesh = m->name;
+        map.dimension = m->mesh.dimension;
+        map.left_out = all - fit.size();
+        if (const Status filled = fill_map(map, *m, fit, seed, threads); !filled)
+            map.why_not = filled.error().message();
+        maps.push_back(std::move(map));
+    }
+    return maps;
+}
+
+}  // namespace barycert

@@ -1,0 +1,136 @@
+// The maps of meshes, on the audit's HTML page.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "barycert/base/text.hpp"
+#include "barycert/io/png/indexed_png.hpp"
+#include "barycert/report/audit/audit_html_parts.hpp"
+#include "barycert/report/common/html_text.hpp"
+#include "barycert/report/common/page.hpp"
+#include "barycert/report/common/terminal_text.hpp"
+
+namespace barycert::report {
+namespace {
+
+/// Colours by the power of ten of an error, the darker the larger; and those without.
+class MapScale {
+public:
+    static constexpr std::uint8_t beside = 0, right = 1, unanswered = 2, first = 3;
+
+    explicit MapScale(const MeshMap& map) {
+        for (const MeshMap::OfKernel& k : map.kernels) {
+            for (const double e : k.errors) {
+                if (!(e > 0) || std::isinf(e)) continue;
+                low_ = std::min(low_, decade(e));
+                high_ = std::max(high_, decade(e));
+            }
+        }
+        for (int d = low_; d <= high_; ++d) {
+            const int span = std::max(high_ - low_, 1);
+            colours_.push_back(io::colour(io::colour_count - 1 - (io::colour_count - 1) * (d - low_) / span));
+        }
+    }
+
+    std::uint8_t index_of(double error) const {
+        if (error < 0) return beside;
+        if (error == 0) return right;
+        if (std::isinf(error)) return unanswered;
+        return static_cast<std::uint8_t>(first + decade(error) - low_);
+    }
+
+    const std::vector<io::Colour>& colours() const { return colours_; }
+
+    /// A swatch for each colour of errors.
+    std::string key() const {
+        std::string out = swatch(right, "no error");
+        for (int d = low_; d <= high_; ++d)
+            out += swatch(static_cast<std::uint8_t>(first + d - low_), fmt::format("&lt; 1e{}", d + 1));
+        return out + swatch(unanswered, "no finite answer");
+    }
+
+private:
+    /// The power of ten at or below it: as many as fit the colours of a picture, from far below an ulp of 1 on.
+    static int decade(double error) { return std::clamp(static_cast<int>(std::floor(std::log10(error))), -40, 60); }
+    std::string swatch(std::uint8_t i, std::string_view text) const {
+        const io::Colour& c = colours_[i];
+        return fmt::format("<span><i style=\"background:#{:02x}{:02x}{:02x}\"></i>{}</span> ", c[0], c[1], c[2], text);
+    }
+    std::vector<io::Colour> colours_{{0xc4, 0xcb, 0xd1}, {0xff, 0xff, 0xff}, {0xc8, 0x10, 0x2e}};
+    int low_ = std::numeric_limits<int>::max(), high_ = std::numeric_limits<int>::min();
+};
+
+Result<std::string> map_figure(const MeshMap& map, const MeshMap::OfKernel& k, const MapScale& scale) {
+    std::vector<std::uint8_t> pixels;
+    for (const std::int32_t p : map.pixels)
+        pixels.push_back(p < 0 ? MapScale::beside : scale.index_of(k.errors[static_cast<std::size_t>(p)]));
+    const Result<std::string> png = io::indexed_png(map.width, pixels, scale.colours());
+    if (!png) return png.error();
+    const auto worst = static_cast<std::size_t>(std::max_element(k.errors.begin(), k.errors.end()) - k.errors.begin());
+    const double largest = k.errors[worst];
+    const std::string name = html_escaped(base::printable(k.kernel));
+    const std::string error =
+        largest < 0           ? "given up"
+        : largest == 0        ? "no error"
+        : std::isinf(largest) ? fmt::format("no finite answer in cell {}", map.cells[worst])
+                              : fmt::format("largest error <b>{}</b>, in cell {}", brief(largest), map.cells[worst]);
+    return fmt::format(
+        "<figure><img alt=\"Largest error of {} in each cell\" src=\"{}\" width=\"{}\" height=\"{}\"/>"
+        "<figcaption>{}<br/>{}; {} % of the points wrong</figcaption></figure>\n",
+        name, data_uri("image/png", *png), map.width, map.height, name, error, percent(k.wrong, k.cases));
+}
+
+std::string what_is_seen(const MeshMap& map) {
+    constexpr std::array<const char*, 3> axes{"x", "y", "z"};
+    const auto range = [&](int axis, std::size_t side) {
+        return fmt::format("{} from {:.6g} to {:.6g}", axes[static_cast<std::size_t>(axis)], map.low[side],
+                           map.high[side]);
+    };
+    const std::string across = range(map.axis == 0 ? 1 : 0, 0), up = range(map.axis < 0 || map.axis == 2 ? 1 : 2, 1);
+    const std::string section =
+        map.axis < 0 ? "the mesh"
+                     : fmt::format("section at {} = {:.6g}", axes[static_cast<std::size_t>(map.axis)], map.at);
+    return fmt::format("{}, {} to the right, {} upwards; {} cells are seen", section, across, up, map.cells.size());
+}
+
+}  // namespace
+
+Result<std::string> maps_html(const AuditReport& r, const std::vector<MeshMap>& maps) {
+    if (maps.empty()) return std::string();
+    std::string out = fmt::format(
+        "<h2>Maps of the {}</h2>\n<p class=\"small\">Cells by the largest error of a weight in them, at a point "
+        "inside, "
+        "at points computed on the facets, and at points an ulp beside these; relative to 1 or to the largest weight. "
+        "Grey: beside the mesh.{}</p>\n",
+        maps.size() == 1 ? "mesh" : "meshes",
+        maps.size() < r.meshes.size()
+            ? fmt::format(" Of {} of {} meshes: name others to see them.", maps.size(), r.meshes.size())
+            : "");
+    for (const MeshMap& map : maps) {
+        out += fmt::format("<h3>{}</h3>\n", html_escaped(base::printable(map.mesh)));
+        if (!map.why_not.empty()) {
+            out += fmt::format("<p>No map: {}</p>\n", html_escaped(map.why_not));
+            continue;
+        }
+        const MapScale scale(map);
+        out += fmt::format(
+            "<p class=\"small\">{}.{}</p>\n<p class=\"small key\">{}</p>\n<div class=\"maps\">\n", what_is_seen(map),
+            map.left_out == 0 ? ""
+                              : fmt::format(" {} of {} kernels, worst first, without variants; others: --kernel NAME.",
+                                            map.kernels.size(), map.kernels.size() + map.left_out),
+            scale.key());
+        for (const MeshMap::OfKernel& k : map.kernels) {
+            const Result<std::string> figure = map_figure(map, k, scale);
+            if (!figure) return figure.error();
+            out += *figure;
+        }
+        out += "</div>\n";
+    }
+    return out;
+}
+
+}  // namespace barycert::report
