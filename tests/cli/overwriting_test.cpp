@@ -1,5 +1,6 @@
 // No output is an input, whatever the subcommand, and by whatever name the file goes.
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
@@ -62,7 +63,11 @@ public:
         for (const auto& [name, bytes] : before_) names.push_back(name);
         names.insert(names.end(), {"other", "way"});
         std::sort(names.begin(), names.end());
-        return scratch_.names() == names;
+        Words found;  // not what names_of put into folders
+        for (const auto& entry : fs::directory_iterator(scratch_.folder()))
+            found.push_back(entry.path().filename().string());
+        std::sort(found.begin(), found.end());
+        return found == names;
     }
     const Scratch& scratch() const { return scratch_; }
 

@@ -120,7 +120,7 @@ TEST(vtk_files, data_that_do_not_fit_the_output) {
     refused({"resample", mesh("cube-hole"), "--onto", mesh("cube-hole"), "--output", scratch.path("m.vtk"),
              "--vtk-data", "zlib"},
             "legacy files of VTK know no compression");
-    refused({"check", mesh("cube-hole"), "--vtk-data", "zlib"}, "--vtk-data is for the file of --vtu");
+    refused({"check", mesh("cube-hole"), "--vtk-data", "zlib"}, "--vtk-data is for VTK's files");
     EXPECT_EQ(scratch.names(), (Words{"p.csv"}));
 }
 

@@ -133,7 +133,7 @@ Status read_chosen(const Target& to, std::span<const Run> runs) {
     double* const physical = to.cells.physical.data();
     double* const geometrical = to.cells.geometrical.data();
     std::atomic<bool> more{false};
-    const Status status =
+    Status status =
         parse_runs(to.file, "Elements", runs, [&, mids = to.mids](auto& row, const Run& run, std::size_t i) {
             const char* const start = row.at();
             std::array<std::uint32_t, Corners + 1> plain{};
@@ -237,7 +237,7 @@ std::vector<std::uint8_t> mark_nodes(const MshFile& file, MshCells& cells, std::
 Status look_at_others(const Target& to, std::span<const Run> runs, const std::vector<std::uint8_t>& used) {
     std::atomic<bool> apart{false};
     const int version = to.file.version();
-    const Status status = parse_runs(to.file, "Elements", runs, [&](auto& row, const Run& run, std::size_t) {
+    Status status = parse_runs(to.file, "Elements", runs, [&](auto& row, const Run& run, std::size_t) {
         const ElementBlock& block = to.elements.blocks[run.id];
         Head head;
         if (!take_head(row, version, block, head)) return false;

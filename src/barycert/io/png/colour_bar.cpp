@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/png/colour_map.hpp"
@@ -60,8 +61,8 @@ void ColourBar::add_ticks(double low, double high) {
     }
     const double first = std::ceil(low / number(digit)), last = std::floor(high / number(digit));
     if (!(std::fabs(first) < 0x1p40 && std::fabs(last) < 0x1p40)) return;  // a narrow range of huge numbers
-    for (double k = first; k <= last; ++k) {
-        const double value = number(k * digit);
+    for (auto k = static_cast<std::int64_t>(first); k <= static_cast<std::int64_t>(last); ++k) {
+        const double value = number(static_cast<double>(k) * digit);
         const double below = steps * (high - value) / range;  // the upper end
         if (below < clear || steps - below < clear) continue;
         ticks_.push_back({scale_ * margin + static_cast<std::size_t>(std::lround(below)), base::shortest(value + 0.0)});
