@@ -49,6 +49,7 @@ std::optional<std::string> column_of(const VerifyJob& job, const Field& field, i
 Status check_named(const VerifyJob& job, const std::vector<FieldChoice>& fields,
                    const std::vector<ColumnFormat>& there) {
     std::vector<TableField> all;
+    all.reserve(fields.size());
     for (const FieldChoice& choice : fields) all.push_back({choice.field->name, choice.field->components});
     const std::vector<std::string> known = column_names(all);
     for (const auto& [value, column] : job.values) {

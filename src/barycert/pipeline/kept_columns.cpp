@@ -39,6 +39,7 @@ std::vector<bool> columns_to_keep(const Engine& engine, const TableFormat& forma
     for (const std::string& name : format.columns()) names.insert(name);
     for (const Column* const label : engine.labels()) names.insert(label->name);
     std::vector<bool> kept;
+    kept.reserve(carried.size());
     for (const ColumnFormat& column : carried)
         kept.push_back(!is_name_of_rows(column.name) && !names.contains(column.name));
     return kept;

@@ -201,8 +201,11 @@ Status onto_mesh(Run& run, const ResampleJob& job, Engine& engine) {
     };
     pipeline::KnownRows known;
     const std::string output = run.step_by_step() ? output_of_step(job.output, run.steps.front()) : job.output;
-    Status first = pipeline::sample_stream(
-        run, engine, *source, {.rows = sink_to(output), .weights = job.weights, .known = further ? &known : nullptr});
+    pipeline::StreamTargets targets;
+    targets.rows = sink_to(output);
+    targets.weights = job.weights;
+    targets.known = further ? &known : nullptr;
+    Status first = pipeline::sample_stream(run, engine, *source, targets);
     if (!first || !further) return first;
     return pipeline::sample_further_steps(run, engine, known, sink_to);
 }

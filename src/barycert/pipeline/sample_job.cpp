@@ -89,8 +89,8 @@ Status in_steps(Run& run, const SampleJob& job, Engine& engine, const std::vecto
     const bool further = run.step_by_step() && run.steps.size() > 1;
     const auto sink_to = [&](const std::string& path) { return rows_to(run, job, engine, path, carried); };
     const std::string output = run.step_by_step() ? output_of_step(job.output, run.steps.front()) : job.output;
-    if (Status done = first({sink_to(output), job.save_map, job.weights, further ? &known : nullptr}); !done)
-        return done;
+    const pipeline::StreamTargets targets{sink_to(output), job.save_map, job.weights, further ? &known : nullptr};
+    if (Status done = first(targets); !done) return done;
     return further ? pipeline::sample_further_steps(run, engine, known, sink_to) : Status(Done{});
 }
 

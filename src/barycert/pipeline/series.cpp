@@ -107,7 +107,7 @@ Result<std::vector<LabelledFile>> matches_of(const FieldFile& series) {
             (before.empty() && entry.starts_with('.')))
             continue;
         std::error_code unknown;
-        const std::string path = folder + entry + rest;
+        const std::string path = fmt::format("{}{}{}", folder, entry, rest);
         if (!rest.empty() && !fs::exists(path, unknown)) continue;
         found.push_back(
             labelled(entry.substr(before.size(), entry.size() - before.size() - after.size()), series, path));

@@ -147,7 +147,7 @@ Status sample_stream(Run& run, Engine& engine, PointSource& source, const Stream
         return written;
     };
     Stages stages(threads);
-    const Status done = stages.run(read, work, write);
+    Status done = stages.run(read, work, write);
     seconds.sample += stages.seconds();
     if (!done) return done;
     watch.lap();

@@ -78,7 +78,7 @@ Status sample_map(Run& run, Engine& engine, MapReader& map, const StreamTargets&
         return written;
     };
     Stages stages(threads);
-    const Status done = stages.run(read, work, write);
+    Status done = stages.run(read, work, write);
     seconds.sample += stages.seconds();
     if (!done) return done;
     summary.counts.locations = locations;

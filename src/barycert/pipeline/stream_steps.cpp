@@ -52,7 +52,7 @@ Status sample_known(Run& run, Engine& engine, const KnownRows& known, const Sink
         return written;
     };
     Stages stages(threads);
-    const Status done = stages.run(read, work, write);
+    Status done = stages.run(read, work, write);
     seconds.sample += stages.seconds();
     if (!done) return done;
     watch.lap();

@@ -32,6 +32,7 @@ Result<VerifyLimit> parse_verify_limit(std::string_view text) {
 
 std::vector<VerifyLimit> strict_limits() {
     std::vector<VerifyLimit> all;
+    all.reserve(kinds_of_wrong.size());
     for (const RowVerdict v : kinds_of_wrong) all.push_back({v, 0});
     return all;
 }

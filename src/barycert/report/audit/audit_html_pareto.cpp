@@ -64,9 +64,9 @@ public:
             svg.line({pareto_left, y(share)}, {pareto_right, y(share)}, "grid");
             svg.text({pareto_left - 7, y(share) + 4}, text, "tick e");
         };
-        for (double e = floor_; e <= 0; ++e) across(std::pow(10, e), brief(std::pow(10, e + 2)) + " %");
+        for (int e = static_cast<int>(floor_); e <= 0; ++e) across(std::pow(10, e), brief(std::pow(10, e + 2)) + " %");
         across(0, "none");
-        for (double decade = std::floor(low_); decade <= high_; ++decade) {
+        for (int decade = static_cast<int>(std::floor(low_)); decade <= high_; ++decade) {
             for (const double digit : {1.0, 2.0, 5.0}) {
                 const double ns = digit * std::pow(10, decade);
                 if (std::log10(ns) < low_ || std::log10(ns) > high_) continue;

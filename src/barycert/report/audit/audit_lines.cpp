@@ -93,7 +93,9 @@ std::vector<FamilyLine> family_lines(const AuditReport& report) {
         }
     }
     std::vector<FamilyLine> lines;
-    for (auto& [key, row] : rows) {
+    for (auto& entry : rows) {
+        const std::pair<std::size_t, Simplex>& key = entry.first;
+        Row& row = entry.second;  // no structured binding: lambdas capture it
         std::stable_sort(row.wrong.begin(), row.wrong.end(),
                          [](const auto& a, const auto& b) { return a.first > b.first; });
         const std::uint64_t worst = row.wrong.front().first;

@@ -70,6 +70,7 @@ std::optional<std::string> common_column(const Mesh& mesh, const std::vector<Fie
     if (std::all_of(chosen.begin(), chosen.end(), [](const FieldChoice& c) { return c.steps.empty(); }))
         return std::nullopt;
     std::vector<TableField> fields;
+    fields.reserve(chosen.size());
     for (const FieldChoice& choice : chosen)
         fields.push_back({choice.name.empty() ? choice.field->name : choice.name,
                           static_cast<int>(shape_of(mesh, choice)->components)});
