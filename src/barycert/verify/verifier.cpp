@@ -17,7 +17,6 @@
 namespace barycert {
 namespace {
 
-using verify::Compared;
 using verify::ValueError;
 
 /// max - min of the finite numbers of a component; what else errors can be relative to, where that is 0.

@@ -23,8 +23,9 @@ constexpr std::size_t max_cells = 20000;
 
 std::vector<std::string> texts_in(const OthersJson& object, const std::string& key, const std::string& where) {
     std::vector<std::string> texts;
+    const std::string place = where + ", " + key;
     for (const OthersJson& j : list_in(object, key, where)) {
-        if (!j.is_string()) refuse(where + ", " + key, "strings", found_json(j));
+        if (!j.is_string()) refuse(place, "strings", found_json(j));
         texts.push_back(j.get<std::string>());
     }
     return texts;
