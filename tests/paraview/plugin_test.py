@@ -20,6 +20,7 @@ from paraview import simple as pv
 from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkPoints, vtkStringOutputWindow
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkImageData, vtkPolyData, vtkUnstructuredGrid
+from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLDataObjectWriter
 
 barycert, plugin, folder = sys.argv[1:4]
@@ -394,12 +395,10 @@ class Check(PluginTest):
         self.assertEqual(found["mixed_orientation"].tolist(), (found["orientation"] < 0).astype(int).tolist())
         table = sm.Fetch(check, idx=1)
         column = lambda name: [table.GetValueByName(row, name) for row in range(table.GetNumberOfRows())]
-        counts = {name: count.ToInt() for name, count in zip(map(str, map(lambda v: v.ToString(), column("defect"))),
-                                                             column("count"))}
+        counts = {name.ToString(): count.ToInt() for name, count in zip(column("defect"), column("count"))}
         self.assertEqual(counts["overlapping_cells"], 39)
         self.assertEqual(counts["same_side"], 4)
-        self.assertEqual({defect["name"] if "name" in defect else defect["kind"]: defect["count"]
-                          for defect in report["defects"]}, counts)
+        self.assertEqual({defect["name"]: defect["count"] for defect in report["findings"]}, counts)
         self.assertIn("cells 195 717, points 289 189 33", column("places")[0].ToString())
         common = sm.Fetch(check, idx=2)
         self.assertEqual(common.GetNumberOfPoints(), 20)
@@ -451,6 +450,47 @@ class Session(PluginTest):
             self.assertTrue(np.array_equal(before[name], after[name]))
         self.assertEqual(pv.FindSource("located").CellLocator.SMProxy.GetXMLName(), "BarycertLocator")
         self.assertEqual(pv.FindSource("checked").Contacts, 7)
+
+
+class Picture(PluginTest):
+    def colours(self, view, name):
+        pv.SaveScreenshot(made(name), view)
+        reader = vtkPNGReader()
+        reader.SetFileName(made(name))
+        reader.Update()
+        pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())[:, :3]
+        return {tuple(colour) for colour in pixels[:: 3]}
+
+    def test_of_what_is_broken(self):
+        with open(data("meshes/cube-hole.node")) as file, open(made("drawn.node"), "w") as copy:
+            copy.write(file.read().replace("\n408 0.4", "\n408 0.5"))
+        with open(data("meshes/cube-hole.ele")) as file, open(made("drawn.ele"), "w") as copy:
+            copy.write(file.read())
+        mesh = pv.OpenDataFile(made("drawn.ele"))
+        check = BarycertCheck(Input=mesh)
+        view = pv.CreateRenderView(ViewSize=[500, 400], Background=[1, 1, 1], UseColorPaletteForBackground=0)
+        pv.Show(mesh, view, Representation="Wireframe", AmbientColor=[0.8, 0.8, 0.8], DiffuseColor=[0.8, 0.8, 0.8])
+        bad = pv.Threshold(Input=check, Scalars=["CELLS", "overlapping_cells"], LowerThreshold=1, UpperThreshold=1)
+        shown = pv.Show(bad, view, Representation="Surface With Edges", Opacity=0.6)
+        pv.ColorBy(shown, ("CELLS", "volume"))
+        pv.Show(check[2], view, PointSize=8, AmbientColor=[1, 0, 0], DiffuseColor=[1, 0, 0])
+        pv.ResetCamera(view)
+        self.assertGreater(len(self.colours(view, "broken.png")), 100)
+
+    def test_of_values_on_an_image(self):
+        image = vtkImageData()
+        image.SetDimensions(40, 40, 40)
+        image.SetOrigin(-0.05, -0.05, -0.05)
+        image.SetSpacing(1.1 / 39, 1.1 / 39, 1.1 / 39)
+        values = BarycertResample(SourceDataArrays=read_mesh("cube-hole"), DestinationMesh=source_of(image), OutsideIsNaN=1)
+        view = pv.CreateRenderView(ViewSize=[500, 400], Background=[1, 1, 1], UseColorPaletteForBackground=0)
+        middle = pv.Slice(Input=values, SliceType="Plane")
+        middle.SliceType.Origin = [0.5, 0.5, 0.5]
+        piece = pv.Show(middle, view)
+        pv.ColorBy(piece, ("POINTS", "attribute1"))
+        view.CameraPosition, view.CameraFocalPoint = [3, 0.5, 0.5], [0.5, 0.5, 0.5]
+        view.CameraViewUp = [0, 0, 1]
+        self.assertGreater(len(self.colours(view, "values.png")), 100)
 
 
 if __name__ == "__main__":
