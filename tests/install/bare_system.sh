@@ -47,6 +47,7 @@ bare_system() {
     mount --make-private "$system/dev"  # else the next mount would show up in this machine's own /dev
     mount -t devpts devpts "$system/dev/pts"
     mount -t proc proc "$system/proc"
+    mount -t sysfs -o ro sysfs "$system/sys"
 
     [ -d "$system/barycert" ] || git clone -q --no-hardlinks "$root" "$system/barycert"
     git -C "$system/barycert" fetch -q "$root" HEAD
@@ -80,7 +81,7 @@ leave_bare_system() {
     status=$?
     trap - EXIT INT TERM HUP
     # What is still mounted below must not be removed with the rest: it is this machine's.
-    for mounted in dev/pts dev proc; do
+    for mounted in dev/pts dev proc sys; do
         ! mountpoint -q "$system/$mounted" || umount -l "$system/$mounted" || { say "still mounted: $system/$mounted"; exit 2; }
     done
     if [ -n "${KEEP-}${SYSTEM-}" ]; then say "kept: $system"; else rm -rf --one-file-system "$place"; fi
