@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include <vtkCellData.h>
 #include <vtkDataObject.h>
 #include <vtkFieldData.h>
 #include <vtkInformation.h>
@@ -9,6 +10,7 @@
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 #include <vtkTable.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -95,7 +97,10 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
 
     output->ShallowCopy(input);
     in_vtk::add_measures(report, index, *output);
-    in_vtk::add_lines("barycert_check", check_text(report, index.mesh, "input", {}), *output);
+    output->GetCellData()->SetActiveScalars("problems");
+    const std::string text = check_text(report, index.mesh, "input", {});
+    if (!Certified) vtkWarningMacro("" << text.substr(0, text.find('\n')));
+    in_vtk::add_lines("barycert_check", text, *output);
     vtkNew<vtkUnsignedCharArray> certified;
     certified->SetName("certified");
     certified->InsertNextValue(Certified ? 1 : 0);

@@ -11,12 +11,14 @@
  * - orientation (exact sign of the volume), volume (signed, correctly rounded; of triangles the area), condition,
  *   radius_edge, aspect, min_angle, max_angle (of dihedral angles, in degrees), as `barycert check` has them; NaN, and
  *   orientation 0, in cells that are left out;
- * - problems: bits of the defects that the cell is part of, in the order of defects.hpp; and for each kind of defect
- *   that some cell is part of an array of its name (degenerate_cell, same_side, overlapping_cells, ...): 1 or 0;
- * and field data certified (1 or 0) and barycert_check (the report of `barycert check`, line by line).
+ * - problems: bits of the defects that the cell is part of, in the order of defects.hpp (the active scalars); and for
+ *   each kind of defect that some cell is part of an array of its name (degenerate_cell, same_side, ...): 1 or 0;
+ * and field data certified (1 or 0) and barycert_check (the report of `barycert check`, line by line). A mesh that is
+ * not certified is also told by a warning.
  *
- * Output 1, a vtkTable: a row a defect found, the worst first: defect, count, at_least (1: there may be more), breaks
- * (1: the mesh is not certified because of it), meaning, remedy, places (the first cells and points, by their ids).
+ * Output 1, a vtkTable: a row a defect found, first those that break the certificate: defect, count, at_least (1: there
+ * may be more), breaks (1: the mesh is not certified because of it), meaning, remedy, places (the first cells and
+ * points, by their ids).
  *
  * Output 2, vtkPolyData: points where cells meet that must not, at most Contacts of them, each a point of both cells
  * (cell_a and cell_b), rounded; overlap is 1 where the interiors meet; exact is 1 where the rounded point lies in both.

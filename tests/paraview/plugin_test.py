@@ -385,7 +385,9 @@ class Check(PluginTest):
 
     def test_marks_what_is_broken(self):
         check = BarycertCheck(Input=self.broken_mesh())
-        grid = sm.Fetch(check)
+        with Messages() as messages:
+            grid = sm.Fetch(check)
+        self.assertIn("input: NOT certified: 39 pairs of cells overlap", messages.text)
         report, found = self.expect_measures(made("broken"), grid, 1)
         fields = arrays(grid.GetFieldData())
         self.assertEqual(fields["certified"].GetTuple1(0), 0)

@@ -96,10 +96,12 @@ TEST(Check, CertifiesWithMeasures) {
 
 TEST(Check, MarksTheCellsThatAJudgeFinds) {
     const Mesh mesh = broken();
+    Messages messages;
     vtkNew<vtkBarycertCheck> check;
     check->SetInputData(grid_of(mesh));
     check->SetContacts(100);
     check->Update();
+    EXPECT_EQ(messages.count("input: NOT certified: "), 1) << messages.all();
     EXPECT_FALSE(check->GetCertified());
     vtkDataSet* const out = check->GetOutput();
     expect_measures(mesh, out);
@@ -161,6 +163,7 @@ TEST(Check, LeavesOtherCellsOutAndKeepsIds) {
     for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
         ghosts->InsertNextValue(i == 2 ? vtkDataSetAttributes::DUPLICATECELL : 0);
     grid->GetCellData()->AddArray(ghosts);
+    Messages messages;
     vtkNew<vtkBarycertCheck> check;
     check->SetInputData(grid);
     check->Update();
@@ -179,6 +182,7 @@ TEST(Check, LeavesOtherCellsOutAndKeepsIds) {
 
 TEST(Check, TakesTrianglesInAnyPlane) {
     Mesh mesh = joined(box(2, {2, 2, 0}), mapped(box(2, {1, 1, 0}), {1, 1, 1}, {1.5, 0.25, 0}));
+    Messages messages;
     for (const int normal : {0, 1, 2}) {
         vtkNew<vtkBarycertCheck> check;
         check->SetInputData(surface_of(mesh, normal, 7));
