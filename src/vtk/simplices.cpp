@@ -23,7 +23,7 @@ constexpr unsigned char ghost_mask =
     vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL | vtkDataSetAttributes::HIDDENCELL;
 
 // Dimension of cells that may stand beside simplices and are left out there: 0 to 2; 3 tetrahedra; -1 all others.
-int plain_dimension(int type, SecondOrder second_order) {
+int plain_dimension(int type) {
     switch (type) {
         case VTK_EMPTY_CELL:
         case VTK_VERTEX:
@@ -36,17 +36,9 @@ int plain_dimension(int type, SecondOrder second_order) {
             return 2;
         case VTK_TETRA:
             return 3;
-        case VTK_QUADRATIC_TRIANGLE:
-            return second_order == SecondOrder::taken ? 2 : -1;
-        case VTK_QUADRATIC_TETRA:
-            return second_order == SecondOrder::taken ? 3 : -1;
         default:
             return -1;
     }
-}
-
-bool is_quadratic(int type) {
-    return type == VTK_QUADRATIC_TETRA || type == VTK_QUADRATIC_TRIANGLE;
 }
 
 std::string type_name(int type) {
@@ -95,7 +87,7 @@ std::string flatten(ExactIndex& index) {
 
 }  // namespace
 
-std::string read_simplices(vtkDataSet& data, ExactIndex& index, SecondOrder second_order) {
+std::string read_simplices(vtkDataSet& data, ExactIndex& index) {
     auto* const grid = vtkUnstructuredGrid::SafeDownCast(&data);
     auto* const surface = vtkPolyData::SafeDownCast(&data);
     if (grid == nullptr && surface == nullptr) return std::string("a ") + data.GetClassName() + " has no simplices";
@@ -111,7 +103,7 @@ std::string read_simplices(vtkDataSet& data, ExactIndex& index, SecondOrder seco
     };
     int dimension = 0;
     for (vtkIdType i = 0; i < count; ++i) {
-        const int type = type_of(i), its = plain_dimension(type, second_order);
+        const int type = type_of(i), its = plain_dimension(type);
         if (its < 0) return "cell " + std::to_string(i) + " is a " + type_name(type);
         dimension = std::max(dimension, its);
     }
@@ -125,7 +117,7 @@ std::string read_simplices(vtkDataSet& data, ExactIndex& index, SecondOrder seco
     std::vector<vtkIdType> ids;
     ids.reserve(static_cast<std::size_t>(count));
     for (vtkIdType i = 0; i < count; ++i) {
-        if (plain_dimension(type_of(i), second_order) != dimension) continue;
+        if (plain_dimension(type_of(i)) != dimension) continue;
         if (ghosts != nullptr && (ghosts->GetValue(i) & ghost_mask) != 0) continue;
         vtkIdType size = 0;
         const vtkIdType* nodes = nullptr;
@@ -134,18 +126,11 @@ std::string read_simplices(vtkDataSet& data, ExactIndex& index, SecondOrder seco
         } else {
             surface->GetCellPoints(i, size, nodes);
         }
-        const vtkIdType expected = is_quadratic(type_of(i)) ? corners * (corners + 1) / 2 : corners;
-        if (size != expected) return "cell " + std::to_string(i) + " has " + std::to_string(size) + " nodes";
-        for (vtkIdType k = 0; k < size; ++k)
-            (k < corners ? mesh.cells : mesh.mid_nodes).push_back(static_cast<Mesh::Index>(nodes[k]));
+        if (size != corners) return "cell " + std::to_string(i) + " has " + std::to_string(size) + " vertices";
+        for (vtkIdType k = 0; k < corners; ++k) mesh.cells.push_back(static_cast<Mesh::Index>(nodes[k]));
         ids.push_back(i);
     }
     if (ids.empty()) return {};
-    if (!mesh.mid_nodes.empty()) {
-        mesh.mid_edge_order = MidEdgeOrder::vtk;
-        const auto mid_edges = static_cast<std::size_t>(corners * (corners - 1) / 2);
-        if (mesh.mid_nodes.size() != mid_edges * ids.size()) return "it has linear cells beside quadratic ones";
-    }
     if (static_cast<vtkIdType>(ids.size()) != count) index.ids = std::move(ids);
     mesh.points = coordinates(*points);
     return dimension == 2 ? flatten(index) : std::string();

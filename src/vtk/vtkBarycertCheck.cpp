@@ -18,6 +18,7 @@
 #include "barycert/report.hpp"
 #include "vtk/check_arrays.hpp"
 #include "vtk/simplices.hpp"
+#include "vtk/straight_sides.hpp"
 
 using namespace barycert;
 
@@ -80,7 +81,8 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
         return 0;
     }
     in_vtk::ExactIndex index;
-    const std::string reason = in_vtk::read_simplices(*input, index, in_vtk::SecondOrder::taken);
+    std::string reason = in_vtk::read_simplices(*in_vtk::straight_sides(*input), index);
+    if (reason.empty()) reason = in_vtk::add_mid_nodes(*input, index.ids, index.mesh);
     if (!reason.empty()) {
         vtkErrorMacro("this data set cannot be checked: "
                       << reason << "; expected tetrahedra, or triangles in one plane across an axis");

@@ -3,7 +3,7 @@
 #   bare_system [MIRROR]  makes it, as $system in $place, with a fresh clone of the repository in /barycert
 #   inside COMMAND        runs a shell's command in that clone
 #   timed WORDS... -- COMMAND...  runs it and says how long it took
-# When the script ends, the system goes, unless KEEP=1. SYSTEM=FOLDER takes one that was kept, with what is built in it.
+# SUITE=trixie: Debian 13 instead. When the script ends, the system goes, unless KEEP=1. SYSTEM=FOLDER takes one that was kept, with what is built in it.
 
 say() { printf '%s\n' "$name: $*"; }
 die() { say "error: $*" >&2; exit 2; }
@@ -29,7 +29,9 @@ bare_system() {
         command -v $tool >/dev/null || die "$tool is not installed"
     done
     mirror=${1-}
+    suite=${SUITE-bookworm}
     if [ -z "$mirror" ] && command -v apt-get >/dev/null; then
+        # An archive has all suites of its system.
         mirror=$(apt-get indextargets --format '$(RELEASE) $(SITE)' | awk '$1 == "bookworm" { print $2; exit }')
     fi
     [ -n "$mirror" ] || die "this machine's apt knows no archive of bookworm; name a mirror"
@@ -41,7 +43,7 @@ bare_system() {
     trap 'exit 130' INT
     trap 'exit 143' TERM HUP
 
-    say "mirror $mirror, commit $(git -C "$root" rev-parse --short HEAD)"
+    say "mirror $mirror, suite $suite, commit $(git -C "$root" rev-parse --short HEAD)"
     [ -n "${SYSTEM-}" ] || make_bare_system "${1-}"
     mount --bind /dev "$system/dev"
     mount --make-private "$system/dev"  # else the next mount would show up in this machine's own /dev
@@ -55,12 +57,12 @@ bare_system() {
 }
 
 make_bare_system() {
-    timed debootstrap -- debootstrap --variant=minbase bookworm "$system" "$mirror" >"$place/debootstrap.log" 2>&1 ||
+    timed debootstrap -- debootstrap --variant=minbase "$suite" "$system" "$mirror" >"$place/debootstrap.log" 2>&1 ||
         { tail -n 20 "$place/debootstrap.log" >&2; die "debootstrap failed"; }
     tail -n 1 "$place/debootstrap.log"
     # What lets this machine reach the archive lets the bare one: names, sources, proxies, certificates.
     share_with_system /etc/resolv.conf /etc/hosts /etc/ssl/certs/ca-certificates.crt /etc/apt/apt.conf
-    if [ -z "$1" ]; then
+    if [ -z "$1" ] && [ "$suite" = bookworm ]; then
         # The mirror may be this machine's own mix of files; where none was named, take them as they are.
         rm -f "$system/etc/apt/sources.list"
         share_with_system /etc/apt/sources.list /etc/apt/sources.list.d /usr/share/keyrings /etc/apt/trusted.gpg.d

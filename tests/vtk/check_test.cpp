@@ -74,6 +74,30 @@ Mesh broken() {
     return mesh;
 }
 
+// A point in the boxes of both cells for each pair that overlaps; cells shift, ..., of the data set are those of the
+// mesh.
+void expect_common_points(vtkBarycertCheck* check, const Judgement& judgement, vtkIdType shift) {
+    vtkPolyData* const points = check->GetCommonPoints();
+    std::set<std::pair<vtkIdType, vtkIdType>> pairs, expected;
+    for (const auto& pair : judgement.overlaps) expected.insert({pair[0] + shift, pair[1] + shift});
+    vtkDataArray* const a = points->GetPointData()->GetArray("cell_a");
+    vtkDataArray* const b = points->GetPointData()->GetArray("cell_b");
+    vtkDataArray* const overlap = points->GetPointData()->GetArray("overlap");
+    for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i) {
+        if (overlap->GetTuple1(i) == 0) continue;
+        pairs.insert({static_cast<vtkIdType>(a->GetTuple1(i)), static_cast<vtkIdType>(b->GetTuple1(i))});
+        for (vtkDataArray* const cells : {a, b}) {
+            double bounds[6];
+            check->GetOutput()->GetCellBounds(static_cast<vtkIdType>(cells->GetTuple1(i)), bounds);
+            for (int axis = 0; axis < 3; ++axis) {
+                EXPECT_GE(points->GetPoint(i)[axis], bounds[2 * axis]);
+                EXPECT_LE(points->GetPoint(i)[axis], bounds[2 * axis + 1]);
+            }
+        }
+    }
+    EXPECT_EQ(pairs, expected);
+}
+
 TEST(Check, CertifiesWithMeasures) {
     for (const char* const name : {"cube-hole", "lattice-box"}) {
         const Mesh mesh = own_mesh(name);
@@ -123,24 +147,7 @@ TEST(Check, MarksTheCellsThatAJudgeFinds) {
     ASSERT_GE(flat, 0);
     EXPECT_EQ(text(defects, flat, "places").find("cell " + std::to_string(mesh.cell_count() - 1)), 0U);
 
-    vtkPolyData* const points = check->GetCommonPoints();
-    std::set<std::pair<vtkIdType, vtkIdType>> pairs, expected;
-    for (const auto& pair : judgement.overlaps) expected.insert({pair[0], pair[1]});
-    vtkDataArray* const a = points->GetPointData()->GetArray("cell_a");
-    vtkDataArray* const b = points->GetPointData()->GetArray("cell_b");
-    for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i) {
-        if (points->GetPointData()->GetArray("overlap")->GetTuple1(i) == 0) continue;
-        pairs.insert({static_cast<vtkIdType>(a->GetTuple1(i)), static_cast<vtkIdType>(b->GetTuple1(i))});
-        for (vtkDataArray* const cells : {a, b}) {
-            double bounds[6];
-            out->GetCellBounds(static_cast<vtkIdType>(cells->GetTuple1(i)), bounds);
-            for (int axis = 0; axis < 3; ++axis) {
-                EXPECT_GE(points->GetPoint(i)[axis], bounds[2 * axis]);
-                EXPECT_LE(points->GetPoint(i)[axis], bounds[2 * axis + 1]);
-            }
-        }
-    }
-    EXPECT_EQ(pairs, expected);
+    expect_common_points(check, judgement, 0);
 }
 
 TEST(Check, LeavesOtherCellsOutAndKeepsIds) {
@@ -166,9 +173,11 @@ TEST(Check, LeavesOtherCellsOutAndKeepsIds) {
     Messages messages;
     vtkNew<vtkBarycertCheck> check;
     check->SetInputData(grid);
+    check->SetContacts(100);
     check->Update();
     vtkDataSet* const out = check->GetOutput();
     expect_measures(mesh, out, 3);
+    expect_common_points(check, judge(mesh), 3);
     for (vtkIdType i = 0; i < 3; ++i) {
         EXPECT_TRUE(std::isnan(cell_array(out, "volume")->GetTuple1(i)));
         EXPECT_EQ(cell_array(out, "orientation")->GetTuple1(i), 0);
