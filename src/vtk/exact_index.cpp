@@ -8,6 +8,7 @@
 #include <vtkCallbackCommand.h>
 #include <vtkDataSet.h>
 
+#include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
 #include "vtk/simplices.hpp"
 
@@ -93,6 +94,7 @@ void forget_index(const vtkDataSet& data) {
 }
 
 std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data) {
+    const ExactEnvironment environment;
     const vtkMTimeType time = data.GetMTime();
     if (std::shared_ptr<const ExactIndex> found = cached(data, time)) return found;
     const std::lock_guard lock(cache().making);
