@@ -322,6 +322,27 @@ TEST(Probe, TakesTheNearestPointWithinATolerance) {
     EXPECT_EQ(out->GetArray("a")->GetTuple1(2), 7);
 }
 
+// Beyond the face of an oblique cell the greatest weight is that of another vertex than at the nearest point.
+TEST(Probe, TakesCategoriesOfTheNearestPointWithinATolerance) {
+    Mesh mesh;
+    mesh.points = {0, 0, 0, 4, 0, 0, 0, 4, 0, 4, 0, 1};
+    mesh.cells = {0, 1, 2, 3};
+    const auto grid = grid_of(mesh);
+    add<vtkIntArray>(grid, {10, 20, 30, 40});
+    grid->GetPointData()->SetActiveScalars("a");
+    vtkNew<vtkBarycertProbe> probe;
+    probe->SetSourceData(grid);
+    probe->SetInputData(points_of({1, 1, -0.5, 1, 1, 0.125}));
+    probe->CategoricalDataOn();
+    probe->ComputeToleranceOff();
+    probe->SetTolerance(0.5);
+    probe->Update();
+    vtkPointData* const out = probe->GetOutput()->GetPointData();
+    EXPECT_EQ(out->GetArray("vtkValidPointMask")->GetTuple1(0), 1);
+    EXPECT_EQ(out->GetArray("a")->GetTuple1(0), 10);
+    EXPECT_EQ(out->GetArray("a")->GetTuple1(1), 10);
+}
+
 TEST(Probe, TakesTrianglesInAPlane) {
     Mesh mesh = own_mesh("plate");
     mesh.point_fields = {{.name = "x", .data = {}}};
