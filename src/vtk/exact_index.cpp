@@ -42,7 +42,7 @@ std::shared_ptr<const ExactIndex> cached(const vtkDataSet& data, vtkMTimeType ti
     return nullptr;
 }
 
-void forget(vtkObject* data, unsigned long, void*, void*) {
+void forget(void* data) {
     const std::lock_guard lock(cache().access);
     cache().entries.remove_if([data](const Entry& entry) { return entry.data == data; });
 }
@@ -60,8 +60,10 @@ void remember(vtkDataSet& data, vtkMTimeType time, std::shared_ptr<const ExactIn
         entry.index = std::move(index);
         return;
     }
+    // Observers die with the data set, also where VTK's garbage collector deletes it and says nothing (DeleteEvent).
     vtkCallbackCommand* const command = vtkCallbackCommand::New();
-    command->SetCallback(forget);
+    command->SetClientData(&data);
+    command->SetClientDataDeleteCallback(forget);
     data.AddObserver(vtkCommand::DeleteEvent, command);
     command->Delete();
     cache().entries.push_back({&data, time, std::move(index)});
