@@ -42,6 +42,7 @@ std::shared_ptr<const ExactIndex> cached(const vtkDataSet& data, vtkMTimeType ti
     return nullptr;
 }
 
+// Called when an observer dies: with its data set, also where VTK's garbage collector deletes that without an event.
 void forget(void* data) {
     const std::lock_guard lock(cache().access);
     cache().entries.remove_if([data](const Entry& entry) { return entry.data == data; });
@@ -60,7 +61,6 @@ void remember(vtkDataSet& data, vtkMTimeType time, std::shared_ptr<const ExactIn
         entry.index = std::move(index);
         return;
     }
-    // Observers die with the data set, also where VTK's garbage collector deletes it and says nothing (DeleteEvent).
     vtkCallbackCommand* const command = vtkCallbackCommand::New();
     command->SetClientData(&data);
     command->SetClientDataDeleteCallback(forget);
@@ -96,8 +96,8 @@ void forget_index(const vtkDataSet& data) {
 }
 
 std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data) {
-    const ExactEnvironment environment;
     const vtkMTimeType time = data.GetMTime();
+    const ExactEnvironment environment;
     if (std::shared_ptr<const ExactIndex> found = cached(data, time)) return found;
     const std::lock_guard lock(cache().making);
     if (std::shared_ptr<const ExactIndex> found = cached(data, time)) return found;

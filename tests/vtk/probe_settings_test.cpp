@@ -9,6 +9,7 @@
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkFloatArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
@@ -108,6 +109,75 @@ TEST(ProbeSettings, ToleranceCountsAcrossThePlane) {
     vtkDataArray* const mask = probe->GetOutput()->GetPointData()->GetArray("vtkValidPointMask");
     EXPECT_EQ(std::vector<double>({mask->GetTuple1(0), mask->GetTuple1(1), mask->GetTuple1(2), mask->GetTuple1(3)}),
               std::vector<double>({1, 0, 1, 0}));
+}
+
+// The value at the nearest point is the middle of two floats; in the cell's function at the point itself it is more.
+TEST(ProbeSettings, ToleranceRoundsWhatIsAtTheNearestPoint) {
+    const auto source = source_with_x();
+    vtkNew<vtkFloatArray> floats;
+    floats->SetName("floats");
+    for (const float value : {2.0F, 0x1p-22F, 0.0F, -1.0F}) floats->InsertNextValue(value);
+    source->GetPointData()->AddArray(floats);
+    vtkNew<vtkBarycertProbe> probe;
+    probe->SetSourceData(source);
+    probe->SetInputData(points_of({1, 1, -0.25}));
+    probe->ComputeToleranceOff();
+    probe->SetTolerance(0.25);
+    probe->Update();
+    EXPECT_EQ(probe->GetOutput()->GetPointData()->GetArray("vtkValidPointMask")->GetTuple1(0), 1);
+    EXPECT_EQ(probe->GetOutput()->GetPointData()->GetArray("floats")->GetTuple1(0), 1);
+}
+
+TEST(ProbeSettings, NameLargeIntegers) {
+    for (const vtkIdType value : {vtkIdType{1} << 53, (vtkIdType{1} << 53) + 2}) {
+        const auto source = source_with_x();
+        vtkNew<vtkIdTypeArray> integers;
+        integers->SetName("integers");
+        for (int i = 0; i < 4; ++i) integers->InsertNextValue(value);
+        source->GetPointData()->AddArray(integers);
+        Messages messages;
+        vtkNew<vtkBarycertProbe> probe;
+        probe->SetSourceData(source);
+        probe->SetInputData(points_of({1, 1, 1}));
+        probe->Update();
+        EXPECT_EQ(messages.count("integers beyond 2^53"), value > vtkIdType{1} << 53 ? 1 : 0) << messages.all();
+        EXPECT_EQ(vtkIdTypeArray::SafeDownCast(probe->GetOutput()->GetPointData()->GetArray("integers"))->GetValue(0),
+                  value);
+    }
+}
+
+TEST(ProbeSettings, ValidPointsAreThoseOfTheLastExecution) {
+    vtkNew<vtkBarycertProbe> probe;
+    probe->SetSourceData(source_with_x());
+    probe->SetInputData(points_of({9, 9, 9, 1, 1, 1, 0, 0, 0}));
+    probe->Update();
+    ASSERT_EQ(probe->GetValidPoints()->GetNumberOfTuples(), 2);
+    EXPECT_EQ(probe->GetValidPoints()->GetValue(0), 1);
+    probe->SetInputData(vtkSmartPointer<vtkPolyData>::New());
+    probe->Update();
+    EXPECT_EQ(probe->GetValidPoints()->GetNumberOfTuples(), 0);
+}
+
+TEST(ProbeSettings, ImagesMayBeTurned) {
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(4, 5, 6);
+    image->SetOrigin(4, 0.25, 0.5);
+    image->SetSpacing(0.5, 0.75, 0.25);
+    const double axes[9] = {0, -1, 0, 1, 0, 0, 0, 0, 1};
+    image->SetDirectionMatrix(axes);
+    vtkNew<vtkBarycertProbe> probe;
+    probe->SetSourceData(source_with_x());
+    probe->SetInputData(image);
+    probe->Update();
+    int inside = 0;
+    for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i) {
+        double x[3];
+        image->GetPoint(i, x);
+        const bool in = x[0] >= 0 && x[1] >= 0 && x[2] >= 0 && x[0] + x[1] + x[2] <= 4;
+        EXPECT_EQ(probe->GetOutput()->GetPointData()->GetArray("x")->GetTuple1(i), in ? x[0] : 0);
+        inside += in ? 1 : 0;
+    }
+    EXPECT_GT(inside, 10);
 }
 
 TEST(ProbeSettings, CategoriesNeedScalars) {
