@@ -8,6 +8,7 @@
 #include <vtkCallbackCommand.h>
 #include <vtkDataSet.h>
 
+#include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
 #include "vtk/simplices.hpp"
 
@@ -41,7 +42,8 @@ std::shared_ptr<const ExactIndex> cached(const vtkDataSet& data, vtkMTimeType ti
     return nullptr;
 }
 
-void forget(vtkObject* data, unsigned long, void*, void*) {
+// Called when an observer dies: with its data set, also where VTK's garbage collector deletes that without an event.
+void forget(void* data) {
     const std::lock_guard lock(cache().access);
     cache().entries.remove_if([data](const Entry& entry) { return entry.data == data; });
 }
@@ -60,7 +62,8 @@ void remember(vtkDataSet& data, vtkMTimeType time, std::shared_ptr<const ExactIn
         return;
     }
     vtkCallbackCommand* const command = vtkCallbackCommand::New();
-    command->SetCallback(forget);
+    command->SetClientData(&data);
+    command->SetClientDataDeleteCallback(forget);
     data.AddObserver(vtkCommand::DeleteEvent, command);
     command->Delete();
     cache().entries.push_back({&data, time, std::move(index)});
@@ -94,6 +97,7 @@ void forget_index(const vtkDataSet& data) {
 
 std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data) {
     const vtkMTimeType time = data.GetMTime();
+    const ExactEnvironment environment;
     if (std::shared_ptr<const ExactIndex> found = cached(data, time)) return found;
     const std::lock_guard lock(cache().making);
     if (std::shared_ptr<const ExactIndex> found = cached(data, time)) return found;
