@@ -44,7 +44,11 @@ std::vector<ArrayKind> kinds_of(vtkDataSetAttributes& attributes, const char* bu
     for (int i = 0; i < attributes.GetNumberOfArrays(); ++i) {
         vtkAbstractArray& array = *attributes.GetAbstractArray(i);
         const char* const name = array.GetName();
-        if (name != nullptr ? std::string_view(name) == but : attributes.IsArrayAnAttribute(i) < 0) continue;
+        if (name == nullptr && attributes.IsArrayAnAttribute(i) < 0) continue;
+        // Flags of ghosts tell of the pieces, and not of the mesh.
+        if (name != nullptr &&
+            (std::string_view(name) == but || vtkDataSetAttributes::GhostArrayName() == std::string_view(name)))
+            continue;
         ArrayKind kind{.name = name != nullptr ? name : "",
                        .named = name != nullptr,
                        .type = array.GetDataType(),

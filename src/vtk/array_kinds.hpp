@@ -24,7 +24,7 @@ struct ArrayKind {
     std::string text() const;
 };
 
-/// Of all arrays but the one of that name.
+/// Of all arrays but the one of that name, and that of ghosts.
 std::vector<ArrayKind> kinds_of(vtkDataSetAttributes& attributes, const char* but);
 
 /// Why tuples of some array cannot be sent; empty if they can.
