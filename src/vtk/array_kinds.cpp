@@ -69,7 +69,7 @@ std::string fault_of(const std::vector<ArrayKind>& kinds) {
     for (const ArrayKind& kind : kinds) {
         const auto made = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(kind.type));
         if (made == nullptr || (made->IsNumeric() == 0 && kind.type != VTK_STRING))
-            return kind.text() + " cannot be sent from rank to rank";
+            return "the source has what cannot be sent from rank to rank: " + kind.text();
     }
     return {};
 }

@@ -153,6 +153,7 @@ Status DistributedProbe::index_piece() {
         vtkDataArray* const scalars = source_->GetPointData()->GetScalars();
         if (settings_.categorical && index_->locator && (scalars == nullptr || scalars->GetNumberOfComponents() != 1))
             return Error{.what = "CategoricalData takes point scalars of one component, of the source"};
+        if (std::string fault = fault_of_arrays(*source_); !fault.empty()) return Error{.what = fault};
         arrays_.emplace(*index_, *source_, *scratch_, settings_.categorical, settings_.mask.c_str());
         kinds_ = kinds_of(*scratch_->GetPointData(), settings_.mask.c_str());
         if (std::string fault = fault_of(kinds_); !fault.empty()) return Error{.what = fault};

@@ -2,6 +2,10 @@
 /// others.
 #pragma once
 
+#include <map>
+#include <string>
+#include <utility>
+
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 namespace barycert::in_vtk {
@@ -13,15 +17,25 @@ public:
     static FailingUpstream* New();
     vtkTypeMacro(FailingUpstream, vtkStreamingDemandDrivenPipeline)
 
-    /// Whether the last request of any kind failed before the algorithm.
-    bool failed() const { return data_object_ || information_ || extent_ || data_; }
+    /// What failed before an input, and has not been modified since then: its output is not to be used, although VTK
+    /// takes it for the result from then on. Empty if nothing failed. Readers tell their failures by GetErrorCode()
+    /// alone.
+    std::string failure() const { return failures_.empty() ? std::string() : failures_.begin()->second.what; }
 
 protected:
-    using vtkStreamingDemandDrivenPipeline::ForwardUpstream;
     int ForwardUpstream(vtkInformation* request) override;
+    /// An execution that failed is repeated, on all processes.
+    int NeedToExecuteData(int port, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:
-    bool data_object_ = false, information_ = false, extent_ = false, data_ = false;
+    struct Failure {
+        vtkExecutive* of;
+        vtkMTimeType time;
+        std::string what;
+    };
+    void forward(int port, int connection, vtkInformation* request);
+
+    std::map<std::pair<int, int>, Failure> failures_;  ///< by port and connection
 };
 
 }  // namespace barycert::in_vtk

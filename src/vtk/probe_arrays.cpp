@@ -57,6 +57,20 @@ Field field_of(vtkDataArray* array, std::size_t number, bool& exact) {
 
 }  // namespace
 
+std::string fault_of_arrays(vtkDataSet& source) {
+    const auto look = [](vtkDataSetAttributes& attributes, vtkIdType count, const char* what) {
+        for (int i = 0; i < attributes.GetNumberOfArrays(); ++i) {
+            vtkAbstractArray& array = *attributes.GetAbstractArray(i);
+            if (array.GetNumberOfTuples() == count) continue;
+            return std::string("the source has an array ") + (array.GetName() != nullptr ? array.GetName() : "") +
+                   " of " + std::to_string(array.GetNumberOfTuples()) + " tuples, and " + std::to_string(count) + what;
+        }
+        return std::string();
+    };
+    const std::string fault = look(*source.GetPointData(), source.GetNumberOfPoints(), " points");
+    return fault.empty() ? look(*source.GetCellData(), source.GetNumberOfCells(), " cells") : fault;
+}
+
 void prepare(vtkAbstractArray& array, vtkIdType count, double outside) {
     array.SetNumberOfTuples(count);
     if (auto* const data = vtkDataArray::SafeDownCast(&array)) {

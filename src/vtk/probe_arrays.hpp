@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "barycert/sampler.hpp"
@@ -16,6 +17,9 @@ namespace barycert::in_vtk {
 
 /// Where rows lie: sets the coordinates, on the axes of the mesh, of a row.
 using PlaceOfRow = std::function<void(std::size_t row, double* point)>;
+
+/// Which array of the points or cells of `source` has not one tuple for each; empty if all have.
+std::string fault_of_arrays(vtkDataSet& source);
 
 /// Gives the array that many tuples, all zero; real numbers are `outside`.
 void prepare(vtkAbstractArray& array, vtkIdType tuples, double outside);

@@ -126,6 +126,10 @@ int vtkBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** inputs
 bool vtkBarycertProbe::Sample(const in_vtk::ExactIndex& index, vtkDataSet* input, vtkDataSet* source,
                               vtkDataSet* output) {
     const ExactEnvironment environment;
+    if (const std::string fault = in_vtk::fault_of_arrays(*source); !fault.empty()) {
+        vtkErrorMacro(<< fault);
+        return false;
+    }
     const double tolerance = ComputeTolerance ? 0 : Tolerance;
     const vtkIdType count = input->GetNumberOfPoints();
     const char* const mask_name = ValidPointMaskArrayName != nullptr ? ValidPointMaskArrayName : "vtkValidPointMask";

@@ -56,14 +56,15 @@ int vtkPBarycertProbe::RequestInformation(vtkInformation* request, vtkInformatio
     return Superclass::RequestInformation(request, inputs, outputs);
 }
 
-// Of the source every process needs its own piece, whatever piece of the output is asked for.
-int vtkPBarycertProbe::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*) {
+// The piece of the source goes with the piece of the output, as that of the input does. Ghosts are not needed.
+int vtkPBarycertProbe::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs,
+                                           vtkInformationVector* outputs) {
     using Pipeline = vtkStreamingDemandDrivenPipeline;
     vtkInformation* const source = inputs[1]->GetInformationObject(0);
+    vtkInformation* const out = outputs->GetInformationObject(0);
     if (source == nullptr) return 1;
-    const in_vtk::Exchange exchange(Controller);
-    source->Set(Pipeline::UPDATE_PIECE_NUMBER(), exchange.rank());
-    source->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), exchange.size());
+    for (vtkInformationIntegerKey* const key : {Pipeline::UPDATE_PIECE_NUMBER(), Pipeline::UPDATE_NUMBER_OF_PIECES()})
+        if (out->Has(key) != 0) source->Set(key, out->Get(key));
     source->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
     return 1;
 }
@@ -76,8 +77,8 @@ int vtkPBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** input
     SetErrorCode(vtkErrorCode::NoError);
     Status ready = Done{};
     const auto* const pipeline = dynamic_cast<in_vtk::FailingUpstream*>(GetExecutive());
-    if (pipeline != nullptr && pipeline->failed())
-        ready = Error{.what = "a filter or reader before this one failed"};
+    if (pipeline != nullptr && !pipeline->failure().empty())
+        ready = Error{.what = "what comes before this filter failed: " + pipeline->failure()};
     else if (input == nullptr || output == nullptr)
         ready = Error{.what = "the input is missing"};
     else

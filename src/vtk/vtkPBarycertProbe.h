@@ -2,9 +2,10 @@
  * @class   vtkPBarycertProbe
  * @brief   vtkBarycertProbe where mesh and points lie in pieces on many processes
  *
- * All processes of the Controller update it together. On each the source is a piece of the mesh, in the worst case of
- * none of its cells, or is not set; the input has any points. The output has the structure of the input and the arrays
- * of vtkBarycertProbe, as if every process had the whole mesh:
+ * All processes of the Controller update it together, after changes on any of them that concern all: Update() where
+ * each has inputs of its own, UpdatePiece(process, processes, 0) where readers share out pieces. On each the source is
+ * a piece of the mesh, may have no cells, or is not set; the input has any points. The output has the structure of the
+ * input and the arrays of vtkBarycertProbe, as if every process had the whole mesh:
  *
  * - The owner of a point is the cell of the lowest global id of all cells that contain it, on whatever process. Values
  *   have the same bits for any number of processes and pieces.

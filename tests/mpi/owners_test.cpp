@@ -19,15 +19,6 @@
 namespace barycert::testing {
 namespace {
 
-template <class Probe>
-vtkSmartPointer<Probe> probed(vtkDataObject* source, vtkDataSet* input) {
-    const auto probe = vtkSmartPointer<Probe>::New();
-    probe->SetSourceData(source);
-    probe->SetInputData(input);
-    probe->Update();
-    return probe;
-}
-
 void expect_as_of_the_whole(vtkUnstructuredGrid* whole, vtkDataSet* piece, vtkDataSet* input) {
     const auto ours = probed<vtkPBarycertProbe>(piece, input);
     const auto judge = probed<vtkBarycertProbe>(whole, input);
@@ -125,6 +116,23 @@ TEST(Owners, OfImagesAreThoseOfTheirPoints) {
     image->SetExtent(rank(), rank() + 1, 0, 8, -1, 9);
     for (const Cut cut : all_cuts)
         expect_as_of_the_whole(whole, piece_of(whole, ranks_of_cells(whole, cut), rank(), true, random), image);
+}
+
+// So many that ranks tell finer boxes of their pieces than one.
+TEST(Owners, OfManyPointsAreThoseOfTheWhole) {
+    const Mesh mesh = own_mesh("flange");
+    const auto whole = with_arrays(mesh);
+    base::Random random(9);
+    double b[6];
+    whole->GetBounds(b);
+    std::vector<double> points = awkward_points(mesh, 200, random);
+    for (int i = 0; i < 6000; ++i)
+        for (int a = 0; a < 3; ++a) points.push_back(random.uniform(b[2 * a], b[2 * a + 1]));
+    for (const Cut cut : all_cuts) {
+        SCOPED_TRACE(name(cut));
+        expect_as_of_the_whole(whole, piece_of(whole, ranks_of_cells(whole, cut), rank(), true, random),
+                               points_of(share_of(points, rank(), ranks())));
+    }
 }
 
 // Every rank has the whole mesh, none of it as ghosts.

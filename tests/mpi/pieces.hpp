@@ -41,6 +41,16 @@ vtkSmartPointer<vtkUnstructuredGrid> piece_of(vtkUnstructuredGrid* whole, const 
 /// ascend with gaps.
 vtkSmartPointer<vtkUnstructuredGrid> with_arrays(const Mesh& mesh, double plane = 0);
 
+/// A probe that was updated.
+template <class Probe>
+vtkSmartPointer<Probe> probed(vtkDataObject* source, vtkDataSet* input) {
+    const auto probe = vtkSmartPointer<Probe>::New();
+    if (source != nullptr) probe->SetSourceData(source);
+    probe->SetInputData(input);
+    probe->Update();
+    return probe;
+}
+
 /// Every `ranks`-th point, from number `rank` on.
 std::vector<double> share_of(const std::vector<double>& points, int rank, int ranks);
 
