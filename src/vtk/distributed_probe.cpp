@@ -6,7 +6,6 @@
 #include <cstring>
 #include <utility>
 
-#include <vtkCharArray.h>
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
 #include <vtkDoubleArray.h>
@@ -82,7 +81,6 @@ Status DistributedProbe::run(const Status& ready, vtkDataSet* input, vtkDataSet*
     const ExactEnvironment environment;
     input_ = input;
     source_ = source;
-    if (source == nullptr) source_ = vtkSmartPointer<vtkUnstructuredGrid>::New();
     if (Status done = agree_on_cells(ready); !done) return done;
     for (const auto step :
          {&DistributedProbe::agree_on_plane, &DistributedProbe::index_piece, &DistributedProbe::agree_on_arrays,
@@ -96,6 +94,7 @@ Status DistributedProbe::agree_on_cells(const Status& ready) {
     int dimension = -1;
     Status mine = exchange_.everywhere([&]() -> Status {
         if (!ready) return ready;
+        if (source_ == nullptr) source_ = vtkSmartPointer<vtkUnstructuredGrid>::New();
         if (std::string fault = cell_dimension(*source_, dimension); !fault.empty())
             return Error{.what = "the source cannot be probed exactly: " + fault};
         if (dimension >= 2 && has_global_ids(*source_)) {

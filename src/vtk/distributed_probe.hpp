@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <vtkCharArray.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -18,7 +19,6 @@
 #include "vtk/probe_arrays.hpp"
 
 class vtkAbstractArray;
-class vtkCharArray;
 class vtkDataSet;
 
 namespace barycert::in_vtk {

@@ -14,6 +14,14 @@ namespace {
 
 constexpr int tag = 0x62617279;
 
+// Without memory of its own, for others wait.
+template <class T>
+std::array<T, Exchange::few> copy_of(std::span<const T> values) {
+    std::array<T, Exchange::few> copy{};
+    std::copy(values.begin(), values.end(), copy.begin());
+    return copy;
+}
+
 }  // namespace
 
 Exchange::Exchange(vtkMultiProcessController* controller, std::size_t chunk) : controller_(controller), chunk_(chunk) {
@@ -42,15 +50,15 @@ Status Exchange::agree(const Status& mine) {
 
 void Exchange::greatest(std::span<int> values) {
     if (size_ == 1) return;
-    const std::vector<int> mine(values.begin(), values.end());
-    controller_->AllReduce(mine.data(), values.data(), static_cast<vtkIdType>(mine.size()), vtkCommunicator::MAX_OP);
+    const auto mine = copy_of<int>(values);
+    controller_->AllReduce(mine.data(), values.data(), static_cast<vtkIdType>(values.size()), vtkCommunicator::MAX_OP);
     gathered_ += values.size_bytes();
 }
 
 void Exchange::least(std::span<double> values) {
     if (size_ == 1) return;
-    const std::vector<double> mine(values.begin(), values.end());
-    controller_->AllReduce(mine.data(), values.data(), static_cast<vtkIdType>(mine.size()), vtkCommunicator::MIN_OP);
+    const auto mine = copy_of<double>(values);
+    controller_->AllReduce(mine.data(), values.data(), static_cast<vtkIdType>(values.size()), vtkCommunicator::MIN_OP);
     gathered_ += values.size_bytes();
 }
 

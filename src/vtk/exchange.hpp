@@ -44,6 +44,8 @@ struct Parcels {
 
 class Exchange {
 public:
+    static constexpr std::size_t few = 8;
+
     /// Of one process alone if there is no controller. `chunk`: bytes of the longest message.
     explicit Exchange(vtkMultiProcessController* controller, std::size_t chunk = std::size_t{1} << 30);
 
@@ -58,7 +60,7 @@ public:
         return agree(attempt(work));
     }
 
-    /// Over all ranks, for each of the values.
+    /// Over all ranks, for each of the values, of which there are few.
     void greatest(std::span<int> values);
     void least(std::span<double> values);
     /// The values of all ranks one after the other; `all` has room for them.
