@@ -130,8 +130,14 @@ TEST(Owners, OfManyPointsAreThoseOfTheWhole) {
         for (int a = 0; a < 3; ++a) points.push_back(random.uniform(b[2 * a], b[2 * a + 1]));
     for (const Cut cut : all_cuts) {
         SCOPED_TRACE(name(cut));
-        expect_as_of_the_whole(whole, piece_of(whole, ranks_of_cells(whole, cut), rank(), true, random),
-                               points_of(share_of(points, rank(), ranks())));
+        const auto piece = piece_of(whole, ranks_of_cells(whole, cut), rank(), true, random);
+        const auto mine = points_of(share_of(points, rank(), ranks()));
+        expect_as_of_the_whole(whole, piece, mine);
+        // No rank is asked for the same point twice, and in slabs few are asked for it at all.
+        const auto probe = probed<vtkPBarycertProbe>(piece, mine);
+        const vtkIdType most = mine->GetNumberOfPoints() * (ranks() - 1);
+        EXPECT_LE(probe->GetPointsSent(), most);
+        EXPECT_TRUE(ranks() < 4 || cut != Cut::slabs || probe->GetPointsSent() < most / 2) << probe->GetPointsSent();
     }
 }
 

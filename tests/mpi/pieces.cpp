@@ -92,6 +92,22 @@ void shuffle(std::vector<T>& items, base::Random& random) {
     for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[random.below(i)]);
 }
 
+// Values of ghosts may be of another time, or none: of cells, and of nodes that ghosts alone have.
+void spoil_ghosts(vtkUnstructuredGrid& piece, vtkUnsignedCharArray& ghosts) {
+    std::vector<char> mine(static_cast<std::size_t>(piece.GetNumberOfPoints()), 0);
+    vtkDataArray* const large = piece.GetCellData()->GetArray("large");
+    vtkDataArray* const vectors = piece.GetPointData()->GetArray("v");
+    for (vtkIdType i = 0; i < piece.GetNumberOfCells(); ++i) {
+        vtkIdType size = 0;
+        const vtkIdType* nodes = nullptr;
+        piece.GetCellPoints(i, size, nodes);
+        if (ghosts.GetValue(i) != 0) large->SetTuple2(i, -7, -7);
+        for (vtkIdType k = 0; k < size && ghosts.GetValue(i) == 0; ++k) mine[static_cast<std::size_t>(nodes[k])] = 1;
+    }
+    for (vtkIdType i = 0; i < piece.GetNumberOfPoints(); ++i)
+        if (mine[static_cast<std::size_t>(i)] == 0) vectors->SetTuple2(i, 1e9, -1e9);
+}
+
 }  // namespace
 
 vtkSmartPointer<vtkUnstructuredGrid> piece_of(vtkUnstructuredGrid* whole, const std::vector<int>& ranks, int rank,
@@ -148,6 +164,7 @@ vtkSmartPointer<vtkUnstructuredGrid> piece_of(vtkUnstructuredGrid* whole, const 
                                                                               : vtkDataSetAttributes::DUPLICATECELL);
     }
     if (with_ghosts) piece->GetCellData()->AddArray(ghosts);
+    spoil_ghosts(*piece, *ghosts);
     return piece;
 }
 

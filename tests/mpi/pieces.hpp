@@ -33,7 +33,7 @@ const char* name(Cut cut);
 std::vector<int> ranks_of_cells(vtkUnstructuredGrid* whole, Cut cut);
 
 /// The cells of that rank and, as ghosts (vtkGhostType), all others that have a node of theirs, if asked for. Nodes and
-/// cells stand in any order. The arrays are those of the whole.
+/// cells stand in any order. Values are those of the whole, but wrong on ghosts and on nodes that ghosts alone have.
 vtkSmartPointer<vtkUnstructuredGrid> piece_of(vtkUnstructuredGrid* whole, const std::vector<int>& ranks, int rank,
                                               bool with_ghosts, base::Random& random);
 
