@@ -8,6 +8,7 @@
 #include <vtkCallbackCommand.h>
 #include <vtkDataSet.h>
 
+#include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
 #include "vtk/global_ids.hpp"
 #include "vtk/simplices.hpp"
@@ -43,7 +44,8 @@ std::shared_ptr<const ExactIndex> cached(const vtkDataSet& data, const SimplexSh
     return nullptr;
 }
 
-void forget(vtkObject* data, unsigned long, void*, void*) {
+// Called when an observer dies: with its data set, also where VTK's garbage collector deletes that without an event.
+void forget(void* data) {
     const std::lock_guard lock(cache().access);
     cache().entries.remove_if([data](const Entry& entry) { return entry.data == data; });
 }
@@ -67,7 +69,8 @@ void remember(vtkDataSet& data, const SimplexShape& shape, vtkMTimeType time, st
     cache().entries.push_back({&data, shape, time, std::move(index)});
     if (observed) return;
     vtkCallbackCommand* const command = vtkCallbackCommand::New();
-    command->SetCallback(forget);
+    command->SetClientData(&data);
+    command->SetClientDataDeleteCallback(forget);
     data.AddObserver(vtkCommand::DeleteEvent, command);
     command->Delete();
 }
@@ -100,6 +103,7 @@ void forget_index(const vtkDataSet& data) {
 
 std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data, const SimplexShape& shape) {
     const vtkMTimeType time = data.GetMTime();
+    const ExactEnvironment environment;
     if (std::shared_ptr<const ExactIndex> found = cached(data, shape, time)) return found;
     const std::lock_guard lock(cache().making);
     if (std::shared_ptr<const ExactIndex> found = cached(data, shape, time)) return found;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <string>
 
 #include <vtkCellData.h>
@@ -243,7 +244,15 @@ void ProbeArrays::write_nodes(const PlaceOfRow& place) const {
     for (const Row& row : rows_) {
         std::array<double, 3> point{};
         place(row.row, point.data());
-        std::array<double, 4> weights = weights_on_axes(index_, row.cell, point.data());
+        std::array<double, 4> weights{};
+        if (row.inside) {
+            weights = weights_on_axes(index_, row.cell, point.data());
+        } else {  // of the nearest point
+            std::array<double, 3> x{};
+            x[static_cast<std::size_t>(index_.axes[2])] = index_.plane;
+            for (std::size_t a = 0; a + 1 < n; ++a) x[static_cast<std::size_t>(index_.axes[a])] = point[a];
+            weights = closest(index_, x.data(), std::numeric_limits<double>::infinity()).weights;
+        }
         for (std::size_t k = 0; k < n; ++k)
             nodes->SetId(static_cast<vtkIdType>(k), index_.mesh.cells[n * static_cast<std::size_t>(row.cell) + k]);
         const auto greatest = std::max_element(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(n));

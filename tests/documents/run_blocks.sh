@@ -33,6 +33,10 @@ not_run() {
             [ ! -x "$examples/example_mpi_probe" ] || return 1
             why="this build has no VTK with MPI"
             ;;
+        "pvpython "*)
+            ! command -v pvpython >/dev/null || return 1
+            why="needs ParaView; tests/install/paraview.sh does that"
+            ;;
         "./run barycert mesh "*)
             [ ! -x "$programs/barycert-tetgen" ] || return 1
             why="this build has no barycert-tetgen"

@@ -182,8 +182,6 @@ def test_plain_rounding_keeps_owners(mesh):
     assert np.nanmax(np.abs(plain - correct)) < 1e-10
     with pytest.raises(barycert.Error, match="rounding="):
         mesh.sample(at, "T", rounding="what")
-    with pytest.raises(barycert.Error, match="threads="):
-        mesh.sample(at, "T", threads=-1)
 
 
 def test_nearest():

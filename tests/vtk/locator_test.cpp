@@ -126,6 +126,13 @@ TEST(Closest, IsThatInThePlaneOfTriangles) {
     double closest[3], dist2 = 0;
     vtkIdType id = -1;
     int sub_id = -1;
+    vtkNew<vtkGenericCell> cell;
+    int inside = 1;
+    double above[3] = {-4, 0.5, 1};
+    EXPECT_EQ(locator->FindClosestPointWithinRadius(above, 9, closest, cell, id, sub_id, dist2, inside), 1);
+    EXPECT_EQ(inside, 0);
+    EXPECT_EQ(dist2, 81);
+    EXPECT_EQ(std::vector<double>(closest, closest + 3), (std::vector<double>{5, 0.5, 1}));
     double x[3] = {8, -4, 1};
     locator->FindClosestPoint(x, closest, id, sub_id, dist2);
     EXPECT_EQ(dist2, 25);
@@ -162,6 +169,7 @@ TEST(Lines, AreThoseOfAllCells) {
     vtkNew<vtkIdList> list;
     vtkNew<vtkGenericCell> cell;
     vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
     int hits = 0;
     for (int i = 0; i < 40; ++i) {
         double p1[3], p2[3];
@@ -192,7 +200,28 @@ TEST(Lines, AreThoseOfAllCells) {
         const int all = locator->IntersectWithLine(p1, p2, points, list);
         EXPECT_EQ(all, expected.empty() ? 0 : locator->FindCell(p1) >= 0 ? -1 : 1);
         EXPECT_EQ(set_of(list), expected);
+        const auto along_line = [&](vtkIdType k) {
+            double at[3], way = 0;
+            points->GetPoint(k, at);
+            for (int a = 0; a < 3; ++a) way += (at[a] - p1[a]) * (p2[a] - p1[a]);
+            return way;
+        };
+        for (vtkIdType k = 1; k < points->GetNumberOfPoints(); ++k) EXPECT_LE(along_line(k - 1), along_line(k) + 1e-12);
         EXPECT_EQ(points->GetNumberOfPoints(), list->GetNumberOfIds());
+        EXPECT_EQ(locator->IntersectWithLine(p1, p2, 0, points, list), expected.empty() ? 0 : 1);
+        EXPECT_EQ(set_of(list), expected);
+        EXPECT_EQ(locator->IntersectWithLine(p1, p2, 0, points, list, cell), expected.empty() ? 0 : 1);
+        EXPECT_EQ(set_of(list), expected);
+        // Without a cell to work with: those whose boxes the line meets.
+        locator->IntersectWithLine(p1, p2, 0, points, list, nullptr);
+        const std::set<vtkIdType> boxes = set_of(list);
+        EXPECT_TRUE(std::includes(boxes.begin(), boxes.end(), expected.begin(), expected.end()));
+        for (vtkIdType k = 0; k < list->GetNumberOfIds(); ++k) {
+            double its[6], at[3];
+            grid->GetCellBounds(list->GetId(k), its);
+            points->GetPoint(k, at);
+            for (int a = 0; a < 3; ++a) EXPECT_TRUE(its[2 * a] - 1e-9 <= at[a] && at[a] <= its[2 * a + 1] + 1e-9);
+        }
         if (expected.empty()) continue;
         ++hits;
         EXPECT_EQ(t, first);
