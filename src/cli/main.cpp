@@ -10,10 +10,13 @@
 #include <string_view>
 
 #include "barycert/base/begun_files.hpp"
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "command.hpp"
 #include "files.hpp"
+#include "options/mistyped.hpp"
+#include "tetgen/option_table.hpp"
 
 // What is thrown is told below; telling it may fail for want of memory. NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
@@ -33,10 +36,13 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.footer(
         "Exit codes: 0 success; 1 threshold exceeded, mesh not certified or witness not reproduced; 2 usage or input "
-        "error.\nTables go to stdout, everything else to stderr. `barycert SUBCOMMAND --help` explains each.");
-    app.failure_message([](const CLI::App*, const CLI::Error& e) {
-        return "error: " + base::printable(e.what()) +
-               "; `barycert --help` and `barycert SUBCOMMAND --help` list subcommands and options\n";
+        "error.\nTables go to stdout, everything else to stderr. `barycert help SUBCOMMAND` explains each.");
+    app.failure_message([](const CLI::App* failed, const CLI::Error& e) {
+        return "error: " +
+               base::printable(cli::usage_error(
+                   *failed, e.what(),
+                   "`barycert --help` and `barycert SUBCOMMAND --help` list subcommands and options")) +
+               '\n';
     });
     int exit_code = cli::exit_clean;
 #ifdef BARYCERT_WITH_AUDIT
@@ -53,12 +59,18 @@ int main(int argc, char** argv) {
     cli::add_replay(app, exit_code);
     cli::add_catalogue(app, exit_code);
 #endif
-    app.add_subcommand("mesh", "Mesh a PLC (.poly .smesh .off .stl .ply) with TetGen: runs barycert-tetgen");
+    // Its options are those of barycert-tetgen, for help and completions; main() has handed all else over.
+    auto* mesh =
+        app.add_subcommand("mesh", "Mesh a PLC (.poly .smesh .off .stl .ply) with TetGen: runs barycert-tetgen");
+    OptionTable mesh_options;
+    add_options(*mesh, mesh_options);
+    cli::add_help(app, exit_code);
     const auto named_first = [&](const CLI::App* sub) { return sub->get_name() == first; };
     if (!first.empty() && first.front() != '-' && app.get_subcommands(named_first).empty()) {
-        return cli::fail({.what = "no such subcommand",
-                          .found = '"' + std::string(first) + '"',
-                          .remedy = "`barycert --help` lists them"});
+        return cli::fail(
+            {.what = "no such subcommand",
+             .found = '"' + std::string(first) + '"',
+             .remedy = base::did_you_mean(first, cli::command_names(app), "`barycert --help` lists them")});
     }
     try {
         cli::remember_command_line(argc, argv);
