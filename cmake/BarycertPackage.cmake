@@ -1,11 +1,18 @@
 # Debian packages by CPack, one for each component of the installation: `./run package`.
 include(GNUInstallDirs)
-set(BARYCERT_MAINTAINER "barycert developers <barycert@localhost.localdomain>" CACHE STRING "Maintainer of the packages: NAME <ADDRESS>")
+# Whoever passes packages on signs them, as Debian's tools do; else the address is nobody's.
+set(maintainer "barycert developers <developers@barycert.invalid>")
+if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL})
+  set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+endif()
+set(BARYCERT_MAINTAINER "${maintainer}" CACHE STRING "Maintainer of the packages: NAME <ADDRESS>")
 set(BARYCERT_PACKAGE_REVISION 1 CACHE STRING "Debian revision of the packages")
 set(BARYCERT_HOMEPAGE "" CACHE STRING "Home page of the packages")
 set(package_version ${PROJECT_VERSION}-${BARYCERT_PACKAGE_REVISION})
 
 set(CPACK_GENERATOR DEB)
+set(CPACK_VERBATIM_VARIABLES ON)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each has its own
 set(CPACK_PACKAGE_NAME barycert)
 set(CPACK_PACKAGE_CONTACT "${BARYCERT_MAINTAINER}")
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
@@ -23,6 +30,12 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_COMPONENTS_ALL "")
+
+# The interpreter that the module was built for.
+if(BARYCERT_PYTHON_INTERPRETER)
+  set(Python3_EXECUTABLE ${BARYCERT_PYTHON_INTERPRETER})
+endif()
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
 
 # barycert_deb(COMPONENT PACKAGE SECTION SUMMARY DESCRIPTION [DEPENDS ...] [RECOMMENDS ...] [SUGGESTS ...] [PARTS ...])
 # PARTS: the targets whose objects it holds; what they are made of stands in its bill of materials.
@@ -59,8 +72,8 @@ meshes, and barycert::audit with audits of kernels and the oracle."
 if(TARGET barycert_vtk)
   barycert_deb(vtk libbarycert-vtk-dev libdevel "exact cell locator and probe for VTK"
     "vtkBarycertLocator, a cell locator whose owners are exact, and
-vtkBarycertProbe, with correctly rounded values, for VTK ${VTK_VERSION}: a static
-library and headers, for CMake as barycert::vtk."
+vtkBarycertProbe, with correctly rounded values, for VTK 9: a static library
+and headers, for CMake as barycert::vtk."
     DEPENDS "libbarycert-dev (= ${package_version})" libvtk9-dev PARTS src/vtk/libbarycert_vtk.a)
 endif()
 if(TARGET barycert-tetgen)
@@ -103,7 +116,6 @@ set(CPACK_BARYCERT_SOURCE ${PROJECT_SOURCE_DIR})
 set(CPACK_BARYCERT_BUILD ${PROJECT_BINARY_DIR})
 set(CPACK_BARYCERT_VERSION ${package_version})
 set(CPACK_BARYCERT_LIBDIR ${CMAKE_INSTALL_LIBDIR})
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(CPACK_BARYCERT_PYTHON ${Python3_EXECUTABLE})
 set(CPACK_BARYCERT_NINJA ${CMAKE_MAKE_PROGRAM})
 include(CPack)
