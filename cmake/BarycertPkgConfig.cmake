@@ -20,8 +20,10 @@ function(barycert_pkg_config name description libraries requires private_require
   install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
 endfunction()
 
+set(barycert_dl ${CMAKE_DL_LIBS})
+list(TRANSFORM barycert_dl PREPEND -l)
 barycert_pkg_config(barycert "${PROJECT_DESCRIPTION}" -lbarycert "" "libhwy tbb fmt libpng expat libdeflate liblzma liblz4"
-  "-pthread ${CMAKE_DL_LIBS}")
+  "-pthread ${barycert_dl}")
 if(TARGET barycert_audit)
   barycert_pkg_config(barycert-audit "Audits of kernels for barycentric weights, and the oracle" -lbarycert_audit barycert
     "tbb fmt mpfr gmp" "")
