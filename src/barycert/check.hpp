@@ -71,6 +71,10 @@ struct Distribution {
 
 Distribution distribution(const std::vector<double>& values);
 
+/// Measures and defects of cells as fields, under the names that files have: orientation, volume, condition,
+/// radius_edge, aspect, min_angle, max_angle; and problems, the sum of the bits of DefectSet.
+std::vector<Field> measure_fields(const CellMeasures& measures);
+
 /// A point that two cells share. `point` is rounded to double; if `exact`, the rounded point is itself shared, which
 /// weight_signs can confirm. `fraction` is the point as "numerator/denominator" per coordinate, in lowest terms unless
 /// it has more than 4096 bits; where it would have more and `exact` holds, it is `point` as fractions.

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "barycert/base/folder.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/check.hpp"
 #include "barycert/io.hpp"
@@ -56,18 +57,17 @@ Result<std::vector<Item>> select(const std::vector<std::string>& globs, All all,
 }  // namespace
 
 Result<std::vector<std::string>> own_meshes() {
-    const fs::path folder = data_folder();
+    const std::string folder = (data_folder() / "meshes").string();
     std::vector<std::string> paths;
     std::error_code trouble;
-    for (const auto& entry : fs::directory_iterator(folder / "meshes", trouble)) {
-        if (entry.path().extension() == ".node") paths.push_back(entry.path().string());
+    for (const std::string& name : base::names_in_folder(folder, trouble)) {
+        if (name.ends_with(".node")) paths.push_back(folder + "/" + name);
     }
     if (paths.empty()) {
         return Error{.what = "barycert's own meshes are missing",
-                     .file = (folder / "meshes").string(),
+                     .file = folder,
                      .remedy = "name a mesh, or set BARYCERT_DATA_DIR to the folder `data` of barycert's sources"};
     }
-    std::sort(paths.begin(), paths.end());
     return paths;
 }
 

@@ -101,22 +101,13 @@ Status check_nothing_in_the_way(const Mesh& mesh, const std::string& path) {
 
 /// The mesh with the measures of its cells as fields, and their numbers in the file where those are others.
 Status write_measures(const CheckReport& report, Mesh mesh, const std::string& path, VtkData data) {
-    const CellMeasures& m = report.measures;
     if (!mesh.cell_numbers.empty()) {
         const bool taken = std::any_of(mesh.cell_fields.begin(), mesh.cell_fields.end(),
                                        [](const Field& field) { return field.name == "cell"; });
         mesh.cell_fields.push_back(
             {taken ? "cell in file" : "cell", 1, {mesh.cell_numbers.begin(), mesh.cell_numbers.end()}});
     }
-    mesh.cell_fields.push_back({"orientation", 1, {m.orientation.begin(), m.orientation.end()}});
-    const std::array<std::pair<const char*, const std::vector<double>*>, 6> measures{{{"volume", &m.volume},
-                                                                                      {"condition", &m.condition},
-                                                                                      {"radius_edge", &m.radius_edge},
-                                                                                      {"aspect", &m.aspect},
-                                                                                      {"min_angle", &m.min_angle},
-                                                                                      {"max_angle", &m.max_angle}}};
-    for (const auto& [name, values] : measures) mesh.cell_fields.push_back({name, 1, *values});
-    mesh.cell_fields.push_back({"problems", 1, {m.defects.begin(), m.defects.end()}});
+    for (Field& field : measure_fields(report.measures)) mesh.cell_fields.push_back(std::move(field));
     return write_vtu(mesh, path, data);
 }
 

@@ -43,6 +43,12 @@ void tell(std::string_view text);
 /// "error: ..." on stderr; returns exit_error.
 int fail(const Error& error);
 
+/// Likewise "error: out of memory; ...", without memory of its own.
+int fail_for_want_of_memory() noexcept;
+
+/// From now on a failed allocation of GMP's, which would abort, ends the process as fail_for_want_of_memory() does.
+void end_when_gmp_wants_memory();
+
 /// "note: ..." on stderr for each that may change what results mean.
 void tell_important(const Notes& notes);
 

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <iostream>
@@ -15,16 +16,20 @@
 #include "command.hpp"
 #include "files.hpp"
 
-// What is thrown is told below; telling it may fail for want of memory. NOLINTNEXTLINE(bugprone-exception-escape)
-int main(int argc, char** argv) {
-    using namespace barycert;
+namespace barycert::cli {
+namespace {
+
+int run(int argc, char** argv) {
     // For all threads, before any of them starts: a library that was loaded first may have changed it.
     const ExactEnvironment environment;
     const std::string_view first = argc > 1 ? argv[1] : "";
-    if (first == "mesh") return cli::exec_mesh(argc, argv);
+    if (first == "mesh") return exec_mesh(argc, argv);
     base::remove_begun_files_on_signals();
+#ifdef BARYCERT_WITH_AUDIT
+    end_when_gmp_wants_memory();
+#endif
     // What was compiled in cannot be set.
-    if (const Status exact = check_environment(measure_environment()); !exact) return cli::fail(exact.error());
+    if (const Status exact = check_environment(measure_environment()); !exact) return fail(exact.error());
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, like a full disk
 
     CLI::App app("barycert: barycentric interpolation at the speed of floating point, audited against exact arithmetic",
@@ -38,41 +43,73 @@ int main(int argc, char** argv) {
         return "error: " + base::printable(e.what()) +
                "; `barycert --help` and `barycert SUBCOMMAND --help` list subcommands and options\n";
     });
-    int exit_code = cli::exit_clean;
+    int exit_code = exit_clean;
 #ifdef BARYCERT_WITH_AUDIT
-    cli::add_audit(app, exit_code);
-    cli::add_gaps(app, exit_code);
+    add_audit(app, exit_code);
+    add_gaps(app, exit_code);
 #endif
-    cli::add_check(app, exit_code);
-    cli::add_sample(app, exit_code);
-    cli::add_resample(app, exit_code);
-    cli::add_verify(app, exit_code);
-    cli::add_render(app, exit_code);
+    add_check(app, exit_code);
+    add_sample(app, exit_code);
+    add_resample(app, exit_code);
+    add_verify(app, exit_code);
+    add_render(app, exit_code);
 #ifdef BARYCERT_WITH_AUDIT
-    cli::add_search(app, exit_code);
-    cli::add_replay(app, exit_code);
-    cli::add_catalogue(app, exit_code);
+    add_search(app, exit_code);
+    add_replay(app, exit_code);
+    add_catalogue(app, exit_code);
 #endif
     app.add_subcommand("mesh", "Mesh a PLC (.poly .smesh .off .stl .ply) with TetGen: runs barycert-tetgen");
     const auto named_first = [&](const CLI::App* sub) { return sub->get_name() == first; };
     if (!first.empty() && first.front() != '-' && app.get_subcommands(named_first).empty()) {
-        return cli::fail({.what = "no such subcommand",
-                          .found = '"' + std::string(first) + '"',
-                          .remedy = "`barycert --help` lists them"});
+        return fail({.what = "no such subcommand",
+                     .found = '"' + std::string(first) + '"',
+                     .remedy = "`barycert --help` lists them"});
     }
     try {
-        cli::remember_command_line(argc, argv);
+        remember_command_line(argc, argv);
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        if (app.exit(e) != 0) return cli::exit_error;
+        if (app.exit(e) != 0) return exit_error;
         // --help and --version were printed: to a full disk, perhaps.
         std::cout.flush();
-        if (std::cout && cli::write_output("-", "")) return cli::exit_clean;
-        return cli::fail({.what = "cannot write to stdout", .found = std::strerror(errno)});
-    } catch (const std::bad_alloc&) {
-        return cli::fail({.what = "out of memory", .remedy = "use a smaller mesh or picture, or fewer threads"});
-    } catch (const std::exception& e) {
-        return cli::fail({.what = e.what()});
+        if (std::cout && write_output("-", "")) return exit_clean;
+        return fail({.what = "cannot write to stdout", .found = std::strerror(errno)});
     }
     return exit_code;
+}
+
+}  // namespace
+}  // namespace barycert::cli
+
+namespace {
+
+/// Libraries promise to throw nothing where they need memory, and so end here: std::filesystem, nlohmann::json.
+[[noreturn]] void end() noexcept {
+    try {
+        if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+    } catch (const std::bad_alloc&) {
+        barycert::base::remove_begun_files();
+        std::_Exit(barycert::cli::fail_for_want_of_memory());
+    } catch (...) {
+    }
+    std::abort();
+}
+
+}  // namespace
+
+// Nothing is thrown but for want of memory, or by a library.
+int main(int argc, char** argv) {
+    namespace cli = barycert::cli;
+    std::set_terminate(end);
+    try {
+        return cli::run(argc, argv);
+    } catch (const std::bad_alloc&) {
+        return cli::fail_for_want_of_memory();
+    } catch (const std::exception& e) {
+        try {
+            return cli::fail({.what = e.what()});
+        } catch (...) {
+            return cli::fail_for_want_of_memory();
+        }
+    }
 }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <vtkBox.h>
 #include <vtkCell.h>
 #include <vtkDataSet.h>
 #include <vtkGarbageCollector.h>
@@ -315,10 +316,23 @@ int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3]
 
 int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3], vtkPoints* points,
                                           vtkIdList* cellIds) {
+    if (IntersectWithLine(p1, p2, Tolerance, points, cellIds) == 0) return 0;
+    double start[3] = {p1[0], p1[1], p1[2]};
+    return FindCell(start) >= 0 ? -1 : 1;
+}
+
+int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3], double tol, vtkPoints* points,
+                                          vtkIdList* cellIds) {
+    vtkNew<vtkGenericCell> cell;
+    return IntersectWithLine(p1, p2, tol, points, cellIds, cell);
+}
+
+int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3], double tol, vtkPoints* points,
+                                          vtkIdList* cellIds, vtkGenericCell* cell) {
     if (points != nullptr) points->Reset();
     if (cellIds != nullptr) cellIds->Reset();
     vtkNew<vtkIdList> candidates;
-    FindCellsAlongLine(p1, p2, Tolerance, candidates);
+    FindCellsAlongLine(p1, p2, tol, candidates);
     struct Hit {
         double t;
         vtkIdType cell;
@@ -326,23 +340,28 @@ int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3]
         bool operator<(const Hit& other) const { return std::pair(t, cell) < std::pair(other.t, other.cell); }
     };
     std::vector<Hit> hits;
-    vtkNew<vtkGenericCell> cell;
+    const double along[3] = {p2[0] - p1[0], p2[1] - p1[1], p2[2] - p1[2]};
     for (vtkIdType i = 0; i < candidates->GetNumberOfIds(); ++i) {
         Hit hit{0, candidates->GetId(i), {}};
         std::array<double, 3> pcoords{};
         int sub_id = 0;
-        DataSet->GetCell(hit.cell, cell);
-        if (cell->IntersectWithLine(p1, p2, Tolerance, hit.t, hit.x.data(), pcoords.data(), sub_id) != 0)
-            hits.push_back(hit);
+        bool met = false;
+        if (cell != nullptr) {
+            DataSet->GetCell(hit.cell, cell);
+            met = cell->IntersectWithLine(p1, p2, tol, hit.t, hit.x.data(), pcoords.data(), sub_id) != 0;
+        } else {
+            double bounds[6];
+            DataSet->GetCellBounds(hit.cell, bounds);
+            met = vtkBox::IntersectBox(bounds, p1, along, hit.x.data(), hit.t, tol) != 0;
+        }
+        if (met) hits.push_back(hit);
     }
-    if (hits.empty()) return 0;
     std::sort(hits.begin(), hits.end());
     for (const Hit& hit : hits) {
         if (points != nullptr) points->InsertNextPoint(hit.x.data());
         if (cellIds != nullptr) cellIds->InsertNextId(hit.cell);
     }
-    double start[3] = {p1[0], p1[1], p1[2]};
-    return FindCell(start) >= 0 ? -1 : 1;
+    return hits.empty() ? 0 : 1;
 }
 
 void vtkBarycertLocator::FindCellsWithinBounds(double* bbox, vtkIdList* cells) {

@@ -20,6 +20,8 @@
  *
  * Any number of threads may call FindCell, FindClosestPoint and FindClosestPointWithinRadius at the same time, each
  * with its own vtkGenericCell, and the variants without one; of the other methods, those that take a vtkGenericCell.
+ *
+ * For VTK 9.1 and 9.2: what is virtual here without override is an override there.
  */
 #ifndef vtkBarycertLocator_h
 #define vtkBarycertLocator_h
@@ -31,9 +33,11 @@
 
 class vtkStaticCellLocator;
 
+#ifndef __VTK_WRAP__  // VTK's own parser of headers does not know nested names of namespaces
 namespace barycert::in_vtk {
 struct ExactIndex;
 }
+#endif
 
 class vtkBarycertLocator : public vtkAbstractCellLocator {
 public:
@@ -77,6 +81,12 @@ public:
     /// The first point of every cell that the line meets within GetTolerance(), along the line, and the cells; each may
     /// be null. Returns 0 if it meets none, -1 if p1 lies in a cell, else 1.
     int IntersectWithLine(const double p1[3], const double p2[3], vtkPoints* points, vtkIdList* cellIds) override;
+    /// The same within `tol`, without looking where p1 lies: 1 if it meets any cell. Without a `cell` to work with, the
+    /// last one takes the boxes of the cells for the cells, as VTK 9.2 does.
+    virtual int IntersectWithLine(const double p1[3], const double p2[3], double tol, vtkPoints* points,
+                                  vtkIdList* cellIds);
+    virtual int IntersectWithLine(const double p1[3], const double p2[3], double tol, vtkPoints* points,
+                                  vtkIdList* cellIds, vtkGenericCell* cell);
 
     void FindCellsWithinBounds(double* bbox, vtkIdList* cells) override;
     void FindCellsAlongLine(const double p1[3], const double p2[3], double tolerance, vtkIdList* cells) override;

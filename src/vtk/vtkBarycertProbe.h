@@ -26,9 +26,11 @@
 
 class vtkIdTypeArray;
 
+#ifndef __VTK_WRAP__  // VTK's own parser of headers does not know nested names of namespaces
 namespace barycert::in_vtk {
 struct ExactIndex;
 }
+#endif
 
 class vtkBarycertProbe : public vtkDataSetAlgorithm {
 public:

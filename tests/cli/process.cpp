@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -109,6 +110,10 @@ Ended run(const Words& arguments, const How& how) {
         ::close(err[1]);
     }
     EXPECT_GT(child, 0);
+    if (how.kill_after.count() > 0) {
+        std::this_thread::sleep_for(how.kill_after);
+        ::kill(child, SIGKILL);
+    }
     listen(child, how, {{{how.terminal ? terminal : out[0], POLLIN, 0}, {err[0], POLLIN, 0}}}, result);
     for (const int descriptor : {terminal, out[0], err[0]}) {
         if (descriptor >= 0) ::close(descriptor);

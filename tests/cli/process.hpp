@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -15,17 +16,18 @@ using Words = std::vector<std::string>;
 
 /// How a process is started; by default as from a script: no terminal, stdin empty.
 struct How {
-    Words environment = {};        ///< "NAME=VALUE" to set, "NAME" to unset, on top of the test's own
-    std::string folder = {};       ///< working directory; the test's own if empty
-    std::string stdout_path = {};  ///< stdout goes to that file instead of Ended::out
-    std::string stderr_path = {};  ///< likewise
-    bool close_stdout = false;     ///< as `>&-`
-    bool close_stderr = false;     ///< as `2>&-`
-    bool terminal = false;         ///< stdout and stderr are one terminal; what it shows is Ended::out
-    bool as_nobody = false;        ///< with no more rights than the user nobody, where the test runs as root
-    std::size_t max_file = 0;      ///< in bytes, as `ulimit -f`; 0 is no limit
-    std::string kill_on = {};      ///< once this has been read from the process ...
-    int kill_with = 0;             ///< ... it gets this signal
+    Words environment = {};                  ///< "NAME=VALUE" to set, "NAME" to unset, on top of the test's own
+    std::string folder = {};                 ///< working directory; the test's own if empty
+    std::string stdout_path = {};            ///< stdout goes to that file instead of Ended::out
+    std::string stderr_path = {};            ///< likewise
+    bool close_stdout = false;               ///< as `>&-`
+    bool close_stderr = false;               ///< as `2>&-`
+    bool terminal = false;                   ///< stdout and stderr are one terminal; what it shows is Ended::out
+    bool as_nobody = false;                  ///< with no more rights than the user nobody, where the test runs as root
+    std::size_t max_file = 0;                ///< in bytes, as `ulimit -f`; 0 is no limit
+    std::string kill_on = {};                ///< once this has been read from the process ...
+    int kill_with = 0;                       ///< ... it gets this signal
+    std::chrono::microseconds kill_after{};  ///< this long after its start it gets SIGKILL; 0 is never
     std::string program = BARYCERT_PROGRAM;
 };
 

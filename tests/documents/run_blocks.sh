@@ -29,6 +29,10 @@ not_run() {
         "./run python"* | "python3 -m venv "*) why="needs the package for Python; tests/python does that" ;;
         "sudo "* | "apt-get "*) why="installs packages" ;;
         "cmake "* | "git clone "* | "cd "*) why="builds; tests/install does that" ;;
+        "pvpython "*)
+            ! command -v pvpython >/dev/null || return 1
+            why="needs ParaView; tests/install/paraview.sh does that"
+            ;;
         "./run barycert mesh "*)
             [ ! -x "$programs/barycert-tetgen" ] || return 1
             why="this build has no barycert-tetgen"

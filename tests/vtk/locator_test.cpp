@@ -162,6 +162,7 @@ TEST(Lines, AreThoseOfAllCells) {
     vtkNew<vtkIdList> list;
     vtkNew<vtkGenericCell> cell;
     vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
     int hits = 0;
     for (int i = 0; i < 40; ++i) {
         double p1[3], p2[3];
@@ -193,6 +194,20 @@ TEST(Lines, AreThoseOfAllCells) {
         EXPECT_EQ(all, expected.empty() ? 0 : locator->FindCell(p1) >= 0 ? -1 : 1);
         EXPECT_EQ(set_of(list), expected);
         EXPECT_EQ(points->GetNumberOfPoints(), list->GetNumberOfIds());
+        EXPECT_EQ(locator->IntersectWithLine(p1, p2, 0, points, list), expected.empty() ? 0 : 1);
+        EXPECT_EQ(set_of(list), expected);
+        EXPECT_EQ(locator->IntersectWithLine(p1, p2, 0, points, list, cell), expected.empty() ? 0 : 1);
+        EXPECT_EQ(set_of(list), expected);
+        // Without a cell to work with: those whose boxes the line meets.
+        locator->IntersectWithLine(p1, p2, 0, points, list, nullptr);
+        const std::set<vtkIdType> boxes = set_of(list);
+        EXPECT_TRUE(std::includes(boxes.begin(), boxes.end(), expected.begin(), expected.end()));
+        for (vtkIdType k = 0; k < list->GetNumberOfIds(); ++k) {
+            double its[6], at[3];
+            grid->GetCellBounds(list->GetId(k), its);
+            points->GetPoint(k, at);
+            for (int a = 0; a < 3; ++a) EXPECT_TRUE(its[2 * a] - 1e-9 <= at[a] && at[a] <= its[2 * a + 1] + 1e-9);
+        }
         if (expected.empty()) continue;
         ++hits;
         EXPECT_EQ(t, first);

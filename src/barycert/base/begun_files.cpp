@@ -38,14 +38,18 @@ void BegunFile::forget() {
     record_->live = false;
 }
 
+void remove_begun_files() noexcept {
+    for (const BegunFile::Record* r = records.load(); r != nullptr; r = r->next) {
+        if (r->live) ::unlink(r->path.c_str());
+    }
+}
+
 namespace {
 
 /// Only calls that POSIX allows in a handler: unlink, sigaction, raise.
 extern "C" void remove_and_end(int signal) {
     const int error_number = errno;
-    for (const BegunFile::Record* r = records.load(); r != nullptr; r = r->next) {
-        if (r->live) ::unlink(r->path.c_str());
-    }
+    remove_begun_files();
     struct sigaction usual {};
     usual.sa_handler = SIG_DFL;
     ::sigaction(signal, &usual, nullptr);

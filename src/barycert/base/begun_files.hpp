@@ -14,6 +14,9 @@ namespace barycert::base {
 /// A library must not decide about signals, so nothing else calls this.
 void remove_begun_files_on_signals();
 
+/// Removes the unfinished files of this process that have names, for a program that ends without its destructors.
+void remove_begun_files() noexcept;
+
 /// One name, on record from before the file exists until it is renamed or removed. Safe to use from any thread.
 class BegunFile {
 public:

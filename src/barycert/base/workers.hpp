@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -40,6 +41,8 @@ bool share_work(int threads, std::size_t count, const Work& work) {
         while (helpers.size() + 1 < wanted) helpers.emplace_back(take);
     } catch (const std::system_error&) {
         // The system gives no more threads: those at hand do it all.
+    } catch (const std::bad_alloc&) {
+        // Nor memory for one.
     }
     take();
     for (std::thread& helper : helpers) helper.join();

@@ -27,4 +27,15 @@ Distribution distribution(const std::vector<double>& values) {
     return d;
 }
 
+std::vector<Field> measure_fields(const CellMeasures& measures) {
+    return {{"orientation", 1, {measures.orientation.begin(), measures.orientation.end()}},
+            {"volume", 1, measures.volume},
+            {"condition", 1, measures.condition},
+            {"radius_edge", 1, measures.radius_edge},
+            {"aspect", 1, measures.aspect},
+            {"min_angle", 1, measures.min_angle},
+            {"max_angle", 1, measures.max_angle},
+            {"problems", 1, {measures.defects.begin(), measures.defects.end()}}};
+}
+
 }  // namespace barycert

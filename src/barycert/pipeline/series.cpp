@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "barycert/base/folder.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/pipeline/field_files.hpp"
@@ -100,9 +101,7 @@ Result<std::vector<LabelledFile>> matches_of(const FieldFile& series) {
     const std::string rest = next == std::string::npos ? "" : pattern.substr(next);
     std::vector<LabelledFile> found;
     std::error_code failed;
-    fs::directory_iterator entries(folder.empty() ? "." : folder, failed);
-    for (const fs::directory_iterator end; !failed && entries != end; entries.increment(failed)) {
-        const std::string entry = entries->path().filename().string();
+    for (const std::string& entry : base::names_in_folder(folder.empty() ? "." : folder, failed)) {
         if (entry.size() < before.size() + after.size() || !entry.starts_with(before) || !entry.ends_with(after) ||
             (before.empty() && entry.starts_with('.')))
             continue;
@@ -122,7 +121,7 @@ Result<std::vector<LabelledFile>> matches_of(const FieldFile& series) {
             return matches_of(split);
         }
     }
-    if (found.empty())
+    if (found.empty() || failed)
         return Error{.what = "no file of the series \"" + series.name + '"',
                      .file = pattern,
                      .expected = "at least one file for the pattern",

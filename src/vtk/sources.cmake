@@ -1,0 +1,9 @@
+# The classes of this folder and what they stand on, for VTK's own library and for ParaView's plug-in.
+set(barycert_vtk_classes vtkBarycertCheck vtkBarycertLocator vtkBarycertProbe vtkBarycertTetGenReader)
+set(barycert_vtk_parts check_arrays.cpp closest.cpp exact_index.cpp mesh_grid.cpp probe_arrays.cpp probe_points.cpp simplices.cpp
+  straight_sides.cpp)
+list(TRANSFORM barycert_vtk_classes APPEND .h OUTPUT_VARIABLE barycert_vtk_headers)
+list(TRANSFORM barycert_vtk_classes APPEND .cpp OUTPUT_VARIABLE barycert_vtk_sources)
+list(APPEND barycert_vtk_sources ${barycert_vtk_parts})
+list(TRANSFORM barycert_vtk_headers PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
+list(TRANSFORM barycert_vtk_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)

@@ -1,0 +1,35 @@
+/// One command a subcommand, and what it needs, for all that can fail under it.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cli/process.hpp"
+
+namespace barycert::faults {
+
+using cli_test::Words;
+
+struct Command {
+    std::string name;  ///< of the test
+    Words arguments;   ///< run in a folder of its own, which holds the inputs
+    int code = 0;      ///< exit code where nothing fails
+    std::string program = BARYCERT_PROGRAM;
+    bool forks = false;  ///< its work is done in a process that it forks
+};
+
+/// Makes the inputs that the commands read: "p.csv", "map", "results.csv", "w.json", ...
+void put_inputs(const test::Scratch& folder);
+
+const std::vector<Command>& commands();
+
+using Files = std::map<std::string, std::string>;
+
+/// All files in a folder, by name.
+Files files_of(const test::Scratch& folder);
+
+/// `text` with each number replaced by "#": what differs from run to run is times.
+std::string without_numbers(const std::string& text);
+
+}  // namespace barycert::faults
