@@ -166,7 +166,7 @@ Result<Field> read_npy(Field field, const std::string& path, const std::string& 
 Error with_columns(Error error, const std::string& name, const std::string& path, std::string_view bytes) {
     const std::string_view first = bytes.substr(0, bytes.find('\n'));
     const Result<CsvLine> line = cut_first_line(first.substr(0, first.find('\r')), {path, 1});
-    if (!line || error.line != 1) return error;
+    if (!line || line->fields.empty() || error.line != 1) return error;
     if (std::none_of(line->fields.begin(), line->fields.end(), looks_numeric))
         error.remedy = "name a column of the header: --field " + name + "=" + path + ":" + line->fields.front();
     return error;
