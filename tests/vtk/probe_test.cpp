@@ -254,6 +254,7 @@ TEST(Probe, LeavesGhostCellsOut) {
     for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
         ghosts->InsertNextValue(i == 0   ? vtkDataSetAttributes::DUPLICATECELL
                                 : i == 1 ? vtkDataSetAttributes::HIDDENCELL
+                                : i == 2 ? vtkDataSetAttributes::REFINEDCELL
                                          : 0);
     grid->GetCellData()->AddArray(ghosts);
     const PointJudge judge(mesh);
@@ -270,8 +271,8 @@ TEST(Probe, LeavesGhostCellsOut) {
         vtkIdType expected = -1;
         const std::vector<Held> holders = judge.holders(points.data() + 3 * i);
         for (const Held& held : holders)
-            if (expected < 0 && held.cell > 1) expected = held.cell;
-        beside_a_ghost += expected >= 0 && holders.front().cell < 2 ? 1 : 0;
+            if (expected < 0 && held.cell > 2) expected = held.cell;
+        beside_a_ghost += expected >= 0 && holders.front().cell < 3 ? 1 : 0;
         ASSERT_EQ(mask->GetTuple1(i), expected < 0 ? 0 : 1);
         ASSERT_EQ(id->GetValue(i), expected < 0 ? 0 : expected + (vtkIdType{1} << 60));
     }
@@ -320,6 +321,27 @@ TEST(Probe, TakesTheNearestPointWithinATolerance) {
     EXPECT_EQ(out->GetArray("vtkValidPointMask")->GetTuple1(0), 1);
     EXPECT_EQ(out->GetArray("vtkValidPointMask")->GetTuple1(1), 0);
     EXPECT_EQ(out->GetArray("a")->GetTuple1(2), 7);
+}
+
+// Beyond the face of an oblique cell the greatest weight is that of another vertex than at the nearest point.
+TEST(Probe, TakesCategoriesOfTheNearestPointWithinATolerance) {
+    Mesh mesh;
+    mesh.points = {0, 0, 0, 4, 0, 0, 0, 4, 0, 4, 0, 1};
+    mesh.cells = {0, 1, 2, 3};
+    const auto grid = grid_of(mesh);
+    add<vtkIntArray>(grid, {10, 20, 30, 40});
+    grid->GetPointData()->SetActiveScalars("a");
+    vtkNew<vtkBarycertProbe> probe;
+    probe->SetSourceData(grid);
+    probe->SetInputData(points_of({1, 1, -0.5, 1, 1, 0.125}));
+    probe->CategoricalDataOn();
+    probe->ComputeToleranceOff();
+    probe->SetTolerance(0.5);
+    probe->Update();
+    vtkPointData* const out = probe->GetOutput()->GetPointData();
+    EXPECT_EQ(out->GetArray("vtkValidPointMask")->GetTuple1(0), 1);
+    EXPECT_EQ(out->GetArray("a")->GetTuple1(0), 10);
+    EXPECT_EQ(out->GetArray("a")->GetTuple1(1), 10);
 }
 
 TEST(Probe, TakesTrianglesInAPlane) {
