@@ -25,12 +25,6 @@ step() {
     timed "$words" -- inside "$2" >"$log" 2>&1 || { tail -n 80 "$log" >&2; die "$words: failed"; }
     tail -n 1 "$log"
 }
-# With a screen of its own, none that another one is about to leave.
-screen=$((200 + $$ % 10000))
-step_on_screen() {
-    screen=$((screen + 1))
-    step "$1" "xvfb-run -a -n $screen $2"
-}
 step configure "cmake -S . -B build/paraview -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr \
     -DBARYCERT_WERROR=ON -DBARYCERT_TETGEN=OFF -DBARYCERT_PARAVIEW=ON \
     -DBARYCERT_TESTS=ON -DBARYCERT_TEST_FOLDERS=vtk -DBARYCERT_VTK=ON -DVTK_DIR=\$(echo /usr/lib/*/cmake/paraview-5.11/vtk)"
@@ -40,16 +34,8 @@ grep -E '^\[  PASSED' "$log" || die "no verdict of tests/vtk"
 step install "cmake --install build/paraview --component paraview"
 plugin=$(inside "ls /usr/lib/*/paraview-5.11/plugins/Barycert/Barycert.so") || die "no plug-in was installed"
 say "plug-in: $plugin"
-step_on_screen tests/paraview "pvpython tests/paraview/plugin_test.py build/paraview/bin/barycert $plugin /tmp/plugin"
-grep -E '^Ran [0-9]+ tests|owner than' "$log"
-step_on_screen doc/paraview.md "env PV_PLUGIN_PATH=$(dirname "$plugin") sh tests/documents/run_blocks.sh doc/paraview.md /barycert \
-    /barycert/build/paraview/bin /nowhere /tmp/document"
-for processes in 1 2 3; do
-    step_on_screen "pvbatch, $processes processes" "mpirun --allow-run-as-root --oversubscribe -n $processes pvbatch \
-        tests/paraview/processes.py $plugin /tmp/values.csv"
-    grep "^$processes processes" "$log" || die "$processes processes were asked for"
-    [ $processes != 1 ] || first=$(sed -n 's/^1 processes: //p' "$log")
-    [ "$(grep -c "^$processes processes.*: $first\$" "$log")" = 2 ] || die "values depend on the number of processes"
-done
-say "pictures: $(inside "ls /tmp/plugin/*.png /tmp/document/copy/*.png" | tr '\n' ' ')"
+# One screen for all, which stays when a program leaves it.
+step tests/paraview "xvfb-run -a -s '-screen 0 1280x1024x24 -noreset' sh tests/paraview/run.sh /barycert/build/paraview/bin $plugin /tmp/tests"
+grep -E '^Ran [0-9]+ tests|owner than|^[0-9] processes' "$log"
+say "pictures: $(inside "ls /tmp/tests/plugin/*.png /tmp/tests/document/copy/*.png" | tr '\n' ' ')"
 say "all of it holds"
