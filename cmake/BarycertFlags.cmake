@@ -42,3 +42,9 @@ if(BARYCERT_SANITIZE)
   target_compile_options(barycert_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(barycert_flags INTERFACE -fsanitize=address,undefined)
 endif()
+if(BARYCERT_FUZZ)
+  # What the standard library checks of its callers is found, too.
+  target_compile_options(barycert_flags INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
+    -fno-omit-frame-pointer -D_GLIBCXX_ASSERTIONS)
+  target_link_options(barycert_flags INTERFACE -fsanitize=address,undefined)
+endif()

@@ -24,10 +24,12 @@ document=$1 sources=$2 programs=$3 examples=$4 folder=$5
 
 not_run() {
     case $1 in
-        "./run test"* | "./run bench"* | "./run asan"* | "./run pages"* | "./run lint"* | "./run flags"*) why="takes minutes" ;;
+        "./run test"* | "./run bench"* | "./run asan"* | "./run pages"* | "./run lint"* | "./run flags"* | "./run package"* | "./run fuzz"*) why="takes minutes" ;;
         "./run findings"* | "./run systems"* | "./run libraries"*) why="needs other systems" ;;
         "./run python"* | "python3 -m venv "*) why="needs the package for Python; tests/python does that" ;;
         "sudo "* | "apt-get "*) why="installs packages" ;;
+        "g++ "*"pkg-config"*) why="needs an installation; tests/install does that" ;;
+        *"tests/install/"*) why="needs root and an archive of Debian" ;;
         "cmake "* | "git clone "* | "cd "*) why="builds; tests/install does that" ;;
         "mpirun "*)
             [ ! -x "$examples/example_mpi_probe" ] || return 1

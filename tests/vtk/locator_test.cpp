@@ -128,11 +128,11 @@ TEST(Closest, IsThatInThePlaneOfTriangles) {
     int sub_id = -1;
     vtkNew<vtkGenericCell> cell;
     int inside = 1;
-    double above[3] = {-4, 0.5, 1};
+    double above[3] = {-4, 0.5, 0.75};
     EXPECT_EQ(locator->FindClosestPointWithinRadius(above, 9, closest, cell, id, sub_id, dist2, inside), 1);
     EXPECT_EQ(inside, 0);
     EXPECT_EQ(dist2, 81);
-    EXPECT_EQ(std::vector<double>(closest, closest + 3), (std::vector<double>{5, 0.5, 1}));
+    EXPECT_EQ(std::vector<double>(closest, closest + 3), (std::vector<double>{5, 0.5, 0.75}));
     double x[3] = {8, -4, 1};
     locator->FindClosestPoint(x, closest, id, sub_id, dist2);
     EXPECT_EQ(dist2, 25);

@@ -129,7 +129,6 @@ OutputFile::~OutputFile() {
 
 void OutputFile::write(std::string_view bytes) {
     if (descriptor_ < 0) return;
-    if (buffer_.capacity() == 0) buffer_.reserve(buffer_size);
     if (bytes.size() >= buffer_size) {  // gathering it would be a copy for nothing
         flush();
         put(bytes);

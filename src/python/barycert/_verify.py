@@ -21,7 +21,8 @@ class WrongRow:
         verdict: "missed", "invented", "wrong cell" or "wrong value".
         row: its number. point: its coordinates.
         claimed_cell: -1 none, or outside. cell, feature: the exact owner, -1 outside. cells: how many contain the point.
-        column, claimed, value, ulps, relative: of the worst value; "" and NaN where there is none.
+        column, claimed, value: where the error is largest; of missed and invented rows the first value that is a number.
+            "" and NaN if no values were given. ulps, relative: that error; NaN of missed and invented rows.
         distance: of an invented row, to the mesh.
     """
 

@@ -163,7 +163,8 @@ Status CsvSink::write(const TableView& rows) {
         const std::size_t pieces = std::min(pieces_at_once, (count - row + rows_a_piece - 1) / rows_a_piece);
         if (pieces_.size() < pieces) pieces_.resize(pieces);
         for (std::size_t i = 0; i < pieces; ++i) {
-            if (pieces_[i].size() < rows_a_piece * longest_row) pieces_[i].resize(rows_a_piece * longest_row);
+            const std::size_t most = std::min(rows_a_piece, count - row) * longest_row;
+            if (pieces_[i].size() < most) pieces_[i].resize(most);
         }
         std::array<std::size_t, pieces_at_once> sizes{};
         // Whoever waits here must not begin other work of the caller: its stages wait for this one.

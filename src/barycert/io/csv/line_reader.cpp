@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <utility>
 
@@ -21,7 +22,10 @@ Result<LineReader> LineReader::open(const std::string& path) {
     struct stat status {};
     if (::fstat(reader.descriptor_, &status) != 0) return base::read_failure(reader.name_, errno);
     if (S_ISDIR(status.st_mode)) return base::read_failure(reader.name_, EISDIR);
-    reader.buffer_.resize(longest_line + 1);  // the last byte stays zero: a scanner may look at it
+    // A small file takes a small buffer: all of it, and a byte more than that, so that the end is met at once.
+    const bool small = S_ISREG(status.st_mode) && static_cast<std::uint64_t>(status.st_size) < longest_line;
+    const std::size_t room = small ? static_cast<std::size_t>(status.st_size) + 1 : longest_line;
+    reader.buffer_.resize(room + 1);  // the last byte stays zero: a scanner may look at it
     if (!reader.skip_mark()) return reader.error_;
     return reader;
 }
@@ -76,9 +80,10 @@ bool LineReader::refill() {
                   .remedy = "check that this is a text file, with a line end after each point"};
         return false;
     }
+    if (end_ + 1 == buffer_.size()) buffer_.resize(longest_line + 1);  // the file has grown meanwhile
     ssize_t got = 0;
     do {
-        got = ::read(descriptor_, buffer_.data() + end_, longest_line - end_);
+        got = ::read(descriptor_, buffer_.data() + end_, buffer_.size() - 1 - end_);
     } while (got < 0 && errno == EINTR);
     if (got < 0) {
         error_ = base::read_failure(name_, errno);

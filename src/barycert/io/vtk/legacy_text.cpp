@@ -63,11 +63,13 @@ std::size_t LegacyText::line_of(std::string_view rest) const {
 
 Status LegacyText::read_head() {
     constexpr std::string_view start = "# vtk DataFile Version ";
+    const std::string_view all = rest_;
     std::string_view first = rest_of_line();
     const bool known = capitals(first.substr(0, start.size())) == capitals(start);
     if (known) first.remove_prefix(start.size());
     const char* const end = first.data() + first.size();
     if (!known || std::from_chars(first.data(), end, major_version_).ec != std::errc{}) {
+        rest_ = all;  // of the line itself, not of the next one
         return error("the first line", "\"# vtk DataFile Version 4.2\" or the like", shown(first));
     }
     rest_of_line();  // title

@@ -1,0 +1,25 @@
+/// What was read, held against what was read of what was written.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "barycert/column.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
+
+namespace barycert::fuzz {
+
+enum class Payload { kept, lost };  ///< of NaNs: text has one NaN
+
+bool same_numbers(const std::vector<double>& a, const std::vector<double>& b, Payload payload);
+
+/// What a format cannot keep is set to the same in both beforehand. Notes and cell numbers are not compared.
+void expect_same(const Mesh& a, const Mesh& b, Payload payload = Payload::kept);
+
+void expect_same(const std::vector<Column>& a, const std::vector<Column>& b);
+
+/// The arrays of a mesh that a reader has made fit together: sizes, indices, coordinates.
+void expect_whole(const Mesh& mesh);
+
+}  // namespace barycert::fuzz

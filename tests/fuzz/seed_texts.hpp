@@ -1,0 +1,121 @@
+/// Inputs to begin with that are written by hand.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace barycert::fuzz {
+
+struct SeedText {
+    const char* target;
+    const char* name;
+    std::string text;
+};
+
+inline const std::vector<SeedText> collection_texts{
+    {"vtk_collection", "pvtu",
+     R"(<VTKFile type="PUnstructuredGrid" version="0.1"><PUnstructuredGrid GhostLevel="0">
+<Piece Source="p0.vtu"/><Piece Source="p1.vtu"/></PUnstructuredGrid></VTKFile>)"},
+    {"vtk_collection", "vtm",
+     R"(<VTKFile type="vtkMultiBlockDataSet" version="1.0"><vtkMultiBlockDataSet><Block index="0" name="b">
+<DataSet index="0" name="a" file="p0.vtu"/></Block><DataSet index="1" file="p1.vtu"/></vtkMultiBlockDataSet></VTKFile>)"},
+    {"vtk_collection", "vtpd",
+     R"(<VTKFile type="vtkPartitionedDataSet"><vtkPartitionedDataSet><DataSet file="p1.vtu"/></vtkPartitionedDataSet></VTKFile>)"},
+    {"vtk_collection", "pvd",
+     R"(<VTKFile type="Collection"><Collection><DataSet timestep="0" part="0" file="p0.vtu"/>
+<DataSet timestep="0" part="1" file="p1.vtu"/><DataSet timestep="1.5" file="in.pvtu"/></Collection></VTKFile>)"},
+    {"vtk_collection", "series",
+     R"({"file-series-version": "1.0", "files": [{"name": "p0.vtu", "time": 0}, {"name": "p1.vtu", "time": 1e3}]})"},
+    {"vtk_collection", "itself",
+     R"(<VTKFile type="PUnstructuredGrid"><PUnstructuredGrid><Piece Source="in.pvtu"/></PUnstructuredGrid></VTKFile>)"},
+};
+
+inline const std::vector<SeedText> seed_texts{
+    {"csv", "plain", "\1x,y\n0.1,2\n3,-4e-300\n"},
+    {"csv", "quoted", std::string("\0", 1) + "a;\"x\";y;z\r\n# comment\r\n\"t;u\"\"v\";1;2;3\r\n;4;5;6\r\n"},
+    {"csv", "blanks",
+     "\12"
+     "1 2 3\n\n 4\t5  6 \n"},
+    {"csv", "paraview", std::string("\0", 1) + "\"T\",\"Points:0\",\"Points:1\",\"Points:2\"\n1,0.5,0.25,0.125\n"},
+    {"csv", "typed", "\6x,y,z,n,t\n1,2,3,4,five\n1,2,3,-9223372036854775808,nan\n"},
+    {"fields", "rows", std::string("\0", 1) + "# T\n1, 2;3\t4\nnan inf -inf 0x1p3\n"},
+    {"fields", "column", "\4n,T\n1,0.5\n2,1e3\n"},
+    {"npy", "c_order",
+     std::string("\0", 1) + std::string("\x93NUMPY\x01\x00\x46\x00", 10) +
+         "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 3), }         \n" + std::string(24, '\0')},
+    {"npy", "fortran",
+     "\1" + std::string("\x93NUMPY\x02\x00\x46\x00\x00\x00", 12) +
+         "{'descr': '>i2', 'fortran_order': True, 'shape': (2, 2), }          \n" + std::string(8, '\1')},
+    {"npy", "structured",
+     std::string("\2") + std::string("\x93NUMPY\x01\x00\x66\x00", 10) +
+         "{'descr': [('p', '<f4', (3,)), ('s', '|S2'), ('u', '<U1')], "
+         "'fortran_order': False, 'shape': (1,), }\n" +
+         std::string(18, 'a')},
+    {"plc", "poly",
+     std::string("\0", 1) + "4 3 1 1\n1 0 0 0 5 1\n2 1 0 0 5 2\n3 0 1 0 5 3\n4 0 0 1 5 4\n2 1\n1 0 7\n3 1 2 3\n"
+                            "2 1 8\n4 1 2 3 4\n2 1 3\n1 .1 .2 .3\n1\n1 .5 .5 .5\n1\n1 .1 .1 .1 2 -1\n"},
+    {"plc", "poly_apart", std::string("\0", 1) + "0 3 0 0\n1 0\n1\n3 0 1 2\n0\n\f3 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n"},
+    {"plc", "smesh",
+     "\1"
+     "3 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n1 1\n3 0 1 2 9\n0\n0\n"},
+    {"plc", "off", "\2OFF\n# c\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n4 0 1 2 3\n"},
+    {"plc", "stl_text",
+     "\3solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+     "endfacet\nendsolid s\n"},
+    {"plc", "stl_binary", "\3" + std::string(80, ' ') + std::string("\1\0\0\0", 4) + std::string(50, '\0')},
+    {"plc", "ply",
+     "\4ply\nformat ascii 1.0\ncomment c\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+     "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
+    {"vtk_points", "image",
+     "\2<VTKFile type=\"ImageData\" version=\"0.1\"><ImageData WholeExtent=\"0 1 0 1 0 1\" Origin=\"0 1 2\" "
+     "Spacing=\".5 1 2\"><Piece Extent=\"0 1 0 1 0 1\"><PointData><DataArray type=\"Int32\" Name=\"T\" "
+     "format=\"ascii\">1 2 3 4 5 6 7 8</DataArray></PointData></Piece></ImageData></VTKFile>"},
+    {"vtk_points", "rectilinear",
+     "\2<VTKFile type=\"RectilinearGrid\"><RectilinearGrid WholeExtent=\"0 1 0 0 0 1\"><Piece Extent=\"0 1 0 0 0 "
+     "1\"><Coordinates>"
+     "<DataArray type=\"Float32\" format=\"ascii\">0 1</DataArray><DataArray type=\"Float32\" "
+     "format=\"ascii\">0</DataArray>"
+     "<DataArray type=\"Float64\" format=\"ascii\">2 3</DataArray></Coordinates></Piece></RectilinearGrid></VTKFile>"},
+    {"vtk_points", "structured",
+     "\2<VTKFile type=\"StructuredGrid\"><StructuredGrid WholeExtent=\"0 1 0 0 0 0\"><Piece Extent=\"0 1 0 0 0 "
+     "0\"><Points>"
+     "<DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 2 3</DataArray></Points></Piece>"
+     "</StructuredGrid></VTKFile>"},
+    {"vtk_points", "legacy_structured",
+     "\2# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_GRID\nDIMENSIONS 2 1 1\n"
+     "POINTS 2 float\n0 0 0 1 2 3\nPOINT_DATA 2\nSCALARS s int 1\nLOOKUP_TABLE default\n1 2\n"},
+    {"vtk_xml", "base64",
+     "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+     "byte_order=\"LittleEndian\"><UnstructuredGrid>"
+     "<Piece NumberOfPoints=\"3\" NumberOfCells=\"1\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" "
+     "format=\"binary\">JAAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAA==</DataArray></Points><Cells>"
+     "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray><DataArray type=\"Int64\" "
+     "Name=\"offsets\" format=\"ascii\">3</DataArray><DataArray type=\"UInt8\" Name=\"types\" "
+     "format=\"ascii\">5</DataArray>"
+     "</Cells><CellData><DataArray type=\"UInt8\" Name=\"vtkGhostType\" "
+     "format=\"ascii\">0</DataArray></CellData></Piece>"
+     "</UnstructuredGrid></VTKFile>\n"},
+    {"vtk_legacy", "old",
+     "# vtk DataFile Version 2.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0\n0 0 1\n"
+     "CELLS 2 9\n4 0 1 2 3\n3 0 1 2\nCELL_TYPES 2\n10 5\nPOINT_DATA 4\nVECTORS v double\n0 0 1 1 2 3 4 5 6 7 8 9\n"
+     "CELL_DATA 2\nFIELD f 2\na 1 2 long\n5 6\nb%20c 2 2 char\n1 2 3 4\n"},
+    {"vtk_legacy", "polydata",
+     "# vtk DataFile Version 4.2\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 double\n0 0 0 1 0 0 0 1 0\n"
+     "VERTICES 1 2\n1 0\nLINES 1 3\n2 0 1\nPOLYGONS 1 4\n3 0 1 2\nMETADATA\nINFORMATION 0\n\n"},
+    {"mesh_file", "abaqus", "\3*HEADING\n*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=C3D4\n"},
+    {"mesh_file", "nothing", std::string("\0", 1)},
+    {"expressions", "all", "T\n|v|\ngrad(T)\nv.x\ngrad(v.1)\nmean(q)\n|grad(mean(cell:q))|\npoint:T\n"},
+    {"rules", "audit", "worst_weight_ulp>1.5"},
+    {"rules", "verify", "missed>3"},
+    {"scenes", "small",
+     R"({"size": [8, 6], "background": [0, 0, 0], "positions": [[-0.8, -0.7, 0.3], [0.8, -0.5, 0.3], [0, 0.8, -0.6]],
+"colours": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "triangles": [[0, 1, 2]], "rounding": "correct"})"},
+    {"meshes", "box", std::string("\2\0\1\0\3\4\1\1\2\2\3\0\2\3\1\1", 16)},
+    {"meshes", "flat", std::string("\3\0\1\2\3\4\1\1\2\2\3\0\2\3\1\1", 16)},
+    {"meshes", "soup", std::string("\0\0\5\2\1\2\3\0\1\2\3\0\2\3\1\1\0\1\2\3\1\2\3\4\0\4\0\1\2\1\0\2\3\1", 34)},
+    {"nearest", "box", std::string("\2\0\1\0\3\4\1\1\2\2\3\0\2\3\1\1", 16)},
+    {"weights", "tetrahedron", std::string("\3\0\1\0\0\0\0\1\0\0\0\1\0\0\0\1\1\1\1\1\2\3", 22)},
+};
+
+}  // namespace barycert::fuzz

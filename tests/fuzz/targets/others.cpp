@@ -1,0 +1,18 @@
+// What other systems and formulas under compiler flags answered: JSON for the page of an audit.
+#include "barycert/audit_others.hpp"
+#include "fuzz/files.hpp"
+#include "fuzz/target.hpp"
+
+namespace barycert::fuzz {
+
+BARYCERT_FUZZ_TARGET(others) {
+    static InputFile file("in.json");
+    const Result<OtherResults> results = read_other_results(file.put(input));
+    if (!results) return expect_useful(results.error(), lines_of(input));
+    if (const auto* const matrix = std::get_if<FlagsMatrix>(&*results)) {
+        for (const FlagsMatrix::Row& row : matrix->rows)
+            expect(row.cells.size() == matrix->columns.size(), "a row that does not fit the columns was read");
+    }
+}
+
+}  // namespace barycert::fuzz

@@ -1,0 +1,46 @@
+// Results of some tool, held against the exact ones. The first byte: the format and what is said of the columns.
+#include <array>
+
+#include "barycert/io.hpp"
+#include "barycert/verification.hpp"
+#include "barycert/vtk.hpp"
+#include "fuzz/files.hpp"
+#include "fuzz/small_meshes.hpp"
+#include "fuzz/target.hpp"
+
+namespace barycert::fuzz {
+namespace {
+
+std::string mesh_file(int dimension) {
+    const std::string path = scratch_path("mesh" + std::to_string(dimension) + ".vtu");
+    const Status written = write_vtu(small_mesh(dimension), path);
+    expect(bool(written), "cannot write the mesh");
+    return path;
+}
+
+}  // namespace
+
+BARYCERT_FUZZ_TARGET(verify, {std::size_t{24} << 20, std::size_t{1} << 14}) {
+    static std::array<InputFile, 4> files{InputFile("in.csv"), InputFile("in.npy"), InputFile("in.vtu"),
+                                          InputFile("in.vtk")};
+    static const std::array<std::string, 2> meshes{mesh_file(2), mesh_file(3)};
+    const unsigned how = input.empty() ? 0 : static_cast<unsigned char>(input.front());
+    if (!input.empty()) input.remove_prefix(1);
+    VerifyJob job;
+    job.mesh = meshes[how / 4 % 2];
+    job.results = files[how % 4].put(input);
+    if ((how & 8) != 0) job.cell_base = 1;
+    if ((how & 16) != 0) job.cell_column = "none";
+    if ((how & 32) != 0) job.options.exact = true;
+    if ((how & 64) != 0) job.options.outside_value = 0;
+    if ((how & 128) != 0) job.columns = {"1,2,3"};
+    job.options.threads = 1;
+    const Result<VerifySummary> summary = verify_files(job);
+    if (!summary) return expect_useful(summary.error(), lines_of(input));
+    const Verdicts& v = summary->verdicts;
+    expect(v.right + v.missed + v.invented + v.wrong_cell + v.wrong_value == v.rows, "rows without a verdict");
+    expect(v.inside + v.outside == v.rows, "rows that are neither inside nor outside");
+    expect(v.columns.size() == summary->columns.size(), "columns without errors");
+}
+
+}  // namespace barycert::fuzz

@@ -1,0 +1,30 @@
+// Files that name files: .pvtu, .pvtp, .vtm, .vtpd, .pvd, .vtu.series; then what they may name: p0.vtu to p3.vtu, with
+// form feeds between them.
+#include <array>
+#include <memory>
+
+#include "barycert/vtk.hpp"
+#include "fuzz/files.hpp"
+#include "fuzz/target.hpp"
+#include "fuzz/vtk_round_trip.hpp"
+
+namespace barycert::fuzz {
+
+BARYCERT_FUZZ_TARGET(vtk_collection, {std::size_t{4} << 20, std::size_t{1} << 14}) {
+    static InputFile file("in.pvtu");
+    static std::array<InputFile, 4> pieces{InputFile("p0.vtu"), InputFile("p1.vtu"), InputFile("p2.vtu"),
+                                           InputFile("p3.vtu")};
+    static const std::string out = scratch_path("out.vtu");
+    const std::size_t lines = lines_of(input);
+    const std::string& path = file.put(next_part(input));
+    for (InputFile& piece : pieces) {
+        if (input.empty()) piece.remove();
+        if (!input.empty()) piece.put(next_part(input));
+    }
+    const Result<std::vector<SeriesStep>> steps = read_series(path);
+    if (!steps) expect_useful(steps.error(), lines);
+    vtk_mesh_files(path);
+    read_and_write_vtk(path, lines, out, VtkData::raw);
+}
+
+}  // namespace barycert::fuzz

@@ -1,0 +1,21 @@
+#include "fuzz/vtk_round_trip.hpp"
+
+#include "barycert/vtk.hpp"
+#include "fuzz/files.hpp"
+#include "fuzz/same.hpp"
+#include "fuzz/target.hpp"
+
+namespace barycert::fuzz {
+
+void read_and_write_vtk(const std::string& path, std::size_t lines, const std::string& out, VtkData data) {
+    const Result<Mesh> mesh = read_vtk(path);
+    if (!mesh) return expect_useful(mesh.error(), lines);
+    expect_whole(*mesh);
+    // Names that one format can hold, and another not, are refused.
+    if (const Status done = write_vtk(*mesh, without_file(out), data); !done) return expect_useful(done.error(), lines);
+    const Result<Mesh> again = read_vtk(out);
+    expect(bool(again), "a mesh that was written is not read", again ? "" : again.error().message());
+    expect_same(*mesh, *again, data == VtkData::ascii ? Payload::lost : Payload::kept);
+}
+
+}  // namespace barycert::fuzz
