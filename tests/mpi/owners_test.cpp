@@ -152,6 +152,19 @@ TEST(Owners, OfCopiesAreTheCellsThemselves) {
     expect_as_of_the_whole(whole, whole, points_of(share_of(points, rank(), ranks())));
 }
 
+// As it should not be: then at least all ranks have the same values.
+TEST(Owners, OfCopiesThatDifferAreThoseOfTheLowestRank) {
+    const Mesh mesh = own_mesh("cube-hole");
+    const auto whole = with_arrays(mesh);
+    vtkNew<vtkUnstructuredGrid> copy;
+    copy->DeepCopy(whole);
+    vtkDataArray* const values = copy->GetPointData()->GetArray("float");
+    if (rank() > 0) values->Fill(rank());
+    base::Random random(2);
+    const std::vector<double> points = awkward_points(mesh, 20, random);
+    expect_as_of_the_whole(whole, copy, points_of(share_of(points, rank(), ranks())));
+}
+
 // Of a mesh of subnormal size, whose boxes are nothing where numbers are flushed.
 TEST(Owners, AreTheSameInEveryEnvironment) {
     for (const double unit : {0x1p-1070, 0x1p-10}) {
