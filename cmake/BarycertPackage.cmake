@@ -102,10 +102,10 @@ Takes meshes of meshio, pyvista, VTK and SciPy as they are."
 endif()
 # ParaView's headers and VTK's exclude each other in Debian: its plug-in is built in a root of its own, where it is a
 # target here and so a package.
-if(TARGET barycert_paraview)
+if(TARGET Barycert)
   barycert_deb(paraview barycert-paraview science "exact resampling and checks of meshes in ParaView"
     "A plug-in for ParaView: a cell locator with exact owners, the filters Barycert
-Resample and Barycert Check, and readers of TetGen's files."
+Resample and Barycert Check, and a reader of TetGen's files."
     DEPENDS paraview)
 endif()
 

@@ -38,17 +38,8 @@ done
 step install "cmake --install build/paraview --component paraview"
 plugin=$(inside "ls /usr/lib/*/paraview-5.11/plugins/Barycert/Barycert.so") || die "no plug-in was installed"
 say "plug-in: $plugin"
-step tests/paraview "xvfb-run -a pvpython tests/paraview/plugin_test.py build/paraview/bin/barycert $plugin /tmp/plugin"
-grep -E '^Ran [0-9]+ tests|owner than' "$log"
-step doc/paraview.md "PV_PLUGIN_PATH=\$(dirname $plugin) xvfb-run -a sh tests/documents/run_blocks.sh doc/paraview.md /barycert \
-    /barycert/build/paraview/bin /nowhere /tmp/document"
-for processes in 1 2 3; do
-    step "pvbatch, $processes processes" "xvfb-run -a mpirun --allow-run-as-root --oversubscribe -n $processes pvbatch \
-        tests/paraview/processes.py $plugin /tmp/values.csv"
-    values=$(grep "^$processes processes: " "$log") || die "$processes processes were asked for"
-    say "$values"
-    [ $processes != 1 ] || first=${values#*: }
-    [ "${values#*: }" = "$first" ] || die "values depend on the number of processes"
-done
-say "pictures: $(inside "ls /tmp/plugin/*.png /tmp/document/copy/*.png" | tr '\n' ' ')"
+# One screen for all, which stays when a program leaves it.
+step tests/paraview "xvfb-run -a -s '-screen 0 1280x1024x24 -noreset' sh tests/paraview/run.sh /barycert/build/paraview/bin $plugin /tmp/tests"
+grep -E '^Ran [0-9]+ tests|owner than|^[0-9] processes' "$log"
+say "pictures: $(inside "ls /tmp/tests/plugin/*.png /tmp/tests/document/copy/*.png" | tr '\n' ' ')"
 say "all of it holds"

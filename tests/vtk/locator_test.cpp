@@ -16,6 +16,7 @@
 #include <vtkGenericCell.h>
 #include <vtkIdList.h>
 #include <vtkImageData.h>
+#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -212,6 +213,12 @@ TEST(Lines, AreThoseOfAllCells) {
         EXPECT_EQ(set_of(list), expected);
         EXPECT_EQ(locator->IntersectWithLine(p1, p2, 0, points, list, cell), expected.empty() ? 0 : 1);
         EXPECT_EQ(set_of(list), expected);
+        for (vtkIdType k = 1; k < points->GetNumberOfPoints(); ++k) {
+            double before[3], after[3];
+            points->GetPoint(k - 1, before);
+            points->GetPoint(k, after);
+            EXPECT_LE(vtkMath::Distance2BetweenPoints(p1, before), vtkMath::Distance2BetweenPoints(p1, after) + 1e-12);
+        }
         // Without a cell to work with: those whose boxes the line meets.
         locator->IntersectWithLine(p1, p2, 0, points, list, nullptr);
         const std::set<vtkIdType> boxes = set_of(list);
