@@ -48,7 +48,7 @@ Status check_image(const Image& image);
 /// Reads a PNG file of any colour type, depth and interlacing as 8-bit RGBA: 16 bits are rounded to 8, greys and
 /// palettes become colours, a pixel without opacity is opaque. Numbers are taken as they are, whatever gamma or profile
 /// the file names. Returns an Error if the file cannot be read, is no PNG file, is damaged or cut short, or has more
-/// than max_image_pixels: memory is bounded by these, whatever the file says.
+/// than max_image_pixels: memory is bounded by these, and by what a file of its size can hold.
 Result<Image> read_png(const std::string& path);
 
 /// Writes 8-bit RGBA in sRGB; the file appears whole or not at all. Returns an Error as check_image does, if a side is

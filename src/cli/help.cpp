@@ -117,19 +117,20 @@ int explain(const CLI::App& app, const std::vector<std::string>& words) {
 }
 
 int run_help(const CLI::App& app, const HelpArguments& a) {
-    if (!a.folder.empty() || a.completion != nullptr) {
-        const bool of_mesher = a.completion != nullptr && a.words == std::vector<std::string>{"mesh"};
-        if ((!a.words.empty() && !of_mesher) || (!a.folder.empty() && a.completion != nullptr))
+    const bool pages = !a.folder.empty(), script = a.completion != nullptr;
+    if (pages || script) {
+        const bool of_mesher = script && a.words == std::vector<std::string>{"mesh"};
+        if ((!a.words.empty() && !of_mesher) || (pages && script))
             return fail({.what = "manual pages and completions are of all subcommands",
                          .expected = "--man DIR, --completion SHELL or subcommands",
                          .found = "several of these",
                          .remedy = "give one of them alone"});
-        const CommandEntry program = command_table(app, vocabulary());
-        if (!a.folder.empty()) return write_pages(program, a.folder);
-        const Status written = write_output("-", a.completion(of_mesher ? mesher(program) : program));
-        return written ? exit_clean : fail(written.error());
     }
-    return explain(app, a.words);
+    if (!pages && !script) return explain(app, a.words);
+    const CommandEntry program = command_table(app, vocabulary());
+    if (!script) return write_pages(program, a.folder);
+    const Status written = write_output("-", a.completion(a.words.empty() ? program : mesher(program)));
+    return written ? exit_clean : fail(written.error());
 }
 
 }  // namespace

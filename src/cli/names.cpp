@@ -21,6 +21,7 @@ std::vector<std::string> family_names() {
 
 std::vector<std::string> simplex_names() {
     std::vector<std::string> names;
+    names.reserve(all_simplices.size());
     for (const Simplex simplex : all_simplices) names.emplace_back(name(simplex));
     return names;
 }
@@ -33,6 +34,7 @@ std::vector<std::string> reason_names() {
 
 std::vector<std::string> claim_rule_names() {
     std::vector<std::string> names;
+    names.reserve(all_claim_rules.size());
     for (const ClaimRule rule : all_claim_rules) names.emplace_back(name(rule));
     return names;
 }

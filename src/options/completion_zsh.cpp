@@ -30,10 +30,12 @@ std::string specification(const OptionEntry& option) {
     if (option.operand) return (option.repeats ? "*" : "") + zsh_value(option);
     std::string all;
     for (const std::string& name : option.names) {
-        const std::string many = option.repeats ? "*" : "";
-        const std::string value = option.type.empty() ? "" : (option.may_be_bare ? ":" : "") + zsh_value(option);
-        const std::string equals = option.type.empty() || !name.starts_with("--") ? "" : "=";
-        all += ' ' + in_quotes(many + name + equals + text + value);
+        std::string one = option.repeats ? "*" : "";
+        one += name;
+        if (!option.type.empty() && name.starts_with("--")) one += '=';
+        one += text;
+        if (!option.type.empty()) one += (option.may_be_bare ? ":" : "") + zsh_value(option);
+        all += ' ' + in_quotes(one);
     }
     return all;
 }

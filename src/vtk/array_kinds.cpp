@@ -122,7 +122,7 @@ vtkAbstractArray* find(vtkDataSetAttributes& attributes, const ArrayKind& kind) 
 
 vtkSmartPointer<vtkAbstractArray> in_standard_layout(vtkAbstractArray& array) {
     if (array.HasStandardMemoryLayout()) return &array;
-    const auto copy = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(array.GetDataType()));
+    auto copy = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(array.GetDataType()));
     copy->DeepCopy(&array);
     return copy;
 }

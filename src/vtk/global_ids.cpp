@@ -39,7 +39,7 @@ std::vector<std::int64_t> all_ids(vtkDataArray& array, bool& fits) {
         for (std::size_t i = 0; i < all.size(); ++i) {
             if constexpr (std::is_integral_v<std::remove_cvref_t<decltype(*from)>>)
                 fits = fits && (from[i] < 0 || static_cast<std::uint64_t>(from[i]) <= std::uint64_t{INT64_MAX});
-            all[i] = static_cast<std::int64_t>(from[i]);
+            all[i] = static_cast<std::int64_t>(+from[i]);
         }
     };
     switch (values->GetDataType()) { vtkTemplateMacro(take(static_cast<const VTK_TT*>(values->GetVoidPointer(0)))); }

@@ -237,30 +237,25 @@ int cut(const std::string& folder, int ranks, const std::string& how, std::uint6
     return 0;
 }
 
-// Bytes that a rank sends on the average, before anything is measured: doc/mpi.md derives it.
+// Bytes that a rank sends on the average: doc/mpi.md derives it. `reach` alone was measured, of two slabs.
 double predicted(const std::string& how, bool aligned, int ranks, double points, double cells) {
-    constexpr double point_bytes = 24, row_bytes = 8 + 8 + 8, reach = 0.6;
+    constexpr double point_bytes = 24 + 1.0 / 8, row_bytes = 8 + 8 + 8, sizes = 2 * 8, boxes = 64 * 48, reach = 0.84;
     if (ranks == 1) return 0;
     const double mine = points / ranks;
+    if (how == "scattered")
+        return mine * (ranks - 1) * point_bytes + mine * (ranks - 1) / ranks * row_bytes +
+               (ranks - 1) * (sizes + boxes);
     const double edge = std::cbrt(6 * std::sqrt(2.0) / cells);  // of a regular tetrahedron of the mean volume
-    double asked = 0, found = 0, partners = ranks - 1;
-    if (how == "scattered") {
-        asked = mine * (ranks - 1);
-        found = mine * (ranks - 1) / ranks;
-    } else {
-        // Copies of a point that lies anywhere: of those in a block, as many as other blocks reach over its faces.
-        const std::array<int, 3> n = parts(how, ranks);
-        double copies = 1;
-        for (const int of_axis : n) copies *= 1 + 2.0 * (of_axis - 1) * reach * edge;
-        asked = aligned ? mine * (copies - 1) : mine * (copies - 1.0 * copies / ranks);
-        found = aligned ? 0 : mine * (ranks - 1) / ranks;
-        if (aligned) {
-            partners = 1;
-            for (const int of_axis : n) partners *= 3 - 2.0 / of_axis;
-            partners -= 1;
-        }
+    // Boxes that hold a point, and neighbours of a block: of all, and across a face.
+    double copies = 1, neighbours = 1, across = 0;
+    for (const int n : parts(how, ranks)) {
+        copies *= 1 + 2.0 * (n - 1) * reach * edge;
+        neighbours *= 3 - 2.0 / n;
+        across += 2 - 2.0 / n;
     }
-    return asked * (point_bytes + 1.0 / 8) + found * row_bytes + partners * (2 * 8 + 64 * 48);
+    if (aligned) return mine * (copies - 1) * point_bytes + (neighbours - 1) * sizes + across * boxes;
+    return mine * copies * (ranks - 1) / ranks * point_bytes + mine * (ranks - 1) / ranks * row_bytes +
+           (ranks - 1) * (sizes + boxes);
 }
 
 int run(vtkMPIController* controller, const std::string& folder, const std::string& how, bool aligned,

@@ -33,7 +33,7 @@ not_run() {
         "cmake "* | "git clone "* | "cd "*) why="builds; tests/install does that" ;;
         "mpirun "*)
             [ ! -x "$examples/example_mpi_probe" ] || return 1
-            why="this build has no VTK with MPI"
+            why="this build has no example with MPI"
             ;;
         "pvpython "*)
             ! command -v pvpython >/dev/null || return 1

@@ -6,8 +6,9 @@
 # MIRROR: a Debian archive; the first that this machine's apt uses for bookworm if left out. KEEP=1 leaves the system for
 # a look inside, SYSTEM=FOLDER takes one that was left, with what is built in it.
 #
-# 1 the classes of src/vtk with ParaView's VTK 9.2: tests/vtk; 2 the package barycert-paraview, installed; 3 the plug-in in
-# it: tests/paraview by pvpython; the commands of doc/paraview.md; two and three processes of pvbatch give the values of one.
+# 1 the classes of src/vtk with ParaView's VTK 9.2: tests/vtk, tests/mpi; 2 the package barycert-paraview, installed; 3 the
+# plug-in in it: tests/paraview by pvpython; the commands of doc/paraview.md; two and three processes of pvbatch give the values
+# of one.
 set -eu
 root=$(CDPATH= cd -- "$(dirname -- "$0")/../.." && pwd)
 name=paraview
@@ -27,10 +28,14 @@ step() {
 }
 step configure "cmake -S . -B build/paraview -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr \
     -DBARYCERT_WERROR=ON -DBARYCERT_TETGEN=OFF -DBARYCERT_PARAVIEW=ON -DBARYCERT_PACKAGE=ON \
-    -DBARYCERT_TESTS=ON -DBARYCERT_TEST_FOLDERS=vtk -DBARYCERT_VTK=ON -DVTK_DIR=\$(echo /usr/lib/*/cmake/paraview-5.11/vtk)"
-step build "cmake --build build/paraview --target Barycert barycert_cli test_vtk"
+    -DBARYCERT_TESTS=ON -DBARYCERT_TEST_FOLDERS='vtk;mpi' -DBARYCERT_VTK=ON -DVTK_DIR=\$(echo /usr/lib/*/cmake/paraview-5.11/vtk)"
+step build "cmake --build build/paraview --target Barycert barycert_cli test_vtk test_mpi"
 step "tests/vtk with VTK 9.2" "build/paraview/tests/vtk/test_vtk"
 grep -E '^\[  PASSED' "$log" || die "no verdict of tests/vtk"
+for ranks in 1 4; do
+    step "tests/mpi with VTK 9.2, $ranks ranks" "mpirun --allow-run-as-root --oversubscribe -n $ranks build/paraview/tests/mpi/test_mpi"
+    grep -E '^\[  PASSED' "$log" || die "no verdict of tests/mpi"
+done
 step package "cd build/paraview && rm -rf packages && cpack"
 step install "dpkg -i build/paraview/packages/barycert-paraview_*.deb"
 plugin=$(inside "ls /usr/lib/*/paraview-5.11/plugins/Barycert/Barycert.so") || die "no plug-in was installed"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <vtkCellData.h>
+#include <vtkDoubleArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
 #include <vtkMultiProcessController.h>
@@ -10,6 +11,7 @@
 #include <vtkPointData.h>
 
 #include "check/meshes.hpp"
+#include "core/same_everywhere.hpp"
 #include "locate/judge.hpp"
 #include "locate/points.hpp"
 #include "mpi/pieces.hpp"
@@ -148,6 +150,46 @@ TEST(Owners, OfCopiesAreTheCellsThemselves) {
     base::Random random(2);
     const std::vector<double> points = awkward_points(mesh, 20, random);
     expect_as_of_the_whole(whole, whole, points_of(share_of(points, rank(), ranks())));
+}
+
+// As it should not be: then at least all ranks have the same values.
+TEST(Owners, OfCopiesThatDifferAreThoseOfTheLowestRank) {
+    const Mesh mesh = own_mesh("cube-hole");
+    const auto whole = with_arrays(mesh);
+    vtkNew<vtkUnstructuredGrid> copy;
+    copy->DeepCopy(whole);
+    vtkDataArray* const values = copy->GetPointData()->GetArray("float");
+    if (rank() > 0) values->Fill(rank());
+    base::Random random(2);
+    const std::vector<double> points = awkward_points(mesh, 20, random);
+    expect_as_of_the_whole(whole, copy, points_of(share_of(points, rank(), ranks())));
+}
+
+// Of a mesh of subnormal size, whose boxes are nothing where numbers are flushed.
+TEST(Owners, AreTheSameInEveryEnvironment) {
+    for (const double unit : {0x1p-1070, 0x1p-10}) {
+        for (const Cut cut : {Cut::slabs, Cut::scattered}) {
+            const Mesh mesh = mapped(box(3, {4, 2, 2}), {unit, unit, unit}, {0, 0, 0});
+            const auto whole = with_arrays(mesh);
+            base::Random random(8);
+            const std::vector<double> points = awkward_points(mesh, 20, random);
+            const auto mine = points_of(share_of(points, rank(), ranks()));
+            const auto piece = piece_of(whole, ranks_of_cells(whole, cut), rank(), true, random);
+            expect_as_of_the_whole(whole, piece, mine);
+            testing_environments::expect_same_everywhere(name(cut), [&](testing_environments::Answers& out) {
+                vtkNew<vtkUnstructuredGrid> copy;
+                copy->DeepCopy(piece);
+                const auto probe = probed<vtkPBarycertProbe>(copy, mine);
+                auto* const v = vtkDoubleArray::SafeDownCast(probe->GetOutput()->GetPointData()->GetArray("v"));
+                auto* const ids = vtkIdTypeArray::SafeDownCast(probe->GetOutput()->GetPointData()->GetArray("ids"));
+                ASSERT_TRUE(v != nullptr && ids != nullptr);
+                for (vtkIdType i = 0; i < v->GetNumberOfValues(); ++i) out.add(v->GetValue(i));
+                for (vtkIdType i = 0; i < ids->GetNumberOfValues(); ++i) out.add(ids->GetValue(i));
+                out.add(probe->GetNumberOfPartners());
+                out.add(probe->GetPointsSent());
+            });
+        }
+    }
 }
 
 // Cells in slabs of their order, without ids: numbers by rank are those of the whole.

@@ -389,6 +389,38 @@ TEST(Probe, ReadsTheSourceAgainWhenItChanges) {
     EXPECT_EQ(probe->GetOutput()->GetPointData()->GetArray("vtkValidPointMask")->GetTuple1(0), 0);
 }
 
+TEST(Probe, TakesAMeshThatHasTheMaskOfAnEarlierProbe) {
+    const auto grid = corner();
+    add<vtkDoubleArray>(grid, {0, 4, 8, 16});
+    for (vtkDataSetAttributes* const attributes : {static_cast<vtkDataSetAttributes*>(grid->GetPointData()),
+                                                   static_cast<vtkDataSetAttributes*>(grid->GetCellData())}) {
+        vtkNew<vtkDoubleArray> mask;
+        mask->SetName("vtkValidPointMask");
+        mask->SetNumberOfTuples(attributes == grid->GetPointData() ? 4 : 1);
+        mask->Fill(0.5);
+        attributes->AddArray(mask);
+    }
+    EXPECT_EQ(probe_one(grid, {1, 1, 1}), 7);
+    EXPECT_EQ(probe_one(grid, {1, 1, 1}, "vtkValidPointMask"), 1);
+    EXPECT_EQ(probe_one(grid, {9, 1, 1}, "vtkValidPointMask"), 0);
+}
+
+TEST(Probe, RefusesArraysThatAreTooShort) {
+    for (const bool of_cells : {false, true}) {
+        const auto grid = corner();
+        add<vtkDoubleArray>(grid, {0, 4, 8, 16});
+        vtkNew<vtkDoubleArray> array;
+        array->SetName("short");
+        (of_cells ? static_cast<vtkDataSetAttributes*>(grid->GetCellData()) : grid->GetPointData())->AddArray(array);
+        vtkNew<vtkBarycertProbe> probe;
+        probe->SetSourceData(grid);
+        probe->SetInputData(points_of({1, 1, 1}));
+        Messages messages;
+        probe->Update();
+        EXPECT_EQ(messages.count("the source has an array short of 0 tuples, and "), 1) << messages.all();
+    }
+}
+
 TEST(Probe, OfNothingIsNothing) {
     vtkNew<vtkUnstructuredGrid> empty;
     vtkNew<vtkBarycertProbe> probe;

@@ -6,7 +6,7 @@
 namespace barycert::fuzz {
 
 /// Pixels of one colour compress to a thousandth; a pixel of one bit becomes four bytes.
-BARYCERT_FUZZ_TARGET(png, {std::size_t{4} << 20, std::size_t{1} << 15}) {
+BARYCERT_FUZZ_TARGET(png, {std::size_t{4} << 20, std::size_t{1} << 16}) {
     static InputFile file("in.png");
     static const std::string out = scratch_path("out.png");
     const Result<Image> image = read_png(file.put(input));

@@ -19,6 +19,7 @@ struct Decoder {
     const std::string& path;
     std::uint64_t at = 0;  ///< of the next byte
     PngPixels pixels = {};
+    std::uint64_t bits = 0;              ///< of a pixel in the file
     std::vector<png_bytep> places = {};  ///< of the rows
     png_structp png = nullptr;
     png_infop info = nullptr;
@@ -68,6 +69,7 @@ bool decode_header(Decoder& d) {
     png_set_chunk_cache_max(d.png, 100);
     png_set_keep_unknown_chunks(d.png, PNG_HANDLE_CHUNK_NEVER, nullptr, 0);
     png_read_info(d.png, d.info);
+    d.bits = std::uint64_t{png_get_bit_depth(d.png, d.info)} * png_get_channels(d.png, d.info);
     png_set_expand(d.png);    // palettes, less than 8 bits, a transparent colour
     png_set_scale_16(d.png);  // rounded, not cut
     png_set_gray_to_rgb(d.png);
@@ -117,6 +119,12 @@ Result<PngPixels> read_png_pixels(const std::string& path, std::uint64_t max_pix
                      .expected = "at most " + std::to_string(max_pixels) + " pixels",
                      .found = std::to_string(pixels.width) + " by " + std::to_string(pixels.height),
                      .remedy = "scale it down"};
+    }
+    // Deflate makes a byte of 1032 at most: where the file cannot hold so many pixels, no memory is taken for them.
+    constexpr std::uint64_t most_of_a_byte = 1032;
+    if (std::uint64_t{pixels.width} * pixels.height * decoder.bits / 8 > most_of_a_byte * file->size()) {
+        decoder.cut_short = true;
+        return failure(decoder);
     }
     const std::size_t row = 4 * std::size_t{pixels.width};
     pixels.rows.resize(row * pixels.height);
