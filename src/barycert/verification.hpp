@@ -73,6 +73,9 @@ struct VerifyLimit {
 /// NAME or NAME>NUMBER, with NAME missed, invented, wrong_cell or wrong_value.
 Result<VerifyLimit> parse_verify_limit(std::string_view text);
 
+/// The names that it takes.
+std::vector<std::string> verify_limit_names();
+
 /// Every kind, 0 of it: what fails without a rule.
 std::vector<VerifyLimit> strict_limits();
 

@@ -18,6 +18,7 @@
 #include "baseline.hpp"
 #include "command.hpp"
 #include "files.hpp"
+#include "options/choice.hpp"
 #include "progress.hpp"
 
 namespace barycert::cli {
@@ -197,26 +198,20 @@ void add_audit(CLI::App& app, int& exit_code) {
                 "TetGen meshes (.node/.ele; Triangle's for 2D) for the families mesh.*; default: barycert's own")
         ->allow_extra_args(true);
     sub->add_option("--kernel", a->kernels, "Audit only kernels that match; may be repeated")
-        ->type_name("NAME|GLOB")
+        ->type_name("KERNEL|GLOB")
         ->allow_extra_args(false);
     sub->add_option("--family", a->families, "Use only families that match; may be repeated")
-        ->type_name("NAME|GLOB")
+        ->type_name("FAMILY|GLOB")
         ->allow_extra_args(false);
     file_option(
         *sub, "--kernel-library", a->libraries,
         "A shared library with a kernel of yours (see barycert/kernel.h); audited alone unless --kernel is given");
     add_kernel_rules(*sub, a->rules);
-    sub->add_option_function<std::string>(
-           "--oracle",
-           [a](const std::string& word) {
-               a->oracle = word == "integers" ? OracleChoice::integers
-                           : word == "cgal"   ? OracleChoice::cgal
-                                              : OracleChoice::both;
-           },
-           "Who says what is right: exact integers, CGAL's exact kernel (Epeck), or both, who must agree; without it "
-           "integers, or barycert's core where it judges others, and CGAL confirms a sample and the hard cases")
-        ->check(CLI::IsMember({"integers", "cgal", "both"}).description(""))
-        ->type_name("integers|cgal|both");
+    choice_option<OracleChoice>(
+        *sub, "--oracle", a->oracle,
+        {{"integers", OracleChoice::integers}, {"cgal", OracleChoice::cgal}, {"both", OracleChoice::both}},
+        "Who says what is right: exact integers, CGAL's exact kernel (Epeck), or both, who must agree; without it "
+        "integers, or barycert's core where it judges others, and CGAL confirms a sample and the hard cases");
     sub->add_option("--count", a->count, "Cases per family and simplex")
         ->capture_default_str()
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48))

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "barycert/base/folder.hpp"
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/check.hpp"
 #include "barycert/io.hpp"
@@ -36,6 +37,14 @@ fs::path data_folder() {
     return {};
 }
 
+template <class Item>
+std::vector<std::string> names_of(const std::vector<Item>& items) {
+    std::vector<std::string> names;
+    names.reserve(items.size());
+    for (const Item& item : items) names.push_back(item.name);
+    return names;
+}
+
 /// Items of `all(glob)` for each glob, without repetition, in the order of the catalogue.
 template <class Item, class All>
 Result<std::vector<Item>> select(const std::vector<std::string>& globs, All all, const char* what, const char* remedy) {
@@ -43,7 +52,9 @@ Result<std::vector<Item>> select(const std::vector<std::string>& globs, All all,
     if (globs.empty()) return everything;
     for (const std::string& glob : globs) {
         if (all(glob).empty())
-            return Error{.what = fmt::format("no {} of that name", what), .found = '"' + glob + '"', .remedy = remedy};
+            return Error{.what = fmt::format("no {} of that name", what),
+                         .found = '"' + glob + '"',
+                         .remedy = base::did_you_mean(glob, names_of(everything), remedy)};
     }
     std::vector<Item> chosen;
     for (const Item& item : everything) {

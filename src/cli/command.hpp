@@ -28,6 +28,8 @@ void add_search(CLI::App& app, int& exit_code);
 void add_sample(CLI::App& app, int& exit_code);
 void add_verify(CLI::App& app, int& exit_code);
 void add_catalogue(CLI::App& app, int& exit_code);
+/// After all others: it explains them.
+void add_help(CLI::App& app, int& exit_code);
 
 /// Likewise below `barycert render`.
 void add_render_drift(CLI::App& render, int& exit_code);

@@ -11,11 +11,14 @@
 #include "barycert/audit_gaps.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/base/named_limit.hpp"
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/check.hpp"
 #include "barycert/io.hpp"
 #include "command.hpp"
 #include "files.hpp"
+#include "names.hpp"
+#include "options/choice.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -33,7 +36,7 @@ struct GapsLimit {
     double most = 0;
 };
 
-/// NAME or NAME>NUMBER.
+/// FAULT or FAULT>NUMBER.
 Result<GapsLimit> parse_gaps_limit(const std::string& text) {
     const base::NamedLimit limit = base::named_limit(text);
     for (std::size_t f = 0; f < claim_fault_count; ++f) {
@@ -42,7 +45,8 @@ Result<GapsLimit> parse_gaps_limit(const std::string& text) {
     }
     return Error{.what = "unknown rule",
                  .expected = "gaps, several, wrong, wrong_first or outside_claimed, perhaps >NUMBER",
-                 .found = '"' + text + '"'};
+                 .found = '"' + text + '"',
+                 .remedy = base::did_you_mean(limit.name, claim_fault_names())};
 }
 
 Status check_gaps_files(const GapsArguments& a, bool table) {
@@ -120,13 +124,13 @@ void add_gaps(CLI::App& app, int& exit_code) {
     const auto a = std::make_shared<GapsArguments>();
     file_option(*sub, "MESH", a->mesh, "A mesh, as for barycert sample")->required();
     sub->add_option("--kernel", a->kernels, "Kernels that match, those for the cells of the mesh; may be repeated")
-        ->type_name("NAME|GLOB")
+        ->type_name("KERNEL|GLOB")
         ->allow_extra_args(false);
     file_option(*sub, "--kernel-library", a->libraries,
                 "A shared library with a kernel of yours (see barycert/kernel.h); alone unless --kernel is given");
     sub->add_option("--rule", a->rule_names, "Show only this rule; may be repeated")
-        ->check(CLI::IsMember({"strict", "exact", "tolerant", "own"}).description(""))
-        ->type_name("strict|exact|tolerant|own")
+        ->check(one_of(claim_rule_names()))
+        ->type_name(joined(claim_rule_names()))
         ->allow_extra_args(false);
     sub->add_option("--class-tolerance", a->rules->class_tolerance,
                     "Of the rule tolerant: a cell claims a point if all weights are >= -X; 1e-10 unless given")
@@ -149,8 +153,8 @@ void add_gaps(CLI::App& app, int& exit_code) {
     sub->add_option(
            "--fail-on", a->fail_on,
            "Exit with 1 if a kernel has more than NUMBER (0 if omitted) such points under a rule that is shown; "
-           "NAME is gaps, several, wrong, wrong_first or outside_claimed; may be repeated")
-        ->type_name("NAME[>NUMBER]")
+           "FAULT is gaps, several, wrong, wrong_first or outside_claimed; may be repeated")
+        ->type_name("FAULT[>NUMBER]")
         ->allow_extra_args(false);
     sub->add_flag("--no-check", a->no_check, "Do not check whether the mesh is a partition (see `barycert check`)");
     sub->add_flag("--quiet", a->quiet, "Print no table");

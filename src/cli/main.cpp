@@ -11,10 +11,13 @@
 #include <string_view>
 
 #include "barycert/base/begun_files.hpp"
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "command.hpp"
 #include "files.hpp"
+#include "options/mistyped.hpp"
+#include "tetgen/option_table.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -38,10 +41,13 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     app.footer(
         "Exit codes: 0 success; 1 threshold exceeded, mesh not certified or witness not reproduced; 2 usage or input "
-        "error.\nTables go to stdout, everything else to stderr. `barycert SUBCOMMAND --help` explains each.");
-    app.failure_message([](const CLI::App*, const CLI::Error& e) {
-        return "error: " + base::printable(e.what()) +
-               "; `barycert --help` and `barycert SUBCOMMAND --help` list subcommands and options\n";
+        "error.\nTables go to stdout, everything else to stderr. `barycert help SUBCOMMAND` explains each.");
+    app.failure_message([](const CLI::App* failed, const CLI::Error& e) {
+        return "error: " +
+               base::printable(
+                   usage_error(*failed, e.what(),
+                               "`barycert --help` and `barycert SUBCOMMAND --help` list subcommands and options")) +
+               '\n';
     });
     int exit_code = exit_clean;
 #ifdef BARYCERT_WITH_AUDIT
@@ -58,12 +64,17 @@ int run(int argc, char** argv) {
     add_replay(app, exit_code);
     add_catalogue(app, exit_code);
 #endif
-    app.add_subcommand("mesh", "Mesh a PLC (.poly .smesh .off .stl .ply) with TetGen: runs barycert-tetgen");
+    // Its options are those of barycert-tetgen, for help and completions; main() has handed all else over.
+    auto* mesh =
+        app.add_subcommand("mesh", "Mesh a PLC (.poly .smesh .off .stl .ply) with TetGen: runs barycert-tetgen");
+    OptionTable mesh_options;
+    add_options(*mesh, mesh_options);
+    add_help(app, exit_code);
     const auto named_first = [&](const CLI::App* sub) { return sub->get_name() == first; };
     if (!first.empty() && first.front() != '-' && app.get_subcommands(named_first).empty()) {
         return fail({.what = "no such subcommand",
                      .found = '"' + std::string(first) + '"',
-                     .remedy = "`barycert --help` lists them"});
+                     .remedy = base::did_you_mean(first, command_names(app), "`barycert --help` lists them")});
     }
     try {
         remember_command_line(argc, argv);

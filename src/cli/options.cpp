@@ -14,9 +14,9 @@ void refuse_option(const std::string& option, const std::string& expected, std::
 }
 
 void vtk_data_option(CLI::App& sub, std::optional<VtkData>& data) {
-    std::map<std::string, std::optional<VtkData>> words;
-    for (const std::string_view word : vtk_data_names) words.emplace(word, vtk_data_named(word));
-    choice_option(sub, "--vtk-data", data, words, "HOW",
+    std::vector<std::pair<std::string, std::optional<VtkData>>> choices;
+    for (const std::string_view word : vtk_data_names) choices.emplace_back(word, vtk_data_named(word));
+    choice_option(sub, "--vtk-data", data, choices,
                   "Numbers in an output of VTK's formats: raw (default), zlib, lz4, lzma (compressed), ascii (text)");
 }
 

@@ -1,26 +1,18 @@
-/// Kinds of options: one of a few words, numbers between separators.
+/// Kinds of options: numbers between separators. One of a few words: options/choice.hpp.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "barycert/vtk_data.hpp"
+#include "options/choice.hpp"
 
 namespace barycert::cli {
-
-/// An option of a few words, each of which stands for a value.
-template <class Value>
-void choice_option(CLI::App& sub, const std::string& name, Value& value, const std::map<std::string, Value>& words,
-                   const std::string& type, const std::string& help) {
-    const auto set = [&value, words](const std::string& word) { value = words.at(word); };
-    sub.add_option_function<std::string>(name, set, help)->check(CLI::IsMember(words).description(""))->type_name(type);
-}
 
 /// Throws what the parser of options tells.
 [[noreturn]] void refuse_option(const std::string& option, const std::string& expected, std::string_view found);

@@ -4,15 +4,17 @@
 
 #include <memory>
 
+#include "barycert/base/nearest_name.hpp"
 #include "command.hpp"
 #include "files.hpp"
+#include "options/mistyped.hpp"
 #include "render.hpp"
 #include "render_options.hpp"
 
 namespace barycert::cli {
 namespace {
 
-int run_scene_file(const std::string& path, const PictureOptions& o) {
+int run_scene_file(const std::string& path, const PictureOptions& o, const std::vector<std::string>& pictures) {
     const char* const remedy = "`barycert render --help` lists the pictures";
     if (path.empty())
         return fail(
@@ -21,7 +23,7 @@ int run_scene_file(const std::string& path, const PictureOptions& o) {
         return fail({.what = "no such picture",
                      .expected = "the name of a picture, or a scene (.json)",
                      .found = '"' + path + '"',
-                     .remedy = remedy});
+                     .remedy = base::did_you_mean(path, pictures, remedy)});
     if (o.output.empty())
         return fail({.what = "--output is required", .remedy = "name the picture: --output FILE.png"});
     std::vector<base::NamedFile> inputs{{"the scene", path}};
@@ -57,7 +59,7 @@ void add_render(CLI::App& app, int& exit_code) {
     add_render_texels(*sub, exit_code);
 #endif
     sub->callback([=, &exit_code] {
-        if (sub->get_subcommands().empty()) exit_code = run_scene_file(*path, *o);
+        if (sub->get_subcommands().empty()) exit_code = run_scene_file(*path, *o, command_names(*sub));
     });
 }
 

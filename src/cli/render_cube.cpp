@@ -101,7 +101,6 @@ void add_render_cube(CLI::App& render, int& exit_code) {
         {{"perspective", Interpolation::perspective},
          {"affine", Interpolation::affine},
          {"projected-z", Interpolation::projected_z}},
-        "perspective|affine|projected-z",
         "Of texture coordinates in the window: (v/w)/(1/w) (default); v itself, which is wrong; with "
         "the projected z in place of w, which is wrong as well");
     add_picture_options(*sub, p->files);

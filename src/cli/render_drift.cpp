@@ -96,7 +96,7 @@ void add_render_drift(CLI::App& render, int& exit_code) {
     sub->add_option("--kernel", a->kernels,
                     "Kernels on triangles (not triangle.perspective-*); may be repeated; default: increments in float "
                     "and double, bilinear, signed-area, exact")
-        ->type_name("NAME|GLOB")
+        ->type_name("KERNEL|GLOB")
         ->allow_extra_args(false);
     file_option(*sub, "--kernel-library", a->libraries,
                 "A shared library with a kernel of yours; alone without --kernel");

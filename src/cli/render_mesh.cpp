@@ -37,7 +37,7 @@ void add_render_mesh(CLI::App& render, int& exit_code) {
     sub->footer(
         "Triangles in the plane are drawn from above. Colours go from dark violet (low) to light yellow (high); grey: "
         "no\n"
-        "finite value. Second-order cells are drawn with straight sides.");
+        "finite value. Second-order cells are drawn with straight sides.\nExit codes: 0 done; 2 usage or input error.");
     const auto p = std::make_shared<MeshPicture>();
     file_option(*sub, "MESH", p->job.mesh, mesh_help)->required();
     sub->add_option("--field", p->job.field,

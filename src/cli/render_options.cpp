@@ -65,11 +65,9 @@ void add_method_options(CLI::App& sub, FillMethod& method, Rounding& rounding) {
         {{"barycentric", FillMethod::barycentric},
          {"scanline", FillMethod::scanline},
          {"bilinear", FillMethod::bilinear}},
-        "barycentric|scanline|bilinear",
         "How values are found at pixels: by the weights at each (default); by constant steps; along "
         "auxiliary lines");
     choice_option<Rounding>(sub, "--rounding", rounding, {{"correct", Rounding::correct}, {"plain", Rounding::plain}},
-                            "correct|plain",
                             "plain: computed in double (default); correct: the exact values, rounded once");
 }
 

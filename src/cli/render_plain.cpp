@@ -86,15 +86,14 @@ void add_render_texture(CLI::App& render, int& exit_code) {
     auto* sub = render.add_subcommand("texture", "A picture on a square or a triangle");
     const auto p = std::make_shared<TexturePicture>();
     file_option(*sub, "--image", p->image, "The picture: .png; default: one of 2 by 2 texels");
-    choice_option<bool>(*sub, "--shape", p->triangle, {{"square", false}, {"triangle", true}}, "square|triangle",
+    choice_option<bool>(*sub, "--shape", p->triangle, {{"square", false}, {"triangle", true}},
                         "What it is put on; default: square");
     choice_option<Wrap>(*sub, "--wrap", p->wrap,
                         {{"clamp", Wrap::clamp}, {"repeat", Wrap::repeat}, {"mirror", Wrap::mirror}},
-                        "clamp|repeat|mirror",
                         "What is beyond the picture: its rim (default), the picture again, or again "
                         "and every other time reversed");
     choice_option<Filter>(*sub, "--filter", p->filter, {{"nearest", Filter::nearest}, {"bilinear", Filter::bilinear}},
-                          "nearest|bilinear", "The texel at a point (default), or between the four around it");
+                          "The texel at a point (default), or between the four around it");
     sub->add_option_function<std::string>(
            "--coordinates",
            [p](const std::string& text) {

@@ -11,10 +11,13 @@
 #include "audit_inputs.hpp"
 #include "barycert/audit.hpp"
 #include "barycert/audit_report.hpp"
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "command.hpp"
 #include "files.hpp"
+#include "names.hpp"
+#include "options/choice.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -35,13 +38,14 @@ Result<std::vector<Witness>> made_again(const ReplayArguments& a, const std::vec
     if (families->size() != 1 || families->front().name != a.family)
         return Error{.what = "--family must name one family",
                      .found = '"' + a.family + '"',
-                     .remedy = "`barycert families` lists them"};
+                     .remedy = base::did_you_mean(a.family, family_names(), "`barycert families` lists them")};
     const Family& family = families->front();
     std::optional<Simplex> simplex = simplex_named(a.simplex);
     if (!a.simplex.empty() && !simplex)
         return Error{.what = "unknown simplex",
                      .expected = "segment, triangle, triangle3d or tetrahedron",
-                     .found = '"' + a.simplex + '"'};
+                     .found = '"' + a.simplex + '"',
+                     .remedy = base::did_you_mean(a.simplex, simplex_names())};
     if (!simplex && !a.kernel.empty()) {
         const auto k = std::find_if(kernels.begin(), kernels.end(), [&](const Kernel& x) {
             return x.perspective == family.perspective && base::glob_match(a.kernel, x.name);
@@ -49,7 +53,7 @@ Result<std::vector<Witness>> made_again(const ReplayArguments& a, const std::vec
         if (k == kernels.end())
             return Error{.what = "no kernel of that name for the cases of that family",
                          .found = '"' + a.kernel + '"',
-                         .remedy = "`barycert kernels` lists them"};
+                         .remedy = base::did_you_mean(a.kernel, kernel_names(), "`barycert kernels` lists them")};
         simplex = k->simplex;
     }
     if (!simplex && family.simplices.size() == 1) simplex = family.simplices.front();
@@ -124,16 +128,16 @@ void add_replay(CLI::App& app, int& exit_code) {
     const auto a = std::make_shared<ReplayArguments>();
     file_option(*sub, "FILE", a->file, "Witnesses from `barycert audit` or `search`: --witnesses FILE or --json FILE");
     sub->add_option("--kernel", a->kernel, "Show only witnesses of matching kernels; with --case, mark this kernel")
-        ->type_name("NAME|GLOB");
-    sub->add_option("--reason", a->reason, "Show only witnesses of this kind of finding")->type_name("NAME|GLOB");
-    sub->add_option("--family", a->family, "Generate a case instead of reading it: its family")->type_name("NAME");
+        ->type_name("KERNEL|GLOB");
+    sub->add_option("--reason", a->reason, "Show only witnesses of this kind of finding")->type_name("REASON|GLOB");
+    sub->add_option("--family", a->family, "Generate a case instead of reading it: its family")->type_name("FAMILY");
     sub->add_option("--case", a->index, "Number of the case to generate")->check(whole_number())->type_name("N");
     sub->add_option("--seed", a->seed, "Seed of the case to generate")
         ->capture_default_str()
         ->check(whole_number())
         ->type_name("S");
     sub->add_option("--simplex", a->simplex, "Simplex of the case, if family and kernel do not determine it")
-        ->type_name("NAME");
+        ->type_name(joined(simplex_names()));
     file_option(*sub, "--mesh", a->meshes,
                 "Meshes of the case, in the order given to the audit; default: barycert's own")
         ->type_name("MESH");

@@ -42,11 +42,9 @@ void add_sample(CLI::App& app, int& exit_code) {
         ->type_name("NAMES|all");
     file_option(*sub, "--output", a->output, "Rows: .csv .npy .vtu; - is CSV on stdout");
     add_sampling_options(*sub, *a, *quiet);
-    sub->add_option_function<std::string>(
-           "--on-boundary", [a](const std::string& text) { a->all = text == "all"; },
-           "If several cells contain a point: one row for the cell of lowest index (default), or one row per cell")
-        ->check(CLI::IsMember({"lowest", "all"}).description(""))
-        ->type_name("lowest|all");
+    choice_option<std::optional<bool>>(
+        *sub, "--on-boundary", a->all, {{"lowest", false}, {"all", true}},
+        "If several cells contain a point: one row for the cell of lowest index (default), or one row per cell");
     file_option(*sub, "--save-map", a->save_map, "Write the cell of each point to a file for --map");
     file_option(*sub, "--map", a->map,
                 "Instead of --points: take points and cells from this map; for other fields on the same mesh");

@@ -9,6 +9,7 @@
 #include <optional>
 #include <system_error>
 
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/report.hpp"
 #include "command.hpp"
@@ -33,10 +34,12 @@ OutsidePolicy policy_of(const std::string& text) {
     if (const auto value = number_after("fill", text)) return {.kind = Outside::fill, .fill = *value};
     if (const auto limit = number_after("nearest", text); limit && std::isfinite(*limit) && *limit >= 0)
         return {.kind = Outside::nearest, .limit = *limit};
+    const std::string meant =
+        base::did_you_mean(text.substr(0, text.find('=')), {"nan", "error", "fill", "nearest", "extrapolate"});
     throw CLI::ValidationError("--outside",
                                "expected nan, error, fill=NUMBER, nearest, nearest=DISTANCE (at least 0) or "
                                "extrapolate, found \"" +
-                                   text + '"');
+                                   text + '"' + (meant.empty() ? "" : "; " + meant));
 }
 
 /// Whether the text is NAME@PATTERN, and where the pattern begins; a name may have an @, and a file an =.
@@ -132,7 +135,7 @@ void add_sampling_options(CLI::App& sub, SamplingJob& a, bool& quiet) {
                 "Write the correctly rounded weight of each node for each point, .npz: a sparse matrix for "
                 "scipy.sparse.load_npz, to be multiplied with any field of the nodes");
     choice_option<Rounding>(sub, "--rounding", a.options.rounding,
-                            {{"correct", Rounding::correct}, {"plain", Rounding::plain}}, "correct|plain",
+                            {{"correct", Rounding::correct}, {"plain", Rounding::plain}},
                             "correct: the exact value, rounded once (default); plain: computed in double");
     sub.add_option_function<std::string>(
            "--outside", [&a](const std::string& text) { a.options.outside = policy_of(text); },

@@ -14,9 +14,11 @@
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/audit_search.hpp"
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "command.hpp"
 #include "files.hpp"
+#include "names.hpp"
 #include "options.hpp"
 #include "progress.hpp"
 
@@ -92,7 +94,7 @@ Result<Kernel> chosen_kernel(const SearchArguments& a) {
         return Error{.what = "which kernel",
                      .expected = "the name of one kernel",
                      .found = kernels.empty() ? '"' + a.kernel + '"' : std::to_string(kernels.size()) + " of them",
-                     .remedy = "`barycert kernels` lists the names"};
+                     .remedy = base::did_you_mean(a.kernel, kernel_names(), "`barycert kernels` lists the names")};
     }
     return kernels.front();
 }
@@ -222,7 +224,7 @@ void add_search(CLI::App& app, int& exit_code) {
                     "Keep coordinates within 2^LOW <= |x| < 2^(HIGH+1), or zero; default: -1074:1023, all doubles")
         ->type_name("LOW:HIGH");
     sub->add_option("--family", a->families, "Start from families that match; may be repeated; default: all")
-        ->type_name("NAME|GLOB")
+        ->type_name("FAMILY|GLOB")
         ->allow_extra_args(false);
     sub->add_option("--threads", a->threads, "Number of threads; 0: all")
         ->capture_default_str()

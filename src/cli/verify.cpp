@@ -131,11 +131,11 @@ void add_verify(CLI::App& app, int& exit_code) {
         ->type_name("N");
     sub->add_option(
            "--fail-on", a->fail_on,
-           "Exit with 1 only if there are more than NUMBER (0 if omitted) such rows; NAME is missed, invented, "
+           "Exit with 1 only if there are more than NUMBER (0 if omitted) such rows; KIND is missed, invented, "
            "wrong_cell or wrong_value; several with commas, or repeated")
         ->delimiter(',')
         ->allow_extra_args(false)
-        ->type_name("NAME[>NUMBER]");
+        ->type_name("KIND[>NUMBER]");
     sub->add_option("--threads", a->job.options.threads, "Number of threads; 0: all")
         ->capture_default_str()
         ->check(CLI::Range(0, 4096).description(""))

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,13 +29,15 @@ std::span<const T> part(const std::optional<Array<T>>& array, std::size_t column
 py::dict row_of(const WrongRow& row, std::size_t dimension, const std::vector<std::string>& columns) {
     py::list point;
     for (std::size_t k = 0; k < dimension; ++k) point.append(row.point[k]);
-    const bool value = row.verdict == RowVerdict::wrong_value;
+    const bool value = !columns.empty();
+    const bool compared = value && (row.verdict == RowVerdict::wrong_value || row.verdict == RowVerdict::wrong_cell);
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
     return py::dict("verdict"_a = std::string(name(row.verdict)), "row"_a = row.row, "point"_a = py::tuple(point),
                     "claimed_cell"_a = row.claimed_cell, "cell"_a = row.exact.cell,
                     "feature"_a = static_cast<int>(row.exact.feature), "cells"_a = row.cells,
-                    "column"_a = value ? columns[row.column] : std::string(), "claimed"_a = row.claimed,
-                    "value"_a = row.value, "ulps"_a = row.ulps, "relative"_a = row.relative,
-                    "distance"_a = row.distance);
+                    "column"_a = value ? columns[row.column] : std::string(), "claimed"_a = value ? row.claimed : none,
+                    "value"_a = value ? row.value : none, "ulps"_a = compared ? row.ulps : none,
+                    "relative"_a = compared ? row.relative : none, "distance"_a = row.distance);
 }
 
 py::dict dict_of(const Verdicts& v, const BoundSampler& bound, const std::vector<double>& ranges) {

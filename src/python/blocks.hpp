@@ -30,8 +30,8 @@ private:
 /// Points that cost next to nothing begin with so many that sorting them pays; all else begins with few.
 inline constexpr std::size_t smallest_first_block = 4096, largest_first_block = std::size_t{1} << 20;
 
-/// body(first, count) for parts of [0, total), without the lock. Parts are such that Ctrl-C is noticed within a
-/// fraction of a second, whatever one of them costs.
+/// body(first, count) for parts of [0, total), without the lock. Parts grow and shrink such that one takes some tenths
+/// of a second, after which Ctrl-C is noticed.
 template <class Body>
 void in_blocks(const Progress& progress, std::string_view stage, std::size_t total, const Body& body,
                std::size_t size = smallest_first_block) {

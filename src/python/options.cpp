@@ -26,10 +26,6 @@ SampleOptions sample_options(const std::string& outside, double fill, double lim
                              int threads) {
     if (rounding != "correct" && rounding != "plain")
         throw Exception({.what = "rounding of values (rounding=)", .expected = "correct or plain", .found = rounding});
-    if (threads < 0)
-        throw Exception({.what = "number of threads (threads=)",
-                         .expected = "0 for as many as the machine has, or more",
-                         .found = std::to_string(threads)});
     return {.rounding = rounding == "plain" ? Rounding::plain : Rounding::correct,
             .outside = outside_policy(outside, fill, limit),
             .threads = threads};

@@ -15,6 +15,8 @@
 #include <stdexcept>
 
 #include "barycert/base/text.hpp"
+#include "option_table.hpp"
+#include "options/mistyped.hpp"
 
 namespace barycert {
 namespace {
@@ -99,56 +101,41 @@ std::string default_output(const std::string& input) {
 
 Parsed parse_options(int argc, char** argv) {
     Options options;
-    std::string ratio;
-    std::string min_dihedral;
-    std::string max_volume;
-    std::string timeout;
-    std::string switches;
-    int index_base = 0;
+    OptionTable table;
     CLI::App app{"Meshes a PLC by TetGen: .poly .smesh .off .stl .ply in; .node .ele .face .neigh out."};
     app.name("barycert-tetgen");
-    app.set_version_flag("--version", "barycert-tetgen " BARYCERT_VERSION " (TetGen 1.5)");
-    app.add_option("INPUT", options.input, "the PLC: .poly, .smesh, .off, .stl or .ply");
-    app.add_option("--output", options.output, "stem of the output files (default: stem of INPUT plus .1)");
-    auto* quality = app.add_option("--quality", ratio, "max radius-edge ratio, default 2 (TetGen -q)")
-                        ->expected(0, 1)
-                        ->type_name("[RATIO]");
-    auto* dihedral =
-        app.add_option("--min-dihedral", min_dihedral, "min dihedral angle to aim for, in degrees")->type_name("DEG");
-    auto* volume = app.add_option("--max-volume", max_volume, "max volume of a cell (TetGen -a)")->type_name("V");
-    auto* order = app.add_option("--order", options.order, "2: second-order cells of ten nodes (TetGen -o2)")
-                      ->check(CLI::IsMember({1, 2}));
-    auto* keep = app.add_flag("--keep-boundary", options.keep_boundary, "add no nodes on the boundary (TetGen -Y)");
-    auto* raw =
-        app.add_option("--switches", switches, "TetGen's own switches instead of these options, such as pq1.4a0.1")
-            ->type_name("STRING");
-    auto* base = app.add_option("--index-base", index_base, "number from 0 or 1 (default: as INPUT does)")
-                     ->check(CLI::IsMember({0, 1}));
-    app.add_flag("--quiet", options.quiet, "no summary");
-    auto* limit = app.add_option("--timeout", timeout, "stop after this time")->type_name("SECONDS");
-    for (auto* option : {quality, dihedral, volume, order, keep}) raw->excludes(option);
+    add_options(app, table);
     try {
         app.parse(argc, argv);
-        if (options.input.empty() && base::parse_double(ratio).value_or(0) == 0 && !ratio.empty()) {
-            throw std::invalid_argument("--quality: expected a number, found " + ratio + "; put INPUT first");
+        options.input = table.input;
+        options.output = table.output;
+        options.order = table.order == "2" ? 2 : 1;
+        options.keep_boundary = table.keep_boundary;
+        options.quiet = table.quiet;
+        const auto given = [&](const char* name) { return app.get_option(name)->count() > 0; };
+        if (table.input.empty() && base::parse_double(table.ratio).value_or(0) == 0 && !table.ratio.empty()) {
+            throw std::invalid_argument("--quality: expected a number, found " + table.ratio + "; put INPUT first");
         }
         if (options.input.empty()) throw std::invalid_argument("expected INPUT, a PLC");
         constexpr double unbounded = std::numeric_limits<double>::max();
         constexpr double tiny = std::numeric_limits<double>::min();
         // A regular tetrahedron has the smallest ratio there is, 0.61, and the largest dihedral angle, 70.5 degrees.
-        options.quality = quality->count() > 0 || dihedral->count() > 0 || volume->count() > 0;
-        if (!ratio.empty()) options.ratio = number_in("--quality", ratio, 1, 1e6, "a ratio of at least 1");
-        if (*dihedral) {
-            options.min_dihedral = number_in("--min-dihedral", min_dihedral, 0, 70, "an angle from 0 to 70 degrees");
+        options.quality = given("--quality") || given("--min-dihedral") || given("--max-volume");
+        if (!table.ratio.empty()) options.ratio = number_in("--quality", table.ratio, 1, 1e6, "a ratio of at least 1");
+        if (given("--min-dihedral")) {
+            options.min_dihedral =
+                number_in("--min-dihedral", table.min_dihedral, 0, 70, "an angle from 0 to 70 degrees");
         }
-        if (*volume) {
-            options.max_volume = number_in("--max-volume", max_volume, tiny, unbounded, "a volume greater than 0");
+        if (given("--max-volume")) {
+            options.max_volume =
+                number_in("--max-volume", table.max_volume, tiny, unbounded, "a volume greater than 0");
         }
-        if (*limit) options.timeout = number_in("--timeout", timeout, 1e-3, 1e9, "a time of 0.001 to 1e9 s");
-        if (*base) options.index_base = index_base;
-        if (*raw) {
-            check_switches(switches);
-            options.switches = switches;
+        if (given("--timeout"))
+            options.timeout = number_in("--timeout", table.timeout, 1e-3, 1e9, "a time of 0.001 to 1e9 s");
+        if (given("--index-base")) options.index_base = table.index_base == "1" ? 1 : 0;
+        if (given("--switches")) {
+            check_switches(table.switches);
+            options.switches = table.switches;
         }
     } catch (const CLI::Success& wish) {  // --help, --version
         const int code = app.exit(wish);
@@ -157,7 +144,8 @@ Parsed parse_options(int argc, char** argv) {
         fmt::print(stderr, "error: cannot write to stdout: found {}\n", std::strerror(errno));
         return {.options = {}, .exit_code = 2};
     } catch (const std::exception& problem) {
-        fmt::print(stderr, "error: {}\nrun barycert-tetgen --help for the usage\n", base::printable(problem.what()));
+        fmt::print(stderr, "error: {}\n",
+                   base::printable(cli::usage_error(app, problem.what(), "run barycert-tetgen --help for the usage")));
         return {.options = {}, .exit_code = 2};
     }
     if (options.output.empty()) options.output = default_output(options.input);

@@ -8,7 +8,9 @@
 #include <vtkCallbackCommand.h>
 #include <vtkDataSet.h>
 
+#include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
+#include "vtk/global_ids.hpp"
 #include "vtk/simplices.hpp"
 
 namespace barycert::in_vtk {
@@ -17,6 +19,7 @@ namespace {
 
 struct Entry {
     const vtkObjectBase* data;
+    SimplexShape shape;
     vtkMTimeType time;
     std::shared_ptr<const ExactIndex> index;
 };
@@ -33,15 +36,16 @@ Cache& cache() {
     return the;
 }
 
-std::shared_ptr<const ExactIndex> cached(const vtkDataSet& data, vtkMTimeType time) {
+std::shared_ptr<const ExactIndex> cached(const vtkDataSet& data, const SimplexShape& shape, vtkMTimeType time) {
     const std::lock_guard lock(cache().access);
     // Times of modification never come twice: an address that is used again has another.
     for (const Entry& entry : cache().entries)
-        if (entry.data == &data && entry.time == time) return entry.index;
+        if (entry.data == &data && entry.time == time && entry.shape == shape) return entry.index;
     return nullptr;
 }
 
-void forget(vtkObject* data, unsigned long, void*, void*) {
+// Called when an observer dies: with its data set, also where VTK's garbage collector deletes that without an event.
+void forget(void* data) {
     const std::lock_guard lock(cache().access);
     cache().entries.remove_if([data](const Entry& entry) { return entry.data == data; });
 }
@@ -51,19 +55,24 @@ bool same_cells(const ExactIndex& a, const ExactIndex& b) {
            a.ids == b.ids && a.mesh.points == b.mesh.points;
 }
 
-void remember(vtkDataSet& data, vtkMTimeType time, std::shared_ptr<const ExactIndex> index) {
+void remember(vtkDataSet& data, const SimplexShape& shape, vtkMTimeType time, std::shared_ptr<const ExactIndex> index) {
     const std::lock_guard lock(cache().access);
+    bool observed = false;
     for (Entry& entry : cache().entries) {
         if (entry.data != &data) continue;
+        observed = true;
+        if (!(entry.shape == shape)) continue;
         entry.time = time;
         entry.index = std::move(index);
         return;
     }
+    cache().entries.push_back({&data, shape, time, std::move(index)});
+    if (observed) return;
     vtkCallbackCommand* const command = vtkCallbackCommand::New();
-    command->SetCallback(forget);
+    command->SetClientData(&data);
+    command->SetClientDataDeleteCallback(forget);
     data.AddObserver(vtkCommand::DeleteEvent, command);
     command->Delete();
-    cache().entries.push_back({&data, time, std::move(index)});
 }
 
 // The edge of a square or cube that would hold about 8 cells if they were spread over the box of the mesh.
@@ -87,19 +96,21 @@ std::shared_ptr<const ExactIndex> made_before(const ExactIndex& index) {
 
 void forget_index(const vtkDataSet& data) {
     const std::lock_guard lock(cache().access);
-    // The entry stays, for its data set is observed once.
+    // The entries stay, for their data set is observed once.
     for (Entry& entry : cache().entries)
         if (entry.data == &data) entry.time = 0;
 }
 
-std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data) {
+std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data, const SimplexShape& shape) {
     const vtkMTimeType time = data.GetMTime();
-    if (std::shared_ptr<const ExactIndex> found = cached(data, time)) return found;
+    const ExactEnvironment environment;
+    if (std::shared_ptr<const ExactIndex> found = cached(data, shape, time)) return found;
     const std::lock_guard lock(cache().making);
-    if (std::shared_ptr<const ExactIndex> found = cached(data, time)) return found;
+    if (std::shared_ptr<const ExactIndex> found = cached(data, shape, time)) return found;
 
     auto made = std::make_shared<ExactIndex>();
-    made->reason = read_simplices(data, *made);
+    made->reason = read_simplices(data, *made, shape);
+    if (shape.by_global_ids && made->reason.empty()) order_by_global_ids(data, *made);
     std::shared_ptr<const ExactIndex> index = made;
     if (made->reason.empty() && !made->mesh.cells.empty()) {
         if (std::shared_ptr<const ExactIndex> before = made_before(*made)) {
@@ -112,7 +123,7 @@ std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data) {
         }
     }
     // Reading may have built the cells of a vtkPolyData.
-    remember(data, data.GetMTime(), index);
+    remember(data, shape, data.GetMTime(), index);
     return index;
 }
 

@@ -20,7 +20,7 @@ namespace barycert::in_vtk {
 /// refined, hidden) are left out.
 struct ExactIndex {
     Mesh mesh;                       ///< of dimension 2 where triangles lie in a plane across an axis
-    std::vector<vtkIdType> ids;      ///< of the mesh's cells in the data set, ascending; empty: the same
+    std::vector<vtkIdType> ids;      ///< of the mesh's cells in the data set; empty: the same
     std::optional<Locator> locator;  ///< none if there are no cells, or if there is a `reason`
     std::string reason;              ///< why points cannot be located exactly in the data set; empty if they can
 
@@ -42,9 +42,18 @@ struct ExactIndex {
     }
 };
 
+/// What a data set is to be taken for, if it is a piece of a mesh: the pieces of one mesh are taken alike.
+struct SimplexShape {
+    int dimension = 0;           ///< of the cells that count; 0: the highest of its own
+    int normal = -1;             ///< triangles: the axis across which their plane lies; -1: any
+    bool by_global_ids = false;  ///< the mesh's cells are in the order of GlobalIds of the cell data, integers
+
+    friend bool operator==(const SimplexShape&, const SimplexShape&) = default;
+};
+
 /// Of one data set at one time of modification it is made once; data sets of the same cells share it as long as one of
 /// them lives. Any thread may call this, one at a time for a vtkPolyData, whose cells it may build. Never null.
-std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data);
+std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data, const SimplexShape& shape = {});
 
 /// The next one is made anew.
 void forget_index(const vtkDataSet& data);

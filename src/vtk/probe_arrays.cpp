@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <string>
 
 #include <vtkCellData.h>
@@ -24,15 +25,6 @@ namespace {
 
 bool has_fast_tuples(vtkAbstractArray* a) {
     return a->HasStandardMemoryLayout() && a->IsNumeric() != 0 && a->GetDataType() != VTK_BIT;
-}
-
-// Zero in every tuple, NaN or another number where it can be.
-void prepare(vtkAbstractArray* array, vtkIdType count, double outside) {
-    array->SetNumberOfTuples(count);
-    if (auto* const data = vtkDataArray::SafeDownCast(array)) {
-        const bool real = data->GetDataType() == VTK_DOUBLE || data->GetDataType() == VTK_FLOAT;
-        data->Fill(real ? outside : 0);
-    }
 }
 
 // The array that `to` was made for: of the same name, or in the same role.
@@ -66,33 +58,59 @@ Field field_of(vtkDataArray* array, std::size_t number, bool& exact) {
 
 }  // namespace
 
-ProbeArrays::ProbeArrays(const ExactIndex& index, vtkDataSet& source, vtkDataSet& output, vtkIdType points,
-                         bool categorical, const char* mask_name, double outside)
+std::string fault_of_arrays(vtkDataSet& source) {
+    const auto look = [](vtkDataSetAttributes& attributes, vtkIdType count, const char* what) {
+        for (int i = 0; i < attributes.GetNumberOfArrays(); ++i) {
+            vtkAbstractArray& array = *attributes.GetAbstractArray(i);
+            if (array.GetNumberOfTuples() == count) continue;
+            return std::string("the source has an array ") + (array.GetName() != nullptr ? array.GetName() : "") +
+                   " of " + std::to_string(array.GetNumberOfTuples()) + " tuples, and " + std::to_string(count) + what;
+        }
+        return std::string();
+    };
+    const std::string fault = look(*source.GetPointData(), source.GetNumberOfPoints(), " points");
+    return fault.empty() ? look(*source.GetCellData(), source.GetNumberOfCells(), " cells") : fault;
+}
+
+void prepare(vtkAbstractArray& array, vtkIdType count, double outside) {
+    array.SetNumberOfTuples(count);
+    if (auto* const data = vtkDataArray::SafeDownCast(&array)) {
+        const bool real = data->GetDataType() == VTK_DOUBLE || data->GetDataType() == VTK_FLOAT;
+        data->Fill(real ? outside : 0);
+    }
+}
+
+ProbeArrays::ProbeArrays(const ExactIndex& index, vtkDataSet& source, vtkDataSet& output, bool categorical,
+                         const char* mask_name)
     : index_(index) {
-    add_point_arrays(source, output, points, categorical, outside);
-    add_cell_arrays(source, output, points, outside);
     vtkNew<vtkCharArray> mask;
     mask->SetName(mask_name);
-    prepare(mask, points, 0);
-    output.GetPointData()->AddArray(mask);
     mask_ = mask;
+    add_point_arrays(source, output, categorical);
+    add_cell_arrays(source, output);
+    output.GetPointData()->AddArray(mask);
     cells_.name = "cell";
 }
 
-void ProbeArrays::add_point_arrays(vtkDataSet& source, vtkDataSet& output, vtkIdType points, bool categorical,
-                                   double outside) {
+void ProbeArrays::allocate(vtkIdType points, double outside) {
+    for (vtkAbstractArray* const array : made_) prepare(*array, points, outside);
+    prepare(*mask_, points, 0);
+}
+
+void ProbeArrays::add_point_arrays(vtkDataSet& source, vtkDataSet& output, bool categorical) {
     vtkPointData* const out = output.GetPointData();
     vtkPointData* const from = source.GetPointData();
     if (categorical) out->SetCopyAttribute(vtkDataSetAttributes::SCALARS, 2, vtkDataSetAttributes::INTERPOLATE);
     // In the order of vtkProbeFilter: attributes come first.
     vtkDataSetAttributes::FieldList list(1);
     list.InitializeFieldList(from);
-    out->InterpolateAllocate(list, points, points);
+    out->InterpolateAllocate(list, 1, 1);
+    out->RemoveArray(mask_->GetName());  // the mask of an earlier probe would be replaced by this one's
     for (int i = 0; i < out->GetNumberOfArrays(); ++i) {
         vtkAbstractArray* const to = out->GetAbstractArray(i);
         vtkAbstractArray* const its = source_of(from, out, i, to);
         if (its == nullptr) continue;
-        prepare(to, points, outside);
+        made_.push_back(to);
         auto* const numbers = vtkDataArray::SafeDownCast(its);
         if (numbers == nullptr) {
             mixed_.push_back({its, to});
@@ -108,18 +126,19 @@ void ProbeArrays::add_point_arrays(vtkDataSet& source, vtkDataSet& output, vtkId
     }
 }
 
-void ProbeArrays::add_cell_arrays(vtkDataSet& source, vtkDataSet& output, vtkIdType points, double outside) {
+void ProbeArrays::add_cell_arrays(vtkDataSet& source, vtkDataSet& output) {
     vtkNew<vtkCellData> made;
     made->CopyAllOn(vtkDataSetAttributes::COPYTUPLE);
     vtkDataSetAttributes::FieldList list(1);
     list.InitializeFieldList(source.GetCellData());
-    made->CopyAllocate(list, points, points);
+    made->CopyAllocate(list, 1, 1);
     for (int i = 0; i < made->GetNumberOfArrays(); ++i) {
         vtkDataArray* const to = made->GetArray(i);
         if (to == nullptr || to->GetName() == nullptr || output.GetPointData()->HasArray(to->GetName()) != 0) continue;
+        if (std::strcmp(to->GetName(), mask_->GetName()) == 0) continue;
         vtkAbstractArray* const from = source.GetCellData()->GetAbstractArray(to->GetName());
         if (from == nullptr) continue;
-        prepare(to, points, outside);
+        made_.push_back(to);
         output.GetPointData()->AddArray(to);
         of_cells_.push_back({from, to});
     }
@@ -142,11 +161,13 @@ void ProbeArrays::write(const TableView& rows, const vtkIdType* ids, vtkIdType f
     const std::size_t stride = rows.row_count() == 0 ? 0 : rows.values.size() / rows.row_count();
     char* const valid = mask_->GetPointer(0);
     for (std::size_t i = 0; i < rows.row_count(); ++i) {
-        Row row{ids != nullptr ? ids[i] : first + static_cast<vtkIdType>(i), i, rows.cells[i], true};
+        const vtkIdType point = ids != nullptr ? ids[i] : first + static_cast<vtkIdType>(i);
+        Row row{first_tuple_ + point, i, rows.cells[i], true};
         if (row.cell < 0 && !cells_.data.empty() && !std::isnan(rows.values[i * stride + columns_]))
             row = {row.point, i, static_cast<Mesh::Index>(rows.values[i * stride + columns_]), false};
         if (row.cell < 0) continue;
         valid[row.point] = 1;
+        if (owners_ != nullptr) (*owners_)[static_cast<std::size_t>(row.point)] = row.cell;
         rows_.push_back(row);
     }
     for (const Sampled& array : sampled_) {
@@ -223,7 +244,15 @@ void ProbeArrays::write_nodes(const PlaceOfRow& place) const {
     for (const Row& row : rows_) {
         std::array<double, 3> point{};
         place(row.row, point.data());
-        std::array<double, 4> weights = weights_on_axes(index_, row.cell, point.data());
+        std::array<double, 4> weights{};
+        if (row.inside) {
+            weights = weights_on_axes(index_, row.cell, point.data());
+        } else {  // of the nearest point
+            std::array<double, 3> x{};
+            x[static_cast<std::size_t>(index_.axes[2])] = index_.plane;
+            for (std::size_t a = 0; a + 1 < n; ++a) x[static_cast<std::size_t>(index_.axes[a])] = point[a];
+            weights = closest(index_, x.data(), std::numeric_limits<double>::infinity()).weights;
+        }
         for (std::size_t k = 0; k < n; ++k)
             nodes->SetId(static_cast<vtkIdType>(k), index_.mesh.cells[n * static_cast<std::size_t>(row.cell) + k]);
         const auto greatest = std::max_element(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(n));

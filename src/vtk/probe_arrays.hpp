@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "barycert/sampler.hpp"
@@ -17,19 +18,33 @@ namespace barycert::in_vtk {
 /// Where rows lie: sets the coordinates, on the axes of the mesh, of a row.
 using PlaceOfRow = std::function<void(std::size_t row, double* point)>;
 
+/// Which array of the points or cells of `source` has not one tuple for each; empty if all have.
+std::string fault_of_arrays(vtkDataSet& source);
+
+/// Gives the array that many tuples, all zero; real numbers are `outside`.
+void prepare(vtkAbstractArray& array, vtkIdType tuples, double outside);
+
 class ProbeArrays {
 public:
-    /// Adds to the point data of `output` the arrays that vtkProbeFilter would, of `points` tuples, all zero; real
-    /// numbers are `outside`. What is sampled of `source` is copied. `categorical`: the scalars are those of the vertex
-    /// of greatest weight.
-    ProbeArrays(const ExactIndex& index, vtkDataSet& source, vtkDataSet& output, vtkIdType points, bool categorical,
-                const char* mask_name, double outside);
+    /// Adds to the point data of `output` the arrays that vtkProbeFilter would, the mask last, without tuples. What is
+    /// sampled of `source` is copied. `categorical`: the scalars are those of the vertex of greatest weight.
+    ProbeArrays(const ExactIndex& index, vtkDataSet& source, vtkDataSet& output, bool categorical,
+                const char* mask_name);
+
+    /// Gives all of them that many tuples, all zero; real numbers are `outside`.
+    void allocate(vtkIdType points, double outside);
 
     /// What a sampler is to sample, in the order of its columns. Refers to this object.
     std::vector<FieldChoice> choices() const;
 
     /// Lets points outside have the values of the nearest cell: the last choice is the number of that cell.
     void number_cells();
+
+    /// From now on, owners[point] is set to the cell of the mesh of every point with a value.
+    void keep_owners(std::vector<Mesh::Index>& owners) { owners_ = &owners; }
+
+    /// From now on, point i of rows stands in tuple first + i.
+    void start_at(vtkIdType first) { first_tuple_ = first; }
 
     /// Writes rows whose points are ids[row], or first + row if there are no ids.
     void write(const TableView& rows, const vtkIdType* ids, vtkIdType first, const PlaceOfRow& place);
@@ -55,8 +70,8 @@ private:
         bool inside;
     };
 
-    void add_point_arrays(vtkDataSet& source, vtkDataSet& output, vtkIdType points, bool categorical, double outside);
-    void add_cell_arrays(vtkDataSet& source, vtkDataSet& output, vtkIdType points, double outside);
+    void add_point_arrays(vtkDataSet& source, vtkDataSet& output, bool categorical);
+    void add_cell_arrays(vtkDataSet& source, vtkDataSet& output);
     Sign side(const Sampled& array, int component, const Row& row, const PlaceOfRow& place, double threshold) const;
     template <class T>
     void write_values(const Sampled& array, const TableView& rows, std::size_t stride, const PlaceOfRow& place,
@@ -73,7 +88,10 @@ private:
     std::vector<Copied> nearest_;  ///< of nodes: those of the vertex of greatest weight
     std::vector<Copied> mixed_;    ///< of nodes, no numbers: VTK mixes them by weights
     std::vector<Copied> of_cells_;
+    std::vector<vtkAbstractArray*> made_;  ///< all of the above
     std::vector<std::string> inexact_;
+    std::vector<Mesh::Index>* owners_ = nullptr;
+    vtkIdType first_tuple_ = 0;
     std::vector<Row> rows_;  ///< those with a value, of the block that is being written
     std::size_t columns_ = 0;
 };

@@ -60,10 +60,11 @@ std::vector<double> coordinates(vtkPoints& points) {
     return all;
 }
 
-// Leaves the two coordinates of the plane that all triangles lie in.
-std::string flatten(ExactIndex& index) {
+// Leaves the two coordinates of the plane that all triangles lie in: across that axis, or any if it is -1.
+std::string flatten(ExactIndex& index, int normal) {
     const std::vector<double>& points = index.mesh.points;
     for (int axis = 2; axis >= 0; --axis) {
+        if (normal >= 0 && axis != normal) continue;
         const auto at = [&](Mesh::Index node) {
             return points[3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis)];
         };
@@ -85,55 +86,105 @@ std::string flatten(ExactIndex& index) {
     return "its triangles do not lie in one plane across an axis";
 }
 
+// A data set of cells, whichever of the two it is.
+struct Cells {
+    explicit Cells(vtkDataSet& data)
+        : grid(vtkUnstructuredGrid::SafeDownCast(&data)),
+          surface(vtkPolyData::SafeDownCast(&data)),
+          ghosts(data.GetCellGhostArray()),
+          count(data.GetNumberOfCells()) {
+        if (surface != nullptr && surface->NeedToBuildCells()) surface->BuildCells();
+    }
+    vtkPoints* points() const { return grid != nullptr ? grid->GetPoints() : surface->GetPoints(); }
+    int type(vtkIdType cell) const { return grid != nullptr ? grid->GetCellType(cell) : surface->GetCellType(cell); }
+    /// Calls `take(cell, size, nodes)` for each cell of that dimension that is no ghost.
+    template <class Take>
+    void each(int dimension, Take&& take) const {
+        for (vtkIdType i = 0; i < count; ++i) {
+            if (plain_dimension(type(i)) != dimension) continue;
+            if (ghosts != nullptr && (ghosts->GetValue(i) & ghost_mask) != 0) continue;
+            vtkIdType size = 0;
+            const vtkIdType* nodes = nullptr;
+            if (grid != nullptr) {
+                grid->GetCellPoints(i, size, nodes);
+            } else {
+                surface->GetCellPoints(i, size, nodes);
+            }
+            take(i, size, nodes);
+        }
+    }
+
+    vtkUnstructuredGrid* grid;
+    vtkPolyData* surface;
+    vtkUnsignedCharArray* ghosts;
+    vtkIdType count;
+};
+
 }  // namespace
 
-std::string read_simplices(vtkDataSet& data, ExactIndex& index) {
-    auto* const grid = vtkUnstructuredGrid::SafeDownCast(&data);
-    auto* const surface = vtkPolyData::SafeDownCast(&data);
-    if (grid == nullptr && surface == nullptr) return std::string("a ") + data.GetClassName() + " has no simplices";
-    if (surface != nullptr && surface->NeedToBuildCells()) surface->BuildCells();
-    vtkPoints* const points = grid != nullptr ? grid->GetPoints() : surface->GetPoints();
-    const vtkIdType count = data.GetNumberOfCells();
+std::string cell_dimension(vtkDataSet& data, int& dimension) {
+    dimension = -1;
+    const Cells cells(data);
+    if (cells.grid == nullptr && cells.surface == nullptr)
+        return std::string("a ") + data.GetClassName() + " has no simplices";
     constexpr vtkIdType most = std::numeric_limits<Mesh::Index>::max();
-    if (count > most || data.GetNumberOfPoints() > most) return "it has more than 2147483647 points or cells";
-    if (points == nullptr || count == 0) return {};
-
-    const auto type_of = [&](vtkIdType cell) {
-        return grid != nullptr ? grid->GetCellType(cell) : surface->GetCellType(cell);
-    };
-    int dimension = 0;
-    for (vtkIdType i = 0; i < count; ++i) {
-        const int type = type_of(i), its = plain_dimension(type);
+    if (cells.count > most || data.GetNumberOfPoints() > most) return "it has more than 2147483647 points or cells";
+    if (cells.points() == nullptr) return {};
+    for (vtkIdType i = 0; i < cells.count; ++i) {
+        const int type = cells.type(i), its = plain_dimension(type);
         if (its < 0) return "cell " + std::to_string(i) + " is a " + type_name(type);
         dimension = std::max(dimension, its);
     }
+    return {};
+}
+
+std::string read_simplices(vtkDataSet& data, ExactIndex& index, const SimplexShape& shape) {
+    int dimension = -1;
+    if (std::string reason = cell_dimension(data, dimension); !reason.empty()) return reason;
+    if (dimension < 0) return {};
+    if (shape.dimension > 0) dimension = shape.dimension;
     if (dimension < 2) return "it has neither tetrahedra nor triangles";
 
-    vtkUnsignedCharArray* const ghosts = data.GetCellGhostArray();
+    const Cells cells(data);
     Mesh& mesh = index.mesh;
     mesh.dimension = dimension;
     const vtkIdType corners = dimension + 1;
-    mesh.cells.reserve(static_cast<std::size_t>(corners * count));
+    mesh.cells.reserve(static_cast<std::size_t>(corners * cells.count));
     std::vector<vtkIdType> ids;
-    ids.reserve(static_cast<std::size_t>(count));
-    for (vtkIdType i = 0; i < count; ++i) {
-        if (plain_dimension(type_of(i)) != dimension) continue;
-        if (ghosts != nullptr && (ghosts->GetValue(i) & ghost_mask) != 0) continue;
-        vtkIdType size = 0;
-        const vtkIdType* nodes = nullptr;
-        if (grid != nullptr) {
-            grid->GetCellPoints(i, size, nodes);
-        } else {
-            surface->GetCellPoints(i, size, nodes);
-        }
-        if (size != corners) return "cell " + std::to_string(i) + " has " + std::to_string(size) + " vertices";
+    ids.reserve(static_cast<std::size_t>(cells.count));
+    std::string reason;
+    cells.each(dimension, [&](vtkIdType cell, vtkIdType size, const vtkIdType* nodes) {
+        if (size != corners && reason.empty())
+            reason = "cell " + std::to_string(cell) + " has " + std::to_string(size) + " vertices";
+        if (!reason.empty()) return;
         for (vtkIdType k = 0; k < corners; ++k) mesh.cells.push_back(static_cast<Mesh::Index>(nodes[k]));
-        ids.push_back(i);
-    }
-    if (ids.empty()) return {};
-    if (static_cast<vtkIdType>(ids.size()) != count) index.ids = std::move(ids);
-    mesh.points = coordinates(*points);
-    return dimension == 2 ? flatten(index) : std::string();
+        ids.push_back(cell);
+    });
+    if (!reason.empty() || ids.empty()) return reason;
+    if (static_cast<vtkIdType>(ids.size()) != cells.count) index.ids = std::move(ids);
+    mesh.points = coordinates(*cells.points());
+    return dimension == 2 ? flatten(index, shape.normal) : std::string();
+}
+
+Bounds3 simplex_bounds(vtkDataSet& data, int dimension) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Bounds3 all{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+    const Cells cells(data);
+    vtkPoints* const points = cells.points();
+    if (points == nullptr) return all;
+    cells.each(dimension, [&](vtkIdType, vtkIdType size, const vtkIdType* nodes) {
+        for (vtkIdType k = 0; k < size; ++k) {
+            // A node that is not there makes no bounds: who reads the cells tells of it.
+            if (nodes[k] < 0 || nodes[k] >= points->GetNumberOfPoints()) continue;
+            std::array<double, 3> x{};
+            points->GetPoint(nodes[k], x.data());
+            for (std::size_t a = 0; a < 3; ++a) {
+                all.low[a] = std::min(all.low[a], x[a]);
+                all.high[a] = std::max(all.high[a], x[a]);
+            }
+        }
+    });
+    return all;
 }
 
 }  // namespace barycert::in_vtk

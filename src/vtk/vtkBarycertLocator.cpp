@@ -197,6 +197,7 @@ static void set_parametric(const std::array<double, 4>& weights, int count, doub
 }
 
 vtkIdType vtkBarycertLocator::FindCell(double x[3]) {
+    const ExactEnvironment environment;
     const in_vtk::ExactIndex* const index = Ready();
     if (index == nullptr) return -1;
     if (index->exact()) return index->id(owner(*index, x));
@@ -214,6 +215,7 @@ vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell*
 
 vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell* cell, int& subId, double pcoords[3],
                                        double* weights) {
+    const ExactEnvironment environment;
     subId = 0;
     const in_vtk::ExactIndex* const index = Ready();
     if (index == nullptr) return -1;
@@ -225,7 +227,7 @@ vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell*
     std::array<double, 4> its{};
     const bool outside = found < 0;
     if (outside && Tolerant && tol2 > 0) {
-        const in_vtk::Closest nearest = in_vtk::closest(*index, x, std::sqrt(tol2));
+        const in_vtk::Closest nearest = in_vtk::closest(*index, x, std::sqrt(held(tol2)));
         found = nearest.cell;
         its = nearest.weights;
     }
@@ -365,6 +367,7 @@ int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3]
 }
 
 void vtkBarycertLocator::FindCellsWithinBounds(double* bbox, vtkIdList* cells) {
+    const ExactEnvironment environment;
     cells->Reset();
     vtkStaticCellLocator* const other = Other();
     if (other == nullptr) return;
@@ -393,6 +396,7 @@ void vtkBarycertLocator::FindCellsAlongPlane(const double origin[3], const doubl
 }
 
 bool vtkBarycertLocator::InsideCellBounds(double x[3], vtkIdType cellId) {
+    const ExactEnvironment environment;
     if (DataSet == nullptr || cellId < 0 || cellId >= DataSet->GetNumberOfCells()) return false;
     double bounds[6];
     DataSet->GetCellBounds(cellId, bounds);

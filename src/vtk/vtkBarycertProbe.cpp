@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <string>
 
 #include <vtkCellData.h>
@@ -19,50 +18,11 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include "barycert/environment.hpp"
-#include "barycert/grid.hpp"
 #include "vtk/exact_index.hpp"
 #include "vtk/probe_arrays.hpp"
-#include "vtk/probe_points.hpp"
+#include "vtk/probe_rows.hpp"
 
 using namespace barycert;
-
-namespace {
-
-Status sample_grid(const Sampler& sampler, const Grid& grid, const SampleOptions& options,
-                   in_vtk::ProbeArrays& arrays) {
-    const auto nx = static_cast<std::uint64_t>(grid.counts[0]), ny = static_cast<std::uint64_t>(grid.counts[1]);
-    const Result<SampleCounts> counts = resample(sampler, grid, options, [&](const TableView& rows) -> Status {
-        const auto place = [&](std::size_t row, double* point) {
-            const std::uint64_t id = rows.first_row + row;
-            point[0] = grid.coordinate(0, static_cast<std::int64_t>(id % nx));
-            point[1] = grid.coordinate(1, static_cast<std::int64_t>(id / nx % ny));
-            point[2] = grid.coordinate(2, static_cast<std::int64_t>(id / nx / ny));
-        };
-        arrays.write(rows, nullptr, static_cast<vtkIdType>(rows.first_row), place);
-        return Done{};
-    });
-    if (!counts) return counts.error();
-    return Done{};
-}
-
-// In blocks, so that memory for rows does not grow with the number of points.
-Status sample_points(const Sampler& sampler, const in_vtk::ProbePoints& points, const SampleOptions& options,
-                     in_vtk::ProbeArrays& arrays) {
-    constexpr std::size_t block = std::size_t{1} << 20;
-    const auto d = static_cast<std::size_t>(sampler.locator().mesh().dimension);
-    const std::size_t count = points.coordinates.size() / d;
-    Table rows;
-    for (std::size_t first = 0; first < count; first += block) {
-        const auto some = points.coordinates.subspan(d * first, d * std::min(block, count - first));
-        if (Status done = sampler.sample(some, options, rows, first); !done) return done;
-        const auto place = [&](std::size_t row, double* point) { std::copy_n(some.data() + d * row, d, point); };
-        const vtkIdType* const ids = points.ids.empty() ? nullptr : points.ids.data() + first;
-        arrays.write(rows.view(), ids, static_cast<vtkIdType>(first), place);
-    }
-    return Done{};
-}
-
-}  // namespace
 
 vtkStandardNewMacro(vtkBarycertProbe);
 
@@ -166,11 +126,15 @@ int vtkBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** inputs
 bool vtkBarycertProbe::Sample(const in_vtk::ExactIndex& index, vtkDataSet* input, vtkDataSet* source,
                               vtkDataSet* output) {
     const ExactEnvironment environment;
+    if (const std::string fault = in_vtk::fault_of_arrays(*source); !fault.empty()) {
+        vtkErrorMacro(<< fault);
+        return false;
+    }
     const double tolerance = ComputeTolerance ? 0 : Tolerance;
     const vtkIdType count = input->GetNumberOfPoints();
     const char* const mask_name = ValidPointMaskArrayName != nullptr ? ValidPointMaskArrayName : "vtkValidPointMask";
-    in_vtk::ProbeArrays arrays(index, *source, *output, count, CategoricalData != 0, mask_name,
-                               OutsideIsNaN ? std::numeric_limits<double>::quiet_NaN() : 0);
+    in_vtk::ProbeArrays arrays(index, *source, *output, CategoricalData != 0, mask_name);
+    arrays.allocate(count, OutsideIsNaN ? std::numeric_limits<double>::quiet_NaN() : 0);
     for (const std::string& name : arrays.inexact())
         vtkWarningMacro("the point array " << name << " has integers beyond 2^53: they become doubles first");
     if (!index.locator || count == 0) return true;
@@ -185,18 +149,21 @@ bool vtkBarycertProbe::Sample(const in_vtk::ExactIndex& index, vtkDataSet* input
         vtkErrorMacro("" << sampler.error().message());
         return false;
     }
-    const std::optional<Grid> grid = in_vtk::probe_grid(index, *input);
-    const Status done = grid ? sample_grid(*sampler, *grid, options, arrays)
-                             : sample_points(*sampler, in_vtk::probe_points(index, *input, tolerance), options, arrays);
+    const Status done = in_vtk::sample_data_set(*sampler, index, *input, options, tolerance, arrays);
     if (!done) {
         vtkErrorMacro("" << done.error().message());
         return false;
     }
-    const char* const valid = arrays.mask()->GetPointer(0);
+    ListValidPoints(*arrays.mask());
+    return true;
+}
+
+void vtkBarycertProbe::ListValidPoints(vtkCharArray& mask) {
+    const vtkIdType count = mask.GetNumberOfTuples();
+    const char* const valid = mask.GetPointer(0);
     ValidPoints->Allocate(std::count(valid, valid + count, 1));
     for (vtkIdType i = 0; i < count; ++i)
         if (valid[i] != 0) ValidPoints->InsertNextValue(i);
-    return true;
 }
 
 bool vtkBarycertProbe::AskVTK(vtkDataSet* input, vtkDataSet* source, vtkDataSet* output) {

@@ -24,6 +24,7 @@
 #include <vtkDataSetAlgorithm.h>
 #include <vtkNew.h>
 
+class vtkCharArray;
 class vtkIdTypeArray;
 
 #ifndef __VTK_WRAP__  // VTK's own parser of headers does not know nested names of namespaces
@@ -99,17 +100,21 @@ protected:
     int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputs,
                             vtkInformationVector* outputs) override;
 
+    void ListValidPoints(vtkCharArray& mask);
+    void PassArrays(vtkDataSet* input, vtkDataSet* output);
+
+    bool Exact = false;
+
 private:
     vtkBarycertProbe(const vtkBarycertProbe&) = delete;
     void operator=(const vtkBarycertProbe&) = delete;
 
     bool Sample(const barycert::in_vtk::ExactIndex& index, vtkDataSet* input, vtkDataSet* source, vtkDataSet* output);
     bool AskVTK(vtkDataSet* input, vtkDataSet* source, vtkDataSet* output);
-    void PassArrays(vtkDataSet* input, vtkDataSet* output);
 
     vtkTypeBool CategoricalData = 0, SpatialMatch = 0;
     vtkTypeBool PassCellArrays = 0, PassPointArrays = 0, PassFieldArrays = 1;
-    bool ComputeTolerance = true, OutsideIsNaN = false, Exact = false;
+    bool ComputeTolerance = true, OutsideIsNaN = false;
     double Tolerance = 0;
     char* ValidPointMaskArrayName = nullptr;
     vtkNew<vtkIdTypeArray> ValidPoints;

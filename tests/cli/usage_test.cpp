@@ -92,6 +92,56 @@ TEST(usage, what_is_not_understood_is_refused) {
     for (const Refusal& refusal : refusals) expect_refused(refusal);
 }
 
+TEST(usage, of_a_mistyped_name_the_nearest_is_told) {
+    const Scratch scratch;
+    const std::string points = scratch.put("points.csv", "x,y,z\n0.1,0.2,0.3\n"), bracket = mesh("bracket");
+    const std::string rows = scratch.put("rows.csv", "x,y,z,cel\n0.1,0.2,0.3,0\n");
+    const std::vector<Refusal> refusals{
+        {{"smaple"}, "found \"smaple\"; did you mean \"sample\"? `barycert --help` lists them"},
+        {{"help", "smaple"}, "did you mean \"sample\"?"},
+        {{"help", "render", "isso"}, "did you mean \"iso\"?"},
+        {{"render", "isso"}, "did you mean \"iso\"?"},
+        {{"sample", bracket, "--ponts", points}, "--ponts; did you mean \"--points\"?"},
+        {{"sample", bracket, "--points=" + points, "--ouput=-"}, "did you mean \"--output\"?"},
+        // Another error is found first.
+        {{"render", "slice", bracket, "--palne=0,0,1,0"}, "\"--palne\" is no option, did you mean \"--plane\"?"},
+        {{"render", "gradient", "--ouput", "x.png"}, "did you mean \"--output\"?"},
+        {{"audit", "--oracle", "cgla"},
+         "--oracle: expected integers, cgal or both, found \"cgla\"; did you mean \"cgal\"? "},
+        {{"audit", "--kernel", "triangle.signed-aera"},
+         "did you mean \"triangle.signed-area\"? `barycert kernels` lists"},
+        {{"audit", "--kernel", "cramer"}, "did you mean \"tetrahedron.cramer\"?"},
+        {{"audit", "--family", "randon"}, "did you mean \"random\"? `barycert families` lists"},
+        {{"audit", "--fail-on", "false_zeor>3"}, "did you mean \"false_zero\"?"},
+        {{"kernels", "triangle.invers"}, "did you mean \"triangle.inverse\"?"},
+        {{"search", "triangle.invers"}, "did you mean \"triangle.inverse\"?"},
+        {{"replay", "--family", "randon", "--case", "1"}, "did you mean \"random\"?"},
+        {{"replay", "--family", "mesh.inside", "--case", "1", "--simplex", "tetraedron"},
+         "did you mean \"tetrahedron\"?"},
+        {{"gaps", bracket, "--rule", "stric"}, "did you mean \"strict\"?"},
+        {{"gaps", bracket, "--fail-on", "gpas"}, "did you mean \"gaps\"?"},
+        {{"verify", bracket, "--results", rows, "--fail-on", "misssed"}, "did you mean \"missed\"?"},
+        {{"verify", bracket, "--results", rows, "--cell-column", "cell"}, "did you mean \"cel\"?"},
+        {{"sample", bracket, "--points", points, "--outside", "neerest", "--output", "-"}, "did you mean \"nearest\"?"},
+        {{"sample", bracket, "--points", points, "--vtk-data", "zlip", "--output", "-"}, "did you mean \"zlib\"?"},
+        {{"sample", bracket, "--points", points, "--fields", "atribute0", "--output", "-"},
+         "did you mean \"attribute0\"? there are attribute0"},
+        {{"sample", bracket, "--points", rows, "--keep", "cell2", "--output", "-"}, "no such column"},
+        {{"sample", bracket, "--points", rows, "--keep", "sel", "--output", "-"}, "did you mean \"cel\"?"},
+        {{"render", "mesh", bracket, "--field", "attribte0", "--output", scratch.path("x.png")},
+         "did you mean \"attribute0\"?"},
+    };
+    for (const Refusal& refusal : refusals) expect_refused(refusal);
+    // Nothing is guessed for what is near nothing.
+    EXPECT_FALSE(contains(run({"zzzzzz"}).err, "did you mean"));
+    EXPECT_FALSE(contains(run({"audit", "--zzzzzz"}).err, "did you mean"));
+#ifdef BARYCERT_TETGEN_PROGRAM
+    expect_refused({{"--qualty", "2", "x.poly"}, "did you mean \"--quality\"?"}, {.program = BARYCERT_TETGEN_PROGRAM});
+    expect_refused({{"x.poly", "--order", "3"}, "--order: expected 1 or 2, found \"3\""},
+                   {.program = BARYCERT_TETGEN_PROGRAM});
+#endif
+}
+
 // Where a file is meant, an empty name, of a variable that is not set perhaps, is no leave to go without.
 TEST(usage, an_empty_name_of_a_file_is_refused) {
     const std::string m = mesh("plate");

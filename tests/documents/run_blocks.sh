@@ -24,11 +24,17 @@ document=$1 sources=$2 programs=$3 examples=$4 folder=$5
 
 not_run() {
     case $1 in
-        "./run test"* | "./run bench"* | "./run asan"* | "./run pages"* | "./run lint"* | "./run flags"* | "./run fuzz"*) why="takes minutes" ;;
+        "./run test"* | "./run bench"* | "./run asan"* | "./run pages"* | "./run lint"* | "./run flags"* | "./run package"* | "./run fuzz"*) why="takes minutes" ;;
         "./run findings"* | "./run systems"* | "./run libraries"*) why="needs other systems" ;;
         "./run python"* | "python3 -m venv "*) why="needs the package for Python; tests/python does that" ;;
         "sudo "* | "apt-get "*) why="installs packages" ;;
+        "g++ "*"pkg-config"*) why="needs an installation; tests/install does that" ;;
+        *"tests/install/"*) why="needs root and an archive of Debian" ;;
         "cmake "* | "git clone "* | "cd "*) why="builds; tests/install does that" ;;
+        "mpirun "*)
+            [ ! -x "$examples/example_mpi_probe" ] || return 1
+            why="this build has no example with MPI"
+            ;;
         "pvpython "*)
             ! command -v pvpython >/dev/null || return 1
             why="needs ParaView; tests/install/paraview.sh does that"
@@ -60,6 +66,8 @@ case \$command:\${1-} in
 esac
 EOF
 chmod +x "$folder/copy/run"
+
+[ ! -x "$examples/example_mpi_probe" ] || ln -s "$examples/example_mpi_probe" "$folder/copy/mpi_probe"
 
 # Blocks as files NNN.LANGUAGE; NNN.follows where nothing but blank lines stands between a block and the one before it.
 # Commands that go over several lines are joined.

@@ -4,14 +4,21 @@
 #   tests/install/bare-debian.sh [MIRROR]
 # MIRROR: a Debian archive; the first that this machine's apt uses for bookworm if left out.
 # STEPS="sample audit test" by default; each can be had alone. sample: a .vtu by VTK's writer goes in, a .vtu with values comes out, without VTK. KEEP=1 leaves the system for a look inside.
+# packages: the packages that `./run package` made, from DEBS (build/package/packages), are installed and used; nothing is
+# built there, so ask for it alone. SUITE=trixie: all that in Debian 13.
 set -eu
 root=$(CDPATH= cd -- "$(dirname -- "$0")/../.." && pwd)
 name=bare-debian
 . "$root/tests/install/bare_system.sh"
+. "$root/tests/install/try_packages.sh"
 steps=${STEPS-sample audit test}
 bare_system "$@"
 
 for step in $steps; do
+    if [ $step = packages ]; then
+        try_packages
+        continue
+    fi
     words=$step
     [ $step != sample ] || words="barycert sample data/vtk/bracket.vtu --points data/meshes/bracket --output values.vtu"
     timed "./run $words" -- inside "./run $words" >"$place/$step.log" 2>&1 ||

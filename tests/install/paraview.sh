@@ -6,7 +6,7 @@
 # MIRROR: a Debian archive; the first that this machine's apt uses for bookworm if left out. KEEP=1 leaves the system for
 # a look inside, SYSTEM=FOLDER takes one that was left, with what is built in it.
 #
-# 1 the classes of src/vtk with ParaView's VTK 9.2: tests/vtk; 2 the plug-in, installed: tests/paraview by pvpython;
+# 1 the classes of src/vtk with ParaView's VTK 9.2: tests/vtk, tests/mpi; 2 the plug-in, installed: tests/paraview by pvpython;
 # 3 the commands of doc/paraview.md; 4 two and three processes of pvbatch give the values of one.
 set -eu
 root=$(CDPATH= cd -- "$(dirname -- "$0")/../.." && pwd)
@@ -27,24 +27,19 @@ step() {
 }
 step configure "cmake -S . -B build/paraview -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr \
     -DBARYCERT_WERROR=ON -DBARYCERT_TETGEN=OFF -DBARYCERT_PARAVIEW=ON \
-    -DBARYCERT_TESTS=ON -DBARYCERT_TEST_FOLDERS=vtk -DBARYCERT_VTK=ON -DVTK_DIR=\$(echo /usr/lib/*/cmake/paraview-5.11/vtk)"
-step build "cmake --build build/paraview --target Barycert barycert_cli test_vtk"
+    -DBARYCERT_TESTS=ON -DBARYCERT_TEST_FOLDERS='vtk;mpi' -DBARYCERT_VTK=ON -DVTK_DIR=\$(echo /usr/lib/*/cmake/paraview-5.11/vtk)"
+step build "cmake --build build/paraview --target Barycert barycert_cli test_vtk test_mpi"
 step "tests/vtk with VTK 9.2" "build/paraview/tests/vtk/test_vtk"
 grep -E '^\[  PASSED' "$log" || die "no verdict of tests/vtk"
+for ranks in 1 4; do
+    step "tests/mpi with VTK 9.2, $ranks ranks" "mpirun --allow-run-as-root --oversubscribe -n $ranks build/paraview/tests/mpi/test_mpi"
+    grep -E '^\[  PASSED' "$log" || die "no verdict of tests/mpi"
+done
 step install "cmake --install build/paraview --component paraview"
 plugin=$(inside "ls /usr/lib/*/paraview-5.11/plugins/Barycert/Barycert.so") || die "no plug-in was installed"
 say "plug-in: $plugin"
-step tests/paraview "xvfb-run -a pvpython tests/paraview/plugin_test.py build/paraview/bin/barycert $plugin /tmp/plugin"
-grep -E '^Ran [0-9]+ tests|owner than' "$log"
-step doc/paraview.md "PV_PLUGIN_PATH=\$(dirname $plugin) xvfb-run -a sh tests/documents/run_blocks.sh doc/paraview.md /barycert \
-    /barycert/build/paraview/bin /nowhere /tmp/document"
-for processes in 1 2 3; do
-    step "pvbatch, $processes processes" "xvfb-run -a mpirun --allow-run-as-root --oversubscribe -n $processes pvbatch \
-        tests/paraview/processes.py $plugin /tmp/values.csv"
-    values=$(grep "^$processes processes: " "$log") || die "$processes processes were asked for"
-    say "$values"
-    [ $processes != 1 ] || first=${values#*: }
-    [ "${values#*: }" = "$first" ] || die "values depend on the number of processes"
-done
-say "pictures: $(inside "ls /tmp/plugin/*.png /tmp/document/copy/*.png" | tr '\n' ' ')"
+# One screen for all, which stays when a program leaves it.
+step tests/paraview "xvfb-run -a -s '-screen 0 1280x1024x24 -noreset' sh tests/paraview/run.sh /barycert/build/paraview/bin $plugin /tmp/tests"
+grep -E '^Ran [0-9]+ tests|owner than|^[0-9] processes' "$log"
+say "pictures: $(inside "ls /tmp/tests/plugin/*.png /tmp/tests/document/copy/*.png" | tr '\n' ' ')"
 say "all of it holds"

@@ -143,10 +143,11 @@ class PluginTest(unittest.TestCase):
 class Proxies(PluginTest):
     def test_all_are_there(self):
         for group, name in (("cell_locators", "BarycertLocator"), ("sources", "BarycertTetGenReader"),
-                            ("filters", "BarycertResample"), ("filters", "BarycertCheck")):
+                            ("filters", "BarycertResample"), ("filters", "BarycertResampleDistributed"),
+                            ("filters", "BarycertCheck")):
             definitions = sm.ProxyManager().SMProxyManager.GetProxyDefinitionManager()
             self.assertTrue(definitions.HasDefinition(group, name), name)
-        for name in ("BarycertTetGenReader", "BarycertResample", "BarycertCheck"):
+        for name in ("BarycertTetGenReader", "BarycertResample", "BarycertResampleDistributed", "BarycertCheck"):
             self.assertIn(name, globals())
 
 
@@ -234,8 +235,11 @@ class Resample(PluginTest):
         for stem in ("lattice-eighths", "lattice-box", "cube-hole"):
             reader = read_mesh(stem)
             x = awkward_points(sm.Fetch(reader))
-            filtered = BarycertResample(SourceDataArrays=reader, DestinationMesh=source_of(points_of(x)))
-            self.expect_sampled(sm.Fetch(filtered), sampled(stem, x))
+            where, rows = source_of(points_of(x)), sampled(stem, x)
+            self.expect_sampled(sm.Fetch(BarycertResample(SourceDataArrays=reader, DestinationMesh=where)), rows)
+            ids = pv.GenerateGlobalIds(Input=reader)
+            parts = BarycertResampleDistributed(SourceDataArrays=ids, DestinationMesh=where)
+            self.expect_sampled(sm.Fetch(parts), rows)
 
     def test_saved_values_are_verified(self):
         reader = read_mesh("bracket")

@@ -1,7 +1,8 @@
 """Values that do not depend on the number of processes: mpirun -n N pvbatch tests/paraview/processes.py PLUGIN FILE.csv
 
-Every process has a part of the image, and shares points with its neighbours. The last line tells how many processes there
-were, and of all rows in FILE.csv, each once, how many there are, how many lie in the mesh, and their hash.
+Every process has a part of the image, and shares points with its neighbours; of the mesh all (Barycert Resample) or a part
+(distributed). A line each tells how many processes there were, and of all rows in FILE.csv, each once, how many there are,
+how many lie in the mesh, and their hash.
 """
 import hashlib
 import os
@@ -17,10 +18,18 @@ here = os.path.dirname(os.path.abspath(__file__))
 mesh = simple.OpenDataFile(os.path.join(here, "..", "..", "data", "meshes", "lattice-eighths.node"))
 image = simple.Transform(Input=simple.Wavelet(WholeExtent=[-2, 34, -2, 34, -2, 34]), Transform="Transform")
 image.Transform.Scale = [1 / 32, 1 / 32, 1 / 32]
-simple.SaveData(path, proxy=BarycertResample(SourceDataArrays=mesh, DestinationMesh=image), Precision=17)
-table = np.genfromtxt(path, delimiter=",", names=True)
-names = sorted(table.dtype.names)
-rows = np.unique(np.stack([table[name] for name in names], axis=1), axis=0)
-inside = int(rows[:, names.index("vtkValidPointMask")].sum())
 processes = vtkMultiProcessController.GetGlobalController().GetNumberOfProcesses()
-print(processes, "processes:", len(rows), "rows,", inside, "inside,", hashlib.sha256(rows.tobytes()).hexdigest())
+
+
+def tell(words, values):
+    simple.SaveData(path, proxy=values, Precision=17)
+    table = np.genfromtxt(path, delimiter=",", names=True)
+    names = sorted(name for name in table.dtype.names if name.startswith(("Points", "attribute", "vtkValid")))
+    rows = np.unique(np.stack([table[name] for name in names], axis=1), axis=0)
+    inside = int(rows[:, names.index("vtkValidPointMask")].sum())
+    print(f"{processes} {words}: {len(rows)} rows, {inside} inside, {hashlib.sha256(rows.tobytes()).hexdigest()}")
+
+
+tell("processes", BarycertResample(SourceDataArrays=mesh, DestinationMesh=image))
+parts = simple.RedistributeDataSet(Input=mesh)
+tell("processes, distributed", BarycertResampleDistributed(SourceDataArrays=parts, DestinationMesh=image))

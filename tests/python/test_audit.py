@@ -168,6 +168,14 @@ def test_planted_errors_are_found(mesh):
     assert by_verdict["invented"].row == outside[2] and by_verdict["invented"].distance > 0
     assert by_verdict["wrong value"].row == inside[7] and by_verdict["wrong value"].column == "T"
     assert by_verdict["wrong cell"].row == inside[9]
+    exact = mesh.sample(at, "T")
+    invented, missed, wrong = by_verdict["invented"], by_verdict["missed"], by_verdict["wrong value"]
+    assert (invented.column, missed.column) == ("T", "T")
+    assert invented.claimed == 0.5 and np.isnan([invented.value, invented.ulps, invented.relative]).all()
+    assert missed.value == exact[inside[3]] and np.isnan([missed.claimed, missed.ulps, missed.relative]).all()
+    assert wrong.claimed == exact[inside[7]] + 1e-3 and wrong.value == exact[inside[7]] and wrong.ulps > 1 > wrong.relative > 0
+    without = barycert.verify(mesh, at, cells=cells).examples[0]
+    assert without.column == "" and np.isnan([without.claimed, without.value, without.ulps, without.relative]).all()
     assert "996 of 1000 rows right" in repr(found) and "1 missed" in repr(found)
     # One unit in the last place is found where bits are asked for.
     values = mesh.sample(at, "T")

@@ -103,6 +103,28 @@ def test_the_stub_has_what_the_module_has():
     assert os.path.exists(os.path.join(os.path.dirname(barycert.__file__), "py.typed"))
 
 
+def arguments_of(function):
+    """Names as the docstring has them that pybind11 writes: "name(a: int, b: Dict[str, int] = 1) -> float"."""
+    text = re.match(r"\w+\((.*)\) -> ", function.__doc__).group(1)
+    while "[" in text:
+        text = re.sub(r"\[[^][]*\]", "", text)
+    return [argument.split(":")[0].strip() for argument in text.split(",") if argument]
+
+
+def test_the_stub_has_the_arguments_of_the_module():
+    with open(os.path.join(os.path.dirname(barycert.__file__), "_core.pyi"), encoding="utf-8") as file:
+        stub = ast.parse(file.read())
+    compared = 0
+    for node in stub.body:
+        owner = getattr(_core, node.name, None) if isinstance(node, ast.ClassDef) and node.name != "Error" else None
+        for item in [node] if isinstance(node, ast.FunctionDef) else node.body if owner else []:
+            if isinstance(item, ast.FunctionDef) and not item.decorator_list and hasattr(owner or _core, item.name):
+                function = getattr(owner or _core, item.name)
+                assert [argument.arg for argument in item.args.args] == arguments_of(function), item.name
+                compared += 1
+    assert compared > 30
+
+
 def test_mypy_accepts_the_types():
     pytest.importorskip("mypy")
     done = subprocess.run(

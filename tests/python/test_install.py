@@ -41,3 +41,23 @@ def test_pip_installs(tmp_path):
     assert {"barycert/__init__.py", "barycert/_core.pyi", "barycert/py.typed"} <= set(names)
     assert any(name.startswith("barycert/_core.") and name.endswith(".so") for name in names)
     assert wheel.startswith("barycert-0") and f"cp{sys.version_info.major}{sys.version_info.minor}" in wheel
+
+
+def test_metadata_need_no_build(tmp_path, monkeypatch):
+    """What pip asks first; and it is what the wheel has."""
+    monkeypatch.syspath_prepend(os.path.join(SOURCES, "src", "python", "build_backend"))
+    import backend
+
+    def no_build(*command):
+        raise AssertionError(command)
+
+    with monkeypatch.context() as without:
+        without.setattr(backend, "_run", no_build)
+        folder = backend.prepare_metadata_for_build_wheel(str(tmp_path))
+    assert folder.startswith("barycert-0") and folder.endswith(".dist-info")
+    metadata = (tmp_path / folder / "METADATA").read_text(encoding="utf-8")
+    assert metadata.startswith("Metadata-Version: 2.1\nName: barycert\nVersion: 0")
+    if BUILD:
+        with zipfile.ZipFile(tmp_path / backend.build_wheel(str(tmp_path), {"prebuilt": BUILD})) as wheel:
+            for name in os.listdir(tmp_path / folder):
+                assert wheel.read(f"{folder}/{name}") == (tmp_path / folder / name).read_bytes()

@@ -281,6 +281,34 @@ def test_memory_comes_back():
     assert resident() - before < 40e6
 
 
+def test_counts_are_not_negative(mesh):
+    at = [[1, 1, 1]]
+    audit = lambda **what: barycert.audit("triangle.signed-area", **{"count": 5, **what})
+    for name, calls in {
+        "threads": [
+            lambda n: mesh.locate(at, threads=n),
+            lambda n: mesh.locate_all(at, threads=n),
+            lambda n: mesh.sample(at, "T", threads=n),
+            lambda n: mesh.locate(at).sample("T", threads=n),
+            lambda n: mesh.resample(2, fields="T", threads=n),
+            lambda n: barycert.Interpolator(mesh, mesh.points, threads=n)(at),
+            lambda n: mesh.check(threads=n),
+            lambda n: barycert.verify(mesh, at, cells=[0], threads=n),
+            lambda n: audit(threads=n),
+        ],
+        "examples": [lambda n: mesh.check(examples=n), lambda n: barycert.verify(mesh, at, cells=[0], examples=n)],
+        "contacts": [lambda n: mesh.check(contacts=n)],
+        "count": [lambda n: audit(count=n)],
+        "seed": [lambda n: audit(seed=n)],
+    }.items():
+        for call in calls:
+            call(np.int8(2))
+            with pytest.raises(barycert.Error, match=f"{name}=: expected 0 or more, found -1"):
+                call(-1)
+            with pytest.raises(TypeError, match="interpreted as an integer"):
+                call(2.5)
+
+
 def test_errors_have_parts(tmp_path):
     path = tmp_path / "broken.node"
     (tmp_path / "broken.ele").write_text("1 4 0\n1 1 2 3 4\n")

@@ -95,6 +95,7 @@ def test_shapes(mesh):
     assert mesh.locate(at[0]).cell.shape == () and mesh.sample(at[0], "v").shape == (3,)
     none = np.zeros((0, d))
     assert mesh.sample(none, "v").shape == (0, 3) and mesh.locate(none).matrix().shape == (0, len(mesh.points))
+    assert mesh.locate(none).weights.shape == (0, d + 1)
     for bad in (at[:, :1], 3.0, at.ravel()):
         with pytest.raises(barycert.Error, match="shape of the points"):
             mesh.locate(bad)
@@ -134,6 +135,10 @@ def test_the_matrix(mesh):
     assert np.abs(everywhere @ mesh.point_data["T"] - mesh.sample(at, "T", outside="nearest")).max() < 1e-15
     with pytest.raises(barycert.Error, match="outside="):
         location.matrix(outside="what")
+    # No weights can do that.
+    for outside in ("raise", "fill"):
+        with pytest.raises(barycert.Error, match="expected nan, nearest or extrapolate"):
+            location.matrix(outside=outside)
 
 
 def test_sampling_of_fields(mesh):
@@ -182,8 +187,6 @@ def test_plain_rounding_keeps_owners(mesh):
     assert np.nanmax(np.abs(plain - correct)) < 1e-10
     with pytest.raises(barycert.Error, match="rounding="):
         mesh.sample(at, "T", rounding="what")
-    with pytest.raises(barycert.Error, match="threads="):
-        mesh.sample(at, "T", threads=-1)
 
 
 def test_nearest():

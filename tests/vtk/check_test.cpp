@@ -215,6 +215,14 @@ TEST(Check, TakesCellsOfSecondOrder) {
         for (std::size_t k = 0; k < 6; ++k) cell.push_back(mesh.mid_nodes[6 * i + k]);
         grid->InsertNextCell(VTK_QUADRATIC_TETRA, 10, cell.data());
     }
+    vtkNew<vtkIdList> first;
+    grid->GetCellPoints(0, first);
+    grid->InsertNextCell(VTK_QUADRATIC_TETRA, first);  // a duplicate, but for its mark
+    vtkNew<vtkUnsignedCharArray> ghosts;
+    ghosts->SetName("vtkGhostType");
+    for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
+        ghosts->InsertNextValue(i + 1 == grid->GetNumberOfCells() ? vtkDataSetAttributes::DUPLICATECELL : 0);
+    grid->GetCellData()->AddArray(ghosts);
     vtkNew<vtkBarycertCheck> check;
     check->SetInputData(grid);
     check->Update();
@@ -223,6 +231,7 @@ TEST(Check, TakesCellsOfSecondOrder) {
     EXPECT_EQ(row_of(check->GetDefects(), "unused_node"), -1);
     const vtkIdType linear[4] = {mesh.cells[0], mesh.cells[1], mesh.cells[2], mesh.cells[3]};
     grid->InsertNextCell(VTK_TETRA, 4, linear);
+    ghosts->InsertNextValue(0);
     Messages messages;
     grid->Modified();
     check->Update();

@@ -16,6 +16,7 @@
 #include <vtkGenericCell.h>
 #include <vtkIdList.h>
 #include <vtkImageData.h>
+#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -126,6 +127,13 @@ TEST(Closest, IsThatInThePlaneOfTriangles) {
     double closest[3], dist2 = 0;
     vtkIdType id = -1;
     int sub_id = -1;
+    vtkNew<vtkGenericCell> cell;
+    int inside = 1;
+    double above[3] = {-4, 0.5, 0.75};
+    EXPECT_EQ(locator->FindClosestPointWithinRadius(above, 9, closest, cell, id, sub_id, dist2, inside), 1);
+    EXPECT_EQ(inside, 0);
+    EXPECT_EQ(dist2, 81);
+    EXPECT_EQ(std::vector<double>(closest, closest + 3), (std::vector<double>{5, 0.5, 0.75}));
     double x[3] = {8, -4, 1};
     locator->FindClosestPoint(x, closest, id, sub_id, dist2);
     EXPECT_EQ(dist2, 25);
@@ -193,11 +201,24 @@ TEST(Lines, AreThoseOfAllCells) {
         const int all = locator->IntersectWithLine(p1, p2, points, list);
         EXPECT_EQ(all, expected.empty() ? 0 : locator->FindCell(p1) >= 0 ? -1 : 1);
         EXPECT_EQ(set_of(list), expected);
+        const auto along_line = [&](vtkIdType k) {
+            double at[3], way = 0;
+            points->GetPoint(k, at);
+            for (int a = 0; a < 3; ++a) way += (at[a] - p1[a]) * (p2[a] - p1[a]);
+            return way;
+        };
+        for (vtkIdType k = 1; k < points->GetNumberOfPoints(); ++k) EXPECT_LE(along_line(k - 1), along_line(k) + 1e-12);
         EXPECT_EQ(points->GetNumberOfPoints(), list->GetNumberOfIds());
         EXPECT_EQ(locator->IntersectWithLine(p1, p2, 0, points, list), expected.empty() ? 0 : 1);
         EXPECT_EQ(set_of(list), expected);
         EXPECT_EQ(locator->IntersectWithLine(p1, p2, 0, points, list, cell), expected.empty() ? 0 : 1);
         EXPECT_EQ(set_of(list), expected);
+        for (vtkIdType k = 1; k < points->GetNumberOfPoints(); ++k) {
+            double before[3], after[3];
+            points->GetPoint(k - 1, before);
+            points->GetPoint(k, after);
+            EXPECT_LE(vtkMath::Distance2BetweenPoints(p1, before), vtkMath::Distance2BetweenPoints(p1, after) + 1e-12);
+        }
         // Without a cell to work with: those whose boxes the line meets.
         locator->IntersectWithLine(p1, p2, 0, points, list, nullptr);
         const std::set<vtkIdType> boxes = set_of(list);

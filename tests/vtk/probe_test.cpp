@@ -254,6 +254,7 @@ TEST(Probe, LeavesGhostCellsOut) {
     for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
         ghosts->InsertNextValue(i == 0   ? vtkDataSetAttributes::DUPLICATECELL
                                 : i == 1 ? vtkDataSetAttributes::HIDDENCELL
+                                : i == 2 ? vtkDataSetAttributes::REFINEDCELL
                                          : 0);
     grid->GetCellData()->AddArray(ghosts);
     const PointJudge judge(mesh);
@@ -270,8 +271,8 @@ TEST(Probe, LeavesGhostCellsOut) {
         vtkIdType expected = -1;
         const std::vector<Held> holders = judge.holders(points.data() + 3 * i);
         for (const Held& held : holders)
-            if (expected < 0 && held.cell > 1) expected = held.cell;
-        beside_a_ghost += expected >= 0 && holders.front().cell < 2 ? 1 : 0;
+            if (expected < 0 && held.cell > 2) expected = held.cell;
+        beside_a_ghost += expected >= 0 && holders.front().cell < 3 ? 1 : 0;
         ASSERT_EQ(mask->GetTuple1(i), expected < 0 ? 0 : 1);
         ASSERT_EQ(id->GetValue(i), expected < 0 ? 0 : expected + (vtkIdType{1} << 60));
     }
@@ -322,6 +323,27 @@ TEST(Probe, TakesTheNearestPointWithinATolerance) {
     EXPECT_EQ(out->GetArray("a")->GetTuple1(2), 7);
 }
 
+// Beyond the face of an oblique cell the greatest weight is that of another vertex than at the nearest point.
+TEST(Probe, TakesCategoriesOfTheNearestPointWithinATolerance) {
+    Mesh mesh;
+    mesh.points = {0, 0, 0, 4, 0, 0, 0, 4, 0, 4, 0, 1};
+    mesh.cells = {0, 1, 2, 3};
+    const auto grid = grid_of(mesh);
+    add<vtkIntArray>(grid, {10, 20, 30, 40});
+    grid->GetPointData()->SetActiveScalars("a");
+    vtkNew<vtkBarycertProbe> probe;
+    probe->SetSourceData(grid);
+    probe->SetInputData(points_of({1, 1, -0.5, 1, 1, 0.125}));
+    probe->CategoricalDataOn();
+    probe->ComputeToleranceOff();
+    probe->SetTolerance(0.5);
+    probe->Update();
+    vtkPointData* const out = probe->GetOutput()->GetPointData();
+    EXPECT_EQ(out->GetArray("vtkValidPointMask")->GetTuple1(0), 1);
+    EXPECT_EQ(out->GetArray("a")->GetTuple1(0), 10);
+    EXPECT_EQ(out->GetArray("a")->GetTuple1(1), 10);
+}
+
 TEST(Probe, TakesTrianglesInAPlane) {
     Mesh mesh = own_mesh("plate");
     mesh.point_fields = {{.name = "x", .data = {}}};
@@ -365,6 +387,38 @@ TEST(Probe, ReadsTheSourceAgainWhenItChanges) {
     grid->GetPoints()->Modified();
     probe->Update();
     EXPECT_EQ(probe->GetOutput()->GetPointData()->GetArray("vtkValidPointMask")->GetTuple1(0), 0);
+}
+
+TEST(Probe, TakesAMeshThatHasTheMaskOfAnEarlierProbe) {
+    const auto grid = corner();
+    add<vtkDoubleArray>(grid, {0, 4, 8, 16});
+    for (vtkDataSetAttributes* const attributes : {static_cast<vtkDataSetAttributes*>(grid->GetPointData()),
+                                                   static_cast<vtkDataSetAttributes*>(grid->GetCellData())}) {
+        vtkNew<vtkDoubleArray> mask;
+        mask->SetName("vtkValidPointMask");
+        mask->SetNumberOfTuples(attributes == grid->GetPointData() ? 4 : 1);
+        mask->Fill(0.5);
+        attributes->AddArray(mask);
+    }
+    EXPECT_EQ(probe_one(grid, {1, 1, 1}), 7);
+    EXPECT_EQ(probe_one(grid, {1, 1, 1}, "vtkValidPointMask"), 1);
+    EXPECT_EQ(probe_one(grid, {9, 1, 1}, "vtkValidPointMask"), 0);
+}
+
+TEST(Probe, RefusesArraysThatAreTooShort) {
+    for (const bool of_cells : {false, true}) {
+        const auto grid = corner();
+        add<vtkDoubleArray>(grid, {0, 4, 8, 16});
+        vtkNew<vtkDoubleArray> array;
+        array->SetName("short");
+        (of_cells ? static_cast<vtkDataSetAttributes*>(grid->GetCellData()) : grid->GetPointData())->AddArray(array);
+        vtkNew<vtkBarycertProbe> probe;
+        probe->SetSourceData(grid);
+        probe->SetInputData(points_of({1, 1, 1}));
+        Messages messages;
+        probe->Update();
+        EXPECT_EQ(messages.count("the source has an array short of 0 tuples, and "), 1) << messages.all();
+    }
 }
 
 TEST(Probe, OfNothingIsNothing) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "barycert/base/named_limit.hpp"
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert {
@@ -63,7 +64,8 @@ Result<Threshold> parse_threshold(std::string_view text) {
         for (const auto& [name, value] : figures()) names += (names.empty() ? "" : ", ") + name;
         return Error{.what = "unknown rule",
                      .expected = "NAME or NAME>NUMBER with NAME one of " + names,
-                     .found = '"' + std::string(text) + '"'};
+                     .found = '"' + std::string(text) + '"',
+                     .remedy = base::did_you_mean(rule.name, threshold_names())};
     }
     if (!limit.most)
         return Error{

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 
 namespace barycert::io {
@@ -57,7 +58,8 @@ Result<std::size_t> column_named(const TableColumns& all, std::string_view name)
 }
 
 Error no_such_column(const TableColumns& all, const std::string& name, const std::string& remedy) {
-    return fault(all, "no such column", base::quoted(name), listed(all.names), remedy);
+    return fault(all, "no such column", base::quoted(name), listed(all.names),
+                 base::did_you_mean(name, all.names, remedy));
 }
 
 Result<std::vector<std::size_t>> axes_asked_for(const TableColumns& all, int dimension, const PointOptions& options) {

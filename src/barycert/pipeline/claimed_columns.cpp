@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 
 namespace barycert::pipeline {
@@ -25,11 +26,14 @@ std::string list_of(const std::vector<ColumnFormat>& there) {
 
 Error no_column(const VerifyJob& job, const std::string& what, const std::string& name,
                 const std::vector<ColumnFormat>& there) {
+    std::vector<std::string> names;
+    names.reserve(there.size());
+    for (const ColumnFormat& c : there) names.push_back(c.name);
     return {.what = what + ": the results have no such column",
             .file = job.results,
             .expected = list_of(there),
             .found = base::quoted(name),
-            .remedy = "name one of these"};
+            .remedy = base::did_you_mean(name, names, "name one of these")};
 }
 
 /// The column of component c of a field: what the job says, or one of the usual names.
@@ -58,7 +62,8 @@ Status check_named(const VerifyJob& job, const std::vector<FieldChoice>& fields,
             for (const std::string& name : known) list += (list.empty() ? "" : ", ") + base::quoted(name);
             return Error{.what = "--value: the mesh has no such value",
                          .expected = list.empty() ? "no field at all: give one with --field" : list,
-                         .found = base::quoted(value)};
+                         .found = base::quoted(value),
+                         .remedy = base::did_you_mean(value, known)};
         }
         if (!has(there, column)) return no_column(job, "--value", column, there);
     }

@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/fields/field_file.hpp"
@@ -96,7 +97,8 @@ Result<Field> read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
             .file = file.path,
             .expected = file.column.empty() ? "" : base::quoted(file.column),
             .found = "of nodes " + names_of(other->point_fields) + "; of cells " + names_of(other->cell_fields),
-            .remedy = "name one: --field " + file.name + "=" + file.path + ":ARRAY"};
+            .remedy = base::did_you_mean(file.column, sample::all_field_names(*other),
+                                         "name one: --field " + file.name + "=" + file.path + ":ARRAY")};
     file.of = of_points != nullptr ? FieldFile::Of::points : FieldFile::Of::cells;
     const bool same = other->points == mesh.points && (of_points != nullptr || other->cells == mesh.cells);
     const std::size_t components = static_cast<std::size_t>((of_points != nullptr ? of_points : of_cells)->components);

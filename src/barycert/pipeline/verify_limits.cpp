@@ -7,6 +7,7 @@
 #include <string>
 
 #include "barycert/base/named_limit.hpp"
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/verification.hpp"
 
@@ -18,6 +19,13 @@ constexpr std::array<RowVerdict, 4> kinds_of_wrong{RowVerdict::missed, RowVerdic
 
 }  // namespace
 
+std::vector<std::string> verify_limit_names() {
+    std::vector<std::string> names;
+    names.reserve(kinds_of_wrong.size());
+    for (const RowVerdict v : kinds_of_wrong) names.emplace_back(handle(v));
+    return names;
+}
+
 Result<VerifyLimit> parse_verify_limit(std::string_view text) {
     const ExactEnvironment environment;
     const base::NamedLimit limit = base::named_limit(text);
@@ -26,7 +34,8 @@ Result<VerifyLimit> parse_verify_limit(std::string_view text) {
     if (kind == kinds_of_wrong.end() || !limit.most || std::floor(*limit.most) != *limit.most || *limit.most > 0x1p53)
         return Error{.what = "unknown rule",
                      .expected = "missed, invented, wrong_cell or wrong_value, perhaps >COUNT",
-                     .found = '"' + std::string(text) + '"'};
+                     .found = '"' + std::string(text) + '"',
+                     .remedy = base::did_you_mean(limit.name, verify_limit_names())};
     return VerifyLimit{*kind, static_cast<std::uint64_t>(*limit.most)};
 }
 

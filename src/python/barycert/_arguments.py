@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from typing import Any, Callable, Optional, Tuple, Union
 
 import numpy as np
@@ -80,13 +81,21 @@ def values_of(values: Any, count: int, what: str) -> Tuple[np.ndarray, Tuple[int
     return array.reshape(count, components), shape
 
 
+def count_of(number: Any, what: str) -> int:
+    """An integer that is not negative; TypeError if it is none, as of range()."""
+    count = operator.index(number)
+    if count < 0:
+        _core.fail(what, expected="0 or more", found=str(count))
+    return count
+
+
 def options_of(
     outside: Optional[str], fill_value: float, limit: float, rounding: str, threads: int
 ) -> _core.SampleOptions:
     """outside None: fill_value, which is NaN unless it is given."""
     if outside is None:
         outside = "nan" if np.isnan(fill_value) else "fill"
-    return _core.SampleOptions(outside, float(fill_value), float(limit), rounding, int(threads))
+    return _core.SampleOptions(outside, float(fill_value), float(limit), rounding, count_of(threads, "threads="))
 
 
 class Teller:

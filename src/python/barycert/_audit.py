@@ -9,7 +9,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Union
 import numpy as np
 
 from . import _core
-from ._arguments import Progress, Teller
+from ._arguments import Progress, Teller, count_of
 from ._mesh import Mesh
 
 Kernel = Union[Callable[[np.ndarray, np.ndarray], Any], str, os.PathLike]
@@ -142,8 +142,9 @@ def audit(
     with Teller(progress) as tell:
         core = _core.audit(
             callable_kernel, simplex, name or "", declares_degenerate, tolerance, libraries, catalogue, contained,
-            count, seed, [families] if isinstance(families, str) else list(families),
-            [(label, mesh._core) for label, mesh in named], threads, oracle, tell,
+            count_of(count, "count="), count_of(seed, "seed="),
+            [families] if isinstance(families, str) else list(families),
+            [(label, mesh._core) for label, mesh in named], count_of(threads, "threads="), oracle, tell,
         )  # fmt: skip
     return AuditReport(core)
 

@@ -59,7 +59,7 @@ class Location:
         nodes."""
         if self._weights is None:
             self._weights = _core.weights_of(self.mesh._core, self._points, self._cell, None)
-        return self._weights.reshape(self._shape + (-1,))
+        return self._weights.reshape(self._shape + (self.mesh.dimension + 1,))
 
     def matrix(self, *, outside: str = "nan", limit: float = np.inf, progress: Progress = None) -> Any:
         """The weights of the points on the nodes of the mesh, a scipy.sparse.csr_matrix (points, nodes): `matrix @ values`
@@ -71,6 +71,8 @@ class Location:
         those of `Mesh.sample`."""
         from scipy.sparse import csr_matrix
 
+        if outside not in ("nan", "nearest", "extrapolate"):
+            _core.fail("what points outside get (outside=)", expected="nan, nearest or extrapolate", found=repr(outside))
         with Teller(progress) as tell:
             begin, nodes, weights = _core.matrix(
                 self.mesh._core, self._points, self._cell, outside, float(limit), tell

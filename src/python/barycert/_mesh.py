@@ -10,7 +10,7 @@ from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _core
-from ._arguments import Progress, Teller, contiguous, exact_doubles, options_of, points_of, real, values_of
+from ._arguments import Progress, Teller, contiguous, count_of, exact_doubles, options_of, points_of, real, values_of
 from ._check import CheckReport
 from ._location import Location
 
@@ -219,7 +219,7 @@ class Mesh:
             rows = rows.copy()
         rows.flags.writeable = False
         with Teller(progress) as tell:
-            cell, feature = _core.locate(self._core, rows, threads, tell)
+            cell, feature = _core.locate(self._core, rows, count_of(threads, "threads="), tell)
         return Location(self, rows, shape, cell, feature)
 
     def locate_all(self, points: Any, *, threads: int = 0, progress: Progress = None) -> Tuple[np.ndarray, np.ndarray]:
@@ -230,7 +230,7 @@ class Mesh:
         """
         rows, _ = points_of(points, self.dimension)
         with Teller(progress) as tell:
-            return _core.locate_all(self._core, rows, threads, tell)
+            return _core.locate_all(self._core, rows, count_of(threads, "threads="), tell)
 
     def nearest(self, points: Any, *, limit: float = np.inf, progress: Progress = None) -> Tuple[np.ndarray, np.ndarray]:
         """The nearest cell to each point: exact, the lowest index among those as near.
@@ -368,9 +368,11 @@ class Mesh:
             progress: called with the name of each stage, 0, 0.
         """
         with Teller(progress) as tell:
-            return CheckReport(
-                _core.check(self._core, delaunay, examples, contacts, verdict_only, threads, tell), self
-            )
+            core = _core.check(
+                self._core, delaunay, count_of(examples, "examples="), count_of(contacts, "contacts="), verdict_only,
+                count_of(threads, "threads="), tell,
+            )  # fmt: skip
+        return CheckReport(core, self)
 
     # Out and in.
 

@@ -8,7 +8,7 @@ from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 import numpy as np
 
 from . import _core
-from ._arguments import Progress, Teller, contiguous, exact_doubles, points_of
+from ._arguments import Progress, Teller, contiguous, count_of, exact_doubles, points_of
 from ._location import Feature
 from ._mesh import Fields, Mesh
 
@@ -21,7 +21,8 @@ class WrongRow:
         verdict: "missed", "invented", "wrong cell" or "wrong value".
         row: its number. point: its coordinates.
         claimed_cell: -1 none, or outside. cell, feature: the exact owner, -1 outside. cells: how many contain the point.
-        column, claimed, value, ulps, relative: of the worst value; "" and NaN where there is none.
+        column, claimed, value: where the error is largest; of missed and invented rows the first value that is a number.
+            "" and NaN if no values were given. ulps, relative: that error; NaN of missed and invented rows.
         distance: of an invented row, to the mesh.
     """
 
@@ -178,7 +179,7 @@ def verify(
         found = _core.verify(
             sampler, rows, flat(cells, np.int64, "cells"),
             None if inside is None else flat(np.asarray(inside) != 0, np.uint8, "inside"),
-            table, tolerance, exact, outside_value, examples, threads, tell,
+            table, tolerance, exact, outside_value, count_of(examples, "examples="), count_of(threads, "threads="), tell,
         )  # fmt: skip
     columns = [ColumnErrors(**c) for c in found.pop("columns")]
     wrong = [WrongRow(feature=Feature(row.pop("feature")), **row) for row in found.pop("examples")]

@@ -46,6 +46,26 @@ def _tag():
     return f"{version}-{version}-" + sysconfig.get_platform().replace("-", "_").replace(".", "_")
 
 
+def _information(project):
+    """Files of the folder .dist-info, but the record of all."""
+    with open(os.path.join(ROOT, "LICENSE"), "rb") as source:
+        licence = source.read()
+    wheel = f"Wheel-Version: 1.0\nGenerator: barycert\nRoot-Is-Purelib: false\nTag: {_tag()}\n"
+    return {"LICENSE": licence, "METADATA": _metadata(project).encode(), "WHEEL": wheel.encode()}
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """Without this, pip would build the wheel to learn its name."""
+    del config_settings
+    project = _project()
+    folder = f"{project['name']}-{project['version']}.dist-info"
+    os.mkdir(os.path.join(metadata_directory, folder))
+    for name, content in _information(project).items():
+        with open(os.path.join(metadata_directory, folder, name), "wb") as file:
+            file.write(content)
+    return folder
+
+
 def _run(*command):
     subprocess.run(command, check=True, cwd=ROOT)
 
@@ -97,10 +117,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
             record.append(f"{path},sha256={digest},{len(content)}")
 
         _add_files(add, _stage(config_settings or {}, folder))
-        with open(os.path.join(ROOT, "LICENSE"), "rb") as source:
-            add(f"{info}/LICENSE", source.read())
-        add(f"{info}/METADATA", _metadata(project).encode())
-        add(f"{info}/WHEEL", f"Wheel-Version: 1.0\nGenerator: barycert\nRoot-Is-Purelib: false\nTag: {_tag()}\n".encode())
+        for file, content in _information(project).items():
+            add(f"{info}/{file}", content)
         wheel.writestr(f"{info}/RECORD", "\n".join([*record, f"{info}/RECORD,,", ""]))
     return name
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "barycert/base/input_file.hpp"
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/csv/csv_fields.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
@@ -41,12 +42,13 @@ Result<FieldLayout> settle(std::string_view line, const std::string& column, con
         out.columns = columns_of_field(cut->fields, column);
     }
     if (!out.columns.empty()) return out;
-    return Error{.what = "no such column",
-                 .file = place.file,
-                 .line = place.line,
-                 .expected = base::quoted(column),
-                 .found = listed(cut->fields),
-                 .remedy = "name a column of the first line, or say its place, from 1"};
+    return Error{
+        .what = "no such column",
+        .file = place.file,
+        .line = place.line,
+        .expected = base::quoted(column),
+        .found = listed(cut->fields),
+        .remedy = base::did_you_mean(column, cut->fields, "name a column of the first line, or say its place, from 1")};
 }
 
 /// Appends the values of the line.

@@ -6,6 +6,7 @@
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/mapped_file.hpp"
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
@@ -110,11 +111,12 @@ Result<std::vector<std::size_t>> components_of(const NpyTable& table, const Fiel
     if (!column.empty())
         columns = columns_of_field(names, are_places({column}) && !table.structured ? "column" + column : column);
     if (!columns.empty()) return columns;
-    return Error{.what = column.empty() ? "the type of field \"" + field.name + '"' : "no such column",
-                 .file = path,
-                 .expected = column.empty() ? "an array of numbers" : base::quoted(column),
-                 .found = table.structured && column.empty() ? "a structured array of " + listed(names) : listed(names),
-                 .remedy = "name one of them: --field " + field.name + "=" + path + ":NAME"};
+    return Error{
+        .what = column.empty() ? "the type of field \"" + field.name + '"' : "no such column",
+        .file = path,
+        .expected = column.empty() ? "an array of numbers" : base::quoted(column),
+        .found = table.structured && column.empty() ? "a structured array of " + listed(names) : listed(names),
+        .remedy = base::did_you_mean(column, names, "name one of them: --field " + field.name + "=" + path + ":NAME")};
 }
 
 Result<Field> read_npy(Field field, const std::string& path, const std::string& column, Notes& notes) {

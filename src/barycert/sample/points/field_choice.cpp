@@ -1,4 +1,5 @@
 #include "barycert/sample/points/field_choice.hpp"
+#include "barycert/base/nearest_name.hpp"
 
 #include <algorithm>
 #include <string_view>
@@ -43,6 +44,14 @@ bool choose_field(const Mesh& mesh, std::string_view name, FieldChoice& chosen) 
     return field != nullptr;
 }
 
+std::vector<std::string> all_field_names(const Mesh& mesh) {
+    std::vector<std::string> names;
+    for (const auto* fields : {&mesh.point_fields, &mesh.cell_fields}) {
+        for (const Field& field : *fields) names.push_back(field.name);
+    }
+    return names;
+}
+
 Error no_such_field(const Mesh& mesh, const std::string& name) {
     const std::string points = names_of(mesh.point_fields), cells = names_of(mesh.cell_fields);
     std::string remedy = "there are " + points;
@@ -53,7 +62,7 @@ Error no_such_field(const Mesh& mesh, const std::string& name) {
             .line = 0,
             .expected = {},
             .found = '"' + name + '"',
-            .remedy = remedy};
+            .remedy = base::did_you_mean(name, all_field_names(mesh), remedy)};
 }
 
 Result<std::vector<FieldChoice>> fields_named(const Mesh& mesh, const std::vector<std::string>& names) {

@@ -1,0 +1,154 @@
+// barycert help: what --help says, and the same options as manual pages and completions for shells.
+
+#include <CLI/CLI.hpp>
+
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+
+#include "barycert/base/nearest_name.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/verification.hpp"
+#include "command.hpp"
+#include "files.hpp"
+#include "options/choice.hpp"
+#include "options/command_table.hpp"
+#include "options/completion.hpp"
+#include "options/man_page.hpp"
+#include "options/mistyped.hpp"
+#ifdef BARYCERT_WITH_AUDIT
+#include "barycert/audit.hpp"
+#include "names.hpp"
+#endif
+
+namespace barycert::cli {
+namespace {
+
+using CompletionOf = std::string (*)(const CommandEntry&);
+
+struct HelpArguments {
+    std::vector<std::string> words;
+    CompletionOf completion = nullptr;
+    std::string folder;
+};
+
+Vocabulary vocabulary() {
+    Vocabulary words{{"KIND", verify_limit_names()}};
+#ifdef BARYCERT_WITH_AUDIT
+    words["KERNEL"] = kernel_names();
+    words["FAMILY"] = family_names();
+    words["REASON"] = reason_names();
+    words["RULE"] = threshold_names();
+    words["FAULT"] = claim_fault_names();
+#endif
+    return words;
+}
+
+/// The command that `barycert mesh` runs, as a program of its own.
+CommandEntry mesher(const CommandEntry& program) {
+    for (const CommandEntry& command : program.commands) {
+        if (command.name != "mesh") continue;
+        CommandEntry alone = command;
+        alone.path = alone.name = "barycert-tetgen";
+        alone.text = "Mesh a PLC (.poly .smesh .off .stl .ply) with TetGen";
+        return alone;
+    }
+    return {};
+}
+
+std::vector<Variable> variables() {
+    return {{"BARYCERT_DATA_DIR", "The folder of barycert's own data, whose meshes are audited where none is named."},
+            {"BARYCERT_COMMAND", "How the program names itself in commands to repeat, for scripts that run it."},
+            {"NO_COLOR", "If set and not empty, nothing is coloured."},
+            {"TMPDIR", "The folder of temporary files; /tmp without it."}};
+}
+
+/// The day that packages are made on, by SOURCE_DATE_EPOCH; else none, for pages depend on the program alone.
+std::string date() {
+    const char* const text = std::getenv("SOURCE_DATE_EPOCH");
+    std::time_t seconds = 0;
+    if (text == nullptr || std::from_chars(text, text + std::strlen(text), seconds).ec != std::errc{}) return "";
+    std::tm day{};
+    if (gmtime_r(&seconds, &day) == nullptr) return "";
+    std::array<char, 16> written{};
+    std::strftime(written.data(), written.size(), "%Y-%m-%d", &day);
+    return written.data();
+}
+
+int write_pages(const CommandEntry& program, const std::string& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) return fail({.what = "cannot make the folder", .file = folder, .found = error.message()});
+    std::vector<ManPage> pages = man_pages(program, "barycert " BARYCERT_VERSION, variables(), date());
+    for (ManPage& page : man_pages(mesher(program), "barycert " BARYCERT_VERSION, {}, date()))
+        pages.push_back(std::move(page));
+    for (const ManPage& page : pages) {
+        if (const Status written = write_output((std::filesystem::path(folder) / page.file).string(), page.text);
+            !written)
+            return fail(written.error());
+    }
+    return exit_clean;
+}
+
+int explain(const CLI::App& app, const std::vector<std::string>& words) {
+    const CLI::App* command = &app;
+    std::string above;
+    for (const std::string& word : words) {
+        const auto named = [&](const CLI::App* sub) { return sub->get_name() == word; };
+        const auto found = command->get_subcommands(named);
+        if (found.empty())
+            return fail({.what = "no such subcommand",
+                         .found = '"' + word + '"',
+                         .remedy = base::did_you_mean(word, command_names(*command), "`barycert help` lists them")});
+        above += (above.empty() ? "" : " ") + command->get_name();
+        command = found.front();
+    }
+    // Of the program itself help() would show that of the subcommand that was given: this one.
+    const std::string text = command == &app
+                                 ? app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal)
+                                 : command->help(above);
+    const Status written = write_output("-", text);
+    return written ? exit_clean : fail(written.error());
+}
+
+int run_help(const CLI::App& app, const HelpArguments& a) {
+    const bool pages = !a.folder.empty(), script = a.completion != nullptr;
+    if (pages || script) {
+        const bool of_mesher = script && a.words == std::vector<std::string>{"mesh"};
+        if ((!a.words.empty() && !of_mesher) || (pages && script))
+            return fail({.what = "manual pages and completions are of all subcommands",
+                         .expected = "--man DIR, --completion SHELL or subcommands",
+                         .found = "several of these",
+                         .remedy = "give one of them alone"});
+    }
+    if (!pages && !script) return explain(app, a.words);
+    const CommandEntry program = command_table(app, vocabulary());
+    if (!script) return write_pages(program, a.folder);
+    const Status written = write_output("-", a.completion(a.words.empty() ? program : mesher(program)));
+    return written ? exit_clean : fail(written.error());
+}
+
+}  // namespace
+
+void add_help(CLI::App& app, int& exit_code) {
+    auto* sub = app.add_subcommand("help", "Explain a subcommand; print completions for shells, write manual pages");
+    sub->footer(
+        "`source <(barycert help --completion bash)` completes commands in this shell; `barycert help mesh\n"
+        "--completion bash` those of barycert-tetgen. Packages install both.\nExit codes: 0 done; 2 usage or input "
+        "error.");
+    const auto a = std::make_shared<HelpArguments>();
+    sub->add_option("SUBCOMMAND", a->words, "The subcommand, such as sample or render iso; default: all, in a list");
+    choice_option<CompletionOf>(*sub, "--completion", a->completion,
+                                {{"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}},
+                                "Print a script that completes subcommands, options and their values in this shell");
+    file_option(*sub, "--man", a->folder, "Write the manual pages of barycert, its subcommands and barycert-tetgen")
+        ->type_name("DIR");
+    sub->callback([&app, a, &exit_code] { exit_code = run_help(app, *a); });
+}
+
+}  // namespace barycert::cli

@@ -1,0 +1,32 @@
+/// Options of a few words.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace barycert::cli {
+
+/// Takes these words alone; of any other it tells them, and the nearest.
+CLI::Validator one_of(const std::vector<std::string>& words);
+
+/// "a|b|c", the type of an option that takes these words: command_table() reads them there again.
+std::string joined(const std::vector<std::string>& words);
+
+/// An option of a few words, each of which stands for a value, in the order of the help.
+template <class Value>
+CLI::Option* choice_option(CLI::App& sub, const std::string& name, Value& value,
+                           const std::vector<std::pair<std::string, Value>>& choices, const std::string& help) {
+    std::vector<std::string> words;
+    for (const auto& choice : choices) words.push_back(choice.first);
+    const auto set = [&value, choices](const std::string& word) {
+        for (const auto& choice : choices) {
+            if (choice.first == word) value = choice.second;
+        }
+    };
+    return sub.add_option_function<std::string>(name, set, help)->check(one_of(words))->type_name(joined(words));
+}
+
+}  // namespace barycert::cli

@@ -1,0 +1,58 @@
+/// All commands and options of a program in plain words, read from its parser: what --help shows, manual pages and
+/// completions are made of.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace barycert::cli {
+
+struct OptionEntry {
+    std::vector<std::string> names;  ///< "-h", "--help"; of an operand its name alone: "MESH"
+    std::string type;                ///< what it takes, as the help shows it: "FILE", "correct|plain"; empty: nothing
+    std::string limits;              ///< of a number: "0 to 4096"; empty: it has its own
+    std::string preset;              ///< what holds without it; empty: see the text
+    std::string text;
+    bool operand = false;  ///< by its place, without a name
+    bool required = false;
+    bool repeats = false;      ///< may be given several times, or an operand several words
+    bool may_be_bare = false;  ///< the value may be left out
+
+    // What completes the value.
+    std::vector<std::string> words;  ///< these
+    bool files = false;              ///< names of files
+
+    /// The last of the names, the long one.
+    const std::string& name() const { return names.back(); }
+};
+
+struct CommandEntry {
+    std::string path;  ///< "barycert render iso"
+    std::string name;  ///< "iso"
+    std::string text;
+    std::string notes;  ///< what the help ends with
+    std::vector<OptionEntry> options;
+    std::vector<CommandEntry> commands;
+};
+
+/// The words that types of values stand for: "KERNEL" -> all kernels.
+using Vocabulary = std::map<std::string, std::vector<std::string>>;
+
+/// Types of values, by which their words are found: parts between |, of which those in small letters are words
+/// themselves (up to a [; with their = where one follows), FILE and the names of operands that file_option() makes are
+/// files, and others are looked up in the vocabulary.
+CommandEntry command_table(const CLI::App& app, const Vocabulary& vocabulary);
+
+/// Calls visit(command) for the command, and for all below it, depth first.
+template <class Visit>
+void for_commands(const CommandEntry& command, const Visit& visit) {
+    visit(command);
+    for (const CommandEntry& below : command.commands) for_commands(below, visit);
+}
+
+}  // namespace barycert::cli

@@ -1,0 +1,197 @@
+#include "options/man_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace barycert::cli {
+namespace {
+
+/// As text of roff: nothing in it is a request or an escape.
+std::string roff(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        switch (c) {
+            case '\\':
+                out += "\\e";
+                break;
+            case '-':
+                out += "\\-";
+                break;
+            case '\'':
+                out += "\\(aq";
+                break;
+            case '`':
+                out += "\\(ga";
+                break;
+            case '^':
+                out += "\\(ha";
+                break;
+            case '~':
+                out += "\\(ti";
+                break;
+            case '.':
+                out += out.empty() || out.back() == '\n' ? "\\&." : ".";
+                break;
+            default:
+                out += c;
+        }
+    }
+    return out;
+}
+
+std::string bold(std::string_view text) {
+    return "\\fB" + roff(text) + "\\fR";
+}
+
+std::string italic(std::string_view text) {
+    return "\\fI" + roff(text) + "\\fR";
+}
+
+std::string page_name(const CommandEntry& command) {
+    std::string name = command.path;
+    std::replace(name.begin(), name.end(), ' ', '-');
+    return name;
+}
+
+/// "sample the fields ...", as man and apropos show it; without the colon that would end it.
+std::string headline(const CommandEntry& command) {
+    std::string text = command.text;
+    if (const std::string own = command.path + ": "; text.starts_with(own)) text.erase(0, own.size());
+    if (text.size() > 1 && std::islower(static_cast<unsigned char>(text[1])) != 0)
+        text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+    while (text.ends_with('.')) text.pop_back();
+    return text;
+}
+
+/// What stands in the place of a value: words as they are, names of things in italics.
+std::string man_value(const OptionEntry& option) {
+    const bool words = !option.words.empty() && std::none_of(option.type.begin(), option.type.end(), [](char c) {
+        return std::isupper(static_cast<unsigned char>(c)) != 0;
+    });
+    return words ? bold(option.type) : italic(option.type);
+}
+
+std::string synopsis(const CommandEntry& command) {
+    std::string text = ".SH SYNOPSIS\n" + bold(command.path);
+    for (const OptionEntry& o : command.options) {
+        if (!o.operand && o.required) text += fmt::format(" {} {}", bold(o.name()), man_value(o));
+    }
+    text += " [" + italic("OPTIONS") + "]";
+    for (const OptionEntry& o : command.options) {
+        if (!o.operand) continue;
+        const std::string name = italic(o.name()) + (o.repeats ? "..." : "");
+        text += ' ' + (o.required ? name : '[' + name + ']');
+    }
+    text += '\n';
+    if (!command.commands.empty()) text += ".br\n" + bold(command.path) + ' ' + italic("COMMAND") + " ...\n";
+    return text;
+}
+
+std::string option_text(const OptionEntry& option) {
+    std::string text = ".TP\n";
+    if (option.operand) {
+        text += italic(option.name());
+    } else {
+        for (std::size_t i = 0; i < option.names.size(); ++i) text += (i == 0 ? "" : ", ") + bold(option.names[i]);
+        if (!option.type.empty()) text += ' ' + man_value(option);
+    }
+    text += '\n' + roff(option.text);
+    std::string more;
+    if (option.required && !option.operand) more += " Required.";
+    if (!option.limits.empty()) more += " From " + option.limits + '.';
+    if (!option.preset.empty()) more += " Default: " + option.preset + '.';
+    if (!more.empty()) text += (option.text.ends_with('.') ? "" : ".") + roff(more);
+    return text + '\n';
+}
+
+std::string entries(const CommandEntry& command, bool operands, const char* title) {
+    std::string text;
+    for (const OptionEntry& option : command.options) {
+        if (option.operand == operands) text += option_text(option);
+    }
+    return text.empty() ? text : std::string(".SH ") + title + '\n' + text;
+}
+
+/// The notes are broken into lines by hand: prose is filled again, but not lines that have columns.
+std::string notes_text(std::string_view text) {
+    std::string out;
+    bool columns = false;
+    while (!text.empty()) {
+        const std::string_view line = text.substr(0, text.find('\n'));
+        text.remove_prefix(std::min(text.size(), line.size() + 1));
+        if (columns != (line.find("   ") != std::string_view::npos)) {
+            columns = !columns;
+            out += columns ? ".PP\n.nf\n" : ".fi\n.PP\n";
+        }
+        out += roff(line) + '\n';
+    }
+    return columns ? out + ".fi\n" : out;
+}
+
+/// The sentence on exit codes has a section of its own.
+std::pair<std::string, std::string> split_notes(const std::string& notes) {
+    const std::size_t begin = notes.find("Exit codes:");
+    if (begin == std::string::npos) return {notes, ""};
+    std::size_t end = notes.find('.', begin);
+    end = end == std::string::npos ? notes.size() : end + 1;
+    std::string codes = notes.substr(begin + 12, end - begin - 12), rest = notes.substr(0, begin);
+    std::replace(codes.begin(), codes.end(), '\n', ' ');
+    while (end < notes.size() && (notes[end] == '\n' || notes[end] == ' ')) ++end;
+    rest += notes.substr(end);
+    while (rest.ends_with('\n') || rest.ends_with(' ')) rest.pop_back();
+    return {rest, codes};
+}
+
+std::string link_to(const std::string& name) {
+    return bold(name) + "(1)";
+}
+
+std::string see_also(const CommandEntry& command, const CommandEntry& program) {
+    std::vector<std::string> names;
+    if (&command != &program) names.push_back(page_name(program));
+    for (const CommandEntry& other : command.commands) names.push_back(page_name(other));
+    if (names.empty()) return "";
+    std::string text = ".SH SEE ALSO\n";
+    for (std::size_t i = 0; i < names.size(); ++i) text += link_to(names[i]) + (i + 1 == names.size() ? "\n" : ",\n");
+    return text;
+}
+
+std::string page(const CommandEntry& command, const CommandEntry& program, std::string_view version,
+                 const std::vector<Variable>& environment, std::string_view date) {
+    std::string title = page_name(command);
+    std::transform(title.begin(), title.end(), title.begin(),
+                   [](char c) { return static_cast<char>(std::toupper(static_cast<unsigned char>(c))); });
+    const auto [notes, codes] = split_notes(command.notes);
+    std::string text =
+        fmt::format(".TH {} 1 \"{}\" \"{}\" \"User Commands\"\n.nh\n.ad l\n", roff(title), date, roff(version));
+    text += ".SH NAME\n" + roff(page_name(command)) + " \\- " + roff(headline(command)) + '\n';
+    text += synopsis(command);
+    text += ".SH DESCRIPTION\n" + roff(command.text) + ".\n";
+    if (!notes.empty()) text += ".PP\n" + notes_text(notes);
+    text += entries(command, true, "OPERANDS") + entries(command, false, "OPTIONS");
+    if (!command.commands.empty()) text += ".SH COMMANDS\n";
+    for (const CommandEntry& below : command.commands)
+        text += ".TP\n" + bold(below.name) + '\n' + roff(below.text) + ". See " + link_to(page_name(below)) + ".\n";
+    if (!codes.empty()) text += ".SH EXIT STATUS\n" + roff(codes) + '\n';
+    if (&command == &program && !environment.empty()) {
+        text += ".SH ENVIRONMENT\n";
+        for (const Variable& v : environment) text += ".TP\n" + bold(v.name) + '\n' + roff(v.text) + '\n';
+    }
+    return text + see_also(command, program);
+}
+
+}  // namespace
+
+std::vector<ManPage> man_pages(const CommandEntry& program, std::string_view version,
+                               const std::vector<Variable>& environment, std::string_view date) {
+    std::vector<ManPage> pages;
+    for_commands(program, [&](const CommandEntry& command) {
+        pages.push_back({page_name(command) + ".1", page(command, program, version, environment, date)});
+    });
+    return pages;
+}
+
+}  // namespace barycert::cli

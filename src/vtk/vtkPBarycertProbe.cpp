@@ -1,0 +1,118 @@
+#include "vtkPBarycertProbe.h"
+
+#include <limits>
+#include <string>
+
+#include <vtkCharArray.h>
+#include <vtkDataSet.h>
+#include <vtkErrorCode.h>
+#include <vtkIdTypeArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkMultiProcessController.h>
+#include <vtkObjectFactory.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+
+#include "vtk/distributed_probe.hpp"
+#include "vtk/exchange.hpp"
+#include "vtk/failing_upstream.hpp"
+
+using namespace barycert;
+
+vtkStandardNewMacro(vtkPBarycertProbe);
+vtkCxxSetObjectMacro(vtkPBarycertProbe, Controller, vtkMultiProcessController);
+
+vtkPBarycertProbe::vtkPBarycertProbe() {
+    SetController(vtkMultiProcessController::GetGlobalController());
+}
+
+vtkPBarycertProbe::~vtkPBarycertProbe() {
+    SetController(nullptr);
+}
+
+void vtkPBarycertProbe::PrintSelf(ostream& os, vtkIndent indent) {
+    Superclass::PrintSelf(os, indent);
+    os << indent << "Controller: " << Controller << "\n";
+    os << indent << "PointsSent: " << PointsSent << "\n";
+    os << indent << "PointsReceived: " << PointsReceived << "\n";
+    os << indent << "BytesSent: " << BytesSent << "\n";
+    os << indent << "BytesGathered: " << BytesGathered << "\n";
+    os << indent << "NumberOfPartners: " << NumberOfPartners << "\n";
+}
+
+vtkExecutive* vtkPBarycertProbe::CreateDefaultExecutive() {
+    return in_vtk::FailingUpstream::New();
+}
+
+// A process may have no piece.
+int vtkPBarycertProbe::FillInputPortInformation(int port, vtkInformation* info) {
+    if (port == 1) info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    return Superclass::FillInputPortInformation(port, info);
+}
+
+int vtkPBarycertProbe::RequestInformation(vtkInformation* request, vtkInformationVector** inputs,
+                                          vtkInformationVector* outputs) {
+    if (inputs[1]->GetNumberOfInformationObjects() == 0) return 1;
+    return Superclass::RequestInformation(request, inputs, outputs);
+}
+
+// The piece of the source goes with the piece of the output, as that of the input does. Ghosts are not needed.
+int vtkPBarycertProbe::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs,
+                                           vtkInformationVector* outputs) {
+    using Pipeline = vtkStreamingDemandDrivenPipeline;
+    vtkInformation* const source = inputs[1]->GetInformationObject(0);
+    vtkInformation* const out = outputs->GetInformationObject(0);
+    if (source == nullptr) return 1;
+    for (vtkInformationIntegerKey* const key : {Pipeline::UPDATE_PIECE_NUMBER(), Pipeline::UPDATE_NUMBER_OF_PIECES()})
+        if (out->Has(key) != 0) source->Set(key, out->Get(key));
+    source->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    return 1;
+}
+
+int vtkPBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) {
+    vtkDataSet* const input = vtkDataSet::GetData(inputs[0]);
+    vtkDataSet* const source = vtkDataSet::GetData(inputs[1]);
+    vtkDataSet* const output = vtkDataSet::GetData(outputs);
+    GetValidPoints()->Reset();
+    SetErrorCode(vtkErrorCode::NoError);
+    Status ready = Done{};
+    const auto* const pipeline = dynamic_cast<in_vtk::FailingUpstream*>(GetExecutive());
+    if (pipeline != nullptr && !pipeline->failure().empty())
+        ready = Error{.what = "what comes before this filter failed: " + pipeline->failure()};
+    else if (input == nullptr || output == nullptr)
+        ready = Error{.what = "the input is missing"};
+    else
+        output->CopyStructure(input);
+
+    in_vtk::Exchange exchange(Controller);
+    const char* const mask_name = GetValidPointMaskArrayName();
+    in_vtk::DistributedProbe probe(exchange,
+                                   {.categorical = GetCategoricalData() != 0,
+                                    .outside = GetOutsideIsNaN() ? std::numeric_limits<double>::quiet_NaN() : 0,
+                                    .mask = mask_name != nullptr ? mask_name : "vtkValidPointMask"});
+    if (ready && !GetComputeTolerance() && GetTolerance() > 0)
+        ready = Error{.what = "this filter has no Tolerance: points are inside the mesh or not",
+                      .remedy = "leave ComputeTolerance on"};
+    const Status done = probe.run(ready, input, source, output);
+    PointsSent = static_cast<vtkIdType>(probe.points_sent());
+    PointsReceived = static_cast<vtkIdType>(probe.points_received());
+    BytesSent = static_cast<vtkIdType>(exchange.sent());
+    BytesGathered = static_cast<vtkIdType>(exchange.gathered());
+    NumberOfPartners = static_cast<int>(exchange.partners().size());
+    Exact = done.has_value();
+    if (!done) {
+        if (output != nullptr) output->Initialize();
+        SetErrorCode(vtkErrorCode::UserError);
+        vtkErrorMacro("" << done.error().message());
+        return 0;
+    }
+    for (const std::string& name : probe.inexact())
+        vtkWarningMacro("the point array " << name << " has integers beyond 2^53: they become doubles first");
+    if (probe.numbered_by_ranks() && exchange.rank() == 0)
+        vtkWarningMacro(
+            "the cells of some source have no global ids: they are numbered by process, and owners of points on seams "
+            "depend on how the mesh is cut");
+    ListValidPoints(*probe.mask());
+    PassArrays(input, output);
+    return 1;
+}

@@ -1,0 +1,84 @@
+// One rank finds no memory once, at any place: all end with an error, or none has noticed.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include <vtkMultiProcessController.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+
+#include "check/meshes.hpp"
+#include "locate/points.hpp"
+#include "mpi/pieces.hpp"
+#include "vtk/distributed_probe.hpp"
+#include "vtk/exchange.hpp"
+#include "vtk/grids.hpp"
+#include "vtkBarycertProbe.h"
+
+namespace {
+
+// VTK ends the process where it finds no memory for its own small objects, and with it the job.
+constexpr std::size_t least = 600;
+std::atomic<long> left{0};  ///< allocations until one fails; 0: none does
+
+}  // namespace
+
+// Not inlined: GCC 12 would take malloc and delete for a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+    if (size >= least && left.load(std::memory_order_relaxed) > 0 && left.fetch_sub(1) == 1) throw std::bad_alloc();
+    if (void* const memory = std::malloc(size > 0 ? size : 1)) return memory;
+    throw std::bad_alloc();
+}
+
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+
+namespace barycert::testing {
+namespace {
+
+TEST(Memory, ThatOneRankLacksEndsAll) {
+    const Mesh mesh = box(3, {8, 3, 3});
+    const auto whole = with_arrays(mesh);
+    base::Random random(1);
+    const std::vector<double> points = awkward_points(mesh, 60, random);
+    const auto mine = points_of(share_of(points, rank(), ranks()));
+    const auto judge = probed<vtkBarycertProbe>(whole, mine);
+    const auto pieces = ranks_of_cells(whole, Cut::slabs);
+    int errors = 0;
+    for (long fails = 1, done = 0; done < 2; ++fails) {
+        SCOPED_TRACE(fails);
+        // A new one, for its index is kept.
+        const auto piece = piece_of(whole, pieces, rank(), false, random);
+        vtkNew<vtkPolyData> output;
+        output->CopyStructure(mine);
+        in_vtk::Exchange exchange(vtkMultiProcessController::GetGlobalController());
+        in_vtk::DistributedProbe probe(exchange, {.mask = "vtkValidPointMask"});
+        if (rank() == ranks() / 2) left = fails;
+        const Status status = probe.run(Done{}, mine, piece, output);
+        int untouched = rank() == ranks() / 2 && left > 0 ? 1 : 0;
+        left = 0;
+        // That all know is known by messages, too.
+        std::array<int, 3> facts{status ? 1 : 0, status ? 0 : 1, untouched};
+        exchange.greatest(facts);
+        ASSERT_FALSE(facts[0] == 1 && facts[1] == 1);
+        done += facts[2];
+        if (status) {
+            expect_same(output->GetPointData(), judge->GetOutput()->GetPointData());
+        } else {
+            ASSERT_NE(status.error().message().find("out of memory"), std::string::npos) << status.error().message();
+            ++errors;
+        }
+    }
+    EXPECT_GT(errors, 20);
+}
+
+}  // namespace
+}  // namespace barycert::testing

@@ -1,0 +1,224 @@
+// vtkPBarycertProbe: the bytes of vtkBarycertProbe on the whole mesh, however it is cut; owners against the oracle.
+
+#include <gtest/gtest.h>
+
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkIdTypeArray.h>
+#include <vtkImageData.h>
+#include <vtkMultiProcessController.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+
+#include "check/meshes.hpp"
+#include "core/same_everywhere.hpp"
+#include "locate/judge.hpp"
+#include "locate/points.hpp"
+#include "mpi/pieces.hpp"
+#include "vtk/grids.hpp"
+#include "vtkPBarycertProbe.h"
+
+namespace barycert::testing {
+namespace {
+
+void expect_as_of_the_whole(vtkUnstructuredGrid* whole, vtkDataSet* piece, vtkDataSet* input) {
+    const auto ours = probed<vtkPBarycertProbe>(piece, input);
+    const auto judge = probed<vtkBarycertProbe>(whole, input);
+    EXPECT_TRUE(ours->GetExact());
+    expect_same(ours->GetOutput()->GetPointData(), judge->GetOutput()->GetPointData());
+    ASSERT_EQ(ours->GetValidPoints()->GetNumberOfTuples(), judge->GetValidPoints()->GetNumberOfTuples());
+    for (vtkIdType i = 0; i < judge->GetValidPoints()->GetNumberOfTuples(); ++i)
+        ASSERT_EQ(ours->GetValidPoints()->GetValue(i), judge->GetValidPoints()->GetValue(i));
+}
+
+std::vector<double> in_space(const Mesh& mesh, const std::vector<double>& points, double plane) {
+    if (mesh.dimension == 3) return points;
+    std::vector<double> all;
+    for (std::size_t i = 0; i < points.size(); i += 2)
+        all.insert(all.end(), {points[i], points[i + 1], i % 10 == 8 ? plane + 1 : plane});
+    return all;
+}
+
+TEST(Owners, AreThoseOfTheWholeHoweverItIsCut) {
+    for (const char* const stem : {"lattice-box", "cube-hole", "flange", "plate"}) {
+        const Mesh mesh = own_mesh(stem);
+        const auto whole = with_arrays(mesh, 0.25);
+        base::Random random(3);
+        const std::vector<double> points = in_space(mesh, awkward_points(mesh, 40, random), 0.25);
+        for (const Cut cut : all_cuts) {
+            for (const bool ghosts : {false, true}) {
+                SCOPED_TRACE(std::string(stem) + ", " + name(cut) + (ghosts ? ", ghosts" : ""));
+                const auto piece = piece_of(whole, ranks_of_cells(whole, cut), rank(), ghosts, random);
+                expect_as_of_the_whole(whole, piece, points_of(share_of(points, rank(), ranks())));
+            }
+        }
+    }
+}
+
+// What the lowest global id is, is asked of the oracle; and many points must lie on seams.
+TEST(Owners, OnSeamsAreTheLowestGlobalIds) {
+    const Mesh mesh = box(3, {4, 2, 2});
+    const auto whole = with_arrays(mesh);
+    const PointJudge judge(mesh);
+    base::Random random(5);
+    for (const Cut cut : all_cuts) {
+        for (const bool ghosts : {false, true}) {
+            SCOPED_TRACE(std::string(name(cut)) + (ghosts ? ", ghosts" : ""));
+            const std::vector<int> of = ranks_of_cells(whole, cut);
+            const std::vector<double> points = awkward_points(mesh, 60, random);
+            const std::vector<double> mine = share_of(points, rank(), ranks());
+            const auto probe = probed<vtkPBarycertProbe>(piece_of(whole, of, rank(), ghosts, random), points_of(mine));
+            auto* const ids = vtkIdTypeArray::SafeDownCast(probe->GetOutput()->GetPointData()->GetArray("ids"));
+            vtkDataArray* const mask = probe->GetOutput()->GetPointData()->GetArray("vtkValidPointMask");
+            ASSERT_TRUE(ids != nullptr && mask != nullptr);
+            int on_seams = 0;
+            for (std::size_t i = 0; i < mine.size() / 3; ++i) {
+                const std::vector<Held> holders = judge.holders(mine.data() + 3 * i);
+                const auto at = static_cast<vtkIdType>(i);
+                ASSERT_EQ(mask->GetTuple1(at), holders.empty() ? 0 : 1) << text_of(mine.data() + 3 * i, 3);
+                if (holders.empty()) continue;
+                ASSERT_EQ(ids->GetValue(at), 3 * holders.front().cell + 5) << text_of(mine.data() + 3 * i, 3);
+                const int owner = of[static_cast<std::size_t>(holders.front().cell)];
+                for (const Held& held : holders)
+                    if (of[static_cast<std::size_t>(held.cell)] != owner) {
+                        ++on_seams;
+                        break;
+                    }
+            }
+            int all = 0;
+            vtkMultiProcessController::GetGlobalController()->AllReduce(&on_seams, &all, 1, vtkCommunicator::SUM_OP);
+            const bool one_piece = ranks() == 1 || cut == Cut::one_rank || (cut == Cut::half && ranks() == 2);
+            EXPECT_TRUE(one_piece || all > 20) << all;
+        }
+    }
+}
+
+TEST(Owners, DoNotDependOnWhereThePointsAre) {
+    const Mesh mesh = own_mesh("lattice-box");
+    const auto whole = with_arrays(mesh);
+    base::Random random(9);
+    const std::vector<double> points = awkward_points(mesh, 20, random);
+    const auto piece = piece_of(whole, ranks_of_cells(whole, Cut::scattered), rank(), true, random);
+    // All on each rank; all on the last; all on the first, which has no cells.
+    expect_as_of_the_whole(whole, piece, points_of(points));
+    expect_as_of_the_whole(whole, piece, points_of(rank() == ranks() - 1 ? points : std::vector<double>()));
+    const auto far = piece_of(whole, ranks_of_cells(whole, Cut::one_rank), rank(), true, random);
+    expect_as_of_the_whole(whole, far, points_of(rank() == 0 ? points : std::vector<double>()));
+}
+
+TEST(Owners, OfImagesAreThoseOfTheirPoints) {
+    const Mesh mesh = own_mesh("lattice-box");
+    const auto whole = with_arrays(mesh);
+    base::Random random(9);
+    double b[6];
+    whole->GetBounds(b);
+    vtkNew<vtkImageData> image;
+    image->SetOrigin(b[0], b[2], b[4]);
+    image->SetSpacing((b[1] - b[0]) / 8, (b[3] - b[2]) / 8, (b[5] - b[4]) / 8);
+    image->SetExtent(rank(), rank() + 1, 0, 8, -1, 9);
+    for (const Cut cut : all_cuts)
+        expect_as_of_the_whole(whole, piece_of(whole, ranks_of_cells(whole, cut), rank(), true, random), image);
+}
+
+// So many that ranks tell finer boxes of their pieces than one.
+TEST(Owners, OfManyPointsAreThoseOfTheWhole) {
+    const Mesh mesh = own_mesh("flange");
+    const auto whole = with_arrays(mesh);
+    base::Random random(9);
+    double b[6];
+    whole->GetBounds(b);
+    std::vector<double> points = awkward_points(mesh, 200, random);
+    for (int i = 0; i < 6000; ++i)
+        for (int a = 0; a < 3; ++a) points.push_back(random.uniform(b[2 * a], b[2 * a + 1]));
+    for (const Cut cut : all_cuts) {
+        SCOPED_TRACE(name(cut));
+        const auto piece = piece_of(whole, ranks_of_cells(whole, cut), rank(), true, random);
+        const auto mine = points_of(share_of(points, rank(), ranks()));
+        expect_as_of_the_whole(whole, piece, mine);
+        // No rank is asked for the same point twice, and in slabs few are asked for it at all.
+        const auto probe = probed<vtkPBarycertProbe>(piece, mine);
+        const vtkIdType most = mine->GetNumberOfPoints() * (ranks() - 1);
+        EXPECT_LE(probe->GetPointsSent(), most);
+        EXPECT_TRUE(ranks() < 4 || cut != Cut::slabs || probe->GetPointsSent() < most / 2) << probe->GetPointsSent();
+    }
+}
+
+// Every rank has the whole mesh, none of it as ghosts.
+TEST(Owners, OfCopiesAreTheCellsThemselves) {
+    const Mesh mesh = own_mesh("cube-hole");
+    const auto whole = with_arrays(mesh);
+    base::Random random(2);
+    const std::vector<double> points = awkward_points(mesh, 20, random);
+    expect_as_of_the_whole(whole, whole, points_of(share_of(points, rank(), ranks())));
+}
+
+// As it should not be: then at least all ranks have the same values.
+TEST(Owners, OfCopiesThatDifferAreThoseOfTheLowestRank) {
+    const Mesh mesh = own_mesh("cube-hole");
+    const auto whole = with_arrays(mesh);
+    vtkNew<vtkUnstructuredGrid> copy;
+    copy->DeepCopy(whole);
+    vtkDataArray* const values = copy->GetPointData()->GetArray("float");
+    if (rank() > 0) values->Fill(rank());
+    base::Random random(2);
+    const std::vector<double> points = awkward_points(mesh, 20, random);
+    expect_as_of_the_whole(whole, copy, points_of(share_of(points, rank(), ranks())));
+}
+
+// Of a mesh of subnormal size, whose boxes are nothing where numbers are flushed.
+TEST(Owners, AreTheSameInEveryEnvironment) {
+    for (const double unit : {0x1p-1070, 0x1p-10}) {
+        for (const Cut cut : {Cut::slabs, Cut::scattered}) {
+            const Mesh mesh = mapped(box(3, {4, 2, 2}), {unit, unit, unit}, {0, 0, 0});
+            const auto whole = with_arrays(mesh);
+            base::Random random(8);
+            const std::vector<double> points = awkward_points(mesh, 20, random);
+            const auto mine = points_of(share_of(points, rank(), ranks()));
+            const auto piece = piece_of(whole, ranks_of_cells(whole, cut), rank(), true, random);
+            expect_as_of_the_whole(whole, piece, mine);
+            testing_environments::expect_same_everywhere(name(cut), [&](testing_environments::Answers& out) {
+                vtkNew<vtkUnstructuredGrid> copy;
+                copy->DeepCopy(piece);
+                const auto probe = probed<vtkPBarycertProbe>(copy, mine);
+                auto* const v = vtkDoubleArray::SafeDownCast(probe->GetOutput()->GetPointData()->GetArray("v"));
+                auto* const ids = vtkIdTypeArray::SafeDownCast(probe->GetOutput()->GetPointData()->GetArray("ids"));
+                ASSERT_TRUE(v != nullptr && ids != nullptr);
+                for (vtkIdType i = 0; i < v->GetNumberOfValues(); ++i) out.add(v->GetValue(i));
+                for (vtkIdType i = 0; i < ids->GetNumberOfValues(); ++i) out.add(ids->GetValue(i));
+                out.add(probe->GetNumberOfPartners());
+                out.add(probe->GetPointsSent());
+            });
+        }
+    }
+}
+
+// Cells in slabs of their order, without ids: numbers by rank are those of the whole.
+TEST(Owners, WithoutGlobalIdsAreByRankAndItSaysSo) {
+    const Mesh mesh = own_mesh("lattice-box");
+    const auto whole = with_arrays(mesh);
+    base::Random random(2);
+    const std::vector<double> points = awkward_points(mesh, 40, random);
+    const auto all = static_cast<std::int64_t>(mesh.cell_count());
+    std::vector<bool> keep(mesh.cell_count());
+    vtkNew<vtkUnstructuredGrid> piece;
+    piece->SetPoints(whole->GetPoints());
+    piece->GetPointData()->ShallowCopy(whole->GetPointData());
+    vtkNew<vtkIdTypeArray> ids;
+    ids->SetName("ids");
+    piece->Allocate();
+    for (std::int64_t i = all * rank() / ranks(); i < all * (rank() + 1) / ranks(); ++i) {
+        piece->InsertNextCell(whole->GetCellType(i), whole->GetCell(i)->GetPointIds());
+        ids->InsertNextValue(3 * i + 5);
+    }
+    piece->GetCellData()->AddArray(ids);
+    Messages messages;
+    const auto input = points_of(share_of(points, rank(), ranks()));
+    const auto ours = probed<vtkPBarycertProbe>(piece, input);
+    EXPECT_EQ(messages.count("no global ids"), rank() == 0 && ranks() > 1 ? 1 : 0) << messages.all();
+    whole->GetCellData()->RemoveArray("large");
+    const auto judge = probed<vtkBarycertProbe>(whole, input);
+    expect_same(ours->GetOutput()->GetPointData(), judge->GetOutput()->GetPointData());
+}
+
+}  // namespace
+}  // namespace barycert::testing
