@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct Command {
     int code = 0;      ///< exit code where nothing fails
     std::string program = BARYCERT_PROGRAM;
     bool forks = false;  ///< its work is done in a process that it forks
+
+    /// What the tests show of it.
+    friend void PrintTo(const Command& c, std::ostream* out) { *out << c.name; }
 };
 
 /// Makes the inputs that the commands read: "p.csv", "map", "results.csv", "w.json", ...
