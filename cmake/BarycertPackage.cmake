@@ -100,13 +100,16 @@ Takes meshes of meshio, pyvista, VTK and SciPy as they are."
     list(APPEND CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/${script})
   endforeach()
 endif()
-# ParaView's headers and VTK's exclude each other in Debian: its plug-in is built in a root of its own, where it is a
-# target here and so a package.
+# ParaView's headers and VTK's exclude each other in Debian: its plug-in is built in a root of its own, and is all that is
+# packed there.
 if(TARGET Barycert)
+  set(CPACK_COMPONENTS_ALL "")
+  set(package_parts "")
+  get_property(plugin_folder GLOBAL PROPERTY barycert_paraview_folder)
   barycert_deb(paraview barycert-paraview science "exact resampling and checks of meshes in ParaView"
     "A plug-in for ParaView: a cell locator with exact owners, the filters Barycert
 Resample and Barycert Check, and a reader of TetGen's files."
-    DEPENDS paraview)
+    DEPENDS paraview PARTS ${plugin_folder}/Barycert.so)
 endif()
 
 file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/debian/parts CONTENT "${package_parts}")

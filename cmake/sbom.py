@@ -43,6 +43,7 @@ LICENCES = {
     "numpy": "BSD-3-Clause",
     "openmpi": "BSD-3-Clause",
     "onetbb": "Apache-2.0",
+    "paraview": "BSD-3-Clause",
     "pybind11": "BSD-3-Clause",
     "python3.11": "PSF-2.0",
     "python3.13": "PSF-2.0",

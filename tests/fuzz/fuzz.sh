@@ -57,13 +57,15 @@ each=$((seconds / $#))
 [ "$each" -gt 0 ] || each=1
 for target in "$@"; do
     [ -x "$programs/fuzz_$target" ] || { echo "fuzz.sh: no such target: $target" >&2; exit 2; }
-    mkdir -p "$programs/work/$target" "$here/found/$target"
+    mkdir -p "$programs/work/$target"
+    seeds=$here/corpus/$target
+    [ ! -d "$here/found/$target" ] || seeds="$seeds $here/found/$target"
     log=$programs/logs/$target.log
     dictionary=$here/dictionaries/$(dictionary_of "$target").dict
     [ -f "$dictionary" ] && dictionary=-dict=$dictionary || dictionary=
     "$programs/fuzz_$target" -max_total_time="$each" -timeout=10 -rss_limit_mb=2048 -max_len="$(longest_of "$target")" \
         -print_final_stats=1 -entropic=0 -artifact_prefix="$programs/findings/$target-" $dictionary ${FUZZ_OPTIONS-} \
-        "$programs/work/$target" "$here/corpus/$target" "$here/found/$target" >"$log" 2>&1 || {
+        "$programs/work/$target" $seeds >"$log" 2>&1 || {
         found=1
         echo "fuzz.sh: $target has found something; the end of $log:" >&2
         grep -E '^fuzz: |runtime error|ERROR: |Test unit written' "$log" | tail -n 5 >&2

@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
     }
     std::vector<fs::path> files;
     for (int i = 2; i < argc; ++i) {
+        if (!fs::exists(argv[i])) continue;  // a target that has never failed has no folder of what was found
         if (!fs::is_directory(argv[i])) files.emplace_back(argv[i]);
         if (!fs::is_directory(argv[i])) continue;
         for (const auto& entry : fs::directory_iterator(argv[i])) files.push_back(entry.path());

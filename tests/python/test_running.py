@@ -55,7 +55,7 @@ def test_the_interpreter_is_free_while_work_runs(mesh):
     # A call of a few milliseconds may end before the other thread gets a core.
     large = barycert.Mesh(*kuhn(30, 3))
     assert while_another_thread_counts(lambda: large.check()) > enough
-    far = [rng.random((400_000, 3)) for _ in range(5)]
+    far = [rng.random((2_000_000, 3)) for _ in range(5)]
     assert while_another_thread_counts(lambda: barycert.insphere(*far)) > enough
 
 

@@ -153,7 +153,7 @@ TEST(BadVtkFiles, legacy) {
              {"1 2 3 4\n", "1 2 3", "array \"f\"", "4 numbers", "3", 13},
              {"1 2 3 4\n", "1 2 3 4", "the last row has no line end, so the file may be cut short", "a line end",
               "the end of the file", 14},
-             {"Version 4.2", "Version x", "the first line", "\"# vtk DataFile Version 4.2\" or the like", "\"x\"", 2},
+             {"Version 4.2", "Version x", "the first line", "\"# vtk DataFile Version 4.2\" or the like", "\"x\"", 1},
              {"Version 4.2", "Version 5.1", "a keyword of the format", "OFFSETS", "\"4\"", 8},
              {"ASCII", "TEXT", "the third line", "ASCII or BINARY", "\"TEXT\"", 3},
              {"ASCII", "BINARY", "a keyword of the format", "POINTS, CELLS, POINT_DATA and the like", "\"4\"", 0},
