@@ -41,6 +41,7 @@ LICENCES = {
     "mpfr4": "LGPL-3.0-or-later",
     "nlohmann-json3": "MIT",
     "numpy": "BSD-3-Clause",
+    "openmpi": "BSD-3-Clause",
     "onetbb": "Apache-2.0",
     "paraview": "BSD-3-Clause",
     "pybind11": "BSD-3-Clause",

@@ -7,6 +7,7 @@
 #include <map>
 #include <variant>
 
+#include "barycert/exact/cgal_variant.hpp"
 #include "barycert/perspective.hpp"
 #include "exact/checks.hpp"
 
@@ -138,7 +139,7 @@ TEST(PerspectiveRay, meets_the_original_triangle_where_the_window_says) {
         const auto &a = e.eye[0], &b = e.eye[1], &d = e.eye[2];
         const Geometry::Line_3 ray(eye, EyePoint(CGAL::Gmpq(c.point[0]), CGAL::Gmpq(c.point[1]), 1));
         const auto met = CGAL::intersection(ray, Geometry::Plane_3(a, b, d));
-        const EyePoint* const at = met ? boost::get<EyePoint>(&*met) : nullptr;
+        const EyePoint* const at = met ? exact::met_as<EyePoint>(*met) : nullptr;
         const CGAL::Gmpq whole = CGAL::volume(eye, a, b, d);
         if (at == nullptr || whole == 0) continue;
         const CGAL::Gmpq weights[3] = {CGAL::volume(eye, *at, b, d) / whole, CGAL::volume(eye, a, *at, d) / whole,

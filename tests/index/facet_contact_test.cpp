@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "barycert/base/random.hpp"
+#include "barycert/exact/cgal_variant.hpp"
 #include "barycert/index/facet_contact.hpp"
 
 namespace barycert::testing {
@@ -30,8 +31,8 @@ bool judged(const Coordinates& f, const Coordinates& g, std::size_t common) {
     if (common == 0) return CGAL::do_intersect(t, u);
     const auto meet = CGAL::intersection(t, u);
     if (!meet) return true;  // they share a vertex: it cannot be
-    if (const Point* p = boost::get<Point>(&*meet)) return common != 1 || *p != point(f[0]);
-    if (const Segment* s = boost::get<Segment>(&*meet)) {
+    if (const Point* p = barycert::exact::met_as<Point>(*meet)) return common != 1 || *p != point(f[0]);
+    if (const Segment* s = barycert::exact::met_as<Segment>(*meet)) {
         const Segment edge(point(f[0]), point(f[1]));
         return common != 2 || (*s != edge && *s != edge.opposite());
     }

@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "barycert/environment.hpp"
+#include "barycert/exact/cgal_variant.hpp"
 #include "barycert/oracle.hpp"
 
 namespace barycert {
@@ -172,7 +173,7 @@ std::optional<Found> perspective(const Case& c) {
     const Epeck::Line_3 ray(Point3(0, 0, 0), Point3(c.point[0], c.point[1], 1));
     const auto met = CGAL::intersection(ray, Epeck::Plane_3(v[0], v[1], v[2]));
     if (!met) return std::nullopt;
-    const Point3* const point = boost::get<Point3>(&*met);
+    const Point3* const point = exact::met_as<Point3>(*met);
     return point == nullptr ? std::nullopt : std::optional(in_plane(v, *point));
 }
 
