@@ -72,7 +72,7 @@ Result<std::vector<std::string>> own_meshes() {
     std::vector<std::string> paths;
     std::error_code trouble;
     for (const std::string& name : base::names_in_folder(folder, trouble)) {
-        if (name.ends_with(".node")) paths.push_back(folder + "/" + name);
+        if (name.ends_with(".node")) paths.push_back(fmt::format("{}/{}", folder, name));
     }
     if (paths.empty()) {
         return Error{.what = "barycert's own meshes are missing",
