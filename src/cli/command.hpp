@@ -48,8 +48,9 @@ int fail(const Error& error);
 /// Likewise "error: out of memory; ...", without memory of its own.
 int fail_for_want_of_memory() noexcept;
 
-/// From now on a failed allocation of GMP's, which would abort, ends the process as fail_for_want_of_memory() does.
-void end_when_gmp_wants_memory();
+/// From now on a failed allocation in CGAL's or GMP's code, which would abort, ends the process as
+/// fail_for_want_of_memory() does, or is thrown.
+void prepare_for_want_of_memory();
 
 /// "note: ..." on stderr for each that may change what results mean.
 void tell_important(const Notes& notes);

@@ -1,9 +1,13 @@
-// GMP cannot report a failed allocation: by itself it aborts, and an exception may not pass through it.
+// Want of memory in CGAL's numbers. GMP cannot report a failed allocation: by itself it aborts, and an exception may
+// not pass through it. An exception that passes through std::call_once needs a part of the C library that is loaded
+// then.
 
 #include <gmp.h>
 #include <unistd.h>
 
 #include <cstdlib>
+#include <mutex>
+#include <new>
 
 #include "barycert/base/begun_files.hpp"
 #include "command.hpp"
@@ -27,9 +31,20 @@ void release(void* memory, std::size_t /*size*/) {
     std::free(memory);
 }
 
+/// As early as what the loader does, for it needs memory.
+const bool loaded = [] {
+    try {
+        std::once_flag never;
+        std::call_once(never, [] { throw std::bad_alloc(); });
+    } catch (const std::bad_alloc&) {
+        return true;
+    }
+    return false;
+}();
+
 }  // namespace
 
-void end_when_gmp_wants_memory() {
+void prepare_for_want_of_memory() {
     mp_set_memory_functions(allocate, resize, release);
 }
 

@@ -29,7 +29,7 @@ int run(int argc, char** argv) {
     if (first == "mesh") return exec_mesh(argc, argv);
     base::remove_begun_files_on_signals();
 #ifdef BARYCERT_WITH_AUDIT
-    end_when_gmp_wants_memory();
+    prepare_for_want_of_memory();
 #endif
     // What was compiled in cannot be set.
     if (const Status exact = check_environment(measure_environment()); !exact) return fail(exact.error());
