@@ -15,6 +15,7 @@ void refuse_option(const std::string& option, const std::string& expected, std::
 
 void vtk_data_option(CLI::App& sub, std::optional<VtkData>& data) {
     std::vector<std::pair<std::string, std::optional<VtkData>>> choices;
+    choices.reserve(std::size(vtk_data_names));
     for (const std::string_view word : vtk_data_names) choices.emplace_back(word, vtk_data_named(word));
     choice_option(sub, "--vtk-data", data, choices,
                   "Numbers in an output of VTK's formats: raw (default), zlib, lz4, lzma (compressed), ascii (text)");

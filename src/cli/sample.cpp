@@ -7,6 +7,7 @@
 #include "barycert/pipeline.hpp"
 #include "command.hpp"
 #include "files.hpp"
+#include "options/choice.hpp"
 #include "sampling_options.hpp"
 
 namespace barycert::cli {
