@@ -3,6 +3,8 @@ import shutil, subprocess, sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from mutant_list import all_mutants
+
 HERE = Path(__file__).resolve().parent
 FLAGS = "-std=c++20 -O1 -ffp-contract=off -DHWY_SHARED_DEFINE -w".split()
 KILLER_FLAGS = "-std=c++20 -O1 -frounding-math -ffp-contract=off -w".split()
@@ -43,6 +45,10 @@ class Bench:
         self.pristine = scratch / "pristine" / "barycert" / "core"
         shutil.copytree(root / "src/barycert/core", self.pristine)
         self.cases = scratch / "cases.bin"
+
+    def mutants(self):
+        mutants, texts = all_mutants(self.pristine)
+        return mutants, len(mutants), texts
 
     def ahead(self, target):
         place = self.scratch / f"ahead.{target}"

@@ -1,5 +1,5 @@
-"""What is changed: mutants that are listed, and those made by exchanging comparisons and signs."""
-import re
+"""What is changed in the core: mutants that are listed, and those made by exchanging comparisons and signs."""
+from mutant import Mutant, code_lines, nth, spread
 
 F, R, Q, X, S, I, E = ("filter-inl.hpp", "refinement-inl.hpp", "quotient.cpp", "exact_weights.cpp",
                        "scaled_double.hpp", "integer.hpp", "error_free-inl.hpp")
@@ -227,43 +227,6 @@ SIGNS = [(" + ", " - "), (" - ", " + ")]
 COMPARED = [F, R, Q, X, S, I, "predicates.cpp", "weight_signs.cpp", "weights.cpp", "blocks.hpp", "input_checks.hpp", "inverse.cpp",
             "lane_loop-inl.hpp", "lanes.cpp"]
 SUMMED = ["numerators-inl.hpp", E, "double_double-inl.hpp", R, F]
-
-
-def code_lines(text):
-    """(offset, line) of lines of code, without what is to the right of //."""
-    offset = 0
-    for line in text.splitlines(keepends=True):
-        code = line.split("//")[0]
-        if code.strip() and not code.lstrip().startswith(("#", "template", "static_assert")):
-            yield offset, code
-        offset += len(line)
-
-
-class Mutant:
-    def __init__(self, file, position, old, new, why, text):
-        self.file, self.position, self.old, self.new, self.why = file, position, old, new, why
-        self.status, self.detail, self.tiers, self.target = "", "", "", "fma"
-        self.listed = why not in ("comparison", "sign")
-        self.line = text.count("\n", 0, position) + 1 if position >= 0 else 0
-        start = text.rfind("\n", 0, position) + 1
-        self.source = text[start:text.find("\n", position)].strip() if position >= 0 else ""
-        self.column, self.repeat = position - start, text.count(self.source, 0, max(start, 0))
-
-
-def nth(text, part, occurrence):
-    """Where that occurrence of a part begins, -1 if there is none."""
-    position = -1
-    for _ in range(occurrence + 1):
-        position = text.find(part, position + 1)
-        if position < 0:
-            break
-    return position
-
-
-def spread(items):
-    """The same items so ordered that however many are taken from the front, they lie about evenly."""
-    turn = (5 ** 0.5 - 1) / 2
-    return [items[i] for i in sorted(range(len(items)), key=lambda i: i * turn % 1)]
 
 
 def all_mutants(core):

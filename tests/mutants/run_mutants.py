@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
-"""Mutants of the core: one change each (mutant_list.py), made in a scratch copy, against killer.cpp.
+"""Mutants: one change of a source each, made in a scratch copy, against tests.
 
-  run_mutants.py [--build DIR] [--jobs 2] [--minutes M] [--only FILE] [--listed] [--root DIR] [--scratch DIR] [--again [REGEX]]
-                 [--report]
+  run_mutants.py [--room core] [--build DIR] [--jobs 2] [--minutes M] [--count N] [--only FILE] [--listed] [--root DIR]
+                 [--scratch DIR] [--again [REGEX]] [--report]
+
+--room core: the mutants of mutant_list.py against killer.cpp. Other rooms (room_lists.py): those of room_mutants.py against
+the tests of the room and targets of the fuzzer, of a build that has them (preset dev; targets test_ROOM and fuzz_replay).
 
 --build is a build of barycert whose libraries stand for all that is not mutated (src/libbarycert*.a in it); --root a
 checkout whose sources are mutated, this one if not given. Listed mutants are all run, generated ones until --minutes
-are over; in an order in which those left out lie evenly. --only takes the mutants of one source, --listed those listed;
---again goes on
-with the last run, those of its survivors anew that change a text which matches: for a killer that has got stronger; --report renders the results of the last run again. The table goes to stdout and, for a whole run, to RESULTS.md
-beside this script. A mutant's status:
+are over, in an order in which those left out lie evenly; --count of them, as many of each kind, of other rooms than the
+core. --only takes the mutants of one source, --listed those listed; --again goes on with the last run, those of its
+survivors anew that change a text which matches: for a killer that has got stronger; --report renders the results of the
+last run again. The table goes to stdout and, for a whole run of the core, to RESULTS.md beside this script; that of
+another room is for its NOTES.md. A mutant's status:
   killed     with the check that failed, a crash or a hang
   survived   `tiers` says whether the shares of the tiers changed: then the mutant lives, but no answer got wrong
   same code  the compiler made the same object files of it: it was not run
@@ -17,13 +21,13 @@ beside this script. A mutant's status:
   stale      the text to be changed is not in the source any more
 """
 import argparse, json, re, subprocess, sys, time
-from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from bench import HERE, Bench
-from mutant_list import all_mutants
-import survivors
+from report import render, render_room
+from room_bench import RoomBench
+from room_lists import ROOMS
 
 ROOT = HERE.parent.parent
 
@@ -33,68 +37,16 @@ def key(m):
     return m["file"], m["old"], m["new"], m["source"], m["column"], m["repeat"]
 
 
-def explanation(m):
-    changed, table = (m["old"], survivors.LISTED) if m["listed"] else (m["source"], survivors.GENERATED)
-    for file, part, new, text in table:
-        if m["file"] == file and part in changed and (not new or new == m["new"].strip()):
-            return text
-    return "unexplained"
-
-
-def cell(s):
-    return s.strip().replace("|", "\\|").replace("\n", " ")
-
-
-def change(m):
-    where = "" if m["listed"] else f" in `{cell(m['source'])}`"
-    return f"`{cell(m['old'])}` -> `{cell(m['new'])}`{where}"
-
-
-def counts(mutants):
-    found = Counter(m["status"] for m in mutants)
-    return ", ".join(f"{found[s]} {s}" for s in sorted(found))
-
-
-def again(data):
-    return ["", "Put together from runs with a killer that got more cases from one to the next: what an earlier one had killed "
-            "was not run again, nor were survivors that the new cases do not aim at."] if data.get("again") else []
-
-
-def render(data):
-    mutants = sorted(data["mutants"], key=lambda m: (not m["listed"], m["file"], m["line"]))
-    listed = [m for m in mutants if m["listed"]]
-    generated = [m for m in mutants if not m["listed"]]
-    out = ["# Mutants of the core", "",
-           "Made by `run_mutants.py` (see there what the words mean) from `mutant_list.py`; `killer.cpp` is what they met.",
-           "The lanes were compiled for AVX2 with fused multiply-add, and for Dekker's product without; what is compiled "
-           "for AVX-512 alone was not mutated.", "",
-           f"Sources at {data['revision']}; {data['seconds'] / 60:.0f} minutes.", *again(data), "", "| | run | of | |", "|---|---|---|---|",
-           f"| listed | {len(listed)} | {data['listed']} | {counts(listed)} |",
-           f"| generated | {len(generated)} | {data['generated']} | {counts(generated)} |",
-           f"| all | {len(mutants)} | {data['listed'] + data['generated']} | {counts(mutants)} |", "",
-           "## Survivors", "",
-           "*Equivalent*: no input can tell. *Slack*: the bound is proven with room, and the runs say down to where. "
-           "*Performance only*: which tier answers changes, not what. *Not covered*: no case was found, and nothing is "
-           "proven.", "", "| where | change | tiers | why it survives |", "|---|---|---|---|"]
-    for m in mutants:
-        if m["status"] == "survived":
-            out.append(f"| {m['file']}:{m['line']} | {change(m)} | {m['tiers']} | {cell(explanation(m))} |")
-    out += ["", "## Others", "", "| where | change | by |", "|---|---|---|"]
-    for m in mutants:
-        if m["status"] != "survived":
-            out.append(f"| {m['file']}:{m['line']} | {change(m)} | {m['detail'] or m['status']} |")
-    return "\n".join(out) + "\n"
-
-
 def run_all(a, saved):
     start = time.time()
     before = json.loads(saved.read_text()) if a.again is not None else None
     old = {key(m): m for m in before["mutants"]} if before else {}
     revision = subprocess.run(["git", "-C", a.root, "rev-parse", "--short", "HEAD"], capture_output=True,
                               text=True).stdout.strip()
-    bench = Bench(a.build.resolve(), a.scratch, a.root.resolve())
+    places = a.build.resolve(), saved.parent, a.root.resolve()
+    bench = Bench(*places) if a.room == "core" else RoomBench(*places, a.room, a.count)
     bench.prepare(a.jobs)
-    mutants, texts = all_mutants(bench.pristine)
+    mutants, possible, texts = bench.mutants()
     mutants = [m for m in mutants if (not a.only or m.file == a.only) and (m.listed or not a.listed)]
     listed, seconds = sum(m.listed for m in mutants), 0
     for m in mutants:
@@ -107,7 +59,7 @@ def run_all(a, saved):
 
     def save():
         saved.write_text(json.dumps({"again": before is not None, "seconds": seconds + time.time() - start, "whole": not a.only and not a.listed,
-                                     "listed": listed, "generated": len(mutants) - listed, "revision": revision,
+                                     "listed": listed, "generated": len(mutants) - listed, "revision": revision, "possible": possible,
                                      "mutants": [m.__dict__ for m in mutants if m.status]}))
 
     def work(task):
@@ -129,6 +81,8 @@ def run_all(a, saved):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--room", choices=["core", *ROOMS], default="core")
+    parser.add_argument("--count", type=int, default=80)
     parser.add_argument("--build", type=Path, default=ROOT / "build")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--minutes", type=float, default=1e9)
@@ -139,13 +93,13 @@ def main():
     parser.add_argument("--again", nargs="?", const="")
     parser.add_argument("--report", action="store_true")
     a = parser.parse_args()
-    saved = a.scratch / "results.json"
+    saved = a.scratch / a.room / "results.json"
     if not a.report:
         run_all(a, saved)
     data = json.loads(saved.read_text())
-    text = render(data)
+    text = render(data) if a.room == "core" else render_room(data, a.room)
     print(text)
-    if data["whole"]:
+    if data["whole"] and a.room == "core":
         (HERE / "RESULTS.md").write_text(text)
 
 
