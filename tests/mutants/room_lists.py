@@ -1,6 +1,88 @@
 """The rooms whose mutants meet the tests of the project: what is changed there, and what runs against it."""
 from dataclasses import dataclass, field
 
+# What a tired programmer would write: (file, exact text, replacement, why).
+CHECK = [
+    ("boundary.cpp", "if (fans < 2) ++fans;", "++fans;", "a count of fans in eight bits"),
+    ("boundary.cpp", "if (same.size() == 2) piece_.join(same[0].facet, same[1].facet);",
+     "for (std::size_t i = 1; i < same.size(); ++i) piece_.join(same[0].facet, same[i].facet);", "pieces that touch along a ridge are one"),
+    ("cells.cpp", "cells.negative <= cells.positive ? -1 : 1", "cells.negative < cells.positive ? -1 : 1", "as many of either order"),
+    ("cells.cpp", "repeated = repeated || nodes[i] == nodes[j];", "repeated = nodes[i] == nodes[j];", "the last pair of nodes alone"),
+    ("cells.cpp", "k < (d == 2 ? 1 : 3)", "k < 1", "on a line in one projection"),
+    ("cells.cpp", "std::isnormal(volume) && ", "", "the shape of a cell from a subnormal volume"),
+    ("check.cpp", "if (a == b || ", "if (", "a cell and itself"),
+    ("check.cpp", 't.condition != "P5" && ', "", "overlaps looked for where only P5 fails"),
+    ("check.cpp", "        ExactEnvironment::renew();\n", "", "what the caller's progress did to the environment stays"),
+    ("conformity.cpp", "high / 2 - low / 2", "(high - low) / 2", "an extent that overflows"),
+    ("conformity.cpp", "crossing == PlcRegion::Crossing::none && areas.equal()", "areas.equal()", "areas alone"),
+    ("conformity.cpp", " && !misses_vertex(region)", "", "a vertex that is no node"),
+    ("delaunay.cpp", " && !opposite(cell, p, i, node)", "", "one apex in the other's sphere is taken for both"),
+    ("facets.cpp", "apex(copy) > copy.highest", "apex(copy) >= copy.highest", "which facet tells of a duplicate"),
+    ("measures.cpp", "(sorted.size() - 1) / 2", "sorted.size() / 2", "the upper median"),
+    ("nodes.cpp", "    mark_used(mesh.mid_nodes, used);\n", "", "nodes midway are used"),
+    ("orientation.cpp", " || (f[0] == b && f[1] == a)", "", "edges from high to low"),
+    ("plc_facet.cpp", "p[k] / 2 - o[k] / 2, 1 - exponent_", "p[k] - o[k], -exponent_", "a difference that overflows"),
+    ("plc_facet.cpp", "if (deepest != nullptr) return", "if (false) return", "the middle of a corner's triangle, whatever lies in it"),
+    ("pairs.cpp", "if (!complete) defects.add_at_least(DefectKind::nested_part);", "", "not said that there may be more"),
+]
+LOCATE = [
+    ("contested_cells.cpp", "if (original(i) < original(j)) std::swap(i, j);", "if (i < j) std::swap(i, j);", "lower by place, not by number"),
+    ("contested_cells.cpp", "cells_.size() + 7) / 8", "cells_.size()) / 8", "the last group of cells"),
+    ("near_bounds.hpp", "sum_.error += size_x * size_y * roundings + min;", "", "no bound of the error"),
+    ("near_bounds.cpp", "slack += off * (2 * place.reach[k] + off) + min;", "", "the rounding of a projection"),
+    ("near_bounds.cpp", "if (!(max <= 0)) guess.gap = std::max(guess.gap, 2 * max);", "", "a guess taken for the nearest"),
+    ("nearest.cpp", "(excess >= 0 && number > found_.cell)", "(excess >= 0)", "of cells as near, not the lowest"),
+    ("nearest.cpp", "(order == 0 && number > found_.cell)", "order == 0", "of cells as near, not the lowest"),
+    ("nearest.cpp", "limited_ ? limit + 0x1p-1074L : 0", "limit", "a limit that is a distance rounded"),
+    ("nearest.cpp", "return found.distance <= limit ? found : none;", "return found;", "beyond the limit"),
+    ("nearest_tree.cpp", "(below + fan - 1) / fan", "below / fan", "the last box of a level"),
+    ("node_cells.cpp", "        if (std::binary_search(degenerate.begin(), degenerate.end(), static_cast<Place>(c))) continue;\n", "",
+     "degenerate cells at a node"),
+    ("occupancy.cpp", "width - 1 - last % width", "width - last % width", "the last bin of a row"),
+    ("cells_at_points.cpp", "~std::uint64_t{0} >> (63 - x1 % 64)", "~std::uint64_t{0} >> (64 - x1 % 64)", "the last bin of a row"),
+    ("cells_at_points.cpp", "points[i + k] <= box.high[k]", "points[i + k] < box.high[k]", "points on the upper side"),
+    ("walk_one.cpp", "static_cast<std::size_t>(last_end.place) < index.cell_count()", "true", "a place of a locator that is gone"),
+    ("walk_one.cpp", "last_end.cell == hint && last_end.data == &data", "last_end.cell == hint", "a place of another locator"),
+    ("single.cpp", "if (end.inside && !data.proof.is_contested(end.cell))", "if (end.inside)", "the lowest of cells that overlap"),
+    ("sorted_points.cpp", "finite &= find_bins", "finite = find_bins", "the last points alone"),
+]
+SAMPLE = [
+    ("points/outside.cpp", "value + 0.0", "value", "a value that is -0"),
+    ("points/outside.cpp", "        tiers.not_finite += finite ? 0 : 1;", "", "a value that is not finite, uncounted"),
+    ("points/outside.cpp", "if (data.quadratic && snap && !data.at_points.empty()) at = rounded_projection(mesh, at, nodes);", "",
+     "gradients at the point, not at its projection"),
+    ("points/sampler.cpp", "(data.point_components + 2) / 4", "data.point_components / 4", "the last group of components"),
+    ("points/sampler.cpp", "late.component < 0) late.component", "true) late.component", "a component asked for again"),
+    ("points/sampler.cpp", "if (one.gradient || known) continue;", "if (known) continue;", "hidden columns for a gradient"),
+    ("grid/grid.cpp", "if (low[k] + (steps + 1) * spacing[k] <= high[k]) ++steps;", "", "a quotient rounded down"),
+    ("grid/grid.cpp", "while (steps > 0 && low[k] + steps * spacing[k] > high[k]) --steps;", "", "a quotient rounded up"),
+    ("grid/grid.cpp", "if (i == counts[axis] - 1 && i != 0) return last[axis];", "", "the last coordinate as a sum"),
+    ("grid/slab_cells.cpp", "std::upper_bound(first, layers_.end(), high)", "std::lower_bound(first, layers_.end(), high)", "a layer on a cell's top"),
+    ("grid/slab_cells.cpp", "* scale_ - slack_, to", "* scale_, to", "room for rounding"),
+    ("points/near_piece.hpp", "std::max_element(of_corner", "std::min_element(of_corner", "a cell's least weight as the rest"),
+]
+AUDIT = [
+    ("comparison.cpp", "r.claimed == Region::interior || r.claimed == Region::boundary", "r.claimed == Region::interior", "boundary is inside"),
+    ("comparison.cpp", "std::max({error, e, smallest})", "std::max(error, e)", "an error that underflows is none"),
+    ("comparison.cpp", "std::isfinite(difference) ? difference / scale : std::fabs(weights[i] / 2 - to / 2) / (scale / 2)", "difference / scale",
+     "a difference that overflows"),
+    ("comparison.cpp", "if (!std::isfinite(weights[i])) return std::numeric_limits<double>::infinity();", "", "weights that are no numbers"),
+    ("comparison.cpp", " || wrong_value || r.wrong()", " || r.wrong()", "a certificate for a wrong value"),
+    ("comparison.cpp", "if (!perfect || kernel.rule != RegionRule::sign) compare_regions", "if (!perfect) compare_regions", "a rule of its own"),
+    ("statistics.cpp", "for (std::size_t e = 0; e < 4; ++e)", "for (std::size_t e = 0; e < 3; ++e)", "degenerate cases of other threads"),
+    ("statistics.cpp", "(word & fraction) + step - 1) / step", "word & fraction) / step", "steps that are not begun"),
+    ("statistics.cpp", "    not_run += other.not_run;\n", "", "not run by another thread"),
+    ("error_sizes.cpp", "total() - unanswered()", "total()", "cases without an answer"),
+    ("judge.cpp", "if (!same_answer(answer, other))", "if (answer.region != other.region)", "regions alone"),
+    ("judge.cpp", " || (choice_ == OracleChoice::automatic && !answer.narrow)", "", "wide integers asked again"),
+    ("thresholds.cpp", " || s.not_run != 0", "", "not run: no error to measure"),
+    ("thresholds.cpp", "value > rule.limit", "value >= rule.limit", "at the limit"),
+    ("block.cpp", "(bound == worst.value && index > worst.index)", "bound == worst.value", "the first of the worst"),
+    ("block.cpp", "result.quarrel->index))", "result.quarrel->index || true))", "the first quarrel"),
+    ("block.cpp", "return y < x ? std::nextafter(y, std::numeric_limits<double>::infinity()) : y;", "return y;", "a bound rounded down"),
+    ("signs.cpp", "p.kernel.empty() && p.simplex", "p.simplex", "a kernel's picture taken for the exact one"),
+]
+
 
 @dataclass
 class Room:
@@ -8,14 +90,14 @@ class Room:
     fuzz: list = field(default_factory=list)  # targets of fuzz_replay
     only: list = field(default_factory=list)  # sources; all of the room's if empty
     left_out: str = ""  # tests that take too long for what they see
-    listed: list = field(default_factory=list)  # (file, exact text, replacement, why)
+    listed: list = field(default_factory=list)
 
 
 ROOMS = {
-    "check": Room("check", ["meshes"]),
-    "locate": Room("locate", ["meshes", "nearest"]),
-    "sample": Room("sample", ["meshes", "weights", "expressions", "maps"], left_out="ResampleBounds.NearFacesOfSlivers"),
+    "check": Room("check", ["meshes"], listed=CHECK),
+    "locate": Room("locate", ["meshes", "nearest"], listed=LOCATE),
+    "sample": Room("sample", ["meshes", "weights", "expressions", "maps"], left_out="ResampleBounds.NearFacesOfSlivers", listed=SAMPLE),
     # What decides whether a kernel is wrong, and by how much.
     "audit": Room("audit", only=["asking.cpp", "block.cpp", "comparison.cpp", "drift.cpp", "error_sizes.cpp", "judge.cpp",
-                                 "prediction.cpp", "signs.cpp", "statistics.cpp", "thresholds.cpp"]),
+                                 "prediction.cpp", "signs.cpp", "statistics.cpp", "thresholds.cpp"], listed=AUDIT),
 }
