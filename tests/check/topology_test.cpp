@@ -111,6 +111,25 @@ TEST(Topology, pinched) {
     EXPECT_FALSE(r.boundary.cavities);
 }
 
+// One node is told once, however many cells touch there alone.
+TEST(Topology, hundreds_of_cells_at_one_node) {
+    Mesh mesh;
+    mesh.dimension = 3;
+    add_node(mesh, {0, 0, 0});
+    constexpr int cells = 600;
+    for (int i = 0; i < cells; ++i) {
+        const double y = 4.0 * i;
+        mesh.cells.insert(mesh.cells.end(),
+                          {0, add_node(mesh, {1, y, 0}), add_node(mesh, {1, y + 1, 0}), add_node(mesh, {1, y, 1})});
+    }
+    const CheckReport r = quick(mesh);
+    EXPECT_TRUE(r.certified());
+    EXPECT_EQ(words(found(r)), "pinched_node");
+    EXPECT_EQ(r.find(DefectKind::pinched_node)->count, 1U);
+    EXPECT_EQ(r.parts, std::uint64_t{cells});
+    EXPECT_EQ(r.boundary.tunnels, 0);
+}
+
 // The same touch without common nodes breaks P3.
 TEST(Topology, touch_without_common_nodes) {
     for (const int d : {2, 3}) {

@@ -1,4 +1,4 @@
-"""Runs a program with limits of time and memory, and says how it ended."""
+"""Runs a program with limits of time and memory."""
 import os, resource, signal, subprocess, time
 
 MEMORY = 8 << 30
@@ -6,7 +6,7 @@ STILL = 300  # seconds: what has not had its time of the processor by then and 2
 
 
 def measured(command, seconds, output):
-    """(exit status, seconds of the processor). The status is None if it took more time than that. Words go to a file."""
+    """The exit status, None if it took more time of the processor than that. Its words go to a file."""
     def limit():
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
         resource.setrlimit(resource.RLIMIT_CPU, (int(seconds) + 1, int(seconds) + 2))
@@ -17,7 +17,7 @@ def measured(command, seconds, output):
     late = time.time() + STILL + 20 * seconds
     hung = False
     while True:
-        pid, status, used = os.wait4(process.pid, os.WNOHANG)
+        pid, status = os.waitpid(process.pid, os.WNOHANG)
         if pid != 0:
             break
         if time.time() > late and not hung:
@@ -26,4 +26,4 @@ def measured(command, seconds, output):
         time.sleep(0.05)
     process.returncode = os.waitstatus_to_exitcode(status)
     in_time = not hung and process.returncode not in (-signal.SIGXCPU, -signal.SIGKILL)
-    return process.returncode if in_time else None, used.ru_utime + used.ru_stime
+    return process.returncode if in_time else None

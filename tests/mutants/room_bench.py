@@ -1,11 +1,12 @@
 """Compiles a mutant of a room, puts it before the libraries of a build and runs the room's tests against it.
 
-All sources of the room are compiled anew, each alone, with -O1 (every operation is rounded as written: answers are the
-same) and the standard library's own checks, lanes for AVX2; objects of a mutant take the place of those. Sources, the
-tests' objects and libraries are copied before, so that work may go on meanwhile.
+What is compiled anew is compiled alone, with -O1 (every operation is rounded as written: answers are the same) and the
+standard library's own checks, lanes for AVX2. The linker takes the first definition of what the libraries define again:
+these are compiled with -fPIC, so that nothing of other sources is part of a function of theirs. A test that fails must
+pass with the unchanged source compiled alike, or it says nothing. Sources, the tests' objects and libraries are copied
+before, so that work may go on meanwhile.
 """
-import json, random, re, shlex, shutil, subprocess, sys
-from concurrent.futures import ThreadPoolExecutor
+import json, random, re, shlex, shutil, sys, threading
 
 from bench import run
 from measured import measured
@@ -14,11 +15,14 @@ from room_mutants import room_mutants
 
 FLAGS = "-O1 -w -D_GLIBCXX_ASSERTIONS".split()
 LANES = "-march=haswell -maes -DHWY_COMPILE_ONLY_STATIC".split()
-LINKER = ["-fuse-ld=lld"] if shutil.which("ld.lld") else []
+LINKER = [*(["-fuse-ld=lld"] if shutil.which("ld.lld") else []), "-Wl,-z,muldefs"]
 LAUNCHER = ["ccache"] if shutil.which("ccache") else []
 INPUTS, SEED = 300, 1  # random bytes, of which targets of the fuzzer make meshes
-QUICK = 0.3  # seconds: tests that take longer come after all that do not
 INCLUDED = re.compile(r'^#(?:include|define HWY_TARGET_INCLUDE) "(barycert/[^"]+)"', re.MULTILINE)
+
+
+def object_name(source):
+    return source.replace("/", "+") + ".o"
 
 
 class RoomBench:
@@ -35,9 +39,8 @@ class RoomBench:
         self.kept = scratch / "kept"
         self.kept.mkdir()
         self.folder = self.src / self.prefix
-        # Where some sources are named they lie in the room itself, and its folders are libraries like others.
-        sources = self.folder.glob("*.cpp") if self.room.only else self.folder.rglob("*.cpp")
-        self.sources = sorted(str(p.relative_to(self.folder)) for p in sources)
+        self.sources = sorted(str(p.relative_to(self.folder)) for p in self.folder.rglob("*.cpp"))
+        self.lock, self.passed = threading.Lock(), {}
         self.texts = {str(p.relative_to(self.src)): p.read_text() for p in self.src.rglob("*pp")}
         self.command = self.command_of_room()
 
@@ -71,8 +74,17 @@ class RoomBench:
         before = ["-I", place] if place else []
         return run(*LAUNCHER, *self.command[:1], *before, *self.command[1:], *FLAGS, *lanes, "-c", (place if changed else self.src) / path, "-o", out)
 
-    def object(self, source):
-        return self.kept / (source.replace("/", "+") + ".o")
+    def unchanged(self, source):
+        """The object of the source as it is."""
+        out = self.kept / object_name(source)
+        with self.lock:
+            if not out.exists():
+                self.must(self.compile(source, out))
+        return out
+
+    def must(self, done):
+        if done.returncode != 0:
+            sys.exit(done.stderr[:4000])
 
     # --- linking -------------------------------------------------------------------------------------------------
 
@@ -97,93 +109,63 @@ class RoomBench:
             kept.append(word)
         return kept
 
-    def link(self, words, objects, out):
-        return run("g++", *LINKER, *objects, *words, "-o", out)
-
     # --- running -------------------------------------------------------------------------------------------------
 
-    def test(self, program, tests, out, *more):
-        left_out = f":-{self.room.left_out}" if tests == "*" and self.room.left_out else ""
-        return measured([program, f"--gtest_filter={tests}{left_out}", "--gtest_fail_fast", *more], self.limits.get(tests, 3000), out)
+    def phases(self):
+        """(program, what to run of it, seconds): quick tests, the fuzzer's targets, tests that take long."""
+        room = self.room
+        others = ":".join([*room.last, *room.left_out])
+        yield "tests", f"*:-{others}" if others else "*", room.seconds
+        for target in room.fuzz:
+            yield "replay", target, 60
+        if room.last:
+            yield "tests", ":".join(room.last), 4 * room.seconds
 
-    def replay(self, program, target, out):
-        return measured([program, target, self.scratch / "inputs", self.root / "tests/fuzz/corpus" / target,
-                         self.root / "tests/fuzz/found" / target], self.limits.get(target, 600), out)
+    def start(self, program, kind, what, seconds, out):
+        if kind == "tests":
+            return measured([program, f"--gtest_filter={what}", "--gtest_fail_fast"], seconds, out)
+        places = [self.scratch / "inputs", *(self.root / "tests/fuzz" / part / what for part in ("corpus", "found"))]
+        return measured([program, what, *places], seconds, out)
 
-    def blame(self, status, words):
-        """What to tell of a run that failed."""
+    def failing(self, status, kind, what, words):
+        """What failed, and which single test to ask again."""
+        if kind == "replay":
+            told = words.strip().splitlines() or [""]
+            return f"fuzz {what}: " + ("too long" if status is None else told[-1][:80]), what
         failed = re.search(r"\[  FAILED  \] ([\w./]+)", words)
-        if failed and status is not None:
-            return failed.group(1)
         begun = re.findall(r"\[ RUN      \] ([\w./]+)", words)
-        return ("too long" if status is None else f"ends with {status}") + (f" in {begun[-1]}" if begun else "")
+        if failed and status is not None:
+            return failed.group(1), failed.group(1)
+        return ("too long" if status is None else f"ends with {status}") + f" in {begun[-1] if begun else '?'}", begun[-1] if begun else "*"
 
-    def verdict(self, place, objects):
-        """Status and detail: the first test that fails."""
-        out = place / "words"
-        for number, (words, phases) in enumerate(self.programs):
-            program = place / f"program{number}"
-            if self.link(words, objects, program).returncode != 0:
-                return "does not compile", ""
-            for runner, what in phases:
-                status, _ = runner(program, what, out)
-                if status != 0:
-                    told = out.read_text(errors="replace")
-                    name = self.blame(status, told) if runner == self.test else f"fuzz {what}: {told.strip().splitlines()[-1][:80] if told.strip() else status}"
-                    return "killed", name
-            program.unlink()
-        return "survived", ""
+    def program(self, kind, objects, place):
+        out = place / kind
+        if not out.exists():
+            self.must(run("g++", *LINKER, *objects, *self.words[kind], "-o", out))
+        return out
 
-    def prepare(self, jobs):
-        """The room itself: compiled, linked, and the time that its tests take."""
-        self.limits, self.programs = {}, []
+    def passes_unchanged(self, sources, kind, what, seconds):
+        """Whether the room itself, compiled as mutants are, passes."""
+        key = tuple(sources), kind, what
+        with self.lock:
+            if key not in self.passed:
+                place = self.scratch / "m-unchanged"
+                shutil.rmtree(place, ignore_errors=True)
+                place.mkdir()
+                program = self.program(kind, [self.kept / object_name(s) for s in sources], place)
+                self.passed[key] = self.start(program, kind, what, seconds, place / "words") == 0
+        return self.passed[key]
+
+    def prepare(self, _):
         inputs = self.scratch / "inputs"
         shutil.rmtree(inputs, ignore_errors=True)
         inputs.mkdir()
         draw = random.Random(SEED)
         for i in range(INPUTS):
             (inputs / f"{i:04}").write_bytes(draw.randbytes(draw.randrange(8, 240)))
-        with ThreadPoolExecutor(jobs) as pool:
-            for done in pool.map(lambda s: self.compile(s, self.object(s)), self.sources):
-                if done.returncode != 0:
-                    sys.exit(done.stderr[:4000])
-        objects = [self.object(s) for s in self.sources]
-        tests = f"tests/{self.room.tests}/test_{self.room.tests}"
-        self.programs.append((self.keep(tests), self.phases(self.keep(tests), objects)))
+        self.words = {"tests": self.keep(f"tests/{self.room.tests}/test_{self.room.tests}")}
         if self.room.fuzz:
-            words, phases = self.keep("tests/fuzz/fuzz_replay"), []
-            program = self.scratch / "itself"
-            self.must(self.link(words, objects, program))
-            for target in self.room.fuzz:
-                status, seconds = self.replay(program, target, self.scratch / "words")
-                if status != 0:
-                    sys.exit(f"the room itself fails: fuzz {target}: {(self.scratch / 'words').read_text()[-400:]}")
-                self.limits[target] = 10 + 5 * seconds
-                phases.append((self.replay, target))
-                print(f"fuzz {target}: {seconds:.1f} s", file=sys.stderr)
-            self.programs.append((words, phases))
-
-    def must(self, done):
-        if done.returncode != 0:
-            sys.exit(done.stderr[:4000])
-
-    def phases(self, words, objects):
-        """Quick tests, then the others."""
-        program, told = self.scratch / "itself", self.scratch / "times.json"
-        self.must(self.link(words, objects, program))
-        told.unlink(missing_ok=True)
-        status, seconds = self.test(program, "*", self.scratch / "words", f"--gtest_output=json:{told}")
-        if status != 0:
-            sys.exit(f"the room itself fails: {self.blame(status, (self.scratch / 'words').read_text())}")
-        times = {f"{suite['name']}.{test['name']}": float(test["time"][:-1])
-                 for suite in json.loads(told.read_text())["testsuites"] for test in suite["testsuite"]}
-        share = seconds / max(sum(times.values()), 1e-3)  # of the processor, on a machine that others use
-        quick = [t for t, s in times.items() if s * share <= QUICK]
-        phases = [":".join(quick), ":".join(t for t in times if t not in quick)]
-        for tests in phases:
-            self.limits[tests] = 10 + 4 * share * sum(times[t] for t in tests.split(":") if t)
-        print(f"{len(times)} tests, {seconds:.0f} s, {len(quick)} of them quick", file=sys.stderr)
-        return [(self.test, tests) for tests in phases if tests]
+            self.words["replay"] = self.keep("tests/fuzz/fuzz_replay")
 
     # --- a mutant ------------------------------------------------------------------------------------------------
 
@@ -200,13 +182,16 @@ class RoomBench:
         shutil.rmtree(place)
 
     def judge(self, m, place):
-        objects, same = [], True
-        for source in self.sources:
-            concerned = source == m.file or f"{self.prefix}/{m.file}" in self.included(f"{self.prefix}/{source}", set())
-            objects.append(place / source.replace("/", "+") if concerned else self.object(source))
-            if not concerned:
-                continue
-            if self.compile(source, objects[-1], place).returncode != 0:
+        sources = [s for s in self.sources if s == m.file or f"{self.prefix}/{m.file}" in self.included(f"{self.prefix}/{s}", set())]
+        objects = [place / object_name(s) for s in sources]
+        for source, out in zip(sources, objects):
+            if self.compile(source, out, place).returncode != 0:
                 return "does not compile", ""
-            same = same and objects[-1].read_bytes() == self.object(source).read_bytes()
-        return ("same code", "") if same else self.verdict(place, objects)
+        if all(out.read_bytes() == self.unchanged(source).read_bytes() for source, out in zip(sources, objects)):
+            return "same code", ""
+        for kind, what, seconds in self.phases():
+            status = self.start(self.program(kind, objects, place), kind, what, seconds, place / "words")
+            if status != 0:
+                told, again = self.failing(status, kind, what, (place / "words").read_text(errors="replace"))
+                return "killed" if self.passes_unchanged(sources, kind, again, seconds) else "fails unchanged", told
+        return "survived", ""

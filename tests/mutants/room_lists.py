@@ -87,17 +87,24 @@ AUDIT = [
 @dataclass
 class Room:
     tests: str  # the folder and the executable of its tests
+    seconds: int  # more than ever so long its quick tests take
+    listed: list
     fuzz: list = field(default_factory=list)  # targets of fuzz_replay
     only: list = field(default_factory=list)  # sources; all of the room's if empty
-    left_out: str = ""  # tests that take too long for what they see
-    listed: list = field(default_factory=list)
+    last: list = field(default_factory=list)  # tests that take a second or more each
+    left_out: list = field(default_factory=list)  # tests of time, and one of six minutes
 
 
 ROOMS = {
-    "check": Room("check", ["meshes"], listed=CHECK),
-    "locate": Room("locate", ["meshes", "nearest"], listed=LOCATE),
-    "sample": Room("sample", ["meshes", "weights", "expressions", "maps"], left_out="ResampleBounds.NearFacesOfSlivers", listed=SAMPLE),
+    "check": Room("check", 30, CHECK, ["meshes"], left_out=["Regressions.time_of_cells_one_in_another", "Contacts.of_extreme_coordinates"],
+                  last=["Defects.in_pairs*", "Theorem.*", "Candidates.*", "Robustness.same_from_any_threads"]),
+    "locate": Room("locate", 60, LOCATE, ["meshes", "nearest"],
+                   last=["LocateSoups.L1_L2_*", "LocateNearest.N1_*", "LocateNearest.O*", "LocateData.*", "LocateRanges.*"]),
+    "sample": Room("sample", 100, SAMPLE, ["meshes", "weights", "expressions", "maps"], left_out=["ResampleBounds.NearFacesOfSlivers"],
+                   last=["ResampleFuzz.*", "ResampleBounds.AlongFaces", "ResampleValues.A*", "ResampleOrder.*", "ResampleBoxes.PartsAndSlabs",
+                         "SampleOrder.*", "ResampleCells.Slivers", "ResampleMeshes.AnyScale"]),
     # What decides whether a kernel is wrong, and by how much.
-    "audit": Room("audit", only=["asking.cpp", "block.cpp", "comparison.cpp", "drift.cpp", "error_sizes.cpp", "judge.cpp",
-                                 "prediction.cpp", "signs.cpp", "statistics.cpp", "thresholds.cpp"], listed=AUDIT),
+    "audit": Room("audit", 60, AUDIT, last=["contained.*", "gaps.*"],
+                  only=["asking.cpp", "block.cpp", "comparison.cpp", "drift.cpp", "error_sizes.cpp", "judge.cpp", "prediction.cpp",
+                        "signs.cpp", "statistics.cpp", "thresholds.cpp"]),
 }
