@@ -2,7 +2,7 @@
 """Mutants: one change of a source each, made in a scratch copy, against tests.
 
   run_mutants.py [--room core] [--build DIR] [--jobs 2] [--minutes M] [--count N] [--only FILE] [--listed] [--root DIR]
-                 [--scratch DIR] [--again [REGEX]] [--report]
+                 [--scratch DIR] [--again [REGEX]] [--quick] [--report]
 
 --room core: the mutants of mutant_list.py against killer.cpp. Other rooms (room_lists.py): those of room_mutants.py against
 the tests of the room and targets of the fuzzer, of a build that has them (preset dev; targets test_ROOM and fuzz_replay).
@@ -11,16 +11,18 @@ the tests of the room and targets of the fuzzer, of a build that has them (prese
 checkout whose sources are mutated, this one if not given. Listed mutants are all run, generated ones until --minutes
 are over, in an order in which those left out lie evenly; --count of them, as many of each kind, of other rooms than the
 core. --only takes the mutants of one source, --listed those listed; --again goes on with the last run, those of its
-survivors anew that change a text which matches: for a killer that has got stronger; --report renders the results of the
+survivors anew that change a text which matches: for a killer that has got stronger, or after an interruption (a REGEX
+of nothing that is there). --quick: quick tests alone, undecided is what passes them, and --again goes on with it. --report renders the results of the
 last run again. The table goes to stdout and, for a whole run of the core, to RESULTS.md beside this script; that of
 another room is for its NOTES.md. A mutant's status:
   killed     with the check that failed, a crash or a hang
   survived   `tiers` says whether the shares of the tiers changed: then the mutant lives, but no answer got wrong
   same code  the compiler made the same object files of it: it was not run
   does not compile
+  fails unchanged  the unchanged source fails as well: look why
   stale      the text to be changed is not in the source any more
 """
-import argparse, json, re, subprocess, sys, time
+import argparse, json, re, subprocess, sys, threading, time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -44,18 +46,21 @@ def run_all(a, saved):
     revision = subprocess.run(["git", "-C", a.root, "rev-parse", "--short", "HEAD"], capture_output=True,
                               text=True).stdout.strip()
     places = a.build.resolve(), saved.parent, a.root.resolve()
-    bench = Bench(*places) if a.room == "core" else RoomBench(*places, a.room, a.count)
+    bench = Bench(*places) if a.room == "core" else RoomBench(*places, a.room, a.count, a.quick)
     bench.prepare(a.jobs)
     mutants, possible, texts = bench.mutants()
     mutants = [m for m in mutants if (not a.only or m.file == a.only) and (m.listed or not a.listed)]
     listed, seconds = sum(m.listed for m in mutants), 0
     for m in mutants:
         was = old.get(key(m.__dict__))
-        if was and not (was["status"] == "survived" and re.search(a.again, m.old)):
+        anew = was and (was["status"] == "undecided" or was["status"] == "survived" and re.search(a.again, m.old))
+        if was and not anew:
             m.status, m.detail, m.tiers = was["status"], was["detail"], was["tiers"]
     if before:
         seconds = before["seconds"]
     print(f"{len(mutants)} mutants", file=sys.stderr)
+
+    lock = threading.Lock()
 
     def save():
         saved.write_text(json.dumps({"again": before is not None, "seconds": seconds + time.time() - start, "whole": not a.only and not a.listed,
@@ -71,7 +76,7 @@ def run_all(a, saved):
         bench.run(number, m, texts[m.file])
         print(f"{number + 1}/{len(mutants)} {m.file}:{m.line} {m.old.strip()!r} -> {m.new.strip()!r}: {m.status} "
               f"{m.detail}{m.tiers}", file=sys.stderr, flush=True)
-        if number % 8 == 0:
+        with lock:
             save()
 
     with ThreadPoolExecutor(a.jobs) as pool:
@@ -91,6 +96,7 @@ def main():
     parser.add_argument("--scratch", type=Path, default=Path("/tmp/barycert-mutants"))
     parser.add_argument("--root", type=Path, default=ROOT)
     parser.add_argument("--again", nargs="?", const="")
+    parser.add_argument("--quick", action="store_true")
     parser.add_argument("--report", action="store_true")
     a = parser.parse_args()
     saved = a.scratch / a.room / "results.json"
