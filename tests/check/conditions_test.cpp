@@ -42,6 +42,40 @@ TEST(Conditions, p1) {
     expect_only(bad, set_of(DefectKind::degenerate_cell));
 }
 
+TEST(Conditions, kinds_of_degenerate_cells_along_every_axis) {
+    const auto kind = [](const std::vector<double>& points) {
+        const CheckReport r = quick(solid(points, {0, 1, 2, 3}));
+        return std::string(r.find(DefectKind::degenerate_cell)->places.at(0).detail);
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+        std::vector<double> flat(12, 1), line(12, 1);  // in a plane across the axis; along it
+        flat[3 + (k + 1) % 3] = flat[9 + (k + 1) % 3] = flat[6 + (k + 2) % 3] = flat[9 + (k + 2) % 3] = 2;
+        for (std::size_t i = 0; i < 4; ++i) line[3 * i + k] = static_cast<double>(i);
+        EXPECT_EQ(kind(flat), "coplanar") << k;
+        EXPECT_EQ(kind(line), "collinear") << k;
+    }
+    EXPECT_EQ(kind(std::vector<double>(12, 1)), "a point");
+}
+
+// Of as many cells in either order, the negative ones, which --fix-orientation would turn.
+TEST(Conditions, cells_of_the_rarer_order_are_told) {
+    const Mesh good = box(2, {3, 1, 1});
+    for (const std::vector<std::size_t>& turned : {std::vector<std::size_t>{4}, {0, 2, 5}, {0, 1, 3, 4, 5}}) {
+        Mesh mesh = good;
+        std::vector<Mesh::Index> told;
+        for (std::size_t cell = 0; cell < 6; ++cell) {
+            const bool negative = std::count(turned.begin(), turned.end(), cell) != 0;
+            if (negative) std::swap(mesh.cells[3 * cell], mesh.cells[3 * cell + 1]);
+            if (negative == (turned.size() <= 3)) told.push_back(static_cast<Mesh::Index>(cell));
+        }
+        const CheckReport r = quick(mesh);
+        ASSERT_NE(r.find(DefectKind::mixed_orientation), nullptr);
+        std::vector<Mesh::Index> found;
+        for (const DefectPlace& place : r.find(DefectKind::mixed_orientation)->places) found.push_back(place.cells[0]);
+        EXPECT_EQ(found, told);
+    }
+}
+
 // One cell folded into another, a third that keeps clear at the facet that comes first: P3 and P4 hold.
 TEST(Conditions, p2_same_side) {
     const Mesh folded =

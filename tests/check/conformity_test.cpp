@@ -170,6 +170,21 @@ TEST(ConformityReport, AtTheEndsOfTheRange) {
     }
 }
 
+// Differences of coordinates are beyond all doubles.
+TEST(ConformityReport, FromOneEndOfTheRangeToTheOther) {
+    constexpr double s = 0x1p1022;
+    Plc plc = cube();
+    for (double& x : plc.points) x = (x - 2) * s;
+    for (PlcFacet& f : plc.facets) {
+        for (double& x : f.holes) x = (x - 2) * s;
+    }
+    const Mesh mesh = mapped(mapped(box(3, {4, 4, 4}), {1, 1, 1}, {-2, -2, -2}), {s, s, s}, {0, 0, 0});
+    const ConformityReport c = conformity(mesh, plc);
+    EXPECT_EQ(c.facets, 7U);
+    EXPECT_EQ(c.exact, 7U);
+    EXPECT_EQ(c.max_distance, 0);
+}
+
 TEST(ConformityReport, DoesNotDependOnThreadsOrderOrOrientation) {
     base::Random random(2);
     const Mesh flange = mesh_of("flange");
