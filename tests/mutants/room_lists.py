@@ -10,7 +10,6 @@ CHECK = [
     ("cells.cpp", "repeated = repeated || nodes[i] == nodes[j];", "repeated = nodes[i] == nodes[j];", "the last pair of nodes alone"),
     ("cells.cpp", "k < (d == 2 ? 1 : 3)", "k < 1", "on a line in one projection"),
     ("cells.cpp", "std::isnormal(volume) && ", "", "the shape of a cell from a subnormal volume"),
-    ("check.cpp", "if (a == b || ", "if (", "a cell and itself"),
     ("check.cpp", 't.condition != "P5" && ', "", "overlaps looked for where only P5 fails"),
     ("check.cpp", "        ExactEnvironment::renew();\n", "", "what the caller's progress did to the environment stays"),
     ("conformity.cpp", "high / 2 - low / 2", "(high - low) / 2", "an extent that overflows"),

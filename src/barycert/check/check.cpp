@@ -62,7 +62,7 @@ std::vector<CellContact> contacts(const Mesh& mesh, const CellMeasures& measures
     std::vector<CellContact> all;
     for (const CellPair& p : pairs) {
         const auto a = static_cast<std::size_t>(p[0]), b = static_cast<std::size_t>(p[1]);
-        if (a == b || measures.orientation[a] == 0 || measures.orientation[b] == 0) continue;
+        if (measures.orientation[a] == 0 || measures.orientation[b] == 0) continue;
         const CommonPart common = common_part(mesh.dimension, corner_points(mesh, a), corner_points(mesh, b));
         all.push_back({p, common.dimension == mesh.dimension, common.dimension, common.point});
     }
