@@ -64,6 +64,8 @@ TEST(Comparison, ErrorRelativeToOneOrTheLargestWeight) {
     EXPECT_EQ(compared(triangle(1, 1), {0.5, 0.25, 0.25}, 1).relative_error, infinity);
     constexpr double max = std::numeric_limits<double>::max();
     EXPECT_EQ(compared(triangle(1, 1), {-max, max, 0.25}).relative_error, max);
+    // 2^1021 and -2^1024, of which the difference is no double: 9 times the largest weight.
+    EXPECT_DOUBLE_EQ(compared(triangle(0x1p1023, 0), {-0x1p1021, -max, 0}).relative_error, 9);
     Case flat = triangle(1, 1);
     flat.vertices = {0, 0, 1, 1, 2, 2};
     EXPECT_EQ(compared(flat, {0.5, 0.25, 0.25}).relative_error, -1);
