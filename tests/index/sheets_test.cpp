@@ -3,6 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
 #include "barycert/environment.hpp"
 #include "barycert/locator.hpp"
 #include "check/meshes.hpp"
@@ -25,19 +31,25 @@ Sheets sheets_of(const Mesh& mesh) {
             index::find_sheets(index, links.open, facets, conflict).size()};
 }
 
-/// A cell a wedge, in any order around the ridge that all of them have (2D: a node).
-Mesh wedges(int d, const std::vector<std::array<double, 4>>& sides) {
+using Side = std::array<double, 2>;
+
+/// A cell a wedge, in any order around the ridge that all of them have (2D: a node). Equal sides are one facet.
+Mesh wedges(int d, const std::vector<std::array<Side, 2>>& cells) {
     Mesh mesh;
     mesh.dimension = d;
     const auto add = [&](double x, double y, double z) {
         return add_node(mesh, d == 2 ? std::vector<double>{x, y} : std::vector<double>{x, y, z});
     };
     const Mesh::Index low = add(0, 0, -1), high = d == 2 ? low : add(0, 0, 2);
-    for (const auto& [x, y, u, v] : sides) {
+    std::map<Side, Mesh::Index> nodes;
+    for (const auto& sides : cells) {
         mesh.cells.push_back(low);
         if (d == 3) mesh.cells.push_back(high);
-        mesh.cells.push_back(add(x, y, 0));
-        mesh.cells.push_back(add(u, v, 0.5));
+        for (const Side& side : sides) {
+            const auto [at, is_new] = nodes.try_emplace(side);
+            if (is_new) at->second = add(side[0], side[1], 0);
+            mesh.cells.push_back(at->second);
+        }
     }
     return mesh;
 }
@@ -45,7 +57,7 @@ Mesh wedges(int d, const std::vector<std::array<double, 4>>& sides) {
 TEST(IndexSheets, GoOnOverRidgesWhereManyMeet) {
     for (const int d : {2, 3}) {
         // Three cells, between them gaps; the last side is half a turn from the first.
-        const Mesh apart = wedges(d, {{2, 0, 1, 1}, {-1, -3, 1, -2}, {-1, 4, -2, 0}});
+        const Mesh apart = wedges(d, {{{{2, 0}, {1, 1}}}, {{{-1, -3}, {1, -2}}}, {{{-1, 4}, {-2, 0}}}});
         const Sheets found = sheets_of(apart);
         EXPECT_EQ(found.facets, 3U * (static_cast<std::size_t>(d) + 1));
         EXPECT_EQ(found.conflicts, 0U);
@@ -54,17 +66,32 @@ TEST(IndexSheets, GoOnOverRidgesWhereManyMeet) {
     }
 }
 
-TEST(IndexSheets, OfACellWithinAnotherAreTwo) {
+// No facet meets another but in the ridge.
+TEST(IndexSheets, OfACellWithinOthersAreTwo) {
+    const std::array<Side, 2> small{{{0.5, 0.125}, {0.25, 0.5}}};
+    const std::vector<std::vector<std::array<Side, 2>>> cases{
+        {{{{8, 0}, {-7, 8}}}, small},
+        {small, {{{1, -8}, {-9, -9}}}, {{{8, 0}, {-7, 8}}}},
+        {{{{8, 0}, {0, 8}}}, small, {{{0, 8}, {-8, 0}}}},  // both make half a turn
+    };
     for (const int d : {2, 3}) {
-        // No facet meets another but in the ridge: the small cell lies in the great one, or in the second of two.
-        const Mesh within = wedges(d, {{8, 0, -7, 8}, {0.5, 0.125, 0.25, 0.5}});
-        EXPECT_EQ(sheets_of(within).conflicts, 0U);
-        EXPECT_EQ(sheets_of(within).count, 2U);
-        EXPECT_FALSE(Locator::build(within)->certified());
-        const Mesh beside = wedges(d, {{0.25, 0.5, 0.5, 0.125}, {1, -8, -9, -9}, {8, 0, -7, 8}});
-        EXPECT_EQ(sheets_of(beside).conflicts, 0U);
-        EXPECT_EQ(sheets_of(beside).count, 2U);
-        EXPECT_FALSE(Locator::build(beside)->certified());
+        for (const auto& sides : cases) {
+            for (int turned = 0; turned < 8; ++turned) {
+                std::vector<std::array<Side, 2>> cells = sides;
+                for (auto& cell : cells) {
+                    for (auto& [x, y] : cell) {
+                        if ((turned & 1) != 0) x = -x;
+                        if ((turned & 2) != 0) y = -y;
+                        if ((turned & 4) != 0) std::swap(x, y);
+                    }
+                }
+                const Mesh mesh = wedges(d, cells);
+                const Sheets found = sheets_of(mesh);
+                EXPECT_EQ(found.conflicts, 0U);
+                EXPECT_EQ(found.count, 2U);
+                EXPECT_FALSE(Locator::build(mesh)->certified());
+            }
+        }
     }
 }
 
