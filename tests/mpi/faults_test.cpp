@@ -15,6 +15,7 @@
 #include <vtkMultiProcessController.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkPassThrough.h>
 #include <vtkPointData.h>
 #include <vtkUnstructuredGridAlgorithm.h>
 #include <vtkVariantArray.h>
@@ -246,6 +247,20 @@ TEST(Faults, OfFiltersBefore) {
     vtkNew<vtkPBarycertProbe> probe;
     probe->SetSourceData(job.piece);
     probe->SetInputConnection(before->GetOutputPort());
+    expect_error(probe, job.who() + "what comes before this filter failed: ");
+}
+
+// That between them and the probe has no error of its own.
+TEST(Faults, OfFiltersFurtherBefore) {
+    Job job;
+    vtkNew<Failing> before;
+    before->piece = job.piece;
+    before->how = job.here ? 4 : 3;
+    vtkNew<vtkPassThrough> between;
+    between->SetInputConnection(before->GetOutputPort());
+    vtkNew<vtkPBarycertProbe> probe;
+    probe->SetSourceConnection(between->GetOutputPort());
+    probe->SetInputData(job.mine);
     expect_error(probe, job.who() + "what comes before this filter failed: ");
 }
 
