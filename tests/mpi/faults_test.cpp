@@ -22,7 +22,6 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include "check/meshes.hpp"
-#include "locate/points.hpp"
 #include "mpi/pieces.hpp"
 #include "vtk/grids.hpp"
 #include "vtkPBarycertProbe.h"
@@ -30,14 +29,10 @@
 namespace barycert::testing {
 namespace {
 
-struct Job {
-    Mesh mesh = box(3, {8, 2, 2});
-    vtkSmartPointer<vtkUnstructuredGrid> whole = with_arrays(mesh);
-    base::Random random{4};
-    std::vector<double> points = awkward_points(mesh, 10, random);
-    vtkSmartPointer<vtkPolyData> mine = points_of(share_of(points, rank(), ranks()));
-    vtkSmartPointer<vtkUnstructuredGrid> piece =
-        piece_of(whole, ranks_of_cells(whole, Cut::slabs), rank(), false, random);
+struct BrokenJob : Job {
+    BrokenJob() : Job(box(3, {8, 2, 2}), 10) {}
+
+    vtkSmartPointer<vtkUnstructuredGrid> mesh_here = piece(Cut::slabs, false);
     int broken = ranks() / 2;  ///< the rank that has the fault
     bool here = rank() == broken;
 
@@ -56,9 +51,9 @@ void expect_error(vtkPBarycertProbe* probe, const std::string& text) {
 }
 
 void expect_fault(const std::function<void(vtkUnstructuredGrid*)>& spoil, const std::string& text) {
-    Job job;
+    BrokenJob job;
     vtkNew<vtkUnstructuredGrid> bad;
-    bad->DeepCopy(job.piece);
+    bad->DeepCopy(job.mesh_here);
     if (job.here) spoil(bad);
     vtkNew<vtkPBarycertProbe> probe;
     probe->SetSourceData(bad);
@@ -70,7 +65,7 @@ void expect_fault(const std::function<void(vtkUnstructuredGrid*)>& spoil, const 
     }
     expect_error(probe, text);
     // And then the piece that is right.
-    probe->SetSourceData(job.piece);
+    probe->SetSourceData(job.mesh_here);
     Messages messages;
     probe->Update();
     EXPECT_EQ(messages.all(), "");
@@ -184,16 +179,16 @@ TEST(Faults, OfPlanes) {
 }
 
 TEST(Faults, OfSettings) {
-    Job job;
+    BrokenJob job;
     vtkNew<vtkPBarycertProbe> probe;
-    probe->SetSourceData(job.piece);
+    probe->SetSourceData(job.mesh_here);
     probe->SetInputData(job.mine);
     probe->ComputeToleranceOff();
     probe->SetTolerance(1);
     expect_error(probe, "this filter has no Tolerance: points are inside the mesh or not; leave ComputeTolerance on");
     probe->SetTolerance(0);
     probe->CategoricalDataOn();
-    job.piece->GetPointData()->SetActiveScalars("v");
+    job.mesh_here->GetPointData()->SetActiveScalars("v");
     expect_error(probe, "CategoricalData takes point scalars of one component, of the source");
 }
 
@@ -220,11 +215,11 @@ struct Failing : vtkUnstructuredGridAlgorithm {
 vtkStandardNewMacro(Failing);
 
 TEST(Faults, OfFiltersBefore) {
-    Job job;
+    BrokenJob job;
     for (const int how : {0, 1, 2, 4}) {
         SCOPED_TRACE(how);
         vtkNew<Failing> before;
-        before->piece = job.piece;
+        before->piece = job.mesh_here;
         before->how = job.here ? how : 3;
         vtkNew<vtkPBarycertProbe> probe;
         probe->SetSourceConnection(before->GetOutputPort());
@@ -245,16 +240,16 @@ TEST(Faults, OfFiltersBefore) {
     before->piece = job.whole;
     before->how = job.here ? 1 : 3;
     vtkNew<vtkPBarycertProbe> probe;
-    probe->SetSourceData(job.piece);
+    probe->SetSourceData(job.mesh_here);
     probe->SetInputConnection(before->GetOutputPort());
     expect_error(probe, job.who() + "what comes before this filter failed: ");
 }
 
 // That between them and the probe has no error of its own.
 TEST(Faults, OfFiltersFurtherBefore) {
-    Job job;
+    BrokenJob job;
     vtkNew<Failing> before;
-    before->piece = job.piece;
+    before->piece = job.mesh_here;
     before->how = job.here ? 4 : 3;
     vtkNew<vtkPassThrough> between;
     between->SetInputConnection(before->GetOutputPort());
@@ -265,14 +260,14 @@ TEST(Faults, OfFiltersFurtherBefore) {
 }
 
 TEST(Faults, OfFilesThatAreNotThere) {
-    Job job;
+    BrokenJob job;
     vtkNew<vtkXMLUnstructuredGridReader> reader;
     reader->SetFileName("no-such-file.vtu");
     vtkNew<vtkPBarycertProbe> probe;
     if (job.here)
         probe->SetSourceConnection(reader->GetOutputPort());
     else
-        probe->SetSourceData(job.piece);
+        probe->SetSourceData(job.mesh_here);
     probe->SetInputData(job.mine);
     expect_error(probe, job.who() + "what comes before this filter failed: ");
 }
