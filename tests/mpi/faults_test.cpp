@@ -7,11 +7,13 @@
 #include <new>
 
 #include <vtkCellData.h>
+#include <vtkCompositeDataPipeline.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkFloatArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkMultiProcessController.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -190,6 +192,28 @@ TEST(Faults, OfSettings) {
     probe->CategoricalDataOn();
     job.mesh_here->GetPointData()->SetActiveScalars("v");
     expect_error(probe, "CategoricalData takes point scalars of one component, of the source");
+}
+
+// One process has two blocks, others have one: with an executive that takes them apart, as ParaView's, too.
+TEST(Faults, OfBlocks) {
+    BrokenJob job;
+    for (const bool of_source : {false, true}) {
+        for (const bool executive : {false, true}) {
+            vtkNew<vtkPBarycertProbe> probe;
+            if (executive) probe->SetExecutive(vtkNew<vtkCompositeDataPipeline>());
+            vtkNew<vtkMultiBlockDataSet> blocks;
+            for (unsigned i = 0; i < (job.here ? 2U : 1U); ++i)
+                blocks->SetBlock(i, of_source ? vtkDataObject::SafeDownCast(job.mesh_here) : job.mine.Get());
+            if (of_source) {
+                probe->SetSourceData(blocks);
+                probe->SetInputData(job.mine);
+            } else {
+                probe->SetSourceData(job.mesh_here);
+                probe->SetInputData(blocks);
+            }
+            expect_error(probe, "this filter takes no composite data sets; merge the blocks before");
+        }
+    }
 }
 
 struct Failing : vtkUnstructuredGridAlgorithm {
