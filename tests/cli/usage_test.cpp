@@ -207,7 +207,8 @@ TEST(usage, a_broken_mesh_is_told_with_file_and_line) {
 }
 
 TEST(usage, missing_data_are_told_with_the_remedy) {
-    expect_refused({{"audit"}, "name a mesh, or set BARYCERT_DATA_DIR"}, {.environment = {"BARYCERT_DATA_DIR=/none"}});
+    expect_refused({{"audit"}, "found No such file or directory; name a mesh, or set BARYCERT_DATA_DIR"},
+                   {.environment = {"BARYCERT_DATA_DIR=/none"}});
 }
 
 TEST(usage, mesh_without_its_program_is_told_with_the_remedy) {
@@ -215,7 +216,7 @@ TEST(usage, mesh_without_its_program_is_told_with_the_remedy) {
     std::filesystem::copy_file(BARYCERT_PROGRAM, scratch.path("barycert"));
     const How alone{.environment = {"PATH=" + scratch.folder()}, .program = scratch.path("barycert")};
     expect_refused(
-        {{"mesh", "shape.poly"}, "error: cannot run barycert-tetgen: found No such file or directory; build"}, alone);
+        {{"mesh", "shape.poly"}, "error: cannot run barycert-tetgen: found No such file or directory; install"}, alone);
     // With a program of that name beside it, that one runs, with the same arguments.
     const std::string beside = scratch.put("barycert-tetgen", "#!/bin/sh\necho \"meshes $*\"\nexit 7\n");
     std::filesystem::permissions(beside, std::filesystem::perms::owner_all);
