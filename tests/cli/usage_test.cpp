@@ -96,6 +96,9 @@ TEST(usage, of_a_mistyped_name_the_nearest_is_told) {
     const Scratch scratch;
     const std::string points = scratch.put("points.csv", "x,y,z\n0.1,0.2,0.3\n"), bracket = mesh("bracket");
     const std::string rows = scratch.put("rows.csv", "x,y,z,cel\n0.1,0.2,0.3,0\n");
+    const std::string witnesses = scratch.path("witnesses.json");
+    ASSERT_EQ(
+        run({"audit", "--count", "20", "--kernel", "tetrahedron.cramer", "--witnesses", witnesses, "--quiet"}).code, 0);
     const std::vector<Refusal> refusals{
         {{"smaple"}, "found \"smaple\"; did you mean \"sample\"? `barycert --help` lists them"},
         {{"help", "smaple"}, "did you mean \"sample\"?"},
@@ -116,6 +119,9 @@ TEST(usage, of_a_mistyped_name_the_nearest_is_told) {
         {{"kernels", "triangle.invers"}, "did you mean \"triangle.inverse\"?"},
         {{"search", "triangle.invers"}, "did you mean \"triangle.inverse\"?"},
         {{"replay", "--family", "randon", "--case", "1"}, "did you mean \"random\"?"},
+        {{"replay", witnesses, "--kernel", "tetrahedron.cramr"}, "did you mean \"tetrahedron.cramer\"? leave out"},
+        {{"replay", witnesses, "--kernel", "*", "--reason", "fals_inside"}, "did you mean \"false_inside\"? leave out"},
+        {{"replay", witnesses, "--reason", "z*"}, "no witness matches; leave out"},
         {{"replay", "--family", "mesh.inside", "--case", "1", "--simplex", "tetraedron"},
          "did you mean \"tetrahedron\"?"},
         {{"gaps", bracket, "--rule", "stric"}, "did you mean \"strict\"?"},
