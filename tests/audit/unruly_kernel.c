@@ -123,7 +123,7 @@ int barycert_kernel_weights(const double* vertices, const double* point, double*
         }
         raise(SIGFPE);
 #elif UNRULY == LEAK
-        memset(malloc((size_t)1 << 30), 1, (size_t)1 << 30);
+        *(volatile char*)malloc((size_t)1 << 30) = 1;
 #endif
     }
 #if UNRULY == SLOW_PRINT
