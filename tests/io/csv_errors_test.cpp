@@ -52,7 +52,8 @@ TEST(CsvErrors, coordinates) {
 TEST(CsvErrors, a_file_that_cannot_be_read_has_not_ended) {
     const TemporaryFolder folder;
     std::filesystem::create_symlink("/proc/self/mem", folder / "p.csv");
-    expect_error(read_file(folder / "p.csv", 3), "/p.csv", {0, "cannot read the file", nullptr, "Input/output error"});
+    expect_error(read_file(folder / "p.csv", 3), "/p.csv",
+                 {0, "cannot read the file", nullptr, "Input/output error", nullptr});
 }
 
 // Files of the system say that they have no bytes; others grow while they are read.
