@@ -35,13 +35,13 @@ int run(int argc, char** argv) {
     if (const Status exact = check_environment(measure_environment()); !exact) return fail(exact.error());
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, like a full disk
 
-    CLI::App app("barycert: barycentric interpolation at the speed of floating point, audited against exact arithmetic",
-                 "barycert");
+    CLI::App app(
+        "Exact interpolation over meshes of triangles or tetrahedra; proofs and pictures of meshes; audits of what "
+        "other "
+        "tools and formulas compute",
+        "barycert");
     app.set_version_flag("--version", "barycert " BARYCERT_VERSION);
     app.require_subcommand(1);
-    app.footer(
-        "Exit codes: 0 success; 1 threshold exceeded, mesh not certified or witness not reproduced; 2 usage or input "
-        "error.\nTables go to stdout, everything else to stderr. `barycert help SUBCOMMAND` explains each.");
     app.failure_message([](const CLI::App* failed, const CLI::Error& e) {
         return "error: " +
                base::printable(
@@ -70,6 +70,11 @@ int run(int argc, char** argv) {
     OptionTable mesh_options;
     add_options(*mesh, mesh_options);
     add_help(app, exit_code);
+    // After the subcommands, which would take it over.
+    app.footer(
+        "Exit codes: 0 success; 1 a mesh is not certified, results are wrong, a rule or baseline is not kept, or a\n"
+        "witness is not reproduced; 2 usage or input error.\n"
+        "Tables go to stdout, everything else to stderr. `barycert help SUBCOMMAND` explains each.");
     const auto named_first = [&](const CLI::App* sub) { return sub->get_name() == first; };
     if (!first.empty() && first.front() != '-' && app.get_subcommands(named_first).empty()) {
         return fail({.what = "no such subcommand",

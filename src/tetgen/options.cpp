@@ -107,7 +107,11 @@ Parsed parse_options(int argc, char** argv) {
     app.name("barycert-tetgen");
     add_options(app, table);
     try {
-        app.parse(argc, argv);
+        try {
+            app.parse(argc, argv);
+        } catch (const CLI::RequiredError&) {
+            // That there is no INPUT is told below, and whether --quality took it.
+        }
         options.input = table.input;
         options.output = table.output;
         options.order = table.order == "2" ? 2 : 1;

@@ -132,7 +132,7 @@ TEST_F(Failures, BadOptionValues) {
         expect_failure(cube, words[0] == "second.off" ? "second.off" : words[0], words);
     }
     expect_failure(cube, "--switches", {"--switches", "pq", "--order", "2"});
-    expect_failure("--quality", "put INPUT first", {cube});
+    expect_failure("--quality", "put INPUT first", {cube, "--quiet"});
     expect_failure("--quiet", "expected INPUT");
 }
 
