@@ -48,9 +48,6 @@ void tell(std::string_view text);
 /// "error: ..." on stderr; returns exit_error.
 int fail(const Error& error);
 
-/// Likewise "error: out of memory; ...", without memory of its own.
-int fail_for_want_of_memory() noexcept;
-
 /// From now on a failed allocation in CGAL's or GMP's code, which would abort, ends the process as
 /// fail_for_want_of_memory() does, or is thrown.
 void prepare_for_want_of_memory();

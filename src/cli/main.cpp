@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <iostream>
@@ -17,6 +16,7 @@
 #include "command.hpp"
 #include "files.hpp"
 #include "options/mistyped.hpp"
+#include "options/want_of_memory.hpp"
 #include "tetgen/option_table.hpp"
 
 namespace barycert::cli {
@@ -97,26 +97,10 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace barycert::cli
 
-namespace {
-
-/// Libraries promise to throw nothing where they need memory, and so end here: std::filesystem, nlohmann::json.
-[[noreturn]] void end() noexcept {
-    try {
-        if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
-    } catch (const std::bad_alloc&) {
-        barycert::base::remove_begun_files();
-        std::_Exit(barycert::cli::fail_for_want_of_memory());
-    } catch (...) {
-    }
-    std::abort();
-}
-
-}  // namespace
-
 // Nothing is thrown but for want of memory, or by a library.
 int main(int argc, char** argv) {
     namespace cli = barycert::cli;
-    std::set_terminate(end);
+    cli::expect_want_of_memory();
     try {
         return cli::run(argc, argv);
     } catch (const std::bad_alloc&) {
