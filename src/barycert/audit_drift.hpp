@@ -26,7 +26,7 @@ struct DriftOptions {
 struct DriftPoint {
     int size = 0;                  ///< of the box, in pixels
     std::uint64_t cases = 0;       ///< with a finite value
-    std::uint64_t not_finite = 0;  ///< without
+    std::uint64_t not_finite = 0;  ///< without, or without an answer: the kernel crashed, hung or has been given up
     double worst_ulp = 0;          ///< largest error in ulps of the exact value, which is between 1 and 2
     double worst_relative = 0;     ///< largest |value / exact value - 1|
     std::uint64_t index = 0;       ///< of the worst case

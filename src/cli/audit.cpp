@@ -18,7 +18,7 @@
 #include "baseline.hpp"
 #include "command.hpp"
 #include "files.hpp"
-#include "options/choice.hpp"
+#include "options.hpp"
 #include "progress.hpp"
 
 namespace barycert::cli {
@@ -193,6 +193,9 @@ int run_audit(const AuditArguments& a) {
 void add_audit(CLI::App& app, int& exit_code) {
     auto* sub = app.add_subcommand(
         "audit", "Count how often each floating-point kernel is wrong, and by how much, against exact arithmetic");
+    sub->footer(
+        "Exit codes: 0 done; 1 a rule of --fail-on is broken, a figure is worse than in the baseline, or a mutant is\n"
+        "not caught; 2 usage or input error.");
     const auto a = std::make_shared<AuditArguments>();
     file_option(*sub, "MESH", a->meshes,
                 "TetGen meshes (.node/.ele; Triangle's for 2D) for the families mesh.*; default: barycert's own")
@@ -214,16 +217,13 @@ void add_audit(CLI::App& app, int& exit_code) {
         "integers, or barycert's core where it judges others, and CGAL confirms a sample and the hard cases");
     sub->add_option("--count", a->count, "Cases per family and simplex")
         ->capture_default_str()
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48))
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48).description(""))
         ->type_name("N");
     sub->add_option("--seed", a->seed, "The same seed gives the same cases on every machine")
         ->capture_default_str()
         ->check(whole_number())
         ->type_name("S");
-    sub->add_option("--threads", a->threads, "Number of threads; 0: all")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 4096))
-        ->type_name("N");
+    threads_option(*sub, a->threads);
     file_option(*sub, "--json", a->json, "Write the report as JSON; - is stdout and suppresses the table");
     file_option(*sub, "--html", a->html,
                 "Write the report as an HTML page with pictures, histograms and witnesses; - is stdout and suppresses "
@@ -236,10 +236,10 @@ void add_audit(CLI::App& app, int& exit_code) {
     std::string names;
     for (const std::string& rule : threshold_names()) names += " " + rule;
     sub->add_option("--fail-on", a->fail_on,
-                    "Exit with 1 if the figure NAME of a kernel exceeds NUMBER (0 if omitted); may be repeated. NAME "
-                    "is one of:" +
+                    "Exit with 1 if this figure of a kernel exceeds NUMBER (0 if omitted); may be repeated. RULE is "
+                    "one of:" +
                         names)
-        ->type_name("RULE")
+        ->type_name("RULE[>NUMBER]")
         ->allow_extra_args(false);
     file_option(*sub, "--baseline", a->baseline,
                 "Compare with the --json report of an earlier audit of the same seed, count and meshes; exit with 1 if "

@@ -18,6 +18,7 @@
 #include "barycert/check.hpp"
 #include "barycert/io.hpp"
 #include "command.hpp"
+#include "names.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -35,14 +36,6 @@ fs::path data_folder() {
     }
     if (fs::is_directory(BARYCERT_SOURCE_DATA_DIR, ignored)) return BARYCERT_SOURCE_DATA_DIR;
     return {};
-}
-
-template <class Item>
-std::vector<std::string> names_of(const std::vector<Item>& items) {
-    std::vector<std::string> names;
-    names.reserve(items.size());
-    for (const Item& item : items) names.push_back(item.name);
-    return names;
 }
 
 /// Items of `all(glob)` for each glob, without repetition, in the order of the catalogue.
@@ -74,9 +67,11 @@ Result<std::vector<std::string>> own_meshes() {
     for (const std::string& name : base::names_in_folder(folder, trouble)) {
         if (name.ends_with(".node")) paths.push_back(fmt::format("{}/{}", folder, name));
     }
-    if (paths.empty()) {
+    // Some of them alone would be another audit.
+    if (paths.empty() || trouble) {
         return Error{.what = "barycert's own meshes are missing",
                      .file = folder,
+                     .found = trouble ? trouble.message() : "no .node file",
                      .remedy = "name a mesh, or set BARYCERT_DATA_DIR to the folder `data` of barycert's sources"};
     }
     return paths;

@@ -31,6 +31,7 @@ int print(const ListArguments& a, const std::string& text, const std::string& js
 void add_catalogue(CLI::App& app, int& exit_code) {
     const auto k = std::make_shared<ListArguments>();
     auto* kernels = app.add_subcommand("kernels", "List the kernels: formula, source, known failures");
+    kernels->footer(done_or_error);
     kernels->add_option("KERNEL|GLOB", k->globs, "List only matching names");
     file_option(*kernels, "--kernel-library", k->libraries, "Also list the kernel of this shared library");
     file_option(*kernels, "--json", k->json, "Write the list as JSON; - is stdout");
@@ -40,6 +41,7 @@ void add_catalogue(CLI::App& app, int& exit_code) {
     });
     const auto f = std::make_shared<ListArguments>();
     auto* families = app.add_subcommand("families", "List the families of cases: what each tests, and its recipe");
+    families->footer(done_or_error);
     families->add_option("FAMILY|GLOB", f->globs, "List only matching names");
     file_option(*families, "--json", f->json, "Write the list as JSON; - is stdout");
     families->callback([f, &exit_code] {

@@ -195,16 +195,13 @@ void add_check(CLI::App& app, int& exit_code) {
         ->type_name("PLC");
     sub->add_option("--examples", a->examples, "Max number of places listed per defect")
         ->capture_default_str()
-        ->check(CLI::Range(0, 1000000))
+        ->check(CLI::Range(0, 1000000).description(""))
         ->type_name("N");
     sub->add_option("--contacts", a->contacts, "Max number of overlapping or touching pairs listed with a witness")
         ->capture_default_str()
-        ->check(CLI::Range(0, 1000000))
+        ->check(CLI::Range(0, 1000000).description(""))
         ->type_name("N");
-    sub->add_option("--threads", a->threads, "Number of threads; 0: all")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 4096))
-        ->type_name("N");
+    threads_option(*sub, a->threads);
     for (const TextOutput& t : text_outputs) file_option(*sub, t.option, (*a).*t.path, t.help);
     file_option(*sub, "--vtu", a->vtu, "Write the mesh with measures and defects of each cell as VTU, for ParaView");
     file_option(*sub, "--fix-orientation", a->fixed,

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 
@@ -32,14 +31,6 @@ void tell_important(const Notes& notes) {
 std::string command_name() {
     const char* wrapper = std::getenv("BARYCERT_COMMAND");
     return wrapper == nullptr || *wrapper == '\0' ? "barycert" : base::printable(wrapper);
-}
-
-int fail_for_want_of_memory() noexcept {
-    constexpr std::string_view text =
-        "error: out of memory; use a smaller mesh or picture, fewer threads or a machine with more memory\n";
-    while (::write(STDERR_FILENO, text.data(), text.size()) < 0 && errno == EINTR) {
-    }
-    return exit_error;
 }
 
 namespace {

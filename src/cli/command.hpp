@@ -17,6 +17,9 @@ inline constexpr int exit_clean = 0;
 inline constexpr int exit_findings = 1;
 inline constexpr int exit_error = 2;
 
+/// What the help ends with where there are no other exit codes.
+inline constexpr const char* done_or_error = "Exit codes: 0 done; 2 usage or input error.";
+
 /// Each adds its subcommand to the app; when it has run, `exit_code` is set.
 void add_audit(CLI::App& app, int& exit_code);
 void add_gaps(CLI::App& app, int& exit_code);
@@ -44,9 +47,6 @@ void tell(std::string_view text);
 
 /// "error: ..." on stderr; returns exit_error.
 int fail(const Error& error);
-
-/// Likewise "error: out of memory; ...", without memory of its own.
-int fail_for_want_of_memory() noexcept;
 
 /// From now on a failed allocation in CGAL's or GMP's code, which would abort, ends the process as
 /// fail_for_want_of_memory() does, or is thrown.

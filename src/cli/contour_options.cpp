@@ -31,10 +31,7 @@ void add_contour_options(CLI::App& sub, ContourJob& job, bool& quiet) {
     sub.add_option("--fields", job.fields, "Fields to carry along: A,B,...; default: all")
         ->allow_extra_args(false)
         ->type_name("NAMES");
-    sub.add_option("--threads", job.threads, "Number of threads; 0: all")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 4096).description(""))
-        ->type_name("N");
+    threads_option(sub, job.threads);
     vtk_data_option(sub, job.vtk_data);
     file_option(sub, "--json", job.report, "Write the summary as JSON; - is stdout");
     sub.add_flag("--quiet", quiet, "Print no summary and no progress");

@@ -18,7 +18,7 @@
 #include "command.hpp"
 #include "files.hpp"
 #include "names.hpp"
-#include "options/choice.hpp"
+#include "options.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -145,10 +145,7 @@ void add_gaps(CLI::App& app, int& exit_code) {
         ->capture_default_str()
         ->check(whole_number())
         ->type_name("S");
-    sub->add_option("--threads", a->options.threads, "Number of threads; 0: all")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 4096))
-        ->type_name("N");
+    threads_option(*sub, a->options.threads);
     file_option(*sub, "--json", a->json, "Write the report as JSON; - is stdout and suppresses the table");
     sub->add_option(
            "--fail-on", a->fail_on,

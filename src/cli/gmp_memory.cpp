@@ -11,6 +11,7 @@
 
 #include "barycert/base/begun_files.hpp"
 #include "command.hpp"
+#include "options/want_of_memory.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -37,8 +37,8 @@ struct HelpArguments {
     std::string folder;
 };
 
-Vocabulary vocabulary() {
-    Vocabulary words{{"KIND", verify_limit_names()}};
+Vocabulary vocabulary(const CLI::App& app) {
+    Vocabulary words{{"KIND", verify_limit_names()}, {"SUBCOMMAND", command_names(app)}};
 #ifdef BARYCERT_WITH_AUDIT
     words["KERNEL"] = kernel_names();
     words["FAMILY"] = family_names();
@@ -127,7 +127,7 @@ int run_help(const CLI::App& app, const HelpArguments& a) {
                          .remedy = "give one of them alone"});
     }
     if (!pages && !script) return explain(app, a.words);
-    const CommandEntry program = command_table(app, vocabulary());
+    const CommandEntry program = command_table(app, vocabulary(app));
     if (!script) return write_pages(program, a.folder);
     const Status written = write_output("-", a.completion(a.words.empty() ? program : mesher(program)));
     return written ? exit_clean : fail(written.error());

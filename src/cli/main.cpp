@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <iostream>
@@ -17,6 +16,7 @@
 #include "command.hpp"
 #include "files.hpp"
 #include "options/mistyped.hpp"
+#include "options/want_of_memory.hpp"
 #include "tetgen/option_table.hpp"
 
 namespace barycert::cli {
@@ -35,13 +35,13 @@ int run(int argc, char** argv) {
     if (const Status exact = check_environment(measure_environment()); !exact) return fail(exact.error());
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, like a full disk
 
-    CLI::App app("barycert: barycentric interpolation at the speed of floating point, audited against exact arithmetic",
-                 "barycert");
+    CLI::App app(
+        "Exact interpolation over meshes of triangles or tetrahedra; proofs and pictures of meshes; audits of what "
+        "other "
+        "tools and formulas compute",
+        "barycert");
     app.set_version_flag("--version", "barycert " BARYCERT_VERSION);
     app.require_subcommand(1);
-    app.footer(
-        "Exit codes: 0 success; 1 threshold exceeded, mesh not certified or witness not reproduced; 2 usage or input "
-        "error.\nTables go to stdout, everything else to stderr. `barycert help SUBCOMMAND` explains each.");
     app.failure_message([](const CLI::App* failed, const CLI::Error& e) {
         return "error: " +
                base::printable(
@@ -70,6 +70,11 @@ int run(int argc, char** argv) {
     OptionTable mesh_options;
     add_options(*mesh, mesh_options);
     add_help(app, exit_code);
+    // After the subcommands, which would take it over.
+    app.footer(
+        "Exit codes: 0 success; 1 a mesh is not certified, results are wrong, a rule or baseline is not kept, or a\n"
+        "witness is not reproduced; 2 usage or input error.\n"
+        "Tables go to stdout, everything else to stderr. `barycert help SUBCOMMAND` explains each.");
     const auto named_first = [&](const CLI::App* sub) { return sub->get_name() == first; };
     if (!first.empty() && first.front() != '-' && app.get_subcommands(named_first).empty()) {
         return fail({.what = "no such subcommand",
@@ -92,26 +97,10 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace barycert::cli
 
-namespace {
-
-/// Libraries promise to throw nothing where they need memory, and so end here: std::filesystem, nlohmann::json.
-[[noreturn]] void end() noexcept {
-    try {
-        if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
-    } catch (const std::bad_alloc&) {
-        barycert::base::remove_begun_files();
-        std::_Exit(barycert::cli::fail_for_want_of_memory());
-    } catch (...) {
-    }
-    std::abort();
-}
-
-}  // namespace
-
 // Nothing is thrown but for want of memory, or by a library.
 int main(int argc, char** argv) {
     namespace cli = barycert::cli;
-    std::set_terminate(end);
+    cli::expect_want_of_memory();
     try {
         return cli::run(argc, argv);
     } catch (const std::bad_alloc&) {

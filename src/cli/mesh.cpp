@@ -22,9 +22,11 @@ int exec_mesh(int argc, char** argv) {
     const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path() / name;
     if (!ignored && fs::exists(beside, ignored)) execv(beside.c_str(), arguments.data());
     execvp(name, arguments.data());
-    return fail({.what = "cannot run barycert-tetgen",
-                 .found = std::strerror(errno),
-                 .remedy = "build it with -DBARYCERT_TETGEN=ON, or use `./run barycert mesh ...`, which does"});
+    return fail(
+        {.what = "cannot run barycert-tetgen",
+         .found = std::strerror(errno),
+         .remedy =
+             "install the package barycert-tetgen; among the sources use `./run barycert mesh ...`, which builds it"});
 }
 
 }  // namespace barycert::cli

@@ -8,22 +8,15 @@
 namespace barycert::cli {
 
 std::vector<std::string> kernel_names() {
-    std::vector<std::string> names;
-    for (const Kernel& kernel : kernels_matching("*")) names.push_back(kernel.name);
-    return names;
+    return names_of(kernels_matching("*"));
 }
 
 std::vector<std::string> family_names() {
-    std::vector<std::string> names;
-    for (const Family& family : families_matching("*")) names.push_back(family.name);
-    return names;
+    return names_of(families_matching("*"));
 }
 
 std::vector<std::string> simplex_names() {
-    std::vector<std::string> names;
-    names.reserve(all_simplices.size());
-    for (const Simplex simplex : all_simplices) names.emplace_back(name(simplex));
-    return names;
+    return names_of(all_simplices);
 }
 
 std::vector<std::string> reason_names() {
@@ -33,10 +26,7 @@ std::vector<std::string> reason_names() {
 }
 
 std::vector<std::string> claim_rule_names() {
-    std::vector<std::string> names;
-    names.reserve(all_claim_rules.size());
-    for (const ClaimRule rule : all_claim_rules) names.emplace_back(name(rule));
-    return names;
+    return names_of(all_claim_rules);
 }
 
 std::vector<std::string> claim_fault_names() {

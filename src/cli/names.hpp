@@ -6,6 +6,20 @@
 
 namespace barycert::cli {
 
+/// Of each item its name, a member or name(item).
+template <class Items>
+std::vector<std::string> names_of(const Items& items) {
+    std::vector<std::string> names;
+    names.reserve(items.size());
+    for (const auto& item : items) {
+        if constexpr (requires { item.name; })
+            names.push_back(item.name);
+        else
+            names.emplace_back(name(item));
+    }
+    return names;
+}
+
 /// All of the catalogue, in its order.
 std::vector<std::string> kernel_names();
 std::vector<std::string> family_names();

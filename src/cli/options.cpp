@@ -13,6 +13,13 @@ void refuse_option(const std::string& option, const std::string& expected, std::
     throw CLI::ValidationError(option, fmt::format("expected {}, found \"{}\"", expected, found));
 }
 
+void threads_option(CLI::App& sub, int& threads) {
+    sub.add_option("--threads", threads, "Number of threads; 0: all")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 4096).description(""))
+        ->type_name("N");
+}
+
 void vtk_data_option(CLI::App& sub, std::optional<VtkData>& data) {
     std::vector<std::pair<std::string, std::optional<VtkData>>> choices;
     choices.reserve(std::size(vtk_data_names));

@@ -32,6 +32,9 @@ std::vector<Number> numbers_of(const std::string& option, std::string_view text,
     }
 }
 
+/// --threads
+void threads_option(CLI::App& sub, int& threads);
+
 /// --vtk-data, how the numbers of VTK's files are written.
 void vtk_data_option(CLI::App& sub, std::optional<VtkData>& data);
 

@@ -37,11 +37,6 @@ int run_scene_file(const std::string& path, const PictureOptions& o, const std::
 void add_render(CLI::App& app, int& exit_code) {
     auto* sub = app.add_subcommand(
         "render", "Pictures of meshes and scenes, surfaces in meshes, and what the shortcuts of rasterisers cost");
-    sub->footer(
-        "`barycert render SCENE.json --output FILE.png` draws a scene; doc/rendering.md describes its file. Coverage "
-        "is\n"
-        "exact: a pixel belongs to the triangle that holds its centre, and on a common side to one of both triangles.\n"
-        "`barycert render PICTURE --help` explains each picture. Exit codes: 0 done, 2 usage or input error.");
     const auto path = std::make_shared<std::string>();
     const auto o = std::make_shared<PictureOptions>();
     file_option(*sub, "SCENE", *path, "A scene (.json)");
@@ -58,6 +53,12 @@ void add_render(CLI::App& app, int& exit_code) {
     add_render_drift(*sub, exit_code);
     add_render_texels(*sub, exit_code);
 #endif
+    // After the pictures, which would take it over.
+    sub->footer(
+        "`barycert render SCENE.json --output FILE.png` draws a scene; doc/rendering.md describes its file. Coverage "
+        "is\n"
+        "exact: a pixel belongs to the triangle that holds its centre, and on a common side to one of both triangles.\n"
+        "`barycert help render PICTURE` explains each picture. Exit codes: 0 done; 2 usage or input error.");
     sub->callback([=, &exit_code] {
         if (sub->get_subcommands().empty()) exit_code = run_scene_file(*path, *o, command_names(*sub));
     });

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "barycert/clip.hpp"
+#include "command.hpp"
 #include "render.hpp"
 #include "render_options.hpp"
 
@@ -124,6 +125,7 @@ Result<Scene> clip_scene(const ClipPicture& p) {
 void add_render_clip(CLI::App& render, int& exit_code) {
     auto* sub =
         render.add_subcommand("clip", "A triangle and segments with colours, before and after clipping by a box");
+    sub->footer(done_or_error);
     const auto p = std::make_shared<ClipPicture>();
     add_picture_options(*sub, p->files);
     add_size_option(*sub, p->size);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "command.hpp"
 #include "options.hpp"
 #include "render.hpp"
 #include "render_options.hpp"
@@ -95,6 +96,7 @@ void add_render_cube(CLI::App& render, int& exit_code) {
     auto* sub = render.add_subcommand(
         "cube",
         "A checkerboard on the faces of a cube in perspective, and the largest error of its texture coordinates");
+    sub->footer(done_or_error);
     const auto p = std::make_shared<CubePicture>();
     choice_option<Interpolation>(
         *sub, "--interpolation", p->interpolation,

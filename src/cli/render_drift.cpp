@@ -77,7 +77,7 @@ int run_texels(const TexelArguments& a) {
 void seed_and_count(CLI::App& sub, std::uint64_t& count, std::uint64_t& seed, const char* what) {
     sub.add_option("--count", count, what)
         ->capture_default_str()
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32))
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32).description(""))
         ->type_name("N");
     sub.add_option("--seed", seed, "The same seed gives the same cases on every machine")
         ->capture_default_str()
@@ -90,6 +90,7 @@ void seed_and_count(CLI::App& sub, std::uint64_t& count, std::uint64_t& seed, co
 void add_render_drift(CLI::App& render, int& exit_code) {
     auto* sub = render.add_subcommand(
         "drift", "Measure how far values that are stepped from pixel to pixel drift from the exact ones");
+    sub->footer(done_or_error);
     const auto a = std::make_shared<DriftArguments>();
     file_option(*sub, "--output", a->output, "Plot the errors over the size of the triangle, as SVG; - is stdout");
     file_option(*sub, "--json", a->json, "Write the figures as JSON; - is stdout and suppresses the table");
@@ -109,6 +110,7 @@ void add_render_drift(CLI::App& render, int& exit_code) {
 void add_render_texels(CLI::App& render, int& exit_code) {
     auto* sub = render.add_subcommand(
         "texels", "Count how often rules for the texel of a texture coordinate are wrong or leave the texture");
+    sub->footer(done_or_error);
     const auto a = std::make_shared<TexelArguments>();
     file_option(*sub, "--json", a->json, "Write the figures as JSON; - is stdout and suppresses the table");
     seed_and_count(*sub, a->count, a->seed, "Coordinates");

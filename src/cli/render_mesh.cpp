@@ -71,10 +71,7 @@ void add_render_mesh(CLI::App& render, int& exit_code) {
     add_picture_options(*sub, p->files);
     add_size_option(*sub, p->job.view.size);
     add_method_options(*sub, p->job.view.method, p->job.view.rounding);
-    sub->add_option("--threads", p->job.threads, "Number of threads; 0: all")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 4096).description(""))
-        ->type_name("N");
+    threads_option(*sub, p->job.threads);
     sub->callback([=, &exit_code] {
         auto inputs = base::named_files("the mesh", mesh_files(p->job.mesh));
         for (const FieldFile& file : p->job.field_files) inputs.push_back({"field " + file.name, file.path});

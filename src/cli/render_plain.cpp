@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "command.hpp"
 #include "files.hpp"
 #include "options.hpp"
 #include "render.hpp"
@@ -75,6 +76,7 @@ void add_plain_options(CLI::App& sub, PlainPicture& p) {
 
 void add_render_gradient(CLI::App& render, int& exit_code) {
     auto* sub = render.add_subcommand("gradient", "A triangle with a red, a green and a blue corner");
+    sub->footer(done_or_error);
     const auto p = std::make_shared<PlainPicture>();
     add_plain_options(*sub, *p);
     sub->callback([=, &exit_code] {
@@ -84,6 +86,7 @@ void add_render_gradient(CLI::App& render, int& exit_code) {
 
 void add_render_texture(CLI::App& render, int& exit_code) {
     auto* sub = render.add_subcommand("texture", "A picture on a square or a triangle");
+    sub->footer(done_or_error);
     const auto p = std::make_shared<TexturePicture>();
     file_option(*sub, "--image", p->image, "The picture: .png; default: one of 2 by 2 texels");
     choice_option<bool>(*sub, "--shape", p->triangle, {{"square", false}, {"triangle", true}},

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "audit_inputs.hpp"
 #include "barycert/audit.hpp"
@@ -30,6 +31,22 @@ struct ReplayArguments {
     bool all = false;
     std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>();
 };
+
+/// What to do where no witness of the file matches; with the nearest name if no witness has that of --kernel or
+/// --reason.
+std::string where_none_matches(const ReplayArguments& a, const std::vector<Witness>& witnesses) {
+    const char* const rest = "leave out --kernel and --reason to see all";
+    for (const auto& [glob, name] : {std::pair(a.kernel, &Witness::kernel), std::pair(a.reason, &Witness::reason)}) {
+        std::vector<std::string> names;
+        bool matched = glob.empty();
+        for (const Witness& w : witnesses) {
+            names.push_back(w.*name);
+            matched = matched || base::glob_match(glob, w.*name);
+        }
+        if (!matched) return base::did_you_mean(glob, names, rest);
+    }
+    return rest;
+}
 
 /// The witness that --family and --case describe, made again.
 Result<std::vector<Witness>> made_again(const ReplayArguments& a, const std::vector<Kernel>& kernels) {
@@ -114,9 +131,7 @@ int run_replay(const ReplayArguments& a) {
             all_reproduced = false;
         }
     }
-    if (!any)
-        return fail(
-            {.what = "no witness matches", .file = a.file, .remedy = "leave out --kernel and --reason to see all"});
+    if (!any) return fail({.what = "no witness matches", .file = a.file, .remedy = where_none_matches(a, *witnesses)});
     return all_reproduced ? exit_clean : exit_findings;
 }
 

@@ -142,10 +142,7 @@ void add_sampling_options(CLI::App& sub, SamplingJob& a, bool& quiet) {
            "Value of points outside every cell: nan (default); error: fail; fill=NUMBER; nearest[=DISTANCE]: the value "
            "at the nearest point of the mesh, NaN beyond DISTANCE; extrapolate: the function of the nearest cell")
         ->type_name("nan|error|fill=V|nearest[=D]|extrapolate");
-    sub.add_option("--threads", a.options.threads, "Number of threads; 0: all")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 4096).description(""))
-        ->type_name("N");
+    threads_option(sub, a.options.threads);
     vtk_data_option(sub, a.vtk_data);
     file_option(sub, "--json", a.report, "Write the summary as JSON; - is stdout");
     sub.add_flag("--quiet", quiet, "Print no summary, no notes and no progress");

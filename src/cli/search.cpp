@@ -211,10 +211,10 @@ void add_search(CLI::App& app, int& exit_code) {
     add_containment(*sub, a->rules);
     sub->add_option("--steps", a->steps, "Cases to make")
         ->capture_default_str()
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48))
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48).description(""))
         ->type_name("N");
     sub->add_option("--seconds", a->seconds, "End after this time at the latest; then a repetition may find otherwise")
-        ->check(CLI::PositiveNumber)
+        ->check(CLI::Validator(CLI::PositiveNumber).description(""))
         ->type_name("S");
     sub->add_option("--seed", a->seed, "The same seed and steps find the same, on any number of threads")
         ->capture_default_str()
@@ -226,17 +226,14 @@ void add_search(CLI::App& app, int& exit_code) {
     sub->add_option("--family", a->families, "Start from families that match; may be repeated; default: all")
         ->type_name("FAMILY|GLOB")
         ->allow_extra_args(false);
-    sub->add_option("--threads", a->threads, "Number of threads; 0: all")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 4096))
-        ->type_name("N");
+    threads_option(*sub, a->threads);
     file_option(*sub, "--json", a->json, "Write the report as JSON; - is stdout and suppresses the table");
     file_option(*sub, "--witnesses", a->witnesses,
                 "Write the plainest cases as JSON, for `barycert replay`; - is stdout");
     sub->add_option("--fail-on", a->fail_on,
-                    "Exit with 1 if NAME exceeds NUMBER (0 if omitted): any, a class of finding (cases), "
+                    "Exit with 1 if RULE exceeds NUMBER (0 if omitted): any, a class of finding (cases), "
                     "worst_weight_ulp, worst_value_ulp; may be repeated")
-        ->type_name("RULE")
+        ->type_name("RULE[>NUMBER]")
         ->allow_extra_args(false);
     sub->add_flag("--quiet", a->quiet, "Print no table and no progress");
     sub->callback([a, &exit_code] { exit_code = run_search(*a); });

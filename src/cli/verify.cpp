@@ -12,6 +12,7 @@
 #include "ci.hpp"
 #include "command.hpp"
 #include "files.hpp"
+#include "options.hpp"
 #include "progress.hpp"
 #include "sampling_options.hpp"
 
@@ -136,10 +137,7 @@ void add_verify(CLI::App& app, int& exit_code) {
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("KIND[>NUMBER]");
-    sub->add_option("--threads", a->job.options.threads, "Number of threads; 0: all")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 4096).description(""))
-        ->type_name("N");
+    threads_option(*sub, a->job.options.threads);
     file_option(*sub, "--json", a->json, "Write the report as JSON; - is stdout");
     file_option(*sub, "--html", a->html, "Write the report as an HTML page; - is stdout");
     add_ci_options(*sub, a->ci, "kinds of wrong rows (see --fail-on)");

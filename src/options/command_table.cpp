@@ -12,17 +12,6 @@ namespace {
 /// The types of values that are names of files.
 constexpr std::array<std::string_view, 6> types_of_files{"FILE", "MESH", "MESH2", "PLC", "NAME=FILE", "DIR"};
 
-/// Cuts ":INT in [0 - 4096]" off: the numbers that the parser lets pass.
-std::string cut_limits(std::string& type) {
-    const std::size_t open = type.find(" in [");
-    const std::size_t colon = open == std::string::npos ? open : type.rfind(':', open);
-    if (colon == std::string::npos) return {};
-    std::string limits = type.substr(open + 5, type.size() - open - 6);
-    type.resize(colon);
-    if (const std::size_t dash = limits.find(" - "); dash != std::string::npos) limits.replace(dash, 3, " to ");
-    return limits;
-}
-
 void add_words(OptionEntry& entry, std::string_view type, const Vocabulary& vocabulary) {
     for (;;) {
         const std::size_t bar = type.find('|');
@@ -57,7 +46,6 @@ OptionEntry entry_of(const CLI::Option& option, const Vocabulary& vocabulary) {
     if (option.get_items_expected_max() == 0) return entry;  // a flag
     entry.type = option.get_type_name();
     entry.preset = option.get_default_str();
-    entry.limits = cut_limits(entry.type);
     // The types that the parser makes up for operands say less than their names.
     if (entry.operand && entry.type == "TEXT") entry.type = entry.name();
     if (!entry.type.empty()) add_words(entry, entry.type, vocabulary);

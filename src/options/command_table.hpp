@@ -15,7 +15,6 @@ namespace barycert::cli {
 struct OptionEntry {
     std::vector<std::string> names;  ///< "-h", "--help"; of an operand its name alone: "MESH"
     std::string type;                ///< what it takes, as the help shows it: "FILE", "correct|plain"; empty: nothing
-    std::string limits;              ///< of a number: "0 to 4096"; empty: it has its own
     std::string preset;              ///< what holds without it; empty: see the text
     std::string text;
     bool operand = false;  ///< by its place, without a name

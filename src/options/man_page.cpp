@@ -56,13 +56,11 @@ std::string page_name(const CommandEntry& command) {
     return name;
 }
 
-/// "sample the fields ...", as man and apropos show it; without the colon that would end it.
+/// "sample the fields ...", as man and apropos show it.
 std::string headline(const CommandEntry& command) {
     std::string text = command.text;
-    if (const std::string own = command.path + ": "; text.starts_with(own)) text.erase(0, own.size());
     if (text.size() > 1 && std::islower(static_cast<unsigned char>(text[1])) != 0)
         text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
-    while (text.ends_with('.')) text.pop_back();
     return text;
 }
 
@@ -86,7 +84,7 @@ std::string synopsis(const CommandEntry& command) {
         text += ' ' + (o.required ? name : '[' + name + ']');
     }
     text += '\n';
-    if (!command.commands.empty()) text += ".br\n" + bold(command.path) + ' ' + italic("COMMAND") + " ...\n";
+    if (!command.commands.empty()) text += ".br\n" + bold(command.path) + ' ' + italic("SUBCOMMAND") + " ...\n";
     return text;
 }
 
@@ -101,7 +99,6 @@ std::string option_text(const OptionEntry& option) {
     text += '\n' + roff(option.text);
     std::string more;
     if (option.required && !option.operand) more += " Required.";
-    if (!option.limits.empty()) more += " From " + option.limits + '.';
     if (!option.preset.empty()) more += " Default: " + option.preset + '.';
     if (!more.empty()) text += (option.text.ends_with('.') ? "" : ".") + roff(more);
     return text + '\n';
@@ -172,7 +169,7 @@ std::string page(const CommandEntry& command, const CommandEntry& program, std::
     text += ".SH DESCRIPTION\n" + roff(command.text) + ".\n";
     if (!notes.empty()) text += ".PP\n" + notes_text(notes);
     text += entries(command, true, "OPERANDS") + entries(command, false, "OPTIONS");
-    if (!command.commands.empty()) text += ".SH COMMANDS\n";
+    if (!command.commands.empty()) text += ".SH SUBCOMMANDS\n";
     for (const CommandEntry& below : command.commands)
         text += ".TP\n" + bold(below.name) + '\n' + roff(below.text) + ". See " + link_to(page_name(below)) + ".\n";
     if (!codes.empty()) text += ".SH EXIT STATUS\n" + roff(codes) + '\n';

@@ -23,6 +23,7 @@
 #include "child.hpp"
 #include "mesher.hpp"
 #include "options.hpp"
+#include "options/want_of_memory.hpp"
 
 namespace barycert {
 namespace {
@@ -175,6 +176,7 @@ int run(const Options& options) {
 }  // namespace barycert
 
 int main(int argc, char** argv) {
+    barycert::cli::expect_want_of_memory();
     barycert::base::remove_begun_files_on_signals();
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, like a full disk
     // The child that runs TetGen has it too.
@@ -182,6 +184,8 @@ int main(int argc, char** argv) {
     try {
         const barycert::Parsed parsed = barycert::parse_options(argc, argv);
         return parsed.exit_code ? *parsed.exit_code : barycert::run(parsed.options);
+    } catch (const std::bad_alloc&) {
+        return barycert::cli::fail_for_want_of_memory();
     } catch (const std::exception& problem) {
         fmt::print(stderr, "error: {}\n", barycert::base::printable(problem.what()));
         return 2;

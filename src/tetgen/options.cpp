@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <iostream>
 #include <limits>
+#include <new>
 #include <stdexcept>
 
 #include "barycert/base/text.hpp"
@@ -106,7 +107,11 @@ Parsed parse_options(int argc, char** argv) {
     app.name("barycert-tetgen");
     add_options(app, table);
     try {
-        app.parse(argc, argv);
+        try {
+            app.parse(argc, argv);
+        } catch (const CLI::RequiredError&) {
+            // That there is no INPUT is told below, and whether --quality took it.
+        }
         options.input = table.input;
         options.output = table.output;
         options.order = table.order == "2" ? 2 : 1;
@@ -143,6 +148,8 @@ Parsed parse_options(int argc, char** argv) {
         if (std::cout) return {.options = {}, .exit_code = code};
         fmt::print(stderr, "error: cannot write to stdout: found {}\n", std::strerror(errno));
         return {.options = {}, .exit_code = 2};
+    } catch (const std::bad_alloc&) {
+        throw;  // it is not about an option
     } catch (const std::exception& problem) {
         fmt::print(stderr, "error: {}\n",
                    base::printable(cli::usage_error(app, problem.what(), "run barycert-tetgen --help for the usage")));

@@ -13,9 +13,9 @@
 #include <vtkSmartPointer.h>
 
 #include "vtk/array_kinds.hpp"
-#include "vtk/boxes.hpp"
 #include "vtk/exact_index.hpp"
 #include "vtk/exchange.hpp"
+#include "vtk/piece_map.hpp"
 #include "vtk/probe_arrays.hpp"
 
 class vtkAbstractArray;
@@ -38,7 +38,8 @@ struct ProbeSettings {
 ///   4  its owner there, by number, and its values; the lowest number wins.
 class DistributedProbe {
 public:
-    DistributedProbe(Exchange& exchange, const ProbeSettings& settings) : exchange_(exchange), settings_(settings) {}
+    DistributedProbe(Exchange& exchange, const ProbeSettings& settings)
+        : exchange_(exchange), settings_(settings), map_(exchange) {}
 
     /// Gives `output` the arrays of a probe at the points of `input`. An Error is the same on all ranks; `output` then
     /// may have some of the arrays. `ready`: an Error if this rank has no right input or source. A null source is an
@@ -49,32 +50,22 @@ public:
     /// Integers of this rank that become doubles first, by the names of their arrays.
     std::vector<std::string> inexact() const { return arrays_ ? arrays_->inexact() : std::vector<std::string>(); }
     /// Whether more than one rank has cells, and these have no numbers but those that follow from the ranks.
-    bool numbered_by_ranks() const { return ranks_with_cells_ > 1 && !shape_.by_global_ids; }
+    bool numbered_by_ranks() const { return map_.ranks_with_cells() > 1 && !shape_.by_global_ids; }
 
     std::uint64_t points_sent() const { return points_sent_; }
     std::uint64_t points_received() const { return points_received_; }
 
 private:
-    struct Piece {
-        Box cells, points;
-        double cell_count = 0, point_count = 0;
-    };
-
     Status agree_on_cells(const Status& ready);
     Status agree_on_plane();
     Status index_piece();
     Status agree_on_arrays();
-    Status gather_pieces();
-    Status find_partners();
-    Status swap_boxes();
+    Status map_pieces();
     Status swap_points();
     Status sample();
     Status swap_values();
     Status write_output(vtkDataSet* output);
 
-    bool asks(int who, int whom) const;
-    bool asks_much(int who, int whom) const;
-    void read_points(const std::vector<Box>& boxes, const std::vector<int>& owners);
     std::int64_t number(Mesh::Index cell) const;
     void append_values(std::size_t partner);
     void merge_values(std::size_t partner);
@@ -87,8 +78,7 @@ private:
 
     SimplexShape shape_;
     std::shared_ptr<const ExactIndex> index_;
-    std::vector<std::int64_t> numbers_;  ///< of the mesh's cells; empty: first_number_, first_number_ + 1, ...
-    std::int64_t first_number_ = 0;
+    std::vector<std::int64_t> numbers_;  ///< of the mesh's cells; empty: as they come, after those of lower ranks
     vtkNew<vtkPolyData> scratch_;  ///< its point data has the arrays, of this rank's points and then of those asked for
     std::optional<ProbeArrays> arrays_;
     std::vector<ArrayKind> kinds_;
@@ -96,9 +86,7 @@ private:
     vtkSmartPointer<vtkCharArray> mask_;
     std::vector<Mesh::Index> owners_;  ///< of each tuple
 
-    std::vector<Piece> pieces_;  ///< of each rank
-    int ranks_with_cells_ = 0;
-    Parcels<double> fine_boxes_;
+    PieceMap map_;
     Parcels<vtkIdType> asked_;           ///< which of this rank's points partners are asked for
     Parcels<double> points_, received_;  ///< three coordinates each
     Parcels<char> answers_, answered_;

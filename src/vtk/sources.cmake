@@ -9,5 +9,5 @@ list(TRANSFORM barycert_vtk_headers PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
 list(TRANSFORM barycert_vtk_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
 # The class that needs VTK::ParallelCore besides.
 set(barycert_vtk_parallel_sources vtkPBarycertProbe.cpp array_kinds.cpp boxes.cpp distributed_probe.cpp error_watch.cpp
-  exchange.cpp failing_upstream.cpp)
+  exchange.cpp failing_upstream.cpp piece_map.cpp)
 list(TRANSFORM barycert_vtk_parallel_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)

@@ -4,13 +4,16 @@
 #include <string>
 
 #include <vtkCharArray.h>
+#include <vtkCompositeDataSet.h>
 #include <vtkDataSet.h>
 #include <vtkErrorCode.h>
 #include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMultiProcessController.h>
+#include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include "vtk/distributed_probe.hpp"
@@ -44,10 +47,22 @@ vtkExecutive* vtkPBarycertProbe::CreateDefaultExecutive() {
     return in_vtk::FailingUpstream::New();
 }
 
-// A process may have no piece.
+// A process may have no piece. Composite data sets are refused here: an executive that knows them, as ParaView's, takes
+// apart what a filter does not.
 int vtkPBarycertProbe::FillInputPortInformation(int port, vtkInformation* info) {
     if (port == 1) info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-    return Superclass::FillInputPortInformation(port, info);
+    if (Superclass::FillInputPortInformation(port, info) == 0) return 0;
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+    return 1;
+}
+
+// Where there is no data set that the output could be like, something takes its place, for all tell of the error.
+int vtkPBarycertProbe::RequestDataObject(vtkInformation* request, vtkInformationVector** inputs,
+                                         vtkInformationVector* outputs) {
+    if (vtkCompositeDataSet::GetData(inputs[0]) == nullptr)
+        return Superclass::RequestDataObject(request, inputs, outputs);
+    outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), vtkNew<vtkPolyData>());
+    return 1;
 }
 
 int vtkPBarycertProbe::RequestInformation(vtkInformation* request, vtkInformationVector** inputs,
@@ -79,6 +94,8 @@ int vtkPBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** input
     const auto* const pipeline = dynamic_cast<in_vtk::FailingUpstream*>(GetExecutive());
     if (pipeline != nullptr && !pipeline->failure().empty())
         ready = Error{.what = "what comes before this filter failed: " + pipeline->failure()};
+    else if (vtkCompositeDataSet::GetData(inputs[0]) != nullptr || vtkCompositeDataSet::GetData(inputs[1]) != nullptr)
+        ready = Error{.what = "this filter takes no composite data sets", .remedy = "merge the blocks before"};
     else if (input == nullptr || output == nullptr)
         ready = Error{.what = "the input is missing"};
     else

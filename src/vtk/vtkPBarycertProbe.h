@@ -19,7 +19,8 @@
  * that fails, no memory) is an error on all, with the same text and the rank: the output is empty, GetErrorCode() is
  * not zero, and none of them waits.
  *
- * Unlike vtkBarycertProbe it has no tolerance, and asks no other class where it is not exact.
+ * Unlike vtkBarycertProbe it has no tolerance, and asks no other class where it is not exact. Composite data sets are
+ * an error: VTK would execute the filter once a block, on each process another number of times.
  */
 #ifndef vtkPBarycertProbe_h
 #define vtkPBarycertProbe_h
@@ -53,6 +54,8 @@ protected:
 
     vtkExecutive* CreateDefaultExecutive() override;
     int FillInputPortInformation(int port, vtkInformation* info) override;
+    int RequestDataObject(vtkInformation* request, vtkInformationVector** inputs,
+                          vtkInformationVector* outputs) override;
     int RequestInformation(vtkInformation* request, vtkInformationVector** inputs,
                            vtkInformationVector* outputs) override;
     int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputs,

@@ -111,6 +111,18 @@ TEST(contained, every_accident_is_told_with_its_case) {
     }
 }
 
+TEST(contained, a_process_that_a_kernel_forks_has_no_part_in_its_answers) {
+    const Kernel quiet = contained("quiet");
+    expect_same_figures(statistics_of(contained("fork"), "mesh.inside", some, own_meshes()),
+                        statistics_of(quiet, "mesh.inside", some, own_meshes()));
+    // What goes on after the kernel's crash does not hide it.
+    const std::uint64_t expected = unruly_cases("mesh.inside", 200);
+    const KernelStatistics s = statistics_of(contained("orphan"), "mesh.inside", 200, own_meshes());
+    EXPECT_EQ(count_of(s, Finding::crashed), expected);
+    EXPECT_EQ(count_of(s, Finding::hung), 0U);
+    EXPECT_EQ(s.cases, 200U);
+}
+
 TEST(contained, a_hang_costs_the_time_limit_and_no_more) {
     const std::uint64_t expected = unruly_cases("mesh.inside", 200);
     ASSERT_GT(expected, 0U);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "audit_helpers.hpp"
+#include "barycert/audit_report.hpp"
 
 namespace barycert::audit {
 namespace {
@@ -54,6 +55,24 @@ TEST(Drift, TheWorstCaseIsTheOneNamed) {
         const double value = k.interpolate(c.vertices.data(), c.point.data(), c.values.data());
         EXPECT_EQ(std::fabs(value - ask_oracle(c).value) / 0x1p-52, p.worst_ulp);
     }
+}
+
+// A kernel that crashes has no value: that is told, and is not an error of 0.
+TEST(Drift, WithoutAValueThereIsNoError) {
+    const DriftReport r =
+        measure_drift(
+            {.kernels = {load_contained_kernel(BARYCERT_UNRULY_DIR "/unruly-triangle.so", 1).value()}, .count = 2})
+            .value();
+    for (const DriftPoint& p : r.curves.at(0).points) {
+        EXPECT_EQ(p.cases, 0U);
+        EXPECT_EQ(p.not_finite, 2U);
+    }
+    const std::string text = drift_text(r, {});
+    EXPECT_NE(text.find("\ntriangle.unruly         -         -"), std::string::npos) << text;
+    EXPECT_NE(text.find("-  and 22 cases without a finite value\n"), std::string::npos) << text;
+    const std::string plot = drift_plot(r);
+    EXPECT_EQ(plot.find("<polyline"), plot.rfind("<polyline")) << "more than the frame";
+    EXPECT_EQ(plot.find("relative "), std::string::npos);
 }
 
 TEST(Drift, WhatCannotBeMeasuredIsAnError) {

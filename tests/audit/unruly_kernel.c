@@ -32,11 +32,15 @@
 #define ONCE 18
 #define SLOW_LOADING 19
 #define SLOW_PRINT 20
+#define FORK 21
+#define ORPHAN 22
+#define LEAK 23
+#define TRIANGLE 24 /* always crashes */
 
 void barycert_kernel_describe(struct barycert_kernel_info* info) {
     info->abi = BARYCERT_KERNEL_ABI;
     info->name = "unruly";
-    info->simplex = "tetrahedron";
+    info->simplex = UNRULY == TRIANGLE ? "triangle" : "tetrahedron";
 }
 
 #if UNRULY == LOADED_FLUSH
@@ -73,6 +77,9 @@ static int dig(volatile int depth) {
 #endif
 
 int barycert_kernel_weights(const double* vertices, const double* point, double* weights) {
+#if UNRULY == TRIANGLE
+    abort();
+#endif
     signed_volumes(vertices, point, weights);
     if (unruly(point)) {
 #if UNRULY == CRASH
@@ -106,6 +113,17 @@ int barycert_kernel_weights(const double* vertices, const double* point, double*
         printf("slow\n");
 #elif UNRULY == STACK
         weights[0] += dig(0);
+#elif UNRULY == FORK
+        static int forked;
+        if (!forked++) fork(); /* and both go on */
+#elif UNRULY == ORPHAN
+        if (fork() == 0) {
+            sleep(20);
+            _exit(0);
+        }
+        raise(SIGFPE);
+#elif UNRULY == LEAK
+        *(volatile char*)malloc((size_t)1 << 30) = 1;
 #endif
     }
 #if UNRULY == SLOW_PRINT

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -67,6 +68,18 @@ TEST_F(InputFileTest, what_is_no_file) {
     EXPECT_EQ(base::read_file("/dev/zero").error().found, "a device");
     EXPECT_EQ(base::InputFile::open("/dev/zero").error().found, "a pipe or device");
     EXPECT_EQ(base::InputFile::open(pipe("p"), "do this").error().remedy, "do this");
+}
+
+TEST_F(InputFileTest, a_file_that_cannot_be_read_has_not_ended) {
+    const std::string memory = "/proc/self/mem";  // opens, and nothing can be read where it begins
+    const Result<base::InputFile> file = base::InputFile::open(memory);
+    if (!file) GTEST_SKIP() << file.error().message();
+    std::array<char, 16> bytes{};
+    for (const Error& error : {base::read_file(memory).error(), file->read_at(0, bytes, memory).error()}) {
+        EXPECT_EQ(error.what, "cannot read the file");
+        EXPECT_EQ(error.file, memory);
+        EXPECT_EQ(error.found, "Input/output error");
+    }
 }
 
 TEST_F(InputFileTest, a_pipe_without_a_writer_has_ended) {

@@ -20,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool only_names = false;  ///< as on a file system that knows no nameless files
+bool only_names = false;   ///< as on a file system that knows no nameless files
+bool close_fails = false;  ///< as on one that tells at the end that there was no room
 
 }  // namespace
 }  // namespace barycert
@@ -36,6 +37,13 @@ extern "C" int open(const char* path, int flags, ...) {
     const mode_t mode = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(more, mode_t) : 0;
     va_end(more);
     return static_cast<int>(::syscall(SYS_openat, AT_FDCWD, path, flags, mode));
+}
+
+extern "C" int close(int descriptor) {
+    const auto result = static_cast<int>(::syscall(SYS_close, descriptor));
+    if (!barycert::close_fails) return result;
+    errno = EIO;
+    return -1;
 }
 
 namespace barycert {
@@ -206,6 +214,22 @@ TEST_P(OutputFileTest, errors) {
     const Status rename = turned.commit();
     ASSERT_FALSE(rename);
     EXPECT_EQ(rename.error().what, "cannot put the finished file in its place");
+}
+
+TEST_P(OutputFileTest, a_file_that_cannot_be_closed_is_told) {
+    put(path("f"), "old");
+    {
+        base::OutputFile file(path("f"));
+        file.write("new");
+        close_fails = true;
+        const Status status = file.commit();
+        close_fails = false;
+        ASSERT_FALSE(status);
+        EXPECT_EQ(status.error().what, "cannot write the file");
+        EXPECT_EQ(status.error().found, "Input/output error");
+    }
+    EXPECT_EQ(get(path("f")), "old");
+    EXPECT_EQ(file_count(), 1U);
 }
 
 TEST_P(OutputFileTest, a_full_device_is_told) {

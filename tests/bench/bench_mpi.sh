@@ -23,7 +23,7 @@ echo "| ranks | mesh | points | points sent | bytes sent | most | predicted | ra
 echo "|---|---|---|---|---|---|---|---|---|---|---|---|---|"
 for ranks in ${RANKS:-1 2 4 8}; do
     for cut in ${CUTS:-slabs blocks scattered}; do
-        # One rank has one piece; cells anywhere are the worst case, and their index takes a minute.
+        # One rank has one piece; cells anywhere are the worst case.
         case $ranks:$cut in 1:blocks | [124]:scattered) continue ;; esac
         "$job" cut "$folder" "$ranks" "$cut" "$points" "$cubes"
         for where in aligned scattered; do

@@ -28,11 +28,13 @@
 #include "exact_peers.hpp"
 #include "exact_table.hpp"
 #include "numerators.hpp"
+#include "require.hpp"
 
 namespace {
 
 using namespace barycert;
 using bench::Demand;
+using bench::require;
 using bench::Row;
 using bench::Table;
 
@@ -44,12 +46,6 @@ constexpr int repetitions = 11;
 constexpr auto tetrahedron = Simplex::tetrahedron;
 constexpr std::size_t queries_of_a_mesh = 1U << 18;
 constexpr std::size_t in_cache = 1024;  // cases; 160 KB with their values
-
-void require(bool holds, const char* what) {
-    if (holds) return;
-    std::fprintf(stderr, "wrong: %s\n", what);
-    std::exit(1);
-}
 
 /// Keeps what a peer computed from being optimised away.
 template <class T>

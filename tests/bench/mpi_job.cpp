@@ -37,23 +37,15 @@
 #include <vtkUnstructuredGrid.h>
 
 #include "barycert/base/random.hpp"
-#include "barycert/io.hpp"
-#include "generated_mesh.hpp"
+#include "cube_mesh.hpp"
 #include "peak_memory.hpp"
+#include "require.hpp"
 #include "vtkPBarycertProbe.h"
-#ifdef BARYCERT_WITH_TETGEN
-#include "large_mesh.hpp"
-#endif
 
 namespace {
 
 using namespace barycert;
-
-void require(bool holds, const char* what) {
-    if (holds) return;
-    std::fprintf(stderr, "wrong: %s\n", what);
-    std::exit(1);
-}
+using bench::require;
 
 // The parts along each axis: all along x, or as even as they can be.
 std::array<int, 3> parts(std::string_view cut, int ranks) {
@@ -172,11 +164,7 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const Piece& piece) {
 }
 
 int cut(const std::string& folder, int ranks, const std::string& how, std::uint64_t points, int cubes) {
-    Mesh mesh;
-#ifdef BARYCERT_WITH_TETGEN
-    if (cubes == 0) mesh = read_mesh(large_mesh_stem()).value();
-#endif
-    if (mesh.cells.empty()) mesh = bench::jittered_cube(cubes > 0 ? cubes : 68, 1);
+    const Mesh mesh = bench::cube_mesh(cubes);
     std::vector<Piece> pieces(static_cast<std::size_t>(ranks));
     std::vector<vtkIdType> number(mesh.point_count(), -1);
     const std::array<int, 3> n = parts(how, ranks);

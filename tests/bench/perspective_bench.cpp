@@ -11,10 +11,12 @@
 #include "barycert/environment.hpp"
 #include "barycert/perspective.hpp"
 #include "exact_table.hpp"
+#include "require.hpp"
 
 namespace {
 
 using namespace barycert;
+using bench::require;
 
 /// Vertices on the grid of 1/256 pixel, or anywhere; the pixel centres of its box that are in it.
 struct Subject {
@@ -71,12 +73,6 @@ double ns_per_point(std::size_t points, Run run) {
         times.push_back(1e9 * (bench::seconds() - start) / static_cast<double>(points));
     }
     return bench::median(times);
-}
-
-void require(bool good, const char* what) {
-    if (good) return;
-    std::fprintf(stderr, "wrong: %s\n", what);
-    std::exit(EXIT_FAILURE);
 }
 
 }  // namespace

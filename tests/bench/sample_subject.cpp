@@ -13,12 +13,6 @@
 
 namespace barycert::bench {
 
-void require(bool holds, const std::string& what) {
-    if (holds) return;
-    std::fprintf(stderr, "wrong: %s\n", what.c_str());
-    std::exit(1);
-}
-
 std::size_t handed_out() {
     const auto info = mallinfo2();
     return info.uordblks + info.hblkhd;

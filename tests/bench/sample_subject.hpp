@@ -10,11 +10,9 @@
 #include "barycert/grid.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/sampler.hpp"
+#include "require.hpp"
 
 namespace barycert::bench {
-
-/// Says what is wrong and ends the program: nothing is timed whose answers are not right.
-void require(bool holds, const std::string& what);
 
 /// The value of a Result or Status, which must be there.
 template <class T>

@@ -23,6 +23,7 @@
 #include "barycert/io.hpp"
 #include "barycert/surface.hpp"
 #include "large_mesh.hpp"
+#include "require.hpp"
 #ifdef BARYCERT_WITH_VTK
 #include "surface_peers.hpp"
 #endif
@@ -30,6 +31,7 @@
 namespace {
 
 using namespace barycert;
+using bench::require;
 
 constexpr int repetitions = 9;
 
@@ -48,12 +50,6 @@ double time(const std::function<void()>& run) {
 double median(std::vector<double> x) {
     std::sort(x.begin(), x.end());
     return x[x.size() / 2];
-}
-
-void require(bool holds, const char* what) {
-    if (holds) return;
-    std::fprintf(stderr, "wrong: %s\n", what);
-    std::exit(1);
 }
 
 using Bits = std::array<std::uint64_t, 3>;

@@ -17,6 +17,7 @@
 
 #include "barycert/vtk.hpp"
 #include "generated_mesh.hpp"
+#include "require.hpp"
 #ifdef BARYCERT_WITH_TETGEN
 #include "barycert/io.hpp"
 #include "large_mesh.hpp"
@@ -30,12 +31,6 @@ namespace {
 using namespace barycert;
 using namespace barycert::bench;
 namespace fs = std::filesystem;
-
-void require(bool good, const std::string& what) {
-    if (good) return;
-    std::fprintf(stderr, "bench_vtk_files: %s\n", what.c_str());
-    std::exit(1);
-}
 
 struct Contender {
     std::string name;

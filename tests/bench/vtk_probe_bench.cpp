@@ -33,24 +33,16 @@
 #include <vtkUnstructuredGrid.h>
 
 #include "barycert/base/random.hpp"
-#include "barycert/io.hpp"
 #include "barycert/sampler.hpp"
-#include "generated_mesh.hpp"
+#include "cube_mesh.hpp"
+#include "require.hpp"
 #include "vtkBarycertLocator.h"
 #include "vtkBarycertProbe.h"
-#ifdef BARYCERT_WITH_TETGEN
-#include "large_mesh.hpp"
-#endif
 
 namespace {
 
 using namespace barycert;
-
-void require(bool holds, const char* what) {
-    if (holds) return;
-    std::fprintf(stderr, "wrong: %s\n", what);
-    std::exit(1);
-}
+using bench::require;
 
 vtkSmartPointer<vtkPoints> points_of(const std::vector<double>& coordinates) {
     auto points = vtkSmartPointer<vtkPoints>::New();
@@ -124,11 +116,7 @@ double median_of_five(const std::function<double()>& run) {
 int main(int argc, char** argv) {
     const std::size_t count = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000000;
     const int cubes = argc > 2 ? std::atoi(argv[2]) : 0;
-    Mesh mesh;
-#ifdef BARYCERT_WITH_TETGEN
-    if (cubes == 0) mesh = read_mesh(large_mesh_stem()).value();
-#endif
-    if (mesh.cells.empty()) mesh = bench::jittered_cube(cubes > 0 ? cubes : 68, 1);
+    Mesh mesh = bench::cube_mesh(cubes);
     base::Random random(1);
     mesh.point_fields = {{.name = "f", .data = {}}};
     for (std::size_t i = 0; i < mesh.point_count(); ++i) mesh.point_fields[0].data.push_back(random.uniform(-1, 1));

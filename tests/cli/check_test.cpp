@@ -367,7 +367,7 @@ TEST(check, help_tells_options_and_exit_codes) {
           "--quiet", "Exit codes: 0 certified, 1 not certified, 2 "})
         EXPECT_TRUE(contains(r.out, word)) << word;
     EXPECT_TRUE(contains(run({"--help"}).out, "\n  check "));
-    EXPECT_TRUE(contains(run({"--help"}).out, "1 threshold exceeded, mesh not certified or witness not reproduced"));
+    EXPECT_TRUE(contains(run({"--help"}).out, "1 a mesh is not certified, results are wrong"));
 }
 
 }  // namespace

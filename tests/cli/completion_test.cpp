@@ -63,6 +63,7 @@ TEST(completion, bash_offers_every_command_and_option) {
     }
     EXPECT_EQ(bash.offers({"barycert", "re"}), (Words{"render", "replay", "resample"}));
     EXPECT_EQ(bash.offers({"barycert", "sample", "--thr"}), Words{"--threads"});
+    EXPECT_EQ(bash.offers({"barycert", "help", "re"}), (Words{"render", "replay", "resample"}));
     const Words pictures = bash.offers({"barycert", "render", ""}, "/");
     EXPECT_TRUE(std::binary_search(pictures.begin(), pictures.end(), "iso"));
 }
@@ -160,6 +161,7 @@ TEST(completion, fish_offers_what_the_script_says) {
         EXPECT_EQ(offers(line + "--"), sorted(command.options)) << line;
     }
     EXPECT_EQ(offers("barycert re"), (Words{"render", "replay", "resample"}));
+    EXPECT_EQ(offers("barycert help re"), (Words{"render", "replay", "resample"}));
     EXPECT_EQ(offers("barycert sample --rounding "), (Words{"correct", "plain"}));
     EXPECT_EQ(offers("barycert audit --kernel triangle.inv"), Words{"triangle.inverse"});
     EXPECT_EQ(offers("barycert render iso --colour"), Words{"--colours"});

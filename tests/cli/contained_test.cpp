@@ -57,6 +57,17 @@ TEST(contained, a_hang_is_ended_by_the_time_limit) {
     EXPECT_TRUE(report["witnesses"][0]["cell"].is_number_unsigned());
 }
 
+TEST(contained, a_limit_of_memory_holds_for_a_kernel) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the sanitizer takes terabytes of addresses";
+#endif
+    // It asks for a gibibyte, and does not look whether it got one.
+    const Ended r = run_shell("ulimit -v 1000000; exec barycert audit --kernel-library " + unruly("leak") +
+                              " --family mesh.inside --count 300 --threads 1 --json -");
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(parse(r.out)["kernels"][0]["crashed"], 9);
+}
+
 TEST(contained, given_up_is_worse_than_a_baseline_and_not_other_cases) {
     const Scratch scratch;
     const auto audit = [&](const std::string& fault, const Words& more) {

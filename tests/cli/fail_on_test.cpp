@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(rules, FailOn, ::testing::ValuesIn(all_rules()), [](con
 
 TEST(fail_on, help_lists_these_rules_and_no_others) {
     const std::string help = run({"audit", "--help"}).out;
-    const std::string list = help.substr(help.find("NAME is one of: ") + 16);
+    const std::string list = help.substr(help.find("RULE is one of: ") + 16);
     std::istringstream words(list.substr(0, list.find('\n')));
     std::set<std::string> listed;
     for (std::string word; words >> word;) listed.insert(word);

@@ -50,6 +50,12 @@ TEST(help, of_a_subcommand_is_what_its_option_help_says) {
         const Ended by_option = run(option), by_help = run(help);
         EXPECT_EQ(by_help.code, 0) << by_help.err;
         EXPECT_EQ(by_help.out, by_option.out) << joined(help, " ");
+        // The parser's own words for the numbers that it takes: "N:INT in [0 - 4096]".
+        for (const std::string words : {" in [", ":POSITIVE"})
+            EXPECT_FALSE(contains(by_help.out, words)) << by_help.out;
+        // The notes of a command are not those of the commands below it.
+        EXPECT_EQ(contains(by_help.out, "`barycert help SUBCOMMAND` explains"), command.words.empty());
+        EXPECT_EQ(contains(by_help.out, "`barycert help render PICTURE` explains"), command.words == Words{"render"});
     }
     EXPECT_TRUE(contains(run({"help", "mesh"}).out, "--max-volume"));
 #ifdef BARYCERT_TETGEN_PROGRAM
@@ -104,7 +110,7 @@ TEST(help, manual_pages_have_every_command_and_option) {
                 << page_of(command.words) << " lacks " << option;
         }
     }
-    EXPECT_TRUE(contains(plain(read_file(folder + "/barycert-audit.1")), "From 0 to 4096. Default: 0."));
+    EXPECT_TRUE(contains(plain(read_file(folder + "/barycert-audit.1")), "Number of threads; 0: all. Default: 0."));
     EXPECT_TRUE(contains(plain(read_file(folder + "/barycert.1")), "\nNO_COLOR\n"));
     EXPECT_TRUE(contains(plain(read_file(folder + "/barycert-tetgen.1")), "\n--max-volume V\n"));
 }

@@ -96,6 +96,9 @@ TEST(usage, of_a_mistyped_name_the_nearest_is_told) {
     const Scratch scratch;
     const std::string points = scratch.put("points.csv", "x,y,z\n0.1,0.2,0.3\n"), bracket = mesh("bracket");
     const std::string rows = scratch.put("rows.csv", "x,y,z,cel\n0.1,0.2,0.3,0\n");
+    const std::string witnesses = scratch.path("witnesses.json");
+    ASSERT_EQ(
+        run({"audit", "--count", "20", "--kernel", "tetrahedron.cramer", "--witnesses", witnesses, "--quiet"}).code, 0);
     const std::vector<Refusal> refusals{
         {{"smaple"}, "found \"smaple\"; did you mean \"sample\"? `barycert --help` lists them"},
         {{"help", "smaple"}, "did you mean \"sample\"?"},
@@ -116,6 +119,9 @@ TEST(usage, of_a_mistyped_name_the_nearest_is_told) {
         {{"kernels", "triangle.invers"}, "did you mean \"triangle.inverse\"?"},
         {{"search", "triangle.invers"}, "did you mean \"triangle.inverse\"?"},
         {{"replay", "--family", "randon", "--case", "1"}, "did you mean \"random\"?"},
+        {{"replay", witnesses, "--kernel", "tetrahedron.cramr"}, "did you mean \"tetrahedron.cramer\"? leave out"},
+        {{"replay", witnesses, "--kernel", "*", "--reason", "fals_inside"}, "did you mean \"false_inside\"? leave out"},
+        {{"replay", witnesses, "--reason", "z*"}, "no witness matches; leave out"},
         {{"replay", "--family", "mesh.inside", "--case", "1", "--simplex", "tetraedron"},
          "did you mean \"tetrahedron\"?"},
         {{"gaps", bracket, "--rule", "stric"}, "did you mean \"strict\"?"},
@@ -207,7 +213,8 @@ TEST(usage, a_broken_mesh_is_told_with_file_and_line) {
 }
 
 TEST(usage, missing_data_are_told_with_the_remedy) {
-    expect_refused({{"audit"}, "name a mesh, or set BARYCERT_DATA_DIR"}, {.environment = {"BARYCERT_DATA_DIR=/none"}});
+    expect_refused({{"audit"}, "found No such file or directory; name a mesh, or set BARYCERT_DATA_DIR"},
+                   {.environment = {"BARYCERT_DATA_DIR=/none"}});
 }
 
 TEST(usage, mesh_without_its_program_is_told_with_the_remedy) {
@@ -215,7 +222,7 @@ TEST(usage, mesh_without_its_program_is_told_with_the_remedy) {
     std::filesystem::copy_file(BARYCERT_PROGRAM, scratch.path("barycert"));
     const How alone{.environment = {"PATH=" + scratch.folder()}, .program = scratch.path("barycert")};
     expect_refused(
-        {{"mesh", "shape.poly"}, "error: cannot run barycert-tetgen: found No such file or directory; build"}, alone);
+        {{"mesh", "shape.poly"}, "error: cannot run barycert-tetgen: found No such file or directory; install"}, alone);
     // With a program of that name beside it, that one runs, with the same arguments.
     const std::string beside = scratch.put("barycert-tetgen", "#!/bin/sh\necho \"meshes $*\"\nexit 7\n");
     std::filesystem::permissions(beside, std::filesystem::perms::owner_all);

@@ -68,6 +68,8 @@ const std::vector<Command>& commands() {
         {"replay", {"replay", "w.json"}},
         {"kernels", {"kernels"}},
         {"families", {"families"}},
+        {"help", {"help", "render", "iso"}},
+        {"help_man", {"help", "--man", "."}},
 #ifdef BARYCERT_TETGEN_PROGRAM
         {"mesh", {data("plc/cube-hole.poly"), "--output", "o"}, 0, BARYCERT_TETGEN_PROGRAM, true},
 #endif

@@ -89,6 +89,26 @@ TEST_P(Faults, leave_whole_files_and_one_error) {
     EXPECT_GT(ended_, 0U);
 }
 
+#ifdef BARYCERT_TETGEN_PROGRAM
+// Libraries that promise to throw nothing need memory, too.
+TEST(FaultsOfOptions, no_allocation_ends_the_program_by_a_signal) {
+    long failed = 0;
+    for (long n = 1;; ++n) {
+        const Scratch logs;
+        const Ended r = cli_test::run(
+            {"--version"}, {.environment = {"LD_PRELOAD=" BARYCERT_FAULT_LIBRARY, "FAULT=memory:" + std::to_string(n),
+                                            "FAULT_LOG=" + logs.path("log")},
+                            .program = BARYCERT_TETGEN_PROGRAM});
+        if (logs.names().empty()) break;
+        ++failed;
+        EXPECT_EQ(r.signal, 0) << n;
+        EXPECT_TRUE(r.code == 0 || (r.code == 2 && r.err.starts_with("error: out of memory"))) << n << ": " << r.err;
+        if (HasFailure()) return;
+    }
+    EXPECT_GT(failed, 100);
+}
+#endif
+
 INSTANTIATE_TEST_SUITE_P(commands, Faults, ::testing::ValuesIn(commands()),
                          [](const auto& command) { return command.param.name; });
 

@@ -4,7 +4,7 @@
 #
 # Each begins with what it found before (BUILD/fuzz/work/TARGET), corpus/TARGET and found/TARGET. What ends it is kept as
 # BUILD/fuzz/findings/TARGET-*; then the exit code is 1. BUILD/fuzz/totals has a line a run: target, executions, seconds,
-# coverage, edges. Inputs of the project come first where an option of libFuzzer is wanted: FUZZ_OPTIONS.
+# coverage, edges. FUZZ_OPTIONS: further options of libFuzzer.
 set -eu
 here=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd)
 programs=$1/fuzz

@@ -1,14 +1,24 @@
 #include "fuzz/points_round_trip.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
+#include "barycert/io.hpp"
 #include "fuzz/files.hpp"
 #include "fuzz/same.hpp"
 #include "fuzz/target.hpp"
 
 namespace barycert::fuzz {
 namespace {
+
+/// All points of a file with what is carried.
+struct AllPoints {
+    std::vector<double> points;
+    std::vector<ColumnFormat> formats;
+    std::vector<Column> carried;
+};
 
 void append(Column& to, Column& from) {
     std::visit(
@@ -42,8 +52,6 @@ bool has_line_ends(const std::vector<Column>& columns) {
     });
 }
 
-}  // namespace
-
 Result<AllPoints> all_points(const std::string& path, int dimension, const PointOptions& options, std::size_t block) {
     const Result<std::unique_ptr<PointSource>> source = open_points(path, dimension, options);
     if (!source) return source.error();
@@ -76,8 +84,22 @@ Result<AllPoints> all_points(const std::string& path, int dimension, const Point
     return all;
 }
 
-void read_and_write_points(const std::string& path, int dimension, const PointOptions& options, std::size_t lines,
-                           const std::string& out) {
+}  // namespace
+
+void read_and_write_points(std::string_view input, InputFile& file) {
+    static const std::array<std::string, 3> outs{scratch_path("out.csv"), scratch_path("out.npy"),
+                                                 scratch_path("out.vtu")};
+    const unsigned how = input.empty() ? 0 : static_cast<unsigned char>(input.front());
+    if (!input.empty()) input.remove_prefix(1);
+    const int dimension = (how & 1) != 0 ? 2 : 3;
+    PointOptions options{.columns = {}, .keep = {}, .typed = (how & 4) != 0};
+    if ((how & 2) != 0) options.keep = {"all"};
+    if ((how & 8) != 0) options.columns = {dimension == 2 ? "1,2" : "2,1,3"};
+    if ((how & 16) != 0) options.keep = {"new=a", "b"};
+    const std::string& out = outs[(how >> 5) % outs.size()];
+    const std::string& path = file.put(input);
+    const std::size_t lines = lines_of(input);
+
     const Result<AllPoints> all = all_points(path, dimension, options, 1000);
     const Result<AllPoints> in_blocks = all_points(path, dimension, options, 3);
     expect(bool(all) == bool(in_blocks), "points are read or not by how many are asked for at a time");

@@ -1,23 +1,14 @@
 /// A file of points, read in blocks, written as rows and read again.
 #pragma once
 
-#include <string>
-
-#include "barycert/io.hpp"
+#include <string_view>
 
 namespace barycert::fuzz {
 
-/// All points of a file with what is carried, and what opened it.
-struct AllPoints {
-    std::vector<double> points;
-    std::vector<ColumnFormat> formats;
-    std::vector<Column> carried;
-};
+class InputFile;
 
-Result<AllPoints> all_points(const std::string& path, int dimension, const PointOptions& options, std::size_t block);
-
-/// `lines`: of the file. `out`: a file of rows by its suffix, .csv, .npy or .vtu.
-void read_and_write_points(const std::string& path, int dimension, const PointOptions& options, std::size_t lines,
-                           const std::string& out);
+/// The first byte of the input: the dimension, what is read of the columns, and whether rows are written as CSV, NPY or
+/// VTU. The rest is put into the file.
+void read_and_write_points(std::string_view input, InputFile& file);
 
 }  // namespace barycert::fuzz

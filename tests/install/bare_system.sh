@@ -3,7 +3,8 @@
 #   bare_system [MIRROR]  makes it, as $system in $place, with a fresh clone of the repository in /barycert
 #   inside COMMAND        runs a shell's command in that clone
 #   timed WORDS... -- COMMAND...  runs it and says how long it took
-# SUITE=trixie: Debian 13 instead. When the script ends, the system goes, unless KEEP=1. SYSTEM=FOLDER takes one that was kept, with what is built in it.
+# SUITE=trixie: Debian 13 instead. When the script ends, the system and the logs go, unless KEEP=1. SYSTEM=FOLDER takes a
+# system that was kept, with what is built in it, and leaves it.
 
 say() { printf '%s\n' "$name: $*"; }
 die() { say "error: $*" >&2; exit 2; }
@@ -86,6 +87,7 @@ leave_bare_system() {
     for mounted in dev/pts dev proc sys; do
         ! mountpoint -q "$system/$mounted" || umount -l "$system/$mounted" || { say "still mounted: $system/$mounted"; exit 2; }
     done
-    if [ -n "${KEEP-}${SYSTEM-}" ]; then say "kept: $system"; else rm -rf --one-file-system "$place"; fi
+    [ -n "${KEEP-}" ] || rm -rf --one-file-system "$place"
+    [ ! -d "$system" ] || say "kept: $system"
     exit $status
 }

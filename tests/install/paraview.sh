@@ -6,7 +6,7 @@
 # MIRROR: a Debian archive; the first that this machine's apt uses for bookworm if left out. KEEP=1 leaves the system for
 # a look inside, SYSTEM=FOLDER takes one that was left, with what is built in it.
 #
-# 1 the classes of src/vtk with ParaView's VTK 9.2: tests/vtk, tests/mpi; 2 the package barycert-paraview, installed; 3 the
+# 1 the classes of src/vtk with ParaView's VTK 9.2: tests/vtk, tests/mpi; 2 the package barycert-paraview, judged by lintian and installed; 3 the
 # plug-in in it: tests/paraview by pvpython; the commands of doc/paraview.md; two and three processes of pvbatch give the values
 # of one.
 set -eu
@@ -15,7 +15,7 @@ name=paraview
 . "$root/tests/install/bare_system.sh"
 bare_system "$@"
 
-packages=$(sed -n 's/^\(build\|paraview\)_packages="\([^"$]*\)".*/\2/p' "$root/run" | tr '\n' ' ')
+packages=$(sed -n 's/^\(build\|package\|paraview\)_packages="\([^"$]*\)".*/\2/p' "$root/run" | tr '\n' ' ')
 timed install $packages -- inside "apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $packages" \
     >"$place/apt.log" 2>&1 || { tail -n 30 "$place/apt.log" >&2; die "apt-get failed"; }
 say "$(inside "dpkg-query -W -f '\${Package} \${Version}  ' paraview libexpat1 cmake g++")"
@@ -39,6 +39,7 @@ for ranks in 1 4; do
     grep -E '^\[  PASSED' "$log" || die "no verdict of tests/mpi"
 done
 step package "cd build/paraview && rm -rf packages && cpack"
+step lintian ".ci/lintian build/paraview/packages/*.deb"
 step install "dpkg -i build/paraview/packages/barycert-paraview_*.deb"
 plugin=$(inside "ls /usr/lib/*/paraview-5.11/plugins/Barycert/Barycert.so") || die "no plug-in was installed"
 say "plug-in: $plugin"

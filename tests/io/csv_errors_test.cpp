@@ -1,4 +1,7 @@
 // CSV files that are refused, and in which words.
+#include <filesystem>
+
+#include "barycert/io/csv/line_reader.hpp"
 #include "io/points_files.hpp"
 
 namespace barycert::io::testing {
@@ -44,6 +47,25 @@ TEST(CsvErrors, coordinates) {
     expect_csv_refused("1,2,3\n1,2,3\r4,5,6\r", 3, bad(2, z, "a number", "\"3\\r4\"", "not with CR alone"));
     expect_csv_refused(std::string("1,2,3\n1,2,3\0\n", 13), 3, bad(2, z, "a number", "\"3\\x00\"", "binary"));
     expect_csv_refused("z,x,y\n1,2,3\n1,b,3\n", 3, bad(3, x, "a number", "\"b\"", nullptr));  // by name, not by place
+}
+
+TEST(CsvErrors, a_file_that_cannot_be_read_has_not_ended) {
+    const TemporaryFolder folder;
+    std::filesystem::create_symlink("/proc/self/mem", folder / "p.csv");
+    expect_error(read_file(folder / "p.csv", 3), "/p.csv",
+                 {0, "cannot read the file", nullptr, "Input/output error", nullptr});
+}
+
+// Files of the system say that they have no bytes; others grow while they are read.
+TEST(CsvErrors, a_file_that_is_longer_than_it_says) {
+    const std::string path = "/proc/self/limits", whole = get(path);
+    Result<LineReader> reader = LineReader::open(path);
+    ASSERT_TRUE(reader) << reader.error().message();
+    std::string lines;
+    for (std::string_view line; reader->next(line);) lines += std::string(line) + '\n';
+    EXPECT_FALSE(reader->failed());
+    EXPECT_GT(whole.size(), 100U);
+    EXPECT_EQ(lines, whole);
 }
 
 TEST(CsvErrors, numbers_of_fields) {

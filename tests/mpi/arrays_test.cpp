@@ -14,7 +14,6 @@
 #include <vtkUnsignedCharArray.h>
 
 #include "check/meshes.hpp"
-#include "locate/points.hpp"
 #include "mpi/pieces.hpp"
 #include "vtk/grids.hpp"
 #include "vtkPBarycertProbe.h"
@@ -22,20 +21,12 @@
 namespace barycert::testing {
 namespace {
 
-struct Job {
-    Mesh mesh = box(3, {3, 2, 2});
-    vtkSmartPointer<vtkUnstructuredGrid> whole = with_arrays(mesh);
-    base::Random random{4};
-    std::vector<double> points = awkward_points(mesh, 30, random);
-    vtkSmartPointer<vtkPolyData> mine = points_of(share_of(points, rank(), ranks()));
-
-    vtkSmartPointer<vtkUnstructuredGrid> piece(Cut cut) {
-        return piece_of(whole, ranks_of_cells(whole, cut), rank(), true, random);
-    }
-};
+Job small_job() {
+    return {box(3, {3, 2, 2}), 30};
+}
 
 TEST(Arrays, FollowTheOptions) {
-    Job job;
+    Job job = small_job();
     vtkNew<vtkDoubleArray> own, same;
     own->SetName("own");
     same->SetName("v");
@@ -65,7 +56,7 @@ TEST(Arrays, FollowTheOptions) {
 }
 
 TEST(Arrays, OfRanksWithoutCellsAreThoseOfTheOthers) {
-    Job job;
+    Job job = small_job();
     const auto judge = probed<vtkBarycertProbe>(job.whole, job.mine);
     const auto piece = job.piece(Cut::one_rank);
     const bool last = rank() == ranks() - 1;
@@ -94,7 +85,7 @@ TEST(Arrays, OfRanksWithoutCellsAreThoseOfTheOthers) {
 }
 
 TEST(Arrays, OfNothingAreNothing) {
-    Job job;
+    Job job = small_job();
     vtkNew<vtkUnstructuredGrid> empty;
     Messages messages;
     const auto nowhere = probed<vtkPBarycertProbe>(empty, job.mine);
@@ -108,7 +99,7 @@ TEST(Arrays, OfNothingAreNothing) {
 }
 
 TEST(Arrays, OfTheMeshBeforeTheMaskOfAnEarlierProbe) {
-    Job job;
+    Job job = small_job();
     vtkNew<vtkDoubleArray> mask;
     mask->SetName("vtkValidPointMask");
     mask->SetNumberOfTuples(job.whole->GetNumberOfPoints());
@@ -121,7 +112,7 @@ TEST(Arrays, OfTheMeshBeforeTheMaskOfAnEarlierProbe) {
 
 // The index stays; points and values change.
 TEST(Arrays, AreMadeAgainWhenInputsChange) {
-    Job job;
+    Job job = small_job();
     const auto piece = job.piece(Cut::round_robin);
     const auto probe = probed<vtkPBarycertProbe>(piece, job.mine);
     const auto judge = probed<vtkBarycertProbe>(job.whole, job.mine);
@@ -140,7 +131,7 @@ TEST(Arrays, AreMadeAgainWhenInputsChange) {
 
 // Every process for itself.
 TEST(Arrays, OfOneProcessNeedNoController) {
-    Job job;
+    Job job = small_job();
     vtkNew<vtkDummyController> dummy;
     const auto judge = probed<vtkBarycertProbe>(job.whole, job.mine);
     for (vtkMultiProcessController* const controller :

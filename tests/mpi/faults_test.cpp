@@ -7,21 +7,23 @@
 #include <new>
 
 #include <vtkCellData.h>
+#include <vtkCompositeDataPipeline.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkFloatArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkMultiProcessController.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkPassThrough.h>
 #include <vtkPointData.h>
 #include <vtkUnstructuredGridAlgorithm.h>
 #include <vtkVariantArray.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include "check/meshes.hpp"
-#include "locate/points.hpp"
 #include "mpi/pieces.hpp"
 #include "vtk/grids.hpp"
 #include "vtkPBarycertProbe.h"
@@ -29,14 +31,10 @@
 namespace barycert::testing {
 namespace {
 
-struct Job {
-    Mesh mesh = box(3, {8, 2, 2});
-    vtkSmartPointer<vtkUnstructuredGrid> whole = with_arrays(mesh);
-    base::Random random{4};
-    std::vector<double> points = awkward_points(mesh, 10, random);
-    vtkSmartPointer<vtkPolyData> mine = points_of(share_of(points, rank(), ranks()));
-    vtkSmartPointer<vtkUnstructuredGrid> piece =
-        piece_of(whole, ranks_of_cells(whole, Cut::slabs), rank(), false, random);
+struct BrokenJob : Job {
+    BrokenJob() : Job(box(3, {8, 2, 2}), 10) {}
+
+    vtkSmartPointer<vtkUnstructuredGrid> mesh_here = piece(Cut::slabs, false);
     int broken = ranks() / 2;  ///< the rank that has the fault
     bool here = rank() == broken;
 
@@ -55,9 +53,9 @@ void expect_error(vtkPBarycertProbe* probe, const std::string& text) {
 }
 
 void expect_fault(const std::function<void(vtkUnstructuredGrid*)>& spoil, const std::string& text) {
-    Job job;
+    BrokenJob job;
     vtkNew<vtkUnstructuredGrid> bad;
-    bad->DeepCopy(job.piece);
+    bad->DeepCopy(job.mesh_here);
     if (job.here) spoil(bad);
     vtkNew<vtkPBarycertProbe> probe;
     probe->SetSourceData(bad);
@@ -69,7 +67,7 @@ void expect_fault(const std::function<void(vtkUnstructuredGrid*)>& spoil, const 
     }
     expect_error(probe, text);
     // And then the piece that is right.
-    probe->SetSourceData(job.piece);
+    probe->SetSourceData(job.mesh_here);
     Messages messages;
     probe->Update();
     EXPECT_EQ(messages.all(), "");
@@ -183,17 +181,39 @@ TEST(Faults, OfPlanes) {
 }
 
 TEST(Faults, OfSettings) {
-    Job job;
+    BrokenJob job;
     vtkNew<vtkPBarycertProbe> probe;
-    probe->SetSourceData(job.piece);
+    probe->SetSourceData(job.mesh_here);
     probe->SetInputData(job.mine);
     probe->ComputeToleranceOff();
     probe->SetTolerance(1);
     expect_error(probe, "this filter has no Tolerance: points are inside the mesh or not; leave ComputeTolerance on");
     probe->SetTolerance(0);
     probe->CategoricalDataOn();
-    job.piece->GetPointData()->SetActiveScalars("v");
+    job.mesh_here->GetPointData()->SetActiveScalars("v");
     expect_error(probe, "CategoricalData takes point scalars of one component, of the source");
+}
+
+// One process has two blocks, others have one: with an executive that takes them apart, as ParaView's, too.
+TEST(Faults, OfBlocks) {
+    BrokenJob job;
+    for (const bool of_source : {false, true}) {
+        for (const bool executive : {false, true}) {
+            vtkNew<vtkPBarycertProbe> probe;
+            if (executive) probe->SetExecutive(vtkNew<vtkCompositeDataPipeline>());
+            vtkNew<vtkMultiBlockDataSet> blocks;
+            for (unsigned i = 0; i < (job.here ? 2U : 1U); ++i)
+                blocks->SetBlock(i, of_source ? vtkDataObject::SafeDownCast(job.mesh_here) : job.mine.Get());
+            if (of_source) {
+                probe->SetSourceData(blocks);
+                probe->SetInputData(job.mine);
+            } else {
+                probe->SetSourceData(job.mesh_here);
+                probe->SetInputData(blocks);
+            }
+            expect_error(probe, "this filter takes no composite data sets; merge the blocks before");
+        }
+    }
 }
 
 struct Failing : vtkUnstructuredGridAlgorithm {
@@ -219,11 +239,11 @@ struct Failing : vtkUnstructuredGridAlgorithm {
 vtkStandardNewMacro(Failing);
 
 TEST(Faults, OfFiltersBefore) {
-    Job job;
+    BrokenJob job;
     for (const int how : {0, 1, 2, 4}) {
         SCOPED_TRACE(how);
         vtkNew<Failing> before;
-        before->piece = job.piece;
+        before->piece = job.mesh_here;
         before->how = job.here ? how : 3;
         vtkNew<vtkPBarycertProbe> probe;
         probe->SetSourceConnection(before->GetOutputPort());
@@ -244,20 +264,34 @@ TEST(Faults, OfFiltersBefore) {
     before->piece = job.whole;
     before->how = job.here ? 1 : 3;
     vtkNew<vtkPBarycertProbe> probe;
-    probe->SetSourceData(job.piece);
+    probe->SetSourceData(job.mesh_here);
     probe->SetInputConnection(before->GetOutputPort());
     expect_error(probe, job.who() + "what comes before this filter failed: ");
 }
 
+// That between them and the probe has no error of its own.
+TEST(Faults, OfFiltersFurtherBefore) {
+    BrokenJob job;
+    vtkNew<Failing> before;
+    before->piece = job.mesh_here;
+    before->how = job.here ? 4 : 3;
+    vtkNew<vtkPassThrough> between;
+    between->SetInputConnection(before->GetOutputPort());
+    vtkNew<vtkPBarycertProbe> probe;
+    probe->SetSourceConnection(between->GetOutputPort());
+    probe->SetInputData(job.mine);
+    expect_error(probe, job.who() + "what comes before this filter failed: ");
+}
+
 TEST(Faults, OfFilesThatAreNotThere) {
-    Job job;
+    BrokenJob job;
     vtkNew<vtkXMLUnstructuredGridReader> reader;
     reader->SetFileName("no-such-file.vtu");
     vtkNew<vtkPBarycertProbe> probe;
     if (job.here)
         probe->SetSourceConnection(reader->GetOutputPort());
     else
-        probe->SetSourceData(job.piece);
+        probe->SetSourceData(job.mesh_here);
     probe->SetInputData(job.mine);
     expect_error(probe, job.who() + "what comes before this filter failed: ");
 }

@@ -11,7 +11,6 @@
 #include <vtkPointData.h>
 
 #include "check/meshes.hpp"
-#include "locate/points.hpp"
 #include "mpi/pieces.hpp"
 #include "vtk/distributed_probe.hpp"
 #include "vtk/exchange.hpp"
@@ -45,24 +44,19 @@ namespace barycert::testing {
 namespace {
 
 TEST(Memory, ThatOneRankLacksEndsAll) {
-    const Mesh mesh = box(3, {8, 3, 3});
-    const auto whole = with_arrays(mesh);
-    base::Random random(1);
-    const std::vector<double> points = awkward_points(mesh, 60, random);
-    const auto mine = points_of(share_of(points, rank(), ranks()));
-    const auto judge = probed<vtkBarycertProbe>(whole, mine);
-    const auto pieces = ranks_of_cells(whole, Cut::slabs);
+    Job job(box(3, {8, 3, 3}), 60);
+    const auto judge = probed<vtkBarycertProbe>(job.whole, job.mine);
     int errors = 0;
     for (long fails = 1, done = 0; done < 2; ++fails) {
         SCOPED_TRACE(fails);
         // A new one, for its index is kept.
-        const auto piece = piece_of(whole, pieces, rank(), false, random);
+        const auto piece = job.piece(Cut::slabs, false);
         vtkNew<vtkPolyData> output;
-        output->CopyStructure(mine);
+        output->CopyStructure(job.mine);
         in_vtk::Exchange exchange(vtkMultiProcessController::GetGlobalController());
         in_vtk::DistributedProbe probe(exchange, {.mask = "vtkValidPointMask"});
         if (rank() == ranks() / 2) left = fails;
-        const Status status = probe.run(Done{}, mine, piece, output);
+        const Status status = probe.run(Done{}, job.mine, piece, output);
         int untouched = rank() == ranks() / 2 && left > 0 ? 1 : 0;
         left = 0;
         // That all know is known by messages, too.

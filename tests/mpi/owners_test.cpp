@@ -94,47 +94,38 @@ TEST(Owners, OnSeamsAreTheLowestGlobalIds) {
 }
 
 TEST(Owners, DoNotDependOnWhereThePointsAre) {
-    const Mesh mesh = own_mesh("lattice-box");
-    const auto whole = with_arrays(mesh);
-    base::Random random(9);
-    const std::vector<double> points = awkward_points(mesh, 20, random);
-    const auto piece = piece_of(whole, ranks_of_cells(whole, Cut::scattered), rank(), true, random);
+    Job job(own_mesh("lattice-box"), 20);
+    const auto piece = job.piece(Cut::scattered);
     // All on each rank; all on the last; all on the first, which has no cells.
-    expect_as_of_the_whole(whole, piece, points_of(points));
-    expect_as_of_the_whole(whole, piece, points_of(rank() == ranks() - 1 ? points : std::vector<double>()));
-    const auto far = piece_of(whole, ranks_of_cells(whole, Cut::one_rank), rank(), true, random);
-    expect_as_of_the_whole(whole, far, points_of(rank() == 0 ? points : std::vector<double>()));
+    expect_as_of_the_whole(job.whole, piece, points_of(job.points));
+    expect_as_of_the_whole(job.whole, piece, points_of(rank() == ranks() - 1 ? job.points : std::vector<double>()));
+    const auto far = job.piece(Cut::one_rank);
+    expect_as_of_the_whole(job.whole, far, points_of(rank() == 0 ? job.points : std::vector<double>()));
 }
 
 TEST(Owners, OfImagesAreThoseOfTheirPoints) {
-    const Mesh mesh = own_mesh("lattice-box");
-    const auto whole = with_arrays(mesh);
-    base::Random random(9);
+    Job job(own_mesh("lattice-box"), 0);
     double b[6];
-    whole->GetBounds(b);
+    job.whole->GetBounds(b);
     vtkNew<vtkImageData> image;
     image->SetOrigin(b[0], b[2], b[4]);
     image->SetSpacing((b[1] - b[0]) / 8, (b[3] - b[2]) / 8, (b[5] - b[4]) / 8);
     image->SetExtent(rank(), rank() + 1, 0, 8, -1, 9);
-    for (const Cut cut : all_cuts)
-        expect_as_of_the_whole(whole, piece_of(whole, ranks_of_cells(whole, cut), rank(), true, random), image);
+    for (const Cut cut : all_cuts) expect_as_of_the_whole(job.whole, job.piece(cut), image);
 }
 
 // So many that ranks tell finer boxes of their pieces than one.
 TEST(Owners, OfManyPointsAreThoseOfTheWhole) {
-    const Mesh mesh = own_mesh("flange");
-    const auto whole = with_arrays(mesh);
-    base::Random random(9);
+    Job job(own_mesh("flange"), 200);
     double b[6];
-    whole->GetBounds(b);
-    std::vector<double> points = awkward_points(mesh, 200, random);
+    job.whole->GetBounds(b);
     for (int i = 0; i < 6000; ++i)
-        for (int a = 0; a < 3; ++a) points.push_back(random.uniform(b[2 * a], b[2 * a + 1]));
+        for (int a = 0; a < 3; ++a) job.points.push_back(job.random.uniform(b[2 * a], b[2 * a + 1]));
     for (const Cut cut : all_cuts) {
         SCOPED_TRACE(name(cut));
-        const auto piece = piece_of(whole, ranks_of_cells(whole, cut), rank(), true, random);
-        const auto mine = points_of(share_of(points, rank(), ranks()));
-        expect_as_of_the_whole(whole, piece, mine);
+        const auto piece = job.piece(cut);
+        const auto mine = points_of(share_of(job.points, rank(), ranks()));
+        expect_as_of_the_whole(job.whole, piece, mine);
         // No rank is asked for the same point twice, and in slabs few are asked for it at all.
         const auto probe = probed<vtkPBarycertProbe>(piece, mine);
         const vtkIdType most = mine->GetNumberOfPoints() * (ranks() - 1);
@@ -145,41 +136,31 @@ TEST(Owners, OfManyPointsAreThoseOfTheWhole) {
 
 // Every rank has the whole mesh, none of it as ghosts.
 TEST(Owners, OfCopiesAreTheCellsThemselves) {
-    const Mesh mesh = own_mesh("cube-hole");
-    const auto whole = with_arrays(mesh);
-    base::Random random(2);
-    const std::vector<double> points = awkward_points(mesh, 20, random);
-    expect_as_of_the_whole(whole, whole, points_of(share_of(points, rank(), ranks())));
+    const Job job(own_mesh("cube-hole"), 20);
+    expect_as_of_the_whole(job.whole, job.whole, job.mine);
 }
 
 // As it should not be: then at least all ranks have the same values.
 TEST(Owners, OfCopiesThatDifferAreThoseOfTheLowestRank) {
-    const Mesh mesh = own_mesh("cube-hole");
-    const auto whole = with_arrays(mesh);
+    const Job job(own_mesh("cube-hole"), 20);
     vtkNew<vtkUnstructuredGrid> copy;
-    copy->DeepCopy(whole);
+    copy->DeepCopy(job.whole);
     vtkDataArray* const values = copy->GetPointData()->GetArray("float");
     if (rank() > 0) values->Fill(rank());
-    base::Random random(2);
-    const std::vector<double> points = awkward_points(mesh, 20, random);
-    expect_as_of_the_whole(whole, copy, points_of(share_of(points, rank(), ranks())));
+    expect_as_of_the_whole(job.whole, copy, job.mine);
 }
 
 // Of a mesh of subnormal size, whose boxes are nothing where numbers are flushed.
 TEST(Owners, AreTheSameInEveryEnvironment) {
     for (const double unit : {0x1p-1070, 0x1p-10}) {
         for (const Cut cut : {Cut::slabs, Cut::scattered}) {
-            const Mesh mesh = mapped(box(3, {4, 2, 2}), {unit, unit, unit}, {0, 0, 0});
-            const auto whole = with_arrays(mesh);
-            base::Random random(8);
-            const std::vector<double> points = awkward_points(mesh, 20, random);
-            const auto mine = points_of(share_of(points, rank(), ranks()));
-            const auto piece = piece_of(whole, ranks_of_cells(whole, cut), rank(), true, random);
-            expect_as_of_the_whole(whole, piece, mine);
+            Job job(mapped(box(3, {4, 2, 2}), {unit, unit, unit}, {0, 0, 0}), 20);
+            const auto piece = job.piece(cut);
+            expect_as_of_the_whole(job.whole, piece, job.mine);
             testing_environments::expect_same_everywhere(name(cut), [&](testing_environments::Answers& out) {
                 vtkNew<vtkUnstructuredGrid> copy;
                 copy->DeepCopy(piece);
-                const auto probe = probed<vtkPBarycertProbe>(copy, mine);
+                const auto probe = probed<vtkPBarycertProbe>(copy, job.mine);
                 auto* const v = vtkDoubleArray::SafeDownCast(probe->GetOutput()->GetPointData()->GetArray("v"));
                 auto* const ids = vtkIdTypeArray::SafeDownCast(probe->GetOutput()->GetPointData()->GetArray("ids"));
                 ASSERT_TRUE(v != nullptr && ids != nullptr);
@@ -194,12 +175,9 @@ TEST(Owners, AreTheSameInEveryEnvironment) {
 
 // Cells in slabs of their order, without ids: numbers by rank are those of the whole.
 TEST(Owners, WithoutGlobalIdsAreByRankAndItSaysSo) {
-    const Mesh mesh = own_mesh("lattice-box");
-    const auto whole = with_arrays(mesh);
-    base::Random random(2);
-    const std::vector<double> points = awkward_points(mesh, 40, random);
-    const auto all = static_cast<std::int64_t>(mesh.cell_count());
-    std::vector<bool> keep(mesh.cell_count());
+    Job job(own_mesh("lattice-box"), 40);
+    vtkUnstructuredGrid* const whole = job.whole;
+    const auto all = static_cast<std::int64_t>(job.mesh.cell_count());
     vtkNew<vtkUnstructuredGrid> piece;
     piece->SetPoints(whole->GetPoints());
     piece->GetPointData()->ShallowCopy(whole->GetPointData());
@@ -212,11 +190,10 @@ TEST(Owners, WithoutGlobalIdsAreByRankAndItSaysSo) {
     }
     piece->GetCellData()->AddArray(ids);
     Messages messages;
-    const auto input = points_of(share_of(points, rank(), ranks()));
-    const auto ours = probed<vtkPBarycertProbe>(piece, input);
+    const auto ours = probed<vtkPBarycertProbe>(piece, job.mine);
     EXPECT_EQ(messages.count("no global ids"), rank() == 0 && ranks() > 1 ? 1 : 0) << messages.all();
     whole->GetCellData()->RemoveArray("large");
-    const auto judge = probed<vtkBarycertProbe>(whole, input);
+    const auto judge = probed<vtkBarycertProbe>(whole, job.mine);
     expect_same(ours->GetOutput()->GetPointData(), judge->GetOutput()->GetPointData());
 }
 

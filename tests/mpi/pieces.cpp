@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <span>
+#include <utility>
 
 #include <vtkBitArray.h>
 #include <vtkCellData.h>
@@ -19,6 +20,7 @@
 #include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 
+#include "locate/points.hpp"
 #include "vtk/grids.hpp"
 
 namespace barycert::testing {
@@ -217,6 +219,16 @@ vtkSmartPointer<vtkUnstructuredGrid> with_arrays(const Mesh& mesh, double plane)
     grid->GetCellData()->AddArray(large);
     grid->GetCellData()->SetGlobalIds(ids);
     return grid;
+}
+
+Job::Job(Mesh of, int awkward)
+    : mesh(std::move(of)),
+      whole(with_arrays(mesh)),
+      points(awkward_points(mesh, awkward, random)),
+      mine(points_of(share_of(points, rank(), ranks()))) {}
+
+vtkSmartPointer<vtkUnstructuredGrid> Job::piece(Cut cut, bool with_ghosts) {
+    return piece_of(whole, ranks_of_cells(whole, cut), rank(), with_ghosts, random);
 }
 
 std::vector<double> share_of(const std::vector<double>& points, int rank, int ranks) {

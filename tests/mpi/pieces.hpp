@@ -41,6 +41,18 @@ vtkSmartPointer<vtkUnstructuredGrid> piece_of(vtkUnstructuredGrid* whole, const 
 /// ascend with gaps.
 vtkSmartPointer<vtkUnstructuredGrid> with_arrays(const Mesh& mesh, double plane = 0);
 
+/// A mesh and points, the same on all ranks, and what each has of them.
+struct Job {
+    Job(Mesh of, int awkward);  ///< so many of each kind of awkward_points
+    vtkSmartPointer<vtkUnstructuredGrid> piece(Cut cut, bool with_ghosts = true);
+
+    Mesh mesh;
+    vtkSmartPointer<vtkUnstructuredGrid> whole;  ///< with_arrays
+    base::Random random{4};
+    std::vector<double> points;
+    vtkSmartPointer<vtkPolyData> mine;  ///< this rank's share of the points
+};
+
 /// A probe that was updated.
 template <class Probe>
 vtkSmartPointer<Probe> probed(vtkDataObject* source, vtkDataSet* input) {

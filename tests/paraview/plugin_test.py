@@ -89,6 +89,15 @@ def read_mesh(stem):
     return reader
 
 
+def broken_mesh():
+    """With one node moved through its neighbours."""
+    with open(data("meshes/cube-hole.node")) as file, open(made("broken.node"), "w") as copy:
+        copy.write(file.read().replace("\n408 0.4", "\n408 0.5"))
+    with open(data("meshes/cube-hole.ele")) as file, open(made("broken.ele"), "w") as copy:
+        copy.write(file.read())
+    return pv.OpenDataFile(made("broken.node"))
+
+
 def arrays(attributes):
     return {attributes.GetArrayName(i): attributes.GetAbstractArray(i) for i in range(attributes.GetNumberOfArrays())}
 
@@ -360,13 +369,6 @@ class Locator(PluginTest):
 
 
 class Check(PluginTest):
-    def broken_mesh(self):
-        with open(data("meshes/cube-hole.node")) as file, open(made("broken.node"), "w") as copy:
-            copy.write(file.read().replace("\n408 0.4", "\n408 0.5"))
-        with open(data("meshes/cube-hole.ele")) as file, open(made("broken.ele"), "w") as copy:
-            copy.write(file.read())
-        return pv.OpenDataFile(made("broken.node"))
-
     def expect_measures(self, mesh, grid, code):
         run("check", mesh, "--vtu", made("check.vtu"), "--vtk-data", "ascii", "--json", made("check.json"), "--quiet", code=code)
         expected = numbers(sm.Fetch(pv.OpenDataFile(made("check.vtu"))).GetCellData())
@@ -388,7 +390,7 @@ class Check(PluginTest):
             self.assertEqual(check[2].GetDataInformation().GetNumberOfPoints(), 0)
 
     def test_marks_what_is_broken(self):
-        check = BarycertCheck(Input=self.broken_mesh())
+        check = BarycertCheck(Input=broken_mesh())
         with Messages() as messages:
             grid = sm.Fetch(check)
         self.assertIn("input: NOT certified: 39 pairs of cells overlap", messages.text)
@@ -412,7 +414,7 @@ class Check(PluginTest):
         self.assertEqual(numbers(common.GetPointData())["cell_a"].tolist()[:2], [116, 116])
 
     def test_blocks_are_checked_one_by_one(self):
-        group = pv.GroupDatasets(Input=[read_mesh("cube-hole"), self.broken_mesh()])
+        group = pv.GroupDatasets(Input=[read_mesh("cube-hole"), broken_mesh()])
         check = BarycertCheck(Input=group)
         check.UpdatePipeline()
         result = check.GetClientSideObject().GetOutputDataObject(0)
@@ -468,11 +470,7 @@ class Picture(PluginTest):
         return {tuple(colour) for colour in pixels[:: 3]}
 
     def test_of_what_is_broken(self):
-        with open(data("meshes/cube-hole.node")) as file, open(made("drawn.node"), "w") as copy:
-            copy.write(file.read().replace("\n408 0.4", "\n408 0.5"))
-        with open(data("meshes/cube-hole.ele")) as file, open(made("drawn.ele"), "w") as copy:
-            copy.write(file.read())
-        mesh = pv.OpenDataFile(made("drawn.ele"))
+        mesh = broken_mesh()
         check = BarycertCheck(Input=mesh)
         view = pv.CreateRenderView(ViewSize=[500, 400], Background=[1, 1, 1], UseColorPaletteForBackground=0)
         pv.Show(mesh, view, Representation="Wireframe", AmbientColor=[0.8, 0.8, 0.8], DiffuseColor=[0.8, 0.8, 0.8])

@@ -96,6 +96,10 @@ TEST_F(Failures, Contradictory) {
     expect_bad_file("more.off", cube_off() + "3 0 1 2\n", ":17: more lines than the header announces");
     expect_bad_file("index.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", ":6: no such node");
     expect_bad_file("binary.ply", "ply\nformat binary_little_endian 1.0\n", ":2: cannot read a binary .ply");
+    expect_bad_file("big.ply", "ply\nformat binary_big_endian 1.0\n", ":2: cannot read a binary .ply");
+    const std::string big_endian("\0\0\0\1", 4);
+    expect_bad_file("big.stl", std::string(80, ' ') + big_endian + std::string(50, '\0'),
+                    ": neither a text nor a whole binary .stl");
     expect_bad_file("short.stl", std::string(90, 'x'), ": neither a text nor a whole binary .stl");
     const std::string apart = folder_.put("apart.poly", "0\n6 0\n" + side_rows(0, "1\n", "") + "0\n");
     expect_failure(apart, "apart.node: no such file");
@@ -128,7 +132,7 @@ TEST_F(Failures, BadOptionValues) {
         expect_failure(cube, words[0] == "second.off" ? "second.off" : words[0], words);
     }
     expect_failure(cube, "--switches", {"--switches", "pq", "--order", "2"});
-    expect_failure("--quality", "put INPUT first", {cube});
+    expect_failure("--quality", "put INPUT first", {cube, "--quiet"});
     expect_failure("--quiet", "expected INPUT");
 }
 

@@ -80,6 +80,12 @@ TEST_F(TetgenOptions, QualityBoundsTheRatio) {
     EXPECT_LE(worst_ratio(mesh_with({"--quality", "1.2"}, flat_box())), 1.3);
 }
 
+TEST_F(TetgenOptions, WithoutItsRatioQualityLeavesTheInput) {
+    const Outcome run = run_tetgen({"--quality", folder_.put("part.poly", cube_poly())});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_GT(read_tetgen(folder_.path("part.1")).value().cell_count(), 0U);
+}
+
 TEST_F(TetgenOptions, MinDihedralRefines) {
     const std::size_t plain = mesh_with({"--quality", "2", "--min-dihedral", "0"}, flat_box()).cell_count();
     EXPECT_GT(mesh_with({"--quality", "2", "--min-dihedral", "18"}, flat_box()).cell_count(), plain);

@@ -10,14 +10,17 @@
 
 namespace barycert::index {
 
-/// A box cut into 2^bits bins, in the order of Morton's curve: the longest side of a bin is halved until there are
-/// enough, so bins are as near to cubes as can be.
+/// The axes along which a box of d dimensions is halved, one after the other, for about `bins` of them, at most 2^27:
+/// that of the longest side of a bin each time, so bins are as near to cubes as can be.
+std::vector<std::size_t> halved_axes(std::size_t d, const double* low, const double* high, std::size_t bins);
+
+/// A box cut into 2^bits bins along its `halved_axes`, in the order of Morton's curve.
 class Bins {
 public:
     /// One bin, for everything.
     Bins() = default;
 
-    /// About `bins` of them, at most 2^27.
+    /// About `bins` of them.
     Bins(std::size_t d, const double* low, const double* high, std::size_t bins);
 
     const Quantizer& quantizer() const { return quantizer_; }

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/index/candidates.hpp"
 #include "barycert/index/cell_tree.hpp"
 #include "barycert/index/overlapped.hpp"
+#include "barycert/predicates.hpp"
 
 namespace barycert::index {
 namespace {
@@ -19,6 +21,7 @@ namespace {
 struct Ridge {
     std::uint64_t nodes;
     std::uint32_t facet;
+    std::uint32_t other;  ///< which of the facet's nodes it does not have
 };
 
 /// Of all facets, equal ones side by side.
@@ -29,7 +32,7 @@ std::vector<Ridge> ridges_of(int d, const std::vector<PlacedFacet>& facets) {
         const auto node = [&](std::size_t i) { return static_cast<std::uint64_t>(facets[f].nodes[i]); };
         for (std::size_t i = 0; i < n; ++i) {
             const std::uint64_t nodes = d == 2 ? node(i) : node(i == 0 ? 1 : 0) << 32 | node(i == 2 ? 1 : 2);
-            ridges[n * f + i] = {nodes, static_cast<std::uint32_t>(f)};
+            ridges[n * f + i] = {nodes, static_cast<std::uint32_t>(f), static_cast<std::uint32_t>(d == 2 ? 1 - i : i)};
         }
     });
     tbb::parallel_sort(ridges.begin(), ridges.end(), [](const Ridge& a, const Ridge& b) {
@@ -122,15 +125,78 @@ std::vector<std::uint8_t> find_conflicts(const CellIndex& index, const std::vect
     return conflicts.take();
 }
 
-std::vector<std::vector<std::uint32_t>> find_sheets(int d, const std::vector<PlacedFacet>& facets,
+namespace {
+
+/// Facets that have a ridge, in a ring around it.
+class Ring {
+public:
+    Ring(const CellIndex& index, const std::vector<CellFacet>& open, const std::vector<PlacedFacet>& facets)
+        : index_(index), open_(open), facets_(facets) {}
+
+    /// joined(f, g) for facets that come one after the other, if the cells of both lie between them, or neither does.
+    /// They are all the open facets that have the ridge, without conflicts: no two have one direction from it.
+    template <class Joined>
+    void for_each_pair(std::span<const Ridge> ridges, Joined joined) {
+        if (ridges.size() == 2) return joined(ridges[0].facet, ridges[1].facet);
+        blades_.clear();
+        for (const Ridge& ridge : ridges) {
+            const auto& [cell, corner] = open_[ridge.facet];
+            const Place apex = index_.cells[static_cast<std::size_t>(cell)].node[static_cast<std::size_t>(corner)];
+            const double* const at = facets_[ridge.facet].at[ridge.other];
+            const double* const first = blades_.empty() ? at : blades_.front().at;
+            blades_.push_back({ridge.facet, at, 0, false});
+            if (at != first) {
+                const Sign side = turn(ridge, first, at);
+                blades_.back().part = side == Sign::positive ? 1 : side == Sign::zero ? 2 : 3;
+            }
+            blades_.back().cell_follows =
+                turn(ridge, at, index_.nodes[static_cast<std::size_t>(apex)].at.data()) == Sign::positive;
+        }
+        std::sort(blades_.begin(), blades_.end(), [&](const Blade& a, const Blade& b) {
+            return a.part != b.part ? a.part < b.part : turn(ridges[0], a.at, b.at) == Sign::positive;
+        });
+        for (std::size_t i = 0; i < blades_.size(); ++i) {
+            const Blade &blade = blades_[i], &next = blades_[(i + 1) % blades_.size()];
+            if (blade.cell_follows != next.cell_follows) joined(blade.facet, next.facet);
+        }
+    }
+
+private:
+    struct Blade {
+        std::uint32_t facet;
+        const double* at;   ///< of its node that is not the ridge's
+        int part;           ///< of a turn, from the first blade: 0 itself, 1 below a half, 2 a half, 3 beyond
+        bool cell_follows;  ///< it comes next in the turn
+    };
+
+    /// Positive if the turn from x to y around the ridge is below a half, zero if it is none or a half.
+    Sign turn(const Ridge& ridge, const double* x, const double* y) const {
+        const auto& at = facets_[ridge.facet].at;
+        if (index_.dimension() == 2) return orient2d(at[1 - ridge.other], x, y);
+        return orient3d(at[ridge.other == 0 ? 1 : 0], at[ridge.other == 2 ? 1 : 2], x, y);
+    }
+
+    const CellIndex& index_;
+    const std::vector<CellFacet>& open_;
+    const std::vector<PlacedFacet>& facets_;
+    std::vector<Blade> blades_;
+};
+
+}  // namespace
+
+std::vector<std::vector<std::uint32_t>> find_sheets(const CellIndex& index, const std::vector<CellFacet>& open,
+                                                    const std::vector<PlacedFacet>& facets,
                                                     const std::vector<std::uint8_t>& conflict) {
-    const std::vector<Ridge> ridges = ridges_of(d, facets);
+    const std::vector<Ridge> ridges = ridges_of(static_cast<int>(index.dimension()), facets);
     base::DisjointSets sets(facets.size());
+    Ring ring(index, open, facets);
     for (std::size_t i = 0; i < ridges.size();) {
         std::size_t next = i + 1;
         while (next < ridges.size() && ridges[next].nodes == ridges[i].nodes) ++next;
-        const std::uint32_t a = ridges[i].facet, b = ridges[next - 1].facet;
-        if (next - i == 2 && conflict[a] == 0 && conflict[b] == 0) sets.join(a, b);
+        const std::span<const Ridge> same = std::span(ridges).subspan(i, next - i);
+        if (same.size() > 1 &&
+            std::all_of(same.begin(), same.end(), [&](const Ridge& r) { return conflict[r.facet] == 0; }))
+            ring.for_each_pair(same, [&](std::uint32_t f, std::uint32_t g) { sets.join(f, g); });
         i = next;
     }
     std::vector<std::vector<std::uint32_t>> sheets;

@@ -19,8 +19,9 @@ Item item_of(const PlacedFacet& facet, int d);
 /// 1 for each facet that conflicts with another one.
 std::vector<std::uint8_t> find_conflicts(const CellIndex& index, const std::vector<PlacedFacet>& facets);
 
-/// The facets of each sheet, those without conflicts alone.
-std::vector<std::vector<std::uint32_t>> find_sheets(int d, const std::vector<PlacedFacet>& facets,
+/// The facets of each sheet, those without conflicts alone. `facets`: the open ones, placed.
+std::vector<std::vector<std::uint32_t>> find_sheets(const CellIndex& index, const std::vector<CellFacet>& open,
+                                                    const std::vector<PlacedFacet>& facets,
                                                     const std::vector<std::uint8_t>& conflict);
 
 }  // namespace barycert::index

@@ -46,7 +46,7 @@ private:
     /// others may cross some of them.
     std::vector<PlacedFacet> bad_facets() const {
         std::vector<std::uint8_t> bad = find_conflicts(index_, facets_);
-        std::vector<std::vector<std::uint32_t>> sheets = find_sheets(d(), facets_, bad);
+        std::vector<std::vector<std::uint32_t>> sheets = find_sheets(index_, links_.open, facets_, bad);
         if (sheets.size() == 1 && sheets.front().size() == facets_.size()) return {};
         constexpr std::size_t tries = 4;
         for (std::size_t n = 0; n < tries && !sheets.empty(); ++n) {

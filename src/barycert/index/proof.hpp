@@ -11,10 +11,11 @@
 ///
 /// (1) m changes at open facets alone: by one for each that is crossed, and is greater on the side of its cell. For a
 ///     path that avoids faces of dimension d - 2 leaves one cell of a pair where it enters the other.
-/// (2) Two open facets without conflicts that share a ridge which no third open facet has: near a point inside the
-/// ridge
-///     there is no other open facet, so the same two regions lie along both, and m is the same along both. So m on the
-///     inner side is one number for a *sheet*, a set of such facets connected over such ridges.
+/// (2) Open facets without conflicts that share a ridge which no other open facet has: near a point inside the ridge
+///     there is no other open facet. Where two of them come one after the other around it, one region lies between
+///     them; if the cells of both are on that side, or on the other side of both, m is the same along both. Two alone
+///     are such a pair on either side, as m is what it was after a whole turn. So m on the inner side is one number for
+///     a *sheet*, a set of such facets connected over such pairs.
 /// (3) If all open facets are one sheet, that number is 1: the unbounded region, where m = 0, borders on it, and not on
 ///     its inner side, where m > 0. Otherwise it is 1 if a cell of the sheet has an interior that no other cell meets.
 ///     Sheets for which this is shown, and their facets, are *good*; all other open facets are *bad*.

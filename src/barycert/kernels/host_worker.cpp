@@ -1,6 +1,7 @@
 // The process that runs a user's kernel: guard pages around its arrays, and a look at what it left behind.
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -150,6 +151,16 @@ void put(char (&to)[n], const char* text) {
     std::snprintf(to, n, "%s", text == nullptr ? "" : text);
 }
 
+// For processes that the kernel forks.
+int the_socket = -1;
+bool is_forked = false;
+
+/// They have no part in the answers, and do not hold the end of the socket whose closing tells that the worker died.
+void leave_the_worker() {
+    close(the_socket);
+    is_forked = true;
+}
+
 /// A copy of the descriptor where a library that closes what it did not open would not find it, if there may be one.
 int out_of_the_way(int descriptor) {
     const int copy = fcntl(descriptor, F_DUPFD_CLOEXEC, 200);
@@ -273,6 +284,7 @@ private:
 
     /// What the function that was just called left behind.
     void look(Answer& a, std::size_t n) {
+        if (is_forked) _exit(0);
         if (!rounds_correctly()) [[unlikely]] {
             a.incidents |= incident_environment;
             tell(changed_environment());
@@ -341,6 +353,8 @@ void run_worker(Channel& channel, int socket, int printed, const char* path) {
     set_streams(printed);
     const int own_socket = out_of_the_way(socket), own_printed = out_of_the_way(printed);
     if (own_socket < 0 || own_printed < 0) give_up();
+    the_socket = own_socket;
+    if (pthread_atfork(nullptr, nullptr, leave_the_worker) != 0) give_up();
     close(socket);
     close(printed);
     WorkerProcess process(channel, own_printed);

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "barycert/index/bins.hpp"
 #include "barycert/locate/binned_cell.hpp"
 
 namespace barycert::locate {
@@ -116,12 +117,10 @@ Occupancy::Occupancy(const CellIndex& index, double filled, Detail detail) {
     const double wanted =
         fine ? static_cast<double>(std::max(min, bins_a_cell * cells)) : static_cast<double>(cells) / filled;
     const auto bins = static_cast<std::size_t>(std::min(wanted, static_cast<double>(max)));
-    const Bins cut(index.dimension(), index.low.data(), index.high.data(), bins);
-    std::size_t all = 0;
-    for (std::size_t k = 0; k < index.dimension(); ++k) {
-        bits_[k] = std::max(Quantizer::bits - cut.shift(k), k == 0 ? word_bits : 0);
-        all += static_cast<std::size_t>(bits_[k]);
-    }
+    for (const std::size_t axis : index::halved_axes(index.dimension(), index.low.data(), index.high.data(), bins))
+        ++bits_[axis];
+    bits_[0] = std::max(bits_[0], word_bits);
+    const auto all = static_cast<std::size_t>(bits_[0] + bits_[1] + bits_[2]);
     words_.assign(std::size_t{1} << (all - word_bits), 0);
     index.simplex == Simplex::triangle ? mark<2>(index, bits_, fine, words_.data())
                                        : mark<3>(index, bits_, fine, words_.data());

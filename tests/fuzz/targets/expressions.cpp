@@ -19,9 +19,9 @@ BARYCERT_FUZZ_TARGET(expressions) {
         rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     }
     const Result<std::vector<FieldChoice>> chosen = choose_fields(mesh, names);
-    if (!chosen) return expect(!chosen.error().message().empty(), "an error that does not say what");
+    if (!chosen) return expect(!chosen.error().what.empty(), "an error that does not say what");
     const Result<Sampler> sampler = Sampler::build(*locator, *chosen);
-    if (!sampler) return expect(!sampler.error().message().empty(), "an error that does not say what");
+    if (!sampler) return expect(!sampler.error().what.empty(), "an error that does not say what");
     const std::vector<double> points{0.25, 0.25, 0.25, 0.5, 0.5, 0.5, 9, 9, 9};
     const Result<Table> rows = sampler->sample(points, {.threads = 1});
     expect(bool(rows) && rows->row_count() == 3 && rows->values.size() == 3 * sampler->columns().size(),

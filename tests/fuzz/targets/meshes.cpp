@@ -69,8 +69,7 @@ Table located(const Locator& locator, const Locator& plain, const std::vector<do
 }
 
 bool same_value(double a, double b) {
-    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) || (std::isnan(a) && std::isnan(b)) ||
-           (a == 0 && b == 0);
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) || (std::isnan(a) && std::isnan(b));
 }
 
 /// Every value of the field of nodes: the exact one, rounded once; that of the field of cells: the owner's.

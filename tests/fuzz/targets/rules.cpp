@@ -12,7 +12,7 @@ BARYCERT_FUZZ_TARGET(rules) {
     if (threshold) expect(!std::isnan(threshold->limit), "a limit that nothing exceeds");
     const Result<VerifyLimit> limit = parse_verify_limit(input);
     for (const Error* const error : {threshold ? nullptr : &threshold.error(), limit ? nullptr : &limit.error()})
-        expect(error == nullptr || !error->message().empty(), "an error that does not say what");
+        expect(error == nullptr || !error->what.empty(), "an error that does not say what");
 }
 
 }  // namespace barycert::fuzz

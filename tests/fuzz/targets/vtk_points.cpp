@@ -1,5 +1,5 @@
 // Points of VTK's files with or without cells: grids (.vti, .vtr, .vts), polygon data, legacy files; told by the file
-// itself. The first byte: the dimension, and what is read of the arrays.
+// itself.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -32,14 +32,7 @@ static bool has_large_extent(std::string_view input) {
 
 BARYCERT_FUZZ_TARGET(vtk_points, {std::size_t{16} << 20, std::size_t{1} << 14}) {
     static InputFile file("in.vti");
-    static const std::string out = scratch_path("out.csv");
-    const unsigned how = input.empty() ? 0 : static_cast<unsigned char>(input.front());
-    if (!input.empty()) input.remove_prefix(1);
-    if (has_large_extent(input)) return;
-    PointOptions options;
-    if ((how & 2) != 0) options.keep = {"all"};
-    const std::string& path = file.put(input);
-    read_and_write_points(path, (how & 1) != 0 ? 2 : 3, options, lines_of(input), out);
+    if (!has_large_extent(input)) read_and_write_points(input, file);
 }
 
 }  // namespace barycert::fuzz

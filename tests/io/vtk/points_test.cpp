@@ -1,5 +1,11 @@
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
 #include <vtkPolyData.h>
+#include <vtkRectilinearGrid.h>
+#include <vtkStructuredGrid.h>
 #include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLRectilinearGridWriter.h>
+#include <vtkXMLStructuredGridWriter.h>
 #include <vtkXMLUnstructuredGridReader.h>
 #include <array>
 
@@ -46,6 +52,42 @@ TEST(VtkPoints, of_every_kind_of_file) {
     EXPECT_EQ(read_vtk_points(folder / "m.vtk", 2).value(), (std::vector<double>{1, 2, 3, 4}));
     put(folder / "m.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n");
     EXPECT_FALSE(read_vtk_points(folder / "m.vtk", 2));
+}
+
+TEST(VtkPoints, of_either_byte_order) {
+    const TemporaryFolder folder;
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    points->InsertNextPoint(0.1, 0.25, 0);
+    points->InsertNextPoint(0.3, 0.25, 0);
+    vtkNew<vtkPolyData> polygons;
+    polygons->SetPoints(points);
+    vtkNew<vtkStructuredGrid> structured;
+    structured->SetDimensions(2, 1, 1);
+    structured->SetPoints(points);
+    vtkNew<vtkDoubleArray> x;
+    for (const double value : {0.1, 0.3}) x->InsertNextValue(value);
+    vtkNew<vtkFloatArray> y;
+    y->InsertNextValue(0.25F);
+    vtkNew<vtkRectilinearGrid> rectilinear;
+    rectilinear->SetDimensions(2, 1, 1);
+    rectilinear->SetXCoordinates(x);
+    rectilinear->SetYCoordinates(y);
+    const auto expect_read = [&](vtkXMLWriter* writer, vtkDataSet* data, const char* name) {
+        for (const int order : {vtkXMLWriter::LittleEndian, vtkXMLWriter::BigEndian}) {
+            SCOPED_TRACE(std::string(name) + " " + std::to_string(order));
+            writer->SetInputData(data);
+            writer->SetByteOrder(order);
+            writer->SetFileName((folder / name).c_str());
+            ASSERT_EQ(writer->Write(), 1);
+            const Result<std::vector<double>> read = read_vtk_points(folder / name, 2);
+            ASSERT_TRUE(read) << read.error().message();
+            EXPECT_EQ(*read, (std::vector<double>{0.1, 0.25, 0.3, 0.25}));
+        }
+    };
+    expect_read(vtkNew<vtkXMLPolyDataWriter>(), polygons, "m.vtp");
+    expect_read(vtkNew<vtkXMLStructuredGridWriter>(), structured, "m.vts");
+    expect_read(vtkNew<vtkXMLRectilinearGridWriter>(), rectilinear, "m.vtr");
 }
 
 TEST(VtkPoints, rows_are_read_by_vtk) {

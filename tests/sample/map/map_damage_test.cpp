@@ -162,6 +162,8 @@ TEST(MapDamage, headers_that_lie) {
     PlainMap map = good;
     map.version = 2;
     EXPECT_EQ(what(map), "a map of another version");
+    map.version = 1U << 24;  // 1 in big-endian order
+    EXPECT_EQ(what(map), "a map of another version");
     map = good;
     map.magic[3] = 'X';
     EXPECT_EQ(what(map), "not a map");

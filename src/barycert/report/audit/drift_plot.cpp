@@ -49,7 +49,9 @@ std::string ulps_text(double log_ulps) {
 
 void draw_curve(Svg& svg, const Axis& x, const Axis& y, const DriftCurve& curve, const DriftLook& look) {
     std::vector<Svg::Point> line;
-    for (const DriftPoint& p : curve.points) line.emplace_back(x.at(std::log2(p.size)), y.at(log_error(p.worst_ulp)));
+    for (const DriftPoint& p : curve.points) {
+        if (p.cases != 0) line.emplace_back(x.at(std::log2(p.size)), y.at(log_error(p.worst_ulp)));
+    }
     svg.polyline(line, {.colour = look.colour, .width = 1.6});
     for (const Svg::Point& p : line) svg.mark(p, look.mark, 3.6, look.colour);
 }
@@ -61,7 +63,7 @@ void draw_drift_legend(Svg& svg, const std::vector<DriftCurve>& curves, bool col
         svg.mark({left + 14, at}, drift_looks[i].mark, 4, drift_looks[i].colour);
         const std::string& name = curves[i].kernel.name;
         svg.text({left + 38, at + 4}, name.substr(name.find('.') + 1), {.size = 13});
-        if (!curves[i].points.empty())
+        if (!curves[i].points.empty() && curves[i].points.back().cases != 0)
             svg.text({left + 38, at + 20},
                      fmt::format("relative {:.2g} at {}", curves[i].points.back().worst_relative,
                                  curves[i].points.back().size),

@@ -28,10 +28,10 @@ std::string drift_text(const DriftReport& report, const TerminalStyle& style) {
         out += fmt::format("{:<{}}", base::printable(curve.kernel.name), width);
         std::uint64_t not_finite = 0;
         for (const DriftPoint& p : curve.points) {
-            out += fmt::format(" {:>9}", brief(p.worst_ulp));
+            out += fmt::format(" {:>9}", p.cases == 0 ? "-" : brief(p.worst_ulp));
             not_finite += p.not_finite;
         }
-        out += (not_finite == 0 ? "" : fmt::format("  and {} values not finite", not_finite)) + "\n";
+        out += (not_finite == 0 ? "" : fmt::format("  and {} cases without a finite value", not_finite)) + "\n";
     }
     return out;
 }

@@ -325,7 +325,7 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
                     records[i].number = static_cast<std::uint32_t>(row);
                     // Cells come in any order: where they are is asked for ahead, and so are they.
                     constexpr std::size_t ahead = 64;
-                    if (row + ahead < count && cells[row + ahead] >= 0)
+                    if (row + ahead < last && cells[row + ahead] >= 0)
                         __builtin_prefetch(&places[static_cast<std::size_t>(cells[row + ahead])]);
                     owner[i] = cells[row] < 0 ? -1 : places[static_cast<std::size_t>(cells[row])];
                     if (owner[i] >= 0) __builtin_prefetch(&index.cells[static_cast<std::size_t>(owner[i])]);
