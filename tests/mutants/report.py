@@ -65,9 +65,9 @@ def reason(m, room):
 
 
 def render_room(data, room):
-    """For the NOTES.md of the room: the score, and who survived."""
-    run = [m for m in data["mutants"] if m["status"] in ("killed", "survived")]
-    survived = sorted((m for m in run if m["status"] == "survived"), key=lambda m: (m["file"], m["line"]))
+    """For the NOTES.md of the room: the score, and who survived, or passes quick tests if no others were run."""
+    run = [m for m in data["mutants"] if m["status"] in ("killed", "survived", "undecided")]
+    survived = sorted((m for m in run if m["status"] != "killed"), key=lambda m: (m["file"], m["line"]))
     listed = sum(m["listed"] for m in run)
     out = [f"{len(run) - len(survived)} of {len(run)} killed; {listed} of them were listed, {len(run) - listed} generated, of "
            f"{data['possible']} that can be; {counts([m for m in data['mutants'] if m not in run]) or 'none'} besides. Sources at "
