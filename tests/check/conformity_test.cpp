@@ -157,6 +157,27 @@ TEST(ConformityReport, PolygonsSideBySideOrOneInAnotherAreOneFilledFacet) {
     EXPECT_EQ(conformity(mesh, plc).exact, 1U);
 }
 
+// The middle of the triangle at the lowest corner of the first ring lies in the other ring, which is larger.
+TEST(ConformityReport, ARingAroundTheCornerOfALargerOne) {
+    Plc plc;
+    plc.points = {0, 0, 0, 4, 0, 0, 4, 1, 0, 1, 1, 0, 1, 4, 0, 0, 4, 0, 4, 4, 0};
+    plc.facets = {{{{0, 1, 2, 3, 4, 5}, {3, 2, 6, 4}}, {}, 0}};
+    EXPECT_EQ(conformity(box(3, {4, 4, 4}), plc).exact, 1U);
+}
+
+// A vertex in the middle of a side: nothing but the node is missing.
+TEST(ConformityReport, AVertexOnASideThatIsNoNode) {
+    Plc plc;
+    plc.points = {0, 0, 0, 0.5, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0};
+    plc.facets = {{{{0, 1, 2, 3, 4}}, {}, 0}};
+    const ConformityReport c = conformity(box(3, {4, 4, 4}), plc);
+    EXPECT_EQ(c.missing_vertices, 1U);
+    EXPECT_EQ(c.exact, 0U);
+    EXPECT_EQ(c.rounded, 1U);
+    plc.points[3] = 1;
+    EXPECT_EQ(conformity(box(3, {4, 4, 4}), plc).exact, 1U);
+}
+
 TEST(ConformityReport, AtTheEndsOfTheRange) {
     for (const double s : {0x1p-1060, 0x1p-560, 0x1p560, 0x1p1021}) {
         Plc plc = cube();
