@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "barycert/io/vtk/codec.hpp"
 #include "barycert/vtk.hpp"
 #include "io/vtk/mesh_notes.hpp"
 
@@ -122,6 +123,23 @@ TEST(VtkDamage, headers_that_lie) {
         }
     }
     EXPECT_LT(peak_kilobytes() - before, 200L << 10);
+}
+
+/// A bound that is too low would refuse files: the most that each compressor makes of a byte is near its bound, and
+/// below.
+TEST(VtkDamage, what_compressed_bytes_can_hold) {
+    const std::string zeros(std::size_t{1} << 25, '\0');
+    const auto ratio = [&](io::Compressor compressor) {
+        const std::string packed = io::pack(compressor, zeros);
+        EXPECT_LE(zeros.size(), io::max_unpacked(compressor, packed.size()));
+        std::string again(zeros.size(), 'x');
+        EXPECT_TRUE(io::unpack(compressor, packed, again.data(), again.size()));
+        EXPECT_TRUE(again == zeros);
+        return static_cast<double>(zeros.size()) / static_cast<double>(packed.size());
+    };
+    EXPECT_GT(ratio(io::Compressor::zlib), 900);
+    EXPECT_GT(ratio(io::Compressor::lz4), 250);
+    EXPECT_GT(ratio(io::Compressor::lzma), 6700);
 }
 
 }  // namespace

@@ -71,10 +71,11 @@ NumberFault BlockData::read(NumberType type, std::size_t count, std::vector<To>&
     if (type == NumberType::bit || (per_wave * block_ % number != 0 && per_wave < packed_.size()))
         return read_whole(type, count, values);
     NumberFault fault;
-    // The blocks were found to be no lies but for lzma's, whose memory grows with what there is.
+    // No block holds more than its bytes can. Those of lzma could hold a hundred times what data ever have: memory
+    // grows with what there is.
     constexpr std::uint64_t likely = 64;
     const std::uint64_t packed_all = std::accumulate(packed_.begin(), packed_.end(), std::uint64_t{0});
-    const bool honest = max_unpacked(layout_.compressor, 1) < std::numeric_limits<std::uint64_t>::max();
+    const bool honest = layout_.compressor != Compressor::lzma;
     make_room(values, honest ? count : static_cast<std::size_t>(std::min<std::uint64_t>(count, likely * packed_all)));
     std::vector<char> packed_room;
     std::unique_ptr<char[]> plain_room;  // not initialised: pages that no data reach take no memory

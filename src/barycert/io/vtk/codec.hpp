@@ -16,7 +16,7 @@ bool unpack(Compressor compressor, std::string_view packed, char* to, std::size_
 /// The block compressed; empty where memory is short.
 std::string pack(Compressor compressor, std::string_view plain);
 
-/// No block of that size unpacks to more: a header that says so lies. Of lzma nothing like that is known.
+/// No block of that size unpacks to more: a header that says so lies.
 std::uint64_t max_unpacked(Compressor compressor, std::uint64_t packed);
 
 }  // namespace barycert::io
