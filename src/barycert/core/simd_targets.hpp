@@ -17,3 +17,10 @@
 
 #define HWY_DISABLED_TARGETS \
     (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+
+// On 64-bit ARM one target is left, NEON, which every such processor has: there is nothing to choose at run time. Told
+// so, Highway leaves out attributes for that target (instructions for AES, which nothing here uses), by which GCC could
+// not inline formulas where there are no lanes.
+#if defined(__aarch64__) && !defined(TOOLCHAIN_MISS_SYS_AUXV_H)
+#define TOOLCHAIN_MISS_SYS_AUXV_H
+#endif
