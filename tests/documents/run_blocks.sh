@@ -24,7 +24,7 @@ document=$1 sources=$2 programs=$3 examples=$4 folder=$5
 
 not_run() {
     case $1 in
-        "./run test"* | *" ./run test"* | "./run bench"* | "./run asan"* | "./run pages"* | "./run lint"* | "./run flags"* | "./run package"* | "./run fuzz"*) why="takes minutes" ;;
+        "./run test"* | *" ./run test"* | "./run bench"* | "./run asan"* | "./run tsan"* | "./run pages"* | "./run lint"* | "./run flags"* | "./run package"* | "./run fuzz"*) why="takes minutes" ;;
         "./run findings"* | "./run systems"* | "./run libraries"*) why="needs other systems" ;;
         "./run python"* | "python3 -m venv "*) why="needs the package for Python; tests/python does that" ;;
         "sudo "* | "apt-get "*) why="installs packages" ;;
