@@ -65,10 +65,10 @@ struct GmshWriteOptions {
 /// Writes nodes, cells, and fields as $NodeData and $ElementData. Every double reads back to the same bits; in text,
 /// NaN loses its payload.
 ///
-/// - The cell field "gmsh:physical" becomes physical groups, with the names of the cell labels "gmsh:physical_name",
-/// and
+/// - The cell field "gmsh:physical" becomes physical groups, named by the cell labels "gmsh:physical_name", and
 ///   "gmsh:geometrical" the entities. Where that cannot be (tags that are no integers of 32 bits; in 4.1, an entity in
-///   several groups), they are written as $ElementData, which read_gmsh gives back just so.
+///   several groups), they are written as $ElementData, which read_gmsh gives back just so. In 4.1 each group needs an
+///   entity: without "gmsh:geometrical" they are numbered from 1, and read_gmsh gives them as that field.
 /// - Elements have the tags of the label "gmsh:tag" if these are positive and differ, or else the numbers of the cells
 ///   in the file they came from, from 1.
 /// - point_markers become $NodeData "marker". Faces, neighbours and other labels are not written.
