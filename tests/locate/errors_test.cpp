@@ -20,12 +20,12 @@ TEST(LocateErrors, TheFirstPointThatIsNotFiniteIsNamed) {
         const Mesh mesh = box(d, {2, 2, 2});
         for (const bool prove : {false, true}) {
             const auto locator = Locator::build(mesh, {.prove = prove});
-            for (const double bad : {nan, infinity, -infinity}) {
-                std::vector<double> points(static_cast<std::size_t>(20 * d), 0.5);
+            for (const auto& [bad, count] : {std::pair(nan, 20), {infinity, 20}, {-infinity, 20}, {nan, 5000}}) {
+                std::vector<double> points(static_cast<std::size_t>(count * d), 0.5);
                 points[static_cast<std::size_t>(7 * d + 1)] = bad;
                 points[static_cast<std::size_t>(13 * d)] = bad;
-                std::vector<Mesh::Index> cells(20);
-                std::vector<Feature> features(20);
+                std::vector<Mesh::Index> cells(static_cast<std::size_t>(count));
+                std::vector<Feature> features(static_cast<std::size_t>(count));
                 const Status status = locator->locate(points, cells, features);
                 ASSERT_FALSE(status);
                 EXPECT_NE(status.error().message().find("coordinate 1 of point 7"), std::string::npos)
