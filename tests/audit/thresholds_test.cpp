@@ -73,6 +73,14 @@ TEST(Thresholds, SilenceIsNotAccuracy) {
         s.add(c, Region::interior, 0);
         EXPECT_EQ(violations(r, {{"worst_weight_ulp", 1e300}}).size(), 1U) << name(f);
     }
+    // Nor is a kernel that was given up before its first case; parts are added.
+    AuditReport r = audit_of({kernel_named("tetrahedron.kahan")}, {family_named("random.inside")}, 1);
+    KernelStatistics part;
+    part.not_run = 2;
+    r.kernels.at(0).total = part;
+    r.kernels[0].total.merge(part);
+    EXPECT_EQ(r.kernels[0].total.not_run, 4U);
+    EXPECT_EQ(violations(r, {{"worst_weight_ulp", 1e300}}).size(), 1U);
     // On degenerate simplices there is nothing to measure, and declaring them is right.
     Kernel k = kernel_named("tetrahedron.kahan");
     k.weights = declares_everything;

@@ -42,10 +42,20 @@ TEST(Grids, SpacedGoAsFarAsTheyCan) {
     struct {
         double step, low, high;
         std::int64_t count;
-    } const cases[] = {{0.1, 0, 1, 11},        {0.1, 0, 0.3, 3},       {0.1, 0, 0.7, 7},
-                       {0.5, 0, 1.25, 3},      {2, 0, 1, 1},           {1, 3, 3, 1},
-                       {0.25, -1, 1, 9},       {1, 0, 3 - 0x1p-51, 3}, {0x1p-1074, 0, 0x1p-1072, 5},
-                       {1, 1e15, 1e15 + 7, 8}, {1e307, 0, 1e308, 11}};
+    } const cases[] = {{0.1, 0, 1, 11},
+                       {0.1, 0, 0.3, 3},
+                       {0.1, 0, 0.7, 7},
+                       {0.5, 0, 1.25, 3},
+                       {2, 0, 1, 1},
+                       {1, 3, 3, 1},
+                       {0.25, -1, 1, 9},
+                       {1, 0, 3 - 0x1p-51, 3},
+                       {0x1p-1074, 0, 0x1p-1072, 5},
+                       {1, 1e15, 1e15 + 7, 8},
+                       {1e307, 0, 1e308, 11},
+                       // Quotients that are rounded to below 58, and to 44.
+                       {0.7, 0.1, 0.1 + 58 * 0.7, 59},
+                       {0.722, 0.1, 31.868, 44}};
     for (const auto& c : cases) {
         const auto grid = spaced(c.step, c.low, c.high);
         ASSERT_TRUE(grid);

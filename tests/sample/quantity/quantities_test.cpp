@@ -194,6 +194,8 @@ TEST(Quantities, gradients_jump) {
         return std::vector<double>(rows.values.begin() + static_cast<std::ptrdiff_t>(3 * i),
                                    rows.values.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
     };
+    // The first component of one component is itself.
+    EXPECT_EQ(Sampler::build(mesh, {"grad(T).y.x"})->sample(points)->values.at(0), 6);
     for (const Rounding rounding : {Rounding::correct, Rounding::plain}) {
         Table rows = sampler->sample(points, {.rounding = rounding, .outside = {.kind = Outside::nearest}}).value();
         EXPECT_EQ(sampler->columns(), (std::vector<std::string>{"T", "grad(T).0", "grad(T).1"}));
