@@ -1,6 +1,7 @@
 // Arrays that hold anything: no crash, no certificate that the judge would not give, and the same from any threads.
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <chrono>
 #include <limits>
 
@@ -149,6 +150,27 @@ TEST(Robustness, same_from_any_threads) {
         EXPECT_GE(r.defects.size(), 8U) << words(found(r));
         for (const int threads : {2, 5}) expect_same_report(r, with_threads(mesh, threads));
         expect_same_report(r, with_threads(mesh, 2));
+    }
+}
+
+// What a caller does when it is told of a stage changes nothing that is computed after it.
+TEST(Robustness, same_with_a_caller_that_rounds_upward) {
+    for (const int d : {2, 3}) {
+        base::Random random(46);
+        Mesh mesh = box(d, {6, 5, 4});
+        for (double& x : mesh.points) x += random.uniform(-0.2, 0.2);
+        CheckOptions options;
+        options.threads = 1;
+        const CheckReport r = check_mesh(mesh, options);
+        std::size_t told = 0;
+        options.progress = [&](const char*) {
+            ++told;
+            std::fesetround(FE_UPWARD);
+        };
+        const CheckReport upward = check_mesh(mesh, options);
+        EXPECT_EQ(std::fegetround(), FE_TONEAREST);
+        EXPECT_GT(told, 2U);
+        expect_same_report(r, upward);
     }
 }
 

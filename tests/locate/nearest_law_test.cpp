@@ -109,6 +109,32 @@ TEST(LocateNearest, N1_ExactlyOnAnyMesh) {
     EXPECT_GT(asked, 500U);
 }
 
+// A cell and its mirror image, of which one number is an ulp away; points between them, in the mirror.
+TEST(LocateNearest, N1_ExactlyWhereAnUlpDecides) {
+    std::size_t asked = 0;
+    for (const int d : {2, 3}) {
+        for (std::uint64_t i = 0; i < 1500 && !HasFailure(); ++i) {
+            base::Random random = base::Random::stream(74, static_cast<std::uint64_t>(d), i);
+            const auto k = static_cast<std::size_t>(d);
+            const Mesh::Index corners = d + 1;
+            Mesh mesh;
+            mesh.dimension = d;
+            for (const double side : {1, -1}) {
+                base::Random same = base::Random::stream(75, static_cast<std::uint64_t>(d), i);
+                for (std::size_t n = 0; n < (k + 1) * k; ++n)
+                    mesh.points.push_back((n % k == 0 ? side : 1) * same.uniform(1, 2));
+            }
+            for (Mesh::Index n = 0; n < 2 * corners; ++n) mesh.cells.push_back(n);
+            double& moved = mesh.points[random.below(mesh.points.size())];
+            moved = std::nextafter(moved, random.coin() ? infinity : -infinity);
+            std::vector<double> points;
+            for (std::size_t n = 0; n < 4 * k; ++n) points.push_back(n % k == 0 ? 0 : random.uniform(0.8, 2.2));
+            asked += expect_exact(mesh, points, "mirror " + std::to_string(i));
+        }
+    }
+    EXPECT_EQ(asked, 12000U);
+}
+
 // Cells almost flat, whose faces have hardly a normal.
 TEST(LocateNearest, N1_ExactlyOnThinCells) {
     for (const int d : {2, 3}) {
