@@ -40,7 +40,7 @@ class RoomBench:
         self.kept.mkdir()
         self.folder = self.src / self.prefix
         self.sources = sorted(str(p.relative_to(self.folder)) for p in self.folder.rglob("*.cpp"))
-        self.lock, self.passed = threading.Lock(), {}
+        self.lock, self.passed = threading.RLock(), {}
         self.texts = {str(p.relative_to(self.src)): p.read_text() for p in self.src.rglob("*pp")}
         self.command = self.command_of_room()
 
@@ -152,7 +152,7 @@ class RoomBench:
                 place = self.scratch / "m-unchanged"
                 shutil.rmtree(place, ignore_errors=True)
                 place.mkdir()
-                program = self.program(kind, [self.kept / object_name(s) for s in sources], place)
+                program = self.program(kind, [self.unchanged(s) for s in sources], place)
                 self.passed[key] = self.start(program, kind, what, seconds, place / "words") == 0
         return self.passed[key]
 

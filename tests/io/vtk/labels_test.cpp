@@ -79,6 +79,29 @@ TEST(VtkLabels, ghost_cells_are_left_out) {
     EXPECT_FALSE(read_vtk(folder / "m.vtu"));
 }
 
+/// Only the integer of a cell that is left out is no double.
+TEST(VtkLabels, what_is_left_may_be_a_field) {
+    const TemporaryFolder folder;
+    const auto read = [&](const std::string& first, const std::string& second) {
+        put(folder / "m.vtk",
+            "# vtk DataFile Version 3.0\nm\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 double\n0 0 0\n1 0 0\n0 1 0\n"
+            "CELLS 2 6\n1 0\n3 0 1 2\nCELL_TYPES 2\n1\n5\nCELL_DATA 2\nFIELD FieldData 1\nid 1 2 vtktypeint64\n" +
+                first + " " + second + "\n");
+        return read_vtk(folder / "m.vtk").value();
+    };
+    const Mesh field = read("9007199254740993", "-7"), label = read("-7", "9007199254740993"),
+               least = read("9007199254740993", "-9223372036854775808"),
+               greatest = read("9007199254740993", "9223372036854775807");
+    ASSERT_EQ(field.cell_fields.size(), 1U);
+    EXPECT_EQ(field.cell_fields[0].data, std::vector<double>{-7});
+    EXPECT_TRUE(field.cell_labels.empty());
+    ASSERT_EQ(label.cell_labels.size(), 1U);
+    EXPECT_EQ(std::get<Numbers>(label.cell_labels[0].values), Numbers{9007199254740993});
+    EXPECT_TRUE(label.cell_fields.empty());
+    EXPECT_EQ(least.cell_fields.size(), 1U);
+    EXPECT_EQ(greatest.cell_labels.size(), 1U);
+}
+
 TEST(VtkLabels, round_trips) {
     Mesh mesh = mesh_of_data("plate");
     Column ids{"id", Numbers(mesh.cell_count(), wide)}, names{"material", Texts(mesh.cell_count(), "")};

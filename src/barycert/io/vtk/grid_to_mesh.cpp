@@ -357,6 +357,7 @@ Result<Mesh> to_mesh(RawGrid grid, const std::string& path) {
             if (!array.fault.empty()) continue;
             if (array.has_labels) {
                 std::visit([&](auto& values) { keep_rows(values, 1, mesh.cell_numbers); }, array.labels);
+                make_field_of_doubles(array);
             } else {
                 keep_rows(array.field.data, components, mesh.cell_numbers);
             }

@@ -1,8 +1,11 @@
 #include "barycert/io/vtk/raw_grid.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <iterator>
 #include <utility>
+#include <variant>
 
 #include "barycert/io/vtk/parallel.hpp"
 
@@ -131,6 +134,19 @@ void append_arrays(std::vector<RawArray>& to, std::vector<RawArray>& from, std::
 }
 
 }  // namespace
+
+void make_field_of_doubles(RawArray& array) {
+    const auto* const numbers = std::get_if<std::vector<std::int64_t>>(&array.labels);
+    if (!array.has_labels || numbers == nullptr) return;
+    const auto is_double = [](std::int64_t n) {
+        const auto x = static_cast<double>(n);
+        return x < 0x1p63 && static_cast<std::int64_t>(x) == n;
+    };
+    if (!std::all_of(numbers->begin(), numbers->end(), is_double)) return;
+    array.field.data.assign(numbers->begin(), numbers->end());
+    array.labels = {};
+    array.has_labels = false;
+}
 
 Status append_piece(RawGrid& grid, RawGrid piece, const std::string& path) {
     const std::size_t points = grid.point_count(), cells = grid.types.size(), nodes = grid.connectivity.size();

@@ -67,6 +67,10 @@ Error number_error(const std::string& path, std::size_t line, const std::string&
 /// Why the integers of an array cannot be those of a field.
 std::string inexact(const NumberFault& fault);
 
+/// Labels that are integers which doubles represent, all of them, become the field that they would be in a file of
+/// these cells alone.
+void make_field_of_doubles(RawArray& array);
+
 /// The first node that is none of `count` points; nodes.size() if there is none.
 std::size_t first_wrong_node(const std::vector<std::int32_t>& nodes, std::size_t from, std::size_t count);
 
