@@ -165,6 +165,28 @@ TEST(ConformityReport, ARingAroundTheCornerOfALargerOne) {
     EXPECT_EQ(conformity(box(3, {4, 4, 4}), plc).exact, 1U);
 }
 
+// The plane is that of the second ring, which is wider and begins elsewhere; askew to the axes.
+TEST(ConformityReport, ASmallRingFirst) {
+    const std::array<double, 2> vertices[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {4, 0}, {4, 4}, {0, 4}};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+        Plc plc;
+        plc.facets = {{{{0, 1, 2, 3}, {2, 1, 4, 5, 6, 3}}, {}, 0}};
+        for (const auto& at : vertices) {
+            std::array<double, 3> p{4, 4, 4};
+            p[u] = at[0];
+            p[v] = at[1];
+            plc.points.insert(plc.points.end(), p.begin(), p.end());
+        }
+        Mesh mesh = box(3, {4, 4, 4});
+        for (std::vector<double>* points : {&plc.points, &mesh.points}) {
+            for (std::size_t i = 0; i < points->size(); i += 3)
+                (*points)[i + axis] += (*points)[i + u] + 2 * (*points)[i + v];
+        }
+        EXPECT_EQ(conformity(mesh, plc).exact, 1U) << axis;
+    }
+}
+
 // A vertex in the middle of a side: nothing but the node is missing.
 TEST(ConformityReport, AVertexOnASideThatIsNoNode) {
     Plc plc;
