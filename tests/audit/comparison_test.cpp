@@ -2,6 +2,8 @@
 
 #include "barycert/audit/comparison.hpp"
 #include "barycert/audit.hpp"
+#include "barycert/audit/asking.hpp"
+#include "barycert/environment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -50,6 +52,34 @@ TEST(Comparison, OppositeSignAndFalseOutside) {
     const Comparison r = compared(triangle(1, 1), {0.5, -0.25, 0.25});
     expect_only(r, {{Finding::opposite_sign, 1}, {Finding::false_outside, 1}});
     EXPECT_EQ(r.weight_error, 0.5);
+}
+
+TEST(Comparison, NoAnswerIsAnErrorBeyondAnyButOnWhatIsDegenerate) {
+    Statement none;
+    none.answered = false;
+    Case flat = triangle(1, 1);
+    flat.vertices = {0, 0, 1, 1, 2, 2};
+    const Kernel kernel = kernel_named("triangle.signed-area");
+    EXPECT_EQ(compare(kernel, triangle(1, 1), ask_oracle(triangle(1, 1)), none).relative_error, infinity);
+    EXPECT_EQ(compare(kernel, flat, ask_oracle(flat), none).relative_error, -1);
+}
+
+int said = 0;
+
+// What is none of the four regions is taken for the least that a kernel can say.
+TEST(Comparison, RegionsThatAKernelSays) {
+    Kernel k = kernel_named("triangle.signed-area");
+    k.rule = RegionRule::own;
+    k.classify = [](const double*, const double*, const double*) { return said; };
+    const auto claimed = [&](int number) {
+        said = number;
+        Statement statement;
+        complete(statement, k, triangle(1, 1));
+        return statement.claimed;
+    };
+    const ExactEnvironment environment;
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(claimed(i), all_regions[static_cast<std::size_t>(i)]);
+    for (const int i : {-1, 4, 5, 256, std::numeric_limits<int>::min()}) EXPECT_EQ(claimed(i), Region::degenerate) << i;
 }
 
 TEST(Comparison, ErrorRelativeToOneOrTheLargestWeight) {
