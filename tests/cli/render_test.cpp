@@ -47,7 +47,7 @@ TEST(render_texels, shows_the_rim) {
     ASSERT_EQ(r.code, 0) << r.err;
     EXPECT_TRUE(contains(r.out, "texture.clamp-to-w")) << r.out;
     EXPECT_TRUE(contains(r.out, "past_end: u = 1 ")) << r.out;
-    const Json report = parse(read_file(scratch.path("t.json")));
+    const auto report = parse(read_file(scratch.path("t.json")));
     for (const auto& rule : report["rules"]) {
         const std::string name = rule["name"];
         EXPECT_EQ(rule["past_end"] > 0, name == "texture.clamp-to-w" || name == "texture.fraction") << name;
