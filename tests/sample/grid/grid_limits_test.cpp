@@ -22,7 +22,7 @@ TEST(GridLimits, SpacingFarTooSmallIsRefused) {
     for (const auto& [spacing, high] : cases) {
         EXPECT_EXIT(
             {
-                alarm(20);
+                alarm(1);
                 std::exit(grid_spaced(2, {spacing, 1, 1}, {0, 0, 0}, {high, 1, 1}) ? 1 : 0);
             },
             ::testing::ExitedWithCode(0), "")
