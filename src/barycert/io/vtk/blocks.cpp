@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <bit>
-#include <limits>
 #include <memory>
 #include <numeric>
 
