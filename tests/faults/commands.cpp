@@ -84,14 +84,30 @@ Files files_of(const test::Scratch& folder) {
     return files;
 }
 
+std::string without_ticks(std::string html) {
+    for (const std::string begin : {"<text class=\"tick", "<path class=\"axis"}) {
+        const std::string end = begin.starts_with("<text") ? "</text>" : "/>";
+        for (auto at = html.find(begin); at != std::string::npos; at = html.find(begin, at)) {
+            const auto last = html.find(end, at);
+            html.erase(at, last == std::string::npos ? last : last + end.size() - at);
+        }
+    }
+    return html;
+}
+
 std::string without_numbers(const std::string& text) {
     std::string result;
     bool in_number = false;
     for (const char c : text) {
         const bool digit = std::isdigit(static_cast<unsigned char>(c)) != 0;
         const bool goes_on = in_number && (c == '.' || c == 'e' || c == '-' || c == '+');
+        const bool blank = std::isspace(static_cast<unsigned char>(c)) != 0;
         if (digit && !in_number) result += '#';
-        if (!digit && !goes_on) result += c;
+        if (blank) {
+            if (!result.ends_with(' ')) result += ' ';
+        } else if (!digit && !goes_on) {
+            result += c;
+        }
         in_number = digit || goes_on;
     }
     return result;

@@ -33,7 +33,10 @@ using Files = std::map<std::string, std::string>;
 /// All files in a folder, by name.
 Files files_of(const test::Scratch& folder);
 
-/// `text` with each number replaced by "#": what differs from run to run is times.
+/// A page without the ticks on the axes of its charts: an axis of times has more or fewer of them from run to run.
+std::string without_ticks(std::string html);
+
+/// `text` with each number replaced by "#" and blanks by one: runs differ in times and in the width of their columns.
 std::string without_numbers(const std::string& text);
 
 }  // namespace barycert::faults
