@@ -1,8 +1,12 @@
 // ConformityReport to a PLC: on meshes whose PLC is known, and on planted differences.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "barycert/io.hpp"
 #include "check/meshes.hpp"
+#include "limits.hpp"
 
 namespace barycert::testing {
 namespace {
@@ -165,6 +169,18 @@ TEST(ConformityReport, ARingAroundTheCornerOfALargerOne) {
     EXPECT_EQ(conformity(box(3, {4, 4, 4}), plc).exact, 1U);
 }
 
+// A hole whose lowest corner has a vertex of the hole below one of its sides, where neither the hole nor the facet is.
+TEST(ConformityReport, AHoleWithASpurBesideItsLowestCorner) {
+    for (const bool turned : {false, true}) {
+        Plc plc;
+        plc.points = {7, 7, 0, 11, 7, 0, 11, 3, 0, 25, 3, 0, 25, 17, 0, 7, 17, 0,
+                      8, 8, 0, 12, 8, 0, 12, 4, 0, 24, 4, 0, 24, 16, 0, 8, 16, 0};
+        plc.facets = {{{{0, 1, 2, 3, 4, 5}, {6, 7, 8, 9, 10, 11}}, {16, 12, 0}, 0}};
+        if (turned) std::reverse(plc.facets[0].polygons[1].begin(), plc.facets[0].polygons[1].end());
+        EXPECT_EQ(conformity(box(3, {28, 20, 1}), plc).exact, 1U) << turned;
+    }
+}
+
 // The plane is that of the second ring, which is wider and begins elsewhere; askew to the axes.
 TEST(ConformityReport, ASmallRingFirst) {
     const std::array<double, 2> vertices[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {4, 0}, {4, 4}, {0, 4}};
@@ -198,6 +214,33 @@ TEST(ConformityReport, AVertexOnASideThatIsNoNode) {
     EXPECT_EQ(c.rounded, 1U);
     plc.points[3] = 1;
     EXPECT_EQ(conformity(box(3, {4, 4, 4}), plc).exact, 1U);
+}
+
+// Most faces of the mesh lie beyond the box of the facet, by rounding alone.
+TEST(ConformityReport, FacesAnUlpBesideTheBoxOfTheirFacet) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (const double to : {-infinity, infinity}) {
+            const double at = to < 0 ? 1 : 5;
+            Plc plc;
+            for (const auto& [u, v] : {std::pair{1, 1}, {5, 1}, {5, 5}, {1, 5}}) {
+                std::array<double, 3> p{at, at, at};
+                p[(axis + 1) % 3] = u;
+                p[(axis + 2) % 3] = v;
+                plc.points.insert(plc.points.end(), p.begin(), p.end());
+            }
+            plc.facets = {{{{0, 1, 2, 3}}, {}, 0}};
+            Mesh mesh = mapped(box(3, {4, 4, 4}), {1, 1, 1}, {1, 1, 1});
+            for (std::size_t i = 0; i < mesh.points.size(); i += 3) {
+                const double u = mesh.points[i + (axis + 1) % 3], v = mesh.points[i + (axis + 2) % 3];
+                const bool corner = (u == 1 || u == 5) && (v == 1 || v == 5);
+                double& x = mesh.points[i + axis];
+                if (x == at && !corner) x = std::nextafter(x, to);
+            }
+            const ConformityReport c = conformity(mesh, plc);
+            EXPECT_EQ(c.exact, 0U) << axis;
+            EXPECT_EQ(c.rounded, 1U) << axis << (to < 0 ? " below" : " above");
+        }
+    }
 }
 
 TEST(ConformityReport, AtTheEndsOfTheRange) {
