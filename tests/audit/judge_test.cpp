@@ -89,6 +89,25 @@ TEST(judge, the_core_is_no_judge_of_itself) {
     for (const Kernel& k : catalogue()) EXPECT_EQ(k.core, k.certifies) << k.name;
 }
 
+TEST(judge, the_first_disagreement_is_told_and_who_they_are) {
+    const Family family = family_named("mesh.inside");
+    std::uint64_t first = 0;
+    const auto agree = [&] {
+        const Case c = make_case(family, Simplex::tetrahedron, AuditOptions{}.seed, first, own_meshes());
+        return same_answer(lies(c), ask_oracle(c));
+    };
+    while (agree()) ++first;
+    const auto both = audit_by(OracleChoice::both, {kernel_named("tetrahedron.inverse")}, {family}, 2000, lies);
+    ASSERT_FALSE(both.has_value());
+    EXPECT_NE(both.error().message().find(", case " + std::to_string(first) + ","), std::string::npos);
+    EXPECT_TRUE(both.error().expected.starts_with("integers: ")) << both.error().expected;
+    EXPECT_TRUE(both.error().found.starts_with("CGAL: ")) << both.error().found;
+    // The core answers first where no kernel is made of it.
+    const auto by_core = audit_by(OracleChoice::automatic, {kernel_named("tetrahedron.inverse")}, {family}, 2000, lies);
+    ASSERT_FALSE(by_core.has_value());
+    EXPECT_TRUE(by_core.error().expected.starts_with("the core: ")) << by_core.error().expected;
+}
+
 TEST(judge, a_disagreement_is_an_error_with_the_case) {
     for (const OracleChoice choice : {OracleChoice::automatic, OracleChoice::both}) {
         for (const char* kernel : {"tetrahedron.signed-volume", "tetrahedron.exact"}) {
