@@ -8,6 +8,7 @@
 
 #include "barycert/base/random.hpp"
 #include "barycert/index/cell_index.hpp"
+#include "barycert/locator.hpp"
 
 namespace barycert::testing {
 namespace {
@@ -54,6 +55,32 @@ TEST_P(CellSigns, of_points_in_the_planes_of_tiny_cells) {
         }
     }
     EXPECT_LT(tiers_.filter, tiers_.cases());
+}
+
+// The walk of one point has a filter of its own.
+TEST_P(CellSigns, of_points_in_the_faces_of_tiny_meshes) {
+    std::size_t found = 0;
+    for (int exponent : {-300, -360, -362, -365, -500, -539, -541}) {
+        for (int i = 0; i < 300; ++i) {
+            std::vector<double> v = whole_numbers(d_, 1 << 9, exponent + 2, random_);
+            double p[3] = {};
+            const int s = random_.integer(0, 4), t = random_.integer(0, 4 - s);
+            for (std::size_t k = 0; k < d_; ++k)
+                p[k] = v[k] + s * (v[d_ + k] / 4 - v[k] / 4) + (d_ == 3 ? t * (v[6 + k] / 4 - v[k] / 4) : 0);
+            Mesh mesh;
+            mesh.dimension = static_cast<int>(d_);
+            mesh.points = v;
+            for (int n = 0; n < vertex_count(GetParam()); ++n) mesh.cells.push_back(n);
+            const auto locator = Locator::build(mesh);
+            ASSERT_TRUE(locator);
+            const Location at = locator->locate(p).value();
+            const WeightSigns signs = weight_signs(GetParam(), v.data(), p);
+            EXPECT_EQ(at.cell, signs.contains() ? 0 : -1);
+            EXPECT_EQ(at.feature, signs.contains() ? signs.feature(GetParam()) : Feature::outside);
+            found += signs.contains() ? 1 : 0;
+        }
+    }
+    EXPECT_GT(found, 1000U);
 }
 
 // Far from a cell that is nearly flat each weight is large and certain, and only their sum is not.
