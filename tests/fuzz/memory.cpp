@@ -42,7 +42,8 @@ std::size_t peak_memory() {
 }  // namespace barycert::fuzz
 
 #if defined(BARYCERT_HOOKS)
-#include <sanitizer/allocator_interface.h>
+// Of sanitizer/allocator_interface.h, which GCC 12 does not install.
+extern "C" std::size_t __sanitizer_get_allocated_size(const volatile void* p);
 
 // The runtime calls these, by their names, after each allocation and before each release.
 extern "C" void __sanitizer_malloc_hook(const volatile void* p, std::size_t size) {
