@@ -255,7 +255,9 @@ TEST(MapDamage, random_content_with_checksums_that_fit) {
         switch (random.below(3)) {
             case 0:
                 map.cells[at] =
-                    static_cast<std::int32_t>(static_cast<std::uint32_t>(random.bits() >> random.below(64)));
+                    random.coin()
+                        ? random.integer(-2, 6)  // the last cell and one more among them
+                        : static_cast<std::int32_t>(static_cast<std::uint32_t>(random.bits() >> random.below(64)));
                 break;
             case 1:
                 map.features[at] = static_cast<std::uint8_t>(random.bits() >> random.below(64));
