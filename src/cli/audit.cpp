@@ -198,7 +198,7 @@ void add_audit(CLI::App& app, int& exit_code) {
         "not caught; 2 usage or input error.");
     const auto a = std::make_shared<AuditArguments>();
     file_option(*sub, "MESH", a->meshes,
-                "TetGen meshes (.node/.ele; Triangle's for 2D) for the families mesh.*; default: barycert's own")
+                "Meshes for the families mesh.*, in the formats of barycert sample; default: barycert's own")
         ->allow_extra_args(true);
     sub->add_option("--kernel", a->kernels, "Audit only kernels that match; may be repeated")
         ->type_name("KERNEL|GLOB")

@@ -1,7 +1,7 @@
 """Results as tables."""
 from collections import Counter
 
-import room_survivors, survivors
+import survivors
 
 
 def explanation(m):
@@ -57,20 +57,13 @@ def render(data):
     return "\n".join(out) + "\n"
 
 
-def reason(m, room):
-    for of, file, part, new, text in room_survivors.ROOM_SURVIVORS:
-        if of == room and m["file"] == file and part in (m["source"] if not m["listed"] else m["old"]) and new in ("", m["new"].strip()):
-            return text
-    return "unexplained"
-
-
-def render_room(data, room):
+def render_room(data):
     """For the NOTES.md of the room: the score, and who survived, or passes quick tests if no others were run."""
     run = [m for m in data["mutants"] if m["status"] in ("killed", "survived", "undecided")]
     survived = sorted((m for m in run if m["status"] != "killed"), key=lambda m: (m["file"], m["line"]))
     listed = sum(m["listed"] for m in run)
     out = [f"{len(run) - len(survived)} of {len(run)} killed; {listed} of them were listed, {len(run) - listed} generated, of "
            f"{data['possible']} that can be; {counts([m for m in data['mutants'] if m not in run]) or 'none'} besides. Sources at "
-           f"{data['revision']}, {data['seconds'] / 60:.0f} minutes.", "", "| survivor | change | why |", "|---|---|---|"]
-    out += [f"| {m['file']}:{m['line']} | {change(m)} | {cell(reason(m, room))} |" for m in survived]
+           f"{data['revision']}, {data['seconds'] / 60:.0f} minutes.", "", "| survivor | change |", "|---|---|"]
+    out += [f"| {m['file']}:{m['line']} | {change(m)} |" for m in survived]
     return "\n".join(out) + "\n"

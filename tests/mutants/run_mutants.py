@@ -103,7 +103,7 @@ def main():
     if not a.report:
         run_all(a, saved)
     data = json.loads(saved.read_text())
-    text = render(data) if a.room == "core" else render_room(data, a.room)
+    text = render(data) if a.room == "core" else render_room(data)
     print(text)
     if data["whole"] and a.room == "core":
         (HERE / "RESULTS.md").write_text(text)
