@@ -14,13 +14,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/raster/textured_lanes.cpp"
 #include "barycert/core/foreach_target.hpp"
 
+#include "barycert/core/partial_lanes-inl.hpp"
 #include "barycert/raster/row_blocks-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -32,6 +32,7 @@ using Floats = hn::ScalableTag<float>;
 using Ints = hn::Rebind<std::int32_t, Floats>;
 using IntLanes = hn::Vec<Ints>;
 using FloatLanes = hn::Vec<Floats>;
+using core::HWY_NAMESPACE::store_some;
 
 /// value + x * along + y * up, x and y from corner 0 of the triangle.
 struct Plane {
@@ -66,18 +67,6 @@ struct Sheet {
         width_bits = std::has_single_bit(w) ? std::countr_zero(w) : -1;
     }
 };
-
-/// Stores the first `count` lanes, 1 <= count <= all.
-HWY_INLINE void store_some(IntLanes colour, std::int32_t* to, std::int32_t count) {
-    const Ints tag;
-#if HWY_TARGET <= HWY_AVX3
-    hn::BlendedStore(colour, hn::FirstN(tag, static_cast<std::size_t>(count)), tag, to);
-#else
-    HWY_ALIGN std::int32_t rest[HWY_MAX_BYTES / 4];
-    hn::Store(colour, tag, rest);
-    std::memcpy(to, rest, 4 * static_cast<std::size_t>(count));
-#endif
-}
 
 /// The index of a texel, and 0 from lane `count` on: what is not stored costs no cache line.
 HWY_INLINE IntLanes first_lanes(IntLanes index, std::int32_t count) {
@@ -133,7 +122,7 @@ public:
             count -= whole * n;
             if (count == 0) return;
         }
-        store_some(hn::GatherIndex(tag, sheet_.texels, first_lanes(clamped_index(u, v), count)), to, count);
+        store_some(tag, hn::GatherIndex(tag, sheet_.texels, first_lanes(clamped_index(u, v), count)), to, count);
     }
 
 private:
@@ -241,7 +230,8 @@ public:
         for (; count >= n; count -= n, to += n)
             hn::StoreU(hn::GatherIndex(itag, sheet_.texels, index(std::false_type())), itag, to);
         if (count > 0)
-            store_some(hn::GatherIndex(itag, sheet_.texels, first_lanes(index(std::false_type()), count)), to, count);
+            store_some(itag, hn::GatherIndex(itag, sheet_.texels, first_lanes(index(std::false_type()), count)), to,
+                       count);
     }
 
 private:

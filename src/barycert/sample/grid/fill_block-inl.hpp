@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "barycert/core/gradient-inl.hpp"
+#include "barycert/core/partial_lanes-inl.hpp"
 #include "barycert/sample/grid/raster_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();

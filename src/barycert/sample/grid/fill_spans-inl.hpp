@@ -35,7 +35,7 @@ HWY_INLINE void fill_row(D tag, const Filling<d>& to, const FillBlock<Values, d>
             const auto value = Values<d>::at_row(tag, b.cells, b.values[c], l, terms[c], r, x, bits);
             certain &= bits;
             if (alone) {
-                hn::BlendedStore(value, hn::FirstN(tag, static_cast<std::size_t>(used)), tag, target.values + first);
+                store_some(tag, value, target.values + first, used);
                 continue;
             }
             HWY_ALIGN double values[max_lanes];

@@ -37,12 +37,6 @@ HWY_INLINE hn::Vec<D> look_up(D tag, const double (&table)[max_lanes], hn::Vec<h
     return hn::GatherIndex(tag, table, index);
 }
 
-/// `count` numbers from `from` on, as many as a vector has at most; zeros behind them.
-template <class D>
-HWY_INLINE hn::Vec<D> load_some(D tag, const double* from, std::int32_t count) {
-    return hn::MaskedLoad(hn::FirstN(tag, static_cast<std::size_t>(std::max(count, 0))), tag, from);
-}
-
 /// Numbers whose exact sum is sum + rest, up to the error that `error` of CorrectValues::Block bounds.
 template <class V>
 struct Partial {
