@@ -48,7 +48,7 @@ HWY_INLINE void store_some(D tag, hn::Vec<D> value, hn::TFromD<D>* to, std::int3
     hn::BlendedStore(value, hn::FirstN(tag, some), tag, to);
 #else
     // With AVX2, too, where a store under a mask is slow on some processors.
-    if (some == hn::MaxLanes(D())) return hn::StoreU(value, tag, to);
+    if (some >= hn::MaxLanes(D())) return hn::StoreU(value, tag, to);
     HWY_ALIGN hn::TFromD<D> lanes[hn::MaxLanes(D())];
     hn::Store(value, tag, lanes);
     std::copy_n(lanes, some, to);
