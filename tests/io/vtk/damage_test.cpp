@@ -78,7 +78,9 @@ TEST(VtkDamage, at_every_byte) {
     }
     EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 300);
     // A sanitizer keeps what was freed for a while.
-    if (!testing::sanitized) EXPECT_LT(peak_kilobytes() - before, 400L << 10);
+    if (!sanitized) {
+        EXPECT_LT(peak_kilobytes() - before, 400L << 10);
+    }
 }
 
 /// Compressed data whose checksum catches a change, or that give another size, are errors: never other numbers.
