@@ -86,8 +86,8 @@ TEST(CellsAtPoints, flat_meshes_and_cells_of_very_different_size) {
     expect_found(flat, {0.25, 0.5, 0.5, 3, 3, 0.5}, "flat");
     // One cell around all others.
     Mesh nested = box(3, {8, 8, 8});
-    for (const double* at : {std::array{-90., -90., -90.}.data(), std::array{300., -90., -90.}.data(),
-                             std::array{-90., 300., -90.}.data(), std::array{-90., -90., 300.}.data()})
+    for (const auto& at : {std::array{-90., -90., -90.}, std::array{300., -90., -90.}, std::array{-90., 300., -90.},
+                           std::array{-90., -90., 300.}})
         nested.cells.push_back(add_node(nested, {at[0], at[1], at[2]}));
     expect_found(nested, inner_points(nested, 10, random), "nested");
 }
