@@ -12,6 +12,7 @@
 #include "barycert/check.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/gradient.hpp"
+#include "barycert/grid.hpp"
 #include "barycert/io.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/sampler.hpp"
@@ -114,9 +115,17 @@ void weights(Simplex simplex, const std::string& name) {
     batch.print(name + ".batch");
 }
 
+void add_rows(Hash& hash, const Table& rows) {
+    for (const auto cell : rows.cells) hash.add(static_cast<std::uint64_t>(cell));
+    for (const Feature feature : rows.features) hash.add(static_cast<std::uint64_t>(feature));
+    for (const double x : rows.values) hash.add(x);
+    for (const double x : rows.distances) hash.add(x);
+}
+
+/// The points of a mesh, on lines of nodes and far from them; then those of a grid beyond its box, cell by cell.
 void mesh(const std::string& folder, const std::string& name) {
     Mesh mesh = read_mesh(folder + "/meshes/" + name).value();
-    Hash hash;
+    Hash hash, grid_hash;
     hash.add(static_cast<std::uint64_t>(check_mesh(mesh).certified()));
     // A field of its own, so that every mesh has one, of numbers that are hard to sum.
     Field field;
@@ -138,11 +147,17 @@ void mesh(const std::string& folder, const std::string& name) {
         }
     }
     const Table rows = sampler.sample(points, {.outside = {.kind = Outside::nearest}}).value();
-    for (const auto cell : rows.cells) hash.add(static_cast<std::uint64_t>(cell));
-    for (const Feature feature : rows.features) hash.add(static_cast<std::uint64_t>(feature));
-    for (const double x : rows.values) hash.add(x);
-    for (const double x : rows.distances) hash.add(x);
+    add_rows(hash, rows);
     hash.print("mesh." + name);
+
+    Bounds3 box = bounds_of_cells(mesh);
+    for (std::size_t k = 0; k < 3; ++k) {
+        box.low[k] -= (box.high[k] - box.low[k]) / 16;
+        box.high[k] += (box.high[k] - box.low[k]) / 32;
+    }
+    const Grid grid = grid_over(mesh.dimension, {27, 19, 17}, box.low, box.high).value();
+    add_rows(grid_hash, resample(sampler, grid).value());
+    grid_hash.print("grid." + name);
 }
 
 }  // namespace
