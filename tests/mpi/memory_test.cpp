@@ -32,6 +32,15 @@ std::atomic<long> left{0};  ///< allocations until one fails; 0: none does
     throw std::bad_alloc();
 }
 
+// A sanitizer's own would not be freed by what follows.
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    try {
+        return operator new(size);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
+
 [[gnu::noinline]] void operator delete(void* memory) noexcept {
     std::free(memory);
 }
