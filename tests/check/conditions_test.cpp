@@ -1,6 +1,7 @@
 // Each condition of the theorem violated alone, the others holding: the defects name that one, and what follows.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "barycert/mesh/adjacency.hpp"

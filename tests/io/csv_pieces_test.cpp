@@ -1,6 +1,7 @@
 // CSV files of many pieces: parsed on all threads, with points, lines and errors as if it were one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <sstream>
 

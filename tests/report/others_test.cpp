@@ -46,9 +46,9 @@ TEST(others, flags_are_read_as_they_stand) {
     ASSERT_EQ(m.columns.size(), j["columns"].size());
     ASSERT_EQ(m.rows.size(), j["rows"].size());
     for (std::size_t r = 0; r < m.rows.size(); ++r) {
-        EXPECT_EQ(m.rows[r].kernel, j["rows"][r]["kernel"]);
+        EXPECT_EQ(Json(m.rows[r].kernel), j["rows"][r]["kernel"]);
         for (std::size_t c = 0; c < m.columns.size(); ++c) {
-            EXPECT_EQ(m.columns[c].label, j["columns"][c]["label"]);
+            EXPECT_EQ(Json(m.columns[c].label), j["columns"][c]["label"]);
             const Json& cell = j["rows"][r]["cells"][c];
             EXPECT_EQ(m.rows[r].cells[c].changed, cell["changed"]);
             EXPECT_EQ(m.rows[r].cells[c].wrong, cell["wrong"]);
@@ -67,8 +67,8 @@ TEST(others, systems_are_read_as_they_stand) {
     for (std::size_t i = 0; i < s.standings.size(); ++i) {
         const SystemsLeague::Standing& x = s.standings[i];
         const Json &row = j["systems"][i], &total = row["total"];
-        EXPECT_EQ(x.name, row["name"]);
-        EXPECT_EQ(x.version, row["version"]);
+        EXPECT_EQ(Json(x.name), row["name"]);
+        EXPECT_EQ(Json(x.version), row["version"]);
         EXPECT_EQ(x.dimension, row["dimension"]);
         EXPECT_EQ(x.inside, total["inside"]);
         EXPECT_EQ(x.outside_called_inside, total["outside_called_inside"]);

@@ -1,4 +1,5 @@
 // What Gmsh and meshio write is read, and what is written they read. Both are skipped where they are not installed.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <set>

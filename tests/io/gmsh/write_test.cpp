@@ -1,4 +1,5 @@
 // What is written is what is read, to the bit.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
