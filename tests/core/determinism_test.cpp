@@ -21,7 +21,7 @@ TEST(LawD1, AnswersAndCountsAreTheSameOnEveryTargetAndAnyNumberOfThreads) {
 #if defined(__aarch64__)
     EXPECT_EQ(targets, std::vector<std::string>{"NEON"});  // which every such processor has
 #else
-    EXPECT_EQ(targets.back(), "scalar");
+    EXPECT_TRUE(targets.back() == "scalar" || targets.back() == "SSE2") << targets.back();  // by Highway's version
 #endif
     for (const std::string& target : targets) {
         ASSERT_TRUE(use_simd_target(target));

@@ -9,6 +9,7 @@
 #include "barycert/core/foreach_target.hpp"
 
 #include "barycert/core/lane_loop-inl.hpp"
+#include "barycert/core/plain_value-inl.hpp"
 #include "barycert/core/refinement-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -112,13 +113,11 @@ void plain_values_of(const CaseBlock& cases, const double* const* values, int co
         constexpr int n = vertex_count(s);
         Relative<s, hn::Vec<D>> c;
         load_relative<s>(tag, cases.vertices, cases.point, at, c);
-        Fractions<s, hn::Vec<D>> f;
-        solve(c, hn::Zero(tag), f);
-        const auto inverse = hn::Set(tag, 1) / f.denominator;
+        const PlainWeights<s, D> weights(tag, c);
         for (int component = 0; component < components; ++component) {
-            hn::Vec<D> sum = hn::Zero(tag);
-            for (int i = 0; i < n; ++i) sum = sum + f.numerator[i] * hn::LoadU(tag, values[n * component + i] + at);
-            store_strided(tag, sum * inverse, out + at * stride + static_cast<std::size_t>(component), stride);
+            const auto value =
+                weights.value(tag, [&](int i) HWY_ATTR { return hn::LoadU(tag, values[n * component + i] + at); });
+            store_strided(tag, value, out + at * stride + static_cast<std::size_t>(component), stride);
         }
         return hn::Eq(hn::Zero(tag), hn::Zero(tag));  // all are decided, whatever they are
     });

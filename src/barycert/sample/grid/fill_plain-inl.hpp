@@ -1,5 +1,5 @@
-// Internal: the values of a linear field at points of a grid in a cell, in plain double: operation for operation those
-// of points (value_lanes.cpp), so that the bits are the same.
+// Internal: the values of a linear field at points of a grid in a cell, in plain double, with the bits of those of
+// points.
 //
 // Included once per SIMD target.
 #if defined(BARYCERT_SAMPLE_FILL_PLAIN_INL_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -9,6 +9,7 @@
 #define BARYCERT_SAMPLE_FILL_PLAIN_INL_HPP
 #endif
 
+#include "barycert/core/plain_value-inl.hpp"
 #include "barycert/sample/grid/fill_values-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -38,12 +39,9 @@ struct PlainValues {
         for (int i = 0; i <= d; ++i) {
             for (int k = 0; k < d; ++k) relative.r[i][k] = hn::Set(tag, b.vertex[i][k][l]) - p[k];
         }
-        Fractions<s, V> f;
-        solve(relative, hn::Zero(tag), f);
-        const V inverse = hn::Set(tag, 1) / f.denominator;
-        V sum = hn::Zero(tag);
-        for (int i = 0; i <= d; ++i) sum = sum + f.numerator[i] * hn::Set(tag, b.value[i][l]);
-        return sum * inverse;
+        return PlainWeights<s, D>(tag, relative).value(tag, [&](int i) HWY_ATTR {
+            return hn::Set(tag, b.value[i][l]);
+        });
     }
 
     struct Table {

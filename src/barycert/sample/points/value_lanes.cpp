@@ -5,6 +5,7 @@
 #include "barycert/core/foreach_target.hpp"
 
 #include "barycert/core/lane_loop-inl.hpp"
+#include "barycert/core/plain_value-inl.hpp"
 #include "barycert/core/refinement-inl.hpp"
 #include "barycert/index/records-inl.hpp"
 
@@ -27,24 +28,21 @@ struct RefinedValues {
     }
 };
 
-/// The formula of core::plain_value_lanes, operation for operation: a map applied later gives the same bits.
+/// Those of core::plain_value_lanes: a map applied later gives the same bits.
 template <Simplex s, class D, class V = hn::Vec<D>>
 struct PlainValues {
-    Fractions<s, V> f;
-    V inverse;
-    HWY_INLINE PlainValues(D tag, const Absolute<s, V>& c) {
-        Relative<s, V> relative;
+    PlainWeights<s, D> weights;
+    HWY_INLINE PlainValues(D tag, const Absolute<s, V>& c) : weights(tag, relative(c)) {}
+    static HWY_INLINE Relative<s, V> relative(const Absolute<s, V>& c) {
+        Relative<s, V> out;
         for (int i = 0; i < vertex_count(s); ++i) {
-            for (int k = 0; k < space_dimension(s); ++k) relative.r[i][k] = c.v[i][k] - c.p[k];
+            for (int k = 0; k < space_dimension(s); ++k) out.r[i][k] = c.v[i][k] - c.p[k];
         }
-        solve(relative, hn::Zero(tag), f);
-        inverse = hn::Set(tag, 1) / f.denominator;
+        return out;
     }
     HWY_INLINE hn::Mask<D> certain() const { return hn::Eq(hn::Zero(D()), hn::Zero(D())); }  // all, whatever they are
     HWY_INLINE V at(D tag, const V (&values)[vertex_count(s)], hn::Mask<D>&) const {
-        V sum = hn::Zero(tag);
-        for (int i = 0; i < vertex_count(s); ++i) sum = sum + f.numerator[i] * values[i];
-        return sum * inverse;
+        return weights.value(tag, [&](int i) HWY_ATTR { return values[i]; });
     }
 };
 
