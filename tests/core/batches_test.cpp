@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
+#include <cstdint>
+
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
 #include "core/environments.hpp"

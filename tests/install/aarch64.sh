@@ -35,9 +35,9 @@ step "the same hashes" "qemu-aarch64 build/aarch64/tests/processors/hashes data 
 program="qemu-aarch64 build/aarch64/bin/barycert"
 step "barycert check" "$program check data/meshes/lattice-eighths"
 step "barycert sample" "$program sample data/meshes/flange --points data/meshes/flange --output values.csv"
-step "barycert verify" "$program verify data/meshes/flange --results values.csv --exact"
+step "barycert verify, rows of sample" "$program verify data/meshes/flange --results values.csv --exact"
 step "barycert resample" "$program resample data/meshes/flange --grid 40x40x40 --output grid.vti"
-step "barycert verify" "$program verify data/meshes/flange --results grid.vti --exact"
+step "barycert verify, the grid of resample" "$program verify data/meshes/flange --results grid.vti --exact"
 for tests in base core locate sample; do
     step "tests/$tests" "qemu-aarch64 build/aarch64/tests/$tests/test_$tests --gtest_brief=1"
 done
