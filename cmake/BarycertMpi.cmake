@@ -1,10 +1,11 @@
 # Jobs on this machine, for tests, examples and benchmarks: barycert::vtk itself needs VTK's controllers alone, no MPI.
 include_guard(GLOBAL)
 
-# More ranks than cores, which wait without work and are not bound to a core, by any user. For Open MPI; others take no
-# notice.
-set(barycert_mpi_environment OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
-  OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1 CACHE INTERNAL "")
+# More ranks than cores, which wait without work and are not bound to a core, by any user, over shared memory: a machine
+# without a network would be warned of. For Open MPI 4, and in the names of 5; others take no notice.
+set(barycert_mpi_environment OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_btl=^tcp
+  OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none
+  PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none CACHE INTERNAL "")
 
 # barycert_find_mpi(COMPONENTS...): sets BARYCERT_MPI_FOUND, and vtk_targets with VTK::ParallelMPI.
 macro(barycert_find_mpi)

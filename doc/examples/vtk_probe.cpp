@@ -38,11 +38,11 @@ int main() {
     mesh->GetPointData()->AddArray(temperature);
     mesh->GetCellData()->AddArray(number);
 
-    // Inside the second cell; on the common face; 0.0003 outside of the mesh.
+    // On the common face; inside the second cell; 0.0003 outside of the mesh.
     vtkNew<vtkPoints> where;
     where->SetDataTypeToDouble();
-    where->InsertNextPoint(0.5, 0.5, 0.5);
     where->InsertNextPoint(0.5, 0.25, 0.25);
+    where->InsertNextPoint(0.5, 0.5, 0.5);
     where->InsertNextPoint(0.25, 0.25, -0.0003);
     vtkNew<vtkPolyData> points;
     points->SetPoints(where);

@@ -1,8 +1,11 @@
 // The executable barycert: one subcommand a file.
 
+#include <tbb/cache_aligned_allocator.h>
+
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <cstring>
 #include <exception>
 #include <iostream>
@@ -22,6 +25,14 @@
 namespace barycert::cli {
 namespace {
 
+/// Asks for the memory of oneTBB's tables, and gives it back to its allocator, which keeps it. Version 2022 makes them
+/// under a lock; to report that memory is wanted it takes that lock again, and so would wait for itself.
+void fetch_memory_for_threads() {
+    constexpr std::size_t more_than_the_tables = 64 << 10;
+    tbb::cache_aligned_allocator<char> memory;
+    memory.deallocate(memory.allocate(more_than_the_tables), more_than_the_tables);
+}
+
 int run(int argc, char** argv) {
     // For all threads, before any of them starts: a library that was loaded first may have changed it.
     const ExactEnvironment environment;
@@ -31,6 +42,7 @@ int run(int argc, char** argv) {
 #ifdef BARYCERT_WITH_AUDIT
     prepare_for_want_of_memory();
 #endif
+    fetch_memory_for_threads();
     // What was compiled in cannot be set.
     if (const Status exact = check_environment(measure_environment()); !exact) return fail(exact.error());
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, like a full disk

@@ -1,5 +1,6 @@
 """Meshes of other packages: taken as they are, and given back."""
 
+import base64
 import sys
 import types
 
@@ -61,6 +62,9 @@ def test_meshio(mesh):
 
 def test_meshio_reads_what_barycert_writes(mesh, tmp_path):
     meshio = pytest.importorskip("meshio")
+    # meshio decodes to the end of the file, and relies on Python to stop at the padding of the first array.
+    if base64.b64decode(b"AA==AA==") != b"\0":
+        pytest.skip("under this Python meshio 5.3 cannot read appended data of any writer")
     mesh.write(tmp_path / "a.vtu")
     same(barycert.Mesh(meshio.read(tmp_path / "a.vtu")), mesh)
 
@@ -105,11 +109,12 @@ def test_vtk_reads_what_barycert_writes(mesh, tmp_path):
 
 
 def test_vtk_probes_the_same_values():
-    """vtkProbeFilter on the mesh that was given back, inside where it is right."""
+    """vtkProbeFilter on the mesh that was given back, inside where it is right; with a locator, for without one that of VTK
+    9.3 loses one of these points."""
     core = pytest.importorskip("vtkmodules.vtkFiltersCore")
     from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
     from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkPolyData
+    from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStaticCellLocator
 
     points, cells = delaunay(100, 3, 5)
     mesh = barycert.Mesh(points, cells, point_data={"T": points @ [1.0, 2.0, 3.0]})
@@ -121,6 +126,7 @@ def test_vtk_probes_the_same_values():
     probe = core.vtkProbeFilter()
     probe.SetInputData(data)
     probe.SetSourceData(mesh.to_vtk())
+    probe.SetCellLocatorPrototype(vtkStaticCellLocator())
     probe.Update()
     output = probe.GetOutput().GetPointData()
     valid = vtk_to_numpy(output.GetArray("vtkValidPointMask")).astype(bool)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import MutableMapping
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union, cast
 
 import numpy as np
 
@@ -122,7 +122,7 @@ class Mesh:
             )
         if indices.dtype.kind not in "iu":
             _core.fail("type of the cells", expected="integers", found=str(indices.dtype))
-        left = [] if numbers is None else numbers.tolist()
+        left = [] if numbers is None else cast(List[int], numbers.tolist())
         core = _core.Mesh(coordinates, contiguous(indices, indices.dtype.newbyteorder("=")), left)
         self._set_core(core, notes)
         self.point_data.update(point_data or {})
@@ -303,19 +303,18 @@ class Mesh:
             numpy.meshgrid(x, y, z, indexing="ij"); otherwise as `sample`. In memory x runs fastest, as VTK has it:
             result.ravel(order="F") is the array of a vtkImageData.
         """
-        counts, box = self._grid(shape, bounds)
+        counts, low, high = self._grid(shape, bounds)
         options = options_of(outside, fill_value, limit, rounding, threads)
         with Teller(progress) as tell:
             sampler = self._sampler(fields, tell)
-            values = sampler.on_grid(counts, box[:, 0].tolist(), box[:, 1].tolist(), options, tell)
+            values = sampler.on_grid(counts, low, high, options, tell)
         flipped = self._shaped(sampler, values, fields, tuple(reversed(counts)))
         axes = tuple(reversed(range(self.dimension)))
         return flipped.transpose(axes + tuple(range(self.dimension, flipped.ndim)))
 
     def grid_axes(self, shape: Union[int, Sequence[int]], bounds: Any = None) -> List[np.ndarray]:
         """The coordinates of `resample`'s points along each axis, to the bit."""
-        counts, box = self._grid(shape, bounds)
-        return _core.grid_axes(counts, box[:, 0].tolist(), box[:, 1].tolist())
+        return _core.grid_axes(*self._grid(shape, bounds))
 
     def gradient(self, field: Any, points: Any = None, *, progress: Progress = None) -> np.ndarray:
         """The gradient of a field of nodes, each number the exact one rounded once.
@@ -424,7 +423,7 @@ class Mesh:
 
     # For this package.
 
-    def _grid(self, shape: Union[int, Sequence[int]], bounds: Any) -> Tuple[List[int], np.ndarray]:
+    def _grid(self, shape: Union[int, Sequence[int]], bounds: Any) -> Tuple[List[int], List[float], List[float]]:
         counts = [int(shape)] * self.dimension if np.ndim(shape) == 0 else [int(n) for n in shape]  # type: ignore
         box = self.bounds if bounds is None else np.asarray(real(bounds, "bounds"), dtype=float)
         if len(counts) != self.dimension or box.shape != (self.dimension, 2):
@@ -433,7 +432,7 @@ class Mesh:
                 expected=f"{self.dimension} numbers of points, bounds ({self.dimension}, 2)",
                 found=f"{len(counts)}, bounds {box.shape}",
             )
-        return counts, box
+        return counts, [float(x) for x in box[:, 0]], [float(x) for x in box[:, 1]]
 
     def _sampler(self, fields: Fields, tell: Any) -> _core.Sampler:
         if fields is not None and not isinstance(fields, str) and not list(fields):
@@ -470,7 +469,7 @@ def _unpickle(
     notes: Sequence[str],
 ) -> Mesh:
     mesh = Mesh.__new__(Mesh)
-    left = [] if numbers is None else numbers.tolist()
+    left = [] if numbers is None else cast(List[int], numbers.tolist())
     mesh._set_core(_core.Mesh(contiguous(points), contiguous(cells, np.int32), left), notes)
     mesh.point_data.update(point_data)
     mesh.cell_data.update(cell_data)

@@ -54,7 +54,7 @@ def orient3d(a: Any, b: Any, c: Any, d: Any) -> Any:
 
     Args: (..., 3), finite; shapes broadcast. Returns int8 of the leading shape. Raises Error for NaN and infinity.
 
-    >>> orient3d([0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 5e-324])
+    >>> int(orient3d([0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 5e-324]))
     1
     """
     return _signs("orient3d", 3, (a, b, c, d))

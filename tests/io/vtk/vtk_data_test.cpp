@@ -155,12 +155,15 @@ TEST(VtkDataModes, meshio) {
     put(folder / "T.bin", bits_of(mesh.point_fields[0].data));
     put(folder / "u.bin", bits_of(mesh.point_fields[1].data));
     put(folder / "f.bin", bits_of(mesh.cell_fields[0].data));
+    // meshio 5.3 decodes appended data of any writer to the end of the file, and relies on Python to stop before that.
+    const bool appended = run_script(folder, "import base64\nassert base64.b64decode(b'AA==AA==') == b'\\0'\n");
     for (const VtkData data : {VtkData::raw, VtkData::zlib, VtkData::lzma, VtkData::ascii}) {
+        if (!appended && data != VtkData::ascii) continue;
         SCOPED_TRACE(name(data));
         ASSERT_TRUE(write_vtu(mesh, folder / "m.vtu", data));
         EXPECT_TRUE(run_script(folder, check)) << get(folder / "out.txt");
     }
-    ASSERT_TRUE(write_vtu(mesh, folder / "m.vtu"));
+    ASSERT_TRUE(write_vtu(mesh, folder / "m.vtu", appended ? VtkData::raw : VtkData::ascii));
     for (const char* how : {"binary=True, compression='zlib'", "binary=True, compression='lzma'",
                             "binary=True, compression=None", "binary=False"}) {
         SCOPED_TRACE(how);

@@ -43,7 +43,8 @@ public:
     Python() {
         for (const char* const program : {"python3", "/usr/bin/python3"}) {
             start(program);
-            for (char c = 0; receive(&c, 1) && c != '\n';) version_ += c;
+            // A kernel's name has none of the signs that distributions add: 3.10.1+dfsg1.
+            for (char c = 0; receive(&c, 1) && c != '\n';) version_ += c == '+' ? '.' : c;
             if (!version_.empty()) return;
             end();
         }
