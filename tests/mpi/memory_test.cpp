@@ -54,7 +54,7 @@ namespace barycert::testing {
 namespace {
 
 TEST(Memory, ThatOneRankLacksEndsAll) {
-    Job job(box(3, {8, 3, 3}), 60);
+    Job job(box(3, {8, 6, 6}), 200);
     const auto judge = probed<vtkBarycertProbe>(job.whole, job.mine);
     int errors = 0;
     for (long fails = 1, done = 0; done < 2; ++fails) {
