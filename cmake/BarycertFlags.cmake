@@ -41,7 +41,7 @@ endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
   # GCC 14 is wrong about inlined code of the standard library: told, not an error. And it takes every reference into JSON
   # for one to the name that was asked for.
-  target_compile_options(barycert_flags INTERFACE -Wno-error=array-bounds -Wno-error=free-nonheap-object -Wno-dangling-reference)
+  target_compile_options(barycert_flags INTERFACE -Wno-error=array-bounds -Wno-error=free-nonheap-object $<$<COMPILE_LANGUAGE:CXX>:-Wno-dangling-reference>)
 endif()
 if(BARYCERT_SANITIZE)
   target_compile_options(barycert_flags INTERFACE -fsanitize=${BARYCERT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
