@@ -108,8 +108,8 @@ Environment measure_environment();
 Status check_environment(const Environment& environment);
 
 /// Returns the names of the SIMD targets that this build has and this processor can run, the widest first: on x86-64
-/// "AVX-512", "AVX2" and what all can run, "scalar" (with Highway 1.2 "SSE2"); on 64-bit ARM "NEON". Answers never depend
-/// on it; time does.
+/// "AVX-512", "AVX2" and what all can run, "scalar" (with Highway 1.2 "SSE2"); on 64-bit ARM "NEON". Answers never
+/// depend on it; time does.
 std::vector<std::string> simd_targets();
 
 /// Returns the name of the target in use.

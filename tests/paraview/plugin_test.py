@@ -159,6 +159,12 @@ class Proxies(PluginTest):
         for name in ("BarycertTetGenReader", "BarycertResample", "BarycertResampleDistributed", "BarycertCheck"):
             self.assertIn(name, globals())
 
+    def test_blocks_are_offered_where_they_are_taken(self):
+        for name, blocks in (("BarycertResample", True), ("BarycertResampleDistributed", False)):
+            proxy = sm.CreateProxy("filters", name)
+            kinds = proxy.GetProperty("DestinationMesh").GetDomain("input_type")
+            self.assertEqual(bool(kinds.GetCompositeDataSupported()), blocks, name)
+
 
 class Reader(PluginTest):
     def test_has_the_numbers_of_the_files(self):
