@@ -1,4 +1,4 @@
-// A job in which one rank goes wrong. Every rank prints how its probe ended.
+// A job in which one rank goes wrong. Every rank writes how its probe ended, and errors, to said-RANK.
 //   ended MODE RANK    what goes wrong, where:
 //     none     nothing
 //     killed   the rank is killed (SIGKILL) while the others wait for it
@@ -13,6 +13,7 @@
 #include <string>
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <vtkCellData.h>
 #include <vtkCellType.h>
@@ -95,6 +96,8 @@ int main(int argc, char** argv) {
     controller->Initialize(&argc, &argv);
     vtkMultiProcessController::SetGlobalController(controller);
     const int rank = controller->GetLocalProcessId();
+    // Not printed: launchers forward pieces of lines.
+    if (std::freopen(("said-" + std::to_string(rank)).c_str(), "w", stdout) == nullptr || ::dup2(1, 2) < 0) return 2;
     const std::string mode = argc > 2 ? argv[1] : "none";
     const bool here = argc > 2 && std::atoi(argv[2]) == rank;
 

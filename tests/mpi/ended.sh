@@ -12,8 +12,10 @@ failures=0
 # job COMMAND...: sets `status`, `late` if it had to be ended, and `output` to what it printed
 job() {
     started=$(date +%s)
+    rm -f said-*
     timeout -k 5 120 "$@" >output 2>&1
     status=$?
+    cat said-* >>output
     late=no
     [ $(($(date +%s) - started)) -lt 120 ] || late=yes
 }
