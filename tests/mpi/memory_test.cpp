@@ -19,8 +19,8 @@
 
 namespace {
 
-// VTK ends the process where it finds no memory for its own small objects, and with it the job. 9.3's vtkFieldData has
-// a vector of 80 bytes for each array, and here some ten of these.
+// VTK ends the process where it finds no memory for its own small objects, and with it the job. From 9.2 on its
+// vtkFieldData has a vector of 80 bytes for each array, and there are some ten here.
 constexpr std::size_t least = 1300;
 std::atomic<long> left{0};  ///< allocations until one fails; 0: none does
 

@@ -160,10 +160,15 @@ class Proxies(PluginTest):
             self.assertIn(name, globals())
 
     def test_blocks_are_offered_where_they_are_taken(self):
-        for name, blocks in (("BarycertResample", True), ("BarycertResampleDistributed", False)):
-            proxy = sm.CreateProxy("filters", name)
-            kinds = proxy.GetProperty("DestinationMesh").GetDomain("input_type")
-            self.assertEqual(bool(kinds.GetCompositeDataSupported()), blocks, name)
+        mesh = read_mesh("bracket")
+        blocks = pv.GroupDatasets(Input=[mesh, mesh])
+        blocks.UpdatePipeline()
+        for name, taken in (("BarycertResample", True), ("BarycertResampleDistributed", False)):
+            properties = sm.CreateProxy("filters", name)
+            for role, of_blocks in (("SourceDataArrays", False), ("DestinationMesh", taken)):
+                kinds = properties.GetProperty(role).GetDomain("input_type")
+                self.assertTrue(kinds.IsInDomain(mesh.SMProxy, 0), name)
+                self.assertEqual(bool(kinds.IsInDomain(blocks.SMProxy, 0)), of_blocks, name)
 
 
 class Reader(PluginTest):
