@@ -65,9 +65,8 @@ bool decode_header(Decoder& d) {
     if (setjmp(png_jmpbuf(d.png)) != 0) return false;
     png_set_read_fn(d.png, &d, read_png_bytes);
     png_set_user_limits(d.png, static_cast<png_uint_32>(longest_png_side), static_cast<png_uint_32>(longest_png_side));
-    png_set_chunk_malloc_max(d.png, 1 << 20);  // texts and profiles: what is larger is an error
-    png_set_chunk_cache_max(d.png, 100);
-    png_set_keep_unknown_chunks(d.png, PNG_HANDLE_CHUNK_NEVER, nullptr, 0);
+    // Skips all but IHDR, PLTE, tRNS, IDAT and IEND: for others libpng takes as much memory as they say they are long.
+    png_set_keep_unknown_chunks(d.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_read_info(d.png, d.info);
     d.bits = std::uint64_t{png_get_bit_depth(d.png, d.info)} * png_get_channels(d.png, d.info);
     png_set_expand(d.png);    // palettes, less than 8 bits, a transparent colour
