@@ -8,8 +8,8 @@
 ///
 /// Words. d is the dimension. A facet of a cell has all its vertices but one; two facets are the same if they have the
 /// same nodes, wherever these lie. A boundary facet is a facet of exactly one cell. A ridge is the d - 1 nodes that two
-/// facets share (an edge in 3D, a node in 2D). A piece of the boundary is a set of boundary facets connected over
-/// ridges that exactly two of them hold.
+/// facets share (an edge in 3D, a node in 2D). A piece of the boundary is a maximal set of boundary facets connected
+/// over ridges that exactly two of them hold.
 ///
 /// Theorem (proof: doc/theorem.md). Let a mesh satisfy
 ///   P1  every coordinate is finite, every vertex of every cell is a node, and no cell is degenerate;
@@ -98,7 +98,7 @@ struct CellContact {
 struct DelaunayReport {
     std::uint64_t facets = 0;       ///< interior facets tested: of two cells that are not degenerate
     std::uint64_t violations = 0;   ///< not locally Delaunay
-    std::uint64_t cospherical = 0;  ///< the apex lies exactly on the sphere
+    std::uint64_t cospherical = 0;  ///< locally Delaunay, and an apex lies exactly on the other cell's sphere
     /// Max of (R - distance of the apex from the centre) / R, in plain double; 0 if there is no violation.
     double worst_depth = 0;
     Mesh::Index worst_cell = -1;  ///< the cell of that sphere
@@ -107,7 +107,7 @@ struct DelaunayReport {
 
 struct ViolatedFacet {
     std::int64_t facet = -1;  ///< position in the PLC
-    double covered = 0;       ///< share of its area that faces of cells cover
+    double covered = 0;  ///< area of the faces of cells that lie in its plane with their centroids on it, over its own
 };
 
 /// Does the mesh respect the facets of a PLC? Each is respected exactly, respected up to rounding, or violated.

@@ -41,6 +41,10 @@ Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts,
 Result<Grid> grid_spaced(int dimension, const std::array<double, 3>& spacing, const std::array<double, 3>& low,
                          const std::array<double, 3>& high);
 
+/// Returns the grid of a VTI file, whose readers compute the last point as all others, origin + i * spacing. That is
+/// `last` nearly always, else, where no double as spacing leads there, below it by an ulp or two of the larger end.
+Grid as_in_vti(Grid grid);
+
 /// The bounding box of the nodes of cells; zeros if there are no cells.
 struct Bounds3 {
     std::array<double, 3> low{}, high{};

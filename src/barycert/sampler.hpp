@@ -11,9 +11,9 @@
 ///   D1  Rows depend on point, mesh and fields alone: not on threads, SIMD target, blocks, order, or the method that
 ///       found the owner; so a map that was saved gives the same bytes.
 ///   N3  Under the policy `nearest`, the value of a point field is that of the nearest cell, at the point of that cell
-///       that is nearest to the query point. Each component lies between the nodal values of the cell. On cells of
-///       second order the weights of the nearest point are rounded first, and the value may exceed the nodal values as
-///       far as the quadratic does in the cell.
+///       that is nearest to the query point; NaN as in V2. Each component lies between the cell's nodal values. On
+///       cells of second order the weights of the nearest point are rounded first, and the value may exceed the nodal
+///       values as far as the quadratic does in the cell.
 ///   E1  Nothing is silent: a point outside gets NaN unless the policy says otherwise, and SampleCounts has the numbers
 ///       of points inside, on boundaries and outside.
 /// With Rounding::plain, owners and features are exact as well; values are computed in plain double.
@@ -28,7 +28,7 @@
 ///                   there at the nearest point with its coordinates rounded (nearest), or at the point (extrapolate).
 ///   |NAME|          the Euclidean length. Of a field of nodes: of the components at the point, rounded as they are
 ///                   sampled. It differs from the exact length by less than 2 units in the last place (1.51 where that
-///                   is not subnormal) with up to nine components; of a field of cells by less than 0.51.
+///                   is not subnormal) with up to nine components; of a field of cells by less than 1 (0.51).
 ///   mean(NAME)      of a field of cells: a field of nodes, whose value at a node is the mean over all cells that have
 ///                   it, weighted by their volumes (areas; with straight sides), exact and rounded once. Then it is
 ///                   interpolated. NaN where a value of a cell that is not degenerate is not finite.

@@ -138,7 +138,7 @@ void add_kernel_rules(CLI::App& sub, const std::shared_ptr<KernelRules>& rules) 
     sub.add_option("--class-tolerance", rules->class_tolerance,
                    "A point is inside if all weights are >= -X, of kernels that neither classify points themselves nor "
                    "certify; without it, if no weight is below 0")
-        ->check(CLI::NonNegativeNumber.description(""))
+        ->check(finite_at_least(0))
         ->type_name("X");
     add_containment(sub, rules);
 }
@@ -146,6 +146,7 @@ void add_kernel_rules(CLI::App& sub, const std::shared_ptr<KernelRules>& rules) 
 void add_containment(CLI::App& sub, const std::shared_ptr<KernelRules>& rules) {
     sub.add_option("--time-limit", rules->seconds, "Seconds that a kernel of yours may take for one case")
         ->capture_default_str()
+        ->check(finite_at_least(0.001))
         ->check(CLI::Range(0.001, 1e6).description(""))
         ->type_name("S");
     sub.add_flag("--in-process", rules->in_process,

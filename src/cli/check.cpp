@@ -70,6 +70,11 @@ bool is_vtk(const std::string& path) {
 Status check_files(const CheckArguments& a, bool table) {
     if (a.vtu == "-")
         return Error{.what = "--vtu cannot write to stdout", .remedy = "name a file: its data are binary"};
+    if (!a.vtu.empty() && !a.vtu.ends_with(".vtu"))
+        return Error{.what = "--vtu writes VTU files",
+                     .file = a.vtu,
+                     .expected = "a name that ends in .vtu",
+                     .remedy = "choose another name; --fix-orientation writes other formats"};
     if (const auto fixed = written_mesh_files(a.fixed); !a.fixed.empty() && !fixed) return fixed.error();
     if (a.vtk_data && a.vtu.empty() && !is_vtk(a.fixed))
         return Error{.what = "--vtk-data is for VTK's files",

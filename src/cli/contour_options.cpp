@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "barycert/base/text.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/report.hpp"
 #include "command.hpp"
 #include "files.hpp"
@@ -35,6 +36,14 @@ void add_contour_options(CLI::App& sub, ContourJob& job, bool& quiet) {
     vtk_data_option(sub, job.vtk_data);
     file_option(sub, "--json", job.report, "Write the summary as JSON; - is stdout");
     sub.add_flag("--quiet", quiet, "Print no summary and no progress");
+}
+
+Status check_picture_only(const CLI::App& sub, const std::string& output, const std::vector<const char*>& options) {
+    for (const char* const name : options) {
+        if (sub.get_option(name)->count() > 0 && !output.empty() && !io::has_suffix(output, ".png"))
+            return Error{.what = std::string(name) + " is for pictures", .remedy = "leave it out, or name a .png file"};
+    }
+    return Done{};
 }
 
 int run_contour(ContourJob& job, bool quiet) {

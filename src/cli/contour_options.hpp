@@ -20,6 +20,9 @@ std::optional<std::vector<double>> finite_numbers(std::string_view text, char se
 /// --json, --quiet, --threads, --field-file and its kin, --fields.
 void add_contour_options(CLI::App& sub, ContourJob& job, bool& quiet);
 
+/// Refuses options of pictures that were given, where the output is a surface.
+Status check_picture_only(const CLI::App& sub, const std::string& output, const std::vector<const char*>& options);
+
 /// Does the job, with progress on a terminal, and writes its reports. Returns the exit code.
 int run_contour(ContourJob& job, bool quiet);
 

@@ -134,7 +134,7 @@ void add_gaps(CLI::App& app, int& exit_code) {
         ->allow_extra_args(false);
     sub->add_option("--class-tolerance", a->rules->class_tolerance,
                     "Of the rule tolerant: a cell claims a point if all weights are >= -X; 1e-10 unless given")
-        ->check(CLI::NonNegativeNumber.description(""))
+        ->check(finite_at_least(0))
         ->type_name("X");
     add_containment(*sub, a->rules);
     sub->add_option("--count", a->options.count, "Points on faces, on edges and on vertices each")

@@ -49,6 +49,28 @@ Vocabulary vocabulary(const CLI::App& app) {
     return words;
 }
 
+/// The commands again below `path`, each with these options alone: `barycert help` takes their names.
+std::vector<CommandEntry> names_below(const std::string& path, const std::vector<CommandEntry>& commands,
+                                      const std::vector<OptionEntry>& options) {
+    std::vector<CommandEntry> names;
+    for (const CommandEntry& command : commands) {
+        const std::string here = path + ' ' + command.name;
+        names.push_back({here, command.name, command.text, {}, options, names_below(here, command.commands, options)});
+    }
+    return names;
+}
+
+/// For completions: after `help` come the names of commands, and of those below them.
+CommandEntry with_names_below_help(CommandEntry program) {
+    const std::vector<CommandEntry> commands = program.commands;
+    for (CommandEntry& command : program.commands) {
+        if (command.name != "help") continue;
+        std::erase_if(command.options, [](const OptionEntry& option) { return option.operand; });
+        command.commands = names_below(command.path, commands, command.options);
+    }
+    return program;
+}
+
 /// The command that `barycert mesh` runs, as a program of its own.
 CommandEntry mesher(const CommandEntry& program) {
     for (const CommandEntry& command : program.commands) {
@@ -129,7 +151,8 @@ int run_help(const CLI::App& app, const HelpArguments& a) {
     if (!pages && !script) return explain(app, a.words);
     const CommandEntry program = command_table(app, vocabulary(app));
     if (!script) return write_pages(program, a.folder);
-    const Status written = write_output("-", a.completion(a.words.empty() ? program : mesher(program)));
+    const Status written =
+        write_output("-", a.completion(a.words.empty() ? with_names_below_help(program) : mesher(program)));
     return written ? exit_clean : fail(written.error());
 }
 

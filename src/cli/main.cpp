@@ -20,6 +20,7 @@
 #include "files.hpp"
 #include "options/mistyped.hpp"
 #include "options/want_of_memory.hpp"
+#include "render.hpp"
 #include "tetgen/option_table.hpp"
 
 namespace barycert::cli {
@@ -84,14 +85,22 @@ int run(int argc, char** argv) {
     add_help(app, exit_code);
     // After the subcommands, which would take it over.
     app.footer(
-        "Exit codes: 0 success; 1 a mesh is not certified, results are wrong, a rule or baseline is not kept, or a\n"
-        "witness is not reproduced; 2 usage or input error.\n"
+        "Exit codes: 0 success; 1 a mesh is not certified, results are wrong, a rule or baseline is not kept, a "
+        "mutant\n"
+        "is not caught, or a witness is not reproduced; 2 usage or input error.\n"
         "Tables go to stdout, everything else to stderr. `barycert help SUBCOMMAND` explains each.");
     const auto named_first = [&](const CLI::App* sub) { return sub->get_name() == first; };
     if (!first.empty() && first.front() != '-' && app.get_subcommands(named_first).empty()) {
         return fail({.what = "no such subcommand",
                      .found = '"' + std::string(first) + '"',
                      .remedy = base::did_you_mean(first, command_names(app), "`barycert --help` lists them")});
+    }
+    // The parser would take it for a scene, and complain of the words behind it.
+    const std::string_view second = argc > 2 ? argv[2] : "";
+    if (first == "render" && !second.empty() && second.front() != '-') {
+        if (const Status named = check_picture_name(std::string(second), command_names(*app.get_subcommand("render")));
+            !named)
+            return fail(named.error());
     }
     try {
         remember_command_line(argc, argv);

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
 
 #include "barycert/base/nearest_name.hpp"
@@ -14,16 +15,14 @@
 namespace barycert::cli {
 namespace {
 
+constexpr const char* pictures_remedy = "`barycert render --help` lists the pictures";
+
 int run_scene_file(const std::string& path, const PictureOptions& o, const std::vector<std::string>& pictures) {
-    const char* const remedy = "`barycert render --help` lists the pictures";
     if (path.empty())
-        return fail(
-            {.what = "nothing to draw", .expected = "the name of a picture, or a scene (.json)", .remedy = remedy});
-    if (!path.ends_with(".json"))
-        return fail({.what = "no such picture",
+        return fail({.what = "nothing to draw",
                      .expected = "the name of a picture, or a scene (.json)",
-                     .found = '"' + path + '"',
-                     .remedy = base::did_you_mean(path, pictures, remedy)});
+                     .remedy = pictures_remedy});
+    if (const Status named = check_picture_name(path, pictures); !named) return fail(named.error());
     if (o.output.empty())
         return fail({.what = "--output is required", .remedy = "name the picture: --output FILE.png"});
     std::vector<base::NamedFile> inputs{{"the scene", path}};
@@ -33,6 +32,14 @@ int run_scene_file(const std::string& path, const PictureOptions& o, const std::
 }
 
 }  // namespace
+
+Status check_picture_name(const std::string& word, const std::vector<std::string>& pictures) {
+    if (word.ends_with(".json") || std::find(pictures.begin(), pictures.end(), word) != pictures.end()) return Done{};
+    return Error{.what = "no such picture",
+                 .expected = "the name of a picture, or a scene (.json)",
+                 .found = '"' + word + '"',
+                 .remedy = base::did_you_mean(word, pictures, pictures_remedy)};
+}
 
 void add_render(CLI::App& app, int& exit_code) {
     auto* sub = app.add_subcommand(
@@ -57,7 +64,8 @@ void add_render(CLI::App& app, int& exit_code) {
     sub->footer(
         "`barycert render SCENE.json --output FILE.png` draws a scene; doc/rendering.md describes its file. Coverage "
         "is\n"
-        "exact: a pixel belongs to the triangle that holds its centre, and on a common side to one of both triangles.\n"
+        "exact: a pixel belongs to the triangle that holds its centre, and on a common side to exactly one of the "
+        "two.\n"
         "`barycert help render PICTURE` explains each picture. Exit codes: 0 done; 2 usage or input error.");
     sub->callback([=, &exit_code] {
         if (sub->get_subcommands().empty()) exit_code = run_scene_file(*path, *o, command_names(*sub));

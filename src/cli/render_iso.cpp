@@ -21,6 +21,7 @@ struct IsoArguments {
     ContourJob job;
     bool quiet = false;
     std::vector<double> ends, values;  ///< of --segment, end after end, and --values
+    std::string of_mesh;               ///< an option that was given and has no meaning for a segment
 };
 
 void add_segment(CLI::App& sub, IsoArguments& a) {
@@ -91,8 +92,8 @@ int on_segment(const IsoArguments& a) {
     if (a.values.empty() || !a.job.value)
         return fail({.what = "--segment needs the values at its ends and the one to look for",
                      .expected = "--values FA,FB --value V"});
-    if (!a.job.mesh.empty() || !a.job.field.empty() || !a.job.output.empty())
-        return fail({.what = "--segment cannot be combined with a mesh, --field or --output"});
+    if (!a.job.mesh.empty()) return fail({.what = "--segment cannot be combined with a mesh", .found = a.job.mesh});
+    if (!a.of_mesh.empty()) return fail({.what = "--segment cannot be combined with " + a.of_mesh});
     const std::size_t d = a.ends.size() / 2;
     const std::span<const double> ends(a.ends);
     std::vector<double> point(d);
@@ -152,7 +153,18 @@ void add_render_iso(CLI::App& render, int& exit_code) {
     add_contour_options(*sub, a->job, a->quiet);
     add_view(*sub, a->job);
     add_segment(*sub, *a);
-    sub->callback([=, &exit_code] { exit_code = run_iso(*a); });
+    sub->callback([=, &exit_code] {
+        for (const CLI::Option* option : sub->get_options()) {
+            const std::string name = option->get_name();
+            const bool of_segment = name == "--segment" || name == "--values" || name == "--value";
+            if (option->count() > 0 && !of_segment && name.starts_with('-')) a->of_mesh = name;
+        }
+        if (const Status ok = check_picture_only(*sub, a->job.output, {"--azimuth", "--elevation", "--size"}); !ok) {
+            exit_code = fail(ok.error());
+            return;
+        }
+        exit_code = run_iso(*a);
+    });
 }
 
 }  // namespace barycert::cli

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "command.hpp"
 #include "contour_options.hpp"
 #include "files.hpp"
 #include "render.hpp"
@@ -57,7 +58,10 @@ void add_render_slice(CLI::App& render, int& exit_code) {
            "Picture: the values of the first and the last colour; default: min and max of the values drawn")
         ->type_name("MIN,MAX");
     add_contour_options(*sub, *job, *quiet);
-    sub->callback([=, &exit_code] { exit_code = run_contour(*job, *quiet); });
+    sub->callback([=, &exit_code] {
+        const Status ok = check_picture_only(*sub, job->output, {"--width"});
+        exit_code = ok ? run_contour(*job, *quiet) : fail(ok.error());
+    });
 }
 
 }  // namespace barycert::cli

@@ -29,6 +29,7 @@ struct ReplayArguments {
     std::optional<std::uint64_t> index;
     std::uint64_t seed = 1;
     bool all = false;
+    std::string of_generated;  ///< an option that was given and is for a generated case
     std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>();
 };
 
@@ -63,15 +64,18 @@ Result<std::vector<Witness>> made_again(const ReplayArguments& a, const std::vec
                      .expected = "segment, triangle, triangle3d or tetrahedron",
                      .found = '"' + a.simplex + '"',
                      .remedy = base::did_you_mean(a.simplex, simplex_names())};
-    if (!simplex && !a.kernel.empty()) {
+    std::string kernel;
+    if (!a.kernel.empty()) {
         const auto k = std::find_if(kernels.begin(), kernels.end(), [&](const Kernel& x) {
-            return x.perspective == family.perspective && base::glob_match(a.kernel, x.name);
+            return x.perspective == family.perspective && (!simplex || x.simplex == *simplex) &&
+                   base::glob_match(a.kernel, x.name);
         });
         if (k == kernels.end())
             return Error{.what = "no kernel of that name for the cases of that family",
                          .found = '"' + a.kernel + '"',
                          .remedy = base::did_you_mean(a.kernel, kernel_names(), "`barycert kernels` lists them")};
         simplex = k->simplex;
+        kernel = k->name;
     }
     if (!simplex && family.simplices.size() == 1) simplex = family.simplices.front();
     if (!simplex || !family.applies_to(*simplex)) {
@@ -87,7 +91,7 @@ Result<std::vector<Witness>> made_again(const ReplayArguments& a, const std::vec
             return Error{.what = "no mesh supplies a " + std::string(name(*simplex)), .remedy = "name one with --mesh"};
     }
     Witness w;
-    w.kernel = a.kernel;
+    w.kernel = kernel;
     w.family = family.name;
     w.seed = a.seed;
     w.index = *a.index;
@@ -106,6 +110,9 @@ int run_replay(const ReplayArguments& a) {
         return fail({.what = a.file.empty() ? "no case to replay" : "a witness file and a case",
                      .expected = "either a witness file, or --family and --case"});
     if (!a.family.empty() && !a.index) return fail({.what = "--family needs --case"});
+    if (!a.file.empty() && !a.of_generated.empty())
+        return fail({.what = a.of_generated + " is for a case that is generated",
+                     .expected = "a witness file without it, or --family and --case"});
     if (std::error_code ignored; std::filesystem::is_directory(a.file, ignored))
         return fail({.what = "cannot read the witnesses", .file = a.file, .expected = "a file", .found = "a folder"});
     const auto witnesses = a.file.empty() ? made_again(a, *kernels) : read_witnesses(a.file);
@@ -159,7 +166,12 @@ void add_replay(CLI::App& app, int& exit_code) {
     file_option(*sub, "--kernel-library", a->libraries, "Also show the kernel of this library");
     sub->add_flag("--all", a->all, "Show the answers of all kernels, not only of the one in question");
     add_kernel_rules(*sub, a->rules);
-    sub->callback([a, &exit_code] { exit_code = run_replay(*a); });
+    sub->callback([=, &exit_code] {
+        for (const char* const name : {"--case", "--seed", "--simplex"}) {
+            if (sub->get_option(name)->count() > 0) a->of_generated = name;
+        }
+        exit_code = run_replay(*a);
+    });
 }
 
 }  // namespace barycert::cli

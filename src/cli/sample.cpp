@@ -15,8 +15,9 @@ namespace barycert::cli {
 void add_sample(CLI::App& app, int& exit_code) {
     auto* sub = app.add_subcommand("sample", "Sample the fields of a mesh at points, correctly rounded");
     sub->footer(
-        "Rows: x,y,z,cell,feature, then one column per component of each field (NAME, or NAME.0, NAME.1, ...), node\n"
-        "fields first, then with --outside nearest or extrapolate the distance to the mesh, then labels of cells "
+        "Rows: x,y,z,cell,feature, then one column per component of each field (NAME, or NAME.0, NAME.1, ...): node\n"
+        "fields, cell fields, lengths; then with --outside nearest or extrapolate the distance to the mesh, then "
+        "labels of cells "
         "named\n"
         "in --fields (texts, large integers), then columns of the points (--keep). cell: the number in the file, from\n"
         "0, of the first cell that contains the point; -1 outside. feature: interior, face, edge, vertex or outside,\n"

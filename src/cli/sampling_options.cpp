@@ -126,7 +126,8 @@ void add_sampling_options(CLI::App& sub, SamplingJob& a, bool& quiet) {
     add_field_files(sub, a.field_files, "--field", &a.series);
     sub.add_option(
            "--fields", a.fields,
-           "Fields to sample, in this order: A,B,...; cell:A is the cell field A if there is also a node field "
+           "Fields to sample: A,B,..., written in this order, those of nodes first, then those of cells, then lengths; "
+           "cell:A is the cell field A if there is also a node field "
            "A; default: all. Of each, or of these again: A.x or A.0, a component; |A|, the length; grad(A), the "
            "gradient in the owner; mean(A), cell data averaged to nodes by volume, then interpolated")
         ->allow_extra_args(false)

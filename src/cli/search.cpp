@@ -214,7 +214,7 @@ void add_search(CLI::App& app, int& exit_code) {
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48).description(""))
         ->type_name("N");
     sub->add_option("--seconds", a->seconds, "End after this time at the latest; then a repetition may find otherwise")
-        ->check(CLI::Validator(CLI::PositiveNumber).description(""))
+        ->check(finite_above(0))
         ->type_name("S");
     sub->add_option("--seed", a->seed, "The same seed and steps find the same, on any number of threads")
         ->capture_default_str()

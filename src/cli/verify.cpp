@@ -75,8 +75,10 @@ void add_verify(CLI::App& app, int& exit_code) {
                                    "Compare results of any tool with the exact ones: cells, inside or outside, values");
     sub->footer(
         "RESULTS: points with columns, as written by barycert sample, ParaView, pyvista, pandas or NumPy. A row is "
-        "outside\n"
-        "if vtkValidPointMask is 0, else if the cell is negative, else if all values are NaN. Any cell that contains "
+        "inside\n"
+        "or outside by vtkValidPointMask if there is one, else by the cell (negative: outside), else by the values "
+        "(all\n"
+        "NaN: outside). Any cell that contains "
         "the\n"
         "point is a right cell. Errors of values are told in ulps and in parts of the range of the field (max - min).\n"
         "Exit codes: 0 all rows are right, 1 some are wrong (see --fail-on), 2 usage or input error.");
@@ -122,7 +124,7 @@ void add_verify(CLI::App& app, int& exit_code) {
         sub->add_option("--tolerance", a->job.options.tolerance,
                         "Largest error of a right value, in parts of the range of its field; default: 1e-9, or 1e-6 "
                         "where all values are single precision")
-            ->check(CLI::NonNegativeNumber.description(""))
+            ->check(finite_at_least(0))
             ->type_name("T");
     sub->add_flag("--exact", a->job.options.exact, "Right is only the exact value, rounded once, to the last bit")
         ->excludes(tolerance);

@@ -21,7 +21,8 @@ std::string zsh_text(std::string_view text, std::string_view special) {
 std::string zsh_value(const OptionEntry& option) {
     std::string action;
     if (option.files) action = "_files";
-    if (!option.words.empty()) action = '(' + zsh_text(fmt::format("{}", fmt::join(option.words, " ")), ":\\") + ')';
+    if (!option.words.empty())
+        action = '(' + zsh_text(fmt::format("{}", fmt::join(option.words, " ")), ":\\^*?[]~#$") + ')';
     return ':' + zsh_text(option.type, ":\\") + ':' + action;
 }
 
@@ -77,8 +78,8 @@ std::string zsh_completion(const CommandEntry& program) {
         fmt::format("#compdef {0}\n# Completion for zsh; generated from the options of {0}.\n", program.name);
     for_commands(program, [&](const CommandEntry& command) { script += function_of(command); });
     // The file is a function of this name when zsh loads it by itself, and a script when it is sourced.
-    return script + fmt::format("if [ \"$funcstack[1]\" = {0} ]; then\n  {0} \"$@\"\nelse\n  compdef {0} {1}\nfi\n",
-                                function_name(program.path), program.name);
+    return script + fmt::format("if [ \"$funcstack[1]\" = {2} ]; then\n  {0} \"$@\"\nelse\n  compdef {0} {1}\nfi\n",
+                                function_name(program.path), program.name, '_' + program.name);
 }
 
 }  // namespace barycert::cli

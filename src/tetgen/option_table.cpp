@@ -10,7 +10,8 @@ void add_options(CLI::App& app, OptionTable& table) {
     app.footer("Exit codes: 0 meshed; 2 usage or input error, or TetGen failed.");
     app.set_version_flag("--version", "barycert-tetgen " BARYCERT_VERSION " (TetGen 1.5)");
     app.add_option("INPUT", table.input, "The PLC: .poly, .smesh, .off, .stl or .ply")->type_name("FILE")->required();
-    app.add_option("--output", table.output, "Stem of the output files; default: stem of INPUT plus .1")
+    app.add_option("--output", table.output,
+                   "Stem of the output files, with or without .node; default: stem of INPUT plus .1")
         ->type_name("FILE");
     auto* quality = app.add_option("--quality", table.ratio, "Max radius-edge ratio, default 2 (TetGen -q)")
                         ->expected(0, 1)

@@ -16,6 +16,7 @@
 #include <stdexcept>
 
 #include "barycert/base/text.hpp"
+#include "barycert/io.hpp"
 #include "option_table.hpp"
 #include "options/mistyped.hpp"
 
@@ -135,6 +136,8 @@ Parsed parse_options(int argc, char** argv) {
             options.max_volume =
                 number_in("--max-volume", table.max_volume, tiny, unbounded, "a volume greater than 0");
         }
+        if (given("--output") && (table.output.empty() || table.output == "-"))
+            throw std::invalid_argument("--output: expected the stem of files, found \"" + table.output + '"');
         if (given("--timeout"))
             options.timeout = number_in("--timeout", table.timeout, 1e-3, 1e9, "a time of 0.001 to 1e9 s");
         if (given("--index-base")) options.index_base = table.index_base == "1" ? 1 : 0;
@@ -156,6 +159,7 @@ Parsed parse_options(int argc, char** argv) {
         return {.options = {}, .exit_code = 2};
     }
     if (options.output.empty()) options.output = default_output(options.input);
+    options.output = tetgen_stem(options.output);
     return {.options = std::move(options), .exit_code = {}};
 }
 

@@ -133,6 +133,23 @@ TEST_P(OutputFileTest, a_link_is_followed_and_permissions_stay) {
     EXPECT_EQ(status.st_mode & 0777U, 0640U);
 }
 
+TEST_P(OutputFileTest, a_link_to_nothing_makes_what_it_names) {
+    fs::create_symlink("between", path("link"));  // relative, by way of another one
+    fs::create_symlink(path("new"), path("between"));
+    base::OutputFile file(path("link"));
+    file.write("new");
+    ASSERT_TRUE(file.commit());
+    EXPECT_TRUE(fs::is_symlink(path("link")));
+    EXPECT_TRUE(fs::is_symlink(path("between")));
+    EXPECT_EQ(get(path("new")), "new");
+    fs::create_symlink("loop", path("loop"));
+    base::OutputFile loop(path("loop"));
+    const Status refused = loop.commit();
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().file, path("loop"));
+    EXPECT_TRUE(fs::is_symlink(path("loop")));
+}
+
 TEST_P(OutputFileTest, bytes_are_replaced) {
     put(path("f"), "old");
     base::OutputFile file(path("f"));

@@ -82,6 +82,16 @@ TEST(ConformityReport, FacetsWithHolesAndWithoutArea) {
     EXPECT_EQ(coarse.examples[1].facet, 1);
 }
 
+// A bow-tie whose halves cancel: it has no area to respect.
+TEST(ConformityReport, ABowTieHasNoArea) {
+    Plc plc;
+    plc.points = {0, 0, 0, 4, 4, 0, 4, 0, 0, 0, 4, 0};
+    plc.facets = {{{{0, 1, 2, 3}}, {}, 0}};
+    const ConformityReport c = conformity(box(3, {4, 4, 4}), plc);
+    EXPECT_EQ(c.facets, 0U);
+    EXPECT_EQ(c.violated, 0U);
+}
+
 TEST(ConformityReport, AFaceCanLieInside) {
     Plc plc;
     plc.points = {2, 0, 0, 2, 4, 0, 2, 4, 4, 2, 0, 4};

@@ -79,6 +79,12 @@ DelaunayReport slow_delaunay(const Mesh& mesh) {
             if (distance >= radius) continue;
             ++out.violations;
             out.worst_depth = std::max(out.worst_depth, 1 - std::sqrt(Q(distance / radius).get_d()));
+            // Cells on opposite sides: the other sphere has this cell's apex in it.
+            const auto other_centre = *circumcentre(mesh, static_cast<std::size_t>(other));
+            const Q there_radius = squared_distance(other_centre, point(mesh, mesh.cells[there]));
+            const Q there_distance = squared_distance(other_centre, point(mesh, mesh.cells[cell * mesh.corners() + i]));
+            EXPECT_LT(there_distance, there_radius);
+            out.worst_depth = std::max(out.worst_depth, 1 - std::sqrt(Q(there_distance / there_radius).get_d()));
         }
     }
     return out;
@@ -155,6 +161,26 @@ TEST(Delaunay, OfFoldedCellsDoesNotDependOnTheirOrder) {
     EXPECT_EQ(delaunay(mesh).violations, 1U);
     mesh.cells = {0, 1, 3, 0, 1, 2};
     EXPECT_EQ(delaunay(mesh).violations, 1U);
+    // Four points of one circle: the facet counts once.
+    mesh.points = {0, 0, 1, 0, 0, 1, 1, 1};
+    mesh.cells = {0, 1, 2, 0, 1, 3};
+    EXPECT_EQ(delaunay(mesh).cospherical, 1U);
+    EXPECT_EQ(delaunay(mesh).violations, 0U);
+}
+
+// The deeper of both spheres, in whatever order the cells stand.
+TEST(Delaunay, TheDepthIsTheDeeper) {
+    Mesh mesh;
+    mesh.dimension = 2;
+    mesh.points = {0, 0, 4, 0, 2, 0.5, 2, -3};
+    mesh.cells = {0, 1, 2, 0, 3, 1};
+    const DelaunayReport one = delaunay(mesh);
+    EXPECT_EQ(one.violations, 1U);
+    mesh.cells = {0, 3, 1, 0, 1, 2};
+    const DelaunayReport other = delaunay(mesh);
+    EXPECT_EQ(one.worst_depth, other.worst_depth);
+    EXPECT_EQ(one.worst_node, other.worst_node);
+    expect_same(mesh, 0);
 }
 
 TEST(Delaunay, OnlyIfAskedAndNeverOfDegenerateCells) {

@@ -64,6 +64,8 @@ TEST(completion, bash_offers_every_command_and_option) {
     EXPECT_EQ(bash.offers({"barycert", "re"}), (Words{"render", "replay", "resample"}));
     EXPECT_EQ(bash.offers({"barycert", "sample", "--thr"}), Words{"--threads"});
     EXPECT_EQ(bash.offers({"barycert", "help", "re"}), (Words{"render", "replay", "resample"}));
+    EXPECT_EQ(bash.offers({"barycert", "help", "render", "is"}), Words{"iso"});
+    EXPECT_EQ(bash.offers({"barycert", "help", "render", "aud"}, "/"), Words{});
     const Words pictures = bash.offers({"barycert", "render", ""}, "/");
     EXPECT_TRUE(std::binary_search(pictures.begin(), pictures.end(), "iso"));
 }
@@ -127,8 +129,15 @@ TEST(completion, zsh_takes_the_script) {
         const Ended sourced = run_shell("zsh -f -c 'autoload -Uz compinit && compinit -u -D && source " + script +
                                         " && print -r -- $_comps[barycert" + (of.empty() ? "" : "-tetgen") + "]'");
         EXPECT_EQ(sourced.out, of.empty() ? "_barycert\n" : "_barycert_tetgen\n") << sourced.err;
+        // Loaded by zsh as a function of the file's name it completes at once.
+        const std::string file = of.empty() ? "_barycert" : "_barycert-tetgen";
+        scratch.put(file, run(call).out);
+        const Ended loaded = run_shell("zsh -f -c 'fpath=(" + scratch.folder() + " $fpath); autoload -Uz " + file +
+                                       "; _arguments() { print -r -- asked }; " + file + "'");
+        EXPECT_EQ(loaded.out, "asked\n") << loaded.err;
         const std::string text = read_file(script);
         if (!of.empty()) continue;
+        EXPECT_TRUE(contains(text, "offset.2\\^17"));  // the words are evaluated
         for (const ListedCommand& command : listed_commands()) {
             std::string function = "\n_barycert";
             for (const std::string& word : command.words) function += "_" + word;

@@ -2,12 +2,14 @@
 # fuzz.sh BUILD SECONDS [TARGET...]: runs libFuzzer's executables in BUILD/fuzz, all of them or the ones named, one after the
 # other, SECONDS in all, and prints the table of what has been done so far in BUILD.
 #
-# Each begins with what it found before (BUILD/fuzz/work/TARGET), corpus/TARGET and found/TARGET. What ends it is kept as
+# Each begins with what it found before (BUILD/fuzz/work/TARGET), what the builds beside BUILD found (with and without
+# sanitizers: ../fuzz, ../fuzz-fast), corpus/TARGET and found/TARGET. What ends it is kept as
 # BUILD/fuzz/findings/TARGET-*; then the exit code is 1. BUILD/fuzz/totals has a line a run: target, executions, seconds,
 # coverage, edges. FUZZ_OPTIONS: further options of libFuzzer.
 set -eu
 here=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd)
 programs=$1/fuzz
+builds=$(dirname -- "$1")
 seconds=$2
 shift 2
 [ $# -gt 0 ] || set -- $(cd "$programs" && ls fuzz_* | sed 's/^fuzz_//')
@@ -59,7 +61,9 @@ for target in "$@"; do
     [ -x "$programs/fuzz_$target" ] || { echo "fuzz.sh: no such target: $target" >&2; exit 2; }
     mkdir -p "$programs/work/$target"
     seeds=$here/corpus/$target
-    [ ! -d "$here/found/$target" ] || seeds="$seeds $here/found/$target"
+    for more in "$here/found/$target" "$builds/fuzz/fuzz/work/$target" "$builds/fuzz-fast/fuzz/work/$target"; do
+        [ ! -d "$more" ] || [ "$more" = "$programs/work/$target" ] || seeds="$seeds $more"
+    done
     log=$programs/logs/$target.log
     dictionary=$here/dictionaries/$(dictionary_of "$target").dict
     [ -f "$dictionary" ] && dictionary=-dict=$dictionary || dictionary=

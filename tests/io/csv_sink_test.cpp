@@ -52,6 +52,16 @@ TEST(CsvSink, names_are_quoted_where_they_must_be) {
     EXPECT_EQ(written(data), "x,y,cell,feature,a b,\"a,b\",\"a\"\"b\",\"a\nb\",\"a\rb\",,\xC3\xA4\n");
 }
 
+TEST(CsvSink, columns_of_one_name_are_refused) {
+    const TemporaryFolder folder;
+    for (const char* file : {"r.csv", "r.vtu", "r.npy"}) {
+        const auto sink = open_table(folder / file, {.dimension = 2, .fields = {{"v", 2}, {"v.0"}}});
+        ASSERT_FALSE(sink) << file;
+        EXPECT_EQ(sink.error().what, "two columns of the rows would have the same name");
+        EXPECT_EQ(sink.error().found, "\"v.0\" twice");
+    }
+}
+
 /// Reads back what was written, by a parser of its own.
 void expect_round_trip(const std::string& text, const RowData& data) {
     const auto same = [](double a, double b) {

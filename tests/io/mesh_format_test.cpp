@@ -6,6 +6,7 @@
 
 #include "barycert/gmsh.hpp"
 #include "barycert/io/other_formats.hpp"
+#include "barycert/plc.hpp"
 #include "barycert/vtk.hpp"
 #include "io/tetgen/mesh_files.hpp"
 
@@ -118,6 +119,19 @@ TEST(MeshFormat, files_that_are_not_read) {
         EXPECT_EQ(missing.error().what, "no such file");
         EXPECT_NE(missing.error().remedy.find("would not be read"), std::string::npos);
     }
+}
+
+TEST(MeshFormat, packed_parts_of_a_mesh) {
+    const TemporaryFolder folder;
+    put(folder / "a.node", "\x1f\x8b\x08");
+    put(folder / "a.ele", "\x1f\x8b\x08");
+    const Result<Mesh> mesh = read_mesh(folder / "a");  // by its stem
+    ASSERT_FALSE(mesh);
+    EXPECT_NE(mesh.error().what.find("packed by gzip"), std::string::npos) << mesh.error().message();
+    put(folder / "p.csv", "\x1f\x8b\x08");
+    EXPECT_NE(open_points(folder / "p.csv", 3).error().what.find("packed by gzip"), std::string::npos);
+    put(folder / "p.poly", "\x1f\x8b\x08");
+    EXPECT_NE(read_plc(folder / "p.poly").error().what.find("packed by gzip"), std::string::npos);
 }
 
 TEST(MeshFormat, what_is_not_there) {

@@ -52,8 +52,11 @@ bool same_file(const std::string& a, const std::string& b) {
     std::error_code unknown;
     if (fs::equivalent(a, b, unknown)) return true;
     // Without absolute() a relative path of which nothing exists would stay relative.
-    const fs::path one = fs::weakly_canonical(fs::absolute(a, unknown), unknown);
-    return !unknown && one == fs::weakly_canonical(fs::absolute(b, unknown), unknown) && !unknown;
+    const auto real = [&](const std::string& path) {
+        return fs::weakly_canonical(fs::absolute(resolved_path(path), unknown), unknown);
+    };
+    const fs::path one = real(a);
+    return !unknown && one == real(b) && !unknown;
 }
 
 Status check_distinct(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {

@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace barycert::base {
@@ -51,20 +53,31 @@ std::string path_of(int descriptor) {
     return "/proc/self/fd/" + std::to_string(descriptor);
 }
 
-/// `path` with its links resolved if it exists, else as it is.
-std::string resolved(const std::string& path) {
-    char* const real = ::realpath(path.c_str(), nullptr);
-    if (real == nullptr) return path;
-    std::string result = real;
-    std::free(real);
-    return result;
-}
-
 }  // namespace
 
-OutputFile::OutputFile(std::string target) : target_(std::move(target)), real_path_(resolved(target_)) {
+std::string resolved_path(std::string path) {
+    constexpr int max_links = 40;  // the system's own limit
+    for (int links = 0; links < max_links; ++links) {
+        if (char* const real = ::realpath(path.c_str(), nullptr)) {
+            std::string result = real;
+            std::free(real);
+            return result;
+        }
+        std::error_code none;
+        const std::filesystem::path target = std::filesystem::read_symlink(path, none);
+        if (none) return path;
+        path = (std::filesystem::path(path).parent_path() / target).string();
+    }
+    return path;
+}
+
+OutputFile::OutputFile(std::string target) : target_(std::move(target)), real_path_(resolved_path(target_)) {
     struct stat status {};
     const bool exists = ::stat(real_path_.c_str(), &status) == 0;
+    if (!exists && errno == ELOOP) {
+        fail("cannot write the file", ELOOP);
+        return;
+    }
     if (exists && S_ISDIR(status.st_mode)) {
         fail("cannot write the file", EISDIR);
         return;

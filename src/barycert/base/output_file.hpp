@@ -11,6 +11,9 @@
 
 namespace barycert::base {
 
+/// The path with its links resolved, also where the last of them leads to a file that does not exist yet.
+std::string resolved_path(std::string path);
+
 /// Writes to a file without a name in the target's folder, which commit() puts in the target's place: a process that is
 /// ended by whatever means, SIGKILL included, leaves the target as it was and nothing else. Without a commit() the
 /// destructor leaves nothing either. Errors (no space, no permission) are kept and told by close() and commit(); the

@@ -59,6 +59,7 @@ public:
         }
     }
 
+    bool none() const { return facet_.sign() == 0; }  ///< the facet has no area: a bow-tie, say
     bool equal() const { return (facet_ - covered_).sign() == 0; }
     double share() const { return volumes_.rounded(covered_) / volumes_.rounded(facet_); }
 
@@ -165,9 +166,10 @@ private:
     }
 
     void judge(std::size_t i, std::span<const Candidate> faces, std::size_t examples, ConformityReport& out) const {
-        ++out.facets;
         const PlcRegion& region = regions_[i];
         const Areas areas(region, faces);
+        if (areas.none()) return;
+        ++out.facets;
         bool in_plane = true;
         double farthest = 0;
         auto crossing = PlcRegion::Crossing::none;

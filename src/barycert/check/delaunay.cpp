@@ -66,9 +66,19 @@ public:
             ++out.facets;
             const auto there = static_cast<std::size_t>(other);
             const Mesh::Index node = apex(there, static_cast<Mesh::Index>(cell));
-            // One apex is in the other's sphere if that one is in its own, where the cells lie on opposite sides.
-            if (!test(cell, p, node, out) && !opposite(cell, p, i, node))
-                test(there, corner_points(mesh_, there), mesh_.cells[cell * mesh_.corners() + i], out);
+            const Sign one = side(cell, p, node);
+            // Where the cells lie on opposite sides, an apex is in the other's sphere if that one is in its own.
+            const bool mutual = opposite(cell, p, i, node);
+            if (mutual && one == Sign::negative) continue;
+            const auto q = corner_points(mesh_, there);
+            const Mesh::Index back = mesh_.cells[cell * mesh_.corners() + i];
+            const Sign other_one = mutual ? one : side(there, q, back);
+            if (one == Sign::positive || other_one == Sign::positive)
+                ++out.violations;
+            else if (one == Sign::zero || other_one == Sign::zero)
+                ++out.cospherical;
+            if (one == Sign::positive) note_depth(cell, p, node, out);
+            if (other_one == Sign::positive) note_depth(there, q, back, out);
         }
     }
 
@@ -85,20 +95,20 @@ private:
         return side * orientation_[cell] < 0;
     }
 
-    /// True if the node lies strictly in the cell's sphere.
-    bool test(std::size_t cell, const std::array<const double*, 4>& p, Mesh::Index node, DelaunayReport& out) const {
-        const int d = mesh_.dimension;
+    /// Positive if the node lies strictly in the cell's sphere, zero on it.
+    Sign side(std::size_t cell, const std::array<const double*, 4>& p, Mesh::Index node) const {
         const double* const at = point(node);
-        const Sign s = d == 2 ? incircle(p[0], p[1], p[2], at) : insphere(p[0], p[1], p[2], p[3], at);
-        if (s == Sign::zero) ++out.cospherical;
-        if (static_cast<int>(s) * orientation_[cell] <= 0) return false;
-        ++out.violations;
-        const double in = depth(d, p.data(), at);
-        if (out.worst_cell >= 0 && in <= out.worst_depth) return true;
+        const Sign s = mesh_.dimension == 2 ? incircle(p[0], p[1], p[2], at) : insphere(p[0], p[1], p[2], p[3], at);
+        return static_cast<Sign>(static_cast<int>(s) * orientation_[cell]);
+    }
+
+    void note_depth(std::size_t cell, const std::array<const double*, 4>& p, Mesh::Index node,
+                    DelaunayReport& out) const {
+        const double in = depth(mesh_.dimension, p.data(), point(node));
+        if (out.worst_cell >= 0 && in <= out.worst_depth) return;
         out.worst_depth = in;
         out.worst_cell = static_cast<Mesh::Index>(cell);
         out.worst_node = node;
-        return true;
     }
 
     /// The node of `cell` that is opposite to its facet to `to`.

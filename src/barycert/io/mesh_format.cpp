@@ -65,8 +65,8 @@ Error missing(const std::string& path) {
     if (const std::string found = with_another_suffix(path); !found.empty()) {
         error.remedy = "there is " + found + ": name it with its suffix";
     } else if (other != nullptr) {
-        error.remedy = std::string("check the path; ") + other->what +
-                       " would not be read: " + other_format_error(*other, path).remedy;
+        error.remedy = std::string("check the path; it would not be read (") + other->what +
+                       "): " + other_format_error(*other, path).remedy;
     } else if (format_by_suffix(path) && !is_tetgen_file(path)) {
         error.remedy = "check the path";
     } else {
@@ -90,17 +90,24 @@ Result<MeshFormat> format_of_file(const std::string& path) {
     if (by_suffix) return *by_suffix;
     if (const OtherFormat* other = other_format_by_suffix(path); other != nullptr)
         return other_format_error(*other, path);
-    return Error{.what = "this is no mesh that is read",
-                 .file = path,
-                 .expected = formats_read,
-                 .remedy = "convert it with `meshio convert " + base::shell_word(path) + " OUT.vtu`"};
+    return Error{
+        .what = "this is no mesh that is read",
+        .file = path,
+        .expected = formats_read,
+        .remedy = "TetGen's files have to be named STEM.node and STEM.ele; convert others with `meshio convert " +
+                  base::shell_word(path) + " OUT.vtu`"};
 }
 
 }  // namespace
 
 Result<MeshFormat> mesh_format(const std::string& path) {
-    std::error_code ignored;
-    const fs::file_status status = fs::status(path, ignored);
+    std::error_code code;
+    const fs::file_status status = fs::status(path, code);
+    if (code == std::errc::permission_denied)
+        return Error{.what = "cannot read the file",
+                     .file = path,
+                     .found = "permission denied",
+                     .remedy = "check the permissions of its folder"};
     const bool stem = !is_tetgen_file(path) && exists(path + ".node");
     if (stem && (!format_by_suffix(path) || !fs::exists(status))) return MeshFormat::tetgen;
     if (fs::is_directory(status)) return folder_error(path);

@@ -112,7 +112,7 @@ const OtherFormat* other_format_by_suffix(std::string_view path) {
     return by_suffix(lower(path.substr(dot)));
 }
 
-const OtherFormat* other_format_by_content(std::string_view head, std::string_view path, bool strict) {
+const OtherFormat* packed_format(std::string_view head) {
     using std::string_view_literals::operator""sv;
     struct Magic {
         std::string_view bytes, suffix;
@@ -128,6 +128,11 @@ const OtherFormat* other_format_by_content(std::string_view head, std::string_vi
     for (const Magic& magic : magics) {
         if (head.starts_with(magic.bytes)) return by_suffix(magic.suffix);
     }
+    return nullptr;
+}
+
+const OtherFormat* other_format_by_content(std::string_view head, std::string_view path, bool strict) {
+    if (const OtherFormat* packed = packed_format(head); packed != nullptr) return packed;
     constexpr std::string_view in_hdf5 =
         " a MED file of Salome or Code_Aster; a CGNS file; an Exodus file; a VTKHDF file; a mesh of another program; a "
         "case of Fluent;";

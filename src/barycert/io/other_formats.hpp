@@ -34,6 +34,9 @@ const OtherFormat* other_format_by_suffix(std::string_view path);
 /// By its first bytes; nullptr if they could be anything. `strict`: only what cannot be taken for another file.
 const OtherFormat* other_format_by_content(std::string_view head, std::string_view path, bool strict);
 
+/// Compressed, or a .npy file, by its first bytes; else nullptr. No text begins so.
+const OtherFormat* packed_format(std::string_view head);
+
 /// That the file is not read, and what to do.
 Error other_format_error(const OtherFormat& format, const std::string& path);
 
@@ -41,6 +44,6 @@ Error other_format_error(const OtherFormat& format, const std::string& path);
 std::string gmsh_command(const std::string& path, const std::string& more = {});
 
 inline constexpr const char* formats_read =
-    "a file of Gmsh (.msh), VTK (.vtu .vtk .pvtu .vtm .pvd .vtu.series), TetGen or Triangle (.node .ele)";
+    "a file of Gmsh (.msh), VTK (.vtu .vtk .vtp .pvtu .vtm .pvd .vtu.series), TetGen or Triangle (.node .ele)";
 
 }  // namespace barycert::io

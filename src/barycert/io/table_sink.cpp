@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <set>
 
+#include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
@@ -53,6 +55,15 @@ Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const Tab
                      .expected = "2 or 3",
                      .found = std::to_string(format.dimension),
                      .remedy = {}};
+    }
+    std::set<std::string> names;
+    for (const std::string& name : format.columns()) {
+        if (names.insert(name).second) continue;
+        return Error{.what = "two columns of the rows would have the same name",
+                     .file = path,
+                     .expected = "fields whose columns differ (components are NAME.0, NAME.1, ...)",
+                     .found = base::quoted(name) + " twice",
+                     .remedy = "rename a field, or leave it out"};
     }
     const Result<io::FileFormat> kind = io::format_of(path);
     if (kind && *kind == io::FileFormat::csv) return io::open_csv_sink(path, format);

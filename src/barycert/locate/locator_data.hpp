@@ -1,6 +1,7 @@
 /// All that a Locator keeps.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -60,8 +61,8 @@ struct LocatorData {
     void prepare(std::size_t points) const {
         // As measured: a point outside takes about 100 ns without an occupancy; to make the coarse one takes about 60
         // ns a cell. The fine one takes about 600 and saves a few more nanoseconds a point: where there are so many
-        // points, they are taken not to be the last.
-        const auto cells = static_cast<double>(index.cell_count());
+        // points, they are taken not to be the last. Of few cells they take as long as of a certain number.
+        const auto cells = static_cast<double>(std::max(index.cell_count(), Occupancy::least_cells));
         if (static_cast<double>(points) < cells * cost_of_coarse) return;
         const double filled = filled_.get([&] { return filled_share(index); });
         const double outside = static_cast<double>(points) * (1 - filled);

@@ -110,13 +110,13 @@ double share(const CellIndex& index, std::size_t place) {
 }  // namespace
 
 Occupancy::Occupancy(const CellIndex& index, double filled, Detail detail) {
-    constexpr std::size_t bins_a_cell = 64, min = std::size_t{1} << 12, few_cells = std::size_t{1} << 20,
-                          max_bins_a_cell = 8;
+    constexpr std::size_t bins_a_cell = 64, few_cells = std::size_t{1} << 20, max_bins_a_cell = 8;
     const std::size_t cells = index.cell_count(), max = std::max(few_cells, max_bins_a_cell * cells);
     const bool fine = detail == Detail::fine;
-    const double wanted =
-        fine ? static_cast<double>(std::max(min, bins_a_cell * cells)) : static_cast<double>(cells) / filled;
-    const auto bins = static_cast<std::size_t>(std::min(wanted, static_cast<double>(max)));
+    std::size_t bins = std::min(max, bins_a_cell * std::max(least_cells, cells));
+    // Cells that fill next to nothing of their boxes do not make the coarse one finer than the fine one.
+    if (!fine)
+        bins = static_cast<std::size_t>(std::min(static_cast<double>(cells) / filled, static_cast<double>(bins)));
     for (const std::size_t axis : index::halved_axes(index.dimension(), index.low.data(), index.high.data(), bins))
         ++bits_[axis];
     bits_[0] = std::max(bits_[0], word_bits);

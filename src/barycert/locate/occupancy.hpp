@@ -17,6 +17,8 @@ namespace barycert::locate {
 class Occupancy {
 public:
     static constexpr int word_bits = 5;  ///< of them, bins along the first axis make a word
+    /// Of fewer cells one is as large, and takes as long to make, as of so many.
+    static constexpr std::size_t least_cells = 64;
 
     /// How much it tells: `coarse`, from the boxes of cells alone, with bins about as large as cells; `fine`, with far
     /// smaller ones if there are not too many cells, which takes five to ten times as long.

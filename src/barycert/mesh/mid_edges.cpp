@@ -1,6 +1,8 @@
 #include "barycert/mesh/mid_edges.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "barycert/environment.hpp"
 
@@ -23,24 +25,32 @@ constexpr std::array<MidEdgeOrder, 2> orders_2d{MidEdgeOrder::triangle, MidEdgeO
 /// The edge whose midpoint is strictly nearest to `node`, or edges.size().
 std::size_t nearest_edge(const Mesh& mesh, const Mesh::Index* corners, Mesh::Index node, std::span<const Edge> edges) {
     const auto dimension = static_cast<std::size_t>(mesh.dimension);
-    const auto coordinate = [&](Mesh::Index point, std::size_t axis) {
-        return mesh.points[static_cast<std::size_t>(point) * dimension + axis] * 0.25;  // no sum below overflows
-    };
+    double largest = 0;
+    const auto point = [&](Mesh::Index at) { return &mesh.points[static_cast<std::size_t>(at) * dimension]; };
+    for (std::size_t i = 0; i <= dimension + 1; ++i) {
+        const double* const p = point(i <= dimension ? corners[i] : node);
+        for (std::size_t axis = 0; axis < dimension; ++axis) largest = std::max(largest, std::fabs(p[axis]));
+    }
+    const double scale = largest > 0x1p1000 ? 0.25 : 1;  // no sum below overflows, and no subnormal number is lost
+    const auto coordinate = [&](Mesh::Index at, std::size_t axis) { return point(at)[axis] * scale; };
     std::array<double, 6> squares{};
     std::array<double, 18> offsets{};
-    double max = 0;
+    double unit = std::numeric_limits<double>::infinity();
     for (std::size_t e = 0; e < edges.size(); ++e) {
+        double longest = 0;
         for (std::size_t axis = 0; axis < dimension; ++axis) {
             const double middle = coordinate(corners[edges[e][0]], axis) + coordinate(corners[edges[e][1]], axis);
-            double& offset = offsets[e * dimension + axis] = middle - 2 * coordinate(node, axis);
-            offset = std::max(offset, -offset);
-            max = std::max(max, offset);
+            double& offset = offsets[e * dimension + axis] = std::fabs(middle - 2 * coordinate(node, axis));
+            longest = std::max(longest, offset);
         }
+        unit = std::min(unit, longest);
     }
-    if (max == 0) return edges.size();
+    // In the unit of the nearest midpoint, whose square is 1 to 3; those far off may be infinite. Of one that is the
+    // node itself, all others are.
     for (std::size_t e = 0; e < edges.size(); ++e) {
         for (std::size_t axis = 0; axis < dimension; ++axis) {
-            const double scaled = offsets[e * dimension + axis] / max;  // squares stay in range
+            const double offset = offsets[e * dimension + axis];
+            const double scaled = offset == 0 ? 0 : offset / unit;
             squares[e] += scaled * scaled;
         }
     }
@@ -76,7 +86,7 @@ std::span<const std::size_t> edge_sequence(MidEdgeOrder order, int dimension) {
     return {};
 }
 
-std::optional<MidEdgeOrder> detect_mid_edge_order(const Mesh& mesh) {
+std::optional<MidEdgeVote> detect_mid_edge_order(const Mesh& mesh) {
     const ExactEnvironment environment;
     const std::span<const Edge> edges = edges_of(mesh.dimension);
     const std::span<const MidEdgeOrder> orders =
@@ -98,9 +108,9 @@ std::optional<MidEdgeOrder> detect_mid_edge_order(const Mesh& mesh) {
             if (std::equal(sequence.begin(), sequence.end(), found.begin())) ++votes[i];
         }
     }
-    if (voters == 0) return orders[0];
+    if (voters == 0) return MidEdgeVote{orders[0], true};
     for (std::size_t i = 0; i < orders.size(); ++i) {
-        if (2 * votes[i] > voters) return orders[i];
+        if (2 * votes[i] > voters) return MidEdgeVote{orders[i], false};
     }
     return std::nullopt;
 }

@@ -260,6 +260,12 @@ private:
         std::vector<std::uint8_t> valid(count);
         if (Status done = sample(*pixels, *sampler, column->component, values, valid); !done) return done;
         summary_.seconds.sample = watch.lap();
+        if (std::none_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }))
+            return Error{.what = "nothing to draw",
+                         .file = job_.output,
+                         .expected = "a pixel whose middle is in the mesh, where the field is finite",
+                         .found = fmt::format("{} x {} pixels without one", pixels->width, pixels->height),
+                         .remedy = "give more pixels, --width N, or another field"};
         run_.stage("writing " + job_.output);
         Slice slice;
         slice.width = static_cast<std::size_t>(pixels->width);

@@ -148,8 +148,9 @@ Status onto_grid(Run& run, const ResampleJob& job, Engine& engine) {
 }
 
 Status onto_grid_in_steps(Run& run, const ResampleJob& job, Engine& engine) {
-    const Result<Grid> grid = grid_of(job, engine.mesh());
+    Result<Grid> grid = grid_of(job, engine.mesh());
     if (!grid) return grid.error();
+    if (io::has_suffix(job.output, ".vti")) *grid = as_in_vti(*grid);
     run.summary.from = PointsFrom::grid;
     run.summary.grid = *grid;
     if (Status ready = engine.prepare_without_search(FoundBy::grid, "each cell finds the points that it holds"); !ready)

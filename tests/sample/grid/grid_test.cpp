@@ -25,7 +25,7 @@ TEST(Grids, OverABoxEndsOnIt) {
         EXPECT_EQ(grid.point_count(), static_cast<std::uint64_t>(n));
         EXPECT_EQ(grid.coordinate(0, 0), low);
         EXPECT_EQ(grid.coordinate(0, n - 1), high);
-        EXPECT_EQ(grid.spacing[0], (high - low) / static_cast<double>(n - 1));
+        EXPECT_NEAR(grid.spacing[0], (high - low) / static_cast<double>(n - 1), 0x1p-50 * grid.spacing[0]);
         const auto k = static_cast<std::int64_t>(random.below(static_cast<std::uint64_t>(n - 1)));
         EXPECT_EQ(grid.coordinate(0, k), low + static_cast<double>(k) * grid.spacing[0]);
         EXPECT_LE(grid.coordinate(0, k), grid.coordinate(0, k + 1));
@@ -33,6 +33,31 @@ TEST(Grids, OverABoxEndsOnIt) {
         EXPECT_LE(grid.coordinate(1, 0), high);
         EXPECT_EQ(grid.coordinate(1, 0), low + (high - low) / 2);
     }
+}
+
+// Readers of a file know origin and spacing alone: where these can lead to the end they do.
+TEST(Grids, InVtiEndWhereReadersEnd) {
+    base::Random random(2);
+    int reached = 0;
+    constexpr int tried = 5000;
+    for (int i = 0; i < tried; ++i) {
+        const double a = random.integer(-99, 99) / 100.0, b = a + random.integer(1, 99) / 100.0;
+        const auto n = static_cast<std::int64_t>(2 + random.below(200));
+        const Grid grid = over(2, {n, 1, 1}, {a, 0, 0}, {b, 0, 0}), file = as_in_vti(grid);
+        EXPECT_EQ(grid.coordinate(0, n - 1), b);
+        const double last = file.origin[0] + static_cast<double>(n - 1) * file.spacing[0];
+        EXPECT_EQ(file.coordinate(0, n - 1), last);
+        EXPECT_LE(last, b);
+        EXPECT_NEAR(last, b, 0x1p-51 * std::max(std::abs(a), std::abs(b)));
+        reached += last == b ? 1 : 0;
+        if (last == b) continue;
+        // No double near the quotient leads there.
+        double spacing = (b - a) / static_cast<double>(n - 1) * (1 - 0x1p-48);
+        for (int k = 0; k < 64; ++k, spacing = std::nextafter(spacing, infinity))
+            EXPECT_NE(a + static_cast<double>(n - 1) * spacing, b) << a << " " << b << " " << n;
+    }
+    EXPECT_GT(reached, tried * 9 / 10);
+    EXPECT_EQ(as_in_vti(over(2, {50, 1, 1}, {0, 0, 0}, {1, 0, 0})).coordinate(0, 49), 1);
 }
 
 TEST(Grids, SpacedGoAsFarAsTheyCan) {
@@ -116,6 +141,12 @@ TEST(Grids, Refused) {
         EXPECT_EQ(bounds_refused(n, 0, max_double), none);
     }
     EXPECT_TRUE(!grid_over(2, {3, 1, 1}, {0, 0, 0}, {5e-324, 0, 0}));  // a spacing of zero
+    // Points that fall together.
+    EXPECT_FALSE(grid_over(2, {5, 1, 1}, {0, 0, 0}, {1.5e-323, 0, 0}));
+    EXPECT_TRUE(grid_over(2, {4, 1, 1}, {0, 0, 0}, {1.5e-323, 0, 0}));
+    EXPECT_FALSE(grid_over(2, {4, 1, 1}, {1, 0, 0}, {1 + 0x1p-51, 0, 0}));
+    EXPECT_TRUE(grid_over(2, {3, 1, 1}, {1, 0, 0}, {1 + 0x1p-51, 0, 0}));
+    EXPECT_FALSE(grid_spaced(2, {0x1p-54, 1, 0}, {1, 0, 0}, {2, 0, 0}));
     for (const double step : {0.0, -0.0, -1.0, infinity, -infinity, std::nan("")})
         EXPECT_FALSE(grid_spaced(3, {1, 1, step}, {0, 0, 0}, {1, 1, 1})) << step;
     for (const int d : {-1, 0, 1, 4}) {

@@ -35,15 +35,19 @@ double true_projected(const Mesh& mesh, const Field& field, std::size_t c, const
                       const double* point) {
     std::vector<Mesh::Index> nodes(nearest.nodes.begin(), nearest.nodes.end());
     std::erase(nodes, -1);
+    const std::size_t n_corners = mesh.corners(), first = n_corners * static_cast<std::size_t>(nearest.cell);
+    for (std::size_t i = 0; i < n_corners; ++i) {
+        const auto node = static_cast<std::size_t>(mesh.cells[first + i]);
+        if (!std::isfinite(field.data[static_cast<std::size_t>(field.components) * node + c])) return std::nan("");
+    }
     const auto d = static_cast<std::size_t>(mesh.dimension), n = static_cast<std::size_t>(field.components);
     const auto at = [&](Mesh::Index node) { return field.data[n * static_cast<std::size_t>(node) + c]; };
-    if (nodes.size() == 1) return std::isfinite(at(nodes[0])) ? at(nodes[0]) : std::nan("");
+    if (nodes.size() == 1) return at(nodes[0]);
     Case question{.simplex = nodes.size() == 3 ? Simplex::triangle3d : Simplex::segment};
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         for (std::size_t k = 0; k < d; ++k)
             question.vertices[3 * i + k] = mesh.points[d * static_cast<std::size_t>(nodes[i]) + k];
         question.values[i] = at(nodes[i]);
-        if (!std::isfinite(question.values[i])) return std::nan("");
     }
     for (std::size_t k = 0; k < d; ++k) question.point[k] = point[k];
     return ask_oracle(question).value;
@@ -223,6 +227,24 @@ TEST(SampleOutside, E1_NanAndFill) {
         EXPECT_EQ(counts.snapped + counts.extrapolated, 0U);
         EXPECT_EQ(counts.farthest, 0);
         EXPECT_TRUE(samples.distances.empty());
+    }
+}
+
+// A point a hair outside has the value of the point it is snapped to, NaN too: a node of the cell has none.
+TEST(SampleOutside, N3_NotFiniteAsInside) {
+    Mesh mesh;
+    mesh.dimension = 2;
+    mesh.points = {0, 0, 1, 0, 0, 1};
+    mesh.cells = {0, 1, 2};
+    mesh.point_fields = {{"f", 1, {1, 2, std::nan("")}}};
+    const auto sampler = Sampler::build(mesh, {"f"});
+    ASSERT_TRUE(sampler);
+    const double tiny = std::numeric_limits<double>::denorm_min();
+    for (const Rounding rounding : {Rounding::correct, Rounding::plain}) {
+        const auto rows = sampler->sample(std::vector<double>{0.5, 0, 0.5, -tiny, 1, 0, 2, 0},
+                                          {.rounding = rounding, .outside = {.kind = Outside::nearest}});
+        ASSERT_TRUE(rows);
+        for (std::size_t i = 0; i < 4; ++i) EXPECT_TRUE(std::isnan(rows->value(i, 0))) << i;
     }
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "barycert/base/input_file.hpp"
+#include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
 Result<LineReader> LineReader::open(const std::string& path) {
@@ -61,6 +62,8 @@ bool LineReader::skip_mark() {
                   .found = "a byte-order mark of UTF-16",
                   .remedy = "save the file as UTF-8"};
     }
+    if (const OtherFormat* packed = packed_format(head); owned_ && packed != nullptr)
+        error_ = other_format_error(*packed, name_);
     return !failed();
 }
 

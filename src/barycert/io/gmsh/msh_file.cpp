@@ -85,6 +85,11 @@ Status MshFile::read_format() {
     if (head == "$NOD") {
         return error_at(first, "a .msh file of version 1", "version 2.2 or 4.1", "\"$NOD\"", convert_remedy);
     }
+    if (head.starts_with("$MeshFormat") && head.find('\r') != std::string_view::npos)
+        return error_at(first, "the lines have other ends", "LF or CR LF", "CR alone", "convert the ends of the lines");
+    if (head.empty() && first != end)
+        return error_at(first, "not a file of Gmsh", "a first line \"$MeshFormat\"", "an empty line",
+                        "remove the empty lines at the beginning");
     if (head != "$MeshFormat") {
         return error_at(first, "not a file of Gmsh", "a first line \"$MeshFormat\"", word_at(first, end),
                         "check the path; Fluent's and FreeFem's .msh files are of other formats: convert them to .vtu "

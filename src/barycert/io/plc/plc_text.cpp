@@ -4,17 +4,21 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
 
 std::string read_whole_file(const std::string& path) {
     std::error_code code;
     const std::filesystem::file_status status = std::filesystem::status(path, code);
+    if (code == std::errc::permission_denied)
+        throw Exception(file_error(path, "cannot read", "a file in a folder that you may search", "permission denied"));
     if (!std::filesystem::exists(status)) throw Exception(file_error(path, "no such file"));
     if (std::filesystem::is_directory(status)) {
         throw Exception(file_error(path, "cannot read", "a file", "a directory"));
@@ -22,6 +26,9 @@ std::string read_whole_file(const std::string& path) {
     Result<std::string> text = base::read_file(path);
     if (!text) throw Exception(text.error());
     if (text->empty()) throw Exception(file_error(path, "cannot read", "a PLC", "an empty file"));
+    if (const OtherFormat* packed = packed_format(*text); packed != nullptr)
+        throw Exception(other_format_error(*packed, path));
+    if (text->starts_with("\xEF\xBB\xBF")) text->erase(0, 3);  // byte order mark
     return std::move(*text);
 }
 

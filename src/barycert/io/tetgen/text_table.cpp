@@ -4,6 +4,7 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/base/workers.hpp"
+#include "barycert/io/other_formats.hpp"
 #include "barycert/io/tetgen/row_errors.hpp"
 
 namespace barycert::io {
@@ -88,6 +89,8 @@ Result<TextTable> open_table(const std::string& path, std::span<const char* cons
     TextTable table;
     table.file = path;
     table.data = std::move(*mapped);
+    if (const OtherFormat* packed = packed_format(table.data.bytes()); packed != nullptr)
+        return other_format_error(*packed, path);
     Scanner scanner{table.begin(), table.end()};
     if (table.data.bytes().starts_with("\xEF\xBB\xBF")) scanner.at += 3;
     const std::string expected = std::string("a header that begins with the number of ") + header_names[0];

@@ -77,7 +77,8 @@ private:
                          .found = {},
                          .remedy = "correct the file that names it"};
         }
-        const std::string_view bytes = file->bytes();
+        std::string_view bytes = file->bytes();
+        if (bytes.starts_with("\xEF\xBB\xBF# vtk")) bytes.remove_prefix(3);  // byte order mark
         if (bytes.starts_with("# vtk")) return io::read_legacy(bytes, path, part_);
         if (io::is_series_file(bytes)) {
             const Result<std::vector<io::CollectionFile>> files = io::series_files(bytes, path);

@@ -200,7 +200,7 @@ std::vector<std::string> CheckWords::conformity(std::size_t columns) const {
         ++shown;
     }
     if (c.violated > shown && shown > 0) violated += fmt::format(", and {} more", number(c.violated - shown));
-    if (!violated.empty()) all.push_back("violated facets (area covered): " + violated);
+    if (!violated.empty()) all.push_back("violated facets (area of faces centred on them): " + violated);
     return all;
 }
 

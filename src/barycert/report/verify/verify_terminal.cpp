@@ -19,8 +19,8 @@ std::string verdict_lines(const VerifySummary& s, const Colours& paint) {
     const Verdicts& v = s.verdicts;
     std::string out = fmt::format("{}: {}\n", base::printable(s.results),
                                   v.wrong() == 0 ? paint.good(verdict_sentence(s)) : paint.bad(verdict_sentence(s)));
-    out += fmt::format("{} rows: {} inside the mesh, {} of them on a face, an edge or a vertex; {} outside\n\n", v.rows,
-                       v.inside, v.on_boundary, v.outside);
+    out += fmt::format("{} row{}: {} inside the mesh, {} of them on a face, an edge or a vertex; {} outside\n\n",
+                       v.rows, v.rows == 1 ? "" : "s", v.inside, v.on_boundary, v.outside);
     for (const VerdictLine& line : verdict_table(s))
         out +=
             fmt::format("{:<12} {:>12} {:>7} %  {}\n", line.name, line.count, percent(line.count, v.rows), line.what);

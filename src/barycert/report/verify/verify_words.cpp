@@ -54,8 +54,8 @@ std::vector<VerdictLine> verdict_table(const VerifySummary& summary) {
     if (v.invented_zero != 0) invented += fmt::format("; {} have the value 0", v.invented_zero);
     if (v.invented != 0) {
         const bool all = v.invented_measured == v.invented;
-        invented += all ? "; " : fmt::format("; of {} of them ", v.invented_measured);
-        invented += fmt::format("the farthest {} from the mesh", brief(v.invented_distance));
+        invented += all ? "; the farthest" : fmt::format("; the farthest of {} of them", v.invented_measured);
+        invented += fmt::format(" lies {} from the mesh", brief(v.invented_distance));
         if (v.invented_near != 0)
             invented += fmt::format(", {} nearer than {} of its diagonal", v.invented_near, brief(near_distance));
     }

@@ -33,14 +33,40 @@ Status check_count(std::size_t axis, double count) {
                  .found = base::shortest(count)};
 }
 
+/// A spacing for points from low to high. Who reads a VTI file of the grid computes low + i * spacing, each operation
+/// rounded: of the doubles beside the quotient the nearest is taken that leads to `high` so, else one that leads
+/// nearest below it.
+double spacing_between(double low, double high, std::int64_t count) {
+    const double steps = static_cast<double>(count - 1), infinity = std::numeric_limits<double>::infinity();
+    constexpr int around = 4;  // the quotient is off by less than two units, and so is the last point by rounding
+    double more = (high - low) / steps, less = more, best = 0, best_last = low;
+    const auto look = [&](double spacing) {
+        const double last = low + steps * spacing;
+        if (!(spacing > 0) || last > high || last <= best_last) return;
+        best = spacing;
+        best_last = last;
+    };
+    look(more);
+    for (int i = 0; i < around; ++i) {
+        more = std::nextafter(more, infinity);
+        less = std::nextafter(less, -infinity);
+        look(more);
+        look(less);
+    }
+    return best;
+}
+
 Result<Grid> checked(const Grid& grid) {
     const double points =
         static_cast<double>(grid.counts[0]) * static_cast<double>(grid.counts[1]) * static_cast<double>(grid.counts[2]);
     if (!(points <= 0x1p62))
         return Error{.what = "points of the grid", .expected = "at most 2^62", .found = base::shortest(points)};
     for (std::size_t k = 0; k < 3; ++k) {
-        // The spacing is rounded: among subnormal numbers, or far from zero, by more than it may.
-        if (grid.counts[k] > 1 && grid.coordinate(k, grid.counts[k] - 2) > grid.last[k])
+        if (grid.counts[k] == 1) continue;
+        // Among subnormal numbers, or far from zero, a spacing may be less than what doubles differ by.
+        const double far = std::max(std::fabs(grid.origin[k]), std::fabs(grid.last[k]));
+        const double apart = far - std::nextafter(far, 0);
+        if (grid.spacing[k] < apart || grid.coordinate(k, grid.counts[k] - 2) >= grid.last[k])
             return Error{.what = std::string("points of the grid along ") + axis_names[k],
                          .expected = "few enough that their coordinates differ",
                          .found = std::to_string(grid.counts[k])};
@@ -73,10 +99,10 @@ Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts,
         }
         grid.origin[k] = low[k];
         grid.last[k] = high[k];
-        grid.spacing[k] = (high[k] - low[k]) / static_cast<double>(counts[k] - 1);
+        grid.spacing[k] = spacing_between(low[k], high[k], counts[k]);
         if (!(grid.spacing[k] > 0))
             return Error{.what = std::string("bounds of the grid along ") + axis_names[k],
-                         .expected = "different ends for  " + std::to_string(counts[k]) + " points",
+                         .expected = "ends far enough apart for " + std::to_string(counts[k]) + " points",
                          .found = base::shortest(low[k]) + ", " + base::shortest(high[k])};
     }
     return checked(grid);
@@ -106,6 +132,15 @@ Result<Grid> grid_spaced(int dimension, const std::array<double, 3>& spacing, co
         grid.last[k] = low[k] + steps * spacing[k];
     }
     return checked(grid);
+}
+
+Grid as_in_vti(Grid grid) {
+    const ExactEnvironment environment;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (grid.counts[k] > 1)
+            grid.last[k] = grid.origin[k] + static_cast<double>(grid.counts[k] - 1) * grid.spacing[k];
+    }
+    return grid;
 }
 
 Bounds3 bounds_of_cells(const Mesh& mesh) {
