@@ -302,9 +302,9 @@ TEST(check, one_place_for_two_files_is_refused) {
         {{"--fix-orientation", "m"}, "--fix-orientation would overwrite the mesh"},
         {{"--json", "none/r"}, "cannot make a file beside the target"},
         {{"--fix-orientation", "none/c"}, "cannot make a file beside the target"},
-        {{"--json", "r", "--vtu", "./r"}, "--vtu and --json name the same output"},
-        {{"--vtu", "m.ele"}, "--vtu would overwrite the mesh"},
-        {{"--vtu", "none/r"}, "cannot make a file beside the target"},
+        {{"--json", "r.vtu", "--vtu", "./r.vtu"}, "--vtu and --json name the same output"},
+        {{"--vtu", "m.ele"}, "expected a name that ends in .vtu"},
+        {{"--vtu", "none/r.vtu"}, "cannot make a file beside the target"},
     };
     for (const auto& [more, says] : refusals) {
         const Ended r = run(check("m", more), here);
