@@ -28,7 +28,7 @@
 ///                   there at the nearest point with its coordinates rounded (nearest), or at the point (extrapolate).
 ///   |NAME|          the Euclidean length. Of a field of nodes: of the components at the point, rounded as they are
 ///                   sampled. It differs from the exact length by less than 2 units in the last place (1.51 where that
-///                   is not subnormal) with up to nine components; of a field of cells by less than 1 (0.51).
+///                   is not subnormal) with up to nine components; of a field of cells by less than 0.76 (0.51).
 ///   mean(NAME)      of a field of cells: a field of nodes, whose value at a node is the mean over all cells that have
 ///                   it, weighted by their volumes (areas; with straight sides), exact and rounded once. Then it is
 ///                   interpolated. NaN where a value of a cell that is not degenerate is not finite.

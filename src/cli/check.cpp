@@ -12,6 +12,7 @@
 #include "barycert/check.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/report.hpp"
 #include "barycert/vtk.hpp"
 #include "ci.hpp"
@@ -70,7 +71,7 @@ bool is_vtk(const std::string& path) {
 Status check_files(const CheckArguments& a, bool table) {
     if (a.vtu == "-")
         return Error{.what = "--vtu cannot write to stdout", .remedy = "name a file: its data are binary"};
-    if (!a.vtu.empty() && !a.vtu.ends_with(".vtu"))
+    if (!a.vtu.empty() && !io::has_suffix(a.vtu, ".vtu"))
         return Error{.what = "--vtu writes VTU files",
                      .file = a.vtu,
                      .expected = "a name that ends in .vtu",

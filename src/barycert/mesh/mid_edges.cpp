@@ -45,8 +45,8 @@ std::size_t nearest_edge(const Mesh& mesh, const Mesh::Index* corners, Mesh::Ind
         }
         unit = std::min(unit, longest);
     }
-    // In the unit of the nearest midpoint, whose square is 1 to 3; those far off may be infinite. Of one that is the
-    // node itself, all others are.
+    // In the unit of the nearest midpoint, whose square is 1 to 3; those far off may be infinite. Where a midpoint is
+    // the node itself, all others are infinite.
     for (std::size_t e = 0; e < edges.size(); ++e) {
         for (std::size_t axis = 0; axis < dimension; ++axis) {
             const double offset = offsets[e * dimension + axis];
