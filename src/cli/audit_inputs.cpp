@@ -19,6 +19,7 @@
 #include "barycert/io.hpp"
 #include "command.hpp"
 #include "names.hpp"
+#include "options/choice.hpp"
 
 namespace barycert::cli {
 namespace {

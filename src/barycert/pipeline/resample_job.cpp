@@ -10,6 +10,7 @@
 
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/pipeline/engine.hpp"
 #include "barycert/pipeline/grid_sinks.hpp"
 #include "barycert/pipeline/job_files.hpp"
