@@ -236,6 +236,7 @@ TEST(EveryEnvironment, SampleAndResample) {
                         out.add(grid.has_value());
                         if (!grid) continue;
                         for (std::int64_t i = 0; i < grid->counts[0]; ++i) out.add(grid->coordinate(0, i));
+                        out.add(as_in_vti(*grid).last[0]);
                         const auto sink = [&](const TableView& block) -> Status {
                             out.add_all(block.cells);
                             for (const double x : block.values) out.add(x);
