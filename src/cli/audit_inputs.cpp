@@ -19,7 +19,7 @@
 #include "barycert/io.hpp"
 #include "command.hpp"
 #include "names.hpp"
-#include "options/choice.hpp"
+#include "options.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -45,4 +45,26 @@ std::optional<double> positive(std::string_view text) {
     return x && *x > 0 ? x : std::nullopt;
 }
 
+namespace {
+
+CLI::Validator finite_number(double least, bool itself) {
+    return {[=](std::string& text) {
+                const auto x = finite(text);
+                if (x && (*x > least || (itself && *x == least))) return std::string();
+                return fmt::format("expected a finite number {} {}, found \"{}\"", itself ? "of at least" : "above",
+                                   base::shortest(least), text);
+            },
+            ""};
+}
+
+}  // namespace
+
+CLI::Validator finite_at_least(double least) {
+    return finite_number(least, true);
+}
+
+CLI::Validator finite_above(double least) {
+    return finite_number(least, false);
+}
+
 }  // namespace barycert::cli

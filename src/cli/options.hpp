@@ -44,4 +44,8 @@ std::optional<std::int64_t> count_of(std::string_view text);
 std::optional<double> finite(std::string_view text);
 std::optional<double> positive(std::string_view text);
 
+/// Takes finite numbers of at least `least`, or above it.
+CLI::Validator finite_at_least(double least);
+CLI::Validator finite_above(double least);
+
 }  // namespace barycert::cli

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/text.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -29,28 +27,6 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
                                    meant);
             },
             ""};
-}
-
-namespace {
-
-CLI::Validator finite_number(double least, bool itself) {
-    return {[=](std::string& text) {
-                const auto x = base::parse_double(text);
-                if (x && std::isfinite(*x) && (*x > least || (itself && *x == least))) return std::string();
-                return fmt::format("expected a finite number {} {}, found \"{}\"", itself ? "of at least" : "above",
-                                   base::shortest(least), text);
-            },
-            ""};
-}
-
-}  // namespace
-
-CLI::Validator finite_at_least(double least) {
-    return finite_number(least, true);
-}
-
-CLI::Validator finite_above(double least) {
-    return finite_number(least, false);
 }
 
 std::string joined(const std::vector<std::string>& words) {

@@ -12,10 +12,6 @@ namespace barycert::cli {
 /// Takes these words alone; of any other it tells them, and the nearest.
 CLI::Validator one_of(const std::vector<std::string>& words);
 
-/// Takes finite numbers of at least `least`, or above it.
-CLI::Validator finite_at_least(double least);
-CLI::Validator finite_above(double least);
-
 /// "a|b|c", the type of an option that takes these words: command_table() reads them there again.
 std::string joined(const std::vector<std::string>& words);
 

@@ -2,7 +2,7 @@
 # fuzz.sh BUILD SECONDS [TARGET...]: runs libFuzzer's executables in BUILD/fuzz, all of them or the ones named, one after the
 # other, SECONDS in all, and prints the table of what has been done so far in BUILD.
 #
-# Each begins with what it found before (BUILD/fuzz/work/TARGET), what the builds beside BUILD found (with and without
+# Each begins with what it found before (BUILD/fuzz/inputs/TARGET), what the builds beside BUILD found (with and without
 # sanitizers: ../fuzz, ../fuzz-fast), corpus/TARGET and found/TARGET. What ends it is kept as
 # BUILD/fuzz/findings/TARGET-*; then the exit code is 1. BUILD/fuzz/totals has a line a run: target, executions, seconds,
 # coverage, edges. FUZZ_OPTIONS: further options of libFuzzer.
@@ -13,7 +13,7 @@ builds=$(dirname -- "$1")
 seconds=$2
 shift 2
 [ $# -gt 0 ] || set -- $(cd "$programs" && ls fuzz_* | sed 's/^fuzz_//')
-mkdir -p "$programs/work" "$programs/findings" "$programs/logs"
+mkdir -p "$programs/inputs" "$programs/findings" "$programs/logs"
 
 # Files of inputs are kept in memory where there is room, and gone at the end.
 memory=/dev/shm
@@ -59,17 +59,19 @@ each=$((seconds / $#))
 [ "$each" -gt 0 ] || each=1
 for target in "$@"; do
     [ -x "$programs/fuzz_$target" ] || { echo "fuzz.sh: no such target: $target" >&2; exit 2; }
-    mkdir -p "$programs/work/$target"
+    mkdir -p "$programs/inputs/$target"
     seeds=$here/corpus/$target
-    for more in "$here/found/$target" "$builds/fuzz/fuzz/work/$target" "$builds/fuzz-fast/fuzz/work/$target"; do
-        [ ! -d "$more" ] || [ "$more" = "$programs/work/$target" ] || seeds="$seeds $more"
+    [ ! -d "$here/found/$target" ] || seeds="$seeds $here/found/$target"
+    for build in fuzz fuzz-fast; do
+        more=$builds/$build/fuzz/inputs/$target
+        [ ! -d "$more" ] || [ "$more" = "$programs/inputs/$target" ] || seeds="$seeds $more"
     done
     log=$programs/logs/$target.log
     dictionary=$here/dictionaries/$(dictionary_of "$target").dict
     [ -f "$dictionary" ] && dictionary=-dict=$dictionary || dictionary=
     "$programs/fuzz_$target" -max_total_time="$each" -timeout=10 -rss_limit_mb=2048 -max_len="$(longest_of "$target")" \
         -print_final_stats=1 -entropic=0 -artifact_prefix="$programs/findings/$target-" $dictionary ${FUZZ_OPTIONS-} \
-        "$programs/work/$target" $seeds >"$log" 2>&1 || {
+        "$programs/inputs/$target" $seeds >"$log" 2>&1 || {
         found=1
         echo "fuzz.sh: $target has found something; the end of $log:" >&2
         grep -E '^fuzz: |runtime error|ERROR: |Test unit written' "$log" | tail -n 5 >&2

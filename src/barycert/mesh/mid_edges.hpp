@@ -17,14 +17,15 @@ std::span<const std::array<std::size_t, 2>> edges_of(int dimension);
 /// dimension; otherwise the span is empty.
 std::span<const std::size_t> edge_sequence(MidEdgeOrder order, int dimension);
 
+struct MidEdgeVote {
+    MidEdgeOrder order;
+    bool guessed;  ///< no cell tells it
+};
+
 /// The order in which mesh.mid_nodes stand, told by the points: each cell votes for the order in which every node is
 /// nearest to the midpoint of its own edge. It abstains where two midpoints are equally near (degenerate cells).
 /// Nothing if fewer than half of the votes agree on a known order; TetGen's or Triangle's own, as a guess, if no cell
 /// votes.
-struct MidEdgeVote {
-    MidEdgeOrder order;
-    bool guessed;
-};
 std::optional<MidEdgeVote> detect_mid_edge_order(const Mesh& mesh);
 
 /// Brings mesh.mid_nodes from mesh.mid_edge_order into the order `vtk`.
