@@ -61,7 +61,7 @@ point is exact, every value is correctly rounded. Checks in exact arithmetic
 whether meshes are partitions, draws meshes, slices and iso-surfaces, verifies
 results of other tools, and audits floating-point kernels for barycentric
 weights against exact arithmetic."
-    SUGGESTS barycert-tetgen PARTS bin/barycert)
+    SUGGESTS barycert-tetgen python3-meshio PARTS bin/barycert)
 endif()
 barycert_deb(dev libbarycert-dev libdevel "exact interpolation over meshes, C++ library"
   "Static libraries, headers, and what CMake and pkg-config need to find them:

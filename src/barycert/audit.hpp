@@ -96,7 +96,8 @@ struct AuditReport {
     std::uint64_t count = 0;
     int threads = 0;
     std::vector<std::string> meshes;
-    std::vector<Verdict> verdicts;  ///< one per mesh
+    std::vector<Verdict> verdicts;    ///< one per mesh
+    std::vector<CurvedCells> curved;  ///< likewise: their cells were taken with straight sides
     std::vector<Family> families;
     std::uint64_t cases = 0;  ///< asked of the oracle
     OracleChoice oracle = OracleChoice::automatic;

@@ -15,9 +15,11 @@ namespace barycert {
 
 /// Worst first.
 enum class Finding : std::uint8_t {
-    crashed,  // per case from here on; the first five of kernels that run in a process of their own
+    crashed,  // per case from here on; the first seven are what a user's kernel does besides answering
+    raised,
     hung,
     out_of_bounds,
+    forked,
     changed_environment,
     printed,
     false_certificate,
@@ -31,7 +33,7 @@ enum class Finding : std::uint8_t {
     not_finite,
 };
 
-inline constexpr std::size_t finding_count = 14;
+inline constexpr std::size_t finding_count = 16;
 
 struct FindingText {
     std::string_view name;
@@ -40,8 +42,10 @@ struct FindingText {
 
 inline constexpr std::array<FindingText, finding_count> finding_texts{{
     {"crashed", "the kernel's process ended: there is no answer"},
+    {"raised", "the kernel, a callable of Python, raised an exception: there is no answer"},
     {"hung", "the kernel gave no answer within the time limit"},
     {"out_of_bounds", "the kernel touched memory beside its arrays, or wrote to its input"},
+    {"forked", "the kernel left a process behind that it had started"},
     {"changed_environment", "the kernel came back with another rounding mode, or with subnormal numbers flushed"},
     {"printed", "the kernel wrote to stdout or stderr"},
     {"false_certificate", "the kernel certifies its answers, and this one has a finding or is not correctly rounded"},

@@ -100,6 +100,7 @@ struct GapsReport {
     std::string mesh;
     int dimension = 3;
     Verdict verdict = Verdict::not_checked;
+    CurvedCells curved;  ///< of the mesh: taken with straight sides
     std::uint64_t seed = 0, count = 0;
     int threads = 0;
     double tolerance = 0;

@@ -24,7 +24,7 @@ struct Witness {
     double magnitude = 0;    ///< |weight - exact weight|, or ulps
     std::string mesh;        ///< the mesh that the simplex comes from; empty if it comes from none
     std::int64_t cell = -1;  ///< its cell, by the number in the mesh's file, from 0; -1 if it comes from none
-    std::string detail;      ///< of crashed, hung, out_of_bounds, changed_environment, printed: what happened, in words
+    std::string detail;      ///< of findings up to `printed`: what happened, in words
     Case c;
 };
 

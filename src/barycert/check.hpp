@@ -45,6 +45,7 @@
 #include "barycert/defects.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/plc.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert {
 
@@ -126,6 +127,9 @@ struct CheckOptions {
     const Plc* plc = nullptr;   ///< test conformity to its facets (tetrahedra only)
     std::size_t examples = 10;  ///< max number of places kept of each defect
     std::size_t contacts = 20;  ///< max number of pairs of cells for which a common point is computed
+    /// Boundary nodes of no common cell nearly coincide if they lie at most this times the shortest edge of the
+    /// boundary at either one apart, by distances in plain double; 0: none are looked for.
+    double near = 1e-3;
     /// Stop at the first defect that breaks the certificate. The verdict is the same; the report then has that defect,
     /// maybe others, the orientations, and nothing else.
     bool verdict_only = false;
@@ -152,14 +156,30 @@ struct VolumeReport {
     bool equal = false;   ///< the two exact numbers are equal
 };
 
+/// A field with values that are NaN or infinite.
+struct NotFinite {
+    std::string field;
+    bool of_cells = false;
+    std::uint64_t count = 0;   ///< of such numbers
+    std::uint64_t values = 0;  ///< in all; each component is one
+};
+
+/// Adds the field to `to` if it has such values, and is not there yet.
+void count_not_finite(const Field& field, bool of_cells, std::vector<NotFinite>& to);
+
+/// The fields of nodes that have such values, then those of cells.
+std::vector<NotFinite> not_finite_values(const Mesh& mesh);
+
 struct CheckReport {
     int dimension = 3;
     std::uint64_t nodes = 0, cells = 0;
     int threads = 0;
     double seconds = 0;
 
+    CurvedCells curved;  ///< of cells that were taken with straight sides, as far as they have others
     Certificate certificate;
-    std::vector<Defect> defects;  ///< those found, in the order of DefectKind: first those that break the certificate
+    std::vector<Defect>
+        defects;  ///< those found, first those that break the certificate, each in the order of DefectKind
 
     std::uint64_t positive = 0, negative = 0, degenerate = 0;  ///< cells by exact orientation
     std::uint64_t parts = 0;                                   ///< connected over facets
@@ -175,6 +195,7 @@ struct CheckReport {
     /// cells from 0 as in memory; reports translate.
     std::vector<Mesh::Index> cell_numbers;
     Notes notes;
+    std::vector<NotFinite> not_finite;  ///< fields with values that are not finite: they break no certificate
     std::int64_t cell_number(std::int64_t cell) const {
         return cell_numbers.empty() || cell < 0 ? cell : cell_numbers[static_cast<std::size_t>(cell)];
     }
@@ -189,9 +210,48 @@ struct CheckReport {
 
 CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options = {});
 
-/// A copy of the mesh with the last two vertices of each negative cell swapped, and with them its mid-edge nodes and
-/// its neighbours; so volumes change their sign and nothing else. All else stays: points, the order of cells, fields,
-/// markers, faces. `orientation`: the exact sign of each cell, as in CellMeasures; a cell of 0 stays as it is.
-Mesh with_positive_cells(const Mesh& mesh, const std::vector<std::int8_t>& orientation);
+// What has one right answer, made so.
+
+struct FixOptions {
+    bool nodes = true;        ///< merge nodes of cells that coincide, and mid-edge nodes likewise
+    double merge_within = 0;  ///< and those at most so far apart, chains of them included
+    bool cells = true;        ///< drop cells that are degenerate or name a node twice, and all but one of duplicates
+    bool orientation = true;  ///< turn negative cells
+    int threads = 0;          ///< 0: one per core
+};
+
+struct MergedNode {
+    Mesh::Index node = -1, into = -1;  ///< as the mesh given numbers them
+    double moved = 0;                  ///< how far, rounded
+};
+struct DroppedCell {
+    Mesh::Index cell = -1;
+    DefectKind why{};  ///< repeated_node, degenerate_cell or duplicate_cell
+};
+struct MergedField {
+    std::string name;
+    std::uint64_t differ = 0;  ///< merged nodes of another value than the node that is kept, NaN being one value
+    double max_difference = 0;
+};
+
+struct FixReport {
+    std::vector<MergedNode> merged;       ///< by node; those kept are the lowest
+    std::vector<DroppedCell> dropped;     ///< by cell
+    std::uint64_t collapsed = 0;          ///< of these, cells that merging made so
+    std::uint64_t turned = 0;             ///< cells
+    std::uint64_t dropped_faces = 0;      ///< of Mesh::faces: those that no cell has any more, and twins
+    std::uint64_t differing_markers = 0;  ///< merged nodes of another marker than the node that is kept
+    std::vector<MergedField> fields;      ///< where values differ: those of the node that is kept stay
+
+    bool changed() const { return !merged.empty() || !dropped.empty() || turned != 0; }
+};
+
+/// A copy of the mesh with what can be repaired repaired, and in `report` what was done. Nodes merged are taken out and
+/// the others numbered anew, as are cells; all else stays with its node, cell or face: fields, labels, markers,
+/// mid-edge nodes, numbers of cells. Of cells turned the last two vertices are swapped. Neighbours, if any, are
+/// computed anew if nodes or cells went. It says nothing of the result: check_mesh does. Dropping a degenerate cell
+/// that others meet in facets may leave these facets unmatched. Errors: arrays of wrong sizes, indices out of range, a
+/// distance that is negative or not finite.
+Result<Mesh> fix_mesh(const Mesh& mesh, const FixOptions& options, FixReport& report);
 
 }  // namespace barycert

@@ -19,8 +19,10 @@
 namespace barycert {
 
 struct ContourJob {
-    std::string mesh;  ///< as for read_mesh
+    std::string mesh;      ///< as for read_mesh
+    StepChoice step = {};  ///< of a series
     std::vector<FieldFile> field_files = {};
+    Curved curved = Curved::straight;  ///< what becomes of curved cells
 
     // Either: the field of nodes and its value; a field of several components as NAME.0, NAME.1, ...
     std::string field;
@@ -64,6 +66,7 @@ struct ContourSeconds {
 /// What a job did: what its reports are made of.
 struct ContourSummary {
     std::string mesh, field, output;
+    CurvedCells curved;  ///< of the mesh: cut with straight sides
     std::optional<double> value;
     std::optional<Plane> plane;
     std::uint64_t nodes = 0, cells = 0;

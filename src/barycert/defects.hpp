@@ -26,7 +26,7 @@ enum class DefectKind : std::uint8_t {
     nested_part,         ///< P4  a piece of the boundary at which a cell overlaps others
     overlapping_cells,   ///< the interiors of two cells meet: caused by the defects above
     wrong_neighbour,     ///< P5  .neigh names a cell that does not share that facet, or misses one that does
-    wrong_face,          ///< P5  .face has a triangle that is not a facet of any cell; a mesh of triangles has faces
+    wrong_face,          ///< P5  a face in the files is not a facet of any cell; a mesh of triangles has faces
     unfit_array,         ///< P5  fields, markers or mid-edge nodes do not fit the nodes and cells
     // These are reported and do not affect the certificate.
     mixed_orientation,  ///< cells are ordered in both ways
@@ -35,6 +35,11 @@ enum class DefectKind : std::uint8_t {
     unused_node,        ///< a node of no cell
     pinched_ridge,      ///< the boundary touches itself along a ridge of more than two of its facets
     pinched_node,       ///< the boundary touches itself in a node of several fans
+    // Later ones stand last, so that the bits of DefectSet stay.
+    hanging_node,  ///< breaks it: a node of one boundary facet lies within an edge of another one, or within that facet
+    near_nodes,    ///< two nodes of the boundary nearly coincide: CheckOptions::near
+    crack,         ///< two boundary facets would be one if coincident and near nodes were merged
+    missing_cell,  ///< a void of the shape of one cell, whose facets are a piece of the boundary
 };
 
 struct DefectText {
@@ -46,7 +51,7 @@ struct DefectText {
     bool breaks;                 ///< the certificate
 };
 
-inline constexpr std::array<DefectText, 21> defect_texts{{
+inline constexpr std::array<DefectText, 25> defect_texts{{
     {DefectKind::bad_structure, "bad_structure", "P1", "arrays whose sizes are no whole number of nodes or cells",
      "give d coordinates per node and d + 1 vertices per cell", true},
     {DefectKind::index_out_of_range, "index_out_of_range", "P1", "cells with a vertex index out of range",
@@ -67,26 +72,32 @@ inline constexpr std::array<DefectText, 21> defect_texts{{
      "remove the defects above: this one follows from them", true},
     {DefectKind::boundary_contact, "boundary_contact", "P3",
      "pairs of boundary facets that meet outside common vertices and edges",
-     "merge coincident nodes, or move the parts apart", true},
+     "move the parts apart, or cut both where they cross", true},
     {DefectKind::nested_part, "nested_part", "P4", "pieces of the boundary where a cell overlaps others",
      "a part lies inside another one: remove one of them", true},
     {DefectKind::overlapping_cells, "overlapping_cells", "", "pairs of cells whose interiors meet",
      "remove the other defects: this one follows from them", true},
     {DefectKind::wrong_neighbour, "wrong_neighbour", "P5", "entries of .neigh that disagree with the cells",
      "delete the .neigh file or write it again", true},
-    {DefectKind::wrong_face, "wrong_face", "P5", "triangles of .face that are not facets of a cell",
-     "delete the .face file or write it again", true},
+    {DefectKind::wrong_face, "wrong_face", "P5", "faces in the files that are not facets of a cell",
+     "delete the .face file (of Medit the section Triangles) or write it again", true},
     {DefectKind::unfit_array, "unfit_array", "P5", "other arrays that do not fit the nodes and cells",
      "give one value per component of each node or cell, and valid node indices", true},
     {DefectKind::mixed_orientation, "mixed_orientation", "", "cells of the less frequent orientation",
-     "--fix-orientation writes a copy with positive cells", false},
+     "check --fix writes a copy with positive cells", false},
     {DefectKind::plain_sign_wrong, "plain_sign_wrong", "", "cells whose volume has the wrong sign in plain double",
      "use exact predicates on these cells", false},
     {DefectKind::coincident_nodes, "coincident_nodes", "", "nodes with the same coordinates as another",
-     "merge them if cells on both sides should be neighbours", false},
+     "check --fix merges them, if their cells should be neighbours", false},
     {DefectKind::unused_node, "unused_node", "", "nodes that no cell uses", "", false},
     {DefectKind::pinched_ridge, "pinched_ridge", "", "ridges where the boundary touches itself", "", false},
     {DefectKind::pinched_node, "pinched_node", "", "nodes where the boundary touches itself", "", false},
+    {DefectKind::hanging_node, "hanging_node", "", "nodes that lie within an edge or a facet of another cell",
+     "split that cell at the node", true},
+    {DefectKind::near_nodes, "near_nodes", "", "pairs of boundary nodes that nearly coincide",
+     "check --fix --merge-within DISTANCE merges them, if their cells should be neighbours", false},
+    {DefectKind::crack, "crack", "", "pairs of boundary facets that merging these nodes would join", "", false},
+    {DefectKind::missing_cell, "missing_cell", "", "voids that one cell would fill", "is one cell missing?", false},
 }};
 
 inline constexpr std::size_t defect_kind_count = defect_texts.size();
@@ -106,6 +117,11 @@ struct DefectPlace {
     std::array<Mesh::Index, 2> cells{-1, -1};
     std::array<Mesh::Index, 3> nodes{-1, -1, -1};
     const char* detail = "";  ///< which kind, where a defect has several
+    /// Of the facet that those meet or would join, of the edge or facet that the node lies within, and the fourth node
+    /// of a missing cell.
+    std::array<Mesh::Index, 3> other_nodes{-1, -1, -1};
+    double distance = 0;  ///< of near nodes, rounded
+    double relative = 0;  ///< that over the shorter one of the shortest edges of the boundary at both
 };
 
 struct Defect {
@@ -113,6 +129,13 @@ struct Defect {
     std::uint64_t count = 0;
     bool at_least = false;            ///< the search stopped at that count
     std::vector<DefectPlace> places;  ///< the first of them
+    std::uint64_t curved_cells = 0;   ///< with this defect: their sides were taken as straight, and may be its cause
+    /// It is why others break the certificate, though its kind does not in every case.
+    bool cause = false;
+    std::string_view better_remedy = {};  ///< where the cause is known
+
+    bool breaks() const { return cause || defect_text(kind).breaks; }
+    std::string_view remedy() const { return better_remedy.empty() ? defect_text(kind).remedy : better_remedy; }
 };
 
 }  // namespace barycert

@@ -10,7 +10,7 @@
 ///       order of a cell's vertices.
 ///
 /// The gradient in a degenerate cell is NaN, and TierCounts::degenerate counts the cell. A nodal value that is NaN or
-/// infinite makes the gradient of its component NaN, and TierCounts::not_finite counts the cell.
+/// infinite makes the gradient of its component NaN, for every node has a part; TierCounts::not_finite counts the cell.
 ///
 /// How: plain double and one step of refinement with a proven bound, accepted where both ends of the bound round alike
 /// (gradient-inl.hpp); integers elsewhere.

@@ -12,22 +12,23 @@
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 #include "barycert/table.hpp"
-#include "barycert/vtk_data.hpp"
+#include "barycert/vtk.hpp"
 
 namespace barycert {
 
 // Meshes.
 
 struct ReadOptions {
-    bool faces = true;       ///< read STEM.face if it is there
+    bool faces = true;       ///< read STEM.face if it is there, and Medit's triangles beside tetrahedra
     bool neighbours = true;  ///< read STEM.neigh if it is there
     int threads = 0;         ///< 0: as many as the machine has
+    StepChoice step = {};    ///< of a series; Error: one is chosen, and there is no series
 };
 
-/// Reads a mesh: TetGen's or Triangle's files by their stem or any one of them; a file of Gmsh, .msh (gmsh.hpp); and
-/// VTK's .vtu, .vtk, .vtp, .pvtu, .vtm, .pvd and .vtu.series (vtk.hpp). The format is told by the first bytes, or else
-/// by the suffix. Returns an Error if it cannot be read: a file of another format is named as what it is, with the
-/// command that converts it.
+/// Reads a mesh: TetGen's or Triangle's files by their stem or any one of them; a file of Gmsh, .msh (gmsh.hpp), or
+/// Medit, .mesh and .meshb; and VTK's .vtu, .vtk, .vtp, .pvtu, .vtm, .pvd and .vtu.series (vtk.hpp). The format is told
+/// by the first bytes, or else by the suffix. Returns an Error if it cannot be read: a file of another format is named
+/// as what it is, with the command that converts it.
 Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options = {});
 
 /// The paths of all files that read_mesh(path) may read.
@@ -62,14 +63,16 @@ Result<std::vector<std::string>> written_mesh_files(const std::string& path);
 // Streams of points: CSV, NPY and .node files, block by block, so that memory does not grow with their number; the
 // nodes of meshes.
 //
-// Coordinates are finite doubles in the file's own unit; decimal numbers are rounded to nearest, ties to even.
-// What cannot be read without a guess is an Error, with file, line (of text), what was expected and found, a remedy.
+// Coordinates are finite doubles (but see PointOptions) in the file's own unit; decimal numbers are rounded to nearest,
+// ties to even. What cannot be read without a guess is an Error, with file, line (of text), what was expected and
+// found, a remedy.
 //
 // Which columns are the coordinates: those that PointOptions names; or x, y, z; Points:0, Points:1, Points:2; or
 // Points_0, Points_1, Points_2, in any case and any place; or, in a file that names none, all columns, if they are as
 // many as the dimension. Beside a mesh in the plane a column z must be 0 throughout.
 //
-// CSV    One point a line, in UTF-8. The first line settles the separator: the first of semicolon, comma and tab that
+// CSV    (also .txt .dat .xyz .tsv, and what comes from a pipe) One point a line, in UTF-8. The first line settles the
+// separator: the first of semicolon, comma and tab that
 //        it holds outside quotes, or else blanks. It is a header if it names the coordinates, or if none of its fields
 //        is a number. Every line has as many fields as the first. Fields may stand in double quotes. Blank lines, and
 //        lines that begin with #, are passed over. Lines end in LF or CR LF; the last may lack its end, but not where
@@ -90,6 +93,10 @@ struct PointOptions {
     /// Those that are carried through: names, or "all" of the others; NEW=NAME gives a column another name. Columns of
     /// files that name none are column1, column2, ... One text may hold several, with commas between them.
     std::vector<std::string> keep = {};
+
+    /// nan: points that are not finite are given as they are, and an empty field of a CSV file as NaN. Not for nodes of
+    /// meshes, and not for a z that must be 0.
+    NonfinitePoints nonfinite_points = NonfinitePoints::error;
 
     /// Of CSV: columns that are carried through become integers or numbers, if all their values are; texts otherwise.
     /// The file is read twice, and must not be a pipe. Without it they are texts, as they stand in the file.

@@ -62,6 +62,9 @@ struct Kernel {
 
     /// The process of a kernel that runs in one of its own: then the functions above, `value` aside, are null.
     std::shared_ptr<kernels::Host> host;
+    /// Of a callable: the exception of its last call, in words, after which `weights` returned 1; empty if it raised
+    /// none.
+    std::string (*raised)() = nullptr;
     std::string note;  ///< what was noticed when its library was loaded; may be empty
 };
 

@@ -111,17 +111,20 @@ public:
     Result<Location> locate(const double* point, Mesh::Index hint = -1) const;
 
     /// Locates many points: sets cells[i] and features[i] for point i. `threads`: 0 for as many as the machine has.
-    /// Returns an Error if sizes do not fit, or a coordinate is not finite (it names the point). The output is then
-    /// unspecified.
+    /// Returns an Error if sizes do not fit, or a coordinate is not finite (it names the point), unless such points are
+    /// to be outside. The output is then unspecified.
     Status locate(std::span<const double> points, std::span<Mesh::Index> cells, std::span<Feature> features,
-                  LocationCounts* counts = nullptr, int threads = 0) const;
+                  LocationCounts* counts = nullptr, int threads = 0,
+                  NonfinitePoints nonfinite = NonfinitePoints::error) const;
 
     /// The same as a table: cells, features and counts.
-    Result<Table> locate(std::span<const double> points, int threads = 0) const;
+    Result<Table> locate(std::span<const double> points, int threads = 0,
+                         NonfinitePoints nonfinite = NonfinitePoints::error) const;
 
     /// Every cell that holds each point: a row for each, ascending, or one row with cell -1 for a point outside. Sets
     /// points, cells, features, point_begin, and counts.locations: one a point, by its owner. Errors as above.
-    Result<Table> locate_all(std::span<const double> points, int threads = 0) const;
+    Result<Table> locate_all(std::span<const double> points, int threads = 0,
+                             NonfinitePoints nonfinite = NonfinitePoints::error) const;
 
     /// Returns the nearest point of all cells that are not degenerate, if its rounded distance is at most `limit`; none
     /// if `limit` is negative or NaN. Takes some microseconds to some hundred; more where many cells are equally near

@@ -29,8 +29,8 @@ struct NodeWeights {
 ///
 /// Points outside have no weights, unless the policy is `nearest` (within its limit: those of the nearest point of the
 /// mesh, which on cells of second order has its barycentric weights rounded first) or `extrapolate` (those of the
-/// function of the nearest cell). Works on the calling thread. Returns an Error if sizes do not fit, a cell is
-/// out of range or degenerate, or a coordinate is not finite.
+/// function of the nearest cell) and the point is finite. Works on the calling thread. Returns an Error if sizes do not
+/// fit, a cell is out of range or degenerate, or a coordinate of a point in a cell is not finite.
 Result<NodeWeights> node_weights(const Locator& locator, const TableView& rows, const OutsidePolicy& outside = {});
 
 }  // namespace barycert

@@ -19,8 +19,8 @@
 /// There are no weights, and they, depth and values are NaN and `degenerate`, if the triangle's area in the window is
 /// exactly zero, or if 1/Z is: then the ray is parallel to the plane, which happens outside the triangle only. Where
 /// 1/Z < 0, likewise outside only, the plane is met behind the eye: the answers are those of that point. An attribute
-/// that is NaN or infinite makes its value NaN. A coordinate that is not finite, or a w that is not a finite number
-/// above zero, is an Error: clip before the division.
+/// that is NaN or infinite makes its value NaN, unless its weight is exactly zero. A coordinate that is not finite, or
+/// a w that is not a finite number above zero, is an Error: clip before the division.
 ///
 /// How: double-double numbers with a proven bound, accepted where both ends of the bound round alike; integers
 /// elsewhere, as on edges and for ties. See perspective-inl.hpp and perspective_exact.cpp.

@@ -13,13 +13,13 @@
 #include <string_view>
 #include <vector>
 
-#include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/notes.hpp"
 #include "barycert/picture.hpp"
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
-#include "barycert/vtk_data.hpp"
+#include "barycert/vtk.hpp"
 
 namespace barycert {
 
@@ -42,12 +42,19 @@ struct JobProgress {
 /// What both jobs have.
 struct SamplingJob {
     std::string mesh;  ///< as for read_mesh
+    /// Of a mesh that is a series (.pvd, .vtu.series): which step. None: where the output has {step} or {time} in its
+    /// name, and there are no series of fields, every one, each into an output of its own, in which its number or time
+    /// takes that place; points are located anew where the mesh is another one. Else the first.
+    StepChoice step = {};
+    bool all_steps = false;  ///< Error where that is not so
     std::vector<FieldFile> field_files = {};
     /// Fields that change from step to step: each path has one *, and each file that it matches is a step, in natural
     /// order (2 before 10); or it is a .pvd or .vtu.series file. Where the output has {step} in its name, each step has
-    /// an output of its own, in which what the * stood for takes that place; points are located once, and values of one
-    /// step at a time are in memory. Else the steps of NAME, 256 at most, are columns NAME@STEP.
+    /// an output of its own, in which what the * stood for, or the time, takes that place ({time} likewise); points are
+    /// located once, and values of one step at a time are in memory. Else the steps of NAME, 256 at most, are columns
+    /// NAME@STEP.
     std::vector<FieldFile> series = {};
+    Curved curved = Curved::straight;      ///< what becomes of curved cells, of the mesh of `onto` as well
     std::vector<std::string> fields = {};  ///< names, see Sampler::build; empty: all
     std::string output;                    ///< the format goes by the suffix; "-" is CSV on stdout
     /// Where to write the weights of the points on the nodes of the mesh (node_weights.hpp): .npz, a matrix that
@@ -113,17 +120,29 @@ struct SampleSeconds {
     double total = 0;
 };
 
+/// A column of a cell field over the cells of MESH, and over those of the mesh at whose nodes it was sampled, between
+/// which it is then linear (quadratic on second-order cells). Exact sums of value times volume (in the plane area; of
+/// straight sides, and positive whatever the orientation), rounded once; cells that overlap count twice.
+struct FieldIntegral {
+    std::string column;
+    double source = 0, target = 0;
+    std::uint64_t source_left_out = 0, target_left_out = 0;  ///< cells with a value that is not finite
+};
+
 /// What a job did: what its reports are made of.
 struct SampleSummary {
     std::string command;  ///< "sample" or "resample"
     std::string mesh, output, weights;
     std::string points;                ///< the file they came from; empty for a grid
+    CurvedCells curved;                ///< of the mesh: taken with straight sides
+    CurvedCells onto_curved;           ///< of the mesh of ResampleJob::onto
     std::vector<std::string> columns;  ///< of values
     std::vector<std::string> carried;  ///< columns that were carried through: labels of cells, columns of points
     Notes notes;                       ///< what was left out, converted or guessed: of the mesh, of fields, of points
     std::string reason;                ///< why `method`: a clause
     std::optional<Grid> grid;          ///< of ResampleJob::counts and spacing
     std::optional<SliceCounts> picture;
+    std::vector<FieldIntegral> integrals;  ///< of the cell fields that became values at nodes of another mesh
     OutsidePolicy outside;
     SampleCounts counts;  ///< locations: one a point
     SampleSeconds seconds;
@@ -131,8 +150,12 @@ struct SampleSummary {
     std::uint64_t degenerate_cells = 0;  ///< method `pass`: of the cells near the points
     std::uint64_t contested_cells = 0;   ///< see Locator::contested_cells
     std::uint64_t rows = 0;
+    /// Fields that are sampled and have values that are not finite; of series, those of the first step that has some.
+    std::vector<NotFinite> not_finite;
     std::uint64_t nan_values = 0;    ///< of points inside: from values of nodes or cells that are not finite
     std::vector<std::string> steps;  ///< of series, in order; all else but nan_values and seconds is of one of them
+    std::vector<double> times;       ///< of these steps, where the mesh is the series
+    std::uint64_t meshes = 1;        ///< of such steps; in each of them points are located, and counted
     int dimension = 3, threads = 1;
     PointsFrom from = PointsFrom::points;
     FoundBy method = FoundBy::walk;

@@ -11,12 +11,12 @@
 ///   V1  Each value is the exact one rounded once, to nearest, ties to even, subnormal results and infinity included,
 ///       for every component. An exact zero is +0; what underflows to zero keeps its sign.
 ///   V2  At a point on a shared face, edge or vertex the value has the same bits from every cell that holds it, if the
-///       cells are not degenerate, have the same nodes there, and their nodal values are finite. At a corner it is the
-///       value of that node, in the middle of an edge that of the mid-edge node.
+///       cells are not degenerate and have the same nodes there, whatever values the others have. At a corner it is the
+///       value of that node, in the middle of an edge that of the mid-edge node; NaN if that is not finite.
 ///   D1  Results depend on the input bits alone, not on threads, SIMD target, compiler or optimisation.
 ///
 /// In a degenerate cell values are NaN, and TierCounts::degenerate counts the case. A nodal value that is NaN or
-/// infinite, even where its factor is zero, makes its component NaN, and TierCounts::not_finite counts the case.
+/// infinite makes its component NaN, and TierCounts::not_finite counts the case, unless its factor is exactly zero.
 ///
 /// How: the refined weights of refinement-inl.hpp, then double-double with a proven bound (quadratic-inl.hpp); integers
 /// elsewhere.
@@ -49,7 +49,7 @@ Result<Value> interpolate_quadratic(Simplex simplex, const double* vertices, con
 /// Values of many cases: out[components * j + c] is component c of case j. Mid-edge node e of cell k is
 /// mid_nodes[m * k + e], m = mid_node_count(simplex); values are indexed by corners and mid-edge nodes alike. `tiers`
 /// counts a case for the highest tier that one of its components needed. Rounding::plain evaluates the formula in
-/// double: nothing is promised or counted.
+/// double: nothing is counted, and nothing promised but what is said of NaN.
 ///
 /// Returns an Error if a coordinate is not finite (not with Rounding::plain), for other simplices, if out.size() is not
 /// `components` times the number of cases, if components < 1, or if corners and mid-edge nodes are not of the same
@@ -61,9 +61,9 @@ Status interpolate_quadratic(const MeshQueries& queries, std::span<const std::in
 
 /// Returns the gradient at `point` of the quadratic field with these values (as for interpolate_quadratic). Each
 /// component is the exact one rounded once, to nearest, ties to even, subnormal results and infinity included; an exact
-/// zero is +0. NaN in a degenerate cell, or where a nodal value is not finite. Always in integers, a microsecond or
-/// more; Rounding::plain evaluates the formula in double, and promises nothing. Returns an Error if a coordinate is not
-/// finite, or for other simplices than triangle and tetrahedron.
+/// zero is +0. NaN, all of it, in a degenerate cell or where a nodal value is not finite, unless the gradient of its
+/// factor is exactly zero. Always in integers, a microsecond or more; Rounding::plain evaluates the formula in double,
+/// and promises nothing else. Returns an Error if a coordinate is not finite, or for other simplices than these two.
 Result<Gradient> quadratic_gradient(Simplex simplex, const double* vertices, const double* point, const double* values,
                                     Rounding rounding = Rounding::correct);
 

@@ -32,6 +32,7 @@ struct RenderSummary {
     std::string picture;  ///< gradient, texture, cube, clip, mesh, scene
     std::string input;    ///< the scene, mesh or image; empty if there is none
     std::string output;
+    CurvedCells curved;  ///< of the mesh: drawn with straight sides
     RasterSize size;
     RenderCounts counts;
     FillMethod method = FillMethod::barycentric;
@@ -45,8 +46,10 @@ struct RenderSummary {
 
 /// The boundary of a mesh of tetrahedra, or a mesh of triangles in the plane, as a PNG file.
 struct MeshPictureJob {
-    std::string mesh;  ///< as for read_mesh
+    std::string mesh;      ///< as for read_mesh
+    StepChoice step = {};  ///< of a series
     std::vector<FieldFile> field_files = {};
+    Curved curved = Curved::straight;  ///< what becomes of curved cells
     std::string field;   ///< NAME, point:NAME, cell:NAME, each perhaps with .K for component K; empty: grey
     std::string output;  ///< must end in .png
     ViewOptions view;

@@ -48,12 +48,23 @@ std::string policy_text(const OutsidePolicy& policy);
 std::string check_text(const CheckReport& report, const Mesh& mesh, const std::string& name,
                        const TerminalStyle& style);
 
+/// A mesh repaired and written, and what the check says of the file when it is read again.
+struct FixedMesh {
+    std::string file;
+    FixReport done;
+    CheckReport after;
+};
+
+/// What was done, the verdict on the copy, and what remains.
+std::string fix_text(const FixedMesh& fixed, const TerminalStyle& style);
+
 // The report on a mesh as JSON. Every member is documented in SCHEMA.md beside this file.
 
 inline constexpr int check_schema = 1;
 
 /// `name`: what the user calls the mesh.
-std::string check_json(const CheckReport& report, const std::string& name, const Environment& environment);
+std::string check_json(const CheckReport& report, const std::string& name, const Environment& environment,
+                       const FixedMesh* fixed = nullptr);
 
 // The report on a mesh as one HTML page, for people: to read, to print, to pass on.
 
@@ -63,7 +74,8 @@ std::string check_json(const CheckReport& report, const std::string& name, const
 /// at most, whatever the size of the mesh. `mesh` is what the report is of, `mesh_name` what the user calls it.
 ///
 /// Cost: some passes over the mesh, and its boundary once more. Of broken meshes nothing is drawn that has no place.
-std::string check_html(const CheckReport& report, const Mesh& mesh, const std::string& mesh_name);
+std::string check_html(const CheckReport& report, const Mesh& mesh, const std::string& mesh_name,
+                       const FixedMesh* fixed = nullptr);
 
 // What a run of sampling did, for people.
 

@@ -6,8 +6,8 @@
 /// What holds (each law is a test of that name in tests/sample):
 ///   V1  A value of a point field is the exact interpolation in the owner, linear, or quadratic on cells of second
 ///       order, rounded once to nearest, ties to even. A value of a cell field is that of the owner.
-///   V2  Where cells meet in a proper mesh, point fields have the same bits from every cell that holds the point, if
-///       their nodal values are finite: a component is NaN if any nodal value of its cell is not.
+///   V2  Where cells meet in a proper mesh, point fields have the same bits from every cell that holds the point. A
+///       nodal value that is NaN or infinite makes its component NaN, unless its weight is exactly zero.
 ///   D1  Rows depend on point, mesh and fields alone: not on threads, SIMD target, blocks, order, or the method that
 ///       found the owner; so a map that was saved gives the same bytes.
 ///   N3  Under the policy `nearest`, the value of a point field is that of the nearest cell, at the point of that cell
@@ -73,6 +73,7 @@ struct SampleOptions {
     Rounding rounding = Rounding::correct;
     OutsidePolicy outside = {};
     int threads = 0;  ///< 0: as many as the machine has
+    NonfinitePoints nonfinite_points = NonfinitePoints::error;
 };
 
 /// What is made of a field.
@@ -128,7 +129,7 @@ public:
     const std::vector<std::string>& columns() const;  ///< column_names(fields())
 
     /// Row i is for point i: cells, features, values, distances, columns and counts. Returns an Error if a coordinate
-    /// is not finite, or if the policy is `error` and a point is outside.
+    /// is not finite (but see SampleOptions), or if the policy is `error` and a point is outside.
     Result<Table> sample(std::span<const double> points, const SampleOptions& options = {}) const;
 
     /// The same into a table that keeps its memory from call to call; its points are left alone, and may be `points`.
@@ -139,7 +140,7 @@ public:
     /// The same for rows whose owners are known: point i lies in rows.cells[i], or outside if that is -1, with the
     /// feature rows.features[i]. So Locator::locate once serves many fields, and every cell of Locator::locate_all can
     /// have its row. In a degenerate cell point fields are NaN, and counted. Returns an Error besides if a cell is out
-    /// of range.
+    /// of range, or that of a point that is not finite.
     Status evaluate(std::span<const double> points, const SampleOptions& options, Table& rows,
                     std::size_t first_point = 0) const;
 

@@ -11,7 +11,7 @@
 /// Laws (each is a test of that name in tests/surface):
 ///   K1  Each coordinate and each value of a carried field of nodes is that of the exact crossing, from the exact
 ///       parameter on the edge, rounded once to nearest, ties to even; an exact zero is +0. It is NaN if a value at an
-///       end of the edge is not finite.
+///       end of the edge is not finite. At a node it is that of the node.
 ///   K2  Watertight: an edge of the surface belongs to as many triangles one way as the other, unless it lies in a
 ///       facet that only one of the cells used has. Used is every cell without NaN and infinity. In the plane: a point
 ///       begins as many segments as it ends. Requires that no facet has more than two cells, one on each side, as in a

@@ -29,10 +29,17 @@ struct WayCounts {
     void add(const WayCounts& other);
 };
 
+/// What points with a coordinate that is NaN or infinite are.
+enum class NonfinitePoints : std::uint8_t {
+    error,
+    nan,  ///< points outside, with NaN for values whatever points outside get, and counted
+};
+
 /// Where points lie. Functions that take counts add to them, unless they fail.
 struct LocationCounts {
     std::uint64_t interior = 0, face = 0, edge = 0, vertex = 0, outside = 0;
-    TierCounts tests;  ///< point-in-cell tests, by the tier that decided them
+    std::uint64_t not_finite = 0;  ///< of those outside: see NonfinitePoints
+    TierCounts tests;              ///< point-in-cell tests, by the tier that decided them
     WayCounts ways;
 
     std::uint64_t points() const { return interior + face + edge + vertex + outside; }

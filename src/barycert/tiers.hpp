@@ -24,7 +24,7 @@ struct TierCounts {
     std::uint64_t double_double = 0;
     std::uint64_t exact = 0;
     std::uint64_t degenerate = 0;  ///< cases, of those above, whose simplex is degenerate
-    std::uint64_t not_finite = 0;  ///< cases, of those above, with a nodal value that is NaN or infinite
+    std::uint64_t not_finite = 0;  ///< cases, of those above, with a NaN or infinite nodal value that takes part
 
     std::uint64_t cases() const { return filter + double_double + exact; }
     void add(Tier t, std::uint64_t count = 1) {

@@ -16,8 +16,10 @@
 namespace barycert {
 
 struct VerifyJob {
-    std::string mesh;  ///< as for read_mesh
+    std::string mesh;      ///< as for read_mesh
+    StepChoice step = {};  ///< of a series
     std::vector<FieldFile> field_files = {};
+    Curved curved = Curved::straight;      ///< what becomes of curved cells
     std::vector<std::string> fields = {};  ///< names, see Sampler::build; empty: those that the results have
 
     /// Points with columns, as for open_points: .csv .npy .vtu .vtp .vti .vtk ...; "-" is CSV from stdin.
@@ -47,6 +49,7 @@ struct VerifySummary {
     std::string mesh, results;
     std::uint64_t nodes = 0, cells = 0;
     int dimension = 3, threads = 1;
+    CurvedCells curved;  ///< of the mesh: results are held against straight sides
     bool certified = false;
     std::uint64_t contested_cells = 0;
 
@@ -54,6 +57,7 @@ struct VerifySummary {
     std::vector<std::string> found_in;     ///< the column of the results for each
     std::string cell_column, mask_column;  ///< empty: none
     std::vector<double> ranges;            ///< what errors are relative to
+    std::vector<RelativeTo> relative_to;   ///< what these are
     double tolerance = 0;
     bool exact = false;
     std::optional<double> outside_value;

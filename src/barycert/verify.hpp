@@ -40,14 +40,25 @@ struct ClaimedRows {
 };
 
 struct VerifyOptions {
-    /// Largest error of a value that is right, in parts of the field's range: max - min of its finite nodal values, or
-    /// if that is 0 the largest magnitude, or 1.
+    /// Largest error of a value that is right, in parts of the field's range; see RelativeTo.
     double tolerance = 1e-9;
     bool exact = false;  ///< right is what has the bits of the correctly rounded value; zeros of either sign are equal
-    std::optional<double> outside_value = {};  ///< a row of this number alone means outside
-    std::size_t examples = 5;                  ///< rows kept of each kind of error
-    int threads = 0;                           ///< 0: as many as the machine has
+    std::optional<double> outside_value = {};                   ///< a row of this number alone means outside
+    std::size_t examples = 5;                                   ///< rows kept of each kind of error
+    int threads = 0;                                            ///< 0: as many as the machine has
+    NonfinitePoints nonfinite_points = NonfinitePoints::error;  ///< nan: they are outside
 };
+
+/// What errors of the values of a field's component are told in parts of.
+enum class RelativeTo : std::uint8_t {
+    range,      ///< max - min of its finite values in the mesh
+    magnitude,  ///< of these values, where they are all the same: the range is 0
+    one,        ///< where they are all 0, or none is finite: errors are absolute
+};
+
+constexpr std::string_view name(RelativeTo to) {
+    return to == RelativeTo::range ? "range" : to == RelativeTo::magnitude ? "magnitude" : "one";
+}
 
 /// What may be wrong with a row; the first that applies.
 enum class RowVerdict : std::uint8_t {
@@ -100,7 +111,7 @@ struct WrongRow {
     std::size_t column = 0;          ///< of the value with the largest error, in parts of the range
     double claimed = 0, value = 0;   ///< of that column; NaN where there is none
     double ulps = 0, relative = 0;
-    double distance = 0;  ///< of a row invented: from the point to the nearest cell
+    double distance = 0;  ///< of a row invented: from the point to the nearest cell; NaN if the point is not finite
     double severity = 0;  ///< what examples are chosen by: larger is worse
 };
 
@@ -114,6 +125,7 @@ inline constexpr std::size_t max_measured = 1000;
 struct Verdicts {
     std::uint64_t rows = 0, right = 0, missed = 0, invented = 0, wrong_cell = 0, wrong_value = 0;
     std::uint64_t inside = 0, outside = 0;  ///< of all rows, exactly
+    std::uint64_t not_finite = 0;           ///< of those outside: the point is not finite
     std::uint64_t on_boundary = 0;          ///< of all rows: on a face, an edge or a vertex of their owner
     std::uint64_t missed_on_boundary = 0;   ///< of those missed
     std::uint64_t invented_zero = 0;        ///< of those invented: every value is 0
@@ -143,7 +155,8 @@ class Verifier {
 public:
     Verifier(const Sampler& sampler, const VerifyOptions& options);
 
-    /// Holds rows against the exact ones. Returns an Error if sizes do not fit, or a coordinate is not finite.
+    /// Holds rows against the exact ones. Returns an Error if sizes do not fit, or a coordinate is not finite
+    /// where that is an Error.
     Result<Verdicts> verify(const ClaimedRows& rows) const;
 
     /// How far rows invented lie outside, and the farthest of them as examples. To be called once, after the verdicts
@@ -152,12 +165,14 @@ public:
 
     /// What errors are relative to, a column.
     const std::vector<double>& ranges() const { return ranges_; }
+    const std::vector<RelativeTo>& relative_to() const { return relative_to_; }
     const VerifyOptions& options() const { return options_; }
 
 private:
     const Sampler& sampler_;
     VerifyOptions options_;
     std::vector<double> ranges_;
+    std::vector<RelativeTo> relative_to_;
     double near_ = 0;
 };
 

@@ -1,6 +1,7 @@
 /// Files of VTK: meshes, points and series. VTK itself is not needed.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,10 +14,19 @@
 
 namespace barycert {
 
+/// Which step of a series (.pvd, .vtu.series) is meant: at most one of these. None: the first.
+struct StepChoice {
+    std::optional<std::size_t> number = {};  ///< from 0, in the order of the file
+    std::optional<double> time = {};         ///< exactly as the file has it
+    bool last = false;
+
+    bool made() const { return number || time || last; }
+};
+
 /// Reads a mesh: an unstructured grid or polygon data in XML (.vtu, .vtp) or in the legacy format (.vtk); the pieces of
-/// a partitioned one (.pvtu), of the blocks of a multiblock data set (.vtm, .vtpd, .vtpc); the first step of a series
-/// (.pvd, .vtu.series). Which of them it is, is told by its first bytes. ASCII, base64, raw, compressed by zlib, LZ4 or
-/// LZMA, of either byte order, in one piece or several.
+/// a partitioned one (.pvtu), of the blocks of a multiblock data set (.vtm, .vtpd, .vtpc); a step of a series
+/// (.pvd, .vtu.series, .vtp.series). Which of them it is, is told by its first bytes. ASCII, base64, raw, compressed by
+/// zlib, LZ4 or LZMA, of either byte order, in one piece or several.
 ///
 /// - Tetrahedra make a mesh of dimension 3. Where there are none, triangles make one of dimension 2, and all points
 ///   must have z = 0. All cells are linear or all are quadratic (VTK_QUADRATIC_TETRA, VTK_QUADRATIC_TRIANGLE), whose
@@ -24,6 +34,8 @@ namespace barycert {
 /// - Vertices, lines and, beside tetrahedra, triangles are left out, as are ghost cells (vtkGhostType: duplicate,
 ///   refined, hidden), with their rows of the cell arrays. cell_numbers then says which cells of the file stay; those
 ///   of several files count on.
+/// - Of a collection with unstructured grids, polygon data and other grids are left out; where there are none, polygon
+///   data are the mesh.
 /// - Nodes of pieces are kept as they are. Where the file gives their global numbers (GlobalIds, GlobalNodeId), nodes
 ///   of one number and place are one.
 /// - Arrays of any numeric type and any number of components become fields of the same name, exactly. Strings of cells,
@@ -33,11 +45,12 @@ namespace barycert {
 ///
 /// Mesh::notes tells what was left out or converted (float32 to double), and where pieces may share nodes.
 ///
-/// Error: the file, or one that it names, is missing, cut off, contradicts itself, has a coordinate that is not finite,
+/// Error: a step is chosen, and there is no series, or no such step; the file, or one that it names, is missing, cut
+/// off, contradicts itself, has a coordinate that is not finite,
 /// an index that is no point, more than 2147483647 points or cells, cells of other types (they are named), no cells of
 /// its dimension, or triangles off the plane z = 0; XML with a document type; memory is short. Memory is bounded by
 /// what the file holds once it is decompressed.
-Result<Mesh> read_vtk(const std::string& path);
+Result<Mesh> read_vtk(const std::string& path, const StepChoice& step = {});
 
 /// The path and, of a file that names files, theirs.
 std::vector<std::string> vtk_mesh_files(const std::string& path);

@@ -10,13 +10,13 @@
 ///   V1  Each value is the exact sum of weight times nodal value, rounded once in the same way, for every component. An
 ///       exact zero is +0, even if all nodal values are -0; what underflows to zero keeps its sign.
 ///   V2  At a point on a shared face, edge or vertex the value has the same bits from every cell that holds it, if the
-///       cells are not degenerate and their nodal values are finite.
+///       cells are not degenerate, whatever values the nodes beside it have.
 ///   D1  Results depend on the input bits alone, not on threads, SIMD target, compiler or optimisation, nor (D2) on the
 ///       caller's floating-point environment.
 ///
 /// A degenerate simplex has no weights: they and its values are NaN, and TierCounts::degenerate counts the case. A
-/// nodal value that is NaN or infinite makes its component NaN, and TierCounts::not_finite counts the case. NaN or
-/// infinity among the coordinates is an Error.
+/// nodal value that is NaN or infinite makes its component NaN, and TierCounts::not_finite counts the case, unless its
+/// exact weight is zero: then it takes no part. NaN or infinity among the coordinates is an Error.
 ///
 /// Not promised: rounded weights need not sum to 1, and the point they give back (point_from_weights) need not be the
 /// one they came from; their rounded combination with nodal values is not the value. On simplices that are projected on
@@ -40,7 +40,7 @@ namespace barycert {
 
 enum class Rounding : std::uint8_t {
     correct,  ///< as above
-    plain,    ///< evaluated in double: only D2 and the checks of sizes hold, and nothing is counted
+    plain,    ///< evaluated in double: only D2, the checks of sizes and what is said of NaN hold; no counts
 };
 
 struct Weights {
@@ -54,7 +54,7 @@ struct Weights {
 Result<Weights> barycentric_weights(Simplex simplex, const double* vertices, const double* point);
 
 struct Value {
-    double value = 0;  ///< NaN if degenerate or a nodal value is not finite
+    double value = 0;  ///< NaN if degenerate or a nodal value that takes part is not finite
     bool degenerate = false;
     Tier tier = Tier::double_double;
 };
@@ -64,8 +64,8 @@ struct Value {
 Result<Value> interpolate(Simplex simplex, const double* vertices, const double* point, const double* values);
 
 /// Returns the sign of the exact, not rounded, value less `threshold`: whether the field is above, at or below it. So a
-/// value can be rounded once to any other type. Returns an Error if a number is not finite or the simplex is
-/// degenerate.
+/// value can be rounded once to any other type. Returns an Error if a number that takes part is not finite or the
+/// simplex is degenerate.
 Result<Sign> compare_value(Simplex simplex, const double* vertices, const double* point, const double* values,
                            double threshold);
 

@@ -36,6 +36,7 @@ struct AuditArguments {
     std::vector<std::string> others;
     bool quiet = false, no_check = false, wide = false;
     OracleChoice oracle = OracleChoice::automatic;
+    Curved curved = Curved::straight;
     std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>();
 };
 
@@ -150,7 +151,7 @@ int run_audit(const AuditArguments& a) {
     // Without a family that draws from meshes barycert's own need not be there.
     const bool wanted = std::any_of(families->begin(), families->end(), [](const Family& f) { return f.needs_mesh; });
     const Result<MeshSource> meshes =
-        wanted || !a.meshes.empty() ? load_meshes(a.meshes, !a.no_check, a.threads) : MeshSource();
+        wanted || !a.meshes.empty() ? load_meshes(a.meshes, !a.no_check, a.threads, a.curved) : MeshSource();
     if (!meshes) return fail(meshes.error());
     const auto baseline = read_comparable_baseline(a.baseline, options, *meshes);
     if (!baseline) return fail(baseline.error());
@@ -223,6 +224,7 @@ void add_audit(CLI::App& app, int& exit_code) {
         ->capture_default_str()
         ->check(whole_number())
         ->type_name("S");
+    curved_option(*sub, a->curved);
     threads_option(*sub, a->threads);
     file_option(*sub, "--json", a->json, "Write the report as JSON; - is stdout and suppresses the table");
     file_option(*sub, "--html", a->html,

@@ -18,7 +18,7 @@ void tell(std::string_view text) {
 
 int fail(const Error& error) {
     std::fflush(stdout);
-    tell(fmt::format("error: {}\n", error.message()));
+    tell(fmt::format("error: {}\n", with_command_name(error.message())));
     return exit_error;
 }
 
@@ -28,9 +28,26 @@ void tell_important(const Notes& notes) {
     }
 }
 
+void tell_curved(const CurvedCells& curved) {
+    if (curved.cells != 0) tell(fmt::format("note: {}\n", message(curved)));
+}
+
+Status check_curved(const Mesh& mesh, const std::string& path, Curved curved) {
+    if (curved == Curved::straight) return Done{};
+    const auto straight = take_as_straight(mesh, path, curved);
+    return straight ? Status(Done{}) : Status(straight.error());
+}
+
 std::string command_name() {
     const char* wrapper = std::getenv("BARYCERT_COMMAND");
     return wrapper == nullptr || *wrapper == '\0' ? "barycert" : base::printable(wrapper);
+}
+
+std::string with_command_name(std::string text) {
+    const std::string own = "`barycert ", named = '`' + command_name() + ' ';
+    for (std::size_t at = text.find(own); at != std::string::npos; at = text.find(own, at + named.size()))
+        text.replace(at, own.size(), named);
+    return text;
 }
 
 namespace {

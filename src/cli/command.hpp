@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "barycert/certificate.hpp"
 #include "barycert/notes.hpp"
 #include "barycert/result.hpp"
 
@@ -55,11 +56,20 @@ void prepare_for_want_of_memory();
 /// "note: ..." on stderr for each that may change what results mean.
 void tell_important(const Notes& notes);
 
+/// That cells are curved, where no table says so.
+void tell_curved(const CurvedCells& curved);
+
+/// Error, with Curved::refuse: cells are curved. For what measures them itself otherwise.
+Status check_curved(const Mesh& mesh, const std::string& path, Curved curved);
+
 /// True if text for people on that stream may be coloured: a terminal, and NO_COLOR is not set.
 bool colour_on_stdout();
 
 /// How the user calls this program, for commands to repeat: BARYCERT_COMMAND if a wrapper set it, else "barycert".
 std::string command_name();
+
+/// The text with that name for the program in each of its commands, which stand between ` and `.
+std::string with_command_name(std::string text);
 
 /// The whole command as a shell takes it: command_name() and the arguments. main() tells it to remember.
 std::string command_line();

@@ -28,10 +28,12 @@ std::optional<std::vector<double>> finite_numbers(std::string_view text, char se
 }
 
 void add_contour_options(CLI::App& sub, ContourJob& job, bool& quiet) {
+    step_options(sub, job.step);
     add_field_files(sub, job.field_files, "--field-file");
     sub.add_option("--fields", job.fields, "Fields to carry along: A,B,...; default: all")
         ->allow_extra_args(false)
         ->type_name("NAMES");
+    curved_option(sub, job.curved);
     threads_option(sub, job.threads);
     vtk_data_option(sub, job.vtk_data);
     file_option(sub, "--json", job.report, "Write the summary as JSON; - is stdout");

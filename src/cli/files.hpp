@@ -7,6 +7,7 @@
 
 #include "barycert/base/named_file.hpp"
 #include "barycert/result.hpp"
+#include "barycert/vtk.hpp"
 
 namespace CLI {
 class App;
@@ -17,12 +18,16 @@ namespace barycert::cli {
 
 /// What MESH may be.
 inline constexpr const char* mesh_help =
-    "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, VTK's .vtu .vtk .vtp .pvtu .vtm .pvd .vtu.series";
+    "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, Medit's .mesh .meshb, VTK's .vtu .vtk .vtp .pvtu .vtm "
+    ".pvd .vtu.series; others by way of meshio; any packed as .gz";
 
 /// An option, or argument, that names a file or mesh: the empty string is refused.
 CLI::Option* file_option(CLI::App& sub, const std::string& name, std::string& path, const std::string& help);
 CLI::Option* file_option(CLI::App& sub, const std::string& name, std::vector<std::string>& paths,
                          const std::string& help);
+
+/// --step and --time, of a MESH that is a series. `all`: what --step all sets; nullptr: not allowed.
+void step_options(CLI::App& sub, StepChoice& step, bool* all = nullptr);
 
 /// Writes `bytes` to a file that appears whole or not at all; "-" is stdout.
 Status write_output(const std::string& path, std::string_view bytes);

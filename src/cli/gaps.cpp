@@ -27,6 +27,7 @@ struct GapsArguments {
     std::string mesh, json;
     std::vector<std::string> kernels, libraries, fail_on, rule_names;
     GapsOptions options;
+    Curved curved = Curved::straight;
     bool quiet = false, no_check = false;
     std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>();
 };
@@ -72,6 +73,7 @@ Result<GapsReport> gaps_of(GapsArguments& a) {
     }
     const Result<Mesh> mesh = read_mesh(a.mesh, {.faces = false, .neighbours = false, .threads = a.options.threads});
     if (!mesh) return mesh.error();
+    if (const Status ok = check_curved(*mesh, a.mesh, a.curved); !ok) return ok.error();
     Verdict verdict = Verdict::not_checked;
     if (!a.no_check) {
         CheckOptions check;
@@ -95,6 +97,7 @@ int run_gaps(GapsArguments& a) {
     if (!report) return fail(report.error());
     std::vector<Status> written;
     if (!a.json.empty()) written.push_back(write_output(a.json, gaps_json(*report)));
+    if (!a.quiet && !table) tell_curved(report->curved);
     if (table) {
         TerminalStyle style;
         style.colour = colour_on_stdout();
@@ -145,6 +148,7 @@ void add_gaps(CLI::App& app, int& exit_code) {
         ->capture_default_str()
         ->check(whole_number())
         ->type_name("S");
+    curved_option(*sub, a->curved);
     threads_option(*sub, a->options.threads);
     file_option(*sub, "--json", a->json, "Write the report as JSON; - is stdout and suppresses the table");
     sub->add_option(

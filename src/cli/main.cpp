@@ -14,6 +14,7 @@
 
 #include "barycert/base/begun_files.hpp"
 #include "barycert/base/nearest_name.hpp"
+#include "barycert/base/run_files.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "command.hpp"
@@ -39,7 +40,8 @@ int run(int argc, char** argv) {
     const ExactEnvironment environment;
     const std::string_view first = argc > 1 ? argv[1] : "";
     if (first == "mesh") return exec_mesh(argc, argv);
-    base::remove_begun_files_on_signals();
+    base::remove_begun_files_on_signals(true);
+    const base::RunFiles files;
 #ifdef BARYCERT_WITH_AUDIT
     prepare_for_want_of_memory();
 #endif
@@ -57,9 +59,8 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     app.failure_message([](const CLI::App* failed, const CLI::Error& e) {
         return "error: " +
-               base::printable(
-                   usage_error(*failed, e.what(),
-                               "`barycert --help` and `barycert SUBCOMMAND --help` list subcommands and options")) +
+               base::printable(with_command_name(usage_error(
+                   *failed, e, "`barycert --help` and `barycert SUBCOMMAND --help` list subcommands and options"))) +
                '\n';
     });
     int exit_code = exit_clean;

@@ -28,6 +28,12 @@ void vtk_data_option(CLI::App& sub, std::optional<VtkData>& data) {
                   "Numbers in an output of VTK's formats: raw (default), zlib, lz4, lzma (compressed), ascii (text)");
 }
 
+void curved_option(CLI::App& sub, Curved& curved) {
+    choice_option<Curved>(sub, "--curved", curved, {{"straight", Curved::straight}, {"refuse", Curved::refuse}},
+                          "Second-order cells with mid-edge nodes off the middle: straight: take their sides as "
+                          "straight, and say so (default); refuse: fail");
+}
+
 std::optional<std::int64_t> count_of(std::string_view text) {
     std::int64_t n = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "barycert/certificate.hpp"
 #include "barycert/vtk_data.hpp"
 #include "options/choice.hpp"
 
@@ -37,6 +38,9 @@ void threads_option(CLI::App& sub, int& threads);
 
 /// --vtk-data, how the numbers of VTK's files are written.
 void vtk_data_option(CLI::App& sub, std::optional<VtkData>& data);
+
+/// --curved, what becomes of curved cells.
+void curved_option(CLI::App& sub, Curved& curved);
 
 /// An integer of at least 1.
 std::optional<std::int64_t> count_of(std::string_view text);

@@ -137,7 +137,9 @@ void add_render_iso(CLI::App& render, int& exit_code) {
         "Exit codes: 0 done, an empty surface included; 2 usage or input error, a picture of nothing included.");
     const auto a = std::make_shared<IsoArguments>();
     file_option(*sub, "MESH", a->job.mesh, mesh_help);
-    sub->add_option("--field", a->job.field, "The field of nodes; NAME.0, NAME.1, ... for components")
+    sub->add_option(
+           "--field", a->job.field,
+           "The field of nodes, or what is made of it, as sample names it: NAME.x or NAME.0, |NAME| (at the nodes)")
         ->type_name("NAME");
     sub->add_option_function<std::string>(
            "--value",

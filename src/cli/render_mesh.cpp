@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "barycert/io.hpp"
+#include "barycert/pipeline/job_files.hpp"
 #include "command.hpp"
 #include "files.hpp"
 #include "options.hpp"
@@ -40,6 +41,7 @@ void add_render_mesh(CLI::App& render, int& exit_code) {
         "finite value. Second-order cells are drawn with straight sides.\nExit codes: 0 done; 2 usage or input error.");
     const auto p = std::make_shared<MeshPicture>();
     file_option(*sub, "MESH", p->job.mesh, mesh_help)->required();
+    step_options(*sub, p->job.step);
     sub->add_option("--field", p->job.field,
                     "The field: A, point:A or cell:A; A.1 is its component 1; default: none, the mesh is grey")
         ->type_name("NAME");
@@ -71,10 +73,14 @@ void add_render_mesh(CLI::App& render, int& exit_code) {
     add_picture_options(*sub, p->files);
     add_size_option(*sub, p->job.view.size);
     add_method_options(*sub, p->job.view.method, p->job.view.rounding);
+    curved_option(*sub, p->job.curved);
     threads_option(*sub, p->job.threads);
     sub->callback([=, &exit_code] {
         auto inputs = base::named_files("the mesh", mesh_files(p->job.mesh));
-        for (const FieldFile& file : p->job.field_files) inputs.push_back({"field " + file.name, file.path});
+        for (const FieldFile& field : p->job.field_files) {
+            for (base::NamedFile& file : pipeline::input_files("field " + field.name, field.path))
+                inputs.push_back(std::move(file));
+        }
         exit_code = run_picture(p->files, inputs, [&] { return draw_mesh(*p); });
     });
 }

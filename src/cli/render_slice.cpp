@@ -3,13 +3,31 @@
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <optional>
 
 #include "command.hpp"
 #include "contour_options.hpp"
 #include "files.hpp"
+#include "options.hpp"
 #include "render.hpp"
 
 namespace barycert::cli {
+namespace {
+
+std::optional<Plane> plane_of(const std::string& text) {
+    if (text.size() > 2 && text[0] >= 'x' && text[0] <= 'z' && text[1] == '=') {
+        const std::optional<double> offset = finite(text.substr(2));
+        if (!offset) return std::nullopt;
+        Plane plane{{0, 0, 0}, *offset};
+        plane.normal[static_cast<std::size_t>(text[0] - 'x')] = 1;
+        return plane;
+    }
+    const auto n = finite_numbers(text, ',');
+    if (!n || n->size() != 4 || ((*n)[0] == 0 && (*n)[1] == 0 && (*n)[2] == 0)) return std::nullopt;
+    return Plane{{(*n)[0], (*n)[1], (*n)[2]}, (*n)[3]};
+}
+
+}  // namespace
 
 void add_render_slice(CLI::App& render, int& exit_code) {
     auto* sub =
@@ -26,20 +44,20 @@ void add_render_slice(CLI::App& render, int& exit_code) {
     sub->add_option_function<std::string>(
            "--plane",
            [job](const std::string& text) {
-               const auto n = finite_numbers(text, ',');
-               if (!n || n->size() != 4 || ((*n)[0] == 0 && (*n)[1] == 0 && (*n)[2] == 0))
-                   throw CLI::ValidationError(
-                       "--plane",
-                       "expected NX,NY,NZ,D, finite numbers, a normal that is not zero, found \"" + text + '"');
-               job->plane = Plane{{(*n)[0], (*n)[1], (*n)[2]}, (*n)[3]};
+               job->plane = plane_of(text);
+               if (!job->plane)
+                   refuse_option("--plane",
+                                 "an axis and where, such as z=0.5, or NX,NY,NZ,D, finite numbers, a normal that is "
+                                 "not zero, such as 0,0,1,0.5",
+                                 text);
            },
-           "All points with NX x + NY y + NZ z = D")
+           "All points with NX x + NY y + NZ z = D; or of one axis: x=D, y=D, z=D")
         ->required()
         ->type_name("NX,NY,NZ,D");
     sub->add_option(
            "--field", job->field,
-           "Picture: the field of nodes or cells that it shows; NAME.0, NAME.1, ... for components. Surface: carry "
-           "this one only")
+           "Picture: the field of nodes or cells that it shows, or what is made of it, as sample names it: NAME.x or "
+           "NAME.0, |NAME|. Surface: carry this one only")
         ->type_name("NAME");
     file_option(*sub, "--output", job->output, "The section: .png .vtp .ply .off")->required();
     sub->add_option("--width", job->width, "Picture: pixels across the section")

@@ -51,6 +51,11 @@ std::string where_none_matches(const ReplayArguments& a, const std::vector<Witne
 
 /// The witness that --family and --case describe, made again.
 Result<std::vector<Witness>> made_again(const ReplayArguments& a, const std::vector<Kernel>& kernels) {
+    if (!a.reason.empty() && !finding_named(a.reason))
+        return Error{.what = "--reason of a case that is generated",
+                     .expected = "a class of finding",
+                     .found = '"' + a.reason + '"',
+                     .remedy = "leave it out to see the answer whatever it is"};
     const auto families = select_families({a.family});
     if (!families) return families.error();
     if (families->size() != 1 || families->front().name != a.family)
@@ -92,6 +97,7 @@ Result<std::vector<Witness>> made_again(const ReplayArguments& a, const std::vec
     }
     Witness w;
     w.kernel = kernel;
+    w.reason = a.reason;
     w.family = family.name;
     w.seed = a.seed;
     w.index = *a.index;
@@ -146,12 +152,14 @@ int run_replay(const ReplayArguments& a) {
 
 void add_replay(CLI::App& app, int& exit_code) {
     auto* sub = app.add_subcommand("replay", "Show witnesses: a kernel's weights beside the exact ones");
-    sub->footer("Exit codes: 0 done; 1 a witness of a file is not reproduced; 2 usage or input error.");
+    sub->footer("Exit codes: 0 done; 1 a finding is not reproduced; 2 usage or input error.");
     const auto a = std::make_shared<ReplayArguments>();
     file_option(*sub, "FILE", a->file, "Witnesses from `barycert audit` or `search`: --witnesses FILE or --json FILE");
     sub->add_option("--kernel", a->kernel, "Show only witnesses of matching kernels; with --case, mark this kernel")
         ->type_name("KERNEL|GLOB");
-    sub->add_option("--reason", a->reason, "Show only witnesses of this kind of finding")->type_name("REASON|GLOB");
+    sub->add_option("--reason", a->reason,
+                    "Show only witnesses of this kind of finding; with --case, the finding it must show")
+        ->type_name("REASON|GLOB");
     sub->add_option("--family", a->family, "Generate a case instead of reading it: its family")->type_name("FAMILY");
     sub->add_option("--case", a->index, "Number of the case to generate")->check(whole_number())->type_name("N");
     sub->add_option("--seed", a->seed, "Seed of the case to generate")

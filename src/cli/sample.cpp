@@ -28,9 +28,10 @@ void add_sample(CLI::App& app, int& exit_code) {
     const auto a = std::make_shared<SampleJob>();
     const auto quiet = std::make_shared<bool>(false);
     file_option(*sub, "MESH", a->mesh, mesh_help)->required();
-    file_option(
-        *sub, "--points", a->points,
-        "Points: .csv .npy .node .vtu .vtp .vtk .vti .vtr .vts, or the nodes of another mesh; - is CSV from stdin");
+    file_option(*sub, "--points", a->points,
+                "Points: .csv .txt .npy .node .vtu .vtp .vtk .vti .vtr .vts, or the nodes of another mesh; - is CSV "
+                "from stdin, "
+                "and so is any pipe");
     sub->add_option(
            "--columns", a->columns,
            "The columns of the coordinates, by name or by number from 1, such as 2,3,4 or lon,lat,depth; needed "
@@ -38,12 +39,13 @@ void add_sample(CLI::App& app, int& exit_code) {
         ->allow_extra_args(false)
         ->type_name("A,B,C");
     sub->add_option("--keep", a->keep,
-                    "Columns of the points that rows are to have, as they are: names, or all of the others but those "
-                    "that rows have themselves; NEW=NAME gives a column another name")
+                    "Columns of the points that rows are to have, as they are: names; or all: every column but the "
+                    "coordinates and those that rows have anyway; NEW=NAME gives a column another name")
         ->allow_extra_args(false)
         ->type_name("NAMES|all");
     file_option(*sub, "--output", a->output, "Rows: .csv .npy .vtu; - is CSV on stdout");
     add_sampling_options(*sub, *a, *quiet);
+    nonfinite_option(*sub, a->options.nonfinite_points);
     choice_option<std::optional<bool>>(
         *sub, "--on-boundary", a->all, {{"lowest", false}, {"all", true}},
         "If several cells contain a point: one row for the cell of lowest index (default), or one row per cell");

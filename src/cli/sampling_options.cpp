@@ -34,8 +34,12 @@ OutsidePolicy policy_of(const std::string& text) {
     if (const auto value = number_after("fill", text)) return {.kind = Outside::fill, .fill = *value};
     if (const auto limit = number_after("nearest", text); limit && std::isfinite(*limit) && *limit >= 0)
         return {.kind = Outside::nearest, .limit = *limit};
+    const std::string word = text.substr(0, text.find('='));
+    const bool known = word == "fill" || word == "nearest";
     const std::string meant =
-        base::did_you_mean(text.substr(0, text.find('=')), {"nan", "error", "fill", "nearest", "extrapolate"});
+        known ? (text == "fill" ? "say with what" : '"' + text.substr(text.find('=') + 1) + "\" is no such number") +
+                    ": " + word + "=0.5"
+              : base::did_you_mean(word, {"nan", "error", "fill", "nearest", "extrapolate"});
     throw CLI::ValidationError("--outside",
                                "expected nan, error, fill=NUMBER, nearest, nearest=DISTANCE (at least 0) or "
                                "extrapolate, found \"" +
@@ -122,12 +126,21 @@ void add_field_files(CLI::App& sub, std::vector<FieldFile>& files, const std::st
     }
 }
 
+void nonfinite_option(CLI::App& sub, NonfinitePoints& value) {
+    choice_option<NonfinitePoints>(
+        sub, "--nonfinite-points", value, {{"error", NonfinitePoints::error}, {"nan", NonfinitePoints::nan}},
+        "Points with a coordinate that is NaN, infinite or an empty field. error: the run ends (default); nan: they "
+        "are outside, with NaN for values whatever points outside get, and counted");
+}
+
 void add_sampling_options(CLI::App& sub, SamplingJob& a, bool& quiet) {
+    step_options(sub, a.step, &a.all_steps);
     add_field_files(sub, a.field_files, "--field", &a.series);
     sub.add_option(
            "--fields", a.fields,
-           "Fields to sample: A,B,..., written in this order, those of nodes first, then those of cells, then lengths; "
-           "cell:A is the cell field A if there is also a node field "
+           "Fields to sample: A,B,...; columns have this order, fields of nodes before fields of cells, and these "
+           "before "
+           "lengths; cell:A is the cell field A if there is also a node field "
            "A; default: all. Of each, or of these again: A.x or A.0, a component; |A|, the length; grad(A), the "
            "gradient in the owner; mean(A), cell data averaged to nodes by volume, then interpolated")
         ->allow_extra_args(false)
@@ -143,6 +156,7 @@ void add_sampling_options(CLI::App& sub, SamplingJob& a, bool& quiet) {
            "Value of points outside every cell: nan (default); error: fail; fill=NUMBER; nearest[=DISTANCE]: the value "
            "at the nearest point of the mesh, NaN beyond DISTANCE; extrapolate: the function of the nearest cell")
         ->type_name("nan|error|fill=V|nearest[=D]|extrapolate");
+    curved_option(sub, a.curved);
     threads_option(sub, a.options.threads);
     vtk_data_option(sub, a.vtk_data);
     file_option(sub, "--json", a.report, "Write the summary as JSON; - is stdout");

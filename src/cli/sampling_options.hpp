@@ -19,6 +19,9 @@ namespace barycert::cli {
 void add_field_files(CLI::App& sub, std::vector<FieldFile>& files, const std::string& either,
                      std::vector<FieldFile>* series = nullptr);
 
+/// --nonfinite-points.
+void nonfinite_option(CLI::App& sub, NonfinitePoints& value);
+
 void add_sampling_options(CLI::App& sub, SamplingJob& job, bool& quiet);
 
 /// Does the job by `run`, with progress on a terminal, and writes its reports: the JSON where it is asked for, and the

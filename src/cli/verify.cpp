@@ -54,6 +54,7 @@ int run_verify(VerifyArguments& a) {
     progress.clear();
     if (!summary) return fail(summary.error());
     if (const Status ok = check_limits(*summary, limits); !ok) return fail(ok.error());
+    if (!a.quiet && !table) tell_curved(summary->curved);
     if (!a.quiet) tell_important(summary->notes);
     const Environment environment = measure_environment();
     std::vector<Status> written;
@@ -84,11 +85,15 @@ void add_verify(CLI::App& app, int& exit_code) {
         "Exit codes: 0 all rows are right, 1 some are wrong (see --fail-on), 2 usage or input error.");
     const auto a = std::make_shared<VerifyArguments>();
     file_option(*sub, "MESH", a->job.mesh, mesh_help)->required();
+    step_options(*sub, a->job.step);
     file_option(*sub, "--results", a->job.results,
-                "Points with results: .csv .npy .vtu .vtp .vti .vtk; - is CSV from stdin")
+                "Points with results: .csv .txt .npy .vtu .vtp .vti .vtk; - is CSV from stdin")
         ->required();
     add_field_files(*sub, a->job.field_files, "--field");
-    sub->add_option("--fields", a->job.fields, "Fields to compare: A,B,...; default: those that the results have")
+    sub->add_option(
+           "--fields", a->job.fields,
+           "Fields to compare, or what is made of them, as sample names it: A,B.x,|C|,...; default: those that the "
+           "results have")
         ->allow_extra_args(false)
         ->type_name("NAMES");
     sub->add_option_function<std::vector<std::string>>(
@@ -120,10 +125,12 @@ void add_verify(CLI::App& app, int& exit_code) {
     sub->add_option("--outside-value", a->job.options.outside_value,
                     "A row whose values are all this number is outside (tools that turn outside into 0)")
         ->type_name("NUMBER");
+    nonfinite_option(*sub, a->job.options.nonfinite_points);
     auto* const tolerance =
         sub->add_option("--tolerance", a->job.options.tolerance,
-                        "Largest error of a right value, in parts of the range of its field; default: 1e-9, or 1e-6 "
-                        "where all values are single precision")
+                        "Largest error of a right value, in parts of the range of its field (where that is 0 of the "
+                        "magnitude, and of 1 where the field is 0); default: 1e-9, or 1e-6 where all values are single "
+                        "precision")
             ->check(finite_at_least(0))
             ->type_name("T");
     sub->add_flag("--exact", a->job.options.exact, "Right is only the exact value, rounded once, to the last bit")
@@ -139,6 +146,7 @@ void add_verify(CLI::App& app, int& exit_code) {
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("KIND[>NUMBER]");
+    curved_option(*sub, a->job.curved);
     threads_option(*sub, a->job.options.threads);
     file_option(*sub, "--json", a->json, "Write the report as JSON; - is stdout");
     file_option(*sub, "--html", a->html, "Write the report as an HTML page; - is stdout");

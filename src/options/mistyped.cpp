@@ -33,7 +33,14 @@ std::optional<Mistyped> mistyped_option(const CLI::App& app) {
 
 }  // namespace
 
-std::string usage_error(const CLI::App& app, const std::string& message, const std::string& rest) {
+std::string usage_error(const CLI::App& app, const std::exception& error, const std::string& rest) {
+    std::string message = error.what();
+    // The parser tells them in reverse.
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+        message = "not expected:";
+        for (const std::string& word : app.remaining(true))
+            message += word.find(' ') == std::string::npos ? ' ' + word : " \"" + word + '"';
+    }
     std::string text = message + (message.ends_with('?') ? " " : "; ");
     if (const auto option = mistyped_option(app)) {
         // Another error may have been found before.

@@ -1,6 +1,7 @@
 /// Options that do not exist, and those that were meant.
 #pragma once
 
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace barycert::cli {
 /// What the parser's message says, with a remedy: `did you mean "--output"? ` before the rest for the first word that
 /// looks like an option and is none of the command it was given to; the rest alone if there is no such word, or no
 /// option near.
-std::string usage_error(const CLI::App& app, const std::string& message, const std::string& rest);
+std::string usage_error(const CLI::App& app, const std::exception& error, const std::string& rest);
 
 /// The names of the commands below one.
 std::vector<std::string> command_names(const CLI::App& app);

@@ -30,12 +30,20 @@ namespace py = pybind11;
 struct Callable {
     py::object function;
     Simplex simplex = Simplex::tetrahedron;
+    std::string raised;  ///< by its last call
 };
-const Callable* callable_kernel = nullptr;
+Callable* callable_kernel = nullptr;
 std::mutex callable_kernel_in_use;
 thread_local bool in_callable = false;
 
-/// The weights that the callable returns, or None: declared degenerate. What it raises ends the audit.
+/// "LinAlgError: Singular matrix".
+std::string in_words(const py::error_already_set& e) {
+    const std::string text = py::str(e.value());
+    return "raised " + py::str(e.type().attr("__name__")).cast<std::string>() + (text.empty() ? "" : ": " + text);
+}
+
+/// The weights that the callable returns, or None: declared degenerate. An exception that it raises is no answer; what
+/// is no Exception, such as KeyboardInterrupt, ends the audit, and so does an answer of another shape.
 int call_kernel(const double* vertices, const double* point, double* weights) {
     const py::gil_scoped_acquire lock;
     const Simplex simplex = callable_kernel->simplex;
@@ -44,10 +52,15 @@ int call_kernel(const double* vertices, const double* point, double* weights) {
         Within() { in_callable = true; }
         ~Within() { in_callable = false; }
     };
-    const py::object answer = [&] {
+    py::object answer = py::none();
+    callable_kernel->raised.clear();
+    try {
         const Within within;
-        return callable_kernel->function(py::array_t<double>({n, d}, vertices), py::array_t<double>(d, point));
-    }();
+        answer = callable_kernel->function(py::array_t<double>({n, d}, vertices), py::array_t<double>(d, point));
+    } catch (const py::error_already_set& e) {
+        if (!e.matches(PyExc_Exception)) throw;
+        callable_kernel->raised = in_words(e);
+    }
     if (answer.is_none()) return 1;
     const py::array_t<double, py::array::c_style | py::array::forcecast> numbers(answer);
     if (numbers.ndim() != 1 || numbers.size() != n)
@@ -78,6 +91,7 @@ Kernel kernel_of(Simplex simplex, const std::string& name, bool declares, std::o
     kernel.formula = "a callable of Python";
     kernel.declares_degenerate = declares;
     kernel.weights = call_kernel;
+    kernel.raised = [] { return callable_kernel->raised; };
     kernel.value = same->value;
     if (tolerance) {
         kernel.rule = RegionRule::tolerant;
@@ -152,7 +166,7 @@ std::shared_ptr<AuditReport> audit(const Request& request, std::uint64_t count, 
     options.progress = [&](const AuditProgress& p) { progress.tell(p.family, p.cases_done, p.cases_total); };
     Callable callable;
     if (!request.callable.is_none()) {
-        callable = {request.callable, simplex_by_name(request.simplex)};
+        callable = {request.callable, simplex_by_name(request.simplex), {}};
         options.kernels.push_back(
             kernel_of(callable.simplex, request.name, request.declares_degenerate, request.tolerance));
         // Python runs one thread at a time; and in this one it sees Ctrl-C.

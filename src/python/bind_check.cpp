@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,8 +34,11 @@ Shared check_of(const MeshObject& mesh, bool delaunay, std::size_t examples, std
                          .contacts = contacts,
                          .verdict_only = verdict_only,
                          .progress = [&](const char* stage) { progress.tell(stage, 0, 0); }};
+    const std::shared_ptr<const Mesh> fields = mesh.fields();
     const py::gil_scoped_release unlocked;
-    return std::make_shared<BoundReport>(BoundReport{mesh.geometry(), check_mesh(mesh.mesh(), options)});
+    auto report = std::make_shared<BoundReport>(BoundReport{mesh.geometry(), check_mesh(mesh.mesh(), options)});
+    report->report.not_finite = not_finite_values(*fields);
+    return report;
 }
 
 /// A tuple of the numbers that are used.
@@ -53,14 +57,34 @@ py::list defects_of(const CheckReport& report) {
         const DefectText& text = defect_text(defect.kind);
         py::list places;
         for (const DefectPlace& place : defect.places)
-            places.append(py::make_tuple(used(place.cells), used(place.nodes), std::string(place.detail)));
+            places.append(py::make_tuple(used(place.cells), used(place.nodes), std::string(place.detail),
+                                         used(place.other_nodes), place.distance));
         using namespace pybind11::literals;
         defects.append(py::dict("kind"_a = std::string(text.name), "count"_a = defect.count,
-                                "at_least"_a = defect.at_least, "breaks"_a = text.breaks,
+                                "at_least"_a = defect.at_least, "breaks"_a = defect.breaks(),
                                 "condition"_a = std::string(text.condition), "text"_a = std::string(text.text),
-                                "remedy"_a = std::string(text.remedy), "places"_a = places));
+                                "remedy"_a = std::string(defect.remedy()), "places"_a = places));
     }
     return defects;
+}
+
+py::tuple fix_of(const MeshObject& mesh, double merge_within, bool nodes, bool cells, bool orientation, int threads) {
+    const FixOptions options{
+        .nodes = nodes, .merge_within = merge_within, .cells = cells, .orientation = orientation, .threads = threads};
+    FixReport done;
+    std::optional<MeshObject> fixed;
+    {
+        const py::gil_scoped_release unlocked;
+        fixed.emplace(take(fix_mesh(mesh.whole(), options, done)));
+    }
+    py::list merged, dropped, fields;
+    for (const MergedNode& m : done.merged) merged.append(py::make_tuple(m.node, m.into, m.moved));
+    for (const DroppedCell& c : done.dropped)
+        dropped.append(py::make_tuple(c.cell, std::string(defect_text(c.why).name)));
+    for (const MergedField& f : done.fields) fields.append(py::make_tuple(f.name, f.differ, f.max_difference));
+    using namespace pybind11::literals;
+    return py::make_tuple(std::move(*fixed), py::dict("merged"_a = merged, "dropped"_a = dropped,
+                                                      "turned"_a = done.turned, "fields"_a = fields));
 }
 
 py::list contacts_of(const CheckReport& report, int dimension) {
@@ -125,6 +149,8 @@ void bind_check(py::module_& module) {
             py::arg("name"));
     module.def("check", &check_of, py::arg("mesh"), py::arg("delaunay"), py::arg("examples"), py::arg("contacts"),
                py::arg("verdict_only"), py::arg("threads"), py::arg("progress"));
+    module.def("fix", &fix_of, py::arg("mesh"), py::arg("merge_within"), py::arg("nodes"), py::arg("cells"),
+               py::arg("orientation"), py::arg("threads"));
 }
 
 }  // namespace barycert::python

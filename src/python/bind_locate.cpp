@@ -27,8 +27,10 @@ const Locator& locator_of(const MeshObject& object, const Progress& progress) {
 }
 
 /// points (n, dimension): cells (n), features (n).
-py::tuple locate(const MeshObject& object, const Array<double>& points, int threads, const py::object& callable) {
+py::tuple locate(const MeshObject& object, const Array<double>& points, int threads, const py::object& callable,
+                 const std::string& nonfinite) {
     const Progress progress(callable);
+    const NonfinitePoints policy = nonfinite_points(nonfinite);
     const Locator& locator = locator_of(object, progress);
     const std::size_t d = dimension_of(object), count = static_cast<std::size_t>(points.size()) / d;
     std::vector<Mesh::Index> cells(count);
@@ -38,7 +40,7 @@ py::tuple locate(const MeshObject& object, const Array<double>& points, int thre
         progress, "points", count,
         [&](std::size_t first, std::size_t n) {
             check(locator.locate(all.subspan(d * first, d * n), std::span(cells).subspan(first, n),
-                                 std::span(features).subspan(first, n), nullptr, threads));
+                                 std::span(features).subspan(first, n), nullptr, threads, policy));
         },
         locator.certified() ? largest_first_block : smallest_first_block);
     Array<std::uint8_t> feature(extent(count));
@@ -158,7 +160,7 @@ py::tuple nearest(const MeshObject& object, const Array<double>& points, double 
 
 void bind_locate(py::module_& module) {
     module.def("locate", &locate, py::arg("mesh"), py::arg("points").noconvert(), py::arg("threads"),
-               py::arg("progress"));
+               py::arg("progress"), py::arg("nonfinite") = "error");
     module.def("locate_all", &locate_all, py::arg("mesh"), py::arg("points").noconvert(), py::arg("threads"),
                py::arg("progress"));
     module.def("weights_of", &weights_of, py::arg("mesh"), py::arg("points").noconvert(), py::arg("cells").noconvert(),

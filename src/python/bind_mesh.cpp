@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "arrays.hpp"
+#include "barycert/certificate.hpp"
 #include "barycert/gradient.hpp"
 #include "barycert/io.hpp"
 #include "barycert/notes.hpp"
@@ -140,9 +142,18 @@ std::vector<std::pair<std::string, bool>> notes_of(const MeshObject& mesh) {
     return notes;
 }
 
-MeshObject read(const std::string& path) {
+/// The figures of CurvedCells, and what to warn of: empty if no cell is curved.
+std::pair<py::dict, std::string> take_mesh_as_straight(const MeshObject& object, const std::string& file, bool refuse) {
+    const CurvedCells curved = take(take_as_straight(object.mesh(), file, refuse ? Curved::refuse : Curved::straight));
+    using namespace pybind11::literals;
+    return {py::dict("cells"_a = curved.cells, "max_deviation"_a = curved.max_deviation,
+                     "rounded_cells"_a = curved.rounded_cells, "max_rounded"_a = curved.max_rounded),
+            curved.cells == 0 ? std::string() : message(curved)};
+}
+
+MeshObject read(const std::string& path, std::optional<std::size_t> number, bool last, std::optional<double> time) {
     const py::gil_scoped_release unlocked;
-    return MeshObject(take(read_mesh(path)));
+    return MeshObject(take(read_mesh(path, {.step = {.number = number, .time = time, .last = last}})));
 }
 
 void write(const MeshObject& object, const std::string& path, const std::string& comment, const std::string& data) {
@@ -187,6 +198,7 @@ void bind_mesh(py::module_& module) {
                                    return view(markers.data(), {extent(markers.size())}, m.geometry());
                                })
         .def_property_readonly("notes", &notes_of)
+        .def("take_as_straight", &take_mesh_as_straight, py::arg("file"), py::arg("refuse"))
         .def("field_names", &field_names, py::arg("of_cells"))
         .def("field", &field_named, py::arg("name"), py::arg("of_cells"))
         .def(
@@ -217,7 +229,7 @@ void bind_mesh(py::module_& module) {
             py::arg("progress"))
         .def("gradients", &gradients_of, py::arg("values").noconvert(), py::arg("progress"))
         .def("write", &write, py::arg("path"), py::arg("comment"), py::arg("data"));
-    module.def("read", &read, py::arg("path"));
+    module.def("read", &read, py::arg("path"), py::arg("number"), py::arg("last"), py::arg("time"));
 }
 
 }  // namespace barycert::python

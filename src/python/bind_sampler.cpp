@@ -153,7 +153,7 @@ std::vector<std::pair<std::string, int>> fields_of(const BoundSampler& bound) {
 void bind_sampler(py::module_& module) {
     py::class_<SampleOptions>(module, "SampleOptions")
         .def(py::init(&sample_options), py::arg("outside"), py::arg("fill"), py::arg("limit"), py::arg("rounding"),
-             py::arg("threads"));
+             py::arg("threads"), py::arg("nonfinite") = "error");
     py::class_<BoundSampler, std::shared_ptr<BoundSampler>>(module, "Sampler")
         .def_property_readonly("fields", &fields_of)
         .def("sample", &sample, py::arg("points").noconvert(), py::arg("options"), py::arg("progress"))

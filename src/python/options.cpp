@@ -22,13 +22,22 @@ OutsidePolicy outside_policy(const std::string& outside, double fill, double lim
                      .found = outside});
 }
 
+NonfinitePoints nonfinite_points(const std::string& nonfinite) {
+    if (nonfinite != "error" && nonfinite != "nan")
+        throw Exception({.what = "what points that are not finite get (nonfinite_points=)",
+                         .expected = "error or nan",
+                         .found = nonfinite});
+    return nonfinite == "nan" ? NonfinitePoints::nan : NonfinitePoints::error;
+}
+
 SampleOptions sample_options(const std::string& outside, double fill, double limit, const std::string& rounding,
-                             int threads) {
+                             int threads, const std::string& nonfinite) {
     if (rounding != "correct" && rounding != "plain")
         throw Exception({.what = "rounding of values (rounding=)", .expected = "correct or plain", .found = rounding});
     return {.rounding = rounding == "plain" ? Rounding::plain : Rounding::correct,
             .outside = outside_policy(outside, fill, limit),
-            .threads = threads};
+            .threads = threads,
+            .nonfinite_points = nonfinite_points(nonfinite)};
 }
 
 }  // namespace barycert::python

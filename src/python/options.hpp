@@ -10,8 +10,11 @@ namespace barycert::python {
 /// `outside`: nan, raise, fill, nearest or extrapolate. Throws an Error of another word.
 OutsidePolicy outside_policy(const std::string& outside, double fill, double limit);
 
+/// `nonfinite`: error or nan. Throws an Error of another word.
+NonfinitePoints nonfinite_points(const std::string& nonfinite);
+
 /// `rounding`: correct or plain.
 SampleOptions sample_options(const std::string& outside, double fill, double limit, const std::string& rounding,
-                             int threads);
+                             int threads, const std::string& nonfinite);
 
 }  // namespace barycert::python

@@ -177,7 +177,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
     barycert::cli::expect_want_of_memory();
-    barycert::base::remove_begun_files_on_signals();
+    barycert::base::remove_begun_files_on_signals(true);
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, like a full disk
     // The child that runs TetGen has it too.
     const barycert::ExactEnvironment environment;

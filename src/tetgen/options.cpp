@@ -155,7 +155,7 @@ Parsed parse_options(int argc, char** argv) {
         throw;  // it is not about an option
     } catch (const std::exception& problem) {
         fmt::print(stderr, "error: {}\n",
-                   base::printable(cli::usage_error(app, problem.what(), "run barycert-tetgen --help for the usage")));
+                   base::printable(cli::usage_error(app, problem, "run barycert-tetgen --help for the usage")));
         return {.options = {}, .exit_code = 2};
     }
     if (options.output.empty()) options.output = default_output(options.input);

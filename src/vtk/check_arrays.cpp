@@ -63,6 +63,8 @@ std::string places_of(const Defect& defect, const ExactIndex& index) {
         std::string text;
         append_used(text, "cell", "cells", place.cells, [&](Mesh::Index cell) { return index.id(cell); });
         append_used(text, "point", "points", place.nodes, [](Mesh::Index node) { return vtkIdType{node}; });
+        const char* const word = defect.kind == DefectKind::hanging_node ? "on" : "and";
+        append_used(text, word, word, place.other_nodes, [](Mesh::Index node) { return vtkIdType{node}; });
         if (*place.detail != '\0') text += std::string(" (") + place.detail + ")";
         if (!all.empty()) all += "; ";
         all += text;
@@ -115,9 +117,9 @@ void fill_defects(const CheckReport& report, const ExactIndex& index, vtkTable& 
         defect->InsertNextValue(std::string(text.name));
         count->InsertNextValue(static_cast<vtkTypeInt64>(found.count));
         at_least->InsertNextValue(found.at_least ? 1 : 0);
-        breaks->InsertNextValue(text.breaks ? 1 : 0);
+        breaks->InsertNextValue(found.breaks() ? 1 : 0);
         meaning->InsertNextValue(std::string(text.text));
-        remedy->InsertNextValue(std::string(text.remedy));
+        remedy->InsertNextValue(std::string(found.remedy()));
         places->InsertNextValue(places_of(found, index));
     }
     for (vtkAbstractArray* const column :

@@ -101,7 +101,11 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
     in_vtk::add_measures(report, index, *output);
     output->GetCellData()->SetActiveScalars("problems");
     const std::string text = check_text(report, index.mesh, "input", {});
-    if (!Certified) vtkWarningMacro("" << text.substr(0, text.find('\n')));
+    if (report.curved.cells != 0) vtkWarningMacro("" << message(report.curved));
+    // The verdict stands below what is told of curved cells, which takes two lines.
+    std::size_t verdict = 0;
+    for (int line = 0; line < (message(report.curved).empty() ? 0 : 2); ++line) verdict = text.find('\n', verdict) + 1;
+    if (!Certified) vtkWarningMacro("" << text.substr(verdict, text.find('\n', verdict) - verdict));
     in_vtk::add_lines("barycert_check", text, *output);
     vtkNew<vtkUnsignedCharArray> certified;
     certified->SetName("certified");

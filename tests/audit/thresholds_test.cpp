@@ -63,7 +63,7 @@ TEST(Thresholds, SilenceIsNotAccuracy) {
         }
     }
     // Nor is a process that ends in every case, for whatever reason, a pass.
-    for (const Finding f : {Finding::crashed, Finding::hung, Finding::out_of_bounds}) {
+    for (const Finding f : {Finding::crashed, Finding::raised, Finding::hung, Finding::out_of_bounds}) {
         AuditReport r = audit_of({kernel_named("tetrahedron.kahan")}, {family_named("random.inside")}, 1);
         KernelStatistics& s = r.kernels.at(0).total;
         s = {};
@@ -81,6 +81,7 @@ TEST(Thresholds, SilenceIsNotAccuracy) {
     r.kernels[0].total.merge(part);
     EXPECT_EQ(r.kernels[0].total.not_run, 4U);
     EXPECT_EQ(violations(r, {{"worst_weight_ulp", 1e300}}).size(), 1U);
+    EXPECT_EQ(violations(r, {{"any", 1e300}}).size(), 1U);
     // On degenerate simplices there is nothing to measure, and declaring them is right.
     Kernel k = kernel_named("tetrahedron.kahan");
     k.weights = declares_everything;

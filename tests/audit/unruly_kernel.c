@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include "barycert/kernel.h"
@@ -36,6 +38,19 @@
 #define ORPHAN 22
 #define LEAK 23
 #define TRIANGLE 24 /* always crashes */
+#define FORKS 25    /* and both go on, likewise in the next ones */
+#define FORKS_ALWAYS 26
+#define CLONES 27 /* not through the library's fork() */
+#define SPINNER 28
+#define DAEMON 29
+#define SPAWN 30
+#define DEAF 31
+#define HOARD 32
+#define CLOSE 33
+#define LIMITS 34
+#define GROUP 35
+#define CALLED_DAEMON 36
+#define LATER 37 /* crashes, but not in the first call */
 
 void barycert_kernel_describe(struct barycert_kernel_info* info) {
     info->abi = BARYCERT_KERNEL_ABI;
@@ -68,6 +83,19 @@ static int unruly(const double* point) {
     return (bits ^ (bits >> 11) ^ (bits >> 23)) % 32 == 0;
 }
 
+/* A process as a program makes it that does not call the library's fork(). */
+static int clone_this(void) {
+    return (int)syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0);
+}
+
+/* Nothing but SIGKILL ends what calls this. */
+static void spin_deaf(void) {
+    sigset_t all;
+    sigfillset(&all);
+    sigprocmask(SIG_SETMASK, &all, 0);
+    for (;;) pause();
+}
+
 #if UNRULY == STACK
 static int dig(volatile int depth) {
     volatile char room[4096];
@@ -79,6 +107,10 @@ static int dig(volatile int depth) {
 int barycert_kernel_weights(const double* vertices, const double* point, double* weights) {
 #if UNRULY == TRIANGLE
     abort();
+#endif
+#if UNRULY == LATER
+    static int calls;
+    ++calls;
 #endif
     signed_volumes(vertices, point, weights);
     if (unruly(point)) {
@@ -124,10 +156,50 @@ int barycert_kernel_weights(const double* vertices, const double* point, double*
         raise(SIGFPE);
 #elif UNRULY == LEAK
         *(volatile char*)malloc((size_t)1 << 30) = 1;
+#elif UNRULY == FORKS
+        fork();
+#elif UNRULY == CLONES
+        clone_this();
+#elif UNRULY == SPINNER
+        if (clone_this() == 0) for (;;) {
+            }
+#elif UNRULY == DAEMON
+        if (clone_this() == 0) {
+            setsid();
+            if (clone_this() == 0) spin_deaf();
+            _exit(0);
+        }
+        usleep(1000);
+#elif UNRULY == SPAWN
+        system("sleep 1000 & sleep 1000 &");
+#elif UNRULY == CALLED_DAEMON
+        daemon(0, 0);
+#elif UNRULY == DEAF
+        spin_deaf();
+#elif UNRULY == HOARD
+        /* All the memory that the machine has, without using any. */
+        size_t page = (size_t)sysconf(_SC_PAGESIZE), most = (size_t)sysconf(_SC_PHYS_PAGES) * page, got;
+        for (got = 0; got < most; got += (size_t)1 << 28) *(volatile char*)malloc((size_t)1 << 28) = 1;
+#elif UNRULY == CLOSE
+        int d;
+        for (d = 3; d < 1024; ++d) close(d);
+#elif UNRULY == LIMITS
+        const struct rlimit none = {0, 0};
+        setrlimit(RLIMIT_NOFILE, &none);
+        setrlimit(RLIMIT_NPROC, &none);
+        setrlimit(RLIMIT_DATA, &none);
+        setrlimit(RLIMIT_FSIZE, &none);
+#elif UNRULY == LATER
+        if (calls > 1) abort();
+#elif UNRULY == GROUP
+        kill(0, SIGKILL);
 #endif
     }
 #if UNRULY == SLOW_PRINT
     usleep(300000);
+#endif
+#if UNRULY == FORKS_ALWAYS
+    fork();
 #endif
 #if UNRULY == ALWAYS
     abort();

@@ -124,6 +124,27 @@ TEST_F(InputFileTest, an_endless_pipe_is_given_up) {
     EXPECT_EQ(base::read_file(put("f", text), 999).value().size(), 1000U);
 }
 
+TEST_F(InputFileTest, tells_what_was_changed_since_it_was_opened) {
+    put("f", "abc");
+    base::InputFile moved = base::InputFile::open(path("f")).value();
+    const base::InputFile file = std::move(moved);
+    EXPECT_TRUE(file.unchanged(path("f")));
+    fs::rename(path("f"), path("g"));  // one that is replaced is read as it was
+    put("f", "other");
+    EXPECT_TRUE(file.unchanged(path("f")));
+    std::ofstream(path("g"), std::ios::app) << "d";
+    const Status longer = file.unchanged(path("g"));
+    ASSERT_FALSE(longer);
+    EXPECT_EQ(longer.error().what, "the file was changed while it was read");
+    EXPECT_EQ(longer.error().expected, "3 bytes, as when it was opened");
+    EXPECT_EQ(longer.error().found, "4");
+    fs::resize_file(path("g"), 3);  // of the same size, and written to
+    fs::last_write_time(path("g"), fs::last_write_time(path("g")) + std::chrono::seconds(1));
+    const Status written = file.unchanged(path("g"));
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().found, "");
+}
+
 // Neither moving nor failing loses a descriptor.
 TEST_F(InputFileTest, descriptors_are_closed) {
     put("f", "abc");

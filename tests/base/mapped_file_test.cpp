@@ -22,6 +22,16 @@ TEST(MappedFile, holds_the_bytes_and_zeros_after_them) {
     }
 }
 
+TEST(MappedFile, is_its_own_when_the_file_is_cut) {
+    const TemporaryFolder folder;
+    const std::string bytes(1 << 20, 'x');
+    put(folder / "f", bytes);
+    const Result<base::MappedFile> file = base::MappedFile::open(folder / "f", 2);
+    ASSERT_TRUE(file) << file.error().message();
+    std::filesystem::resize_file(folder / "f", 0);
+    EXPECT_EQ(file->bytes(), bytes);
+}
+
 TEST(MappedFile, moves) {
     const TemporaryFolder folder;
     put(folder / "f", "abc");

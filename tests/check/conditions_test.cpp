@@ -101,12 +101,12 @@ TEST(Conditions, p2_overfull) {
 TEST(Conditions, p3) {
     const Mesh crack =
         solid({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, -1}, {0, 1, 2, 3, 4, 5, 6, 7});
-    expect_only(crack, set_of(DefectKind::boundary_contact, DefectKind::coincident_nodes), 1);
+    expect_only(crack, set_of(DefectKind::boundary_contact, DefectKind::coincident_nodes, DefectKind::crack), 1);
     EXPECT_EQ(quick(crack).find(DefectKind::boundary_contact)->count, 16U);  // every facet meets every other
     // A corner on a face.
     const Mesh corner =
         solid({0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4, 1, 1, 0, 1, 1, -1, 2, 1, -1, 1, 2, -1}, {0, 1, 2, 3, 4, 5, 6, 7});
-    expect_only(corner, set_of(DefectKind::boundary_contact), 1);
+    expect_only(corner, set_of(DefectKind::boundary_contact, DefectKind::hanging_node), 1);
     // Edges that cross: no corner is on anything.
     const Mesh edges =
         solid({-1, 0, 0, 1, 0, 0, 0, -1, -1, 0, 1, -1, 0, -1, 0, 0, 1, 0, -1, 0, 1, 1, 0, 1}, {0, 1, 2, 3, 4, 5, 6, 7});
@@ -172,9 +172,9 @@ TEST(Conditions, plane) {
     mesh.cells = {0, 1, 2, 3, 4, 5};
     expect_only(mesh, set_of(DefectKind::nested_part, DefectKind::overlapping_cells), 1);
     mesh.points = {0, 0, 8, 0, 0, 8, 0, 0, 8, 0, 4, -1};
-    expect_only(mesh, set_of(DefectKind::boundary_contact, DefectKind::coincident_nodes), 1);
+    expect_only(mesh, set_of(DefectKind::boundary_contact, DefectKind::coincident_nodes, DefectKind::crack), 1);
     mesh.points = {0, 0, 8, 0, 0, 8, 4, 0, 5, -1, 3, -1};
-    expect_only(mesh, set_of(DefectKind::boundary_contact), 1);
+    expect_only(mesh, set_of(DefectKind::boundary_contact, DefectKind::hanging_node), 1);
     // Folded along 0 1, with a cell that keeps clear at the facet that comes first.
     mesh.points = {0, 9, 8, 0, 0, 0, 0, 8, 2, 2};
     mesh.cells = {1, 2, 3, 1, 2, 4, 0, 1, 3};

@@ -14,7 +14,7 @@ using Index = Mesh::Index;
 using P = DefectKind;
 
 constexpr DefectSet pinched = set_of(P::pinched_ridge, P::pinched_node);
-constexpr DefectSet gone = set_of(P::unused_node) | pinched;  // as if the cell were not there
+constexpr DefectSet gone = set_of(P::unused_node, P::missing_cell) | pinched;  // as if the cell were not there
 constexpr DefectSet overlap = set_of(P::overlapping_cells);
 
 Index& corner(const Site& s, std::size_t cell, std::size_t i) {
@@ -294,7 +294,7 @@ void thin_cell(const Site& s, base::Random& random) {
 }  // namespace
 
 constexpr DefectSet doubled = set_of(P::same_side, P::overfull_facet, P::open_boundary, P::boundary_contact,
-                                     P::nested_part, P::mixed_orientation) |
+                                     P::nested_part, P::mixed_orientation, P::hanging_node, P::crack) |
                               pinched;
 
 const std::vector<PlantedDefect> defects{
@@ -307,18 +307,20 @@ const std::vector<PlantedDefect> defects{
     {"minus infinity", set_of(P::not_finite), gone, not_finite<2>},
     {"repeated node", set_of(P::repeated_node), gone, repeated_node},
     {"flat cell", set_of(P::degenerate_cell), doubled | overlap, flat_cell},
-    {"cell on a line", set_of(P::degenerate_cell), set_of(P::plain_sign_wrong, P::boundary_contact), cell_on_a_line<1>},
+    {"cell on a line", set_of(P::degenerate_cell), set_of(P::plain_sign_wrong, P::boundary_contact, P::hanging_node),
+     cell_on_a_line<1>},
     {"cell in a point", set_of(P::degenerate_cell, P::coincident_nodes), 0, cell_on_a_line<0>},
     {"duplicate", set_of(P::duplicate_cell) | overlap, doubled, duplicate<false>},
     {"duplicate, permuted", set_of(P::duplicate_cell) | overlap, doubled, duplicate<true>},
     {"third cell at a facet", set_of(P::overfull_facet) | overlap, doubled, third_at_a_facet},
     {"node through a facet", set_of(P::same_side) | overlap, doubled, node_through_a_facet},
-    {"crack", set_of(P::boundary_contact, P::coincident_nodes), pinched, crack},
+    {"crack", set_of(P::boundary_contact, P::coincident_nodes, P::crack), pinched, crack},
     {"overlapping copy", set_of(P::boundary_contact) | overlap, set_of(P::nested_part), overlapping_copy},
-    {"copy in the same place", set_of(P::boundary_contact, P::coincident_nodes) | overlap, set_of(P::nested_part),
-     same_copy},
-    {"touching copy", set_of(P::boundary_contact, P::coincident_nodes), 0, touching_copy},
-    {"hanging node", set_of(P::boundary_contact), set_of(P::mixed_orientation) | pinched, hanging_node},
+    {"copy in the same place", set_of(P::boundary_contact, P::coincident_nodes, P::crack) | overlap,
+     set_of(P::nested_part), same_copy},
+    {"touching copy", set_of(P::boundary_contact, P::coincident_nodes, P::crack), 0, touching_copy},
+    {"hanging node", set_of(P::boundary_contact, P::hanging_node), set_of(P::mixed_orientation) | pinched,
+     hanging_node},
     {"nested in one cell", set_of(P::nested_part) | overlap, set_of(P::mixed_orientation), nested_in_one},
     {"nested in several cells", set_of(P::nested_part) | overlap, set_of(P::mixed_orientation), nested_in_several},
     {"nested at a common node", set_of(P::nested_part) | overlap, doubled, nested_at_a_node},

@@ -13,7 +13,11 @@ constexpr DefectSet follows = set_of(DefectKind::wrong_neighbour, DefectKind::wr
 void expect_named(const Mesh& mesh, DefectSet must, DefectSet may, bool good) {
     const CheckReport r = quick(mesh);
     const DefectSet all = found(r);
-    EXPECT_EQ(words(must & ~all), "nothing") << "was not found; found: " << words(all);
+    // Nodes that hang are looked for at the facets that meet, and that search ends after so many.
+    const Defect* const contacts = r.find(DefectKind::boundary_contact);
+    const bool cut = contacts != nullptr && contacts->at_least;
+    EXPECT_EQ(words(must & ~all & ~(cut ? set_of(DefectKind::hanging_node) : 0)), "nothing")
+        << "was not found; found: " << words(all);
     EXPECT_EQ(words(all & ~(must | may)), "nothing") << "was found besides";
     EXPECT_EQ(r.certified(), good);
     EXPECT_EQ(r.certificate.covers(mesh), good);
@@ -95,7 +99,9 @@ TEST(Defects, cell_taken_out) {
             std::vector<bool> keep(mesh.cell_count(), true);
             keep[random.below(keep.size())] = false;
             mesh = only(mesh, keep);
-            expect_named(mesh, 0, set_of(DefectKind::unused_node, DefectKind::pinched_node, DefectKind::pinched_ridge),
+            expect_named(mesh, 0,
+                         set_of(DefectKind::unused_node, DefectKind::pinched_node, DefectKind::pinched_ridge,
+                                DefectKind::missing_cell),
                          true);
         }
     }

@@ -78,7 +78,7 @@ TEST(check, a_broken_mesh_is_not) {
     expect_verdict(neigh, 1, "NOT certified: 1 entry of .neigh is wrong");
     const std::string face = put_mesh(scratch, "face", two_cells);
     scratch.put("face.face", "2 0\n0 0 1 2\n1 0 1 7\n");
-    expect_verdict(face, 1, "NOT certified: 1 triangle of .face is not a facet");
+    expect_verdict(face, 1, "NOT certified: 1 face in the files is not a facet");
 }
 
 TEST(check, conformity_to_the_plc_if_asked) {
@@ -234,6 +234,65 @@ TEST(check, the_copy_has_positive_cells_and_all_else) {
     }
 }
 
+// Two cells that share a facet, each with nodes of its own, one of which is an ulp off; and one of the cells twice.
+const std::string twin_nodes =
+    "8 3 1 0\n0 0 0 0 1\n1 1 0 0 2\n2 0 1 0 3\n3 0 0 1 4\n4 0 0 0 1\n5 1.0000000000000002 0 0 2.5\n6 0 1 0 3\n7 0 0 -1 "
+    "4\n";
+const std::string twins = "3 4 0\n0 0 1 2 3\n1 4 6 5 7\n2 0 1 2 3\n";
+
+TEST(check, the_repaired_copy_is_checked_and_told) {
+    const Scratch scratch;
+    const std::string broken = put_mesh(scratch, "broken", twins, twin_nodes);
+    EXPECT_EQ(run(check(broken, {"--quiet"})).code, 1);
+    // Coincident nodes alone: the slit of an ulp stays.
+    const Ended exact = run(check(broken, {"--fix", scratch.path("slit.vtu")}));
+    EXPECT_EQ(exact.code, 1) << exact.out;
+    EXPECT_TRUE(contains(exact.out, "\n2 nodes merged into the lowest at their place; none moved\n")) << exact.out;
+    EXPECT_TRUE(contains(exact.out, "\n1 cell dropped: 1 duplicate_cell\n"));
+    EXPECT_TRUE(
+        contains(exact.out, "slit.vtu: NOT certified: 6 pairs of boundary facets meet, 1 node hangs on a cell"));
+    EXPECT_TRUE(contains(exact.out, "nodes 1 and 4, 2.22e-16 apart")) << exact.out;
+    const std::string json = scratch.path("r.json"), copy = scratch.path("copy");
+    const Ended within = run(check(broken, {"--fix", copy, "--merge-within", "1e-12", "--json", json}));
+    EXPECT_EQ(within.code, 0) << within.err;
+    EXPECT_TRUE(contains(within.out, "3 nodes merged into the lowest at their place, moved by at most 2.22"))
+        << within.out;
+    EXPECT_TRUE(contains(within.out,
+                         "field attribute0: 1 merged node has another value than the node that is kept, by up to 0.5"));
+    EXPECT_TRUE(contains(within.out, "copy: certified: 2 cells partition a domain of 1 part,"));
+    EXPECT_EQ(read_file(copy + ".node").substr(0, 7), "5 3 1 0");
+    const auto fix = parse(read_file(json))["fix"];
+    EXPECT_EQ(parse(read_file(json))["verdict"], "not certified") << "of what was given";
+    EXPECT_EQ(fix["verdict"], "certified");
+    EXPECT_EQ(fix["merged"].size(), 3U);
+    EXPECT_EQ(fix["dropped"][0]["cell"], 2);
+    EXPECT_EQ(fix["dropped"][0]["why"], "duplicate_cell");
+    EXPECT_EQ(fix["fields"][0]["largest_difference"], 0.5);
+    EXPECT_EQ(read_file(broken + ".node"), twin_nodes) << "the input stays";
+    // What has no one answer stays, and the exit code says so.
+    const Ended over = run(check(put_overlapping(scratch), {"--fix", scratch.path("over2")}));
+    EXPECT_EQ(over.code, 1);
+    EXPECT_TRUE(contains(over.out, "What remains in the copy\n")) << over.out;
+}
+
+TEST(check, a_repair_that_cannot_be_is_refused) {
+    const Scratch scratch;
+    const std::string m = put_mesh(scratch, "m", two_cells);
+    const std::vector<std::pair<Words, std::string>> refusals{
+        {{"--fix", m}, "--fix would overwrite the mesh"},
+        {{"--merge-within", "1"}, "--merge-within is for --fix"},
+        {{"--fix", "c", "--merge-within", "-1"}, "--merge-within"},
+        {{"--fix", "c", "--fix-orientation", "d"}, "--fix"},
+        {{"--fix", "c.stl"}, "unknown format of a mesh to be written"},
+    };
+    for (const auto& [more, says] : refusals) {
+        const Ended r = run(check(m, more));
+        EXPECT_EQ(r.code, 2) << says;
+        EXPECT_TRUE(contains(r.err, says)) << r.err;
+    }
+    EXPECT_EQ(scratch.names(), (Words{"m.ele", "m.node"}));
+}
+
 TEST(check, the_copy_in_other_formats) {
     const Scratch scratch;
     const std::string mixed = put_mixed(scratch);
@@ -362,9 +421,9 @@ TEST(check, progress_and_colour_are_for_terminals) {
 TEST(check, help_tells_options_and_exit_codes) {
     const Ended r = run({"check", "--help"});
     EXPECT_EQ(r.code, 0);
-    for (const std::string word :
-         {"--delaunay", "--threads", "--json", "--html", "--vtu", "--fix-orientation", "--examples", "--contacts",
-          "--quiet", "Exit codes: 0 certified, 1 not certified, 2 "})
+    for (const std::string word : {"--delaunay", "--threads", "--json", "--html", "--vtu", "--fix-orientation",
+                                   "--examples", "--contacts", "--quiet", "--fix FILE", "--merge-within DISTANCE",
+                                   "--near RATIO", "Exit codes: 0 certified, 1 not certified, 2 "})
         EXPECT_TRUE(contains(r.out, word)) << word;
     EXPECT_TRUE(contains(run({"--help"}).out, "\n  check "));
     EXPECT_TRUE(contains(run({"--help"}).out, "1 a mesh is not certified, results are wrong"));

@@ -102,7 +102,7 @@ TEST(ci_check, what_does_not_break_the_certificate_passes) {
     EXPECT_TRUE(contains(named.junit, "a&amp;b&lt;c&gt;,d"));
 }
 
-class CiVerify : public testing::Test {
+class CiVerify : public ::testing::Test {
 protected:
     const Scratch scratch_;
     const std::string two_ = put_two_cells(scratch_);

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
+
 #include "process.hpp"
+#include "processes.hpp"
 #include "sanitized.hpp"
 
 namespace barycert::cli_test {
@@ -48,6 +51,50 @@ TEST(contained, accidents_are_told_and_replayed) {
     }
 }
 
+TEST(contained, an_accident_that_does_not_come_back_is_said_not_to) {
+    const Scratch scratch;
+    const Ended r = run(audit_of("later", {"--witnesses", scratch.path("w.json")}));
+    EXPECT_EQ(r.code, 0) << r.err;
+    ASSERT_TRUE(contains(r.out, "\ncrashed: ")) << r.out;
+    for (const std::string& command :
+         {replay_command(run(audit_of("later")).out, "crashed"),
+          "barycert replay " + scratch.path("w.json") + " --reason crashed --kernel-library " + unruly("later")}) {
+        const Ended again = run_shell(command);
+        EXPECT_EQ(again.code, 1) << command << again.out;
+        EXPECT_TRUE(
+            contains(again.err, "not reproduced: crashed of tetrahedron.unruly: asked once more, the kernel did not"))
+            << again.err;
+    }
+    const Ended wrong = run(
+        {"replay", "--family", "huge", "--case", "1", "--kernel", "tetrahedron.exact", "--reason", "worst_weight_ulp"});
+    EXPECT_EQ(wrong.code, 2);
+    EXPECT_TRUE(contains(wrong.err, "expected a class of finding")) << wrong.err;
+}
+
+TEST(contained, families_that_were_not_run_are_said_to_be) {
+    const Scratch scratch;
+    const auto with = [&](Words more) {
+        Words words{"audit", "--kernel-library", unruly("always"), "--family",  "random", "--family",
+                    "huge",  "--count",          "2000",           "--threads", "1"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words);
+    };
+    const Ended table = with({"--json", scratch.path("r.json"), "--html", scratch.path("r.html"), "--junit",
+                              scratch.path("r.xml"), "--sarif", scratch.path("r.sarif")});
+    EXPECT_EQ(table.code, 0) << table.err;
+    EXPECT_TRUE(contains(table.out, "huge        0  not run, the kernel had been given up\n")) << table.out;
+    EXPECT_TRUE(contains(with({"--wide"}).out, "0/1         -        -  not run\n"));
+    const Json families = parse(read_file(scratch.path("r.json")))["kernels"][0]["families"];
+    ASSERT_EQ(families.size(), 2U);
+    EXPECT_EQ(families[0]["cases"].get<int>() + families[0]["not_run"].get<int>(), 2000);
+    EXPECT_EQ(families[1]["cases"], 0);
+    EXPECT_EQ(families[1]["not_run"], 2000);
+    const std::string page = read_file(scratch.path("r.html"));
+    EXPECT_TRUE(contains(page.substr(page.find(">huge</th>")), "<td class=\"n\" data-v=\"-1\">not run</td>"));
+    for (const char* ci : {"r.xml", "r.sarif"})
+        EXPECT_TRUE(contains(read_file(scratch.path(ci)), "cases were not run: the kernel had been given up")) << ci;
+}
+
 TEST(contained, a_hang_is_ended_by_the_time_limit) {
     const Ended r = run(audit_of("hang", {"--time-limit", "0.05", "--json", "-"}));
     EXPECT_EQ(r.code, 0) << r.err;
@@ -56,6 +103,21 @@ TEST(contained, a_hang_is_ended_by_the_time_limit) {
     EXPECT_EQ(report["kernels"][0]["contained"], true);
     EXPECT_EQ(report["witnesses"][0]["detail"], "no answer within 0.05 s");
     EXPECT_TRUE(report["witnesses"][0]["cell"].is_number_unsigned());
+}
+
+TEST(contained, processes_that_a_kernel_starts_end_with_the_audit) {
+    for (const char* fault : {"forks_always", "daemon"}) {
+        const test::Orphanage orphanage;
+        const Ended r = run(audit_of(fault, {"--json", "-"}));
+        EXPECT_EQ(r.code, 0) << r.err;
+        EXPECT_GE(parse(r.out)["kernels"][0]["forked"], 9) << fault;
+        EXPECT_EQ(orphanage.left_behind(), 0U) << fault;
+        // Nor does anything remain where the audit itself is ended, in the middle of it.
+        const Ended killed = run({"audit", "--kernel-library", unruly(fault), "--count", "100000000"},
+                                 {.terminal = true, .kill_on = " %  ", .kill_with = SIGKILL});
+        EXPECT_EQ(killed.signal, SIGKILL) << killed.out;
+        EXPECT_EQ(orphanage.left_behind(), 0U) << fault;
+    }
 }
 
 TEST(contained, a_limit_of_memory_holds_for_a_kernel) {

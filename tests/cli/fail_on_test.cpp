@@ -105,7 +105,8 @@ TEST(fail_on, help_lists_these_rules_and_no_others) {
     for (std::string word; words >> word;) listed.insert(word);
     Words rules = all_rules();
     // Of kernels in a process of their own: contained_test.cpp.
-    rules.insert(rules.end(), {"crashed", "hung", "out_of_bounds", "changed_environment", "printed"});
+    rules.insert(rules.end(),
+                 {"crashed", "raised", "hung", "out_of_bounds", "forked", "changed_environment", "printed"});
     EXPECT_EQ(listed, std::set<std::string>(rules.begin(), rules.end()));
 }
 

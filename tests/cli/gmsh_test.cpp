@@ -64,47 +64,8 @@ TEST(gmsh, resample_writes_what_it_reads) {
 TEST(gmsh, what_is_wrong_is_told_with_the_way_out) {
     const Scratch scratch;
     expect_error({"check", scratch.path("no.msh")}, "no such file");
-    expect_error({"check", scratch.put("a.inp", "*Node\n")}, "meshio convert");
     expect_error({"check", scratch.put("b.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n")}, "b.msh:4: ");
     expect_error({"sample", scratch.put("c.h5", "\x89HDF\r\n\x1a\n"), "--points", "p.csv", "--output", "-"}, "");
-}
-
-/// The python3 that has meshio; empty if none has.
-std::string meshio_python() {
-    for (const std::string python : {"python3", "/usr/bin/python3"}) {
-        if (run_shell(python + " -c 'import meshio, h5py'").code == 0) return python;
-    }
-    return {};
-}
-
-TEST(other_formats, the_commands_that_are_told_convert_them) {
-    const std::string python = meshio_python();
-    if (python.empty() || run_shell("gmsh --version && meshio --version").code != 0)
-        GTEST_SKIP() << "no meshio with h5py, or no Gmsh";
-    const Scratch scratch;
-    const Words names{"t.xdmf", "t.inp", "t.su2", "t.vol", "t.mesh", "t.avs", "t.med"};
-    std::string script =
-        "import meshio, numpy as np\n"
-        "p = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1.]])\n"
-        "m = meshio.Mesh(p, [('tetra', np.array([[0, 1, 2, 3], [1, 2, 3, 4]]))],\n"
-        "    point_data={'point_tags': np.ones(5, int)}, cell_data={'cell_tags': [np.array([-6, -6])]})\n"
-        "m.point_tags = {1: ['a']}\nm.cell_tags = {-6: ['b']}\n";
-    for (const std::string& name : names) script += "m.write('" + name + "')\n";
-    scratch.put("write.py", script);
-    const Ended made = run_shell(python + " write.py", {.folder = scratch.folder()});
-    ASSERT_EQ(made.code, 0) << made.err;
-    for (const std::string& name : names) {
-        const Ended refused = run_shell("barycert check " + name, {.folder = scratch.folder()});
-        ASSERT_EQ(refused.code, 2) << name;
-        const std::size_t begin = refused.err.find('`') + 1, end = refused.err.find('`', begin);
-        ASSERT_NE(end, std::string::npos) << refused.err;
-        const std::string command = refused.err.substr(begin, end - begin);
-        ASSERT_EQ(run_shell(command, {.folder = scratch.folder()}).code, 0) << command;
-        const std::string output = contains(command, "gmsh") ? "t.msh" : "t.vtu";
-        const Ended read = run_shell("barycert check " + output + " && rm " + output, {.folder = scratch.folder()});
-        EXPECT_EQ(read.code, 0) << command << '\n' << read.out << read.err;
-        EXPECT_TRUE(contains(read.out, "2 cells")) << read.out;
-    }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "process.hpp"
+#include "sample_meshes.hpp"
 
 namespace barycert::cli_test {
 namespace {
@@ -146,6 +147,92 @@ TEST(overwriting, mesh) {
     EXPECT_TRUE(contains(through_a_link.err, "--output would overwrite the PLC")) << through_a_link.err;
 }
 #endif
+
+/// Pieces of what names files are inputs, wherever it is named.
+class Pieces : public ::testing::Test {
+protected:
+    void SetUp() override {
+        for (const std::string name : {"0.vtu", "1.vtu"})
+            ASSERT_EQ(run({"sample", two, "--points", points, "--quiet", "--output", scratch.path(name)}).code, 0);
+        scratch.put("all.pvtu",
+                    "<VTKFile type='PUnstructuredGrid'><PUnstructuredGrid GhostLevel='0'><Piece Source='0.vtu'/>"
+                    "<Piece Source='1.vtu'/></PUnstructuredGrid></VTKFile>");
+        scratch.put("all.vtm",
+                    "<VTKFile type='vtkMultiBlockDataSet'><vtkMultiBlockDataSet><DataSet index='0' file='0.vtu'/>"
+                    "<DataSet index='1' file='1.vtu'/></vtkMultiBlockDataSet></VTKFile>");
+        scratch.put("all.pvd",
+                    "<VTKFile type='Collection'><Collection><DataSet timestep='0' file='0.vtu'/>"
+                    "<DataSet timestep='0' part='1' file='1.vtu'/></Collection></VTKFile>");
+        scratch.put("all.vtu.series", R"({"files": [{"name": "0.vtu", "time": 0}, {"name": "1.vtu", "time": 0}]})");
+        scratch.put("outer.pvtu",
+                    "<VTKFile type='PUnstructuredGrid'><PUnstructuredGrid><Piece Source='all.pvtu'/>"
+                    "</PUnstructuredGrid></VTKFile>");
+        std::filesystem::create_symlink("1.vtu", scratch.path("link.vtu"));
+        std::filesystem::create_hard_link(scratch.path("1.vtu"), scratch.path("hard.vtu"));
+        bytes = read_file(scratch.path("1.vtu"));
+    }
+    void expect_refused(const Words& arguments) {
+        const Ended r = run(arguments, {.folder = scratch.folder()});
+        EXPECT_EQ(r.code, 2) << ::testing::PrintToString(arguments) << r.err;
+        EXPECT_TRUE(contains(r.err, " would overwrite ")) << ::testing::PrintToString(arguments) << r.err;
+        EXPECT_EQ(read_file(scratch.path("1.vtu")), bytes) << ::testing::PrintToString(arguments);
+        EXPECT_FALSE(std::filesystem::exists(scratch.path("r.csv"))) << "the run was refused too late";
+    }
+
+    Scratch scratch;
+    std::string two = put_two_cells(scratch), points = scratch.put("p.csv", six_points), bytes;
+};
+
+TEST_F(Pieces, are_inputs) {
+    const Words suffixes{"all.pvtu", "all.vtm", "all.pvd", "all.vtu.series", "outer.pvtu"};
+    for (const std::string& all : suffixes) {
+        const Words rows{"--output", "r.csv"};
+        for (const std::string name : {"1.vtu", "link.vtu", "hard.vtu"}) {
+            const Words sample{"sample", two, "--points", all};
+            expect_refused(plus(sample, {"--output", name}));
+            expect_refused(plus(plus(sample, rows), {"--json", name}));
+            expect_refused(plus(plus(sample, rows), {"--save-map", name}));
+            const Words field{"sample", two, "--points", "p.csv", "--output", "r.csv"};
+            expect_refused(plus(field, {"--point-field", "k=" + all + ":attribute0", "--json", name}));
+            expect_refused(plus(field, {"--field", "k=" + all + ":attribute0", "--json", name}));
+            expect_refused({"resample", two, "--onto", all, "--output", "r.csv", "--json", name});
+            expect_refused({"verify", two, "--results", all, "--json", name});
+            expect_refused({"verify", two, "--results", all, "--html", name});
+            expect_refused({"render", "mesh", two, "--field-file", "k=" + all + ":attribute0", "--output", "r.png",
+                            "--json", name});
+            expect_refused({"check", all, "--json", name});
+        }
+    }
+}
+
+TEST_F(Pieces, of_every_step_of_a_series_of_fields) {
+    scratch.put("run-0.pvtu",
+                "<VTKFile type='PUnstructuredGrid'><PUnstructuredGrid><Piece Source='0.vtu'/>"
+                "</PUnstructuredGrid></VTKFile>");
+    scratch.put("run-1.pvtu",
+                "<VTKFile type='PUnstructuredGrid'><PUnstructuredGrid><Piece Source='1.vtu'/>"
+                "</PUnstructuredGrid></VTKFile>");
+    const Words fields{"sample", two, "--points", "p.csv", "--point-field", "attribute0@run-*.pvtu"};
+    expect_refused(plus(fields, {"--output", "r.csv", "--json", "1.vtu"}));
+    expect_refused(plus(fields, {"--output", "{step}.vtu"}));
+}
+
+TEST(overwriting, standard_streams) {
+    Inputs inputs;
+    const How here{.folder = inputs.scratch().folder()};
+    for (const std::string line : {"barycert sample m --points - --output p.csv < p.csv",
+                                   "barycert sample m --points - --output - < p.csv >> p.csv",
+                                   "barycert sample m --points p.csv --output - >> p.csv",
+                                   "barycert sample m --points - --output r.csv --json p.csv < p.csv",
+                                   "barycert sample m --points /dev/stdin --output p.csv < p.csv",
+                                   "barycert verify m --results - --json p.csv < p.csv"}) {
+        const Ended r = run_shell(line, here);
+        EXPECT_EQ(r.code, 2) << line;
+        EXPECT_TRUE(contains(r.err, " would overwrite ")) << line << r.err;
+        EXPECT_EQ(read_file(inputs.scratch().path("p.csv")), "0,0,0\n") << line;
+    }
+    EXPECT_TRUE(inputs.untouched());
+}
 
 TEST(overwriting, devices_are_no_files) {
     const Ended r = run({"audit", "--quiet", "--count", "2", "--kernel", "segment.*", "--json", "/dev/null"});

@@ -117,8 +117,9 @@ TEST(render_iso, fields_from_files_and_their_components) {
     const Ended r = run(plus(line, {"0.5", "--field", "u.0"}));
     EXPECT_TRUE(contains(r.out, "surface    empty: the field at the nodes has 0 to 4\n")) << r.out;
     EXPECT_TRUE(contains(r.out, "note       2 cells left out: the field is NaN or infinite at a node")) << r.out;
-    expect_error(plus(line, {"1", "--field", "u"}), "field \"u\" has several components: expected one of u.0 to u.1");
-    expect_error(plus(line, {"1", "--field", "u.2"}), "no field of that name: found \"u.2\"");
+    expect_error(plus(line, {"1", "--field", "u"}),
+                 "the field has several components: expected one: u.0 to u.1, or the length |u|, found \"u\"");
+    expect_error(plus(line, {"1", "--field", "u.2"}), "no such component in \"u.2\": expected 0 to 1");
     expect_error(plus(line, {"1", "--field", "v"}), "no field of that name: found \"v\"");
     expect_error(plus(line, {"1", "--field", "cell:attribute0"}), "is one of cells");
 }
@@ -209,7 +210,7 @@ TEST(render_slice, as_a_surface) {
     expect_error(plus(ply, {"--field", "attribute0", "--fields", "attribute0"}), "--field and --fields");
     const Ended none = run({"render", "slice", two, "--plane", "0,0,1,7", "--output", off, "--json", "-"});
     EXPECT_EQ(none.code, 0);
-    EXPECT_TRUE(contains(none.err, "surface    empty: normal.x at the nodes has 0 to 1\n")) << none.err;
+    EXPECT_TRUE(contains(none.err, "surface    empty: D at the nodes has 0 to 1\n")) << none.err;
     EXPECT_EQ(parse(none.out)["parts"], 0);
     EXPECT_EQ(Off(off).points.size(), 0U);
 }
@@ -240,9 +241,10 @@ TEST(render_slice, as_a_picture) {
     expect_error(plus(line, {"--field", "attribute0", "--width", "1000000"}), "the picture would be too large");
     expect_error(plus(line, {"--field", "attribute0", "--fields", "attribute1"}), "--fields cannot be combined");
     expect_error(plus(line, {"--field", "attribute0", "--range", "1,1"}), "--range");
-    expect_error({"render", "slice", mesh("cube-hole"), "--plane", "0,0,1,2", "--output", png, "--field", "attribute0"},
-                 "the section has no area: expected a plane that goes through the mesh, found no cell on both sides of "
-                 "it; normal.x is from 0 to 1");
+    expect_error(
+        {"render", "slice", mesh("cube-hole"), "--plane", "0,0,1,2", "--output", png, "--field", "attribute0"},
+        "the section has no area: expected a plane that goes through the mesh, found D = 2, where the cells are "
+        "from 0 to 1; choose D between them: --plane 0,0,1,0.5");
 }
 
 TEST(render_slice, of_fields_of_cells_and_oblique) {
@@ -254,6 +256,51 @@ TEST(render_slice, of_fields_of_cells_and_oblique) {
     const auto j = parse(r.out);
     EXPECT_EQ(j["picture"]["low"], 9) << "the second cell alone is there";
     EXPECT_EQ(j["picture"]["high"], 9);
+}
+
+TEST(render_slice, by_one_axis) {
+    const Scratch scratch;
+    const auto drawn = [&](const std::string& plane) {
+        const Ended r =
+            run({"render", "slice", mesh("cube-hole"), "--plane", plane, "--output", scratch.path("s.off")});
+        EXPECT_EQ(r.code, 0) << r.err;
+        return read_file(scratch.path("s.off"));
+    };
+    EXPECT_EQ(drawn("z=0.5"), drawn("0,0,1,0.5"));
+    EXPECT_EQ(drawn("x=0.25"), drawn("1,0,0,0.25"));
+    for (const std::string wrong : {"w=1", "z=", "z=nan", "z", "0,0,1"})
+        expect_error({"render", "slice", mesh("cube-hole"), "--plane", wrong, "--output", scratch.path("s.off")},
+                     "--plane: expected an axis and where, such as z=0.5, or NX,NY,NZ,D");
+}
+
+/// What sample calls a quantity is one in pictures, and so is what a refusal suggests.
+TEST(render, names_of_quantities_are_those_of_sample) {
+    const Scratch scratch;
+    const std::string two = put_two_cells(scratch), png = scratch.path("p.png"), vtp = scratch.path("s.vtp");
+    const std::string v = "v=" + scratch.put("v.txt", "0 0 0\n3 4 0\n0 0 2\n0 0 0\n1 1 1\n");
+    const Words field{"--field-file", v, "--output", png, "--field"};
+    for (const std::string name : {"|v|", "v.x", "v.1", "|grad(attribute0)|", "mean(cell:attribute0)", "grad(|v|).x"}) {
+        const bool refused = name == "grad(|v|).x";  // nothing is made of a length at points, in sample neither
+        for (const Words& line :
+             std::vector<Words>{{"render", "mesh", two}, {"render", "slice", two, "--plane", "z=0.25"}}) {
+            const Ended r = run(plus(line, plus(field, {name})));
+            EXPECT_EQ(r.code, refused ? 2 : 0) << name << r.err;
+            const bool told = contains(r.out, "note       converted: " + name + ": taken at the nodes");
+            EXPECT_EQ(told, name == "|v|" && line[1] == "mesh") << r.out;
+        }
+    }
+    const Words iso{"render", "iso", two, "--field-file", v, "--value", "2.5", "--output", vtp, "--field"};
+    const Ended r = run(plus(iso, {"|v|", "--fields", "|v|,v"}));
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_TRUE(contains(r.out, "|v|: taken at the nodes, and interpolated between them")) << r.out;
+    EXPECT_TRUE(contains(read_file(vtp), "Name=\"|v|\""));
+    EXPECT_EQ(run({"render", "iso", two, "--field-file", v, "--value", "2.5", "--output", png, "--field", "v.x",
+                   "--colours", "|v|"})
+                  .code,
+              0);
+    expect_error(plus(iso, {"|grad(attribute0)|"}), "is one of cells");
+    for (const Words& line : std::vector<Words>{{"render", "mesh", two}, {"render", "slice", two, "--plane", "z=0.25"}})
+        expect_error(plus(line, plus(field, {"v"})), "expected one: v.0 to v.2, or the length |v|");
 }
 
 TEST(render_slice, what_is_not_understood_is_refused) {

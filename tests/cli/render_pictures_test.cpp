@@ -316,10 +316,10 @@ TEST(render_pictures, broken_scenes) {
 TEST(render_pictures, numbers_of_scenes_that_hurt_but_can_be_drawn) {
     const Scratch scratch;
     const std::vector<std::pair<std::string, std::string>> drawn{
-        {"[[0, 0, 0, 0], [1, 0, 0], [0, 1, 0]]", "1 without area"},                 // w = 0 at a vertex
-        {"[[0, 0, 0], [0.5, 0.5, 0], [1, 1, 0]]", "1 without area"},                // on a line
-        {"[[0, 0, 0], [1e-3, 0, 0], [0, 1e-3, 0]]", "1 between pixels"},            // smaller than a pixel
-        {"[[1e308, 0, 0], [-1e308, 1, 0], [0, -1e308, 0]]", "1 drawn; 1 clipped"},  // huge
+        {"[[0, 0, 0, 0], [1, 0, 0], [0, 1, 0]]", "1 without area"},                            // w = 0 at a vertex
+        {"[[0, 0, 0], [0.5, 0.5, 0], [1, 1, 0]]", "1 without area"},                           // on a line
+        {"[[0, 0, 0], [1e-3, 0, 0], [0, 1e-3, 0]]", "1 too small for the middle of a pixel"},  // smaller than a pixel
+        {"[[1e308, 0, 0], [-1e308, 1, 0], [0, -1e308, 0]]", "1 drawn; 1 clipped"},             // huge
         {"[[0, 0, 5], [1, 0, 5], [0, 1, 5]]", "1 out of sight"},
         {"[[0, 0, 0, -1], [1, 0, 0, -1], [0, 1, 0, -1]]", "1 out of sight"},
         {"[[5e-324, 0, 0, 5e-324], [0, 5e-324, 0, 5e-324], [\"-0x1p-1074\", 0, 0, 5e-324]]", "1 drawn"},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -93,6 +94,31 @@ TEST_F(Fields, are_chosen_and_ordered_by_name) {
     // Names that rows have themselves, and one with a comma.
     EXPECT_EQ(row({"--field", "cell=" + scratch.path("v.txt"), "--fields", "cell"}), ",point:cell.0,point:cell.1 ,0,1");
     EXPECT_EQ(row({"--field", "a,b=" + scratch.path("c"), "--fields", "a,b"}), ",\"a,b\" ,5");
+}
+
+// Nodes 1 and 3 are in both cells, nodes 0 and 4 in one each.
+TEST_F(Fields, of_nodes_without_part_may_be_not_finite) {
+    const std::vector<double> u{std::nan(""), 3, HUGE_VAL, 4, -HUGE_VAL};
+    const std::string file = scratch.put("u.npy", npy("<f8", "5,", bytes(u)));
+    const std::string at = scratch.put("at.csv", "x,y,z\n1,0,0\n.5,0,.5\n.25,.25,.5\n");
+    const Words command{"sample", two, "--points", at, "--field", "u=" + file, "--fields", "u", "--output"};
+    for (const std::string rounding : {"correct", "plain"}) {
+        const Ended all = run(plus(command, {"-", "--on-boundary", "all", "--rounding", rounding}));
+        EXPECT_EQ(all.code, 0) << all.err;
+        EXPECT_EQ(all.out,
+                  "x,y,z,cell,feature,u\n1,0,0,0,vertex,3\n1,0,0,1,vertex,3\n0.5,0,0.5,0,edge,3.5\n"
+                  "0.5,0,0.5,1,edge,3.5\n0.25,0.25,0.5,0,face,nan\n0.25,0.25,0.5,1,face,nan\n");
+        EXPECT_TRUE(contains(all.err, "\nnote       field u: 3 of 5 values are not finite\n")) << all.err;
+    }
+    const Ended told = run(plus(command, {scratch.path("rows.csv"), "--json", "-"}));
+    EXPECT_EQ(parse(told.out)["not_finite"], parse(R"([{"field": "u", "of": "nodes", "count": 3, "values": 5}])"));
+    // Of a field that is not sampled nothing is said.
+    const Ended other = run({"sample", two, "--points", at, "--field", "u=" + file, "--fields", "point:attribute0",
+                             "--output", scratch.path("rows.csv"), "--json", "-"});
+    EXPECT_TRUE(parse(other.out)["not_finite"].empty()) << other.out;
+    const Ended lines = run({"resample", two, "--grid", "3x3x3", "--field", "u=" + file, "--fields", "u", "--output",
+                             scratch.path("u.vti")});
+    EXPECT_TRUE(contains(lines.out + lines.err, "field u: 3 of 5 values are not finite")) << lines.err;
 }
 
 TEST_F(Fields, that_cannot_be_are_refused) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -299,6 +301,150 @@ TEST_F(Series, what_is_made_of_fields) {
                   .code,
               0);
     EXPECT_TRUE(contains(read_file(scratch.path("g.vti")), "grad(attribute0)"));
+}
+
+/// A series as MESH: steps 0 and 1 have one mesh, step 2 another one.
+class SeriesOfMeshes : public ::testing::Test {
+protected:
+    void SetUp() override {
+        for (const int k : {0, 1, 2}) {
+            // The field of step k is k at all nodes but the last, where it is 10 k.
+            std::string values;
+            for (int i = 0; i < 4; ++i) values += std::to_string(i == 3 ? 10 * k : k) + " ";
+            const std::string top = k == 2 ? "2" : "1", n = std::to_string(k);
+            scratch.put("s" + n + ".vtu",
+                        "<VTKFile type='UnstructuredGrid'><UnstructuredGrid><Piece NumberOfPoints='4' "
+                        "NumberOfCells='1'><PointData><DataArray type='Float64' Name='T'>" +
+                            values +
+                            "</DataArray></PointData><CellData/><Points><DataArray type='Float64' "
+                            "NumberOfComponents='3'>0 0 0 1 0 0 0 1 0 0 0 " +
+                            top +
+                            "</DataArray></Points><Cells><DataArray type='Int64' Name='connectivity'>0 1 2 "
+                            "3</DataArray><DataArray type='Int64' Name='offsets'>4</DataArray><DataArray type='UInt8' "
+                            "Name='types'>10</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>");
+        }
+        scratch.put("p.csv", "x,y,z\n0.25,0.25,0.25\n0.125,0.125,1\n");
+        scratch.put("run.pvd",
+                    "<VTKFile type='Collection'><Collection><DataSet timestep='0' file='s0.vtu'/><DataSet "
+                    "timestep='0.5' file='s1.vtu'/><DataSet timestep='2' file='s2.vtu'/></Collection></VTKFile>");
+    }
+    Ended there(const Words& words) const { return run(words, {.folder = scratch.folder()}); }
+    std::string of(const std::string& name) const { return read_file(scratch.path(name)); }
+
+    Scratch scratch;
+    const Words sample{"sample", "run.pvd", "--points", "p.csv"};
+};
+
+TEST_F(SeriesOfMeshes, have_a_file_a_step) {
+    const Ended r = there(plus(sample, {"--output", "ts_{step}_{time}.csv", "--json", "j.json"}));
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(r.err, "");
+    for (const auto& [step, name] :
+         {std::pair("0", "ts_0_0.csv"), std::pair("1", "ts_1_0.5.csv"), std::pair("2", "ts_2_2.csv")}) {
+        const Ended one = there({"sample", std::string("s") + step + ".vtu", "--points", "p.csv", "--output", "-"});
+        EXPECT_EQ(of(name), one.out) << step;
+        const Ended chosen = there(plus(sample, {"--step", step, "--output", "-", "--quiet"}));
+        EXPECT_EQ(chosen.out, one.out) << chosen.err;
+    }
+    EXPECT_TRUE(contains(r.out, "steps      3: 0 to 2, times 0 to 2; on 2 meshes")) << r.out;
+    const auto json = parse(of("j.json"));
+    EXPECT_EQ(json["steps"], (nlohmann::json{"0", "1", "2"}));
+    EXPECT_EQ(json["times"], (nlohmann::json{0, 0.5, 2}));
+    EXPECT_EQ(json["meshes"], 2);
+    EXPECT_EQ(json["points"], 4) << "two in each of two meshes";
+    EXPECT_EQ(json["outside"]["count"], 1) << "the second point, in the first mesh";
+    EXPECT_EQ(there(plus(sample, {"--step", "all", "--output", "all_{step}.npy", "--quiet"})).code, 0);
+    EXPECT_FALSE(of("all_2.npy").empty());
+    const Ended last = there(plus(sample, {"--step", "last", "--output", "l_{step}.csv", "--quiet"}));
+    EXPECT_EQ(last.code, 0) << last.err;
+    EXPECT_EQ(of("l_2.csv"), of("ts_2_2.csv"));
+    EXPECT_EQ(there(plus(sample, {"--time", "0.5", "--output", "-", "--quiet"})).out, of("ts_1_0.5.csv"));
+}
+
+TEST_F(SeriesOfMeshes, on_grids_and_other_meshes) {
+    for (const Words& target : {Words{"--grid", "3x3x3", "--bounds", "0,1,0,1,0,1"}, Words{"--onto", "s2.vtu"}}) {
+        EXPECT_EQ(there(plus({"resample", "run.pvd", "--output", "r{step}.csv", "--quiet"}, target)).code, 0);
+        for (const std::string step : {"0", "1", "2"}) {
+            EXPECT_EQ(there(plus({"resample", "s" + step + ".vtu", "--output", "one.csv", "--quiet"}, target)).code, 0);
+            EXPECT_EQ(of("r" + step + ".csv"), of("one.csv")) << step;
+        }
+    }
+    // All steps are on one grid, that of the first one's box.
+    const Ended r = there({"resample", "run.pvd", "--grid", "2x2x2", "--output", "g{step}.csv"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_TRUE(contains(r.err, "lies in the box of the mesh of the first one")) << r.err;
+    EXPECT_EQ(lines_of(of("g2.csv")).back().substr(0, 5), "1,1,1");
+}
+
+TEST_F(SeriesOfMeshes, without_a_choice_the_first_is_read_and_told) {
+    const Ended r = there(plus(sample, {"--output", "r.csv"}));
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_TRUE(contains(r.err, "all steps but the first of a series of 3: read is the time 0")) << r.err;
+    EXPECT_TRUE(contains(r.out, "all steps but the first of a series of 3")) << r.out;
+}
+
+TEST_F(SeriesOfMeshes, what_cannot_be_meant_is_refused) {
+    const How here{.folder = scratch.folder()};
+    for (const std::string name : {"ts_{step}.csv", "ts_{time}.csv"}) {
+        expect_error({"sample", "s0.vtu", "--points", "p.csv", "--output", name}, "there are no steps to fill it",
+                     here);
+        expect_error({"check", "run.pvd", "--json", name}, "there are no steps to fill it", here);
+        EXPECT_FALSE(std::filesystem::exists(scratch.path(name)));
+    }
+    expect_error(plus(sample, {"--output", "r{step}.csv", "--json", "j{step}.json"}), "no steps to fill it", here);
+    expect_error(plus(sample, {"--step", "all", "--output", "r.csv"}), "expected {step} or {time} in --output", here);
+    expect_error(plus(sample, {"--step", "3", "--output", "r.csv"}), "expected a number from 0 to 2", here);
+    expect_error(plus(sample, {"--time", "1", "--output", "r.csv"}), "one of the times 0, 0.5, 2", here);
+    expect_error(plus(sample, {"--step", "first", "--output", "r.csv"}), "all or last", here);
+    expect_error({"check", "run.pvd", "--step", "all"}, "a number from 0, or last", here);
+    for (const Words& line :
+         {Words{"sample", "s0.vtu", "--points", "p.csv", "--output", "r.csv"}, Words{"check", "s0.vtu"},
+          Words{"verify", "s0.vtu", "--results", "p.csv"}, Words{"render", "mesh", "s0.vtu", "--output", "r.png"}})
+        expect_error(plus(line, {"--step", "0"}), "this is no series of steps", here);
+    const Ended pipe = run_shell("barycert sample run.pvd --points - --output 'r{step}.csv' < p.csv", here);
+    EXPECT_EQ(pipe.code, 2);
+    EXPECT_TRUE(contains(pipe.err, "points of a pipe can be read once")) << pipe.err;
+    expect_error(plus(sample, {"--output", "r{step}.csv", "--weights", "w.npz"}), "--weights is of one mesh", here);
+    expect_error(plus(sample, {"--output", "s{step}.vtu"}), "would overwrite", here);
+}
+
+TEST_F(SeriesOfMeshes, are_checked_verified_and_drawn_by_step) {
+    EXPECT_EQ(there({"check", "run.pvd", "--step", "2", "--vtu", "c.vtu", "--quiet"}).code, 0);
+    EXPECT_TRUE(contains(there({"check", "run.pvd", "--time", "2"}).out, "number 2 of a series of 3"));
+    EXPECT_EQ(there(plus(sample, {"--step", "1", "--output", "one.csv", "--quiet"})).code, 0);
+    EXPECT_EQ(there({"verify", "run.pvd", "--time", "0.5", "--results", "one.csv", "--quiet"}).code, 0);
+    EXPECT_EQ(there({"verify", "run.pvd", "--step", "2", "--results", "one.csv", "--quiet"}).code, 1);
+    for (const std::string step : {"0", "last"})
+        EXPECT_EQ(there({"render", "mesh", "run.pvd", "--step", step, "--output", step + ".png", "--quiet"}).code, 0);
+    EXPECT_NE(of("0.png"), of("last.png"));
+    EXPECT_EQ(there({"render", "iso", "run.pvd", "--step", "1", "--field", "T", "--value", "5", "--output", "i.vtp",
+                     "--quiet"})
+                  .code,
+              0);
+}
+
+/// The cells have volumes 1/6 and 1/3, and the values 7 and 9; at nodes the first cell that has the node gives it.
+TEST_F(Series, integrals_of_cell_fields_at_nodes) {
+    const Ended r = run({"resample", two, "--fields", "cell:attribute0", "--onto", two, "--output",
+                         scratch.path("r.csv"), "--json", scratch.path("j.json")});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_TRUE(contains(r.err, "1 field of cells into values at nodes")) << r.err;
+    // 7/6 + 9/3; (7 + 7 + 7 + 7) / 4 / 6 + (7 + 7 + 7 + 9) / 4 / 3.
+    EXPECT_TRUE(contains(r.out,
+                         "integral   cell:attribute0: 4.166666666666667 over MESH, 3.6666666666666665 over "
+                         "MESH2\n"))
+        << r.out;
+    const auto json = parse(read_file(scratch.path("j.json")));
+    EXPECT_EQ(json["integrals"][0]["column"], "cell:attribute0");
+    EXPECT_EQ(json["integrals"][0]["source"], 25.0 / 6);
+    EXPECT_EQ(json["integrals"][0]["target"], 22.0 / 6);
+    EXPECT_EQ(json["integrals"][0]["target_left_out"], 0);
+    // A node outside has no value, and its cells count as left out.
+    scratch.put("far.node", "5 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 9 9 9\n");
+    scratch.put("far.ele", "2 4 0\n0 0 1 2 3\n1 1 2 3 4\n");
+    const Ended far = run({"resample", two, "--fields", "cell:attribute0", "--onto", scratch.path("far"), "--output",
+                           scratch.path("far.vtu")});
+    EXPECT_TRUE(contains(far.out, "1.1666666666666667 over MESH2 (1 cell without a finite value left out)")) << far.out;
 }
 
 }  // namespace

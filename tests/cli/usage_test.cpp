@@ -127,7 +127,7 @@ TEST(usage, of_a_mistyped_name_the_nearest_is_told) {
         {{"render", "isso"}, "did you mean \"iso\"?"},
         {{"render", "slcie", bracket, "--plane", "0,0,1,0"}, "did you mean \"slice\"?"},
         {{"render", "mseh", bracket, "--output", "x.png"}, "did you mean \"mesh\"?"},
-        {{"sample", bracket, "--ponts", points}, "--ponts; did you mean \"--points\"?"},
+        {{"sample", bracket, "--ponts", points}, "not expected: --ponts " + points + "; did you mean \"--points\"?"},
         {{"sample", bracket, "--points=" + points, "--ouput=-"}, "did you mean \"--output\"?"},
         // Another error is found first.
         {{"render", "slice", bracket, "--palne=0,0,1,0"}, "\"--palne\" is no option, did you mean \"--plane\"?"},

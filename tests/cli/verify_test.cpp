@@ -1,8 +1,11 @@
 // barycert verify: results as tools write them, verdicts, exit codes, reports.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <cmath>
 
+#include "barycert/io.hpp"
+#include "mesh/curved_mesh.hpp"
 #include "process.hpp"
 #include "sample_meshes.hpp"
 
@@ -73,6 +76,88 @@ TEST(verify, each_kind_of_error_is_named) {
     expect_error({"verify", two, "--results", bad, "--fail-on", "bad"}, "expected missed, invented");
     // Nothing is compared that the user takes out.
     EXPECT_EQ(report_of({"verify", two, "--results", bad, "--cell-column", "none"}, 1)["wrong_cell"], 0);
+}
+
+/// Two cells with a field that has no range.
+std::string put_constant(const Scratch& scratch, const std::string& value) {
+    std::string nodes = "5 3 1 0\n";
+    for (const char* const point : {"0 0 0 0", "1 1 0 0", "2 0 1 0", "3 0 0 1", "4 1 1 1"})
+        nodes += std::string(point) + ' ' + value + '\n';
+    scratch.put("same.node", nodes);
+    scratch.put("same.ele", "2 4 0\n0 0 1 2 3\n1 1 2 3 4\n");
+    return scratch.path("same");
+}
+
+TEST(verify, a_field_without_range_is_compared_with_its_magnitude_or_with_one) {
+    const Scratch scratch;
+    struct Case {
+        std::string value, near, far, to, sentence;
+        double range;
+    };
+    for (const Case& c :
+         {Case{"-300", "-300.00000029", "-300.00000031", "magnitude",
+               "attribute0 is constant, its range is 0: its errors are in parts of its magnitude, 300", 300},
+          Case{"0", "9e-10", "-11e-10", "one", "attribute0 is 0 throughout: its errors are absolute", 1}}) {
+        const std::string same = put_constant(scratch, c.value), head = "x,y,z,attribute0\n.1,.1,.1,";
+        const std::string good = scratch.put("good.csv", head + c.near + '\n');
+        const std::string bad = scratch.put("bad.csv", head + c.far + '\n');
+        EXPECT_EQ(report_of({"verify", same, "--results", good}, 0)["right"], 1) << c.value;
+        const auto j = report_of({"verify", same, "--results", bad, "--html", scratch.path("v.html")}, 1);
+        EXPECT_EQ(j["wrong_value"], 1) << c.value;
+        EXPECT_EQ(j["values"][0]["relative_to"], c.to);
+        EXPECT_EQ(j["values"][0]["range"], c.range);
+        EXPECT_TRUE(contains(run({"verify", same, "--results", bad}).out, c.sentence + '\n'));
+        EXPECT_TRUE(contains(read_file(scratch.path("v.html")), c.sentence));
+    }
+    const std::string two = put_two_cells(scratch);
+    const std::string rows = scratch.put("rows.csv", "x,y,z,attribute0\n.25,.25,.25,4.5\n");
+    EXPECT_EQ(report_of({"verify", two, "--results", rows}, 0)["values"][0]["relative_to"], "range");
+}
+
+/// Rows of t = x on the ball of testing::straight_ball, of which every `good`-th is exact (0: none) and the others are
+/// off by 2e-9 to `most` of the range, spread evenly over the decades.
+std::string put_iterated(const Scratch& scratch, double most, int good = 0) {
+    std::string rows = "x,y,z,t\n";
+    for (int i = 0; i < 200; ++i) {
+        const double x = 0.0012 * i, error = most * std::pow(2e-9 / most, i / 199.0);
+        rows += fmt::format("{},0.1,0.2,{:.17g}\n", x, x + (good != 0 && i % good == 0 ? 0 : 2 * error));
+    }
+    return scratch.put("rows.csv", rows);
+}
+
+TEST(verify, errors_of_the_size_of_an_iteration_are_said_to_be) {
+    const Scratch scratch;
+    const auto ball = [&](const std::string& name, Mesh mesh) {
+        mesh.point_fields.push_back({"t", 1, {}});
+        for (std::size_t i = 0; i < mesh.points.size(); i += 3) mesh.point_fields[0].data.push_back(mesh.points[i]);
+        EXPECT_TRUE(write_mesh(mesh, scratch.path(name)));
+        return scratch.path(name);
+    };
+    const std::string sentence = "the errors are of the size of an iterative solver's tolerance: the largest is";
+    const auto said = [&](const std::string& mesh, const std::string& rows) {
+        const auto j = report_of({"verify", mesh, "--results", rows, "--html", scratch.path("v.html")}, 1);
+        EXPECT_GT(j["wrong_value"], 0);
+        std::size_t notes = 0;
+        for (const auto& note : j["notes"]) notes += contains(note["text"], sentence) ? 1 : 0;
+        EXPECT_EQ(contains(run({"verify", mesh, "--results", rows}).out, sentence), notes == 1);
+        EXPECT_EQ(contains(read_file(scratch.path("v.html")), "the errors are of the size of an iterative"),
+                  notes == 1);
+        return notes == 1;
+    };
+    const Mesh straight = testing::straight_ball(3);
+    const std::string mesh = ball("ball.vtu", straight);
+    EXPECT_TRUE(said(mesh, put_iterated(scratch, 3e-5)));
+    EXPECT_TRUE(said(mesh, put_iterated(scratch, 3e-7)));
+    // What it says to do is right.
+    EXPECT_EQ(run({"verify", mesh, "--results", put_iterated(scratch, 3e-5), "--tolerance", "1e-4"}).code, 0);
+    // Larger ones, few among exact ones, linear cells, curved ones.
+    EXPECT_FALSE(said(mesh, put_iterated(scratch, 3e-4)));
+    EXPECT_FALSE(said(mesh, put_iterated(scratch, 3e-5, 5)));
+    Mesh linear = straight;
+    linear.mid_nodes.clear();
+    linear.mid_edge_order = MidEdgeOrder::none;
+    EXPECT_FALSE(said(ball("linear.vtu", linear), put_iterated(scratch, 3e-5)));
+    EXPECT_FALSE(said(ball("curved.vtu", testing::curved_ball(3)), put_iterated(scratch, 3e-5)));
 }
 
 TEST(verify, columns_by_other_names_and_zero_for_outside) {

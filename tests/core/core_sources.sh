@@ -7,5 +7,6 @@ core_sources() {
         core/inverse core/predicates core/quotient core/weight_signs; do
         echo "#include \"barycert/$name.cpp\""
     done >"$2/joined.cpp"
-    echo "$2/joined.cpp $1/src/barycert/core/weights.cpp $1/src/barycert/core/lanes.cpp $1/tests/core/same_bytes.cpp"
+    core=$1/src/barycert/core
+    echo "$2/joined.cpp $core/weights.cpp $core/lanes.cpp $core/quadratic_lanes.cpp $1/tests/core/same_bytes.cpp"
 }

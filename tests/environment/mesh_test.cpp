@@ -33,6 +33,7 @@
 #include "barycert/vtk.hpp"
 #include "check/meshes.hpp"
 #include "core/same_everywhere.hpp"
+#include "mesh/curved_mesh.hpp"
 
 namespace barycert::testing {
 namespace {
@@ -135,6 +136,25 @@ void add(Answers& out, const CheckReport& r) {
     if (r.delaunay) {
         for (const std::uint64_t n : {r.delaunay->facets, r.delaunay->violations, r.delaunay->cospherical}) out.add(n);
         out.add(r.delaunay->worst_depth);
+    }
+}
+
+TEST(EveryEnvironment, CurvedCells) {
+    for (const double scale : {unit, 0x1p-1026, 1.0, 0x1p+1000}) {
+        Mesh mesh = testing::curved_ball(3);
+        for (std::size_t i = 0; i < mesh.points.size(); ++i)
+            mesh.points[i] = scale * std::round(64 * mesh.points[i] + static_cast<double>(i % 2));
+        EXPECT_GT(curved_cells(mesh).cells, 0U) << scale;
+        expect_same_everywhere("curved cells", [&](Answers& out) {
+            std::vector<std::uint8_t> each;
+            const CurvedCells curved = curved_cells(mesh, &each);
+            for (const std::uint64_t n : {curved.cells, curved.rounded_cells}) out.add(n);
+            for (const double x : {curved.max_deviation, curved.max_rounded}) out.add(x);
+            for (const std::uint8_t one : each) out.add(std::uint64_t{one});
+            const auto straight = take_as_straight(mesh, "mesh", Curved::refuse);
+            out.add(std::string_view(straight ? "" : straight.error().message()));
+            out.add(std::string_view(message(curved)));
+        });
     }
 }
 

@@ -103,6 +103,16 @@ inline const std::vector<SeedText> seed_texts{
     {"vtk_legacy", "polydata",
      "# vtk DataFile Version 4.2\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 double\n0 0 0 1 0 0 0 1 0\n"
      "VERTICES 1 2\n1 0\nLINES 1 3\n2 0 1\nPOLYGONS 1 4\n3 0 1 2\nMETADATA\nINFORMATION 0\n\n"},
+    {"medit", "solid",
+     std::string("\0", 1) +
+         "MeshVersionFormatted 2\nDimension 3\nVertices\n5\n0 0 0 1\n1 0 0 2\n0 1 0 0\n0 0 1 0\n1 1 1 0\n"
+         "Edges 1 1 2 3\nTriangles 1 1 2 3 4\nTetrahedra 2 # two\n1 2 3 4 5\n2 3 4 5 6\nEnd\n"},
+    {"medit", "second_order",
+     std::string("\0", 1) + "MeshVersionFormatted 1\nDimension\n2\nVertices 6 0 0 0 2 0 0 0 2 0 1 0 0 1 1 0 0 1 0\n"
+                            "TrianglesP2 1 1 2 3 4 5 6 9\nSolAtTriangles 1 1 1 .5\n"},
+    {"medit", "fields",
+     "\1MeshVersionFormatted 2\nDimension 3\nSolAtVertices 2\n3 1 2 3\n1 2 3 4 5 6 7 8 9 nan\n1 2 3 4 5 6 7 8 9 "
+     "-inf\nEnd\n"},
     {"mesh_file", "abaqus", "\3*HEADING\n*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=C3D4\n"},
     {"mesh_file", "nothing", std::string("\0", 1)},
     {"expressions", "all", "T\n|v|\ngrad(T)\nv.x\ngrad(v.1)\nmean(q)\n|grad(mean(cell:q))|\npoint:T\n"},

@@ -193,8 +193,22 @@ void seed_pictures() {
     put("png", "four", bytes_of(path));
 }
 
+/// By hand, for nothing here writes them.
+void seed_medit() {
+    const auto integers = [](std::initializer_list<std::int32_t> all) {
+        return std::string(reinterpret_cast<const char*>(all.begin()), 4 * all.size());
+    };
+    std::string bytes = integers({1, 1, 3, 20, 3, 4, 96, 4});
+    for (std::int32_t node = 0; node < 4; ++node)
+        bytes += integers({node == 1 ? 0x3f800000 : 0, node == 2 ? 0x3f800000 : 0, node == 3 ? 0x3f800000 : 0, node});
+    bytes += integers({8, 128, 1, 1, 2, 3, 4, 5, 66, 152, 1, 1, 1, 0x3f000000, 54, 0});
+    put("medit", "binary", '\0' + bytes);
+    put("medit", "binary-fields", '\1' + bytes);
+}
+
 void seed_all() {
     seed_meshes();
+    seed_medit();
     seed_collections();
     seed_rows();
     seed_witnesses();

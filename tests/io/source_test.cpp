@@ -25,9 +25,11 @@ TEST(Formats, sources) {
     expect_error(open_points("p.vtu", 3), "p.vtu",
                  {0, "cannot read the file", nullptr, "No such file or directory", nullptr});
     expect_error(open_points("p.txt", 3), "p.txt",
+                 {0, "cannot read the file", nullptr, "No such file or directory", nullptr});
+    expect_error(open_points("p.odt", 3), "p.odt",
                  {0, "unknown file suffix",
-                  "points (.csv .npy .node .vtu .vtp .vtk .vti .vtr .vts, - for CSV from stdin) or a mesh", "\".txt\"",
-                  nullptr});
+                  "points (.csv .txt .npy .node .vtu .vtp .vtk .vti .vtr .vts, - for CSV from stdin) or a mesh",
+                  "\".odt\"", nullptr});
     expect_error(open_points("p.csv", 4), "p.csv", {0, "points of an impossible dimension", "2 or 3", "4", nullptr});
 }
 

@@ -185,11 +185,15 @@ def test_outside():
 def test_bad_input_is_named(case):
     points, cells, values = case
     d = points.shape[1]
-    f = barycert.Interpolator(points, cells, values)
+    f = barycert.Interpolator(points, cells, values, nonfinite_points="error")
     at = queries(10, d)
     at[7, 1] = np.nan
     with pytest.raises(barycert.Error, match="point 7"):
         f(at)
+    with pytest.raises(barycert.Error, match='nonfinite_points="nan" takes NaN'):
+        f(np.ma.masked_invalid(at))
+    with pytest.raises(barycert.Error, match="expected error or nan"):
+        barycert.Interpolator(points, cells, values, nonfinite_points="none")
     with pytest.raises(barycert.Error, match="coordinates each"):
         f(np.zeros((3, d + 1)))
     with pytest.raises(barycert.Error, match="number of coordinates"):
@@ -203,6 +207,48 @@ def test_bad_input_is_named(case):
     for masked in (np.ma.masked_less(values, 0.5), np.ma.masked_less(values, 0.5) + 1j):
         with pytest.raises(barycert.Error, match="masked"):
             barycert.Interpolator(points, cells, masked)
+
+
+def test_points_that_are_not_finite_get_nan_and_are_counted(case):
+    interpolate = pytest.importorskip("scipy.interpolate")
+    points, cells, values = case
+    d = points.shape[1]
+    at = queries(300, d)
+    at[7, 1], at[8, 0], at[9] = np.nan, np.inf, -np.inf
+    f = barycert.Interpolator(points, cells, values)
+    expected = f(np.delete(at, [7, 8, 9], axis=0))
+    assert f.nonfinite_count == 0
+    result = f(at)
+    assert f.nonfinite_count == 3 and np.isnan(result[7:10]).all()
+    np.testing.assert_array_equal(np.delete(result, [7, 8, 9]), expected)
+    theirs = interpolate.LinearNDInterpolator(points, values)(at)
+    assert np.isnan(theirs[7]) and np.isnan(theirs[9])
+    # What is masked is as what is not finite, whatever stands under the mask; also of integers, and by coordinate.
+    hidden = np.ma.array(np.where(np.isfinite(at), at, 0.5), mask=~np.isfinite(at))
+    np.testing.assert_array_equal(f(hidden), result)
+    np.testing.assert_array_equal(f(*np.moveaxis(hidden, -1, 0)), result)
+    whole = np.ma.masked_equal(np.zeros((2, d), dtype=np.int64), 1)
+    whole[1, 0] = np.ma.masked
+    assert np.isnan(f(whole)[1]) and not np.isnan(f(np.full(d, 0.5))).any()
+    # NaN, and no other number, under every policy, of real and of complex values.
+    for outside in ({"fill_value": -1.0}, {"outside": "nearest"}, {"outside": "extrapolate"}):
+        got = barycert.Interpolator(points, cells, values, **outside)(at)
+        assert np.isnan(got[7:10]).all() and not np.isnan(np.delete(got, [7, 8, 9])).any()
+    both = barycert.Interpolator(points, cells, values + 1j, fill_value=2j)(at)
+    assert np.isnan(both[7:10]).all() and not np.isnan(np.delete(both, [7, 8, 9])).any()
+    raising = barycert.Interpolator(points, cells, values, outside="raise")
+    assert np.isnan(raising(np.where(np.isfinite(at), 0.5, at))[7:10]).all()
+    assert pickle.loads(pickle.dumps(f))(at)[7] != 0
+
+
+def test_masked_values_are_as_their_remedy_says(case):
+    points, cells, values = case
+    masked = np.ma.masked_less(values, 0.1)
+    with pytest.raises(barycert.Error, match=r"\.astype\(float\)\.filled\(numpy\.nan\)"):
+        barycert.Interpolator(points, cells, masked)
+    assert np.isnan(barycert.Interpolator(points, cells, masked.astype(float).filled(np.nan))(points)).any()
+    integers = np.ma.masked_less((values * 100).astype(int), 10)
+    assert np.isnan(barycert.Interpolator(points, cells, integers.astype(float).filled(np.nan))(points)).any()
 
 
 def test_blocks_do_not_show(case):

@@ -160,6 +160,45 @@ def test_second_order_cells():
     np.testing.assert_array_equal(other.mid_nodes, mesh.mid_nodes)
 
 
+def test_curved_cells_are_told_or_refused(tmp_path, recwarn):
+    points = np.array([[0, 0], [4, 0], [0, 4], [2, 0], [2, 2], [0, 2]], dtype=float)
+    cells = [[0, 1, 2, 3, 4, 5]]
+    straight = barycert.Mesh(points, cells, curved="refuse")
+    assert straight.curved == {"cells": 0, "max_deviation": 0, "rounded_cells": 0, "max_rounded": 0}
+    assert not recwarn.list
+    points[4] += 0.5
+    with pytest.warns(UserWarning, match="1 cell is curved: mid-edge nodes lie up to 0.1") as told:
+        mesh = barycert.Mesh(points, cells)
+    assert told[0].filename == __file__
+    assert mesh.curved["cells"] == 1 and abs(mesh.curved["max_deviation"] - 0.125) < 1e-15
+    report = mesh.check()
+    assert report.certified and str(report).startswith("curved     1 cell is curved") and "for straight sides" in str(report)
+    assert report.to_dict()["curved"] == mesh.curved and "1 cell is curved" in report.html()
+    path = str(tmp_path / "curved.vtu")
+    mesh.write(path)
+    with pytest.warns(UserWarning, match="curved.vtu: 1 cell is curved") as told:
+        assert barycert.read(path).curved == mesh.curved
+    assert told[0].filename == __file__
+    for make in (lambda: barycert.read(path, curved="refuse"), lambda: barycert.Mesh(points, cells, curved="refuse")):
+        with pytest.raises(barycert.Error, match="the mesh is curved.*1 cell is curved"):
+            make()
+    with pytest.raises(barycert.Error, match="curved=: expected 'straight' or 'refuse', found 'bent'"):
+        barycert.read(path, curved="bent")
+
+
+def test_a_repaired_copy():
+    points = np.array([[0, 0], [1, 0], [0, 1], [1, 0], [0, 1 + 1e-12], [1, 1]])
+    mesh = barycert.Mesh(points, [[0, 1, 2], [3, 4, 5], [0, 1, 2]], point_data={"T": np.arange(6.0)})
+    assert not mesh.check()
+    copy, done = mesh.fix(merge_within=1e-9)
+    assert copy.check() and len(copy.points) == 4
+    assert [pair[:2] for pair in done.merged] == [(3, 1), (4, 2)] and 0 < done.merged[1][2] < 1e-11
+    assert done.dropped == [(2, "duplicate_cell")] and done.turned == 1 and done.fields == [("T", 2, 2.0)]
+    np.testing.assert_array_equal(copy.point_data["T"], [0, 1, 2, 5])
+    with pytest.raises(barycert.Error, match="a finite number from 0 on"):
+        mesh.fix(merge_within=-1)
+
+
 def test_a_check_names_what_it_finds():
     points = np.array([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]], dtype=float)
     # The second triangle overlaps the first; the third is flat.
@@ -179,3 +218,29 @@ def test_a_check_names_what_it_finds():
     assert good and good.defects == [] and repr(good) == "<barycert.CheckReport: certified, 2 cells>"
     assert not barycert.Mesh(points, [[0, 1, 2], [0, 1, 3]]).check(verdict_only=True)
     assert barycert.Mesh(points[:4], [[0, 1, 2], [1, 3, 2]]).certified and not mesh.certified
+
+
+def test_fields_by_name():
+    points, cells = kuhn(2, 3)
+    mesh = barycert.Mesh(points, cells, point_data={"temperature": np.arange(27.0), "both": np.zeros((27, 2))},
+                         cell_data={"both": np.ones(len(cells)), "region": np.arange(len(cells))})
+    np.testing.assert_array_equal(mesh["temperature"], np.arange(27))
+    np.testing.assert_array_equal(mesh.fields["region"], mesh.cell_data["region"])
+    assert list(mesh.fields) == ["temperature", "both", "cell:both", "region"] == list(mesh)
+    assert len(mesh.fields) == 4 and "region" in mesh and "cell:both" in mesh.fields and "nothing" not in mesh
+    assert mesh["both"].shape == (27, 2) and (mesh["cell:both"] == 1).all() and mesh["point:both"].shape == (27, 2)
+    assert dict(mesh.fields).keys() == set(mesh.fields.keys())
+    mesh["new"] = np.ones(27)
+    mesh.fields["cell:region"] = np.zeros(len(cells))
+    mesh["temperature"] = np.zeros(27)
+    assert (mesh.point_data["new"] == 1).all() and not mesh.cell_data["region"].any() and not mesh["temperature"].any()
+    assert mesh.sample([0.5, 0.5, 0.5], "new") == 1
+    del mesh.fields["new"]
+    assert "new" not in mesh
+    for data in (mesh.fields, mesh, mesh.point_data):
+        with pytest.raises(KeyError, match="did you mean 'temperature'"):
+            data["temprature"]
+    with pytest.raises(KeyError, match="there are temperature, both"):
+        mesh["q"]
+    with pytest.raises(barycert.Error, match="expected 27 rows for nodes, or 48 for cells"):
+        mesh["other"] = np.ones(5)

@@ -249,3 +249,49 @@ def test_degenerate_cells_own_nothing():
     np.testing.assert_array_equal(location.cell, [1, 1])
     assert mesh.sample([1, 1], "T") == Fraction(3, 2)
     assert np.isnan(mesh.gradient("T")[0]).all() and not np.isnan(mesh.gradient("T")[1]).any()
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_points_that_are_not_finite(dimension):
+    points, cells = kuhn(2, dimension)
+    mesh = barycert.Mesh(points, cells, point_data={"T": points.sum(axis=1)})
+    at = np.full((4, dimension), 0.5)
+    at[1, 0], at[2, -1], at[3] = np.nan, np.inf, 99
+    for call in (mesh.locate, mesh.sample):
+        with pytest.raises(barycert.Error, match="point 1: expected a finite number"):
+            call(at)
+        with pytest.raises(barycert.Error, match="expected error or nan"):
+            call(at, nonfinite_points="some")
+    found = mesh.locate(at, nonfinite_points="nan")
+    assert found.cell[0] >= 0 and (found.cell[1:] == -1).all() and (found.feature[1:] == Feature.OUTSIDE).all()
+    assert np.isnan(found.weights[1:]).all() and (found.matrix(outside="nearest").indptr[1:3] == found.matrix().indptr[1]).all()
+    for options in ({}, {"fill_value": 7}, {"outside": "nearest"}):
+        values = mesh.sample(at, "T", nonfinite_points="nan", **options)
+        assert values[0] == 0.5 * dimension and np.isnan(values[1:3]).all()
+        np.testing.assert_array_equal(found.sample("T", **options), values)
+    masked = np.ma.array(np.full((2, dimension), 0.5), mask=[[False] * dimension, [True] + [False] * (dimension - 1)])
+    np.testing.assert_array_equal(np.isnan(mesh.sample(masked, "T", nonfinite_points="nan")), [False, True])
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+@pytest.mark.parametrize("rounding", ["correct", "plain"])
+def test_nodes_without_part_may_hold_anything(dimension, rounding):
+    points, cells = kuhn(2, dimension)
+    rng = np.random.default_rng(33)
+    values = rng.integers(-8, 8, len(points)).astype(float)
+    holes = rng.random(len(points)) < 0.4
+    values[holes] = rng.choice([np.nan, np.inf, -np.inf], holes.sum())
+    mesh = barycert.Mesh(points, cells, point_data={"T": values})
+    nodes = np.where(holes, np.nan, values)
+    np.testing.assert_array_equal(mesh.sample(points, "T", rounding=rounding), nodes)
+    location = mesh.locate(points)
+    np.testing.assert_array_equal(location.sample("T", rounding=rounding), nodes)
+    np.testing.assert_array_equal(np.isfinite(location.matrix() @ values), ~holes)
+    np.testing.assert_array_equal(barycert.Interpolator(points, cells, values)(points), nodes)
+    corner = np.flatnonzero((points == points.max(axis=0)).all(axis=1))[0]
+    np.testing.assert_array_equal(mesh.sample(points[corner] + 1, "T", outside="nearest", rounding=rounding), nodes[corner])
+    report = mesh.check()
+    assert f"field T: {holes.sum()} of {len(points)} values are not finite" in str(report)
+    assert report.to_dict()["not_finite"] == [
+        {"field": "T", "of": "nodes", "count": int(holes.sum()), "values": len(points)}
+    ]

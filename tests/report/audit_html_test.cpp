@@ -11,6 +11,7 @@
 
 #include "barycert/audit_report.hpp"
 #include "barycert/audit_signs.hpp"
+#include "barycert/report/common/html_text.hpp"
 #include "barycert/report/common/page.hpp"
 #include "small_audit.hpp"
 #include "well_formed.hpp"
@@ -37,7 +38,8 @@ struct Cells {
 };
 Cells row_of(const std::string& page, const std::string& table, const std::string& head) {
     const std::size_t from = page.find(table);
-    const std::size_t first = page.find("<th scope=\"row\">" + head + "</th>", from), last = page.find("</tr>", first);
+    const std::size_t first = page.find("<th scope=\"row\">" + report::html_name(head) + "</th>", from),
+                      last = page.find("</tr>", first);
     Cells cells;
     if (first == std::string::npos || last == std::string::npos) return cells;
     const std::string row = page.substr(first, last - first);
@@ -85,7 +87,7 @@ TEST(audit_html, the_league_is_the_json) {
         const std::string name = k["name"];
         SCOPED_TRACE(name);
         // In the same order.
-        const std::size_t here = page.find("<th scope=\"row\">" + name + "</th>");
+        const std::size_t here = page.find("<th scope=\"row\">" + report::html_name(name) + "</th>");
         ASSERT_NE(here, std::string::npos);
         EXPECT_GT(here, at);
         at = here;
@@ -138,7 +140,7 @@ TEST(audit_html, of_one_kernel_its_families) {
     EXPECT_TRUE(has(page, "tetrahedron.cramer is wrong in "));
     EXPECT_TRUE(has(page, "<dt>formula</dt>"));
     for (const Json& f : kernel["families"]) {
-        const std::size_t at = page.find(">" + f["name"].get<std::string>() + "</th>");
+        const std::size_t at = page.find(">" + report::html_name(f["name"].get<std::string>()) + "</th>");
         ASSERT_NE(at, std::string::npos) << f["name"];
         const std::string row = page.substr(at, page.find("</tr>", at) - at);
         EXPECT_TRUE(has(row, "data-v=\"" + std::to_string(f["cases"].get<int>()) + "\""));

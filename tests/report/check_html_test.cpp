@@ -16,6 +16,7 @@
 #include "barycert/report/common/html_text.hpp"
 #include "barycert/report/common/picture.hpp"
 #include "check_meshes.hpp"
+#include "lines.hpp"
 #include "well_formed.hpp"
 
 namespace barycert::report_test {
@@ -43,9 +44,12 @@ std::vector<std::uint64_t> cells_in_histograms(const std::string& page) {
         std::erase(digits, ',');
         return static_cast<std::uint64_t>(std::stoull(digits));
     };
-    const std::string mark = ": number of cells</title>";
-    for (std::size_t at = page.find(mark); at != std::string::npos; at = page.find(mark, at + 1)) {
-        const std::string figure = page.substr(at, page.find("</figure>", at) - at);
+    // A picture, or a sentence in its place.
+    static const std::regex mark(": number of cells</title>|: no cell in a bar\\.");
+    for (std::sregex_iterator m(page.begin(), page.end(), mark), last; m != last; ++m) {
+        const auto at = static_cast<std::size_t>(m->position());
+        const std::string figure =
+            page.substr(at, page.find(page[at + 2] == 'n' && page[at + 3] == 'u' ? "</figure>" : "</p>", at) - at);
         std::uint64_t sum = 0;
         for (std::sregex_iterator it(figure.begin(), figure.end(), bar), end; it != end; ++it) sum += number((*it)[1]);
         const std::size_t rest = figure.find("Not in the bars");
@@ -79,6 +83,20 @@ std::uint64_t all(const Histogram& h) {
     std::uint64_t sum = h.unknown + h.infinite + h.zero;
     for (const std::uint64_t c : h.counts) sum += c;
     return sum;
+}
+
+TEST(check_html, says_what_is_wrong_before_all_and_praises_nothing_else) {
+    const Mesh mesh = cracked_and_hanging();
+    const std::string page = check_html(checked(mesh), mesh, "part");
+    EXPECT_FALSE(contains(page, "exactly equal")) << "green, on a page that says NOT certified";
+    EXPECT_TRUE(contains(page, "node 0 within facet 9 10 of cell 2"));
+    EXPECT_TRUE(contains(page, "Numbers in red: cells with defects")) << "a legend of the map";
+    EXPECT_LT(page.find("<svg"), page.find("Pairs of cells that overlap or touch")) << "pictures before numbers";
+    const Mesh good = pair_of_cells();
+    EXPECT_TRUE(contains(check_html(checked(good), good, "part"), "exactly equal"));
+    // Where no cell has a value there is no picture of it.
+    const Mesh flat = tetrahedra(pair_of_cells().points, {0, 1, 2, 9});
+    EXPECT_FALSE(contains(check_html(checked(flat), flat, "part"), "Shapes and sizes of the cells"));
 }
 
 TEST(Histogram, EveryValueIsCountedOnce) {

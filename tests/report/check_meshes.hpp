@@ -43,6 +43,18 @@ inline Mesh thoroughly_broken() {
     return mesh;
 }
 
+/// Two cells side by side, each with its own nodes, of which one is an ulp beside its twin; below one that an edge of
+/// theirs hangs on, and a field whose values differ.
+inline Mesh cracked_and_hanging() {
+    Mesh mesh;
+    mesh.dimension = 2;
+    mesh.points = {0, 0, 1, 0, 0, 1, 2, 2, 1, 0x1p-53, 0, 1, 1, 1, -1, -1, 3, -1, 3, 0, -1, 0};
+    mesh.cells = {0, 1, 2, 4, 6, 5, 10, 7, 9, 0, 2, 0};
+    mesh.point_fields = {{"T", 1, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}}};
+    mesh.point_markers = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+    return mesh;
+}
+
 /// Triangles of which two lie on each other.
 inline Mesh broken_plane() {
     Mesh mesh;

@@ -70,9 +70,39 @@ TEST(check_terminal, every_problem_has_words_for_one_and_for_more) {
     }
 }
 
+TEST(check_terminal, causes_stand_with_what_they_break) {
+    const Mesh mesh = cracked_and_hanging();
+    const std::string all = text(mesh), above = all.substr(0, all.find("Notes: these do not affect"));
+    EXPECT_TRUE(contains(above, "\n    node 0 within facet 9 10 of cell 2")) << all;
+    EXPECT_TRUE(contains(above, "\n    -> split that cell at the node\n"));
+    EXPECT_TRUE(contains(above, "\ncoincident_nodes "));
+    EXPECT_TRUE(contains(
+        above, "\n    -> merge coincident and near nodes, and split the cells at hanging nodes: both below\n"));
+    EXPECT_TRUE(contains(above, ", nodes 0 1 and ")) << "both facets of a pair";
+    EXPECT_FALSE(contains(all, "merge coincident nodes, or move the parts apart"));
+}
+
+TEST(check_terminal, what_was_repaired_and_what_remains) {
+    const Mesh mesh = cracked_and_hanging();
+    FixedMesh fixed{.file = "copy.vtu", .done = {}, .after = {}};
+    fixed.after = checked(fix_mesh(mesh, {}, fixed.done).value());
+    const std::string told = fix_text(fixed, {});
+    EXPECT_EQ(told.find("\nRepaired copy: copy.vtu\n1 node merged into the lowest at their place; none moved\n"), 0U)
+        << told;
+    EXPECT_TRUE(contains(told, "field T: 1 merged node has another value than the node that is kept, by up to 3: "));
+    EXPECT_TRUE(contains(told, "\n1 cell dropped: 1 repeated_node\n"));
+    EXPECT_TRUE(contains(told, "\ncopy.vtu: NOT certified: "));
+    EXPECT_TRUE(contains(told, "\nWhat remains in the copy\n"));
+    FixReport none;
+    EXPECT_EQ(fix_text({.file = "c", .done = none, .after = checked(pair_of_cells())}, {})
+                  .find("\nRepaired copy: c\nnothing to repair: the copy is as the mesh is\nc: certified: 2 cells"),
+              0U);
+}
+
 TEST(check_terminal, lines_fit_a_terminal) {
-    const std::vector<Mesh> meshes{own_mesh("bracket"), own_mesh("plate"),   Mesh(),
-                                   overlapping(),       thoroughly_broken(), broken_plane()};
+    const std::vector<Mesh> meshes{own_mesh("bracket"),  own_mesh("plate"),   Mesh(),
+                                   overlapping(),        thoroughly_broken(), broken_plane(),
+                                   cracked_and_hanging()};
     for (const Mesh& mesh : meshes) {
         for (const std::string& line : lines_of(text(mesh)))
             EXPECT_LE(line.size(), 100U + std::string("part").size()) << line;
@@ -116,6 +146,23 @@ TEST(check_terminal, conditions_say_how_often_they_fail) {
     EXPECT_TRUE(contains(text(thoroughly_broken()), "P2 to P5 leave out cells with an invalid index"));
 }
 
+TEST(check_report, fields_that_are_not_finite) {
+    Mesh mesh = pair_of_cells();
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    mesh.point_fields = {{"T", 2, {1, nan, 2, -HUGE_VAL, 0, 0, 1, 1, nan, 0}}, {"whole", 1, {1, 2, 3, 4, 5}}};
+    mesh.cell_fields = {{"k", 1, {HUGE_VAL, 2}}};
+    const CheckReport report = check_mesh(mesh);
+    EXPECT_TRUE(report.certified());
+    for (const std::string& shown : {text(report, mesh), check_html(report, mesh, "part")}) {
+        EXPECT_TRUE(contains(shown, "field T: 3 of 10 values are not finite")) << shown;
+        EXPECT_TRUE(contains(shown, "field k of cells: 1 of 2 values is not finite")) << shown;
+        EXPECT_FALSE(contains(shown, "whole"));
+    }
+    EXPECT_EQ(json(report)["not_finite"], Json::parse(R"([{"field": "T", "of": "nodes", "count": 3, "values": 10},
+                              {"field": "k", "of": "cells", "count": 1, "values": 2}])"));
+    EXPECT_EQ(json(check_mesh(pair_of_cells()))["not_finite"], Json::array());
+}
+
 TEST(check_terminal, long_lists_are_cut_and_say_so) {
     Mesh mesh = own_mesh("cube-hole");
     for (std::size_t cell = 0; cell < 40; ++cell) std::swap(mesh.cells[4 * cell], mesh.cells[4 * cell + 1]);
@@ -125,7 +172,7 @@ TEST(check_terminal, long_lists_are_cut_and_say_so) {
     EXPECT_TRUE(
         contains(shown,
                  "Notes: these do not affect the certificate\nmixed_orientation           40  cells of the less "
-                 "frequent orientation\n    cells 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, and 30 more\n    -> --fix"));
+                 "frequent orientation\n    cells 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, and 30 more\n    -> check --fix"));
     EXPECT_FALSE(contains(shown, "Defects and remedies"));
     const std::string more = text(with_finding(DefectKind::overlapping_cells, 1000, true), {});
     EXPECT_TRUE(contains(more,

@@ -11,6 +11,7 @@
 
 #include "barycert/audit_others.hpp"
 #include "barycert/audit_report.hpp"
+#include "barycert/report/common/html_text.hpp"
 #include "small_audit.hpp"
 #include "well_formed.hpp"
 
@@ -150,7 +151,7 @@ TEST(others, on_the_page_as_tables_that_sort) {
     // Each row of both tables has the shares of the columns in which something changes, and those columns only.
     static const std::regex cell("data-v=\"([^\"]*)\"");
     const auto numbers = [&](std::size_t from, const std::string& head) {
-        const std::size_t at = page.find("<th scope=\"row\">" + head + "</th>", from);
+        const std::size_t at = page.find("<th scope=\"row\">" + report::html_name(head) + "</th>", from);
         const std::string row = page.substr(at, page.find("</tr>", at) - at);
         std::vector<double> list;
         for (std::sregex_iterator it(row.begin(), row.end(), cell), end; it != end; ++it)

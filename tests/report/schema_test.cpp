@@ -35,6 +35,14 @@ void check_reports(Schema& schema) {
     options.plc = &plc;
     const std::string text = check_json(check_mesh(own_mesh("torus"), options), "part", measure_environment());
     schema.check("Check", Json::parse(text), "check");
+    Mesh holed = own_mesh("bracket");
+    holed.point_fields = {{"T", 1, std::vector<double>(holed.point_count(), HUGE_VAL)}};
+    schema.check("Check", Json::parse(check_json(checked(holed, false), "part", measure_environment())), "check");
+    const Mesh apart = cracked_and_hanging();
+    FixedMesh fixed{.file = "copy.vtu", .done = {}, .after = {}};
+    fixed.after = checked(fix_mesh(apart, {}, fixed.done).value());
+    const std::string repaired = check_json(checked(apart), "part", measure_environment(), &fixed);
+    schema.check("Check", Json::parse(repaired), "check");
 }
 
 /// Runs of sampling with something of everything.
@@ -44,11 +52,15 @@ void sample_reports(Schema& schema) {
     run.carried = {"id"};
     run.counts.locations.ways.walk = 1;
     run.notes = {{Note::Kind::guessed, "the order", "a file"}};
+    run.not_finite = {{"t", true, 3, 50}};
     for (const double low : {0.25, std::numeric_limits<double>::quiet_NaN()}) {
         run.picture = SliceCounts{.drawn = 3, .below = 1, .above = 2, .low = low, .high = low};
         schema.check("Sample", Json::parse(sample_json(run, measure_environment())), "sample");
+        run.from = PointsFrom::mesh;
         run.weights = "w.npz";
         run.steps = {"1", "2"};
+        run.times = {0, 0.5};
+        run.integrals = {{.column = "t", .source = 1, .target = 2}};
         run.grid = Grid{.dimension = 3, .counts = {2, 1, 2}, .origin = {-1, 0, 0}, .spacing = {1, 0, 1}, .last = {}};
     }
 }
@@ -64,6 +76,7 @@ void verify_reports(Schema& schema) {
             run.outside_value = 0;
             run.columns = run.found_in = {"T"};
             run.ranges = {2};
+            run.relative_to = {RelativeTo::range};
             run.verdicts.columns.resize(1);
             run.notes = {{Note::Kind::guessed, "the order", "a file"}};
         }
@@ -135,6 +148,7 @@ void contour_reports(Schema& schema) {
 /// Pictures with something of everything.
 void render_reports(Schema& schema) {
     RenderSummary picture;
+    picture.picture = "mesh";
     for (const double low : {0.25, std::numeric_limits<double>::quiet_NaN()}) {
         picture.colours = ColourRange{"t", low, low, 1};
         picture.texel_error = TexelError{low == 0.25 ? low : HUGE_VAL, 1, 2};

@@ -59,6 +59,39 @@ TEST(terminal_report, what_a_kernel_did_besides_stands_below_its_row) {
     }
 }
 
+TEST(terminal_report, an_accident_is_no_weight) {
+    AuditReport report = audited();
+    KernelResult& k = report.kernels[0];
+    Witness& w = k.witnesses.at(0);
+    w.reason = "crashed";
+    w.detail.clear();
+    w.magnitude = HUGE_VAL;
+    EXPECT_TRUE(contains(narrow(report), "(crashed, asked once more, it did not)"));
+    EXPECT_TRUE(contains(audit_text(report, {.wide = true}), "--reason crashed\n"));
+    w.detail = "SIGABRT (Aborted)";
+    EXPECT_TRUE(contains(narrow(report), "(crashed, SIGABRT (Aborted))"));
+    w.reason = "false_inside";
+    w.detail.clear();
+    EXPECT_TRUE(contains(narrow(report), "(false_inside, a weight that is not finite)"));
+}
+
+TEST(terminal_report, what_was_not_run_is_not_right) {
+    AuditReport report = audited();
+    report.kernels.resize(1);
+    KernelResult& k = report.kernels[0];
+    k.total = {};
+    k.total.not_run = 7;
+    k.witnesses.clear();
+    for (const bool wide : {false, true}) {
+        const std::string text = audit_text(report, {.wide = wide});
+        EXPECT_FALSE(contains(text, "value is correctly rounded")) << text;
+        EXPECT_FALSE(contains(text, "to the last bit")) << text;
+    }
+    EXPECT_TRUE(contains(narrow(report), ": no wrong answer in 0 cases, 7 not run\n"));
+    report.kernels.push_back(k);
+    EXPECT_TRUE(contains(narrow(report), "none of 2 kernels gives a wrong answer, but not all cases were run\n"));
+}
+
 TEST(terminal_report, green_is_what_is_right_in_every_case) {
     AuditReport report = audited();
     std::erase_if(report.kernels, [](const KernelResult& k) { return k.kernel.name != "triangle.exact"; });

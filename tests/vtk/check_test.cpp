@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <set>
 #include <string>
@@ -229,6 +230,19 @@ TEST(Check, TakesCellsOfSecondOrder) {
     EXPECT_TRUE(check->GetCertified());
     expect_measures(mesh, check->GetOutput());
     EXPECT_EQ(row_of(check->GetDefects(), "unused_node"), -1);
+    // A node off the middle of its edge: told, and the report begins with it.
+    std::array<double, 3> middle{};
+    grid->GetPoint(mesh.mid_nodes[0], middle.data());
+    grid->GetPoints()->SetPoint(mesh.mid_nodes[0], middle[0] + 0.001, middle[1], middle[2]);
+    {
+        Messages curved;
+        grid->GetPoints()->Modified();
+        check->Modified();
+        check->Update();
+        EXPECT_EQ(curved.count("curved: mid-edge nodes lie up to"), 1) << curved.all();
+        EXPECT_EQ(curved.count("NOT certified"), 0) << curved.all();
+        EXPECT_TRUE(check->GetCertified());
+    }
     const vtkIdType linear[4] = {mesh.cells[0], mesh.cells[1], mesh.cells[2], mesh.cells[3]};
     grid->InsertNextCell(VTK_TETRA, 4, linear);
     ghosts->InsertNextValue(0);

@@ -225,6 +225,38 @@ TEST(Probe, RoundsToIntegersOnceHalvesAwayFromZero) {
     EXPECT_EQ(probe_one(bytes, {1, 1, 1}), 255);
 }
 
+// A vertex with NaN has no part where its weight is zero, nor where floats are rounded once.
+TEST(Probe, LeavesNaNOutWhereItHasNoPart) {
+    Mesh mesh = box(3, {2, 2, 2});
+    base::Random random(3);
+    Field field{.name = "v", .components = 1, .data = {}};
+    for (std::size_t i = 0; i < mesh.point_count(); ++i)
+        field.data.push_back(random.below(3) == 0 ? std::nan("") : random.uniform(-1, 1));
+    mesh.point_fields = {field};
+    vtkNew<vtkBarycertProbe> probe;
+    probe->SetSourceData(grid_of(mesh));
+    probe->SetInputData(points_of(mesh.points));
+    probe->Update();
+    for (std::size_t i = 0; i < mesh.point_count(); ++i) {
+        const double found = probe->GetOutput()->GetPointData()->GetArray("v")->GetTuple1(static_cast<vtkIdType>(i));
+        EXPECT_TRUE(found == field.data[i] || (std::isnan(found) && std::isnan(field.data[i]))) << i << ' ' << found;
+    }
+    // The value is 1 + 2^-24 + 2^-84: as a double in the middle of two floats, and nearer to the greater one.
+    Mesh one;
+    one.dimension = 2;
+    one.points = {-1, 0, 1, 0, 0, 1};
+    one.cells = {0, 1, 2};
+    const auto grid = grid_of(one);
+    vtkNew<vtkFloatArray> floats;
+    floats->SetName("f");
+    for (const float f : {1.0F, 1 + 0x1p-23F, std::numeric_limits<float>::quiet_NaN()}) floats->InsertNextValue(f);
+    grid->GetPointData()->AddArray(floats);
+    probe->SetSourceData(grid);
+    probe->SetInputData(points_of({0x1p-60, 0, 0}));
+    probe->Update();
+    EXPECT_EQ(probe->GetOutput()->GetPointData()->GetArray("f")->GetTuple1(0), 1 + 0x1p-23);
+}
+
 TEST(Probe, PutsNaNOutsideIfAsked) {
     const auto grid = corner();
     add<vtkFloatArray>(grid, {1, 2, 3, 4});

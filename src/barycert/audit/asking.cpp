@@ -24,16 +24,26 @@ Asked ask_in_process(const Kernel& kernel, std::span<const Case> cases, std::spa
     const WeightsFunction function = kernel.weights;
     // A weight that the kernel leaves unset must not look like an answer, least of all another kernel's.
     std::fill(statements.begin(), statements.end(), Statement{});
+    std::string detail;
     const auto start = Clock::now();
-    for (std::size_t i = 0; i < cases.size(); ++i)
-        statements[i].status = function(cases[i].vertices.data(), cases[i].point.data(), statements[i].weights.data());
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        Statement& s = statements[i];
+        s.status = function(cases[i].vertices.data(), cases[i].point.data(), s.weights.data());
+        if (s.status == 0 || kernel.raised == nullptr) continue;
+        const std::string raised = kernel.raised();
+        if (raised.empty()) continue;
+        s = {.answered = false, .incidents = kernels::incident_raised};
+        if (detail.empty()) detail = raised;
+    }
     const auto stop = Clock::now();
     // A kernel may leave another rounding mode behind: it is its own affair, not the oracle's or the next one's.
     ExactEnvironment::renew();
-    for (std::size_t i = 0; i < cases.size(); ++i) complete(statements[i], kernel, cases[i]);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        if (statements[i].answered) complete(statements[i], kernel, cases[i]);
+    }
     return {.ns = std::chrono::duration<double, std::nano>(stop - start).count() /
                   static_cast<double>(std::max<std::size_t>(cases.size(), 1)),
-            .detail = {}};
+            .detail = detail};
 }
 
 Asked ask_host(const Kernel& kernel, std::span<const Case> cases, std::span<Statement> statements, bool timed) {
@@ -74,7 +84,10 @@ void complete(Statement& s, const Kernel& kernel, const Case& c) {
 
 std::string incident_of(const Kernel& kernel, const Case& c) {
     const ExactEnvironment environment;
-    if (kernel.host == nullptr) return {};
+    if (kernel.host == nullptr) {
+        Statement said;
+        return kernel.raised == nullptr ? "" : ask_in_process(kernel, std::span(&c, 1), std::span(&said, 1)).detail;
+    }
     kernels::Host::Reply reply;
     return kernel.host->run(std::span(&c, 1), std::span(&reply, 1), kernels::Host::Asking::given_up_too).detail;
 }

@@ -39,8 +39,8 @@ struct Asked {
 /// clock; others are timed in any case.
 Asked ask_kernel(const Kernel& kernel, std::span<const Case> cases, std::span<Statement> statements, bool timed);
 
-/// What the kernel does besides answering that case, in words; empty if nothing, or if it runs in this process. One
-/// that has been given up is asked all the same.
+/// What the kernel does besides answering that case, in words; empty if nothing, or if it runs in this process and
+/// raised nothing. One that has been given up is asked all the same.
 std::string incident_of(const Kernel& kernel, const Case& c);
 
 /// Region and value from status and weights, by the functions of a kernel that runs in this process. Requires an

@@ -18,9 +18,11 @@ void count(Comparison& r, Finding f) {
 
 void count_incidents(Comparison& r, std::uint8_t incidents) {
     using namespace kernels;
-    constexpr std::array<std::pair<Incident, Finding>, 5> all{{{incident_crashed, Finding::crashed},
+    constexpr std::array<std::pair<Incident, Finding>, 7> all{{{incident_crashed, Finding::crashed},
+                                                               {incident_raised, Finding::raised},
                                                                {incident_hung, Finding::hung},
                                                                {incident_beside, Finding::out_of_bounds},
+                                                               {incident_forked, Finding::forked},
                                                                {incident_environment, Finding::changed_environment},
                                                                {incident_printed, Finding::printed}}};
     for (const auto& [incident, finding] : all) {

@@ -230,6 +230,7 @@ Result<GapsReport> find_gaps(const GapsOptions& options, const Mesh& mesh, const
     report.mesh = name;
     report.dimension = mesh.dimension;
     report.verdict = verdict;
+    report.curved = curved_cells(mesh);
     report.seed = options.seed;
     report.count = options.count;
     report.tolerance = options.tolerance;

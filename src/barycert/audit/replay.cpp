@@ -40,7 +40,10 @@ std::string not_reproduced(const Replay& r, const std::vector<Kernel>& kernels) 
         std::find_if(r.answers.begin(), r.answers.end(), [&](const auto& x) { return x.kernel == w.kernel; });
     if (a == r.answers.end()) return "the kernel is for another simplex";
     if (reason < finding_count) {
-        return a->comparison.counts[reason] != 0 ? "" : "the kernel's answer does not have this finding";
+        if (a->comparison.counts[reason] != 0) return "";
+        return is_incident(reason)
+                   ? "asked once more, the kernel did not; it may depend on the cases before, or on chance"
+                   : "the kernel's answer does not have this finding";
     }
     // Errors come out the same wherever the kernel was compiled to the same arithmetic.
     if (reason == witness_reasons) {

@@ -119,6 +119,7 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
     for (const auto& m : meshes.meshes()) {
         report.meshes.push_back(m->name);
         report.verdicts.push_back(m->certificate.verdict_on(m->mesh));
+        report.curved.push_back(curved_cells(m->mesh));
     }
     for (const Kernel& k : options.kernels)
         report.kernels.push_back(

@@ -21,7 +21,11 @@ const std::vector<Figure>& figures() {
             f.emplace_back(std::string(finding_texts[i].name),
                            [i](const KernelStatistics& s) { return static_cast<double>(s.counts[i]); });
         }
-        const auto wrong = [](const KernelStatistics& s) { return static_cast<double>(s.wrong_cases); };
+        // A kernel that was given up before it was wrong, for want of a process, has not passed.
+        const auto wrong = [](const KernelStatistics& s) {
+            return s.wrong_cases == 0 && s.not_run != 0 ? std::numeric_limits<double>::infinity()
+                                                        : static_cast<double>(s.wrong_cases);
+        };
         f.emplace_back("any", wrong);
         f.emplace_back("wrong_cases", wrong);
         // A kernel that gives no finite weight where there is one to give has no error to measure: it is worse than
@@ -31,8 +35,8 @@ const std::vector<Figure>& figures() {
                 const auto seen = [&](Finding x) { return s.counts[static_cast<std::size_t>(x)] != 0; };
                 const double value = figure(s);
                 const bool mute = value < 0 && (seen(Finding::not_finite) || seen(Finding::false_declaration) ||
-                                                seen(Finding::crashed) || seen(Finding::hung) ||
-                                                seen(Finding::out_of_bounds) || s.not_run != 0);
+                                                seen(Finding::crashed) || seen(Finding::raised) ||
+                                                seen(Finding::hung) || seen(Finding::out_of_bounds) || s.not_run != 0);
                 return mute ? std::numeric_limits<double>::infinity() : value;
             });
         };

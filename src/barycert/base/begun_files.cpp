@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cerrno>
+#include <string_view>
 #include <utility>
 
 namespace barycert::base {
@@ -46,10 +47,17 @@ void remove_begun_files() noexcept {
 
 namespace {
 
-/// Only calls that POSIX allows in a handler: unlink, sigaction, raise.
+/// Known before the handler is; on a terminal it begins a line, for progress may stand in this one.
+std::string_view ended_by_signal;
+
+/// Only calls that POSIX allows in a handler: unlink, write, sigaction, raise.
 extern "C" void remove_and_end(int signal) {
     const int error_number = errno;
     remove_begun_files();
+    const bool asked = signal == SIGINT || signal == SIGTERM || signal == SIGHUP;
+    // Nobody is left to be told that this failed.
+    [[maybe_unused]] const ssize_t told =
+        asked ? ::write(STDERR_FILENO, ended_by_signal.data(), ended_by_signal.size()) : 0;
     struct sigaction usual {};
     usual.sa_handler = SIG_DFL;
     ::sigaction(signal, &usual, nullptr);
@@ -59,7 +67,9 @@ extern "C" void remove_and_end(int signal) {
 
 }  // namespace
 
-void remove_begun_files_on_signals() {
+void remove_begun_files_on_signals(bool tell) {
+    constexpr std::string_view text = "\nerror: interrupted: no file was left half-written\n";
+    if (tell) ended_by_signal = text.substr(::isatty(STDERR_FILENO) == 1 ? 0 : 1);
     for (const int signal : std::array{SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGXCPU}) {
         struct sigaction now {};
         if (::sigaction(signal, nullptr, &now) != 0 || now.sa_handler == SIG_IGN) continue;

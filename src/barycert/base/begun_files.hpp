@@ -11,8 +11,9 @@ namespace barycert::base {
 
 /// For the main function of a program: from now on SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE and SIGXCPU first remove
 /// the unfinished files of this process and then end it as they would have. A signal that is ignored stays ignored.
-/// A library must not decide about signals, so nothing else calls this.
-void remove_begun_files_on_signals();
+/// `tell`: SIGINT, SIGTERM and SIGHUP say on stderr that they ended it. A library must not decide about signals, so
+/// nothing else calls this.
+void remove_begun_files_on_signals(bool tell = false);
 
 /// Removes the unfinished files of this process that have names, for a program that ends without its destructors.
 void remove_begun_files() noexcept;

@@ -6,6 +6,8 @@
 #include <cerrno>
 #include <memory>
 
+#include "barycert/base/nearest_name.hpp"
+
 namespace barycert::base {
 
 std::vector<std::string> names_in_folder(const std::string& folder, std::error_code& failed) {
@@ -25,6 +27,14 @@ std::vector<std::string> names_in_folder(const std::string& folder, std::error_c
     }
     std::sort(names.begin(), names.end());
     return names;
+}
+
+std::string near_file(const std::string& path) {
+    const std::size_t name = path.find_last_of('/') + 1;
+    const std::string folder = path.substr(0, name);
+    std::error_code ignored;
+    const std::string near = nearest_name(path.substr(name), names_in_folder(folder.empty() ? "." : folder, ignored));
+    return near.empty() ? near : folder + near;
 }
 
 }  // namespace barycert::base

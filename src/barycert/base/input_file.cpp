@@ -1,5 +1,7 @@
 #include "barycert/base/input_file.hpp"
 
+#include "barycert/base/folder.hpp"
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -8,6 +10,9 @@
 #include <cerrno>
 #include <cstring>
 #include <utility>
+
+#include "barycert/base/run_files.hpp"
+#include "barycert/base/unpack.hpp"
 
 namespace barycert::base {
 namespace {
@@ -29,15 +34,20 @@ int open_without_waiting(const std::string& path, struct stat& status) {
         errno = reason;
         return -1;
     }
+    if (descriptor >= 0) record_input(descriptor, path);
     return descriptor;
 }
 
 }  // namespace
 
 Error read_failure(const std::string& path, int error_number) {
-    const char* remedy = "check the path and the disk";
-    if (error_number == ENOENT || error_number == ENOTDIR) remedy = "check the path";
+    std::string remedy = "check the path and the disk";
+    if (error_number == ENOENT || error_number == ENOTDIR) {
+        const std::string near = near_file(path);
+        remedy = near.empty() ? "check the path" : "did you mean " + near + "?";
+    }
     if (error_number == EACCES) remedy = "ask for permission to read it";
+    if (error_number == ENOMEM) remedy = "free some memory, or use a machine with more";
     if (error_number == EISDIR) remedy = "name a file inside the folder";
     return {.what = "cannot read the file", .file = path, .found = std::strerror(error_number), .remedy = remedy};
 }
@@ -51,6 +61,12 @@ Error unended_number(std::string path, std::size_t line) {
             .remedy = "if nothing is missing, end the last line, as echo >> FILE does"};
 }
 
+Error too_little_memory(std::string path) {
+    return {.what = "too little memory to read the file",
+            .file = std::move(path),
+            .remedy = "free some memory, or check whether the file is damaged"};
+}
+
 Result<InputFile> InputFile::open(const std::string& path, const char* remedy) {
     struct stat status {};
     InputFile file;
@@ -58,21 +74,40 @@ Result<InputFile> InputFile::open(const std::string& path, const char* remedy) {
     if (file.descriptor_ < 0) return read_failure(path, errno);
     if (S_ISDIR(status.st_mode)) return unfit(path, "a regular file", "a folder", "name a file inside the folder");
     if (!S_ISREG(status.st_mode)) return unfit(path, "a regular file", "a pipe or device", remedy);
+    if (Status plain = unpack(file.descriptor_, path); !plain) return plain.error();
+    if (::fstat(file.descriptor_, &status) != 0) return read_failure(path, errno);
     file.size_ = static_cast<std::uint64_t>(status.st_size);
+    file.written_ = status.st_mtim;
     return file;
 }
 
 InputFile::InputFile(InputFile&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)), size_(std::exchange(other.size_, 0)) {}
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      size_(std::exchange(other.size_, 0)),
+      written_(other.written_) {}
 
 InputFile& InputFile::operator=(InputFile&& other) noexcept {
     std::swap(descriptor_, other.descriptor_);
     std::swap(size_, other.size_);
+    std::swap(written_, other.written_);
     return *this;
 }
 
 InputFile::~InputFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+Status InputFile::unchanged(const std::string& path) const {
+    struct stat now {};
+    if (::fstat(descriptor_, &now) != 0) return read_failure(path, errno);
+    const auto size = static_cast<std::uint64_t>(now.st_size);
+    if (size == size_ && now.st_mtim.tv_sec == written_.tv_sec && now.st_mtim.tv_nsec == written_.tv_nsec)
+        return Done{};
+    return Error{.what = "the file was changed while it was read",
+                 .file = path,
+                 .expected = size == size_ ? "" : std::to_string(size_) + " bytes, as when it was opened",
+                 .found = size == size_ ? "" : std::to_string(size),
+                 .remedy = "read it again when its writer has finished"};
 }
 
 Result<std::size_t> InputFile::read_at(std::uint64_t offset, std::span<char> bytes, const std::string& path) const {
@@ -88,7 +123,42 @@ Result<std::size_t> InputFile::read_at(std::uint64_t offset, std::span<char> byt
     return done;
 }
 
-Result<std::string> read_file(const std::string& path, std::size_t longest) {
+Status check_beginning(std::string_view block, Text text, const std::string& path) {
+    // Of a smaller file its reader says more.
+    if (text == Text::none || block.size() < first_block) return Done{};
+    const std::string_view line = text == Text::all ? block : block.substr(0, block.find_first_of("\n>"));
+    const auto blank = [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
+    const auto end = [&](char c) {
+        return blank(c) || std::string_view(",;:\"[]{}()<>=").find(c) != std::string_view::npos;
+    };
+    const auto word = std::find_if_not(line.begin(), line.end(), blank);
+    std::string found;
+    if (line.find('\0') != std::string_view::npos) {
+        found = "NUL bytes";
+    } else if (line.size() == block.size() && std::find_if(word, line.end(), end) == line.end()) {
+        found = std::to_string(block.size()) + " bytes without a word that ends";
+    } else if (text == Text::head && word != line.end() &&
+               std::string_view("<{#$(\xEF").find(*word) == std::string_view::npos) {
+        found = "neither a tag nor a keyword";
+    } else {
+        return Done{};
+    }
+    return Error{.what = "the file does not begin as text",
+                 .file = path,
+                 .expected = "words",
+                 .found = std::move(found),
+                 .remedy = "check the path, or write the file again"};
+}
+
+Status InputFile::check(Text text, const std::string& path) const {
+    if (text == Text::none) return Done{};
+    std::string block(first_block, '\0');
+    const Result<std::size_t> size = read_at(0, block, path);
+    if (!size) return size.error();
+    return check_beginning(std::string_view(block).substr(0, *size), text, path);
+}
+
+Result<std::string> read_file(const std::string& path, std::size_t longest, Text text) {
     struct stat status {};
     InputFile file;
     file.descriptor_ = open_without_waiting(path, status);
@@ -103,6 +173,12 @@ Result<std::string> read_file(const std::string& path, std::size_t longest) {
     // From now on a pipe waits for those who have it open, and has ended if nobody has.
     if (pipe && ::fcntl(file.descriptor_, F_SETFL, 0) != 0) return read_failure(path, errno);
 
+    if (Status plain = unpack(file.descriptor_, path); !plain) return plain.error();
+    if (::fstat(file.descriptor_, &status) != 0) return read_failure(path, errno);
+
+    if (!pipe) {
+        if (Status begins = file.check(text, path); !begins) return begins.error();
+    }
     // The size is a hint: files of the system tell 0, and a file may grow.
     std::string bytes(pipe ? 0 : static_cast<std::size_t>(status.st_size) + 1, '\0');
     std::size_t have = 0;

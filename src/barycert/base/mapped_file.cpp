@@ -3,29 +3,52 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <mutex>
+#include <span>
 #include <utility>
 
-#include "barycert/base/input_file.hpp"
+#include "barycert/base/large_pages.hpp"
+#include "barycert/base/workers.hpp"
 
 namespace barycert::base {
+namespace {
 
-Result<MappedFile> MappedFile::open(const std::string& path) {
+/// What a thread reads at a time: a few large pages.
+constexpr std::size_t block_size = 4 * large_page;
+
+}  // namespace
+
+Result<MappedFile> MappedFile::open(const std::string& path, int threads, Text text) {
     const Result<InputFile> file = InputFile::open(path);
     if (!file) return file.error();
+    if (Status begins = file->check(text, path); !begins) return begins.error();
     const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-    const auto size = static_cast<std::size_t>(file->size());
     MappedFile result;
+    const auto size = static_cast<std::size_t>(file->size());
     const std::size_t whole = (size + page - 1) / page * page + page;
-    // Zero pages first, the file over them; what the file does not cover stays zero.
-    void* const zeros = ::mmap(nullptr, whole, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (zeros == MAP_FAILED) return read_failure(path, errno);
-    result.begin_ = static_cast<const char*>(zeros);
+    void* const memory = ::mmap(nullptr, whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) return read_failure(path, errno);
+    ask_for_large_pages(memory, whole);
+    char* const bytes = static_cast<char*>(memory);
+    result.begin_ = bytes;
     result.mapped_ = whole;
-    if (size != 0 && ::mmap(zeros, size, PROT_READ, MAP_PRIVATE | MAP_FIXED, file->descriptor(), 0) == MAP_FAILED) {
-        return read_failure(path, errno);
-    }
     result.size_ = size;
+
+    std::mutex mutex;
+    Status status = Done{};
+    share_work(threads, (size + block_size - 1) / block_size, [&](std::size_t block) {
+        const std::size_t from = block * block_size;
+        const std::span<char> part(bytes + from, std::min(block_size, size - from));
+        const Result<std::size_t> got = file->read_at(from, part, path);
+        if (got && *got == part.size()) return true;
+        const std::lock_guard lock(mutex);
+        if (!got) status = got.error();
+        return false;
+    });
+    if (status) status = file->unchanged(path);
+    if (!status) return status.error();
     return result;
 }
 
@@ -43,13 +66,6 @@ MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
 
 MappedFile::~MappedFile() {
     if (mapped_ != 0) ::munmap(const_cast<char*>(begin_), mapped_);
-}
-
-void MappedFile::let_go(std::string_view part) const {
-    const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-    const auto offset = static_cast<std::size_t>(part.data() - begin_);
-    const std::size_t first = (offset + page - 1) / page * page, last = (offset + part.size()) / page * page;
-    if (first < last) ::madvise(const_cast<char*>(begin_) + first, last - first, MADV_DONTNEED);
 }
 
 }  // namespace barycert::base

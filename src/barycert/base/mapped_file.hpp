@@ -1,18 +1,19 @@
-/// A file's bytes in memory, without a copy.
+/// A file's bytes in memory.
 #pragma once
 
 #include <cstddef>
 #include <string>
 #include <string_view>
 
+#include "barycert/base/input_file.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::base {
 
-/// A regular file, mapped for reading. At least one page of zero bytes follows the last byte, so that a scanner may
-/// look ahead, and stops at a NUL instead of comparing with the end at every step.
+/// A regular file, read whole. At least one page of zero bytes follows the last byte, so that a scanner may look ahead,
+/// and stops at a NUL instead of comparing with the end at every step.
 ///
-/// The file must not shrink while it is mapped: the system ends a process that touches bytes that are gone.
+/// The memory is the process's own: the system ends a process that touches bytes of a mapped file when they are gone.
 class MappedFile {
 public:
     MappedFile() = default;
@@ -20,13 +21,11 @@ public:
     MappedFile& operator=(MappedFile&& other) noexcept;
     ~MappedFile();
 
-    /// Errors: missing, unreadable, a folder, not a regular file.
-    static Result<MappedFile> open(const std::string& path);
+    /// Reads on so many threads, 0: one per core. Errors: missing, unreadable, a folder, not a regular file, one that
+    /// does not begin as `text`, changed while it was read, larger than the memory.
+    static Result<MappedFile> open(const std::string& path, int threads = 1, Text text = Text::none);
 
     std::string_view bytes() const { return {begin_, size_}; }
-
-    /// Lets go of the memory of whole pages within `part` of the bytes. They can still be read, and then come back.
-    void let_go(std::string_view part) const;
 
 private:
     const char* begin_ = "";

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "barycert/base/input_file.hpp"
 #include "barycert/base/output_file.hpp"
 
 namespace barycert::base {
@@ -19,9 +20,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// A standard stream may be redirected from or to a file.
+std::string of_stream(const std::string& path, const char* stream) {
+    return path == "-" ? stream : path;
+}
+
 /// Not streams and devices: /dev/stdin and /dev/stdout may well be one terminal.
 bool can_be_overwritten(const std::string& path) {
-    if (path == "-") return false;
     std::error_code unknown;
     const fs::file_status status = fs::status(path, unknown);
     return !fs::exists(status) || fs::is_regular_file(status);
@@ -62,8 +67,9 @@ bool same_file(const std::string& a, const std::string& b) {
 Status check_distinct(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         const NamedFile& out = outputs[i];
+        const std::string path = of_stream(out.path, "/dev/stdout");
         for (const NamedFile& in : inputs) {
-            if (!can_be_overwritten(out.path) || !same_file(out.path, in.path)) continue;
+            if (!can_be_overwritten(path) || !same_file(path, of_stream(in.path, "/dev/stdin"))) continue;
             return Error{.what = out.what + " would overwrite " + in.what,
                          .file = out.path,
                          .remedy = "choose another name for the output"};
@@ -89,6 +95,16 @@ Status check_outputs(const std::vector<NamedFile>& inputs, std::vector<NamedFile
     std::erase_if(outputs, [](const NamedFile& f) { return f.path.empty(); });
     if (Status distinct = check_distinct(inputs, outputs); !distinct) return distinct;
     for (const NamedFile& out : outputs) {
+        for (const std::string_view place : {step_place, time_place}) {
+            if (out.path.find(place) == std::string::npos) continue;
+            return Error{.what = out.what + " has a place for a step, and there are no steps to fill it",
+                         .file = out.path,
+                         .expected = "a name without " + std::string(place),
+                         .remedy =
+                             "files of steps are --output of sample and resample, of a series as mesh or field: "
+                             "a .pvd or .vtu.series file, or --field NAME@'step-*.npy'; elsewhere choose one "
+                             "step by --step or --time"};
+        }
         if (Status ok = check_writable(out.path); !ok) return ok;
     }
     return Done{};
@@ -100,6 +116,7 @@ Status check_inputs(const std::vector<NamedFile>& inputs) {
             if (fcntl(STDIN_FILENO, F_GETFD) < 0)
                 return Error{.what = "cannot read the standard input", .found = std::strerror(errno)};
         } else if (access(in.path.c_str(), R_OK) != 0) {
+            if (errno == ENOENT) return read_failure(in.path, errno);
             return Error{.what = "cannot read the file",
                          .file = in.path,
                          .found = std::strerror(errno),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "barycert/result.hpp"
@@ -13,6 +14,9 @@ struct NamedFile {
     std::string what, path;
 };
 
+/// What the name of an output has where each step of a series has a file of its own.
+inline constexpr std::string_view step_place = "{step}", time_place = "{time}";
+
 /// True if both paths lead to one file (device and inode: through links and other names), or would once it is made.
 /// An empty path names no file; "-" is the standard stream, which only "-" names.
 bool same_file(const std::string& a, const std::string& b);
@@ -23,7 +27,8 @@ std::vector<NamedFile> named_files(const std::string& what, std::vector<std::str
 /// Error: an output is an input, or two outputs are one file. Nothing is opened.
 Status check_distinct(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
 
-/// What can be known of outputs before the work. Error: an output is an input or another output, or cannot be written.
+/// What can be known of outputs before the work. Error: an output is an input or another output, or cannot be written,
+/// or its name has a place for a step, of which there is none.
 /// Outputs without a path are passed over.
 Status check_outputs(const std::vector<NamedFile>& inputs, std::vector<NamedFile> outputs);
 

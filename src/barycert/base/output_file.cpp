@@ -14,6 +14,8 @@
 #include <system_error>
 #include <utility>
 
+#include "barycert/base/run_files.hpp"
+
 namespace barycert::base {
 namespace {
 
@@ -72,6 +74,13 @@ std::string resolved_path(std::string path) {
 }
 
 OutputFile::OutputFile(std::string target) : target_(std::move(target)), real_path_(resolved_path(target_)) {
+    if (target_.ends_with(".gz")) {
+        error_ = {.what = "files are not packed when they are written",
+                  .file = target_,
+                  .expected = "a name without .gz",
+                  .remedy = "leave .gz out, then pack the file with gzip"};
+        return;
+    }
     struct stat status {};
     const bool exists = ::stat(real_path_.c_str(), &status) == 0;
     if (!exists && errno == ELOOP) {
@@ -82,6 +91,8 @@ OutputFile::OutputFile(std::string target) : target_(std::move(target)), real_pa
         fail("cannot write the file", EISDIR);
         return;
     }
+    refuse_input();
+    if (!error_.what.empty()) return;
     // A rename would replace even a file that is write-protected.
     if (exists && ::access(real_path_.c_str(), W_OK) != 0) {
         fail("cannot write the file", errno);
@@ -216,7 +227,17 @@ bool OutputFile::give_name() {
     return false;
 }
 
+void OutputFile::refuse_input() {
+    const std::string* const input = input_of_run(real_path_);
+    if (input == nullptr || !error_.what.empty()) return;
+    error_ = {.what = "the output would overwrite a file that is read",
+              .file = target_,
+              .found = *input,
+              .remedy = "choose another name for the output"};
+}
+
 Status OutputFile::commit() {
+    refuse_input();
     if (Status closed = close(); !closed) return closed;
     if (nameless_) {
         const bool in_place = give_name();

@@ -24,7 +24,8 @@ std::string resolved_path(std::string path);
 /// remove_begun_files_on_signals() leaves these names under no signal but SIGKILL.
 ///
 /// A link is followed and stays a link; an existing target keeps its permissions. A device or pipe (/dev/stdout)
-/// cannot be replaced, so there the bytes go straight to it.
+/// cannot be replaced, so there the bytes go straight to it. A file that the run under way reads (run_files.hpp) is
+/// never replaced: that is an error from the beginning or, where it was opened later, of the commit.
 class OutputFile {
 public:
     explicit OutputFile(std::string target);
@@ -59,6 +60,7 @@ private:
     /// Straight to a descriptor that is its own; `error_number` tells why there is none.
     OutputFile(std::string name, int descriptor, int error_number);
     void fail(const char* what, int error_number);
+    void refuse_input();
     bool open_nameless();
     void open_beside();
     bool give_name();

@@ -140,15 +140,29 @@ private:
         for (std::size_t f = 0; f < facets_.size(); ++f) root[f] = piece_.find(f);
         std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return root[a] < root[b]; });
         for (std::size_t i = 0; i < order.size();) {
+            const std::size_t begin = i;
             const std::uint32_t first = order[i];
             Integer enclosed;
             for (; i < order.size() && root[order[i]] == root[first]; ++i)
                 enclosed = enclosed + cone(order[i], volumes);
             out_.facets.push_back(first);
             cavities_ += enclosed.sign() < 0 ? 1 : 0;
+            if (enclosed.sign() < 0 && i - begin == mesh_.corners()) add_missing_cell(order[begin], order[begin + 1]);
             out_.enclosed = out_.enclosed + enclosed;
         }
         out_.summary.pieces = out_.facets.size();
+    }
+
+    /// As many facets as a cell has, closed: its nodes are those of one and the one of another that the first has not.
+    void add_missing_cell(std::uint32_t f, std::uint32_t g) {
+        const auto &nodes = facets_[f].nodes, &others = facets_[g].nodes;
+        const auto fourth = std::find_if(others.begin(), others.end(), [&](Mesh::Index n) {
+            return std::find(nodes.begin(), nodes.end(), n) == nodes.end();
+        });
+        if (fourth == others.end()) return;
+        DefectPlace place{.cells = {facets_[f].cell, facets_[g].cell}, .nodes = nodes};
+        (d_ == 2 ? place.nodes[2] : place.other_nodes[0]) = *fourth;
+        defects_.add(DefectKind::missing_cell, place);
     }
 
     Integer cone(std::uint32_t facet, const ExactVolumes& volumes) const {

@@ -16,7 +16,7 @@ struct BoundaryPieces {
     Integer enclosed;                   ///< d! times the volume that the boundary encloses, in the unit of ExactVolumes
 };
 
-/// Finds open_boundary, pinched_ridge, pinched_node.
+/// Finds open_boundary, pinched_ridge, pinched_node, missing_cell.
 BoundaryPieces check_boundary(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, const ExactVolumes& volumes,
                               DefectList& defects);
 

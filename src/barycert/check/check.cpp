@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "barycert/base/disjoint_sets.hpp"
+#include "barycert/base/finite.hpp"
 #include "barycert/check/boundary.hpp"
 #include "barycert/check/cells.hpp"
 #include "barycert/check/common_part.hpp"
@@ -18,6 +20,7 @@
 #include "barycert/check/facets.hpp"
 #include "barycert/check/files.hpp"
 #include "barycert/check/local_delaunay.hpp"
+#include "barycert/check/near_nodes.hpp"
 #include "barycert/check/nodes.hpp"
 #include "barycert/check/pairs.hpp"
 #include "barycert/environment.hpp"
@@ -82,6 +85,19 @@ const char* fault_of_sizes(const Mesh& mesh) {
     return nullptr;
 }
 
+/// How many cells with each defect that breaks the certificate are curved.
+CurvedCells note_curved_cells(const Mesh& mesh, CheckReport& report) {
+    std::vector<std::uint8_t> each;
+    const CurvedCells curved = curved_cells(mesh, &each);
+    const std::size_t known = std::min(each.size(), report.measures.defects.size());
+    for (Defect& defect : report.defects) {
+        if (!defect.breaks()) continue;
+        for (std::size_t cell = 0; cell < known; ++cell)
+            defect.curved_cells += each[cell] != 0 && (report.measures.defects[cell] & defect_bit(defect.kind)) != 0;
+    }
+    return curved;
+}
+
 class Check {
 public:
     Check(const Mesh& mesh, const CheckOptions& options) : mesh_(mesh), options_(options), defects_(options.examples) {}
@@ -93,8 +109,7 @@ public:
             check_all(report);
         }
         report.defects = std::move(defects_).list();
-        return std::none_of(report.defects.begin(), report.defects.end(),
-                            [](const Defect& f) { return defect_text(f.kind).breaks; });
+        return std::none_of(report.defects.begin(), report.defects.end(), [](const Defect& f) { return f.breaks(); });
     }
 
 private:
@@ -152,7 +167,7 @@ private:
         report.volume = {volumes.rounded(cells.total), volumes.rounded(pieces.enclosed),
                          (cells.total - pieces.enclosed).sign() == 0};
         if (enough()) return;
-        std::vector<CellPair> touching;
+        BoundaryContacts touching;
         if (!proved) {
             stage("contacts of the boundary");
             const std::size_t limit = options_.verdict_only ? 1 : pair_limit;
@@ -162,12 +177,27 @@ private:
         }
         check_files(mesh_, cells.usable, facets, defects_);
         if (enough()) return;
+        if (!options_.verdict_only) {
+            find_cracks(mesh_, cells.usable, facets.boundary, options_.near, touching.in_contact, measures, defects_);
+            tell_remedy_of_contacts();
+        }
         std::vector<CellPair> overlapping;
         if (may_overlap()) {
             stage("overlapping cells");
             overlapping = find_overlapping_cells(mesh_, measures, defects_);
         }
-        report.contacts = contacts(mesh_, measures, std::move(overlapping), std::move(touching), options_.contacts);
+        report.contacts =
+            contacts(mesh_, measures, std::move(overlapping), std::move(touching.cells), options_.contacts);
+    }
+
+    void tell_remedy_of_contacts() {
+        const bool merge = defects_.is_cause(DefectKind::coincident_nodes) || defects_.is_cause(DefectKind::near_nodes);
+        if (defects_.count(DefectKind::hanging_node) != 0)
+            defects_.remedy(DefectKind::boundary_contact,
+                            merge ? "merge coincident and near nodes, and split the cells at hanging nodes: both below"
+                                  : "split the cells at the hanging nodes below");
+        else if (merge)
+            defects_.remedy(DefectKind::boundary_contact, "merge the coincident and near nodes below");
     }
 
     /// The verdict is known, and nothing else is asked for.
@@ -197,6 +227,23 @@ const Defect* CheckReport::find(DefectKind problem) const {
     return f == defects.end() ? nullptr : &*f;
 }
 
+void count_not_finite(const Field& field, bool of_cells, std::vector<NotFinite>& to) {
+    if (base::all_finite(field.data)) return;
+    const bool known = std::any_of(to.begin(), to.end(), [&](const NotFinite& other) {
+        return other.field == field.name && other.of_cells == of_cells;
+    });
+    if (known) return;
+    const auto count = std::count_if(field.data.begin(), field.data.end(), [](double x) { return !std::isfinite(x); });
+    to.push_back({field.name, of_cells, static_cast<std::uint64_t>(count), field.data.size()});
+}
+
+std::vector<NotFinite> not_finite_values(const Mesh& mesh) {
+    std::vector<NotFinite> all;
+    for (const Field& field : mesh.point_fields) count_not_finite(field, false, all);
+    for (const Field& field : mesh.cell_fields) count_not_finite(field, true, all);
+    return all;
+}
+
 CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options) {
     const ExactEnvironment environment;
     const auto start = std::chrono::steady_clock::now();
@@ -215,7 +262,9 @@ CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options) {
         report.cells = mesh.cell_count();
         if (mesh.cell_numbers.size() == mesh.cell_count()) report.cell_numbers = mesh.cell_numbers;
     }
+    report.curved = note_curved_cells(mesh, report);
     report.notes = mesh.notes;
+    report.not_finite = not_finite_values(mesh);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
 #include "barycert/check.hpp"
@@ -25,6 +26,9 @@ public:
         if (f.places.size() < examples_) f.places.push_back(place);
     }
     void add_at_least(DefectKind p) { of(p).at_least = true; }
+    void cause(DefectKind p) { of(p).cause = true; }
+    void remedy(DefectKind p, std::string_view text) { of(p).better_remedy = text; }
+    bool is_cause(DefectKind p) const { return all_[static_cast<std::size_t>(p)].cause; }
 
     /// Appends what another block of the same work found.
     void append(const DefectList& other) {
@@ -33,6 +37,7 @@ public:
             const Defect& g = other.all_[i];
             f.count += g.count;
             f.at_least |= g.at_least;
+            f.cause |= g.cause;
             const std::size_t room = std::min(examples_ - std::min(examples_, f.places.size()), g.places.size());
             f.places.insert(f.places.end(), g.places.begin(), g.places.begin() + static_cast<std::ptrdiff_t>(room));
         }
@@ -41,9 +46,10 @@ public:
     std::uint64_t count(DefectKind p) const { return all_[static_cast<std::size_t>(p)].count; }
     std::size_t examples() const { return examples_; }
 
-    /// Those that occur.
+    /// Those that occur; first those that break the certificate.
     std::vector<Defect> list() && {
         std::erase_if(all_, [](const Defect& f) { return f.count == 0; });
+        std::stable_partition(all_.begin(), all_.end(), [](const Defect& f) { return f.breaks(); });
         return std::move(all_);
     }
 

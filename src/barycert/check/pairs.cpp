@@ -83,10 +83,26 @@ void mark(CellMeasures& measures, Mesh::Index cell, DefectKind problem) {
     measures.defects[static_cast<std::size_t>(cell)] |= defect_bit(problem);
 }
 
+struct HangingNode {
+    Mesh::Index node = -1;
+    std::array<Mesh::Index, 3> face{-1, -1, -1};  ///< that it lies within
+    Mesh::Index cell = -1;                        ///< of the face
+
+    auto operator<=>(const HangingNode&) const = default;
+};
+
+/// The nodes of f within g, or within an edge of it: not those at the place of a node of g.
+void add_hanging(int d, const PlacedFacet& f, const PlacedFacet& g, Mesh::Index cell, std::vector<HangingNode>& all) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(d); ++i) {
+        const auto face = face_around(d, g, f.at[i]);
+        if (face[1] >= 0) all.push_back({f.nodes[i], face, cell});
+    }
+}
+
 }  // namespace
 
-std::vector<CellPair> find_boundary_contacts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
-                                             std::size_t limit, CellMeasures& measures, DefectList& defects) {
+BoundaryContacts find_boundary_contacts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, std::size_t limit,
+                                        CellMeasures& measures, DefectList& defects) {
     std::vector<PlacedFacet> proper_facets;
     std::vector<Mesh::Index> cells;
     std::vector<Item> items;
@@ -101,14 +117,36 @@ std::vector<CellPair> find_boundary_contacts(const Mesh& mesh, const std::vector
     const auto conflict = [&](std::size_t i, std::size_t j) {
         return facets_conflict(mesh.dimension, proper_facets[i], proper_facets[j]);
     };
-    std::vector<CellPair> pairs;
+    BoundaryContacts out;
+    std::vector<HangingNode> hanging;
     for (const Pair& p : conflicts(mesh.dimension, items, conflict, limit, complete)) {
-        pairs.push_back({cells[p.first], cells[p.second]});
-        for (const Mesh::Index cell : pairs.back()) mark(measures, cell, DefectKind::boundary_contact);
-        defects.add(DefectKind::boundary_contact, {.cells = pairs.back(), .nodes = proper_facets[p.first].nodes});
+        const PlacedFacet &f = proper_facets[p.first], &g = proper_facets[p.second];
+        out.cells.push_back({cells[p.first], cells[p.second]});
+        for (const Mesh::Index cell : out.cells.back()) mark(measures, cell, DefectKind::boundary_contact);
+        defects.add(DefectKind::boundary_contact,
+                    {.cells = out.cells.back(), .nodes = f.nodes, .other_nodes = g.nodes});
+        add_hanging(mesh.dimension, f, g, cells[p.second], hanging);
+        add_hanging(mesh.dimension, g, f, cells[p.first], hanging);
+        out.in_contact.resize(mesh.point_count(), 0);
+        for (const PlacedFacet* const one : {&f, &g}) {
+            for (const Mesh::Index node : one->nodes) {
+                if (node >= 0) out.in_contact[static_cast<std::size_t>(node)] = 1;
+            }
+        }
     }
-    if (!complete) defects.add_at_least(DefectKind::boundary_contact);
-    return pairs;
+    std::sort(hanging.begin(), hanging.end());
+    const auto same = [](const HangingNode& a, const HangingNode& b) { return a.node == b.node && a.face == b.face; };
+    hanging.erase(std::unique(hanging.begin(), hanging.end(), same), hanging.end());
+    for (const HangingNode& h : hanging) {
+        mark(measures, h.cell, DefectKind::hanging_node);
+        defects.add(DefectKind::hanging_node,
+                    {.cells = {h.cell, -1}, .nodes = {h.node, -1, -1}, .other_nodes = h.face});
+    }
+    if (!complete) {
+        defects.add_at_least(DefectKind::boundary_contact);
+        if (!hanging.empty()) defects.add_at_least(DefectKind::hanging_node);
+    }
+    return out;
 }
 
 void find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,

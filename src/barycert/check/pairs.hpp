@@ -17,9 +17,14 @@ inline constexpr std::size_t pair_limit = 1000;
 
 using CellPair = std::array<Mesh::Index, 2>;
 
-/// P3: finds boundary_contact, up to `limit` of them; the cells of the facets of each.
-std::vector<CellPair> find_boundary_contacts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
-                                             std::size_t limit, CellMeasures& measures, DefectList& defects);
+struct BoundaryContacts {
+    std::vector<CellPair> cells;           ///< of the facets of each
+    std::vector<std::uint8_t> in_contact;  ///< 1 for each node of these facets; empty if there are none
+};
+
+/// P3: finds boundary_contact, up to `limit` of them, and the hanging_node of each.
+BoundaryContacts find_boundary_contacts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, std::size_t limit,
+                                        CellMeasures& measures, DefectList& defects);
 
 /// P4: finds nested_part, up to `limit` of them, each with the lowest cell that overlaps. `pieces`: one of the `facets`
 /// of each piece of the boundary.

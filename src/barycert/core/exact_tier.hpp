@@ -43,6 +43,11 @@ public:
     /// Sign of that sum, not rounded, less t. The same preconditions.
     int compare(std::span<const double> values, double t) const;
 
+    /// Sets values that are not finite to zero: those at vertices and, behind them, if there are more values than
+    /// vertices, at the middles of edges, of a quadratic. Returns whether none of them has a part in the sum: its
+    /// weight, or shape function, is exactly zero. In a degenerate simplex each has one.
+    bool leave_out_not_finite(std::span<double> values) const;
+
 private:
     static constexpr int denominator = 4;   ///< its place behind the numerators
     static constexpr int narrow_limbs = 8;  ///< of the widest product of four numbers of two limbs
@@ -52,6 +57,7 @@ private:
     template <class T>
     void store(int i, const T& number);
     int sign_of(int i) const;
+    bool has_part(int node, bool quadratic) const;
     Magnitude magnitude(int i, std::uint64_t* buffer) const;
 
     int count_;

@@ -1,12 +1,14 @@
 #include "barycert/core/exact_tier.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <type_traits>
 
 #include "barycert/core/fixed_integer.hpp"
 #include "barycert/core/lifted-inl.hpp"
 #include "barycert/core/numerators-inl.hpp"
+#include "barycert/core/quadratic_edges.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 
@@ -217,6 +219,30 @@ int ExactWeights::compare(std::span<const double> values, double t) const {
                         unit.multiple<Integer>(scaled(values[static_cast<std::size_t>(i)]));
     }
     return sum.sign() * orientation();
+}
+
+bool ExactWeights::leave_out_not_finite(std::span<double> values) const {
+    const auto corners = static_cast<std::size_t>(count_);
+    bool none_has_part = true;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (std::isfinite(values[i])) continue;
+        values[i] = 0;
+        none_has_part = none_has_part && !has_part(static_cast<int>(i), values.size() > corners);
+    }
+    return none_has_part;
+}
+
+/// The quadratic's shape functions are l (2 l - 1) at corners and 4 l l' between them.
+bool ExactWeights::has_part(int node, bool quadratic) const {
+    if (degenerate()) return true;
+    if (node >= count_) {
+        const auto& ends = quadratic_edges[node - count_];
+        return sign_of(ends[0]) != 0 && sign_of(ends[1]) != 0;
+    }
+    if (sign_of(node) == 0) return false;
+    double unit[4] = {};
+    unit[node] = 1;
+    return !quadratic || compare({unit, static_cast<std::size_t>(count_)}, 0.5) != 0;
 }
 
 Sign exact_orient2d(const double* a, const double* b, const double* c) {

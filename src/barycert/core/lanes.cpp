@@ -105,21 +105,23 @@ std::size_t values_of(const CaseBlock& cases, const double* const* values, int c
 }
 
 template <Simplex s>
-void plain_values_of(const CaseBlock& cases, const double* const* values, int components, double* out) {
+std::size_t plain_values_of(const CaseBlock& cases, const double* const* values, int components, double* out,
+                            std::uint32_t* undecided) {
     const auto stride = static_cast<std::size_t>(components);
-    std::uint32_t none;
-    for_lanes(cases.count, &none, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
+    return for_lanes(cases.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
         using D = decltype(tag);
         constexpr int n = vertex_count(s);
         Relative<s, hn::Vec<D>> c;
         load_relative<s>(tag, cases.vertices, cases.point, at, c);
         const PlainWeights<s, D> weights(tag, c);
+        auto finite = hn::Eq(hn::Zero(tag), hn::Zero(tag));
         for (int component = 0; component < components; ++component) {
             const auto value =
                 weights.value(tag, [&](int i) HWY_ATTR { return hn::LoadU(tag, values[n * component + i] + at); });
+            finite = hn::And(finite, hn::Eq(value - value, hn::Zero(tag)));
             store_strided(tag, value, out + at * stride + static_cast<std::size_t>(component), stride);
         }
-        return hn::Eq(hn::Zero(tag), hn::Zero(tag));  // all are decided, whatever they are
+        return finite;
     });
 }
 
@@ -148,8 +150,10 @@ std::size_t values(Simplex s, const CaseBlock& cases, const double* const* f, in
     return with_simplex(s, [&]<Simplex known>() { return values_of<known>(cases, f, components, out, undecided); });
 }
 
-void plain_values(Simplex s, const CaseBlock& cases, const double* const* f, int components, double* out) {
-    return with_simplex(s, [&]<Simplex known>() { return plain_values_of<known>(cases, f, components, out); });
+std::size_t plain_values(Simplex s, const CaseBlock& cases, const double* const* f, int components, double* out,
+                         std::uint32_t* undecided) {
+    return with_simplex(s,
+                        [&]<Simplex known>() { return plain_values_of<known>(cases, f, components, out, undecided); });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -179,8 +183,9 @@ std::size_t value_lanes(Simplex s, const CaseBlock& cases, const double* const* 
     return HWY_DYNAMIC_DISPATCH(values)(s, cases, f, components, out, undecided);
 }
 
-void plain_value_lanes(Simplex s, const CaseBlock& cases, const double* const* f, int components, double* out) {
-    HWY_DYNAMIC_DISPATCH(plain_values)(s, cases, f, components, out);
+std::size_t plain_value_lanes(Simplex s, const CaseBlock& cases, const double* const* f, int components, double* out,
+                              std::uint32_t* undecided) {
+    return HWY_DYNAMIC_DISPATCH(plain_values)(s, cases, f, components, out, undecided);
 }
 
 bool lanes_contract() {

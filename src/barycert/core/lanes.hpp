@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "barycert/predicates.hpp"
 #include "barycert/simplex.hpp"
@@ -34,8 +35,9 @@ std::size_t value_lanes(Simplex s, const CaseBlock& cases, const double* const* 
                         std::uint32_t* undecided);
 
 /// As value_lanes, by the plain formula in double (D = sum of volumes, sum of volume times value, divided): nothing is
-/// proved, everything decided. For Rounding::plain.
-void plain_value_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components, double* out);
+/// proved. Undecided is what has a value that is not finite. For Rounding::plain.
+std::size_t plain_value_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components,
+                              double* out, std::uint32_t* undecided);
 
 /// Values as above; component k of the gradient of c goes to out[d * c + k][j]. Preconditions: triangle or tetrahedron;
 /// every array has room for a multiple of 8 cases, or the count is 1.
@@ -47,9 +49,14 @@ std::size_t gradient_lanes(Simplex s, const CaseBlock& cells, const double* cons
 std::size_t quadratic_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components,
                             double* const* out, std::uint32_t* undecided);
 
-/// The same by the plain formula in double: nothing is proved, everything decided.
-void plain_quadratic_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components,
-                           double* const* out);
+/// The same by the plain formula in double: nothing is proved. Undecided is what has a value that is not finite.
+std::size_t plain_quadratic_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components,
+                                  double* const* out, std::uint32_t* undecided);
+
+/// What plain lanes leave undecided: out[components * j + c] of the cases j in `undecided`, where one of the `nodes`
+/// values of component c is not finite. What has no part in the value is left out; where one has, it is NaN.
+void mend_plain_values(Simplex s, const CaseBlock& cases, std::span<const std::uint32_t> undecided,
+                       const double* const* values, int nodes, int components, double* out);
 
 /// a * b + c is rounded once in the lanes as they were compiled for this target.
 bool lanes_contract();

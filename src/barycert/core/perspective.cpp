@@ -137,10 +137,11 @@ Status perspective_values(const double* vertices, std::span<const double> points
                 core::exact_perspective_values(vertices, point, values.data(), components, to + stride * j);
             if (!proper) std::fill_n(to + stride * j, components, core::nan);
             counts.degenerate += proper ? 0 : 1;
+            const auto is_nan = [](double value) { return std::isnan(value); };
+            counts.not_finite += !finite_values && std::any_of(to + stride * j, to + stride * (j + 1), is_nan) ? 1 : 0;
         }
         counts.add(Tier::double_double, some - left);
         counts.add(Tier::exact, left);
-        counts.not_finite += finite_values ? 0 : some;
     }
     if (tiers != nullptr) tiers->add(counts);
     return Done{};

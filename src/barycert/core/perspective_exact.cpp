@@ -127,8 +127,11 @@ bool exact_perspective_values(const double* vertices, const double* point, const
             Unit unit;
             bool finite = true;
             for (int i = 0; i < 3; ++i) {
-                const double f = values[components * i + c];
-                finite = finite && std::isfinite(f);
+                double f = values[components * i + c];
+                if (!std::isfinite(f)) {
+                    finite = finite && as_integer(p.numerator[i]).sign() == 0;
+                    f = 0;
+                }
                 parts[i] = scaled(f);
                 unit.add(parts[i]);
             }

@@ -10,7 +10,8 @@ bool exact_perspective_weights(const double* vertices, const double* point, doub
 /// Z, correctly rounded.
 bool exact_perspective_depth(const double* vertices, const double* point, double* out);
 
-/// `components` values, each correctly rounded; NaN where a value at a vertex is not finite.
+/// `components` values, each correctly rounded; NaN where a value is not finite at a vertex whose weight is not exactly
+/// zero.
 bool exact_perspective_values(const double* vertices, const double* point, const double* values, int components,
                               double* out);
 

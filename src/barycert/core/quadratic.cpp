@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,17 +33,26 @@ Status check_quadratic(const MeshQueries& q, std::size_t mid_nodes, int componen
     return check_sizes(q, places, static_cast<std::size_t>(components));
 }
 
-/// Values of the last tier: component c at node i of the case is values[nodes * c + i]; they are overwritten where they
-/// are not finite. Coordinates are finite.
-ExactCase exact_values(Simplex s, const SingleCase& c, double* values, int components, double* out) {
+/// The components with a value that takes part and is not finite; what is not finite is overwritten. A function of its
+/// own, for its integers must not lie on the stack below those of the value.
+[[gnu::noinline]] std::vector<int> unusable_components(Simplex s, const SingleCase& c, double* values, int components) {
     const int nodes = vertex_count(s) + mid_node_count(s);
     std::vector<int> unusable;
+    std::optional<ExactWeights> weights;
     for (int component = 0; component < components; ++component) {
         double* const of_component = values + nodes * component;
         if (all_finite(of_component, nodes)) continue;
-        unusable.push_back(component);
-        std::fill_n(of_component, nodes, 0.0);  // whether the cell is degenerate is still to be told
+        if (!weights) weights.emplace(s, c.vertices.data(), c.point.data());
+        if (!weights->leave_out_not_finite({of_component, static_cast<std::size_t>(nodes)}))
+            unusable.push_back(component);
     }
+    return unusable;
+}
+
+/// Values of the last tier: component c at node i of the case is values[nodes * c + i]; those that are not finite are
+/// overwritten. Coordinates are finite.
+ExactCase exact_values(Simplex s, const SingleCase& c, double* values, int components, double* out) {
+    const std::vector<int> unusable = unusable_components(s, c, values, components);
     ExactCase found{.finite_values = unusable.empty()};
     found.degenerate = !exact_quadratic(s, c.vertices.data(), c.point.data(), values, components, out);
     if (found.degenerate) std::fill_n(out, components, nan);
@@ -95,15 +105,14 @@ Status interpolate_quadratic(const MeshQueries& queries, std::span<const std::in
             block_values.gather(n, m, block.count, [&](std::size_t j) {
                 return mid_nodes.data() + m * static_cast<std::size_t>(queries.cells[first + j]);
             });
-            std::size_t undecided_count = 0;
-            if (plain) {
-                core::plain_quadratic_lanes(s, block, block_values.arrays(), components, results.data());
-            } else {
-                undecided_count =
-                    core::quadratic_lanes(s, block, block_values.arrays(), components, results.data(), undecided);
-            }
-            results.copy_out(block.count, out.data() + stride * first);
-            return undecided_count;
+            const auto lanes = plain ? core::plain_quadratic_lanes : core::quadratic_lanes;
+            const double* const* const nodal = block_values.arrays();
+            const std::size_t left = lanes(s, block, nodal, components, results.data(), undecided);
+            double* const to = out.data() + stride * first;
+            results.copy_out(block.count, to);
+            if (!plain) return left;
+            core::mend_plain_values(s, block, {undecided, left}, nodal, static_cast<int>(n + m), components, to);
+            return std::size_t{0};
         },
         [&](std::size_t first, std::size_t j, const core::SingleCase& c) {
             for (std::size_t i = 0; i < single.size(); ++i) single[i] = block_values.arrays()[i][j];

@@ -2,7 +2,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
+#include "barycert/core/exact_tier.hpp"
 #include "barycert/core/input_checks.hpp"
 #include "barycert/core/integer.hpp"
 #include "barycert/core/numerators-inl.hpp"
@@ -115,17 +117,42 @@ void plain_quadratic_gradient(const double* vertices, const double* point, const
     for (int k = 0; k < d; ++k) out[k] = g.numerator[k] / g.denominators[0] / g.denominators[1];
 }
 
+/// Whether the gradient of the node's shape function is not exactly zero. At a corner it is (4 l - 1) grad l, between
+/// two 4 (l grad l' + l' grad l), with gradients that are no multiples of each other.
+template <Simplex s>
+bool turns(const ExactWeights& w, int node) {
+    constexpr int n = vertex_count(s);
+    if (node >= n) return w.sign(quadratic_edges[node - n][0]) != 0 || w.sign(quadratic_edges[node - n][1]) != 0;
+    double unit[n] = {};
+    unit[node] = 1;
+    return w.compare(unit, 0.25) != 0;
+}
+
+/// As ExactWeights::leave_out_not_finite, for the gradient. Not inlined, for the sake of the stack.
+template <Simplex s>
+[[gnu::noinline]] bool leave_out_not_finite(const double* vertices, const double* point, std::span<double> values) {
+    const ExactWeights w(s, vertices, point);
+    bool none_has_part = true;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (std::isfinite(values[i])) continue;
+        values[i] = 0;
+        none_has_part = none_has_part && !w.degenerate() && !turns<s>(w, static_cast<int>(i));
+    }
+    return none_has_part;
+}
+
 template <Simplex s>
 Gradient quadratic_gradient_of(const double* vertices, const double* point, const double* values, Rounding rounding) {
     constexpr int d = space_dimension(s), nodes = s == Simplex::triangle ? 6 : 10;
     Gradient g;
     g.tier = Tier::exact;
-    const bool usable = all_finite(values, nodes);
+    std::array<double, nodes> f;
+    std::copy_n(values, nodes, f.begin());
+    const bool usable = all_finite(values, nodes) || leave_out_not_finite<s>(vertices, point, f);
     if (rounding == Rounding::plain) {
-        plain_quadratic_gradient<s>(vertices, point, values, g.gradient.data());
+        plain_quadratic_gradient<s>(vertices, point, f.data(), g.gradient.data());
     } else {
-        const std::array<double, nodes> zeros{};  // whether the cell is degenerate is still to be told
-        g.degenerate = !exact_quadratic_gradient<s>(vertices, point, usable ? values : zeros.data(), g.gradient.data());
+        g.degenerate = !exact_quadratic_gradient<s>(vertices, point, f.data(), g.gradient.data());
     }
     if (!usable || g.degenerate) std::fill_n(g.gradient.begin(), d, std::numeric_limits<double>::quiet_NaN());
     return g;

@@ -34,10 +34,9 @@ std::size_t quadratic_values_of(const CaseBlock& cases, const double* const* val
 }
 
 template <Simplex s>
-void plain_quadratic_values_of(const CaseBlock& cases, const double* const* values, int components,
-                               double* const* out) {
-    std::uint32_t none;
-    for_padded_lanes(cases.count, &none, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
+std::size_t plain_quadratic_values_of(const CaseBlock& cases, const double* const* values, int components,
+                                      double* const* out, std::uint32_t* undecided) {
+    return for_padded_lanes(cases.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
         using D = decltype(tag);
         constexpr int n = vertex_count(s), nodes = quadratic_nodes<s>;
         Relative<s, hn::Vec<D>> c;
@@ -47,6 +46,7 @@ void plain_quadratic_values_of(const CaseBlock& cases, const double* const* valu
         const auto one = hn::Set(tag, 1), inverse = one / fractions.denominator;
         hn::Vec<D> l[n];
         for (int i = 0; i < n; ++i) l[i] = fractions.numerator[i] * inverse;
+        auto finite = hn::Eq(one, one);
         for (int component = 0; component < components; ++component) {
             const double* const* const f = values + nodes * component;
             hn::Vec<D> sum = hn::Zero(tag);
@@ -55,9 +55,10 @@ void plain_quadratic_values_of(const CaseBlock& cases, const double* const* valu
                 const auto product = l[quadratic_edges[e][0]] * l[quadratic_edges[e][1]];
                 sum = sum + hn::Set(tag, 4) * product * hn::LoadU(tag, f[n + e] + at);
             }
+            finite = hn::And(finite, hn::Eq(sum - sum, hn::Zero(tag)));
             hn::StoreU(sum, tag, out[component] + at);
         }
-        return hn::Eq(one, one);  // all are decided, whatever they are
+        return finite;
     });
 }
 
@@ -68,10 +69,11 @@ std::size_t quadratic_values(Simplex s, const CaseBlock& cases, const double* co
                : quadratic_values_of<Simplex::tetrahedron>(cases, values, components, out, undecided);
 }
 
-void plain_quadratic_values(Simplex s, const CaseBlock& cases, const double* const* values, int components,
-                            double* const* out) {
-    s == Simplex::triangle ? plain_quadratic_values_of<Simplex::triangle>(cases, values, components, out)
-                           : plain_quadratic_values_of<Simplex::tetrahedron>(cases, values, components, out);
+std::size_t plain_quadratic_values(Simplex s, const CaseBlock& cases, const double* const* values, int components,
+                                   double* const* out, std::uint32_t* undecided) {
+    return s == Simplex::triangle
+               ? plain_quadratic_values_of<Simplex::triangle>(cases, values, components, out, undecided)
+               : plain_quadratic_values_of<Simplex::tetrahedron>(cases, values, components, out, undecided);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -89,9 +91,9 @@ std::size_t quadratic_lanes(Simplex s, const CaseBlock& cases, const double* con
     return HWY_DYNAMIC_DISPATCH(quadratic_values)(s, cases, values, components, out, undecided);
 }
 
-void plain_quadratic_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components,
-                           double* const* out) {
-    HWY_DYNAMIC_DISPATCH(plain_quadratic_values)(s, cases, values, components, out);
+std::size_t plain_quadratic_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components,
+                                  double* const* out, std::uint32_t* undecided) {
+    return HWY_DYNAMIC_DISPATCH(plain_quadratic_values)(s, cases, values, components, out, undecided);
 }
 
 }  // namespace barycert::core

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -108,11 +109,12 @@ ExactCase exact_values(const ExactWeights& w, int n, const double* const* values
                        double* out) {
     ExactCase found{.degenerate = w.degenerate()};
     for (int c = 0; c < components; ++c) {
-        double f[4];
-        for (int i = 0; i < n; ++i) f[i] = values[n * c + i][j];
-        const bool usable = all_finite(f, n);
+        double numbers[4];
+        const std::span f(numbers, static_cast<std::size_t>(n));
+        for (int i = 0; i < n; ++i) numbers[i] = values[n * c + i][j];
+        const bool usable = w.leave_out_not_finite(f);
         found.finite_values = found.finite_values && usable;
-        out[c] = usable && !w.degenerate() ? w.interpolate({f, static_cast<std::size_t>(n)}) : nan;
+        out[c] = usable && !w.degenerate() ? w.interpolate(f) : nan;
     }
     return found;
 }
@@ -135,7 +137,8 @@ Status batch_values(const Batch& batch, const Values& values, std::span<double> 
             at = blocks.block(batch, first, block.count);
             double* const to = out.data() + stride * first;
             if (!plain) return value_lanes(s, block, at, components, to, undecided);
-            plain_value_lanes(s, block, at, components, to);
+            const std::size_t left = plain_value_lanes(s, block, at, components, to, undecided);
+            mend_plain_values(s, block, {undecided, left}, at, n, components, to);
             return 0;
         },
         [&](std::size_t first, std::size_t j, const SingleCase& c) {
@@ -145,6 +148,31 @@ Status batch_values(const Batch& batch, const Values& values, std::span<double> 
 }
 
 }  // namespace
+
+void mend_plain_values(Simplex s, const CaseBlock& cases, std::span<const std::uint32_t> undecided,
+                       const double* const* values, int nodes, int components, double* out) {
+    const auto m = static_cast<std::size_t>(nodes), all = static_cast<std::size_t>(components);
+    for (const std::uint32_t j : undecided) {
+        const SingleCase one = single_case(s, cases, j);
+        const CaseBlock block = single_block(s, one.vertices.data(), one.point.data());
+        std::optional<ExactWeights> weights;
+        for (std::size_t c = 0; c < all; ++c) {
+            double f[10];
+            const double* at[10] = {};
+            for (std::size_t i = 0; i < m; ++i) at[i] = &(f[i] = values[m * c + i][j]);
+            if (all_finite(f, nodes)) continue;
+            double* const to[1] = {&out[all * j + c]};
+            *to[0] = nan;
+            if (!all_finite(s, one.vertices.data(), one.point.data())) continue;
+            if (!weights) weights.emplace(s, one.vertices.data(), one.point.data());
+            std::uint32_t ignored[1];
+            if (!weights->leave_out_not_finite({f, m})) continue;
+            nodes == vertex_count(s) ? plain_value_lanes(s, block, at, 1, to[0], ignored)
+                                     : plain_quadratic_lanes(s, block, at, 1, to, ignored);
+        }
+    }
+}
+
 }  // namespace barycert::core
 
 namespace barycert {
@@ -180,12 +208,13 @@ Result<Value> interpolate(Simplex simplex, const double* vertices, const double*
 Result<Sign> compare_value(Simplex simplex, const double* vertices, const double* point, const double* values,
                            double threshold) {
     if (!core::all_finite(simplex, vertices, point)) return core::not_finite_error(simplex, vertices, point);
-    const std::span<const double> nodal(values, static_cast<std::size_t>(vertex_count(simplex)));
-    if (!std::isfinite(threshold) ||
-        !std::all_of(nodal.begin(), nodal.end(), [](double v) { return std::isfinite(v); }))
-        return Error{.what = "a value cannot be compared", .expected = "finite nodal values and a finite threshold"};
     const core::ExactWeights w(simplex, vertices, point);
     if (w.degenerate()) return Error{.what = "a degenerate simplex has no values"};
+    double numbers[4];
+    const std::span nodal(numbers, static_cast<std::size_t>(vertex_count(simplex)));
+    std::copy_n(values, nodal.size(), numbers);
+    if (!std::isfinite(threshold) || !w.leave_out_not_finite(nodal))
+        return Error{.what = "a value cannot be compared", .expected = "finite nodal values and a finite threshold"};
     return static_cast<Sign>(w.compare(nodal, threshold));
 }
 

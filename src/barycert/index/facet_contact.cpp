@@ -204,4 +204,26 @@ bool facets_conflict(int d, const PlacedFacet& f, const PlacedFacet& g) {
     return common == 1 ? meet_beyond_vertex(a, b) : meet_beyond_edge(a[0], a[1], a[2], b[2]);
 }
 
+std::array<Mesh::Index, 3> face_around(int d, const PlacedFacet& f, const double* point) {
+    constexpr std::array<Mesh::Index, 3> none{-1, -1, -1};
+    std::array<bool, 3> holds{};  // the nodes whose weights are not zero
+    if (d == 2) {
+        if (orient(f.at[0], f.at[1], point) != 0 || !between(f.at[0], f.at[1], point)) return none;
+        for (std::size_t i = 0; i < 2; ++i) holds[i] = !std::equal(point, point + 2, f.at[1 - i]);
+    } else {
+        if (orient(f.at[0], f.at[1], f.at[2], point) != 0) return none;
+        const int axis = projection_of(f.at);
+        const std::array<Projected, 3> t{project(f.at[0], axis), project(f.at[1], axis), project(f.at[2], axis)};
+        const Projected p = project(point, axis);
+        if (!in_triangle({t[0].at, t[1].at, t[2].at}, p.at)) return none;
+        for (std::size_t i = 0; i < 3; ++i) holds[i] = orient(t[(i + 1) % 3].at, t[(i + 2) % 3].at, p.at) != 0;
+    }
+    std::array<Mesh::Index, 3> face = none;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(d); ++i) {
+        if (holds[i]) face[i] = f.nodes[i];
+    }
+    std::sort(face.begin(), face.end(), [](Mesh::Index a, Mesh::Index b) { return a >= 0 && (b < 0 || a < b); });
+    return face;
+}
+
 }  // namespace barycert::index

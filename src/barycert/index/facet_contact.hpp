@@ -22,4 +22,8 @@ bool proper(int d, const PlacedFacet& f);
 /// may be empty, a node or an edge). Preconditions: both proper, not of the same nodes, coordinates finite.
 bool facets_conflict(int d, const PlacedFacet& f, const PlacedFacet& g);
 
+/// The nodes, ascending, of the face of f (all of it, an edge, a node) whose relative interior has the point; all -1
+/// if the point is not on f. Preconditions: f is proper, coordinates finite.
+std::array<Mesh::Index, 3> face_around(int d, const PlacedFacet& f, const double* point);
+
 }  // namespace barycert::index

@@ -4,6 +4,10 @@
 #include <array>
 #include <cctype>
 #include <cstddef>
+#include <filesystem>
+#include <system_error>
+
+#include "barycert/base/input_file.hpp"
 
 namespace barycert::io {
 namespace {
@@ -18,7 +22,18 @@ constexpr std::array<Suffix, 4> suffixes{
 
 }  // namespace
 
+std::string_view without_gz(std::string_view path) {
+    return path.ends_with(".gz") ? path.substr(0, path.size() - 3) : path;
+}
+
+std::string plain_or_packed(const std::string& path) {
+    std::error_code ignored;
+    const std::string packed = path + ".gz";
+    return !std::filesystem::exists(path, ignored) && std::filesystem::exists(packed, ignored) ? packed : path;
+}
+
 bool has_suffix(std::string_view path, std::string_view suffix) {
+    path = without_gz(path);
     if (path.size() < suffix.size()) return false;
     return std::equal(
         suffix.begin(), suffix.end(), path.end() - static_cast<std::ptrdiff_t>(suffix.size()),
@@ -44,6 +59,31 @@ Result<FileFormat> format_of(const std::string& path) {
                  .expected = ".csv, .npy, .node or .vtu, or - for CSV from standard input or on standard output",
                  .found = has_suffix ? '"' + path.substr(dot) + '"' : "no suffix",
                  .remedy = "rename the file, or convert it"};
+}
+
+Result<FileFormat> format_of_points(const std::string& path) {
+    for (const std::string_view suffix : {".txt", ".dat", ".xyz", ".tsv"}) {
+        if (has_suffix(path, suffix)) return FileFormat::csv;
+    }
+    Result<FileFormat> by_suffix = format_of(path);
+    if (by_suffix && *by_suffix != FileFormat::vtu) return by_suffix;
+    std::error_code ignored;
+    const auto type = std::filesystem::status(path, ignored).type();
+    using std::filesystem::file_type;
+    // What is opened here cannot be read again.
+    if (type == file_type::fifo || type == file_type::character || type == file_type::socket) return FileFormat::csv;
+    const std::size_t name = path.find_last_of('/') + 1;
+    const bool stem = std::filesystem::exists(path + ".node", ignored);
+    if (type != file_type::regular || stem || path.find('.', name) != std::string::npos) return by_suffix;
+    const Result<base::InputFile> file = base::InputFile::open(path);
+    std::array<char, 1024> bytes{};
+    const Result<std::size_t> size = file ? file->read_at(0, bytes, path) : Result<std::size_t>(file.error());
+    if (!size) return size.error();
+    const std::string_view head(bytes.data(), *size);
+    if (head.starts_with("\x93NUMPY")) return FileFormat::npy;
+    const bool text = head.find('\0') == std::string_view::npos && !head.starts_with('<') && !head.starts_with('$') &&
+                      !head.starts_with("# vtk");
+    return text ? Result<FileFormat>(FileFormat::csv) : by_suffix;
 }
 
 bool is_vtk_points_file(std::string_view path) {

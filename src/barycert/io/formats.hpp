@@ -15,7 +15,17 @@ enum class FileFormat : std::uint8_t { csv, npy, node, vtu };
 /// By the suffix, in any case: .csv .npy .node .vtu; "-" is CSV. Returns an Error that lists them for another suffix.
 Result<FileFormat> format_of(const std::string& path);
 
-/// True if the path ends so, in any case. `suffix` is in lower case.
+/// The same for points: .txt .dat .xyz .tsv are CSV, and so is a pipe or device of any name; a file without a suffix is
+/// told by its first bytes.
+Result<FileFormat> format_of_points(const std::string& path);
+
+/// The path without .gz at its end: readers unpack such files, and no writer makes one.
+std::string_view without_gz(std::string_view path);
+
+/// The path, or with .gz at its end where there is only such a file.
+std::string plain_or_packed(const std::string& path);
+
+/// True if the path, but for .gz, ends so, in any case. `suffix` is in lower case.
 bool has_suffix(std::string_view path, std::string_view suffix);
 
 /// True if the path ends as those of VTK's files with meshes do: .vtu .vtk .vtp, .pvtu .pvtp .vtm .vtpd .vtpc .pvd.

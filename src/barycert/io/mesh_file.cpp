@@ -2,20 +2,35 @@
 
 #include "barycert/gmsh.hpp"
 #include "barycert/io.hpp"
+#include "barycert/io/converted/read_converted.hpp"
+#include "barycert/io/medit/read_medit.hpp"
 #include "barycert/io/mesh_format.hpp"
+#include "barycert/io/vtk/collection.hpp"
 #include "barycert/vtk.hpp"
 
 namespace barycert {
+namespace {
+
+template <class Read>
+Result<Mesh> on_threads(int threads, const Read& read) {
+    return threads <= 0 ? read() : tbb::task_arena(threads).execute(read);
+}
+
+}  // namespace
 
 Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
     const Result<io::MeshFormat> format = io::mesh_format(path);
     if (!format) return format.error();
+    if (options.step.made() && *format != io::MeshFormat::vtk) return io::no_series(path);
     switch (*format) {
         case io::MeshFormat::gmsh:
             return read_gmsh(path, {.step = {}, .threads = options.threads});
         case io::MeshFormat::vtk:
-            if (options.threads <= 0) return read_vtk(path);
-            return tbb::task_arena(options.threads).execute([&] { return read_vtk(path); });
+            return on_threads(options.threads, [&] { return read_vtk(path, options.step); });
+        case io::MeshFormat::medit:
+            return on_threads(options.threads, [&] { return io::read_medit(path, options); });
+        case io::MeshFormat::by_meshio:
+            return io::read_converted(path, io::meshio_format(path));
         default:
             return read_tetgen(path, options);
     }
@@ -24,7 +39,8 @@ Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
 std::vector<std::string> mesh_files(const std::string& path) {
     const Result<io::MeshFormat> format = io::mesh_format(path);
     if (format && *format == io::MeshFormat::vtk) return vtk_mesh_files(path);
-    if (format && *format == io::MeshFormat::gmsh) return {path};
+    if (format && *format == io::MeshFormat::by_meshio) return io::converted_files(path);
+    if (format && *format != io::MeshFormat::tetgen) return {path};
     return tetgen_files(path);
 }
 

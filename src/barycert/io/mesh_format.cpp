@@ -6,10 +6,11 @@
 #include <string_view>
 #include <system_error>
 
+#include "barycert/base/folder.hpp"
 #include "barycert/base/input_file.hpp"
-#include "barycert/base/shell_word.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/medit/medit_file.hpp"
 #include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
@@ -31,6 +32,7 @@ std::optional<MeshFormat> format_by_suffix(const std::string& path) {
     if (is_tetgen_file(path)) return MeshFormat::tetgen;
     if (is_vtk_file(path)) return MeshFormat::vtk;
     if (has_suffix(path, ".msh")) return MeshFormat::gmsh;
+    if (has_suffix(path, ".mesh") || has_suffix(path, ".meshb")) return MeshFormat::medit;
     return std::nullopt;
 }
 
@@ -40,12 +42,13 @@ std::optional<MeshFormat> format_by_content(std::string_view head) {
     if (head.starts_with("# vtk DataFile") || head.find("<VTKFile") != std::string_view::npos ||
         head.find("\"file-series-version\"") != std::string_view::npos)
         return MeshFormat::vtk;
+    if (is_medit(head)) return MeshFormat::medit;
     return std::nullopt;
 }
 
 /// A mesh of that stem in another format, or nothing.
 std::string with_another_suffix(const std::string& path) {
-    for (const char* suffix : {".msh", ".vtu", ".vtk", ".pvtu"}) {
+    for (const char* suffix : {".msh", ".vtu", ".vtk", ".pvtu", ".mesh", ".meshb"}) {
         if (exists(path + suffix)) return path + suffix;
     }
     return {};
@@ -64,10 +67,12 @@ Error missing(const std::string& path) {
     const OtherFormat* const other = other_format_by_suffix(path);
     if (const std::string found = with_another_suffix(path); !found.empty()) {
         error.remedy = "there is " + found + ": name it with its suffix";
-    } else if (other != nullptr) {
+    } else if (const std::string near = base::near_file(path); !near.empty() && fs::path(path).has_extension()) {
+        error.remedy = "did you mean " + near + "?";
+    } else if (other != nullptr && other->way != Way::meshio) {
         error.remedy = std::string("check the path; it would not be read (") + other->what +
                        "): " + other_format_error(*other, path).remedy;
-    } else if (format_by_suffix(path) && !is_tetgen_file(path)) {
+    } else if (other != nullptr || (format_by_suffix(path) && !is_tetgen_file(path))) {
         error.remedy = "check the path";
     } else {
         error.remedy = "MESH is the stem of TetGen's files, or one of them: part.1 for part.1.node and part.1.ele";
@@ -75,8 +80,13 @@ Error missing(const std::string& path) {
     return error;
 }
 
-/// Of a file that is there, and not TetGen's by a stem.
-Result<MeshFormat> format_of_file(const std::string& path) {
+/// What a file is: a format that is read, or another one. Of a file that is there, and not TetGen's by a stem.
+struct Found {
+    std::optional<MeshFormat> format;
+    const OtherFormat* other = nullptr;
+};
+
+Result<Found> look_at(const std::string& path) {
     const Result<base::InputFile> file = base::InputFile::open(path);
     if (!file) return file.error();
     std::array<char, 4096> bytes{};
@@ -84,18 +94,25 @@ Result<MeshFormat> format_of_file(const std::string& path) {
     if (!size) return size.error();
     const std::string_view head(bytes.data(), *size);
     const std::optional<MeshFormat> by_content = format_by_content(head), by_suffix = format_by_suffix(path);
-    if (by_content) return *by_content;
+    if (by_content) return Found{by_content};
     if (const OtherFormat* other = other_format_by_content(head, path, by_suffix.has_value()); other != nullptr)
-        return other_format_error(*other, path);
-    if (by_suffix) return *by_suffix;
-    if (const OtherFormat* other = other_format_by_suffix(path); other != nullptr)
-        return other_format_error(*other, path);
-    return Error{
-        .what = "this is no mesh that is read",
-        .file = path,
-        .expected = formats_read,
-        .remedy = "TetGen's files have to be named STEM.node and STEM.ele; convert others with `meshio convert " +
-                  base::shell_word(path) + " OUT.vtu`"};
+        return Found{{}, other};
+    if (by_suffix) return Found{by_suffix};
+    return Found{{}, other_format_by_suffix(path)};
+}
+
+Result<MeshFormat> format_of_file(const std::string& path) {
+    const Result<Found> found = look_at(path);
+    if (!found) return found.error();
+    if (found->format) return *found->format;
+    if (found->other != nullptr && found->other->way == Way::meshio) return MeshFormat::by_meshio;
+    if (found->other != nullptr) return other_format_error(*found->other, path);
+    return Error{.what = "this is no mesh that is read",
+                 .file = path,
+                 .expected = formats_read,
+                 .remedy =
+                     "TetGen's files have to be named STEM.node and STEM.ele; save others as .vtu or Gmsh's .msh "
+                     "in the program that they are of"};
 }
 
 }  // namespace
@@ -108,13 +125,18 @@ Result<MeshFormat> mesh_format(const std::string& path) {
                      .file = path,
                      .found = "permission denied",
                      .remedy = "check the permissions of its folder"};
-    const bool stem = !is_tetgen_file(path) && exists(path + ".node");
+    const bool stem = !is_tetgen_file(path) && exists(plain_or_packed(path + ".node"));
     if (stem && (!format_by_suffix(path) || !fs::exists(status))) return MeshFormat::tetgen;
     if (fs::is_directory(status)) return folder_error(path);
     if (fs::exists(status)) return format_of_file(path);
     // One of TetGen's files may be missing where others are there: their reader knows which.
-    if (is_tetgen_file(path) && exists(tetgen_stem(path) + ".node")) return MeshFormat::tetgen;
+    if (is_tetgen_file(path) && exists(plain_or_packed(tetgen_stem(path) + ".node"))) return MeshFormat::tetgen;
     return missing(path);
+}
+
+std::string meshio_format(const std::string& path) {
+    const Result<Found> found = look_at(path);
+    return found && found->other != nullptr && found->other->way == Way::meshio ? found->other->remedy : "";
 }
 
 Result<MeshFormat> mesh_output_format(const std::string& path) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "barycert/base/shell_word.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 
 namespace barycert::io {
@@ -17,33 +18,37 @@ constexpr const char* foam_remedy =
 
 // In the order in which they are looked for. Suffixes of several formats (.dat, .e) stand with the likelier one.
 constexpr std::array formats{
-    OtherFormat{" .mesh .meshb ", "a mesh of Medit", Way::gmsh, ""},
-    OtherFormat{" .inp ", "a mesh of Abaqus", Way::meshio, ""},
-    OtherFormat{" .xdmf .xmf ", "an XDMF file", Way::meshio, ""},
-    OtherFormat{" .med .rmed .mmed ", "a MED file of Salome or Code_Aster", Way::meshio, ""},
+    OtherFormat{" .inp ", "a mesh of Abaqus", Way::meshio, "abaqus"},
+    OtherFormat{" .xdmf .xmf ", "an XDMF file", Way::meshio, "xdmf"},
+    OtherFormat{" .med .rmed .mmed ", "a MED file of Salome or Code_Aster", Way::meshio, "med"},
     OtherFormat{" .cgns ", "a CGNS file", Way::pyvista, ""},
-    OtherFormat{" .exo .e .ex2 .exii .g ", "an Exodus file", Way::meshio, ""},
-    OtherFormat{" .vol ", "a mesh of Netgen", Way::meshio, ""},
-    OtherFormat{" .su2 ", "a mesh of SU2", Way::meshio, ""},
+    OtherFormat{" .exo .e .ex2 .exii .g ", "an Exodus file", Way::meshio, "exodus"},
+    OtherFormat{" .vol ", "a mesh of Netgen", Way::meshio, "netgen"},
+    OtherFormat{" .su2 ", "a mesh of SU2", Way::meshio, "su2"},
     OtherFormat{" .unv .universal ", "a universal file of I-deas", Way::gmsh, ""},
-    OtherFormat{" .bdf .nas .fem ", "a file of Nastran", Way::gmsh_or_meshio, ""},
+    OtherFormat{" .bdf .nas .fem ", "a file of Nastran", Way::meshio, "nastran"},
     OtherFormat{" .foam .openfoam ", "a case of OpenFOAM", Way::other, foam_remedy},
-    OtherFormat{" .xml ", "an XML file, perhaps a mesh of DOLFIN", Way::meshio, ""},
-    OtherFormat{" .avs .ugrid .mdpa .f3grid .h5m .hmf .post .dato .tec .dat ", "a mesh of another program", Way::meshio,
-                ""},
+    OtherFormat{" .xml ", "an XML file, perhaps a mesh of DOLFIN", Way::meshio, "dolfin-xml"},
+    OtherFormat{" .avs ", "a mesh of AVS", Way::meshio, "avsucd"},
+    OtherFormat{" .ugrid ", "a mesh of UGRID", Way::meshio, "ugrid"},
+    OtherFormat{" .mdpa ", "a mesh of Kratos", Way::meshio, "mdpa"},
+    OtherFormat{" .f3grid ", "a mesh of FLAC3D", Way::meshio, "flac3d"},
+    OtherFormat{" .h5m ", "a mesh of MOAB", Way::meshio, "h5m"},
+    OtherFormat{" .hmf ", "an HMF file", Way::meshio, "hmf"},
+    OtherFormat{" .post .dato ", "a mesh of PERMAS", Way::meshio, "permas"},
+    OtherFormat{" .tec .dat ", "a file of Tecplot", Way::meshio, "tecplot"},
     OtherFormat{" .cas ", "a case of Fluent", Way::pyvista, ""},
     OtherFormat{" .off .stl .ply .poly .smesh ", "a PLC (a surface), not a mesh", Way::surface, ""},
     OtherFormat{" .obj ", "a surface, not a mesh", Way::other,
-                "convert it with `meshio convert IN.obj OUT.stl`, then mesh it with `barycert mesh OUT.stl`"},
+                "save it as .stl, .off or .ply (text) in the program that it is of, and mesh that"},
     OtherFormat{" .geo .geo_unrolled .brep .step .stp .iges .igs ", "a geometry, not a mesh", Way::mesher, ""},
     OtherFormat{" .vtkhdf ", "a VTKHDF file", Way::pyvista, ""},
-    OtherFormat{" .h5 .hdf5 .hdf ", "an HDF5 file", Way::other,
-                "if it belongs to an .xdmf file, convert that: `meshio convert IN.xdmf OUT.vtu`"},
-    OtherFormat{" .nc ", "a NetCDF file", Way::meshio, ""},
-    OtherFormat{" .gz .tgz ", "a file packed by gzip", Way::unpack, "gunzip -k"},
-    OtherFormat{" .bz2 ", "a file packed by bzip2", Way::unpack, "bunzip2 -k"},
-    OtherFormat{" .xz ", "a file packed by xz", Way::unpack, "unxz -k"},
-    OtherFormat{" .zst ", "a file packed by zstd", Way::unpack, "unzstd"},
+    OtherFormat{" .h5 .hdf5 .hdf ", "an HDF5 file", Way::other, "if it belongs to an .xdmf file, name that"},
+    OtherFormat{" .nc ", "a NetCDF file", Way::meshio, "exodus"},
+    OtherFormat{" .tgz ", "a TAR archive", Way::unpack, "tar -xzf"},
+    OtherFormat{" .bz2 ", "a file packed by bzip2", Way::unpack, "bzip2 -dc"},
+    OtherFormat{" .xz ", "a file packed by xz", Way::unpack, "xz -dc"},
+    OtherFormat{" .zst ", "a file packed by zstd", Way::unpack, "zstd -dc"},
     OtherFormat{" .zip ", "a ZIP archive", Way::unpack, "unzip"},
     OtherFormat{" .tar ", "a TAR archive", Way::unpack, "tar -xf"},
     OtherFormat{" .csv .npy .npz .txt ", "a table, not a mesh", Way::other,
@@ -58,29 +63,26 @@ const OtherFormat* by_suffix(std::string_view suffix) {
     return nullptr;
 }
 
-constexpr OtherFormat fluent{"", "a mesh of Fluent", Way::other,
-                             "convert it with `meshio convert --input-format ansys IN.msh OUT.vtu`, and name OUT.vtu"};
+constexpr OtherFormat fluent{"", "a mesh of Fluent", Way::meshio, "ansys"};
 constexpr OtherFormat freefem{"", "a mesh of FreeFem", Way::other,
-                              "in FreeFem, write it with savevtk(\"OUT.vtu\", Th), and name OUT.vtu"};
+                              "in FreeFem, write it with load \"iovtk\" and savevtk(\"OUT.vtu\", Th)"};
 
-/// The first word of the text that is no comment.
-std::string_view first_word(std::string_view text, char comment) {
-    while (true) {
-        const std::size_t at = text.find_first_not_of(" \t\r\n");
-        if (at == std::string_view::npos) return {};
-        text.remove_prefix(at);
-        if (text.front() != comment) return text.substr(0, text.find_first_of(" \t\r\n"));
-        const std::size_t feed = text.find('\n');
-        if (feed == std::string_view::npos) return {};
-        text.remove_prefix(feed);
-    }
-}
+constexpr OtherFormat flat_poly{"", "a PLC in the plane, not a mesh", Way::other,
+                                "mesh it with Triangle, whose .node and .ele are read"};
 
 std::string lower(std::string_view text) {
     std::string out(text);
     std::transform(out.begin(), out.end(), out.begin(),
                    [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
     return out;
+}
+
+/// A count and the dimension 2.
+bool is_flat_poly(std::string_view head) {
+    const std::string_view count = first_word(head, '#');
+    if (count.empty()) return false;
+    const std::string_view rest = head.substr(static_cast<std::size_t>(count.data() + count.size() - head.data()));
+    return first_word(rest.substr(0, rest.find('\n')), '#') == "2";
 }
 
 /// Three counts on the first line.
@@ -104,9 +106,49 @@ const OtherFormat* container(std::string_view path, std::string_view suffixes, s
 
 using base::shell_word;
 
+std::string stem_of(const std::string& path) {
+    const std::size_t dot = path.find_last_of("./");
+    return dot != std::string::npos && path[dot] == '.' ? path.substr(0, dot) : path;
+}
+
+bool is_level(std::span<const double> points, double z) {
+    bool level = true;
+    for (std::size_t i = 2; i < points.size(); i += 3) level = level && points[i] == z;
+    return level;
+}
+
+/// x.vtu of x.vtu.xz; plain-x.vtu of x.vtu.
+std::string unpacked_name(const std::string& path) {
+    for (const std::string_view suffix : {".bz2", ".xz", ".zst"}) {
+        if (path.ends_with(suffix)) return path.substr(0, path.size() - suffix.size());
+    }
+    return path.substr(0, path.rfind('/') + 1) + "plain-" + path.substr(path.rfind('/') + 1);
+}
+
+/// Of any data set, in blocks or not.
+std::string pyvista_command(const std::string& path) {
+    return "`python3 -c 'import pyvista, sys; m = pyvista.read(sys.argv[1]); m = m.combine() if hasattr(m, "
+           "\"combine\") "
+           "else m.cast_to_unstructured_grid(); m.triangulate().save(sys.argv[2])' " +
+           shell_word(path) + " " + shell_word(stem_of(path) + "-simplices.vtu") + "`";
+}
+
 }  // namespace
 
+std::string_view first_word(std::string_view text, char comment) {
+    while (true) {
+        const std::size_t at = text.find_first_not_of(" \t\r\n");
+        if (at == std::string_view::npos) return {};
+        text.remove_prefix(at);
+        if (text.front() != comment) return text.substr(0, text.find_first_of(" \t\r\n"));
+        const std::size_t feed = text.find('\n');
+        if (feed == std::string_view::npos) return {};
+        text.remove_prefix(feed);
+    }
+}
+
 const OtherFormat* other_format_by_suffix(std::string_view path) {
+    path = without_gz(path);
     const std::size_t dot = path.find_last_of("./");
     if (dot == std::string_view::npos || path[dot] == '/') return nullptr;
     return by_suffix(lower(path.substr(dot)));
@@ -117,13 +159,11 @@ const OtherFormat* packed_format(std::string_view head) {
     struct Magic {
         std::string_view bytes, suffix;
     };
-    constexpr std::array magics{Magic{"\x1f\x8b"sv, ".gz"},
-                                Magic{"BZh"sv, ".bz2"},
+    constexpr std::array magics{Magic{"BZh"sv, ".bz2"},
                                 Magic{"\xfd"
                                       "7zXZ\0"sv,
                                       ".xz"},
-                                Magic{"\x28\xb5\x2f\xfd"sv, ".zst"},
-                                Magic{"PK\x03\x04"sv, ".zip"},
+                                Magic{"\x28\xb5\x2f\xfd"sv, ".zst"}, Magic{"PK\x03\x04"sv, ".zip"},
                                 Magic{"\x93NUMPY"sv, ".npy"}};
     for (const Magic& magic : magics) {
         if (head.starts_with(magic.bytes)) return by_suffix(magic.suffix);
@@ -134,17 +174,16 @@ const OtherFormat* packed_format(std::string_view head) {
 const OtherFormat* other_format_by_content(std::string_view head, std::string_view path, bool strict) {
     if (const OtherFormat* packed = packed_format(head); packed != nullptr) return packed;
     constexpr std::string_view in_hdf5 =
-        " a MED file of Salome or Code_Aster; a CGNS file; an Exodus file; a VTKHDF file; a mesh of another program; a "
-        "case of Fluent;";
+        " a MED file of Salome or Code_Aster; a CGNS file; an Exodus file; a VTKHDF file; a mesh of MOAB; an HMF file; "
+        "a case of Fluent;";
     if (head.starts_with("\x89HDF\r\n\x1a\n")) return container(path, in_hdf5, ".h5");
     if (head.starts_with("CDF\x01") || head.starts_with("CDF\x02") || head.starts_with("CDF\x05"))
         return container(path, " an Exodus file;", ".nc");
     const std::string_view text = head.starts_with("\xEF\xBB\xBF") ? head.substr(3) : head;
-    if (first_word(text, '#') == "MeshVersionFormatted" || first_word(text, '#') == "MeshVersionUnformatted")
-        return by_suffix(".mesh");
     if (text.find("<Xdmf") != std::string_view::npos) return by_suffix(".xdmf");
     if (text.find("<dolfin") != std::string_view::npos) return by_suffix(".xml");
     if (text.find("FoamFile") != std::string_view::npos) return by_suffix(".foam");
+    if (has_suffix(path, ".poly") && is_flat_poly(text)) return &flat_poly;
     if (text.starts_with("ISO-10303-21")) return by_suffix(".step");
     const bool msh = has_suffix(path, ".msh");
     if (msh && text.starts_with('(')) return &fluent;
@@ -162,41 +201,56 @@ const OtherFormat* other_format_by_content(std::string_view head, std::string_vi
 }
 
 std::string gmsh_command(const std::string& path, const std::string& more) {
-    const std::size_t dot = path.find_last_of("./");
-    const std::string stem = dot != std::string::npos && path[dot] == '.' ? path.substr(0, dot) : path;
-    return "`gmsh " + shell_word(path) + more + " -save -format msh41 -o " + shell_word(stem + "-new.msh") + "`";
+    return "`gmsh " + shell_word(path) + more + " -save -save_all -format msh41 -o " +
+           shell_word(stem_of(path) + "-new.msh") + "`";
+}
+
+std::string to_simplices(const std::string& path) {
+    return "cut it into simplices, in ParaView with the filter Tetrahedralize, or by " + pyvista_command(path);
+}
+
+bool in_plane(std::span<const double> points) {
+    return is_level(points, 0);
+}
+
+std::string text_ply_remedy(const std::string& path) {
+    const std::string text = shell_word(stem_of(path) + "-text.ply");
+    return "make it text with `meshio convert --ascii " + shell_word(path) + " " + text + "`, and name that";
+}
+
+std::string plane_remedy(std::span<const double> points, const std::string& path) {
+    if (const double z = points.size() < 3 ? 0 : points[2]; z != 0 && is_level(points, z))
+        return "the mesh lies in the plane z = " + base::shortest(z) + ": give its nodes z = 0";
+    if (path.empty()) return "only what lies in the plane z = 0 is taken";
+    const std::string stl = shell_word(stem_of(path) + ".stl");
+    return "a surface in space is no mesh here; if it is closed, fill it: `meshio convert " + shell_word(path) + " " +
+           stl + "`, then `barycert mesh " + stl + "`";
 }
 
 Error other_format_error(const OtherFormat& format, const std::string& path) {
-    const std::size_t dot = path.find_last_of("./");
-    const std::string stem = dot != std::string::npos && path[dot] == '.' ? path.substr(0, dot) : path;
     const std::string in = shell_word(path);
     std::string remedy;
     switch (format.way) {
-        case Way::meshio:
-            remedy = "convert it with `meshio convert " + in + " " + shell_word(stem + ".vtu") + "`";
-            break;
         case Way::gmsh:
-            remedy = "convert it with `gmsh " + in + " -save -format msh41 -o " + shell_word(stem + ".msh") + "`";
-            break;
-        case Way::gmsh_or_meshio:
-            remedy = "convert it with `gmsh " + in + " -save -format msh41 -o " + shell_word(stem + ".msh") +
-                     "`, or, if it has lines GRID*, with `meshio convert " + in + " " + shell_word(stem + ".vtu") + "`";
+            remedy = "convert it with " + gmsh_command(path) +
+                     "; it numbers nodes anew, so that values in files of their own do not fit";
             break;
         case Way::mesher:
-            remedy = "mesh it with `gmsh -3 " + in + " -format msh41 -o " + shell_word(stem + ".msh") +
+            remedy = "mesh it with `gmsh -3 " + in + " -format msh41 -o " + shell_word(stem_of(path) + ".msh") +
                      "` (-2 for triangles)";
             break;
         case Way::surface:
             remedy = "mesh it first with `barycert mesh " + in + "`";
             break;
         case Way::pyvista:
-            remedy = "convert it with `python3 -c \"import pyvista; pyvista.read('" + path +
-                     "').combine().triangulate().save('" + stem + ".vtu')\"`, or in ParaView";
+            remedy = "convert it with " + pyvista_command(path) + ", or in ParaView";
             break;
         case Way::unpack:
-            remedy = std::string("unpack it with `") + format.remedy + " " + in + "`";
+            remedy = std::string("unpack it with `") + format.remedy + " " + in +
+                     (std::string_view(format.remedy).ends_with("-dc") ? " > " + shell_word(unpacked_name(path)) : "") +
+                     "`";
             break;
+        case Way::meshio:
         case Way::other:
             remedy = format.remedy;
             break;

@@ -78,12 +78,13 @@ Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int di
                      .remedy = {}};
     }
     if (io::is_vtk_points_file(path)) return io::open_vtk_points(path, dimension, options);
-    const Result<io::FileFormat> format = io::format_of(path);
+    const Result<io::FileFormat> format = io::format_of_points(path);
     if (!format) {
         // A stem, or the file of a mesh; what is neither is told as a file of points that is not known.
         if (!io::names_a_mesh(path)) {
             Error unknown = format.error();
-            unknown.expected = "points (.csv .npy .node .vtu .vtp .vtk .vti .vtr .vts, - for CSV from stdin) or a mesh";
+            unknown.expected =
+                "points (.csv .txt .npy .node .vtu .vtp .vtk .vti .vtr .vts, - for CSV from stdin) or a mesh";
             return unknown;
         }
         return io::open_nodes(path, dimension, options);

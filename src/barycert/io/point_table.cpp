@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/point_columns.hpp"
 #include "barycert/mesh/columns.hpp"
@@ -73,21 +74,20 @@ public:
         Result<PointColumns> chosen = choose_columns(all_, dimension, options);
         if (!chosen) return chosen.error();
         const std::size_t count = table_.points.size() / size_, d = chosen->axes.size();
-        if (chosen->zero) {
-            for (std::size_t i = 0; i < count; ++i) {
-                if (const double z = number(places_[*chosen->zero], i); z != 0)
-                    return off_plane(all_.file, 0, "point " + std::to_string(i) + ", counted from 0",
-                                     base::shortest(z));
-            }
-        }
         std::vector<double> points(d * count);
         for (std::size_t axis = 0; axis < d; ++axis) {
             const Place& place = places_[chosen->axes[axis]];
             if (place.label) return no_number(chosen->axes[axis]);
             for (std::size_t i = 0; i < count; ++i) {
                 points[d * i + axis] = number(place, i);
-                if (!std::isfinite(points[d * i + axis])) return not_finite(chosen->axes[axis], i);
+                if (options.nonfinite_points == NonfinitePoints::error && !std::isfinite(points[d * i + axis]))
+                    return not_finite(chosen->axes[axis], i);
             }
+        }
+        for (std::size_t i = 0; chosen->zero && i < count; ++i) {
+            const double z = number(places_[*chosen->zero], i);
+            if (z != 0 && base::all_finite({&points[d * i], d}))
+                return off_plane(all_.file, 0, "point " + std::to_string(i) + ", counted from 0", base::shortest(z));
         }
         std::vector<Column> columns;
         for (PointColumns::Kept& kept : chosen->kept) columns.push_back(column(places_[kept.column], kept.name, count));
@@ -128,7 +128,7 @@ private:
                 .expected = "finite coordinates",
                 .found = base::shortest(number(places_[column], point)) + " in " + base::quoted(all_.names[column]) +
                          " of point " + std::to_string(point) + ", counted from 0",
-                .remedy = "remove the point, or give it coordinates"};
+                .remedy = std::string("remove the point, give it coordinates") + or_nan_for_it};
     }
 
     PointTable& table_;

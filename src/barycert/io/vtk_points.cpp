@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "barycert/base/input_file.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/grid_to_mesh.hpp"
 #include "barycert/io/vtk/read_grid.hpp"
@@ -24,14 +25,15 @@ void make_integers(RawArray& array) {
     array.field.data = {};
 }
 
-Result<PointTable> read_table(const std::string& path, bool arrays) {
+Result<PointTable> read_table(const std::string& path, bool arrays, NonfinitePoints nonfinite) {
     // A legacy file has no list of its arrays.
     const bool listed_only = !arrays && !has_suffix(path, ".vtk");
     Result<RawGrid> grid = read_grid(path, listed_only ? Part::points : Part::point_arrays);
     if (!grid) return grid.error();
     PointTable table;
     table.notes = std::move(grid->notes);
-    Result<std::vector<double>> points = to_points(std::move(grid->points), 3, path);
+    Result<std::vector<double>> points =
+        nonfinite == NonfinitePoints::nan ? std::move(grid->points) : to_points(std::move(grid->points), 3, path);
     if (!points) return points.error();
     table.points = std::move(*points);
     for (RawArray& array : grid->point_arrays) make_integers(array);
@@ -43,19 +45,18 @@ Result<PointTable> read_table(const std::string& path, bool arrays) {
 
 }  // namespace
 
-Result<PointTable> read_vtk_table(const std::string& path, bool arrays) {
+Result<PointTable> read_vtk_table(const std::string& path, bool arrays, NonfinitePoints nonfinite) {
     try {
-        return read_table(path, arrays);
+        return read_table(path, arrays, nonfinite);
     } catch (const std::bad_alloc&) {
-        return Error{.what = "too little memory to read the file",
-                     .file = path,
-                     .remedy = "free some memory, or check whether the file is damaged"};
+        return base::too_little_memory(path);
     }
 }
 
 Result<std::unique_ptr<PointSource>> open_vtk_points(const std::string& path, int dimension,
                                                      const PointOptions& options) {
-    Result<PointTable> table = read_vtk_table(path, !options.keep.empty() || !options.columns.empty());
+    Result<PointTable> table =
+        read_vtk_table(path, !options.keep.empty() || !options.columns.empty(), options.nonfinite_points);
     if (!table) return table.error();
     return points_of_table(std::move(*table), path, dimension, options);
 }

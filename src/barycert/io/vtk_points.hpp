@@ -12,7 +12,8 @@ namespace barycert::io {
 
 /// Points and point arrays: integers of one component and texts as labels, all others as fields. Without `arrays` those
 /// of XML files are not read, and their names are in PointTable::unread.
-Result<PointTable> read_vtk_table(const std::string& path, bool arrays);
+Result<PointTable> read_vtk_table(const std::string& path, bool arrays,
+                                  NonfinitePoints nonfinite = NonfinitePoints::error);
 
 /// As open_points, of a file with or without cells.
 Result<std::unique_ptr<PointSource>> open_vtk_points(const std::string& path, int dimension,

@@ -26,6 +26,8 @@ enum Incident : std::uint8_t {
     incident_beside = 4,       ///< touched memory beside its arrays, or wrote to its input
     incident_environment = 8,  ///< came back with another rounding mode or flush-to-zero
     incident_printed = 16,     ///< wrote to stdout or stderr
+    incident_forked = 32,      ///< left a process behind
+    incident_raised = 64,      ///< a callable raised an exception; there is no answer
 };
 
 /// What a worker writes of one case. The program believes none of it: a kernel may have written there.
@@ -62,6 +64,7 @@ struct Channel {
     std::atomic<std::uint32_t> current{0};   ///< the case that is being run
     std::atomic<std::uint32_t> complete{0};  ///< answers below this one are complete
     std::atomic<bool> beside{false};         ///< it died of a touch beside its arrays
+    std::atomic<bool> closed{false};         ///< it ended since descriptors were closed that the kernel had not opened
     std::array<Answer, batch_size> answers;
     double ns = -1;           ///< per evaluation, if timed
     char detail[160] = {};    ///< of the first incident of the batch that it survived
@@ -85,6 +88,7 @@ struct ServerRequest {
         end_worker,   ///< ends the worker of the channel if it runs still; answers its status as waitpid tells it
     } kind = fork_worker;
     std::uint32_t channel = 0;
+    int milliseconds = 0;  ///< for `end_worker`: time that it has to end by itself
 };
 
 }  // namespace barycert::kernels

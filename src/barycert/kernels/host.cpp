@@ -175,7 +175,7 @@ Host::End Host::begin(Worker& worker) {
     int ends[2];
     if (!socket_pair(ends, SOCK_STREAM)) return End::no_process;
     new (&channel(worker)) Channel;
-    const int pid = ask_server({ServerRequest::fork_worker, worker.channel}, ends[1]);
+    const int pid = ask_server({ServerRequest::fork_worker, worker.channel, 0}, ends[1]);
     close(ends[1]);
     if (pid <= 0) {
         close(ends[0]);
@@ -185,12 +185,13 @@ Host::End Host::begin(Worker& worker) {
     return command(worker, Command::describe, loading_milliseconds_);
 }
 
-/// Ends the worker and returns its status; -1 if the server, and with it every worker, is gone.
-int Host::end(Worker& worker) {
+/// Ends the worker, unless it does so in time, and returns its status; -1 if the server, and with it every worker, is
+/// gone.
+int Host::end(Worker& worker, int milliseconds) {
     if (worker.socket < 0) return 0;
     close(worker.socket);
     worker.socket = -1;
-    return ask_server({ServerRequest::end_worker, worker.channel}, -1);
+    return ask_server({ServerRequest::end_worker, worker.channel, milliseconds}, -1);
 }
 
 /// Returns when it is done, dead, or in the same case for too long: at two looks, so that a program that was stopped
@@ -220,6 +221,7 @@ Host::Batch Host::run(std::span<const Case> cases, std::span<Reply> replies, Ask
     Worker worker = take();
     std::uint32_t first = 0;
     std::string end_of_last;
+    bool again = false;
     const bool timed = asking == Asking::timed;
     while (first < count && (patience_left_ > 0 || asking == Asking::given_up_too)) {
         const End begun = begin(worker);
@@ -232,14 +234,19 @@ Host::Batch Host::run(std::span<const Case> cases, std::span<Reply> replies, Ask
         c.stride = cases[0].stride();
         c.first = first;
         c.count = count;
-        c.timed = timed;
-        c.beside = false;
+        c.timed = timed && !again;
+        c.beside = c.closed = false;
         c.current = c.complete = first;
         std::copy_n(cases.begin(), count, c.cases.begin());
         const End how = begun == End::done ? command(worker, Command::run, milliseconds_) : begun;
+        // One whose kernel has closed its socket is at work yet.
+        int status = how == End::died ? end(worker, 100) : 0;
         const std::uint32_t complete = std::clamp(c.complete.load(std::memory_order_acquire), first, count);
         const std::uint32_t answered = how == End::done ? count : complete;
-        for (std::uint32_t i = first; i < answered; ++i) replies[i] = {c.answers[i], true, true};
+        for (std::uint32_t i = first; i < answered; ++i) {
+            replies[i] = {c.answers[i], true, true};
+            if ((c.answers[i].incidents & incident_forked) != 0) --patience_left_;
+        }
         if (how == End::done) {
             if (timed && c.ns > 0) batch.ns = c.ns;
             c.detail[sizeof c.detail - 1] = '\0';
@@ -249,11 +256,16 @@ Host::Batch Host::run(std::span<const Case> cases, std::span<Reply> replies, Ask
         // All answered: it died when it ran again, against the clock.
         const std::uint32_t culprit =
             complete < count ? complete : std::min(c.current.load(std::memory_order_relaxed), count - 1);
-        const bool beside = c.beside;
-        const int status = end(worker);
+        const bool beside = c.beside, closed = c.closed;
+        if (how == End::hung) status = end(worker);
         if (status < 0) {  // not the kernel's doing
             patience_left_ = 0;
             break;
+        }
+        if (closed && complete == count &&
+            !again) {  // in which case, if not against the clock? A new worker looks after each
+            again = true;
+            continue;
         }
         Reply& reply = replies[culprit];
         reply = {};
@@ -263,6 +275,7 @@ Host::Batch Host::run(std::span<const Case> cases, std::span<Reply> replies, Ask
         end_of_last = begun == End::hung ? not_loaded_within(loading_milliseconds_)
                       : how == End::hung ? fmt::format("no answer within {} s", milliseconds_ / 1000.0)
                       : beside           ? std::string("touched memory beside its arrays, or wrote to its input")
+                      : closed           ? std::string("closed descriptors that it had not opened")
                                          : ending(status);
         patience_left_ -= how == End::hung ? patience_for_hang : 1;
         first = complete < count ? culprit + 1 : count;

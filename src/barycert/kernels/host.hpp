@@ -17,7 +17,8 @@ namespace barycert::kernels {
 
 class Host {
 public:
-    /// Cases that it may fail to answer before it is given up: a hang costs as much as 64 crashes.
+    /// Cases that it may fail to answer, or leave a process behind in, before it is given up: a hang costs as much as
+    /// 64 crashes.
     static constexpr int patience = 1024, patience_for_hang = 64;
 
     /// Starts the processes and loads the library once. Errors as of load_kernel_library().
@@ -60,7 +61,7 @@ private:
     void give_back(const Worker& worker);
     int ask_server(const ServerRequest& request, int with_socket);
     End begin(Worker& worker);
-    int end(Worker& worker);
+    int end(Worker& worker, int milliseconds = 0);
     End command(Worker& worker, Command command, int milliseconds);
     Channel& channel(const Worker& worker) { return channels_[worker.channel]; }
 

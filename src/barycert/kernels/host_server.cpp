@@ -1,7 +1,6 @@
 // The process that forks workers: it has one thread, so that it may.
 #include <sys/mman.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -40,13 +39,12 @@ bool receive(int socket, ServerRequest& request, int& with) {
 [[noreturn]] void become_worker(Channel& channel, pid_t server, int socket, const char* path) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != server) _exit(0);  // it ended before that was set
+    setsid();                           // signals to its group are its own affair
     // Descriptors of the server are no affair of the library's.
     const int printed = memfd_create("printed", 0);
     if (printed < 0 || dup2(printed, 3) < 0 || dup2(socket, 4) < 0) _exit(127);
     close_range(5, ~0U, 0);
-    const rlimit no_core{0, 0}, output{output_limit, output_limit};
-    setrlimit(RLIMIT_CORE, &no_core);
-    setrlimit(RLIMIT_FSIZE, &output);
+    limit_worker();
     run_worker(channel, 4, 3, path);
 }
 
@@ -54,6 +52,8 @@ bool receive(int socket, ServerRequest& request, int& with) {
 
 void run_server(Channel* channels, int socket, const char* path) {
     const pid_t self = getpid();
+    setsid();
+    prctl(PR_SET_CHILD_SUBREAPER, 1);  // what leaves its parent comes here, and is ended
     std::array<pid_t, max_workers> workers{};
     ServerRequest request;
     int with = -1;
@@ -66,16 +66,23 @@ void run_server(Channel* channels, int socket, const char* path) {
                 if (worker == 0) become_worker(channels[request.channel], self, with, path);
                 answer = worker < 0 ? -errno : worker;
             } else if (worker > 0) {
-                kill(worker, SIGKILL);
-                while (waitpid(worker, &answer, 0) < 0 && errno == EINTR) {
+                pid_t ended = 0;
+                for (int ms = 0; ms < request.milliseconds; ++ms) {
+                    ended = waitpid(worker, &answer, WNOHANG);
+                    if (ended != 0) break;
+                    usleep(1000);
+                }
+                if (ended == 0) kill(worker, SIGKILL);
+                while (ended == 0 && waitpid(worker, &answer, 0) < 0 && errno == EINTR) {
                 }
                 worker = 0;
+                end_children(workers);
             }
         }
         if (with >= 0) close(with);
         if (send(socket, &answer, sizeof answer, MSG_NOSIGNAL) != sizeof answer) break;
     }
-    // The workers end with this process.
+    end_children({});
     _exit(0);
 }
 

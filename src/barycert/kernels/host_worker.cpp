@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <pthread.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -20,6 +21,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/kernel.h"
 #include "barycert/kernels/channel.hpp"
+#include "barycert/kernels/host_limits.hpp"
 
 namespace barycert::kernels {
 namespace {
@@ -151,14 +153,22 @@ void put(char (&to)[n], const char* text) {
     std::snprintf(to, n, "%s", text == nullptr ? "" : text);
 }
 
-// For processes that the kernel forks.
-int the_socket = -1;
-bool is_forked = false;
+/// What the system clears in every process made of this one, by whatever call.
+const volatile int* the_original = nullptr;
 
-/// They have no part in the answers, and do not hold the end of the socket whose closing tells that the worker died.
-void leave_the_worker() {
-    close(the_socket);
-    is_forked = true;
+void mark_original() {
+    const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    void* const mark = mmap(nullptr, page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (mark == MAP_FAILED) give_up();
+    madvise(mark, page, MADV_WIPEONFORK);
+    *static_cast<int*>(mark) = 1;
+    the_original = static_cast<const int*>(mark);
+}
+
+/// Processes that the kernel forks have no part in the answers: by fork() they end there, by other ways here.
+void leave_if_forked() {
+    if (*the_original == 0) [[unlikely]]
+        _exit(0);
 }
 
 /// A copy of the descriptor where a library that closes what it did not open would not find it, if there may be one.
@@ -201,6 +211,7 @@ public:
         put(d.formula, info.formula);
         put(d.source, info.source);
         if (has_printed()) forget_printed();  // a greeting is not an answer's affair
+        if (end_children({})) put(d.error, "it starts a process that goes on when it is loaded");
         return d;
     }
 
@@ -209,19 +220,19 @@ public:
         const std::uint32_t first = channel_.first;
         const auto count = std::min<std::uint32_t>(channel_.count, batch_size);
         ask(first, count);
-        if (!watches_ && has_printed()) {  // by which case? Look after each, from now on
+        char text[sizeof channel_.detail];
+        const std::uint8_t unseen = watches_ ? 0 : look_around(text);
+        if (unseen != 0) {  // by which case? Look after each, from now on
             watches_ = true;
-            char text[sizeof channel_.detail];
-            read_printed(text);
             channel_.detail[0] = '\0';
             ask(first, count);
-            if (!prints_ && first < count) {  // once and never again: by one of these cases
-                channel_.answers[first].incidents |= incident_printed;
+            if (seen_ == 0 && first < count) {  // once and never again: by one of these cases
+                channel_.answers[first].incidents |= unseen;
                 tell(text);
-                prints_ = true;
+                seen_ = unseen;
             }
         }
-        watches_ = prints_;
+        watches_ = seen_ != 0;
         channel_.ns = channel_.timed && count > 0 ? measure(count) : -1;
     }
 
@@ -272,11 +283,10 @@ private:
             a.value = f_.value(vertices, point, arrays_.outer(GuardedArrays::values, n));
             look(a, n);
         }
-        if (watches_ && has_printed()) {
-            a.incidents |= incident_printed;
-            prints_ = true;
-            char text[sizeof channel_.detail];
-            read_printed(text);
+        char text[sizeof channel_.detail];
+        if (const std::uint8_t beside = watches_ ? look_around(text) : 0) {
+            a.incidents |= beside;
+            seen_ |= beside;
             tell(text);
         }
         return a;
@@ -284,7 +294,7 @@ private:
 
     /// What the function that was just called left behind.
     void look(Answer& a, std::size_t n) {
-        if (is_forked) _exit(0);
+        leave_if_forked();
         if (!rounds_correctly()) [[unlikely]] {
             a.incidents |= incident_environment;
             tell(changed_environment());
@@ -297,9 +307,26 @@ private:
         }
     }
 
+    /// What was done outside of this process since the last look, in words too. It is undone.
+    template <std::size_t room>
+    std::uint8_t look_around(char (&words)[room]) const {
+        std::uint8_t incidents = 0;
+        if (has_printed()) {
+            incidents |= incident_printed;
+            read_printed(words);
+        }
+        if (end_children({})) {
+            incidents |= incident_forked;
+            put(words, "left a process behind");
+        }
+        return incidents;
+    }
+
     bool has_printed() const {
         struct stat s {};
-        return fstat(printed_, &s) == 0 && s.st_size > 0;
+        if (fstat(printed_, &s) == 0) return s.st_size > 0;
+        channel_.closed = true;
+        _exit(0);
     }
     void forget_printed() const {
         if (ftruncate(printed_, 0) != 0) give_up();
@@ -326,11 +353,13 @@ private:
             begin(i);
             const Case& c = channel_.cases[i];
             f_.weights(c.vertices.data(), c.point.data(), weights);
+            leave_if_forked();
         }
         const auto stop = std::chrono::steady_clock::now();
         ExactEnvironment::renew();
         arrays_.mend_before(n);
         if (watches_) forget_printed();
+        end_children({});
         return std::chrono::duration<double, std::nano>(stop - start).count() / count;
     }
 
@@ -338,8 +367,8 @@ private:
     int printed_;
     GuardedArrays arrays_;
     Functions f_;
-    bool prints_ = false;  ///< has printed in answer to a case
-    bool watches_ = true;  ///< looks after each case whether it has printed: in the first batch, and once it has
+    std::uint8_t seen_ = 0;  ///< what it has done outside of this process in answer to cases
+    bool watches_ = true;    ///< looks around after each case: in the first batch, and once there was something
 };
 
 }  // namespace
@@ -353,25 +382,30 @@ void run_worker(Channel& channel, int socket, int printed, const char* path) {
     set_streams(printed);
     const int own_socket = out_of_the_way(socket), own_printed = out_of_the_way(printed);
     if (own_socket < 0 || own_printed < 0) give_up();
-    the_socket = own_socket;
-    if (pthread_atfork(nullptr, nullptr, leave_the_worker) != 0) give_up();
+    mark_original();
+    prctl(PR_SET_CHILD_SUBREAPER, 1);
+    if (pthread_atfork(nullptr, nullptr, [] { _exit(0); }) != 0) give_up();
     close(socket);
     close(printed);
     WorkerProcess process(channel, own_printed);
     the_arrays = &process.arrays();
     const Description description = process.load(path);
     for (;;) {
+        leave_if_forked();
         char command = 0;
+        errno = 0;
         const ssize_t got = read(own_socket, &command, 1);
         if (got < 0 && errno == EINTR) continue;
-        if (got != 1) _exit(0);
+        if (got != 1) break;
         if (command == static_cast<char>(Command::describe)) {
             channel.description = description;
         } else {
             process.run();
         }
-        if (write(own_socket, &command, 1) != 1) _exit(0);
+        if (write(own_socket, &command, 1) != 1) break;
     }
+    channel.closed = errno == EBADF;
+    _exit(0);
 }
 
 }  // namespace barycert::kernels

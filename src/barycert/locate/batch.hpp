@@ -10,11 +10,13 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/locate/finder.hpp"
 #include "barycert/locate/sorted_points.hpp"
 
@@ -31,6 +33,22 @@ template <class F>
 void in_arena(int threads, F&& work) {
     tbb::task_arena arena(threads_of(threads));
     arena.execute(std::forward<F>(work));
+}
+
+/// How many points are not finite.
+inline std::size_t count_not_finite(std::span<const double> points, std::size_t d) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < points.size(); i += d) count += base::all_finite({&points[i], d}) ? 0 : 1;
+    return count;
+}
+
+/// The first row without a cell; points that are not finite are told by another policy than those outside.
+inline std::optional<std::size_t> first_outside(std::span<const Mesh::Index> cells, std::span<const double> points,
+                                                std::size_t d) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (cells[i] < 0 && base::all_finite({&points[d * i], d})) return i;
+    }
+    return std::nullopt;
 }
 
 /// An Error naming the first point with a coordinate that is not finite, if there is one. `first`: its number counts
@@ -59,8 +77,8 @@ inline std::size_t block_of(std::size_t count, std::size_t cells) {
 /// For blocks of the points, on all threads of the calling arena: worker = make(number of the first point of the
 /// block, their count); worker(records, count, owners, features) for each chunk of the sorted block, points that are
 /// known to be outside left out; in the end done(number of the first point, sorted block, worker). `nodes`: those of
-/// the index, or a copy that will be read after it. Returns false, and leaves out blocks, if a coordinate is not
-/// finite.
+/// the index, or a copy that will be read after it. Returns false if a coordinate is not finite; such points are
+/// outside.
 template <class Make, class Done>
 bool for_chunks(const LocatorData& data, const NodeRecord* nodes, std::span<const double> points,
                 LocationCounts& counts, Make make, Done done) {
@@ -72,30 +90,27 @@ bool for_chunks(const LocatorData& data, const NodeRecord* nodes, std::span<cons
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
         const std::size_t first = b * block, size = std::min(block, count - first);
         std::unique_ptr<SortedPoints> sorted = data.sorted.take();
-        if (sorted->sort(data.index, data.occupancy(), points.subspan(d * first, d * size))) {
-            Finder finder(data, nodes, size);
-            auto worker = make(first, size);
-            std::array<PointRecord, chunk_size> records;
-            std::array<Place, chunk_size> owner;
-            std::array<Feature, chunk_size> feature;
-            const auto expect = [&](std::size_t at) {
-                finder.expect(*sorted, at, std::min(chunk_size, sorted->size() - at));
-            };
-            expect(0);
-            for (std::size_t at = 0; at < sorted->size(); at += chunk_size) {
-                const std::size_t n = std::min(chunk_size, sorted->size() - at);
-                finder.begin();
-                sorted->copy(at, n, records.data());
-                expect(at + n);
-                finder.find(records.data(), n, owner.data(), feature.data(), parts[b]);
-                worker(records.data(), n, owner.data(), feature.data());
-            }
-            parts[b].add(Feature::outside, sorted->left_out());
-            parts[b].ways.no_cell_near += sorted->left_out();
-            done(first, *sorted, worker);
-        } else {
-            finite = false;
+        if (!sorted->sort(data.index, data.occupancy(), points.subspan(d * first, d * size))) finite = false;
+        Finder finder(data, nodes, size);
+        auto worker = make(first, size);
+        std::array<PointRecord, chunk_size> records;
+        std::array<Place, chunk_size> owner;
+        std::array<Feature, chunk_size> feature;
+        const auto expect = [&](std::size_t at) {
+            finder.expect(*sorted, at, std::min(chunk_size, sorted->size() - at));
+        };
+        expect(0);
+        for (std::size_t at = 0; at < sorted->size(); at += chunk_size) {
+            const std::size_t n = std::min(chunk_size, sorted->size() - at);
+            finder.begin();
+            sorted->copy(at, n, records.data());
+            expect(at + n);
+            finder.find(records.data(), n, owner.data(), feature.data(), parts[b]);
+            worker(records.data(), n, owner.data(), feature.data());
         }
+        parts[b].add(Feature::outside, sorted->left_out());
+        parts[b].ways.no_cell_near += sorted->left_out();
+        done(first, *sorted, worker);
         data.sorted.put(std::move(sorted));
     });
     for (const LocationCounts& part : parts) counts.add(part);

@@ -78,7 +78,7 @@ std::size_t Locator::bytes() const {
 }
 
 Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> cells, std::span<Feature> features,
-                       LocationCounts* counts, int threads) const {
+                       LocationCounts* counts, int threads, NonfinitePoints nonfinite) const {
     const ExactEnvironment environment;
     if (Status status = check_size(*this, points); !status) return status;
     const std::size_t count = points.size() / data_->index.dimension();
@@ -117,23 +117,26 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
     bool finite = true;
     locate::in_arena(threads,
                      [&] { finite = locate::for_chunks(*data_, data_->index.nodes.data(), points, all, make, write); });
-    if (!finite) return locate::check_finite(points, data_->index.dimension());
+    if (!finite) {
+        if (nonfinite == NonfinitePoints::error) return locate::check_finite(points, data_->index.dimension());
+        all.not_finite = locate::count_not_finite(points, data_->index.dimension());
+    }
     if (counts != nullptr) counts->add(all);
     return Done{};
 }
 
-Result<Table> Locator::locate(std::span<const double> points, int threads) const {
+Result<Table> Locator::locate(std::span<const double> points, int threads, NonfinitePoints nonfinite) const {
     Table table;
     table.dimension = mesh().dimension;
     const std::size_t count = points.size() / data_->index.dimension();
     table.cells.resize(count);
     table.features.resize(count);
-    Status done = locate(points, table.cells, table.features, &table.counts.locations, threads);
+    Status done = locate(points, table.cells, table.features, &table.counts.locations, threads, nonfinite);
     if (!done) return done.error();
     return table;
 }
 
-Result<Table> Locator::locate_all(std::span<const double> points, int threads) const {
+Result<Table> Locator::locate_all(std::span<const double> points, int threads, NonfinitePoints nonfinite) const {
     const ExactEnvironment environment;
     if (Status status = check_size(*this, points); !status) return status.error();
     struct Found {
@@ -142,7 +145,8 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads) c
         Feature feature;
     };
     const std::size_t d = data_->index.dimension(), count = points.size() / d;
-    if (Status status = locate::check_finite(points, d); !status) return status.error();
+    if (Status status = locate::check_finite(points, d); !status && nonfinite == NonfinitePoints::error)
+        return status.error();
     constexpr std::size_t block = std::size_t{1} << 13;
     const std::size_t blocks = (count + block - 1) / block;
     std::vector<std::vector<Found>> found(blocks);
@@ -174,6 +178,7 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads) c
     });
     Table table;
     table.dimension = mesh().dimension;
+    table.counts.locations.not_finite = locate::count_not_finite(points, d);
     const auto push = [&](std::size_t point, Mesh::Index cell, Feature feature) {
         table.points.insert(table.points.end(), points.data() + d * point, points.data() + d * (point + 1));
         table.cells.push_back(cell);

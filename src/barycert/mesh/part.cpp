@@ -8,21 +8,6 @@
 #include <utility>
 
 namespace barycert::mesh {
-namespace {
-
-/// Rows of `size` entries.
-template <class T>
-void append_rows_of(const std::vector<T>& whole, std::size_t size, const std::vector<Mesh::Index>& rows,
-                    std::vector<T>& out) {
-    out.reserve(size * rows.size());
-    for (const Mesh::Index row : rows) {
-        const T* const from = whole.data() + size * static_cast<std::size_t>(row);
-        out.insert(out.end(), from, from + size);
-    }
-}
-
-}  // namespace
-
 Field Part::field(const Field& whole, bool of_cells) const {
     Field field{whole.name, whole.components, {}};
     append_rows_of(whole.data, static_cast<std::size_t>(whole.components), of_cells ? cells : nodes, field.data);

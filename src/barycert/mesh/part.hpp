@@ -1,11 +1,23 @@
 /// Some cells of a mesh as a mesh of their own.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "barycert/mesh.hpp"
 
 namespace barycert::mesh {
+
+/// Appends the rows, of `size` entries, of these numbers.
+template <class T>
+void append_rows_of(const std::vector<T>& whole, std::size_t size, const std::vector<Mesh::Index>& rows,
+                    std::vector<T>& out) {
+    out.reserve(out.size() + size * rows.size());
+    for (const Mesh::Index row : rows) {
+        const T* const from = whole.data() + size * static_cast<std::size_t>(row);
+        out.insert(out.end(), from, from + size);
+    }
+}
 
 struct Part {
     Mesh mesh;                       ///< points, cells and mid-edge nodes alone, in their order; no fields

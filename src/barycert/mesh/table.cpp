@@ -38,6 +38,7 @@ void LocationCounts::add(const LocationCounts& other) {
     edge += other.edge;
     vertex += other.vertex;
     outside += other.outside;
+    not_finite += other.not_finite;
     tests.add(other.tests);
     ways.add(other.ways);
 }

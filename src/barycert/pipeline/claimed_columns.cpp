@@ -8,6 +8,7 @@
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/sample/quantity/expression.hpp"
 
 namespace barycert::pipeline {
 namespace {
@@ -36,8 +37,14 @@ Error no_column(const VerifyJob& job, const std::string& what, const std::string
             .remedy = base::did_you_mean(name, names, "name one of these")};
 }
 
+/// The columns that a choice has in rows.
+TableField columns_of(const Mesh& mesh, const FieldChoice& choice) {
+    return {choice.name.empty() ? choice.field->name : choice.name,
+            static_cast<int>(sample::shape_of(mesh, choice)->components)};
+}
+
 /// The column of component c of a field: what the job says, or one of the usual names.
-std::optional<std::string> column_of(const VerifyJob& job, const Field& field, int c,
+std::optional<std::string> column_of(const VerifyJob& job, const TableField& field, int c,
                                      const std::vector<ColumnFormat>& there) {
     const std::string number = std::to_string(c);
     const std::string own = field.components == 1 ? field.name : field.name + '.' + number;
@@ -50,11 +57,11 @@ std::optional<std::string> column_of(const VerifyJob& job, const Field& field, i
     return std::nullopt;
 }
 
-Status check_named(const VerifyJob& job, const std::vector<FieldChoice>& fields,
+Status check_named(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
                    const std::vector<ColumnFormat>& there) {
     std::vector<TableField> all;
     all.reserve(fields.size());
-    for (const FieldChoice& choice : fields) all.push_back({choice.field->name, choice.field->components});
+    for (const FieldChoice& choice : fields) all.push_back(columns_of(mesh, choice));
     const std::vector<std::string> known = column_names(all);
     for (const auto& [value, column] : job.values) {
         if (std::find(known.begin(), known.end(), value) == known.end()) {
@@ -144,29 +151,27 @@ std::vector<std::string> ClaimedColumns::names() const {
     return all;
 }
 
-Result<ClaimedColumns> claimed_columns(const VerifyJob& job, const std::vector<FieldChoice>& fields,
+Result<ClaimedColumns> claimed_columns(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
                                        const std::vector<ColumnFormat>& there, Notes& notes) {
-    if (Status ok = check_named(job, fields, there); !ok) return ok.error();
+    if (Status ok = check_named(job, mesh, fields, there); !ok) return ok.error();
     ClaimedColumns out;
-    for (const bool of_cells : {false, true}) {
-        for (const FieldChoice& choice : fields) {
-            if (choice.of_cells != of_cells) continue;
-            std::vector<std::string> columns;
-            for (int c = 0; c < choice.field->components; ++c) {
-                const auto column = column_of(job, *choice.field, c, there);
-                if (column) columns.push_back(*column);
-            }
-            if (columns.size() == static_cast<std::size_t>(choice.field->components)) {
-                out.fields.push_back(choice);
-                out.values.insert(out.values.end(), columns.begin(), columns.end());
-            } else if (!job.fields.empty()) {
-                return no_column(job, "field " + base::quoted(choice.field->name), choice.field->name, there);
-            } else {
-                notes.push_back({Note::Kind::left_out,
-                                 "field " + base::quoted(choice.field->name) +
-                                     " of the mesh: the results have no column of that name",
-                                 job.results});
-            }
+    for (const FieldChoice& choice : fields) {
+        const TableField own = columns_of(mesh, choice);
+        std::vector<std::string> columns;
+        for (int c = 0; c < own.components; ++c) {
+            const auto column = column_of(job, own, c, there);
+            if (column) columns.push_back(*column);
+        }
+        if (columns.size() == static_cast<std::size_t>(own.components)) {
+            out.fields.push_back(choice);
+            out.values.insert(out.values.end(), columns.begin(), columns.end());
+        } else if (!job.fields.empty()) {
+            return no_column(job, "field " + base::quoted(own.name), own.name, there);
+        } else {
+            notes.push_back(
+                {Note::Kind::left_out,
+                 "field " + base::quoted(own.name) + " of the mesh: the results have no column of that name",
+                 job.results});
         }
     }
     out.cell = chosen(job.cell_column, "cell", there);

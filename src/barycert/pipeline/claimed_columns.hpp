@@ -15,7 +15,7 @@ namespace barycert::pipeline {
 
 /// Names of columns; empty: none.
 struct ClaimedColumns {
-    std::vector<FieldChoice> fields;  ///< those of which all components were found; of nodes first
+    std::vector<FieldChoice> fields;  ///< those of which all components were found, in their order
     std::vector<std::string> values;  ///< for each component of these
     std::string cell, mask;
 
@@ -25,7 +25,7 @@ struct ClaimedColumns {
 
 /// Chooses among the columns that the results have. Adds to `notes` which fields and columns are not compared. Returns
 /// an Error if a column that the job names is not there, or if nothing is left to compare.
-Result<ClaimedColumns> claimed_columns(const VerifyJob& job, const std::vector<FieldChoice>& fields,
+Result<ClaimedColumns> claimed_columns(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
                                        const std::vector<ColumnFormat>& there, Notes& notes);
 
 /// A block of claims.

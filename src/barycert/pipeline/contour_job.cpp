@@ -5,13 +5,14 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <optional>
 #include <string_view>
 #include <utility>
 
+#include "barycert/base/run_files.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/contour.hpp"
 #include "barycert/environment.hpp"
@@ -20,7 +21,8 @@
 #include "barycert/pipeline/job_files.hpp"
 #include "barycert/pipeline/pixel_grid.hpp"
 #include "barycert/pipeline/run.hpp"
-#include "barycert/sample/points/field_choice.hpp"
+#include "barycert/sample/quantity/expression.hpp"
+#include "barycert/sample/quantity/made_fields.hpp"
 
 namespace barycert {
 namespace {
@@ -62,7 +64,9 @@ Status check_job(const ContourJob& job) {
 SamplingJob sampling_of(const ContourJob& job) {
     SamplingJob s;
     s.mesh = job.mesh;
+    s.step = job.step;
     s.field_files = job.field_files;
+    s.curved = job.curved;
     s.output = job.output;
     s.vtk_data = job.vtk_data;
     s.options.threads = job.threads;
@@ -71,38 +75,6 @@ SamplingJob sampling_of(const ContourJob& job) {
     s.program = job.program;
     s.progress = job.progress;
     return s;
-}
-
-/// A column: one component of a field.
-struct ShownColumn {
-    FieldChoice choice;
-    int component = 0;
-};
-
-/// By its name as a column: NAME, or NAME.0, NAME.1, ...
-Result<ShownColumn> column_named(const Mesh& mesh, const std::string& name) {
-    const Result<std::vector<FieldChoice>> whole = sample::fields_named(mesh, {name});
-    if (whole && whole->size() == 1) {
-        const FieldChoice& choice = whole->front();
-        if (choice.field->components == 1) return ShownColumn{choice, 0};
-        return Error{.what = "field \"" + name + "\" has several components",
-                     .expected = fmt::format("one of {0}.0 to {0}.{1}", name, choice.field->components - 1),
-                     .found = name};
-    }
-    const std::size_t dot = name.rfind('.');
-    int component = -1;
-    if (dot != std::string::npos) {
-        const char* const end = name.data() + name.size();
-        const auto read = std::from_chars(name.data() + dot + 1, end, component);
-        if (read.ptr != end || read.ec != std::errc{}) component = -1;
-    }
-    if (component >= 0) {
-        const auto part = sample::fields_named(mesh, {name.substr(0, dot)});
-        if (part && part->size() == 1 && component < part->front().field->components)
-            return ShownColumn{part->front(), component};
-    }
-    if (!whole) return whole.error();
-    return Error{.what = "--field", .expected = "the name of one field", .found = base::quoted(name)};
 }
 
 /// Sets low and high to those of at(node) over the nodes of cells.
@@ -144,6 +116,7 @@ public:
         s.nodes = mesh().point_count();
         s.cells = mesh().cell_count();
         s.dimension = mesh().dimension;
+        s.curved = run_.summary.curved;
         s.notes = mesh().notes;
         s.seconds.mesh = run_.summary.seconds.mesh;
         if (job_.plane && mesh().dimension == 2)
@@ -189,13 +162,11 @@ private:
     }
 
     Result<Cut> cut_with_fields() {
-        auto chosen = sample::fields_named(mesh(), job_.fields);
+        // To carry along, a field need not be one number.
+        auto chosen =
+            sample::quantities_named(mesh(), job_.plane && !job_.field.empty() ? std::vector{job_.field} : job_.fields);
         if (!chosen) return chosen.error();
-        if (job_.plane && !job_.field.empty()) {
-            const Result<ShownColumn> column = column_named(mesh(), job_.field);
-            if (!column) return column.error();
-            *chosen = {column->choice};
-        }
+        if (Status made = sample::make_all_fields(mesh(), *chosen, made_, summary_.notes); !made) return made.error();
         CutOptions options;
         options.threads = job_.threads;
         for (const FieldChoice& c : *chosen) {
@@ -206,22 +177,29 @@ private:
         if (is_picture(job_)) {
             if (Status good = choose_colours(options); !good) return good.error();
         }
-        const Result<ShownColumn> column = column_named(mesh(), job_.field);
+        const Result<FieldChoice> column = field_of_numbers(job_.field);
         if (!column) return column.error();
-        const Field& field = *column->choice.field;
-        if (column->choice.of_cells)
+        const Field& field = *column->field;
+        if (column->of_cells)
             return Error{
                 .what = "field \"" + job_.field + "\" is one of cells",
                 .expected = "a field of nodes",
                 .found = "a number for each cell",
                 .remedy = "a field of cells jumps from cell to cell: there is no surface on which it has a value"};
         run_.stage("cutting");
-        const auto stride = static_cast<std::size_t>(field.components);
-        const auto component = static_cast<std::size_t>(column->component);
         set_range(
-            mesh(), [&](std::size_t i) { return field.data[stride * i + component]; }, summary_);
-        return mesh().dimension == 2 ? isoline(mesh(), field, *job_.value, options, column->component)
-                                     : isosurface(mesh(), field, *job_.value, options, column->component);
+            mesh(), [&](std::size_t i) { return field.data[i]; }, summary_);
+        return mesh().dimension == 2 ? isoline(mesh(), field, *job_.value, options)
+                                     : isosurface(mesh(), field, *job_.value, options);
+    }
+
+    /// A field of one component, made if there is none.
+    Result<FieldChoice> field_of_numbers(const std::string& name) {
+        const Result<FieldChoice> column = sample::number_named(mesh(), name);
+        if (!column) return column.error();
+        std::vector<FieldChoice> one{*column};
+        if (Status made = sample::make_all_fields(mesh(), one, made_, summary_.notes); !made) return made.error();
+        return one.front();
     }
 
     Status write(Surface& surface) {
@@ -241,24 +219,29 @@ private:
 
     Status draw(const Surface& section) {
         Stopwatch watch;
-        const Result<ShownColumn> column = column_named(mesh(), job_.field);
+        const Result<FieldChoice> column = sample::number_named(mesh(), job_.field);
         if (!column) return column.error();
         Result<PixelGrid> pixels = pipeline::pixels_over(*job_.plane, section.points, job_.width);
         if (!pixels) {
             Error e = pixels.error();
             e.file = job_.mesh;
-            if (section.points.empty())
-                e.found += fmt::format("; normal.x is from {} to {}", base::shortest(summary_.low),
-                                       base::shortest(summary_.high));
+            if (!section.points.empty()) return e;
+            const std::array<double, 3>& n = job_.plane->normal;
+            const std::string normal =
+                fmt::format("{},{},{}", base::shortest(n[0]), base::shortest(n[1]), base::shortest(n[2]));
+            e.found = fmt::format("D = {}, where the cells are from {} to {}", base::shortest(job_.plane->offset),
+                                  base::shortest(summary_.low), base::shortest(summary_.high));
+            e.remedy = fmt::format("choose D between them: --plane {},{}", normal,
+                                   base::shortest(summary_.low / 2 + summary_.high / 2));
             return e;
         }
         const auto count = static_cast<std::uint64_t>(pixels->width * pixels->height);
         if (Status ready = engine_.prepare(); !ready) return ready;
-        const Result<Sampler> sampler = Sampler::build(engine_.locator(), {column->choice});
+        const Result<Sampler> sampler = Sampler::build(engine_.locator(), {*column});
         if (!sampler) return sampler.error();
         std::vector<double> values(count);
         std::vector<std::uint8_t> valid(count);
-        if (Status done = sample(*pixels, *sampler, column->component, values, valid); !done) return done;
+        if (Status done = sample(*pixels, *sampler, values, valid); !done) return done;
         summary_.seconds.sample = watch.lap();
         if (std::none_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }))
             return Error{.what = "nothing to draw",
@@ -290,10 +273,9 @@ private:
         options.cell_fields.clear();
         summary_.fields.clear();
         if (job_.colours.empty()) return Done{};
-        const Result<ShownColumn> column = column_named(mesh(), job_.colours);
+        const Result<FieldChoice> column = field_of_numbers(job_.colours);
         if (!column) return column.error();
-        (column->choice.of_cells ? options.cell_fields : options.point_fields).push_back(column->choice.field);
-        colour_component_ = static_cast<std::size_t>(column->component);
+        (column->of_cells ? options.cell_fields : options.point_fields).push_back(column->field);
         summary_.fields = {job_.colours};
         return Done{};
     }
@@ -310,14 +292,8 @@ private:
         run_.stage("drawing");
         SurfaceView view{.points = surface.points, .triangles = surface.cells};
         const bool of_points = !surface.point_fields.empty();
-        std::vector<double> values;
-        if (of_points || !surface.cell_fields.empty()) {
-            const Field& carried = of_points ? surface.point_fields.front() : surface.cell_fields.front();
-            const auto components = static_cast<std::size_t>(carried.components);
-            for (std::size_t i = colour_component_; i < carried.data.size(); i += components)
-                values.push_back(carried.data[i]);
-            (of_points ? view.point_values : view.triangle_values) = values;
-        }
+        if (of_points) view.point_values = surface.point_fields.front().data;
+        if (!of_points && !surface.cell_fields.empty()) view.triangle_values = surface.cell_fields.front().data;
         ViewOptions options = job_.view;
         if (job_.range) options.range = {(*job_.range)[0], (*job_.range)[1]};
         const Result<Image> image = draw_surface(view, options, &summary_.drawn);
@@ -331,7 +307,7 @@ private:
     }
 
     /// Lines of pixels at a time, so that memory is that of the values.
-    Status sample(const PixelGrid& pixels, const Sampler& sampler, int component, std::vector<double>& values,
+    Status sample(const PixelGrid& pixels, const Sampler& sampler, std::vector<double>& values,
                   std::vector<std::uint8_t>& valid) {
         const std::int64_t lines = std::max<std::int64_t>(1, (std::int64_t{1} << 18) / pixels.width);
         std::vector<double> points;
@@ -349,7 +325,7 @@ private:
             if (Status done = sampler.sample(points, run_.job.options, rows); !done) return done;
             summary_.samples.add(rows.counts);
             for (std::size_t r = 0; r < rows.row_count(); ++r, ++at) {
-                values[at] = rows.value(r, static_cast<std::size_t>(component));
+                values[at] = rows.value(r, 0);
                 valid[at] = rows.cells[r] >= 0 ? 1 : 0;
             }
             run_.count(fmt::format("pixels of {}", values.size()), at);
@@ -361,13 +337,14 @@ private:
     Run& run_;
     Engine& engine_;
     ContourSummary summary_;
-    std::size_t colour_component_ = 0;
+    std::deque<Field> made_;
 };
 
 }  // namespace
 
 Result<ContourSummary> contour_files(const ContourJob& job) {
     const ExactEnvironment environment;
+    const base::RunFiles run_files;
     if (Status good = check_job(job); !good) return good.error();
     const SamplingJob sampling = sampling_of(job);
     if (Status files = pipeline::check_files(sampling, {}, {}, {{"--output", job.output}}); !files)

@@ -75,10 +75,9 @@ std::string reason_of(const Locator& locator, std::uint64_t degenerate, const st
 Result<std::unique_ptr<Engine>> Engine::open(Run& run) {
     Stopwatch watch;
     run.stage("reading " + run.job.mesh);
-    const int threads = run.job.options.threads;
-    Result<Mesh> mesh = read_mesh(run.job.mesh, {.faces = false, .neighbours = false, .threads = threads});
-    if (!mesh) return mesh.error();
     std::unique_ptr<Engine> engine(new Engine(run));
+    Result<Mesh> mesh = engine->read(run.steps.empty() ? nullptr : &run.steps.front());
+    if (!mesh) return mesh.error();
     engine->mesh_ = std::move(*mesh);
     if (Status added = engine->add_fields_of_job(); !added) return added.error();
     if (Status chosen = engine->choose_fields(); !chosen) return chosen.error();
@@ -90,6 +89,22 @@ Result<std::unique_ptr<Engine>> Engine::open(Run& run) {
     summary.cells = engine->mesh_.cell_count();
     summary.seconds.mesh = watch.lap();
     return engine;
+}
+
+/// That of the step, where it has one, or the one that the job asks for.
+Result<Mesh> Engine::read(const Step* step) {
+    const bool of_step = step != nullptr && step->of_mesh.has_value();
+    Result<Mesh> mesh =
+        read_mesh(run_.job.mesh, {.faces = false,
+                                  .neighbours = false,
+                                  .threads = run_.job.options.threads,
+                                  .step = of_step ? StepChoice{.number = step->of_mesh} : run_.job.step});
+    if (!mesh) return mesh;
+    const auto curved = take_as_straight(*mesh, run_.job.mesh, run_.job.curved);
+    if (!curved) return curved.error();
+    // Of steps, that with the largest deviation.
+    if (curved->max_deviation >= run_.summary.curved.max_deviation) run_.summary.curved = *curved;
+    return mesh;
 }
 
 Status Engine::add_fields_of_job() {
@@ -109,6 +124,45 @@ Status Engine::add_fields_of_job() {
 
 Status Engine::go_to(const Step& step) {
     Stopwatch watch;
+    Status read = step.of_mesh ? go_to_mesh(step) : go_to_fields(step);
+    run_.summary.seconds.mesh += watch.lap();
+    if (!read) return read;
+    sampler_.reset();
+    made_.clear();
+    if (Status chosen = choose_fields(); !chosen) return chosen;
+    Status built = another_mesh_ ? Status(Done{}) : build_sampler(part_ ? fields_of_part() : fields_);
+    run_.summary.seconds.build += watch.lap();
+    return built;
+}
+
+Status Engine::go_to_mesh(const Step& step) {
+    Result<Mesh> mesh = read(&step);
+    if (!mesh) return mesh.error();
+    if (mesh->dimension != mesh_.dimension)
+        return Error{.what = "step " + step.label + " has cells of another dimension",
+                     .file = run_.job.mesh,
+                     .expected = std::to_string(mesh_.dimension) + ", as the first one has",
+                     .found = std::to_string(mesh->dimension)};
+    another_mesh_ = mesh->points != mesh_.points || mesh->cells != mesh_.cells || mesh->mid_nodes != mesh_.mid_nodes ||
+                    mesh->cell_numbers != mesh_.cell_numbers;
+    if (another_mesh_) {
+        sampler_.reset();
+        locator_.reset();
+        part_.reset();
+        ++run_.summary.meshes;
+        mesh_ = std::move(*mesh);
+    } else {  // where the locator is, the mesh stays
+        mesh_.point_fields = std::move(mesh->point_fields);
+        mesh_.cell_fields = std::move(mesh->cell_fields);
+        mesh_.cell_labels = std::move(mesh->cell_labels);
+        mesh_.notes = std::move(mesh->notes);
+    }
+    Status added = add_fields_of_job();
+    tell_once(mesh_.notes);
+    return added;
+}
+
+Status Engine::go_to_fields(const Step& step) {
     Notes notes;
     for (std::size_t i = 0; i < step.files.size(); ++i) {
         const FieldPlace place = places_of_series_[i];
@@ -128,7 +182,12 @@ Status Engine::go_to(const Step& step) {
                          .found = shape(*read)};
         field.data = std::move(read->data);
     }
-    // What is told of every step is told once.
+    tell_once(std::move(notes));
+    return Done{};
+}
+
+/// What is told of every step is told once.
+void Engine::tell_once(Notes notes) {
     for (Note& note : notes) {
         Notes& told = run_.summary.notes;
         const bool known = std::any_of(told.begin(), told.end(), [&](const Note& other) {
@@ -136,13 +195,6 @@ Status Engine::go_to(const Step& step) {
         });
         if (!known) told.push_back(std::move(note));
     }
-    run_.summary.seconds.mesh += watch.lap();
-    sampler_.reset();
-    made_.clear();
-    if (Status chosen = choose_fields(); !chosen) return chosen;
-    Status built = build_sampler(part_ ? fields_of_part() : fields_);
-    run_.summary.seconds.build += watch.lap();
-    return built;
 }
 
 /// With columns for all steps, what is asked of a series is asked of each step.
@@ -188,6 +240,7 @@ Status Engine::choose_fields() {
     Result<std::vector<FieldChoice>> fields = sample::quantities_named(mesh_, names);
     if (!fields) return fields.error();
     fields_ = std::move(*fields);
+    for (const FieldChoice& choice : fields_) count_not_finite(*choice.field, choice.of_cells, run_.summary.not_finite);
     // What depends on all cells is made before some of them are looked at.
     for (FieldChoice& choice : fields_) {
         const std::size_t steps = sample::steps_of_whole_mesh(choice);
@@ -221,7 +274,7 @@ Status Engine::build_on(const Mesh& mesh, const std::vector<FieldChoice>& fields
     if (Status built = build_sampler(fields); !built) return built;
     SampleSummary& summary = run_.summary;
     if (run_.job.count_degenerate)
-        summary.degenerate_cells = prove ? locator_->degenerate_cells() : count_degenerate(mesh);
+        summary.degenerate_cells += prove ? locator_->degenerate_cells() : count_degenerate(mesh);
     summary.seconds.build += watch.lap();
     return Done{};
 }
@@ -253,8 +306,10 @@ Status Engine::prepare() {
     if (Status built = build(true); !built) return built;
     SampleSummary& summary = run_.summary;
     summary.method = FoundBy::walk;
+    summary.contested_cells += locator_->contested_cells();
+    // Of several meshes, that all are certified, or why one is not.
+    if (summary.verdict == Verdict::not_certified) return Done{};
     summary.verdict = locator_->certified() ? Verdict::certified : Verdict::not_certified;
-    summary.contested_cells = locator_->contested_cells();
     summary.reason = reason_of(*locator_, locator_->degenerate_cells(), run_.job.program);
     return Done{};
 }

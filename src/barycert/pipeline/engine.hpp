@@ -47,6 +47,9 @@ public:
     /// cannot be read, or has other numbers of rows or components than that of the first step. Precondition: prepared.
     Status go_to(const Step& step);
 
+    /// Whether the step that was gone to has another mesh than the one before it: then the engine is to be prepared.
+    bool is_another_mesh() const { return another_mesh_; }
+
     /// Gives back what of the mesh sampling does not read again: of linear cells, unless points outside ask for their
     /// nearest cell or other steps follow, all but the values of cell fields, labels and numbers of cells.
     /// Precondition: prepared; nobody else reads the mesh any more, but for its dimension.
@@ -61,12 +64,19 @@ public:
     /// What the rows of this job have, without labels.
     TableFormat format() const;
 
+    /// Those that are sampled.
+    const std::vector<FieldChoice>& fields() const { return fields_; }
+
     /// Those of cells that the job asked for.
     const std::vector<const Column*>& labels() const { return labels_; }
 
 private:
     explicit Engine(Run& run) : run_(run) {}
+    Result<Mesh> read(const Step* step);
     Status add_fields_of_job();
+    Status go_to_fields(const Step& step);
+    Status go_to_mesh(const Step& step);
+    void tell_once(Notes notes);
     Status choose_fields();
     std::vector<std::string> names_of_fields() const;
     std::vector<FieldChoice> fields_of_part();
@@ -76,6 +86,7 @@ private:
 
     Run& run_;
     Mesh mesh_;
+    bool another_mesh_ = false;
     std::vector<FieldPlace> places_of_series_;
     std::deque<Field> made_;  ///< of fields of the mesh
     std::vector<FieldChoice> fields_;

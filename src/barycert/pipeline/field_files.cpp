@@ -9,6 +9,7 @@
 #include "barycert/io.hpp"
 #include "barycert/io/fields/field_file.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/medit/read_medit.hpp"
 #include "barycert/io/vtk_points.hpp"
 #include "barycert/sample/points/field_choice.hpp"
 
@@ -78,11 +79,23 @@ Result<Mesh> points_as_mesh(const std::string& path, int dimension, const Error&
     return mesh;
 }
 
+/// Whether it has fields of Medit, and no mesh.
+bool is_solution(const std::string& path) {
+    return io::has_suffix(path, ".sol") || io::has_suffix(path, ".solb");
+}
+
 /// The array file.column of the mesh in the file; file.of becomes what it is of.
 Result<Field> read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
-    Result<Mesh> other = read_mesh(file.path, {.faces = false, .neighbours = false});
+    const bool solution = is_solution(file.path);
+    Result<Mesh> other = solution ? io::read_medit_fields(file.path, mesh.dimension)
+                                  : read_mesh(file.path, {.faces = false, .neighbours = false});
     if (!other) other = points_as_mesh(file.path, mesh.dimension, other.error());
     if (!other) return other.error();
+    if (solution) {
+        notes.insert(notes.end(), other->notes.begin(), other->notes.end());
+        const std::vector<std::string> names = sample::all_field_names(*other);
+        if (file.column.empty() && names.size() == 1) file.column = names.front();
+    }
     const bool may_be_points = file.of != FieldFile::Of::cells, may_be_cells = file.of != FieldFile::Of::points;
     const Field* const of_points = may_be_points ? sample::field_named(other->point_fields, file.column) : nullptr;
     const Field* const of_cells = may_be_cells ? sample::field_named(other->cell_fields, file.column) : nullptr;
@@ -100,7 +113,8 @@ Result<Field> read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
             .remedy = base::did_you_mean(file.column, sample::all_field_names(*other),
                                          "name one: --field " + file.name + "=" + file.path + ":ARRAY")};
     file.of = of_points != nullptr ? FieldFile::Of::points : FieldFile::Of::cells;
-    const bool same = other->points == mesh.points && (of_points != nullptr || other->cells == mesh.cells);
+    const bool same =
+        solution || (other->points == mesh.points && (of_points != nullptr || other->cells == mesh.cells));
     const std::size_t components = static_cast<std::size_t>((of_points != nullptr ? of_points : of_cells)->components);
     const std::size_t rows = (of_points != nullptr ? of_points : of_cells)->data.size() / components;
     const bool fits = rows == (of_points != nullptr ? mesh.point_count() : mesh.cell_count());
@@ -117,7 +131,7 @@ Result<Field> read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
 }  // namespace
 
 bool is_file_of_a_mesh(const std::string& path) {
-    constexpr std::array<std::string_view, 3> suffixes{".msh", ".node", ".ele"};
+    constexpr std::array<std::string_view, 5> suffixes{".msh", ".mesh", ".meshb", ".node", ".ele"};
     return io::is_vtk_points_file(path) || std::any_of(suffixes.begin(), suffixes.end(), [&](std::string_view suffix) {
                return io::has_suffix(path, suffix);
            });
@@ -129,7 +143,7 @@ bool is_name_of_rows(const std::string& name) {
 }
 
 Result<Field> read_field(const Mesh& mesh, FieldFile& file, Notes& notes) {
-    if (is_file_of_a_mesh(file.path)) return read_array(mesh, file, notes);
+    if (is_file_of_a_mesh(file.path) || is_solution(file.path)) return read_array(mesh, file, notes);
     return io::read_field_file(file.name, file.path, file.column, notes);
 }
 

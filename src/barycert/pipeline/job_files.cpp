@@ -8,6 +8,7 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/vtk.hpp"
 
 namespace barycert::pipeline {
 namespace {
@@ -71,24 +72,36 @@ Status check_files(const SamplingJob& job, const std::vector<Step>& steps,
     // The reader of meshes has hints at what may be meant.
     std::erase_if(to_read, [](const base::NamedFile& f) { return f.what.starts_with("the mesh"); });
     std::vector<base::NamedFile> inputs = base::named_files("the mesh", mesh_files(job.mesh));
+    const auto add = [&](const std::string& what, const std::string& path) {
+        const std::vector<base::NamedFile> files = input_files(what, path);
+        inputs.insert(inputs.end(), files.begin(), files.end());
+    };
     for (const FieldFile& f : job.field_files) {
-        inputs.push_back({"field " + f.name, f.path});
-        to_read.push_back(inputs.back());
+        add("field " + f.name, f.path);
+        to_read.push_back({"field " + f.name, f.path});
     }
-    inputs.insert(inputs.end(), more_inputs.begin(), more_inputs.end());
+    for (const FieldFile& f : job.series) add("field " + f.name, f.path);
+    for (const base::NamedFile& file : more_inputs) add(file.what, file.path);
     if (!steps.empty()) {
         if (Status few = check_steps(job, steps); !few) return few;
+        for (const Step& step : steps) {
+            for (const FieldFile& f : step.files) add("field " + f.name, f.path);
+        }
         for (base::NamedFile& output : outputs) {
             if (output.what != "--output" || !has_step_place(output.path)) continue;
             if (Status distinct = check_step_outputs(inputs, output.path, steps); !distinct) return distinct;
             output.path = output_of_step(output.path, steps.front());
         }
-        for (const FieldFile& f : steps.front().files) inputs.push_back({"field " + f.name, f.path});
     }
     outputs.push_back({"--weights", job.weights});
     outputs.push_back({"--json", job.report});
     if (Status readable = base::check_inputs(to_read); !readable) return readable;
     return base::check_outputs(inputs, std::move(outputs));
+}
+
+std::vector<base::NamedFile> input_files(const std::string& what, const std::string& path) {
+    if (!io::is_vtk_points_file(path)) return {{what, path}};
+    return base::named_files(what, vtk_mesh_files(path));
 }
 
 Status check_vtk_data(std::optional<VtkData> data, const std::string& path) {

@@ -20,6 +20,9 @@ namespace barycert::pipeline {
 Status check_files(const SamplingJob& job, const std::vector<Step>& steps,
                    const std::vector<base::NamedFile>& more_inputs, std::vector<base::NamedFile> outputs);
 
+/// An input and, of VTK's files that name others, those.
+std::vector<base::NamedFile> input_files(const std::string& what, const std::string& path);
+
 /// Refuses a choice of data for an output that is no file of VTK, and one that its format does not know.
 Status check_vtk_data(std::optional<VtkData> data, const std::string& path);
 

@@ -95,13 +95,23 @@ Status check_mesh_output(const ResampleJob& job) {
                           ".vtu, .vtk, .msh, .node, .csv or .npy, a stem of TetGen's files, or - for CSV on stdout");
 }
 
-Result<std::unique_ptr<TableSink>> mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format) {
+Result<std::unique_ptr<TableSink>> mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format,
+                                             Notes& notes) {
     if (!format.carried.empty())
         return Error{.what = "a mesh has no labels of nodes",
                      .file = path,
                      .expected = "fields",
                      .found = "label " + base::quoted(format.carried.front().name),
                      .remedy = "leave labels out of --fields, or write rows: .csv or .npy"};
+    const Result<io::MeshFormat> kind = io::mesh_output_format(path);
+    const std::vector<std::string> names = format.columns();
+    std::string lost;
+    for (std::size_t i = 0; i < names.size() && kind && *kind == io::MeshFormat::tetgen; ++i) {
+        if (const std::string own = fmt::format("attribute{}", i); names[i] != own)
+            lost += fmt::format("{}{} is {}", lost.empty() ? "" : ", ", own, names[i]);
+    }
+    const Note note{Note::Kind::left_out, "the names of fields, which a .node file cannot hold: " + lost};
+    if (!lost.empty() && std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
     return std::unique_ptr<TableSink>(std::make_unique<MeshSink>(std::move(mesh), path, format));
 }
 

@@ -20,7 +20,9 @@ Status check_mesh_output(const ResampleJob& job);
 bool is_rows_output(const std::string& path);
 
 /// Takes one row a node, and writes the mesh when all is there: VTK's files, or TetGen's by their stem. Error: columns
-/// that are carried through, for which meshes have no place.
-Result<std::unique_ptr<TableSink>> mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format);
+/// that are carried through, for which meshes have no place. `notes` gets the names that a .node file cannot hold,
+/// once.
+Result<std::unique_ptr<TableSink>> mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format,
+                                             Notes& notes);
 
 }  // namespace barycert::pipeline

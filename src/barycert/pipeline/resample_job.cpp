@@ -8,11 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "barycert/base/run_files.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/pipeline/engine.hpp"
 #include "barycert/pipeline/grid_sinks.hpp"
+#include "barycert/pipeline/integrals.hpp"
 #include "barycert/pipeline/job_files.hpp"
 #include "barycert/pipeline/mesh_sink.hpp"
 #include "barycert/pipeline/stream.hpp"
@@ -110,8 +112,8 @@ void note_the_other(Run& run, const ResampleJob& job, const Mesh& other) {
     notes.push_back({Note::Kind::left_out, text + " of its nodes", job.onto});
 }
 
-/// The fields as they are now.
-Status onto_grid(Run& run, const ResampleJob& job, Engine& engine) {
+/// The fields as they are now. Points of a new mesh are counted.
+Status onto_grid(Run& run, const ResampleJob& job, Engine& engine, bool new_mesh) {
     SampleSummary& summary = run.summary;
     const std::optional<Grid>& grid = summary.grid;
     Stopwatch watch, within;
@@ -139,8 +141,10 @@ Status onto_grid(Run& run, const ResampleJob& job, Engine& engine) {
     };
     Result<SampleCounts> counts = resample(engine.sampler(), *grid, pipeline::without_refusal(job.options), sink);
     if (!counts) return counts.error();
-    summary.counts = *counts;
-    summary.rows = grid->point_count();
+    if (new_mesh) {
+        summary.counts.add(*counts);
+        summary.rows += grid->point_count();
+    }
     summary.seconds.sample += watch.lap() - writing;
     Status committed = output->sink->commit();
     summary.seconds.write += writing + watch.lap();
@@ -154,17 +158,28 @@ Status onto_grid_in_steps(Run& run, const ResampleJob& job, Engine& engine) {
     if (io::has_suffix(job.output, ".vti")) *grid = as_in_vti(*grid);
     run.summary.from = PointsFrom::grid;
     run.summary.grid = *grid;
-    if (Status ready = engine.prepare_without_search(FoundBy::grid, "each cell finds the points that it holds"); !ready)
-        return ready;
-    if (!run.step_by_step()) return onto_grid(run, job, engine);
+    const auto prepare = [&] {
+        return engine.prepare_without_search(FoundBy::grid, "each cell finds the points that it holds");
+    };
+    if (Status ready = prepare(); !ready) return ready;
+    if (!run.step_by_step()) return onto_grid(run, job, engine, true);
     for (std::size_t i = 0; i < run.steps.size(); ++i) {
         run.count("steps", i);
         if (i != 0) {
-            if (Status ready = engine.go_to(run.steps[i]); !ready) return ready;
+            Status ready = engine.go_to(run.steps[i]);
+            if (ready && engine.is_another_mesh()) {
+                ready = prepare();
+                if (run.summary.meshes == 2 && job.bounds.empty())
+                    run.summary.notes.push_back({Note::Kind::guessed,
+                                                 "the grid of all steps lies in the box of the mesh of the first one: "
+                                                 "--bounds names another box",
+                                                 job.mesh, true});
+            }
+            if (!ready) return ready;
         }
         ResampleJob step = job;
         step.output = output_of_step(job.output, run.steps[i]);
-        if (Status done = onto_grid(run, step, engine); !done) return done;
+        if (Status done = onto_grid(run, step, engine, i == 0 || engine.is_another_mesh()); !done) return done;
     }
     return Done{};
 }
@@ -183,22 +198,32 @@ Status onto_mesh(Run& run, const ResampleJob& job, Engine& engine) {
                      .expected = fmt::format("{}, as {} has", d, job.mesh),
                      .found = std::to_string(other->dimension),
                      .remedy = "resample between meshes of triangles, or between meshes of tetrahedra"};
+    const auto curved = take_as_straight(*other, job.onto, job.curved);
+    if (!curved) return curved.error();
+    run.summary.onto_curved = *curved;
     run.summary.from = PointsFrom::mesh;
     run.summary.points = job.onto;
-    const auto source = memory_points(other->points, d);
+    const bool further = run.step_by_step() && run.steps.size() > 1;
+    const std::vector<double> points = further ? other->points : std::vector<double>();
+    auto source = memory_points(other->points, d);
     run.summary.seconds.read = watch.lap();
     note_the_other(run, job, *other);
-    const bool further = run.step_by_step() && run.steps.size() > 1;
+    pipeline::note_cell_fields(run, engine);
     const auto sink_to = [&](const std::string& output) -> pipeline::SinkFactory {
         return [&, output](const TableFormat& of_rows) -> Result<std::unique_ptr<TableSink>> {
             const Result<TableFormat> format = user_format(run, engine, of_rows);
             if (!format) return format.error();
             ResampleJob step = job;
             step.output = output;
-            auto sink = to_rows ? pipeline::open_rows(step, *format)
-                                : pipeline::mesh_sink(further ? *other : std::move(*other), output, *format);
-            if (!sink) return sink;
-            return pipeline::user_rows(engine, std::move(*sink));
+            const auto open = [&]() -> Result<std::unique_ptr<TableSink>> {
+                auto sink = to_rows ? pipeline::open_rows(step, *format)
+                                    : pipeline::mesh_sink(further ? *other : std::move(*other), output, *format,
+                                                          run.summary.notes);
+                if (!sink) return sink;
+                return pipeline::user_rows(engine, std::move(*sink));
+            };
+            // Of a series there would be integrals of each step.
+            return further ? open() : pipeline::with_integrals(run, engine, *other, of_rows, open);
         };
     };
     pipeline::KnownRows known;
@@ -209,13 +234,20 @@ Status onto_mesh(Run& run, const ResampleJob& job, Engine& engine) {
     targets.known = further ? &known : nullptr;
     Status first = pipeline::sample_stream(run, engine, *source, targets);
     if (!first || !further) return first;
-    return pipeline::sample_further_steps(run, engine, known, sink_to);
+    return pipeline::sample_further_steps(run, engine, known, sink_to,
+                                          [&](const pipeline::StreamTargets& anew) -> Status {
+                                              if (!job.weights.empty())
+                                                  return pipeline::of_one_mesh("--weights", job.weights);
+                                              source = memory_points(points, d);
+                                              return pipeline::sample_stream(run, engine, *source, anew);
+                                          });
 }
 
 }  // namespace
 
 Result<SampleSummary> resample_files(const ResampleJob& job) {
-    auto steps = pipeline::find_steps(job.series);
+    const base::RunFiles files;
+    auto steps = pipeline::find_steps(job);
     if (!steps) return steps.error();
     if (Status ok = check_job(job, *steps); !ok) return ok.error();
     return pipeline::run_job("resample", job, std::move(*steps), [&](Run& run, Engine& engine) {

@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "barycert/base/text.hpp"
 #include "barycert/pipeline/engine.hpp"
 
 namespace barycert::pipeline {
@@ -21,7 +22,10 @@ Result<SampleSummary> run_job(const std::string& command, const SamplingJob& job
     Run run{job, std::move(steps)};
     SampleSummary& summary = run.summary;
     summary.command = command;
-    for (const Step& step : run.steps) summary.steps.push_back(step.label);
+    for (const Step& step : run.steps) {
+        summary.steps.push_back(step.label);
+        if (step.of_mesh) summary.times.push_back(base::parse_double(step.time).value_or(0));
+    }
     summary.mesh = job.mesh;
     summary.output = job.output;
     summary.weights = job.weights;

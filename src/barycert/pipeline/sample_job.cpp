@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "barycert/base/run_files.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/map.hpp"
@@ -52,7 +53,7 @@ Status check_job(const SampleJob& job, const std::vector<pipeline::Step>& steps)
     std::error_code ignored;
     // Not the file itself, but the stem of a mesh.
     if (job.map.empty() && job.points != "-" && !std::filesystem::exists(job.points, ignored) &&
-        !io::format_of(job.points))
+        !io::format_of_points(job.points))
         inputs = base::named_files("the mesh of --points", mesh_files(job.points));
     return pipeline::check_files(job, steps, inputs, {{"--output", job.output}, {"--save-map", job.save_map}});
 }
@@ -82,30 +83,49 @@ pipeline::SinkFactory rows_to(Run& run, const SampleJob& job, const Engine& engi
     };
 }
 
-/// What is done with the first rows, and then with those of further steps.
+/// What is done with the first rows, and then with those of further steps. `locate` finds the points, once for each
+/// mesh.
 Status in_steps(Run& run, const SampleJob& job, Engine& engine, const std::vector<ColumnFormat>& carried,
-                const std::function<Status(const pipeline::StreamTargets&)>& first) {
+                const std::function<Status(const pipeline::StreamTargets&)>& locate) {
     pipeline::KnownRows known;
     const bool further = run.step_by_step() && run.steps.size() > 1;
     const auto sink_to = [&](const std::string& path) { return rows_to(run, job, engine, path, carried); };
     const std::string output = run.step_by_step() ? output_of_step(job.output, run.steps.front()) : job.output;
     const pipeline::StreamTargets targets{sink_to(output), job.save_map, job.weights, further ? &known : nullptr};
-    if (Status done = first(targets); !done) return done;
-    return further ? pipeline::sample_further_steps(run, engine, known, sink_to) : Status(Done{});
+    if (Status done = locate(targets); !done) return done;
+    return further ? pipeline::sample_further_steps(run, engine, known, sink_to, locate) : Status(Done{});
 }
 
 Status at_points(Run& run, const SampleJob& job, Engine& engine) {
     const bool csv = job.output == "-" || io::has_suffix(job.output, ".csv");
     pipeline::Stopwatch watch;
-    auto source =
-        open_points(job.points, engine.mesh().dimension, {.columns = job.columns, .keep = job.keep, .typed = !csv});
+    const auto open = [&] {
+        return open_points(job.points, engine.mesh().dimension,
+                           {.columns = job.columns,
+                            .keep = job.keep,
+                            .nonfinite_points = job.options.nonfinite_points,
+                            .typed = !csv});
+    };
+    auto source = open();
     if (!source) return source.error();
     run.summary.seconds.read += watch.lap();  // some files are read as a whole, and some twice
     const Notes notes = (*source)->notes();
     run.summary.notes.insert(run.summary.notes.end(), notes.begin(), notes.end());
     run.summary.points = job.points;
     run.summary.all = job.all.value_or(false);
-    return in_steps(run, job, engine, (*source)->carried(), [&](const pipeline::StreamTargets& targets) {
+    bool taken = false;
+    return in_steps(run, job, engine, (*source)->carried(), [&](const pipeline::StreamTargets& targets) -> Status {
+        if (std::exchange(taken, true)) {
+            if (!job.weights.empty()) return pipeline::of_one_mesh("--weights", job.weights);
+            if (!job.save_map.empty()) return pipeline::of_one_mesh("--save-map", job.save_map);
+            std::error_code ignored;
+            if (job.points == "-" || std::filesystem::is_fifo(job.points, ignored))
+                return Error{.what = "the mesh changes from step to step, and points of a pipe can be read once",
+                             .file = job.points,
+                             .remedy = "save the points to a file, or choose one step: --step N"};
+            source = open();
+            if (!source) return source.error();
+        }
         return pipeline::sample_stream(run, engine, **source, targets);
     });
 }
@@ -123,7 +143,12 @@ Status at_points_of_map(Run& run, const SampleJob& job, Engine& engine) {
     run.summary.points = job.map;
     run.summary.all = map->all();
     if (Status ready = engine.prepare_without_search(FoundBy::map, "cells are those of the map"); !ready) return ready;
-    return in_steps(run, job, engine, {}, [&](const pipeline::StreamTargets& targets) {
+    bool taken = false;
+    return in_steps(run, job, engine, {}, [&](const pipeline::StreamTargets& targets) -> Status {
+        if (std::exchange(taken, true)) {  // of another mesh, which the reader tells
+            map = MapReader::open(job.map, engine.mesh());
+            if (!map) return map.error();
+        }
         return pipeline::sample_map(run, engine, *map, targets);
     });
 }
@@ -131,7 +156,8 @@ Status at_points_of_map(Run& run, const SampleJob& job, Engine& engine) {
 }  // namespace
 
 Result<SampleSummary> sample_files(const SampleJob& job) {
-    auto steps = pipeline::find_steps(job.series);
+    const base::RunFiles files;
+    auto steps = pipeline::find_steps(job);
     if (!steps) return steps.error();
     if (Status ok = check_job(job, *steps); !ok) return ok.error();
     return pipeline::run_job("sample", job, std::move(*steps), [&](Run& run, Engine& engine) {

@@ -8,12 +8,14 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <system_error>
 #include <utility>
 
 #include "barycert/base/folder.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/vtk/collection.hpp"
 #include "barycert/pipeline/field_files.hpp"
 #include "barycert/vtk.hpp"
 
@@ -160,6 +162,7 @@ Result<std::vector<Step>> find_steps(const std::vector<FieldFile>& series) {
         for (std::size_t i = 0; i < std::max(found->size(), steps.size()); ++i) {
             const bool both = i < found->size() && i < steps.size();
             if (s == 0) steps[i].label = (*found)[i].first;
+            if (s == 0 && file) steps[i].time = steps[i].label;
             if (!both || steps[i].label != (*found)[i].first) {
                 // Both are sorted alike: the first that differ are not in the other one.
                 const auto name = [](bool there, const std::string& label) {
@@ -178,15 +181,43 @@ Result<std::vector<Step>> find_steps(const std::vector<FieldFile>& series) {
     return steps;
 }
 
+Result<std::vector<Step>> find_steps(const SamplingJob& job) {
+    if (!job.series.empty() && !job.all_steps) return find_steps(job.series);
+    const bool place = has_step_place(job.output), series = names_steps(job.mesh);
+    if (job.all_steps && !job.series.empty())
+        return Error{.what = "all steps of the mesh, and of series of fields",
+                     .file = job.mesh,
+                     .remedy = "choose one step of the mesh: --step N"};
+    if (job.all_steps && !series) return io::no_series(job.mesh);
+    if (job.all_steps && !place)
+        return Error{.what = "no name for the output of each step",
+                     .file = job.output,
+                     .expected = "{step} or {time} in --output",
+                     .remedy = "such as --output 'rows-{step}.csv'"};
+    if (!place || !series) return std::vector<Step>();
+    const auto all = read_series(job.mesh);
+    if (!all) return all.error();
+    const Result<std::size_t> chosen = io::chosen_step(*all, job.step, job.mesh);
+    if (!chosen) return chosen.error();
+    std::vector<Step> steps;
+    for (std::size_t i = 0; i < all->size(); ++i) {
+        if (!job.step.made() || i == *chosen)
+            steps.push_back({.label = std::to_string(i), .time = base::shortest((*all)[i].time), .of_mesh = i});
+    }
+    return steps;
+}
+
 bool has_step_place(const std::string& output) {
-    return output.find(step_place) != std::string::npos;
+    return output.find(step_place) != std::string::npos || output.find(time_place) != std::string::npos;
 }
 
 std::string output_of_step(const std::string& output, const Step& step) {
     std::string path = output;
-    for (std::size_t at = path.find(step_place); at != std::string::npos;
-         at = path.find(step_place, at + step.label.size()))
-        path.replace(at, step_place.size(), step.label);
+    for (const auto& [place, text] : {std::pair(step_place, step.label), std::pair(time_place, step.time)}) {
+        if (text.empty()) continue;
+        for (std::size_t at = path.find(place); at != std::string::npos; at = path.find(place, at + text.size()))
+            path.replace(at, place.size(), text);
+    }
     return path;
 }
 
@@ -210,8 +241,13 @@ Status check_step_outputs(const std::vector<base::NamedFile>& inputs, const std:
     for (const Step& step : steps) {
         for (const FieldFile& file : step.files) add(file.path, "field " + file.name, &before);
     }
+    std::set<std::string> names;
     for (const Step& step : steps) {
         const std::string path = output_of_step(output, step);
+        if (!names.insert(path).second)
+            return Error{.what = "two steps have the same output",
+                         .file = path,
+                         .remedy = "put {step} into the name of --output"};
         if (!add(path, "--output of another step", &before))
             return Error{.what = "--output would overwrite " + *before,
                          .file = path,

@@ -20,7 +20,7 @@ Status sample_block(const Run& run, const Engine& engine, Block& block) {
     options.threads = 1;  // blocks go side by side
     Table& rows = block.rows;
     if (run.summary.all) {
-        Result<Table> all = engine.locator().locate_all(rows.points, options.threads);
+        Result<Table> all = engine.locator().locate_all(rows.points, options.threads, options.nonfinite_points);
         if (!all) return all.error();
         for (const Column& column : rows.carried) all->carried.push_back(mesh::repeated(column, all->point_begin));
         rows = std::move(*all);
@@ -39,10 +39,8 @@ SampleOptions without_refusal(SampleOptions options) {
     return options;
 }
 
-std::optional<std::size_t> first_outside(std::span<const Mesh::Index> cells) {
-    const auto it = std::find(cells.begin(), cells.end(), -1);
-    if (it == cells.end()) return std::nullopt;
-    return static_cast<std::size_t>(it - cells.begin());
+std::optional<std::size_t> first_outside(const Table& rows) {
+    return locate::first_outside(rows.cells, rows.points, static_cast<std::size_t>(rows.dimension));
 }
 
 std::span<const double> point_of(const Table& rows, std::size_t row) {
@@ -122,7 +120,7 @@ Status sample_stream(Run& run, Engine& engine, PointSource& source, const Stream
         if (Status sampled = sample_block(run, engine, block); !sampled) return sampled;
         if (Status done = writer.prepare(engine, run.job.options, block); !done) return done;
         engine.name_cells(block.rows);
-        block.outside = refuse ? first_outside(block.rows.cells) : std::nullopt;
+        block.outside = refuse ? first_outside(block.rows) : std::nullopt;
         block.nan_values = count_nan(block.rows.view());
         return Done{};
     };

@@ -24,8 +24,8 @@ SampleOptions without_refusal(SampleOptions options);
 /// That `what` ("point 7"), at `where`, is outside, and none may be.
 Error outside_error(const std::string& what, std::span<const double> where, const std::string& file);
 
-/// The first point without a cell.
-std::optional<std::size_t> first_outside(std::span<const Mesh::Index> cells);
+/// The first row that the policy `error` refuses.
+std::optional<std::size_t> first_outside(const Table& rows);
 
 std::span<const double> point_of(const Table& rows, std::size_t row);
 
@@ -63,8 +63,13 @@ Status sample_map(Run& run, Engine& engine, MapReader& map, const StreamTargets&
 /// Known rows likewise, of which the summary has been told: only values that are NaN, and times, are added.
 Status sample_known(Run& run, Engine& engine, const KnownRows& known, const SinkFactory& factory);
 
-/// All steps of the run but the first, each into the output of its name, which `sink_to` opens.
-Status sample_further_steps(Run& run, Engine& engine, const KnownRows& known,
-                            const std::function<SinkFactory(const std::string& output)>& sink_to);
+/// That the mesh changes from step to step, and this output is of one mesh.
+Error of_one_mesh(const std::string& option, const std::string& path);
+
+/// All steps of the run but the first, each into the output of its name, which `sink_to` opens. Where the mesh has
+/// become another one, `locate` finds the points in it; else they are the known ones.
+Status sample_further_steps(Run& run, Engine& engine, KnownRows& known,
+                            const std::function<SinkFactory(const std::string& output)>& sink_to,
+                            const std::function<Status(const StreamTargets&)>& locate);
 
 }  // namespace barycert::pipeline

@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/pipeline/stages.hpp"
 #include "barycert/pipeline/stream.hpp"
 #include "barycert/pipeline/stream_output.hpp"
@@ -19,6 +20,7 @@ public:
             const double* const at = rows.points.data() + d * i;
             const bool same = cell_ >= 0 && rows.cells[i] > cell_ && std::equal(at, at + d, at_.begin());
             if (!same) counts.add(rows.features[i]);
+            if (!same && !base::all_finite({at, d})) ++counts.not_finite;
             std::copy(at, at + d, at_.begin());
             cell_ = rows.cells[i];
         }
@@ -56,7 +58,7 @@ Status sample_map(Run& run, Engine& engine, MapReader& map, const StreamTargets&
         return Done{};
     };
     const auto work = [&](Block& block) -> Status {
-        block.outside = refuse ? first_outside(block.rows.cells) : std::nullopt;
+        block.outside = refuse ? first_outside(block.rows) : std::nullopt;
         if (block.outside) return Done{};
         if (Status done = engine.sampler().evaluate(block.rows.points, options, block.rows, block.first); !done)
             return done;

@@ -61,13 +61,25 @@ Status sample_known(Run& run, Engine& engine, const KnownRows& known, const Sink
     return committed;
 }
 
-Status sample_further_steps(Run& run, Engine& engine, const KnownRows& known,
-                            const std::function<SinkFactory(const std::string& output)>& sink_to) {
+Error of_one_mesh(const std::string& option, const std::string& path) {
+    return {.what = "the mesh changes from step to step, and " + option + " is of one mesh",
+            .file = path,
+            .remedy = "choose one step: --step N"};
+}
+
+Status sample_further_steps(Run& run, Engine& engine, KnownRows& known,
+                            const std::function<SinkFactory(const std::string& output)>& sink_to,
+                            const std::function<Status(const StreamTargets&)>& locate) {
     for (std::size_t i = 1; i < run.steps.size(); ++i) {
         run.count("steps", i);
         if (Status ready = engine.go_to(run.steps[i]); !ready) return ready;
         const SinkFactory factory = sink_to(output_of_step(run.job.output, run.steps[i]));
-        if (Status done = sample_known(run, engine, known, factory); !done) return done;
+        if (!engine.is_another_mesh()) {
+            if (Status done = sample_known(run, engine, known, factory); !done) return done;
+            continue;
+        }
+        known = {};
+        if (Status done = locate({.rows = factory, .known = &known}); !done) return done;
     }
     return Done{};
 }

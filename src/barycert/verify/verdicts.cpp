@@ -28,6 +28,7 @@ void Verdicts::add(const Verdicts& other, std::size_t examples_of_each) {
     wrong_value += other.wrong_value;
     inside += other.inside;
     outside += other.outside;
+    not_finite += other.not_finite;
     on_boundary += other.on_boundary;
     missed_on_boundary += other.missed_on_boundary;
     invented_zero += other.invented_zero;

@@ -6,10 +6,12 @@
 #include <string>
 #include <utility>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
+#include "barycert/sample/quantity/length.hpp"
 #include "barycert/verify.hpp"
 #include "barycert/verify/errors.hpp"
 #include "barycert/verify/holders.hpp"
@@ -19,8 +21,8 @@ namespace {
 
 using verify::ValueError;
 
-/// max - min of the finite numbers of a component; what else errors can be relative to, where that is 0.
-double range_of(const Field& field, std::size_t component) {
+/// What errors of a component are relative to.
+std::pair<double, RelativeTo> range_of(const Field& field, std::size_t component) {
     const auto components = static_cast<std::size_t>(field.components);
     double low = std::numeric_limits<double>::infinity(), high = -low, size = 0;
     for (std::size_t i = component; i < field.data.size(); i += components) {
@@ -31,7 +33,19 @@ double range_of(const Field& field, std::size_t component) {
         size = std::max(size, std::fabs(x));
     }
     const double range = std::min(high - low, std::numeric_limits<double>::max());
-    return range > 0 ? range : size > 0 ? size : 1;
+    if (range > 0) return {range, RelativeTo::range};
+    return size > 0 ? std::pair(size, RelativeTo::magnitude) : std::pair(1.0, RelativeTo::one);
+}
+
+/// What ranges of lengths are those of. Gradients on cells of second order have no numbers at nodes: none.
+Field lengths_at_nodes(const sample::AtPoint& late) {
+    Field lengths;
+    const auto n = static_cast<std::size_t>(late.field->components);
+    const std::size_t first = late.component < 0 ? 0 : static_cast<std::size_t>(late.component);
+    for (std::size_t i = 0; !late.gradient && i < late.field->data.size(); i += n)
+        lengths.data.push_back(
+            sample::euclidean_length(std::span(late.field->data).subspan(i + first, late.component < 0 ? n : 1)));
+    return lengths;
 }
 
 Status wrong_size(const char* what, std::size_t expected, std::size_t found) {
@@ -52,6 +66,7 @@ public:
         found_.columns.resize(ranges_.size());
         SampleOptions exact;
         exact.threads = 1;
+        exact.nonfinite_points = options_.nonfinite_points;
         if (Status done = sampler_.sample(claimed_.points, exact, table_, claimed_.first_row); !done)
             return done.error();
         for (std::size_t row = 0; row < rows; ++row) look_at(row);
@@ -100,6 +115,8 @@ private:
     void look_at(std::size_t row) {
         const bool inside = table_.cells[row] >= 0, said = says_inside(row);
         ++(inside ? found_.inside : found_.outside);
+        const auto d = static_cast<std::size_t>(sampler_.locator().mesh().dimension);
+        if (!inside && !base::all_finite({&claimed_.points[d * row], d})) ++found_.not_finite;
         if (inside && table_.features[row] != Feature::interior) ++found_.on_boundary;
         if (!inside && !said) {
             ++found_.right;
@@ -214,7 +231,7 @@ private:
     Verdicts found_;
 };
 
-Status check_claims(const Sampler& sampler, const ClaimedRows& rows) {
+Status check_claims(const Sampler& sampler, const ClaimedRows& rows, NonfinitePoints nonfinite) {
     const auto d = static_cast<std::size_t>(sampler.locator().mesh().dimension);
     if (rows.points.size() % d != 0) return wrong_size("the points", d, rows.points.size() % d);
     const std::size_t count = rows.points.size() / d, columns = sampler.columns().size();
@@ -222,7 +239,7 @@ Status check_claims(const Sampler& sampler, const ClaimedRows& rows) {
     if (!rows.inside.empty() && rows.inside.size() != count)
         return wrong_size("inside or outside", count, rows.inside.size());
     if (rows.values.size() != count * columns) return wrong_size("the values", count * columns, rows.values.size());
-    return locate::check_finite(rows.points, d, rows.first_row);
+    return nonfinite == NonfinitePoints::nan ? Status(Done{}) : locate::check_finite(rows.points, d, rows.first_row);
 }
 
 ClaimedRows part_of(const ClaimedRows& rows, std::size_t d, std::size_t columns, std::size_t first, std::size_t size) {
@@ -242,17 +259,28 @@ Verifier::Verifier(const Sampler& sampler, const VerifyOptions& options) : sampl
     const locate::CellIndex& index = sampler.data().index();
     near_ = near_distance *
             std::hypot(index.high[0] - index.low[0], index.high[1] - index.low[1], index.high[2] - index.low[2]);
-    for (const auto* fields : {&sampler.data().point_fields, &sampler.data().cell_fields}) {
+    const sample::SamplerData& data = sampler.data();
+    const auto add = [&](const Field& field, std::size_t component, std::size_t columns) {
+        const auto [range, relative_to] = range_of(field, component);
+        ranges_.insert(ranges_.end(), columns, range);
+        relative_to_.insert(relative_to_.end(), columns, relative_to);
+    };
+    std::size_t hidden = data.hidden;
+    for (const auto* fields : {&data.point_fields, &data.cell_fields}) {
         for (const Field* field : *fields) {
-            for (std::size_t c = 0; c < static_cast<std::size_t>(field->components); ++c)
-                ranges_.push_back(range_of(*field, c));
+            for (std::size_t c = 0; c < static_cast<std::size_t>(field->components); ++c) {
+                if (hidden == 0) add(*field, c, 1);
+                hidden -= hidden == 0 ? 0 : 1;
+            }
         }
     }
+    for (const sample::AtPoint& late : data.at_points)
+        add(lengths_at_nodes(late), 0, late.length || late.component >= 0 ? 1 : late.components);
 }
 
 Result<Verdicts> Verifier::verify(const ClaimedRows& rows) const {
     const ExactEnvironment environment;
-    if (Status ok = check_claims(sampler_, rows); !ok) return ok.error();
+    if (Status ok = check_claims(sampler_, rows, options_.nonfinite_points); !ok) return ok.error();
     const auto d = static_cast<std::size_t>(sampler_.locator().mesh().dimension);
     const std::size_t count = rows.points.size() / d, columns = sampler_.columns().size();
     constexpr std::size_t block = std::size_t{1} << 17;
@@ -283,6 +311,12 @@ Status Verifier::measure(Verdicts& verdicts) const {
         tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
             const ExactEnvironment of_task;
             constexpr double anywhere = std::numeric_limits<double>::infinity();
+            const auto d = static_cast<std::size_t>(sampler_.locator().mesh().dimension);
+            if (!base::all_finite({rows[i].point.data(), d})) {
+                rows[i].severity = anywhere;
+                rows[i].distance = std::numeric_limits<double>::quiet_NaN();
+                return;
+            }
             const auto nearest = sampler_.locator().nearest(rows[i].point.data(), anywhere);
             if (!nearest) {
                 errors[i] = nearest.error();
@@ -294,8 +328,8 @@ Status Verifier::measure(Verdicts& verdicts) const {
     for (const std::optional<Error>& error : errors) {
         if (error) return *error;
     }
-    verdicts.invented_measured = rows.size();
     for (const WrongRow& row : rows) {
+        verdicts.invented_measured += std::isnan(row.distance) ? 0 : 1;
         verdicts.invented_near += row.distance <= near_ ? 1 : 0;
         verdicts.invented_distance = std::max(verdicts.invented_distance, row.distance);
     }

@@ -18,7 +18,7 @@ without the interpreter's lock and stops at Ctrl-C.
 
 from . import _core
 from ._audit import AuditReport, KernelResult, audit, families, kernels
-from ._check import CheckReport, Contact, Defect, Place
+from ._check import CheckReport, Contact, Defect, Place, Repair
 from ._core import Error
 from ._interpolator import Interpolator
 from ._location import Feature, Location
@@ -30,6 +30,6 @@ __version__: str = _core.version
 
 __all__ = [
     "AuditReport", "CheckReport", "ColumnErrors", "Contact", "Defect", "Error", "Feature", "FieldData", "Interpolator",
-    "KernelResult", "Location", "Mesh", "Place", "Verification", "WrongRow", "audit", "barycentric_weights", "det3d",
-    "families", "incircle", "insphere", "kernels", "orient2d", "orient3d", "read", "verify", "weight_signs",
+    "KernelResult", "Location", "Mesh", "Place", "Repair", "Verification", "WrongRow", "audit", "barycentric_weights",
+    "det3d", "families", "incircle", "insphere", "kernels", "orient2d", "orient3d", "read", "verify", "weight_signs",
 ]  # fmt: skip

@@ -20,7 +20,11 @@ def contiguous(array: Any, dtype: Any = np.float64) -> np.ndarray:
 def real(array: Any, what: str) -> np.ndarray:
     """An array of real numbers, as it is; Error if it is of another kind."""
     if isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array):
-        _core.fail(f"masked entries of the {what}", remedy="say what they are: .filled(numpy.nan)")
+        finite = what.startswith(("points", "coordinates", "vertices"))
+        _core.fail(
+            f"masked entries of the {what}",
+            remedy="leave them out" if finite else "say what they are: .astype(float).filled(numpy.nan)",
+        )
     array = np.asarray(array)
     if array.dtype.kind not in "fiub":
         _core.fail(f"type of the {what}", expected="real numbers", found=str(array.dtype))
@@ -34,8 +38,12 @@ def real(array: Any, what: str) -> np.ndarray:
     return array
 
 
-def exact_doubles(array: Any, what: str) -> np.ndarray:
-    """Doubles of the same values; Error if an integer is not one."""
+def exact_doubles(array: Any, what: str, nonfinite_points: Optional[str] = None) -> np.ndarray:
+    """Doubles of the same values; Error if an integer is not one. Where points may be "nan", masked entries are that."""
+    if nonfinite_points is not None and isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array):
+        if nonfinite_points == "nan":
+            return np.where(np.ma.getmaskarray(array), np.nan, exact_doubles(array.filled(0), what))
+        _core.fail(f"masked entries of the {what}", remedy='nonfinite_points="nan" takes NaN for their values')
     array = real(array, what)
     doubles = array.astype(np.float64, order="C", copy=False)
     if array.dtype.kind in "iu" and array.dtype.itemsize == 8 and array.size:
@@ -51,15 +59,18 @@ def exact_doubles(array: Any, what: str) -> np.ndarray:
     return np.asarray(doubles, order="C")
 
 
-def points_of(points: Any, dimension: int) -> Tuple[np.ndarray, Tuple[int, ...]]:
-    """Points as (n, dimension), without a copy where they are contiguous doubles, and their leading shape.
+def points_of(
+    points: Any, dimension: int, nonfinite_points: Optional[str] = None
+) -> Tuple[np.ndarray, Tuple[int, ...]]:
+    """Points as (n, dimension), without a copy where they are contiguous doubles, and their leading shape. With "nan"
+    for `nonfinite_points` masked coordinates are NaN.
 
     Also takes what has points: a mesh, a data set of pyvista or VTK."""
     if hasattr(points, "GetPoints") or (hasattr(points, "points") and not isinstance(points, np.ndarray)):
         from ._exchange import points_of_dataset
 
         points = points_of_dataset(points, dimension)
-    array = exact_doubles(points, "points")
+    array = exact_doubles(points, "points", nonfinite_points)
     if array.ndim == 0 or (array.ndim == 1 and array.size != dimension) or array.shape[-1] != dimension:
         _core.fail(
             "shape of the points",
@@ -90,12 +101,12 @@ def count_of(number: Any, what: str) -> int:
 
 
 def options_of(
-    outside: Optional[str], fill_value: float, limit: float, rounding: str, threads: int
+    outside: Optional[str], fill_value: float, limit: float, rounding: str, threads: int, nonfinite_points: str = "error"
 ) -> _core.SampleOptions:
     """outside None: fill_value, which is NaN unless it is given."""
     if outside is None:
         outside = "nan" if np.isnan(fill_value) else "fill"
-    return _core.SampleOptions(outside, float(fill_value), float(limit), rounding, count_of(threads, "threads="))
+    return _core.SampleOptions(outside, float(fill_value), float(limit), rounding, count_of(threads, "threads="), nonfinite_points)
 
 
 class Teller:

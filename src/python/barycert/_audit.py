@@ -51,7 +51,8 @@ class KernelResult(Mapping):
 
 
 class AuditReport:
-    """What `audit` found. str() is the report as `barycert audit` prints it; it is true if no kernel has a finding.
+    """What `audit` found. str() is the report as `barycert audit` prints it; it is true if no kernel has a finding, and
+    none was given up.
 
     Attributes:
         kernels: list of KernelResult, worst first.
@@ -78,7 +79,7 @@ class AuditReport:
         return self._core.html()
 
     def __bool__(self) -> bool:
-        return all(kernel.wrong_cases == 0 for kernel in self.kernels)
+        return all(kernel.wrong_cases == 0 and kernel["not_run"] == 0 for kernel in self.kernels)
 
     def __str__(self) -> str:
         return self.text()
@@ -123,7 +124,8 @@ def audit(
         oracle: "automatic", "integers", "cgal" or "both".
 
     Raises:
-        Error: no such kernel, library or family. What the callable raises ends the audit.
+        Error: no such kernel, library or family; an answer of another shape. An exception of the callable is a finding,
+            `raised`; KeyboardInterrupt ends the audit.
     """
     _need_audit()
     callable_kernel = None

@@ -16,11 +16,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a defect is: indices in the mesh."""
+    """Where a defect is: indices in the mesh. `other_nodes`: of the facet that `nodes` meet, or of the edge or facet that
+    the node hangs on. `distance`: of near nodes."""
 
     cells: Tuple[int, ...]
     nodes: Tuple[int, ...]
     detail: str
+    other_nodes: Tuple[int, ...] = ()
+    distance: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -65,6 +68,23 @@ class Contact:
     point: Tuple[float, ...]
     exact: bool
     fraction: Tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Repair:
+    """What `Mesh.fix` did.
+
+    Attributes:
+        merged: of each node taken out: it, the node that is kept, how far it moved.
+        dropped: of each cell taken out: it, and why: "repeated_node", "degenerate_cell" or "duplicate_cell".
+        turned: how many cells were negative.
+        fields: where merged nodes have other values than the node that is kept: name, how many, largest difference.
+    """
+
+    merged: List[Tuple[int, int, float]]
+    dropped: List[Tuple[int, str]]
+    turned: int
+    fields: List[Tuple[str, int, float]]
 
 
 class CheckReport:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from typing import Any, Optional, Tuple
 
 import numpy as np
@@ -31,12 +32,14 @@ class Interpolator:
         outside: instead of that: "nan"; "raise": an Error that names the first such point; "nearest": the value at the
             nearest point of the mesh; "extrapolate": that of the function of the nearest cell.
         limit: with "nearest", farther points get NaN.
+        nonfinite_points: "nan": points with a coordinate that is NaN, infinite or masked get NaN, also where `fill_value`
+            is another number, and `nonfinite_count` counts them; "error": an Error that names the first.
         rounding: "correct"; or "plain": evaluated in plain double, in cells that are exact all the same.
         threads: 0 for as many as the machine has.
 
     Each value is the exact interpolation in the owner, the lowest cell that contains the point, rounded once to nearest,
     ties to even, for real and imaginary part alike; so it does not depend on threads, order or machine. A component is NaN
-    where a value of its cell is not finite. Coordinates that are not finite are an Error, where SciPy gives NaN.
+    where a value of its cell is not finite.
 
     Any number of threads may call it at the same time. It can be pickled and copied.
     """
@@ -51,6 +54,7 @@ class Interpolator:
         outside: Optional[str] = None,
         limit: float = np.inf,
         rounding: str = "correct",
+        nonfinite_points: str = "nan",
         threads: int = 0,
         progress: Progress = None,
     ) -> None:
@@ -70,12 +74,14 @@ class Interpolator:
             self._shape = self._shape[:-1]
         self._fill_value = fill_value
         self._outside, self._limit, self._rounding, self._threads = outside, limit, rounding, threads
+        self._nonfinite_points = nonfinite_points
+        self._nonfinite_count, self._lock = 0, threading.Lock()
         # A complex number takes the place of two: it is put in afterwards.
         self._fill_after = self._complex and (outside == "fill" or (outside is None and not np.isnan(fill_value)))
         self._options = (
-            options_of("nan", np.nan, limit, rounding, threads)
+            options_of("nan", np.nan, limit, rounding, threads, nonfinite_points)
             if self._fill_after
-            else options_of(outside, np.real(fill_value), limit, rounding, threads)
+            else options_of(outside, np.real(fill_value), limit, rounding, threads, nonfinite_points)
         )
         if not self._complex and np.iscomplexobj(fill_value):
             _core.fail("fill_value", expected="a real number, as the values are", found=repr(fill_value))
@@ -97,6 +103,11 @@ class Interpolator:
         """(n, ...) the values, as they were given."""
         return self._values
 
+    @property
+    def nonfinite_count(self) -> int:
+        """How many points of all calls so far were not finite, and got NaN."""
+        return self._nonfinite_count
+
     def __call__(self, *args: Any, progress: Progress = None) -> np.ndarray:
         """Values at points.
 
@@ -109,28 +120,31 @@ class Interpolator:
             (...) + the shape of one value.
         """
         rows, shape = self._coordinates(args)
+        finite = np.isfinite(rows).all(axis=1)
         with Teller(progress) as tell:
             result = self._sampler.sample(rows, self._options, tell)
             if self._fill_after:
-                cell, _ = _core.locate(self.mesh._core, rows, self._threads, tell)
+                cell, _ = _core.locate(self.mesh._core, rows, self._threads, tell, self._nonfinite_points)
+        with self._lock:
+            self._nonfinite_count += len(rows) - np.count_nonzero(finite)
         if self._complex:
             result = result.view(np.complex128)
             if self._fill_after:
-                result[cell < 0] = self._fill_value
+                result[(cell < 0) & finite] = self._fill_value
         return result.reshape(shape + self._shape)
 
     def _coordinates(self, args: Tuple[Any, ...]) -> Tuple[np.ndarray, Tuple[int, ...]]:
-        d = self.mesh.dimension
+        d, nonfinite = self.mesh.dimension, self._nonfinite_points
         if len(args) == 1 and isinstance(args[0], tuple):
             args = args[0]
         if len(args) == 1:
-            points = exact_doubles(args[0], "points")
+            points = exact_doubles(args[0], "points", nonfinite)
             if points.ndim == 1:
                 points = points.reshape(-1, d) if points.size % d == 0 else points
         else:
             if len(args) != d:
                 _core.fail("number of coordinates", expected=f"points (..., {d}), or {d} arrays", found=str(len(args)))
-            points = np.stack(np.broadcast_arrays(*(exact_doubles(a, "coordinates") for a in args)), axis=-1)
+            points = np.stack(np.broadcast_arrays(*(exact_doubles(a, "coordinates", nonfinite) for a in args)), axis=-1)
         if points.ndim == 0 or points.shape[-1] != d:
             _core.fail("shape of the points", expected=f"(..., {d}): {d} coordinates each", found=str(points.shape))
         return points.reshape(-1, d), points.shape[:-1]
@@ -141,6 +155,7 @@ class Interpolator:
             "outside": self._outside,
             "limit": self._limit,
             "rounding": self._rounding,
+            "nonfinite_points": self._nonfinite_points,
             "threads": self._threads,
         }
         return _unpickle, (self.mesh, self._values, options)

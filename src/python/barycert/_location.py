@@ -91,7 +91,8 @@ class Location:
         progress: Progress = None,
     ) -> np.ndarray:
         """As `Mesh.sample` at these points, which are not located again."""
-        options = options_of(outside, fill_value, limit, rounding, threads)
+        # Points that are not finite are here only if they were to be outside.
+        options = options_of(outside, fill_value, limit, rounding, threads, "nan")
         with Teller(progress) as tell:
             sampler = self.mesh._sampler(fields, tell)
             rows = sampler.evaluate(self._points, self._cell, self._feature, options, tell)

@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 import warnings
 from collections.abc import MutableMapping
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union, cast
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union, cast
 
 import numpy as np
 
 from . import _core
 from ._arguments import Progress, Teller, contiguous, count_of, exact_doubles, options_of, points_of, real, values_of
-from ._check import CheckReport
+from ._check import CheckReport, Repair
 from ._location import Location
 
 Fields = Union[None, str, Sequence[str]]
+
+
+def _no_field(name: object, names: Iterable[str]) -> KeyError:
+    all_names = list(names)
+    near = difflib.get_close_matches(str(name), all_names, 1)
+    meant = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(all_names) or 'none'}"
+    return KeyError(f"no field {name!r}; {meant}")
 
 
 class FieldData(MutableMapping):
@@ -30,7 +38,7 @@ class FieldData(MutableMapping):
     def __getitem__(self, name: str) -> np.ndarray:
         array = self._core.field(name, self._of_cells)
         if array is None:
-            raise KeyError(name)
+            raise _no_field(name, self)
         return array.reshape((self._count,) + self._shape(name, array.shape[1]))
 
     def _shape(self, name: str, components: int) -> Tuple[int, ...]:
@@ -45,7 +53,7 @@ class FieldData(MutableMapping):
 
     def __delitem__(self, name: str) -> None:
         if name not in self:
-            raise KeyError(name)
+            raise _no_field(name, self)
         self._core.remove_field(name, self._of_cells)
         self._shapes.pop(name, None)
 
@@ -63,6 +71,67 @@ class FieldData(MutableMapping):
         return f"<{'cells' if self._of_cells else 'nodes'}: {{{items}}}>"
 
 
+class AllFields(MutableMapping):
+    """All fields of a mesh by name, those of nodes first. A field of cells that has the name of one of nodes is
+    "cell:NAME". A field that is put in belongs to nodes or to cells by its length, or to what "point:NAME" and
+    "cell:NAME" say."""
+
+    def __init__(self, point_data: FieldData, cell_data: FieldData) -> None:
+        self._of = {"point": point_data, "cell": cell_data}
+
+    def _place(self, name: object) -> Optional[Tuple[FieldData, str]]:
+        for data in self._of.values():
+            if name in data:
+                return data, str(name)
+        of, colon, rest = str(name).partition(":")
+        return (self._of[of], rest) if colon and of in self._of and rest in self._of[of] else None
+
+    def _found(self, name: str) -> Tuple[FieldData, str]:
+        place = self._place(name)
+        if place is None:
+            raise _no_field(name, self)
+        return place
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        data, own = self._found(name)
+        return data[own]
+
+    def __setitem__(self, name: str, values: Any) -> None:
+        place = self._place(name)
+        if place is None and isinstance(name, str):
+            of, colon, rest = name.partition(":")
+            if colon and of in self._of:
+                place = self._of[of], rest
+            else:
+                fits = [data for data in self._of.values() if np.shape(values)[:1] == (data._count,)]
+                place = (fits[0], name) if len(fits) == 1 else None
+        if place is None:
+            _core.fail(
+                f"nodes or cells for field {name!r}",
+                expected=f"{self._of['point']._count} rows for nodes, or {self._of['cell']._count} for cells",
+                found=str(np.shape(values)),
+                remedy="put it into point_data or cell_data",
+            )
+        place[0][place[1]] = values
+
+    def __delitem__(self, name: str) -> None:
+        data, own = self._found(name)
+        del data[own]
+
+    def __contains__(self, name: object) -> bool:
+        return self._place(name) is not None
+
+    def __iter__(self) -> Iterator[str]:
+        points, cells = self._of.values()
+        return iter([*points, *(f"cell:{name}" if name in points else name for name in cells)])
+
+    def __len__(self) -> int:
+        return sum(map(len, self._of.values()))
+
+    def __repr__(self) -> str:
+        return f"<fields: {', '.join(self)}>"
+
+
 class Mesh:
     """A mesh of triangles in the plane or of tetrahedra in space.
 
@@ -74,6 +143,8 @@ class Mesh:
             SciPy Delaunay or matplotlib Triangulation of the points.
             With 6 or 10 columns cells of second order, nodes at mid-edges in VTK's order: edges 01 12 02 (03 13 23).
         point_data, cell_data: fields, name to array (n, ...) or (m, ...).
+        curved: of cells of second order whose mid-edge nodes are not at the middle (see `Mesh.curved`): "straight" takes
+            their sides as straight, with a warning; "refuse" raises an Error.
 
     The geometry is copied once and cannot be changed; fields can. The index for point location is made when it is first
     needed. Any number of threads may use a mesh at the same time. Meshes can be pickled and copied.
@@ -90,6 +161,7 @@ class Mesh:
         *,
         point_data: Optional[Mapping[str, Any]] = None,
         cell_data: Optional[Mapping[str, Any]] = None,
+        curved: str = "straight",
     ) -> None:
         numbers: Optional[np.ndarray] = None
         notes: List[str] = []
@@ -125,6 +197,7 @@ class Mesh:
         left = [] if numbers is None else cast(List[int], numbers.tolist())
         core = _core.Mesh(coordinates, contiguous(indices, indices.dtype.newbyteorder("=")), left)
         self._set_core(core, notes)
+        self._take_as_straight("", curved)
         self.point_data.update(point_data or {})
         self.cell_data.update(cell_data or {})
 
@@ -133,6 +206,13 @@ class Mesh:
         self._more_notes = list(notes)
         self._point_data = FieldData(core, False, len(core.points))
         self._cell_data = FieldData(core, True, len(core.cells))
+
+    def _take_as_straight(self, file: str, curved: str) -> None:
+        if curved not in ("straight", "refuse"):
+            _core.fail("curved=", expected="'straight' or 'refuse'", found=repr(curved))
+        _, told = self._core.take_as_straight(file, curved == "refuse")
+        if told:
+            warnings.warn(f"{file}: {told}" if file else told, stacklevel=3)
 
     @classmethod
     def _of_core(cls, core: _core.Mesh) -> Mesh:
@@ -183,9 +263,33 @@ class Mesh:
         return self._cell_data
 
     @property
+    def fields(self) -> AllFields:
+        """All of them, by name: mesh.fields["T"], or mesh["T"] for short."""
+        return AllFields(self._point_data, self._cell_data)
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self.fields[name]
+
+    def __setitem__(self, name: str, values: Any) -> None:
+        self.fields[name] = values
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.fields
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.fields)
+
+    @property
     def notes(self) -> List[str]:
         """What was left out, converted or guessed on the way from a file or data set."""
         return self._more_notes + [text for text, _ in self._core.notes]
+
+    @property
+    def curved(self) -> Dict[str, float]:
+        """How far sides are from the straight ones that all answers are of: `cells`, how many have a mid-edge node off the
+        middle of its edge; `max_deviation`, the largest distance from it in parts of the edge's length; `rounded_cells`
+        and `max_rounded`, the same of those where rounding of coordinates explains it. All 0 for linear cells."""
+        return self._core.take_as_straight("", False)[0]
 
     @property
     def bounds(self) -> np.ndarray:
@@ -200,18 +304,21 @@ class Mesh:
 
     # What can be asked of it.
 
-    def locate(self, points: Any, *, threads: int = 0, progress: Progress = None) -> Location:
+    def locate(
+        self, points: Any, *, nonfinite_points: str = "error", threads: int = 0, progress: Progress = None
+    ) -> Location:
         """The cell of each point: exact, and the same from run to run.
 
         Args:
             points: (..., d), finite; or a data set with points. Copied if they could be changed later.
+            nonfinite_points: "nan": points with a coordinate that is NaN, infinite or masked are outside.
             threads: 0 for as many as the machine has.
             progress: a callable of (stage, done, total); True for a bar of tqdm, where that is installed.
 
         Raises:
-            Error: a coordinate is not finite (the point is named), or shapes do not fit.
+            Error: a coordinate is not finite (the point is named) nor may be, or shapes do not fit.
         """
-        rows, shape = points_of(points, self.dimension)
+        rows, shape = points_of(points, self.dimension, nonfinite_points)
         made_here = isinstance(points, (list, tuple)) or (
             isinstance(points, np.ndarray) and not np.may_share_memory(rows, points)
         )
@@ -219,7 +326,7 @@ class Mesh:
             rows = rows.copy()
         rows.flags.writeable = False
         with Teller(progress) as tell:
-            cell, feature = _core.locate(self._core, rows, count_of(threads, "threads="), tell)
+            cell, feature = _core.locate(self._core, rows, count_of(threads, "threads="), tell, nonfinite_points)
         return Location(self, rows, shape, cell, feature)
 
     def locate_all(self, points: Any, *, threads: int = 0, progress: Progress = None) -> Tuple[np.ndarray, np.ndarray]:
@@ -253,6 +360,7 @@ class Mesh:
         fill_value: float = np.nan,
         limit: float = np.inf,
         rounding: str = "correct",
+        nonfinite_points: str = "error",
         threads: int = 0,
         progress: Progress = None,
     ) -> np.ndarray:
@@ -267,12 +375,14 @@ class Mesh:
                 Unless it is given: `fill_value`.
             limit: with "nearest", farther points get NaN.
             rounding: "plain" evaluates in plain double, in cells that are exact all the same.
+            nonfinite_points: "nan": points with a coordinate that is NaN, infinite or masked get NaN, whatever points
+                outside get; "error": an Error that names the first.
 
         Returns:
             Of one name an array (...) or (..., components); else a structured array (...), a member a field.
         """
-        rows, shape = points_of(points, self.dimension)
-        options = options_of(outside, fill_value, limit, rounding, threads)
+        rows, shape = points_of(points, self.dimension, nonfinite_points)
+        options = options_of(outside, fill_value, limit, rounding, threads, nonfinite_points)
         with Teller(progress) as tell:
             sampler = self._sampler(fields, tell)
             values = sampler.sample(rows, options, tell)
@@ -372,6 +482,25 @@ class Mesh:
                 count_of(threads, "threads="), tell,
             )  # fmt: skip
         return CheckReport(core, self)
+
+    def fix(
+        self,
+        *,
+        merge_within: float = 0.0,
+        nodes: bool = True,
+        cells: bool = True,
+        orientation: bool = True,
+        threads: int = 0,
+    ) -> Tuple[Mesh, Repair]:
+        """A copy with what has one right answer repaired, and what was done. `check` says what the copy is.
+
+        Args:
+            nodes: merge nodes of cells that coincide; merge_within: and those at most so far apart.
+            cells: drop cells that are degenerate or name a node twice, and all but one of duplicates.
+            orientation: turn negative cells.
+        """
+        core, done = _core.fix(self._core, float(merge_within), nodes, cells, orientation, count_of(threads, "threads="))
+        return Mesh._of_core(core), Repair(**done)
 
     # Out and in.
 
@@ -476,16 +605,32 @@ def _unpickle(
     return mesh
 
 
-def read(path: Union[str, os.PathLike]) -> Mesh:
-    """Reads a mesh with its fields: TetGen's or Triangle's files by their stem or any one of them; .msh of Gmsh; .vtu,
-    .vtk, .vtp, .pvtu, .vtm and .pvd of VTK. The format is told by the contents.
+def read(
+    path: Union[str, os.PathLike],
+    step: Union[int, str, None] = None,
+    time: Optional[float] = None,
+    *,
+    curved: str = "straight",
+) -> Mesh:
+    """Reads a mesh with its fields: TetGen's or Triangle's files by their stem or any one of them; .msh of Gmsh;
+    .mesh and .meshb of Medit; .vtu, .vtk, .vtp, .pvtu, .vtm and .pvd of VTK. The format is told by the contents.
+
+    Args:
+        step: of a series (.pvd, .vtu.series), by its number from 0, or "last"; default: the first, with a warning.
+        time: likewise, by its time, exactly as the file has it.
+        curved: as for `Mesh`.
 
     What may change what results mean is a warning, all else that was left out, converted or guessed is in `notes`.
 
     Raises:
-        Error: there is no such file, it is broken or of another kind; the message says where and why.
+        Error: there is no such file or step, it is broken or of another kind; the message says where and why.
     """
-    mesh = Mesh._of_core(_core.read(os.fspath(path)))
+    if step is not None and time is not None:
+        _core.fail("step and time", expected="one of them", found="both")
+    last = isinstance(step, str) and step == "last"
+    number = None if step is None or last else count_of(step, "step=")
+    mesh = Mesh._of_core(_core.read(os.fspath(path), number, last, time))
+    mesh._take_as_straight(os.fspath(path), curved)
     for text, important in mesh._core.notes:
         if important:
             warnings.warn(text, stacklevel=2)

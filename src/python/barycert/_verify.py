@@ -46,7 +46,8 @@ class ColumnErrors:
     """Errors of the values of one column.
 
     Attributes:
-        range: what `max_relative` is relative to: max - min of the nodal values.
+        range: what `max_relative` is relative to: max - min of the nodal values; where that is 0 their magnitude, and 1
+            where they are 0.
         values: compared. identical: with the bits of the exact one. over: off by more than the tolerance.
         missing: NaN where there is a value. spurious: a number where the exact one is NaN.
         max_ulps, max_relative: the largest errors.
@@ -130,7 +131,8 @@ def verify(
             field `fields`. NaN in all of them: outside, if neither cells nor inside says so.
         cells: (...) integers, the cell it found; below 0: outside. Any cell that contains the point is right.
         inside: (...) 0 or False: outside; such as vtkValidPointMask.
-        tolerance: the largest error of a value that is right, in parts of the field's range.
+        tolerance: the largest error of a value that is right, in parts of the field's range (of its magnitude where it is
+            constant; of 1 where it is 0).
         exact: right is what has the bits of the correctly rounded value.
         outside_value: a row of this number alone means outside.
         examples: rows kept of each kind of error.

@@ -189,7 +189,7 @@ TEST(BadVtkFiles, triangles_off_the_plane) {
     ASSERT_FALSE(read);
     EXPECT_EQ(read.error().what, "z of point 3 (from 0)");
     EXPECT_EQ(read.error().found, "0.5");
-    EXPECT_NE(read.error().remedy.find("surfaces in space are not meshes here"), std::string::npos);
+    EXPECT_NE(read.error().remedy.find("a surface in space is no mesh here"), std::string::npos);
     put(folder / "m", changed(text, {"0.5<", "-0.0<", "", "", "", 0}));
     EXPECT_TRUE(read_quietly(folder / "m"));
 }

@@ -111,7 +111,8 @@ TEST(VtkCollections, blocks_and_series) {
     const Result<Mesh> first = read_vtk(folder / "m.pvd");
     ASSERT_TRUE(first) << first.error().message();
     EXPECT_EQ(first->cell_count(), 2U);
-    EXPECT_EQ(notes_of(*first), (Texts{"all steps but the first of a series of 2"}));
+    EXPECT_EQ(notes_of(*first), (Texts{"all steps but the first of a series of 2: read is the time 0.5"}));
+    EXPECT_TRUE(first->notes[0].important);
     // The same series as ParaView writes it.
     put(folder / "m.vtu.series",
         "{\n  \"file-series-version\" : \"1.0\",\n  \"files\" : [\n    { \"name\" : \"0.vtu\", \"time\" : 0.5 },\n"
@@ -126,11 +127,78 @@ TEST(VtkCollections, blocks_and_series) {
     const Result<Mesh> too = read_mesh(folder / "m.vtu.series");
     ASSERT_TRUE(too) << too.error().message();
     EXPECT_EQ(too->points, first->points);
-    EXPECT_EQ(notes_of(*too), (Texts{"all steps but the first of a series of 2"}));
+    EXPECT_EQ(notes_of(*too), (Texts{"all steps but the first of a series of 2: read is the time 0.5"}));
     EXPECT_EQ(mesh_files(folder / "m.vtu.series"),
               (Texts{folder / "m.vtu.series", folder / "0.vtu", folder / "1.vtu", "/x/y.vtu"}));
     EXPECT_FALSE(read_series(folder / "m.vtm"));
     EXPECT_FALSE(read_series(folder / "none.pvd"));
+}
+
+TEST(VtkCollections, a_step_is_chosen) {
+    const TemporaryFolder folder;
+    for (const int k : {0, 1, 2}) put(folder / (std::to_string(k) + ".vtu"), piece(k));
+    put(folder / "m.pvd",
+        "<VTKFile type='Collection'><Collection><DataSet timestep='0.5' file='0.vtu'/>\n<DataSet timestep='1' "
+        "file='1.vtu'/>\n<DataSet timestep='1' part='1' file='2.vtu'/><DataSet timestep='3' file='0.vtu'/>\n"
+        "<DataSet timestep='4' file='none.vtu'/></Collection></VTKFile>");
+    const std::string path = folder / "m.pvd";
+    const auto read = [&](const StepChoice& step) { return read_mesh(path, {.step = step}); };
+    const Result<Mesh> one = read({.number = 1}), at = read({.time = 1.0});
+    ASSERT_TRUE(one) << one.error().message();
+    ASSERT_TRUE(at) << at.error().message();
+    EXPECT_EQ(one->cell_count(), 2U);
+    EXPECT_EQ(at->points, one->points);
+    EXPECT_EQ(notes_of(*one), Texts{});
+    EXPECT_EQ(notes_of(*at), (Texts{"all steps but number 1 of a series of 4: read is the time 1"}));
+    for (const Note& note : at->notes) EXPECT_TRUE(note.kind != Note::Kind::left_out || !note.important) << note.text;
+    const Result<Mesh> no_number = read({.number = 4}), no_time = read({.time = 2.0});
+    ASSERT_FALSE(no_number);
+    EXPECT_EQ(no_number.error().expected, "a number from 0 to 3");
+    ASSERT_FALSE(no_time);
+    EXPECT_EQ(no_time.error().expected, "one of the times 0.5, 1, 3, 4");
+    // What is missing is named, and where it is named.
+    const Result<Mesh> last = read({.last = true});
+    ASSERT_FALSE(last);
+    EXPECT_EQ(last.error().file, path);
+    EXPECT_EQ(last.error().line, 4U);
+    EXPECT_EQ(last.error().expected, folder / "none.vtu");
+    // Of what is no series no step is chosen.
+    put(folder / "m.pvtu", partitioned({"0.vtu"}));
+    EXPECT_FALSE(read_mesh(folder / "m.pvtu", {.step = {.number = 0}}));
+    EXPECT_FALSE(read_mesh(folder / "0.vtu", {.step = {.last = true}}));
+}
+
+TEST(VtkCollections, polygon_data_are_the_mesh_where_there_is_no_other) {
+    const TemporaryFolder folder;
+    put(folder / "s.vtp",
+        "<VTKFile type='PolyData'><PolyData><Piece NumberOfPoints='3' NumberOfPolys='1'><Points><DataArray "
+        "type='Float64' NumberOfComponents='3'>0 0 0 1 0 0 0 1 0</DataArray></Points><Polys><DataArray type='Int64' "
+        "Name='connectivity'>0 1 2</DataArray><DataArray type='Int64' Name='offsets'>3</DataArray></Polys></Piece>"
+        "</PolyData></VTKFile>");
+    put(folder / "0.vtu", piece(0));
+    put(folder / "s.pvd",
+        "<VTKFile type='Collection'><Collection><DataSet timestep='0' file='s.vtp'/></Collection></VTKFile>");
+    put(folder / "s.vtp.series", "{\"files\": [{\"name\": \"s.vtp\", \"time\": 0}]}");
+    const auto blocks = [](const std::string& files) {
+        return "<VTKFile type='vtkMultiBlockDataSet'><vtkMultiBlockDataSet>" + files +
+               "</vtkMultiBlockDataSet></VTKFile>";
+    };
+    put(folder / "s.vtm", blocks("<DataSet index='0' file='s.vtp'/><DataSet index='1' file='none.vti'/>"));
+    put(folder / "s.pvtp", "<VTKFile type='PPolyData'><PPolyData><Piece Source='s.vtp'/></PPolyData></VTKFile>");
+    put(folder / "outer.vtm", blocks("<DataSet index='0' file='s.pvtp'/>"));
+    const Result<Mesh> alone = read_mesh(folder / "s.vtp");
+    ASSERT_TRUE(alone) << alone.error().message();
+    for (const std::string name : {"s.pvd", "s.vtp.series", "s.vtm", "s.pvtp", "outer.vtm"}) {
+        const Result<Mesh> mesh = read_mesh(folder / name);
+        ASSERT_TRUE(mesh) << name << mesh.error().message();
+        EXPECT_EQ(mesh->cells, alone->cells) << name;
+        EXPECT_EQ(mesh->points, alone->points) << name;
+    }
+    // Beside a mesh they are left out, also those that are named further down.
+    put(folder / "both.vtm", blocks("<DataSet index='0' file='0.vtu'/><DataSet index='1' file='s.vtm'/>"));
+    const Result<Mesh> both = read_mesh(folder / "both.vtm");
+    ASSERT_TRUE(both) << both.error().message();
+    EXPECT_EQ(both->point_count(), 4U);
 }
 
 TEST(VtkCollections, a_series_file_that_is_wrong) {
@@ -175,7 +243,7 @@ TEST(VtkCollections, what_is_refused) {
     };
     refused(partitioned({"0.vtu", "0.vtu"}), "a file that is named twice in a collection of files");
     refused(partitioned({"m"}), "a file that is named twice in a collection of files");
-    refused(partitioned({"none.vtu"}), "cannot read the file");
+    refused(partitioned({"none.vtu"}), "a file that is named here is missing");
     refused(partitioned({""}), "an entry without a file");
     refused(partitioned({}), "the file contains no mesh");
     refused("<VTKFile type='Collection'><Collection/></VTKFile>", "a series without steps");

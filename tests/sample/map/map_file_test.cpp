@@ -185,7 +185,7 @@ TEST(MapFile, rows_that_no_map_can_hold) {
                                 {3, {0, 0, 0}, -1, 5, false},
                                 {3, {0, 0, 0}, 1, 255, false},
                                 {3, {0, nan, 0}, 1, 0, false},
-                                {3, {0, 0, -inf}, -1, 4, false},
+                                {3, {0, 0, -inf}, -1, 4, true},
                                 {2, {0, 0}, 1, 2, true},
                                 {2, {0, 0}, 1, 1, false},
                                 {2, {inf, 0}, 1, 2, false},

@@ -230,7 +230,7 @@ TEST(SampleOutside, E1_NanAndFill) {
     }
 }
 
-// A point a hair outside has the value of the point it is snapped to, NaN too: a node of the cell has none.
+// A point a hair outside has the value of the point it is snapped to, NaN too where a node with NaN takes part.
 TEST(SampleOutside, N3_NotFiniteAsInside) {
     Mesh mesh;
     mesh.dimension = 2;
@@ -241,10 +241,13 @@ TEST(SampleOutside, N3_NotFiniteAsInside) {
     ASSERT_TRUE(sampler);
     const double tiny = std::numeric_limits<double>::denorm_min();
     for (const Rounding rounding : {Rounding::correct, Rounding::plain}) {
-        const auto rows = sampler->sample(std::vector<double>{0.5, 0, 0.5, -tiny, 1, 0, 2, 0},
-                                          {.rounding = rounding, .outside = {.kind = Outside::nearest}});
+        const auto rows =
+            sampler->sample(std::vector<double>{0.5, 0, 0.5, -tiny, 1, 0, 2, 0, 0, 0.5, -tiny, 0.5, 0, 1, 0, 2},
+                            {.rounding = rounding, .outside = {.kind = Outside::nearest}});
         ASSERT_TRUE(rows);
-        for (std::size_t i = 0; i < 4; ++i) EXPECT_TRUE(std::isnan(rows->value(i, 0))) << i;
+        const double expected[]{1.5, 1.5, 2, 2};
+        for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(rows->value(i, 0), expected[i]) << i;
+        for (std::size_t i = 4; i < 8; ++i) EXPECT_TRUE(std::isnan(rows->value(i, 0))) << i;
     }
 }
 

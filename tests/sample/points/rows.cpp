@@ -37,16 +37,30 @@ double true_value(const Mesh& mesh, const Field& field, std::size_t c, Mesh::Ind
     Case question = case_of(mesh, cell, point);
     const auto components = static_cast<std::size_t>(field.components), k = static_cast<std::size_t>(cell);
     const auto at = [&](Mesh::Index node) { return field.data[components * static_cast<std::size_t>(node) + c]; };
+    const bool quadratic = !mesh.mid_nodes.empty();
+    const unsigned support = ask_oracle(question).support;
     bool finite = true;
+    // What has no part is left out: l = 0, and on quadratic cells l = 1/2 and edges of corners with l = 0.
+    const auto take = [&](double f, bool has_part) {
+        finite &= std::isfinite(f) || (!has_part && support != 0);
+        return std::isfinite(f) ? f : 0;
+    };
     for (std::size_t i = 0; i < mesh.corners(); ++i) {
-        question.values[i] = at(mesh.cells[mesh.corners() * k + i]);
-        finite &= std::isfinite(question.values[i]);
+        bool has_part = (support >> i & 1) != 0;
+        if (quadratic) {
+            Case half = question;
+            half.values.fill(-0.5);
+            half.values[i] = 0.5;
+            has_part &= ask_oracle(half).value != 0;
+        }
+        question.values[i] = take(at(mesh.cells[mesh.corners() * k + i]), has_part);
     }
     const std::size_t edges = mesh.dimension == 2 ? 3 : 6;
+    static constexpr std::size_t ends[6][2]{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
     std::vector<double> mids;
-    for (std::size_t e = 0; !mesh.mid_nodes.empty() && e < edges; ++e) {
-        mids.push_back(at(mesh.mid_nodes[edges * k + e]));
-        finite &= std::isfinite(mids.back());
+    for (std::size_t e = 0; quadratic && e < edges; ++e) {
+        const bool has_part = (support >> ends[e][0] & 1) != 0 && (support >> ends[e][1] & 1) != 0;
+        mids.push_back(take(at(mesh.mid_nodes[edges * k + e]), has_part));
     }
     if (!finite) return nan;
     return mids.empty() ? ask_oracle(question).value : oracle_quadratic_value(question, mids);

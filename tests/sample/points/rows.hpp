@@ -19,7 +19,7 @@ bool same(double x, double y);
 bool same(const Table& a, const Table& b);
 
 /// The correctly rounded value of component c of a point field at a point, by the function of the cell, linear or
-/// quadratic as the mesh is; NaN if a nodal value is not finite or the cell is degenerate.
+/// quadratic as the mesh is; NaN if a nodal value that has a part is not finite or the cell is degenerate.
 double true_value(const Mesh& mesh, const Field& field, std::size_t c, Mesh::Index cell, const double* point);
 
 /// Fields of these numbers of components at every node or cell: ordinary values, or some that are awkward: zeros of

@@ -169,8 +169,11 @@ TEST(NodeWeights, of_what_cannot_be_are_refused) {
     const std::vector<double> nowhere{std::nan(""), 0, 9, HUGE_VAL};
     EXPECT_FALSE(node_weights(*locator, {.dimension = 2, .points = nowhere, .cells = cells}));
     cells = {-1, -1};
-    EXPECT_FALSE(
-        node_weights(*locator, {.dimension = 2, .points = nowhere, .cells = cells}, {.kind = Outside::nearest}));
+    // Nothing is nearest to them: rows without weights.
+    const auto none =
+        node_weights(*locator, {.dimension = 2, .points = nowhere, .cells = cells}, {.kind = Outside::nearest});
+    ASSERT_TRUE(none);
+    EXPECT_TRUE(none->weights.empty());
     Mesh flat = mesh;
     flat.cells[0] = flat.cells[1];
     const auto degenerate = Locator::build(flat);

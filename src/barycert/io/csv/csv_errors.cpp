@@ -28,7 +28,7 @@ bool only_digits_and(std::string_view text, std::string_view also) {
 }
 
 Complaint about_coordinate(std::string_view field, char separator) {
-    if (field.empty()) return {"a number", "fill it in, or remove the line"};
+    if (field.empty()) return {"a number", std::string("fill it in, or remove the line") + or_nan_for_it};
     if (only_digits_and(field, ".eE+-") && std::count(field.begin(), field.end(), '.') < 2) {
         // A number in form: either it overflows, or its signs and exponent are askew.
         return {"a number that a double can hold", "check the number: the largest double is near 1.8e308"};
@@ -39,7 +39,8 @@ Complaint about_coordinate(std::string_view field, char separator) {
     if (only_digits_and(field, ".dD+-")) return {"a number", "write the exponent with e"};
     std::string word(field.substr(field.find_first_not_of("+-") == 1 ? 1 : 0, 3));
     for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (word == "nan" || word == "inf") return {"a finite number", "remove the point, or give it coordinates"};
+    if (word == "nan" || word == "inf")
+        return {"a finite number", std::string("remove the point, give it coordinates") + or_nan_for_it};
     if (field.find('\r') != std::string_view::npos) {
         return {"a number", "end the lines with LF or CR LF, not with CR alone"};
     }
@@ -100,8 +101,7 @@ Error csv_row_error(std::string_view line, const CsvLayout& layout, const LinePl
             return error;
         }
         double value = 0;
-        const char* const end = field.data() + field.size();
-        if (barycert::io::scan_real(field.data(), end, value) == end) {
+        if (layout.coordinate(field, value)) {
             if (layout.flat && role == 2 && value != 0)
                 return off_plane(place.file, place.line, "", base::quoted(field));
             continue;

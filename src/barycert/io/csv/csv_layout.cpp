@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -58,6 +59,14 @@ void note_the_guesses(const TableColumns& all, CsvLayout& layout) {
 
 }  // namespace
 
+bool CsvLayout::coordinate(std::string_view field, double& value) const {
+    const char* const end = field.data() + field.size();
+    if (barycert::io::scan_real(field.data(), end, value) == end) return true;
+    if (!any_point) return false;
+    value = std::numeric_limits<double>::quiet_NaN();
+    return field.empty() || barycert::io::scan_nonfinite(field.data(), end, value) == end;
+}
+
 bool looks_numeric(std::string_view field) {
     if (base::parse_double(field)) return true;
     if (field.starts_with('+') || field.starts_with('-')) field.remove_prefix(1);
@@ -99,6 +108,7 @@ Result<CsvLayout> settle_csv_layout(std::string_view line, int dimension, const 
     CsvLayout layout;
     layout.separator = cut->separator;
     layout.header = all.named = *header;
+    layout.any_point = options.nonfinite_points == NonfinitePoints::nan;
     layout.role_of.assign(all.names.size(), CsvLayout::passed_over);
     if (!*header && options.columns.empty()) {
         const std::size_t empty = empty_at_the_end(all, dimension);

@@ -21,8 +21,12 @@ struct CsvLayout {
     bool header = false;               ///< the first line is a header
     bool flat = false;                 ///< there is a z that must be 0
     bool plain = true;                 ///< fields are coordinates or passed over
+    bool any_point = false;            ///< points that are not finite are points
     std::vector<ColumnFormat> kept{};  ///< the carried columns
     Notes notes{};
+
+    /// Whether the field is a coordinate, and its value: NaN of an empty field, if that may be.
+    bool coordinate(std::string_view field, double& value) const;
 };
 
 /// Where a line stands.

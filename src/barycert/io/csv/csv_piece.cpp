@@ -1,6 +1,7 @@
 #include "barycert/io/csv/csv_piece.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstring>
 
 #include "barycert/io/csv/csv_fields.hpp"
@@ -51,7 +52,7 @@ Verdict parse_line(std::string_view line, bool whole, const CsvLayout& layout, s
             continue;
         }
         double value = 0;
-        if (scan_real(field.data(), end, value) != end) return Verdict::bad;
+        if (!layout.coordinate(field, value)) return Verdict::bad;
         point[static_cast<std::size_t>(role)] = value;
         at_cut = end == cut;
     }
@@ -110,7 +111,8 @@ void parse_csv(std::string_view text, const CsvLayout& layout, int dimension, Cs
             const Verdict verdict = parse_line(line, whole, layout, point, piece.carried);
             if (verdict != Verdict::point) return refuse(piece, line, verdict == Verdict::cut, dimension);
         }
-        if (layout.flat && point[2] != 0) return refuse(piece, line, false, dimension);
+        if (layout.flat && point[2] != 0 && std::isfinite(point[0]) && std::isfinite(point[1]))
+            return refuse(piece, line, false, dimension);
         for (std::size_t axis = 0; axis < static_cast<std::size_t>(dimension); ++axis)
             piece.points.push_back(point[axis]);
     }

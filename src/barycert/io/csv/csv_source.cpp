@@ -182,6 +182,9 @@ Result<std::vector<ColumnFormat>> formats_of_all(CsvSource& source, const std::s
         if (formats[k].type != Column::Type::text) formats[k] = {formats[k].name, formats[k].type};
         if (types[k].has_missing_numbers())
             notes.push_back({Note::Kind::converted, "empty fields of column " + formats[k].name + " to NaN", path});
+        if (types[k].has_lost_numbers())
+            notes.push_back({Note::Kind::converted,
+                             "numbers of column " + formats[k].name + " that are too small for a double to 0", path});
     }
     return formats;
 }

@@ -50,7 +50,11 @@ void TypeOfTexts::see(std::string_view text) {
     any_ = true;
     // An integer is a number, unless no double represents it.
     if (integers_ && !integer_of(text)) integers_ = false;
-    if (numbers_ && !number_of(text)) numbers_ = false;
+    if (!numbers_) return;
+    const std::optional<double> value = number_of(text);
+    if (!value) numbers_ = false;
+    lost_ = lost_ || (value == 0.0 &&
+                      text.substr(0, text.find_first_of("eE")).find_first_of("123456789") != std::string_view::npos);
 }
 
 Column::Type TypeOfTexts::type() const {

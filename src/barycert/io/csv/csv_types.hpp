@@ -25,6 +25,8 @@ class TypeOfTexts {
 public:
     void see(std::string_view text);
 
+    /// Numbers, of which some are not 0, but have 0 for the nearest double.
+    bool has_lost_numbers() const { return type() == Column::Type::number && lost_; }
     /// Numbers, of which some are missing.
     bool has_missing_numbers() const { return type() == Column::Type::number && empty_; }
 
@@ -32,7 +34,7 @@ public:
     Column::Type type() const;
 
 private:
-    bool integers_ = true, numbers_ = true, empty_ = false, any_ = false;
+    bool integers_ = true, numbers_ = true, empty_ = false, any_ = false, lost_ = false;
 };
 
 }  // namespace barycert::io

@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "barycert/base/input_file.hpp"
+#include "barycert/base/run_files.hpp"
+#include "barycert/base/unpack.hpp"
 #include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
@@ -20,9 +22,11 @@ Result<LineReader> LineReader::open(const std::string& path) {
     // A named pipe waits for its writer, as every reader of streams does: `gen > p.csv & barycert ... p.csv`.
     reader.descriptor_ = reader.owned_ ? ::open(path.c_str(), O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
     if (reader.descriptor_ < 0) return base::read_failure(reader.name_, errno);
+    if (Status plain = base::unpack(reader.descriptor_, reader.name_); reader.owned_ && !plain) return plain.error();
     struct stat status {};
     if (::fstat(reader.descriptor_, &status) != 0) return base::read_failure(reader.name_, errno);
     if (S_ISDIR(status.st_mode)) return base::read_failure(reader.name_, EISDIR);
+    base::record_input(reader.descriptor_, reader.name_);
     // A small file takes a small buffer: all of it, and a byte more than that, so that the end is met at once.
     const bool small = S_ISREG(status.st_mode) && static_cast<std::uint64_t>(status.st_size) < longest_line;
     const std::size_t room = small ? static_cast<std::size_t>(status.st_size) + 1 : longest_line;
@@ -61,6 +65,13 @@ bool LineReader::skip_mark() {
                   .expected = "UTF-8 or ASCII",
                   .found = "a byte-order mark of UTF-16",
                   .remedy = "save the file as UTF-8"};
+    }
+    if (head.starts_with("\x93NU")) {
+        error_ = {.what = "this is an NPY file",
+                  .file = name_,
+                  .expected = "text: a point a line",
+                  .remedy = "name a file that ends in .npy: a stream or a file of another name is read as CSV"};
+        return false;
     }
     if (const OtherFormat* packed = packed_format(head); owned_ && packed != nullptr)
         error_ = other_format_error(*packed, name_);

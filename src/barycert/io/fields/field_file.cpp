@@ -180,7 +180,7 @@ Result<Field> read_field_file(const std::string& name, const std::string& path, 
     Field field{.name = name, .components = 1, .data = {}};
     if (has_suffix(path, ".npy")) return read_npy(std::move(field), path, column, notes);
     if (!column.empty()) return read_csv_column(std::move(field), path, column);
-    const auto file = base::MappedFile::open(path);
+    const auto file = base::MappedFile::open(path, 1, base::Text::all);
     if (!file) return file.error();
     Result<Field> read = read_text(std::move(field), path, file->bytes());
     if (!read) return with_columns(read.error(), name, path, file->bytes());

@@ -46,16 +46,13 @@ Result<const ElementType*> choose(const MshFile& file, const TypeCounts& counts)
     if (dimension < 2) {
         return no_cells(file, "the file contains no mesh", "tetrahedra, or triangles in the plane z = 0",
                         found.empty() ? "no elements" : found,
-                        "mesh the geometry with `gmsh -3 IN.geo -o OUT.msh` (-2 for triangles); if there are physical "
-                        "groups, Gmsh saves these alone: give the volume one, or add -save_all");
+                        "mesh the geometry in Gmsh; if there are physical groups, it saves these alone: give the "
+                        "volume one, or add -save_all");
     }
     const char* const expected = dimension == 3 ? "tetrahedra of order 1 or 2" : "triangles of order 1 or 2";
     if (!simplices) {
         return no_cells(file, dimension == 3 ? "cells that are no tetrahedra" : "cells that are no triangles", expected,
-                        found,
-                        "cut them into simplices, in ParaView with the filter Tetrahedralize, or with `python3 -c "
-                        "\"import pyvista; pyvista.read('" +
-                            file.path() + "').triangulate().save('OUT.vtu')\"`");
+                        found, to_simplices(file.path()));
     }
     if (max_order > 2) {
         return no_cells(file, "cells of a higher order", expected, found, order_remedy(file));

@@ -78,6 +78,7 @@ Error MshFile::error_at(const char* at, std::string what, std::string expected, 
 
 Status MshFile::read_format() {
     const std::string convert_remedy = "convert it with " + gmsh_command(path_);
+    const char* const save_remedy = "write the file again, in version 4.1";
     const char* at = data_.bytes().data() + byte_order_mark(data_.bytes());
     const char* const end = data_.bytes().data() + data_.bytes().size();
     const char* const first = at;
@@ -92,27 +93,27 @@ Status MshFile::read_format() {
                         "remove the empty lines at the beginning");
     if (head != "$MeshFormat") {
         return error_at(first, "not a file of Gmsh", "a first line \"$MeshFormat\"", word_at(first, end),
-                        "check the path; Fluent's and FreeFem's .msh files are of other formats: convert them to .vtu "
-                        "with their own tools");
+                        "check the path");
     }
     const char* const line = at;
     const std::vector<std::string_view> words = words_of(take_line(at, end));
     after_format_ = at;
     if (words.size() != 3) {
         return error_at(line, "bad $MeshFormat", "version, file type and data size, such as 4.1 0 8",
-                        word_at(line, end), convert_remedy);
+                        word_at(line, end), save_remedy);
     }
     constexpr std::array<std::pair<std::string_view, int>, 7> versions{
         {{"2", 22}, {"2.0", 22}, {"2.1", 22}, {"2.2", 22}, {"4", 40}, {"4.0", 40}, {"4.1", 41}}};
     const auto* const version =
         std::find_if(versions.begin(), versions.end(), [&](const auto& v) { return v.first == words[0]; });
     if (version == versions.end()) {
-        return error_at(line, "unknown version of the format", "2.2 or 4.1", base::quoted(words[0]), convert_remedy);
+        return error_at(line, "unknown version of the format", "2.2 or 4.1", base::quoted(words[0]),
+                        words[0].starts_with("2.") || words[0].starts_with("3") ? convert_remedy : save_remedy);
     }
     version_ = version->second;
     if (words[1] != "0" && words[1] != "1") {
         return error_at(line, "bad file type in $MeshFormat", "0 (text) or 1 (binary)", base::quoted(words[1]),
-                        convert_remedy);
+                        save_remedy);
     }
     if (words[1] == "0") return Done{};
     if (words[2] != "8") {
@@ -121,7 +122,7 @@ Status MshFile::read_format() {
     }
     if (version_ == 40) {  // of which Gmsh itself writes text alone
         return error_at(line, "a binary file of version 4.0", "version 4.1 or 2.2", base::quoted(words[0]),
-                        convert_remedy);
+                        save_remedy);
     }
     layout_ = MshLayout::binary;
     std::int32_t one = 0;
@@ -211,7 +212,7 @@ Status MshFile::check_sections() const {
 }
 
 Result<MshFile> MshFile::open(const std::string& path, int threads) {
-    Result<base::MappedFile> mapped = base::MappedFile::open(path);
+    Result<base::MappedFile> mapped = base::MappedFile::open(path, threads, base::Text::head);
     if (!mapped) return mapped.error();
     MshFile file;
     file.path_ = path;

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/gmsh.hpp"
@@ -15,6 +16,7 @@
 #include "barycert/io/gmsh/msh_labels.hpp"
 #include "barycert/io/gmsh/msh_nodes.hpp"
 #include "barycert/io/gmsh/msh_views.hpp"
+#include "barycert/io/other_formats.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 
 namespace barycert {
@@ -22,7 +24,7 @@ namespace io {
 namespace {
 
 /// Coordinates of the plane z = 0, in place.
-Status flatten(std::vector<double>& points, const std::string& path) {
+Status flatten(std::vector<double>& points, const std::string& path, const std::string& triangles) {
     std::size_t to = 0;
     for (std::size_t i = 0; i < points.size(); i += 3) {
         if (points[i + 2] != 0) {
@@ -30,7 +32,7 @@ Status flatten(std::vector<double>& points, const std::string& path) {
                          .file = path,
                          .expected = "0, as the mesh is of triangles",
                          .found = base::shortest(points[i + 2]),
-                         .remedy = "project onto the plane z = 0; surfaces in space are not meshes here"};
+                         .remedy = plane_remedy(i == 0 ? points : std::vector<double>(), triangles)};
         }
         points[to++] = points[i];
         points[to++] = points[i + 1];
@@ -86,7 +88,8 @@ Result<Mesh> read_whole(const MshFile& file, const GmshReadOptions& options) {
     mesh.index_base = 1;
     mesh.cell_numbers = std::move(cells->numbers);
     if (mesh.dimension == 2) {
-        if (Status s = flatten(mesh.points, file.path()); !s) return s.error();
+        if (Status s = flatten(mesh.points, file.path(), mesh.mid_nodes.empty() ? file.path() : ""); !s)
+            return s.error();
     }
     note_cells(*cells, *groups, file.path(), mesh.notes);
     const ViewTargets node_targets{nodes->index, mesh.point_count(), "node", "nodes"};
@@ -123,9 +126,7 @@ Result<T> guarded(const std::string& path, const std::function<Result<T>(MshFile
         file->set_free_layout();
         return read(*file);
     } catch (const std::bad_alloc&) {
-        return Error{.what = "too little memory to read the file",
-                     .file = path,
-                     .remedy = "free some memory, or check whether the file is damaged"};
+        return base::too_little_memory(path);
     }
 }
 
@@ -164,7 +165,7 @@ Result<std::vector<double>> read_gmsh_points(const std::string& path, int dimens
             Result<io::MshNodes> nodes = io::read_msh_nodes(file);
             if (!nodes) return nodes.error();
             if (dimension == 2) {
-                if (Status s = io::flatten(nodes->points, path); !s) return s.error();
+                if (Status s = io::flatten(nodes->points, path, {}); !s) return s.error();
             }
             return std::move(nodes->points);
         },

@@ -203,7 +203,6 @@ Status parse_runs(const MshFile& file, const char* section, std::span<const Run>
             for (std::size_t i = part.first; i < part.last; ++i) {
                 if (!parse(row, *part.run, part.run->first + i)) return false;
             }
-            file.data().let_go({part.at, static_cast<std::size_t>(row.at() - part.at)});
             return true;
         };
         return file.layout() == MshLayout::lines ? all(TextRow<false>(part.at, end))

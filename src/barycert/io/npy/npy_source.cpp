@@ -41,7 +41,7 @@ private:
     Status choose(const PointOptions& options);
     Status keep(const NpyColumn& column, std::string name);
     Error shape_error(const std::vector<std::uint64_t>& shape) const;
-    Status check_heights(std::uint64_t first) const;
+    Status check_heights(std::uint64_t first, const double* points) const;
     Status read_rows(std::size_t taken, double* points);
 
     std::string path_;
@@ -54,6 +54,7 @@ private:
     std::vector<ColumnFormat> formats_;  // of these
     std::vector<Column> carried_;        // of the last points given
     std::vector<double> heights_;
+    bool any_point_ = false;  // those that are not finite, too
     Notes notes_;
     std::uint64_t next_ = 0;
     Error error_;
@@ -76,6 +77,7 @@ Status NpySource::begin(const PointOptions& options) {
     Result<NpyFile> file = NpyFile::open(path_);
     if (!file) return file.error();
     file_ = std::move(*file);
+    any_point_ = options.nonfinite_points == NonfinitePoints::nan;
     const NpyHeader& header = file_.header();
     const bool asked = header.structured || !options.columns.empty();
     Result<NpyTable> table = file_.table();
@@ -136,12 +138,14 @@ Status NpySource::keep(const NpyColumn& column, std::string name) {
     return Done{};
 }
 
-/// Beside a mesh in the plane.
-Status NpySource::check_heights(std::uint64_t first) const {
-    const auto high = std::find_if(heights_.begin(), heights_.end(), [](double z) { return z != 0; });
-    if (high == heights_.end()) return Done{};
-    const std::uint64_t row = first + static_cast<std::uint64_t>(high - heights_.begin());
-    return off_plane(path_, 0, "row " + std::to_string(row) + ", counted from 0", base::shortest(*high));
+/// Beside a mesh in the plane. A point that is not finite anyway may lie anywhere.
+Status NpySource::check_heights(std::uint64_t first, const double* points) const {
+    for (std::size_t i = 0; i < heights_.size(); ++i) {
+        if (heights_[i] != 0 && base::all_finite({points + dimension_ * i, dimension_}))
+            return off_plane(path_, 0, "row " + std::to_string(first + i) + ", counted from 0",
+                             base::shortest(heights_[i]));
+    }
+    return Done{};
 }
 
 /// The next `taken` points, and what is carried through with them.
@@ -156,7 +160,7 @@ Status NpySource::read_rows(std::size_t taken, double* points) {
         if (axes_.size() > dimension_ && read) {
             heights_.resize(size);
             read = file_.numbers(axes_.back(), "column " + base::quoted(axes_.back().name), heights_.data(), 1);
-            if (read) read = check_heights(next_ + done);
+            if (read) read = check_heights(next_ + done, points + done * dimension_);
         }
         for (std::size_t k = 0; k < kept_.size() && read; ++k)
             read = file_.values(kept_[k], "column " + base::quoted(kept_[k].name), carried_[k]);
@@ -181,13 +185,13 @@ Result<std::size_t> NpySource::read(std::size_t max, std::vector<double>& out) {
     } else {
         read = read_rows(taken, points);
     }
-    const bool finite = read && base::all_finite({points, taken * dimension_});
+    const bool finite = any_point_ || (read && base::all_finite({points, taken * dimension_}));
     for (std::size_t i = 0; i < taken * dimension_ && read && !finite; ++i) {
         if (std::isfinite(points[i])) continue;
         read = failure("a point that is not finite", "finite coordinates",
                        base::shortest(points[i]) + " at [" + std::to_string(next_ + i / dimension_) + ", " +
                            std::to_string(i % dimension_) + "]",
-                       "remove the point, or give it coordinates: a[numpy.isfinite(a).all(axis=1)]");
+                       std::string("remove the point: a[numpy.isfinite(a).all(axis=1)]") + or_nan_for_it);
     }
     if (!read) {
         out.resize(before);

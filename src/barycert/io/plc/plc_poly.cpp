@@ -18,7 +18,8 @@ NodeHeader read_node_header(PlcText& in) {
     header.nodes = in.take_count("the number of nodes");
     if (in.words_left() > 0) {
         const int dimension = in.take_integer("the dimension");
-        if (dimension != 3) in.fail("cannot mesh", "dimension 3", std::to_string(dimension));
+        if (dimension != 3)
+            in.fail("cannot mesh", "dimension 3", std::to_string(dimension), "mesh a PLC in the plane with Triangle");
     }
     if (in.words_left() > 0) header.attributes = static_cast<int>(in.take_count("the number of attributes"));
     if (in.words_left() > 0) {

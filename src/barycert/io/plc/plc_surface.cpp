@@ -5,6 +5,8 @@
 #include <map>
 #include <optional>
 
+#include "barycert/base/input_file.hpp"
+#include "barycert/io/other_formats.hpp"
 #include "barycert/io/plc/plc_text.hpp"
 
 namespace barycert::io {
@@ -73,15 +75,21 @@ std::uint32_t little_endian(std::string_view bytes) {
     return word;
 }
 
-Plc read_binary_stl(const std::string& path, std::string_view bytes) {
-    constexpr std::size_t header = 84;  // 80 bytes of text and a count
-    constexpr std::size_t record = 50;  // normal and three corners as floats, two bytes of padding
+constexpr std::size_t header = 84;  // 80 bytes of text and a count
+constexpr std::size_t record = 50;  // normal and three corners as floats, two bytes of padding
+
+/// Of a file of `size` bytes that begins so. Some binary files begin with `solid` too; a text file has no zero byte.
+bool is_binary_stl(std::string_view bytes, std::size_t size, const std::string& path) {
+    if (bytes.substr(0, 5) == "solid" && bytes.find('\0') == std::string_view::npos) return false;
     const std::size_t count = bytes.size() < header ? 0 : little_endian(bytes.substr(80));
-    if (bytes.size() < header || (bytes.size() - header) / record != count || (bytes.size() - header) % record != 0) {
-        throw Exception(file_error(path, "neither a text nor a whole binary .stl",
-                                   "`solid`, or " + std::to_string(header + record * count) + " bytes",
-                                   std::to_string(bytes.size()) + " bytes"));
-    }
+    if (size >= header && (size - header) / record == count && (size - header) % record == 0) return true;
+    throw Exception(file_error(path, "neither a text nor a whole binary .stl",
+                               "`solid`, or " + std::to_string(header + record * count) + " bytes",
+                               std::to_string(size) + " bytes"));
+}
+
+Plc read_binary_stl(const std::string& path, std::string_view bytes) {
+    const std::size_t count = (bytes.size() - header) / record;
     SoupBuilder soup;
     for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -108,7 +116,7 @@ struct PlyHeader {
     std::size_t properties = 0;
 };
 
-PlyHeader read_ply_header(PlcText& in) {
+PlyHeader read_ply_header(PlcText& in, const std::string& path) {
     PlyHeader header;
     std::string element;
     bool text_format = false;
@@ -118,7 +126,7 @@ PlyHeader read_ply_header(PlcText& in) {
         const std::string_view key = in.take("a keyword");
         if (key == "format") {
             const std::string_view format = in.take("ascii");
-            if (format != "ascii") in.fail("cannot read a binary .ply", "ascii", format, "convert it to text");
+            if (format != "ascii") in.fail("cannot read a binary .ply", "ascii", format, text_ply_remedy(path));
             text_format = true;
         } else if (key == "element") {
             element = in.take("an element's name");
@@ -172,9 +180,15 @@ Plc read_off(const std::string& path, std::string_view text) {
     return plc;
 }
 
+void check_stl_size(const std::string& path) {
+    const Result<base::InputFile> file = base::InputFile::open(path);
+    std::string block(base::first_block, '\0');
+    const Result<std::size_t> size = file ? file->read_at(0, block, path) : Result<std::size_t>(std::size_t{0});
+    if (file && size) is_binary_stl(std::string_view(block).substr(0, *size), file->size(), path);
+}
+
 Plc read_stl(const std::string& path, std::string_view text) {
-    // Some binary files begin with `solid` too; a text file has no zero byte.
-    if (text.substr(0, 5) != "solid" || text.find('\0') != std::string_view::npos) return read_binary_stl(path, text);
+    if (is_binary_stl(text, text.size(), path)) return read_binary_stl(path, text);
     PlcText in(path, text);
     SoupBuilder soup;
     bool ended = false;
@@ -193,7 +207,7 @@ Plc read_stl(const std::string& path, std::string_view text) {
 Plc read_ply(const std::string& path, std::string_view text) {
     Plc plc;
     PlcText in(path, text);
-    const PlyHeader header = read_ply_header(in);
+    const PlyHeader header = read_ply_header(in, path);
     std::vector<double> row(header.properties);
     for (std::size_t i = 0; i < header.nodes; ++i) {
         in.need_line("node " + std::to_string(i) + " of " + std::to_string(header.nodes));

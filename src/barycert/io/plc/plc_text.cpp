@@ -10,6 +10,7 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
@@ -23,7 +24,10 @@ std::string read_whole_file(const std::string& path) {
     if (std::filesystem::is_directory(status)) {
         throw Exception(file_error(path, "cannot read", "a file", "a directory"));
     }
-    Result<std::string> text = base::read_file(path);
+    // A binary .stl may begin with zeros; its size tells at once whether it is one.
+    const bool stl = has_suffix(path, ".stl");
+    if (stl) check_stl_size(path);
+    Result<std::string> text = base::read_file(path, base::longest_pipe, stl ? base::Text::none : base::Text::all);
     if (!text) throw Exception(text.error());
     if (text->empty()) throw Exception(file_error(path, "cannot read", "a PLC", "an empty file"));
     if (const OtherFormat* packed = packed_format(*text); packed != nullptr)
@@ -123,7 +127,7 @@ std::vector<std::string> plc_files(const std::string& path) {
 
 Result<Plc> read_plc(const std::string& path) {
     const ExactEnvironment environment;
-    const std::string extension = std::filesystem::path(path).extension().string();
+    const std::string extension = std::filesystem::path(without_gz(path)).extension().string();
     if (std::find(plc_extensions.begin(), plc_extensions.end(), extension) == plc_extensions.end()) {
         return file_error(path, "unknown kind of PLC", "one of .poly .smesh .off .stl .ply",
                           extension.empty() ? "no extension" : extension);

@@ -62,6 +62,8 @@ private:
 Plc read_poly(const std::string& path, std::string_view text, bool one_polygon_a_facet);
 Plc read_off(const std::string& path, std::string_view text);
 Plc read_stl(const std::string& path, std::string_view text);
+/// Throws Exception if the file is an .stl neither as text nor, by its size, in binary form.
+void check_stl_size(const std::string& path);
 Plc read_ply(const std::string& path, std::string_view text);
 
 }  // namespace barycert::io

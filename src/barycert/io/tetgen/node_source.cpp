@@ -1,10 +1,7 @@
-// The rows of a .node file, one after the other. The grammar and the words of its errors are those of mesh/: the file
-// is mapped, and its pages are let go behind the reader, so that memory does not grow with the file.
-#include <sys/mman.h>
-#include <unistd.h>
-
+// The rows of a .node file, one after the other. The grammar and the words of its errors are those of the mesh's.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -26,9 +23,6 @@ using barycert::io::header_field;
 using barycert::io::Scanner;
 using barycert::io::TextTable;
 
-/// Large against a page, small against memory.
-constexpr std::ptrdiff_t kept_behind = std::ptrdiff_t{1} << 22;
-
 class NodeSource final : public PointSource {
 public:
     NodeSource(TextTable table, int dimension) : table_(std::move(table)), dimension_(dimension) {}
@@ -47,11 +41,11 @@ private:
     bool parse(Scanner& scanner);
     Status take(std::vector<double>& out);
     Status check_end() const;
-    void let_go();
 
     TextTable table_;
     int dimension_;
     bool markers_ = false;
+    bool any_point_ = false;             // those that are not finite, too
     std::vector<double> values_;         // of a row: coordinates, attributes
     std::int64_t marker_ = 0;            // of the row
     std::vector<std::size_t> axes_;      // of values_
@@ -61,7 +55,6 @@ private:
     std::vector<Column> carried_;        // of the last points given
     Notes notes_;
     const char* at_ = nullptr;
-    const char* kept_ = nullptr;  // the pages before are let go
     std::size_t row_ = 0;
     Error error_;
 };
@@ -82,6 +75,7 @@ Status NodeSource::begin(const PointOptions& options) {
                             "declare further columns as attributes");
     }
     markers_ = markers != 0;
+    any_point_ = options.nonfinite_points == NonfinitePoints::nan;
     table_.columns = {{ColumnKind::id, 1, "id"},
                       {ColumnKind::real, static_cast<std::size_t>(dimension), "coordinate"},
                       {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute"},
@@ -96,7 +90,6 @@ Status NodeSource::begin(const PointOptions& options) {
     values_.resize(static_cast<std::size_t>(dimension) + table_.columns[2].count);
     if (Status chosen = choose(options); !chosen) return chosen;
     at_ = table_.body;
-    kept_ = table_.begin();
     return table_.rows == 0 ? check_end() : Done{};
 }
 
@@ -127,7 +120,11 @@ Status NodeSource::choose(const PointOptions& options) {
 bool NodeSource::parse(Scanner& scanner) {
     if (!scan_id(scanner, row_ + static_cast<std::size_t>(table_.base))) return false;
     for (double& value : values_) {
-        if (!scanner.separator() || !scanner.real(value)) return false;
+        if (!scanner.separator()) return false;
+        if (scanner.real(value)) continue;
+        const char* const after = any_point_ ? scan_nonfinite(scanner.at, scanner.end, value) : nullptr;
+        if (after == nullptr) return false;
+        scanner.at = after;
     }
     if (markers_ && (!scanner.separator() || !scanner.integer(marker_))) return false;
     return scanner.end_row();
@@ -135,7 +132,7 @@ bool NodeSource::parse(Scanner& scanner) {
 
 /// Gives the row that was parsed.
 Status NodeSource::take(std::vector<double>& out) {
-    if (zero_ && values_[*zero_] != 0)
+    if (zero_ && values_[*zero_] != 0 && std::isfinite(values_[axes_[0]]) && std::isfinite(values_[axes_[1]]))
         return off_plane(table_.file, 0, "node " + std::to_string(row_) + ", counted from 0",
                          base::shortest(values_[*zero_]));
     for (const std::size_t axis : axes_) out.push_back(values_[axis]);
@@ -155,16 +152,6 @@ Status NodeSource::check_end() const {
     return Done{};
 }
 
-void NodeSource::let_go() {
-    if (at_ - kept_ < kept_behind) return;
-    const ::ssize_t page = ::sysconf(_SC_PAGESIZE);
-    const std::ptrdiff_t size = (at_ - kept_) / page * page;  // the mapping begins at a page, and so does each part
-    // Clean pages of a file come back from it if they are looked at again, as the words of an error need. A failure
-    // costs memory and nothing else.
-    ::madvise(const_cast<char*>(kept_), static_cast<std::size_t>(size), MADV_DONTNEED);
-    kept_ += size;
-}
-
 Result<std::size_t> NodeSource::read(std::size_t max, std::vector<double>& out) {
     const ExactEnvironment environment;
     if (!error_.what.empty()) return error_;
@@ -179,7 +166,6 @@ Result<std::size_t> NodeSource::read(std::size_t max, std::vector<double>& out) 
         }
         if (Status given = take(out); !given) return error_ = given.error();
         at_ = scanner.at;
-        let_go();
     }
     if (taken != 0 && row_ == table_.rows) {
         if (Status end = check_end(); !end) return error_ = end.error();
@@ -192,7 +178,7 @@ Result<std::size_t> NodeSource::read(std::size_t max, std::vector<double>& out) 
 Result<std::unique_ptr<PointSource>> open_node_source(const std::string& path, int dimension,
                                                       const PointOptions& options) {
     constexpr std::array names{"nodes", "dimensions", "attributes", "markers"};
-    Result<TextTable> table = barycert::io::open_table(path, names);
+    Result<TextTable> table = barycert::io::open_table(path, names, 1);
     if (!table) return table.error();
     auto source = std::make_unique<NodeSource>(std::move(*table), dimension);
     if (Status begun = source->begin(options); !begun) return begun.error();

@@ -87,6 +87,15 @@ inline const char* scan_real(const char* at, const char* end, double& value) {
     return error == std::errc::invalid_argument || !std::isfinite(value) ? nullptr : after;
 }
 
+/// The same for nan, inf and infinity as they are written, in any case: not for what is too large.
+inline const char* scan_nonfinite(const char* at, const char* end, double& value) {
+    if (const char* const after = scan_real(at, end, value); after != nullptr) return nullptr;
+    const char* const first = at + (*at == '+' ? 1 : 0);
+    if (is_digit(*first) || *first == '.' || (*first == '-' && (is_digit(first[1]) || first[1] == '.'))) return nullptr;
+    const auto [after, error] = fast_float::from_chars(first, end, value);
+    return error == std::errc{} ? after : nullptr;
+}
+
 /// A place in the text, moved by each success and left near the fault by a failure.
 struct Scanner {
     const char* at;

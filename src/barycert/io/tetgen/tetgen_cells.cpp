@@ -46,7 +46,7 @@ bool scan_plain_cell(Scanner& scanner, std::size_t row, int base, std::int64_t c
 
 Status TetgenReader::prepare_nodes() {
     constexpr std::array names{"nodes", "dimensions", "attributes", "markers"};
-    Result<TextTable> opened = open_table(stem_ + ".node", names);
+    Result<TextTable> opened = open_table(stem_ + ".node", names, options_.threads);
     if (!opened) return opened.error();
     TextTable& table = nodes_ = std::move(*opened);
 
@@ -124,7 +124,7 @@ Status TetgenReader::prepare_cells() {
                      .found = "no such file",
                      .remedy = "mesh the nodes first, or put the .ele file there"};
     }
-    Result<TextTable> opened = open_table(stem_ + ".ele", names);
+    Result<TextTable> opened = open_table(stem_ + ".ele", names, options_.threads);
     if (!opened) return opened.error();
     TextTable& table = cells_ = std::move(*opened);
 

@@ -28,7 +28,7 @@ void TetgenReader::set_face_parser(bool markers, bool adjacent) {
 
 Status TetgenReader::prepare_faces() {
     constexpr std::array names{"faces", "markers"};
-    Result<TextTable> opened = open_table(stem_ + ".face", names);
+    Result<TextTable> opened = open_table(stem_ + ".face", names, options_.threads);
     if (!opened) return opened.error();
     faces_ = std::make_unique<TextTable>(std::move(*opened));
     TextTable& table = *faces_;
@@ -65,7 +65,7 @@ Status TetgenReader::prepare_faces() {
 
 Status TetgenReader::prepare_neighbours() {
     constexpr std::array names{"cells", "neighbours"};
-    Result<TextTable> opened = open_table(stem_ + ".neigh", names);
+    Result<TextTable> opened = open_table(stem_ + ".neigh", names, options_.threads);
     if (!opened) return opened.error();
     neighbours_ = std::make_unique<TextTable>(std::move(*opened));
     TextTable& table = *neighbours_;

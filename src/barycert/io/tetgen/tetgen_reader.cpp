@@ -15,14 +15,15 @@
 // Where TetGen would accept and misread, this reader refuses: see row_errors.cpp.
 #include "barycert/io/tetgen/tetgen_reader.hpp"
 
-#include <sys/stat.h>
-
 #include <array>
+#include <filesystem>
 #include <iterator>
 #include <optional>
 #include <string_view>
+#include <system_error>
 
 #include "barycert/environment.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 
 namespace barycert {
@@ -45,8 +46,8 @@ Result<Mesh> TetgenReader::read() {
 }
 
 bool TetgenReader::exists(const char* suffix) const {
-    struct stat file {};
-    return ::stat((stem_ + suffix).c_str(), &file) == 0;
+    std::error_code ignored;
+    return std::filesystem::exists(plain_or_packed(stem_ + suffix), ignored);
 }
 
 Status TetgenReader::settle_mid_edge_order() {
@@ -88,8 +89,9 @@ constexpr std::array<std::string_view, 4> suffixes{".node", ".ele", ".face", ".n
 }  // namespace
 
 std::string tetgen_stem(const std::string& path) {
+    const std::string_view plain = io::without_gz(path);
     for (const std::string_view suffix : suffixes) {
-        if (path.ends_with(suffix)) return path.substr(0, path.size() - suffix.size());
+        if (plain.ends_with(suffix)) return path.substr(0, plain.size() - suffix.size());
     }
     return path;
 }
@@ -97,7 +99,8 @@ std::string tetgen_stem(const std::string& path) {
 std::vector<std::string> tetgen_files(const std::string& path) {
     std::vector<std::string> files;
     files.reserve(std::size(suffixes));
-    for (const std::string_view suffix : suffixes) files.push_back(tetgen_stem(path) + std::string(suffix));
+    for (const std::string_view suffix : suffixes)
+        files.push_back(io::plain_or_packed(tetgen_stem(path) + std::string(suffix)));
     return files;
 }
 

@@ -4,6 +4,7 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/base/workers.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/other_formats.hpp"
 #include "barycert/io/tetgen/row_errors.hpp"
 
@@ -52,9 +53,7 @@ bool parse_blocks(const std::vector<Block>& blocks, int threads) {
         const Block& block = blocks[i];
         Scanner scanner{block.start, block.table->end()};
         std::size_t row = block.first_row;
-        const bool good = block.table->parse(scanner, block.stop, row, block.last_row);
-        block.table->data.let_go({block.start, static_cast<std::size_t>(block.stop - block.start)});
-        return good;
+        return block.table->parse(scanner, block.stop, row, block.last_row);
     });
 }
 
@@ -83,8 +82,9 @@ std::vector<std::string_view> TextTable::first_row() const {
     return fields_of_line(*this, scanner.at);
 }
 
-Result<TextTable> open_table(const std::string& path, std::span<const char* const> header_names) {
-    Result<base::MappedFile> mapped = base::MappedFile::open(path);
+Result<TextTable> open_table(const std::string& name, std::span<const char* const> header_names, int threads) {
+    const std::string path = plain_or_packed(name);
+    Result<base::MappedFile> mapped = base::MappedFile::open(path, threads, base::Text::all);
     if (!mapped) return mapped.error();
     TextTable table;
     table.file = path;

@@ -65,8 +65,8 @@ struct TextTable {
     std::vector<std::string_view> first_row() const;
 };
 
-/// Maps the file and reads its header: non-negative integers up to 2^31 - 1, one for each of `header_names` or fewer.
-Result<TextTable> open_table(const std::string& path, std::span<const char* const> header_names);
+/// Reads the file and its header: non-negative integers up to 2^31 - 1, one for each of `header_names` or fewer.
+Result<TextTable> open_table(const std::string& path, std::span<const char* const> header_names, int threads);
 
 /// Refuses a count of rows that cannot stand in the file. Call before memory is taken for them.
 /// Needs the columns and the base.

@@ -17,6 +17,8 @@ enum VtkCell : std::uint8_t {
     vtk_quadratic_edge = 21,
     vtk_quadratic_triangle = 22,
     vtk_quadratic_tetra = 24,
+    vtk_cubic_line = 35,
+    vtk_lagrange_curve = 68,
 };
 
 /// "vtkTetra"; "unknown type 200".

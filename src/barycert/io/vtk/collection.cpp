@@ -60,6 +60,7 @@ Result<std::vector<CollectionFile>> collection_files(const XmlTree& tree, std::s
         }
         CollectionFile file;
         file.path = (folder / std::filesystem::path(*name)).string();
+        file.line = line_of(bytes, element.begin);
         file.block = element.attribute("name").value_or("");
         if (kind.type == "Collection") {
             const std::string_view time = element.attribute("timestep").value_or("0");
@@ -85,6 +86,39 @@ std::vector<SeriesStep> steps_of(const std::vector<CollectionFile>& files) {
         steps.back().files.push_back(file.path);
     }
     return steps;
+}
+
+Result<std::size_t> chosen_step(const std::vector<SeriesStep>& steps, const StepChoice& choice,
+                                const std::string& path) {
+    const std::size_t number = choice.last ? steps.size() - 1 : choice.number.value_or(0);
+    const auto error = [&](const std::string& expected, const std::string& found) {
+        return Error{.what = "no such step of the series",
+                     .file = path,
+                     .expected = expected,
+                     .found = found,
+                     .remedy = "choose one of its steps"};
+    };
+    if (steps.empty())
+        return Error{
+            .what = "a series without steps", .file = path, .expected = "a file for each step", .found = "none"};
+    if (number >= steps.size())
+        return error("a number from 0 to " + std::to_string(steps.size() - 1), std::to_string(number));
+    if (!choice.time) return number;
+    constexpr std::size_t most_listed = 100;
+    std::string times;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        if (steps[i].time == *choice.time) return i;
+        if (i < most_listed) times += (i == 0 ? "" : ", ") + base::shortest(steps[i].time);
+    }
+    if (steps.size() > most_listed) times += ", ... (" + std::to_string(steps.size()) + " steps)";
+    return error("one of the times " + times, base::shortest(*choice.time));
+}
+
+Error no_series(const std::string& path) {
+    return {.what = "a step is chosen, and this is no series of steps",
+            .file = path,
+            .expected = "a .pvd, .vtu.series or .vtp.series file",
+            .remedy = "leave --step and --time out"};
 }
 
 }  // namespace barycert::io

@@ -1,5 +1,6 @@
 #include "barycert/io/vtk/grid_to_mesh.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -7,9 +8,9 @@
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/io/other_formats.hpp"
 #include "barycert/io/vtk/cell_types.hpp"
 #include "barycert/io/vtk/parallel.hpp"
-#include "barycert/io/vtk/xml_grids.hpp"
 
 namespace barycert::io {
 namespace {
@@ -37,6 +38,8 @@ CellType cell_type(std::uint8_t type) {
         case vtk_line:
         case vtk_poly_line:
         case vtk_quadratic_edge:
+        case vtk_cubic_line:
+        case vtk_lagrange_curve:
             return {Kind::lower, 0};
         default:
             return {};
@@ -83,7 +86,15 @@ TypeCounts count_types(const RawGrid& grid) {
     return counts;
 }
 
-Result<Choice> choose(const TypeCounts& counts, std::size_t cells, const std::string& path) {
+/// Polygons of any order: triangles, once they are cut, and nothing more.
+bool is_surface(std::uint8_t type) {
+    constexpr std::array<std::uint8_t, 15> surfaces{6, 7, 8, 9, 23, 28, 30, 34, 36, 61, 62, 69, 70, 76, 77};
+    return cell_type(type).kind != Kind::tetrahedron &&
+           (cell_type(type).kind != Kind::other || std::find(surfaces.begin(), surfaces.end(), type) != surfaces.end());
+}
+
+Result<Choice> choose(const TypeCounts& counts, const RawGrid& grid, const std::string& path) {
+    const std::size_t cells = grid.types.size();
     const std::string others =
         counts_by_name(counts, true, [](std::uint8_t type) { return cell_type(type).kind == Kind::other; });
     if (!others.empty()) {
@@ -92,7 +103,9 @@ Result<Choice> choose(const TypeCounts& counts, std::size_t cells, const std::st
                      .line = 0,
                      .expected = "tetrahedra or triangles, linear or quadratic",
                      .found = others,
-                     .remedy = to_simplices(path)};
+                     .remedy = std::all_of(grid.types.begin(), grid.types.end(), is_surface) && !in_plane(grid.points)
+                                   ? plane_remedy(grid.points, {})
+                                   : to_simplices(path)};
     }
     constexpr std::array<std::pair<std::uint8_t, std::uint8_t>, 2> pairs{
         {{vtk_tetra, vtk_quadratic_tetra}, {vtk_triangle, vtk_quadratic_triangle}}};
@@ -258,7 +271,8 @@ void note_left_out(const TypeCounts& left_out, std::size_t ghosts, Kind kind, co
 
 }  // namespace
 
-Result<std::vector<double>> to_points(std::vector<double> points, int dimension, const std::string& path) {
+Result<std::vector<double>> to_points(std::vector<double> points, int dimension, const std::string& path,
+                                      const std::string& triangles) {
     std::size_t faulty = points.size();
     for (std::size_t first = 0; first < points.size() && faulty == points.size(); first += std::size_t{1} << 16) {
         const std::size_t last = std::min(points.size(), first + (std::size_t{1} << 16));
@@ -275,7 +289,8 @@ Result<std::vector<double>> to_points(std::vector<double> points, int dimension,
     for (std::size_t i = 0; i < points.size(); i += 3) {
         if (points[i + 2] != 0) {
             return coordinate_error(path, i / 3, "z", "0, as the mesh is 2D", points[i + 2],
-                                    "project onto the plane z = 0; surfaces in space are not meshes here");
+                                    // Those before have lost their z.
+                                    plane_remedy(i == 0 ? points : std::vector<double>(), triangles));
         }
         points[to++] = points[i];
         points[to++] = points[i + 1];
@@ -327,7 +342,7 @@ void note_the_rest(const RawGrid& grid, const std::string& path, Notes& notes) {
 
 Result<Mesh> to_mesh(RawGrid grid, const std::string& path) {
     const TypeCounts counts = count_types(grid);
-    Result<Choice> choice = choose(counts, grid.types.size(), path);
+    Result<Choice> choice = choose(counts, grid, path);
     if (!choice) return choice.error();
     Mesh mesh;
     mesh.dimension = choice->kind == Kind::tetrahedron ? 3 : 2;
@@ -348,7 +363,8 @@ Result<Mesh> to_mesh(RawGrid grid, const std::string& path) {
     copy_cells(grid, *choice, mesh);
     if (choice->nodes != mesh.corners()) mesh.mid_edge_order = MidEdgeOrder::vtk;
     grid.connectivity = {};
-    Result<std::vector<double>> points = to_points(std::move(grid.points), mesh.dimension, path);
+    Result<std::vector<double>> points =
+        to_points(std::move(grid.points), mesh.dimension, path, mesh.mid_nodes.empty() ? path : "");
     if (!points) return points.error();
     mesh.points = std::move(*points);
     if (!mesh.cell_numbers.empty()) {

@@ -11,8 +11,10 @@ namespace barycert::io {
 /// What read_vtk promises of cells, points, fields and notes, whatever the format. `path` is for messages.
 Result<Mesh> to_mesh(RawGrid grid, const std::string& path);
 
-/// The coordinates in that dimension, all finite. Error: one is not; or z is not 0 in dimension 2.
-Result<std::vector<double>> to_points(std::vector<double> points, int dimension, const std::string& path);
+/// The coordinates in that dimension, all finite. Error: one is not; or z is not 0 in dimension 2, with a remedy for
+/// the file of linear triangles `triangles`, if that is not empty.
+Result<std::vector<double>> to_points(std::vector<double> points, int dimension, const std::string& path,
+                                      const std::string& triangles = {});
 
 /// Fields of what can be one; what cannot, and what was widened, is noted. `what`: "point array".
 void take_fields(std::vector<RawArray>& arrays, const std::string& what, const std::string& path,

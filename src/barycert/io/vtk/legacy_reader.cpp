@@ -2,11 +2,11 @@
 #include <array>
 #include <utility>
 
+#include "barycert/io/other_formats.hpp"
 #include "barycert/io/vtk/legacy_arrays.hpp"
 #include "barycert/io/vtk/legacy_text.hpp"
 #include "barycert/io/vtk/parallel.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
-#include "barycert/io/vtk/xml_grids.hpp"
 #include "barycert/io/vtk/xml_reader.hpp"
 
 namespace barycert::io {
@@ -46,8 +46,11 @@ private:
         if (keyword == "POLYDATA") {
             polydata_ = true;
         } else if (keyword != "UNSTRUCTURED_GRID" && (part_ == Part::all || keyword != "STRUCTURED_GRID")) {
-            return text_.error("the kind of the data set", "UNSTRUCTURED_GRID or POLYDATA", in_quotes(keyword),
-                               to_simplices(text_.path()));
+            if (part_ == Part::all)
+                return text_.error("the kind of the data set", "UNSTRUCTURED_GRID or POLYDATA", in_quotes(keyword),
+                                   keyword == "FIELD" ? "" : to_simplices(text_.path()));
+            return text_.error("the kind of the data set", "UNSTRUCTURED_GRID, POLYDATA or STRUCTURED_GRID",
+                               in_quotes(keyword), "save the points as .vti or .vtr, in ParaView");
         }
         return Done{};
     }

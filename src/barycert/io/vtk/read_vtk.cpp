@@ -8,8 +8,11 @@
 #include <system_error>
 #include <utility>
 
+#include "barycert/base/input_file.hpp"
 #include "barycert/base/mapped_file.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/collection.hpp"
 #include "barycert/io/vtk/grid_to_mesh.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
@@ -20,15 +23,6 @@
 
 namespace barycert {
 namespace {
-
-Error out_of_memory(const std::string& path) {
-    return {.what = "too little memory to read the file",
-            .file = path,
-            .line = 0,
-            .expected = {},
-            .found = {},
-            .remedy = "free some memory, or check whether the file is damaged"};
-}
 
 bool is_xml(std::string_view bytes) {
     std::string_view text = bytes.substr(0, 4096);
@@ -49,7 +43,7 @@ Result<std::vector<io::CollectionFile>> files_named_in(std::string_view bytes, c
 /// Of files that name files, each is read once.
 class GridReader {
 public:
-    explicit GridReader(io::Part part) : part_(part) {}
+    GridReader(io::Part part, const StepChoice& step) : part_(part), step_(step), chosen_(!step.made()) {}
 
     Result<io::RawGrid> read(const std::string& path) {
         constexpr int deepest = 16;
@@ -62,12 +56,13 @@ public:
         ++depth_;
         Result<io::RawGrid> grid = read_one(path);
         --depth_;
+        if (grid && depth_ == 0 && !chosen_) return io::no_series(path);
         return grid;
     }
 
 private:
     Result<io::RawGrid> read_one(const std::string& path) {
-        const Result<base::MappedFile> file = base::MappedFile::open(path);
+        const Result<base::MappedFile> file = base::MappedFile::open(path, 1, base::Text::head);
         if (!file) return file.error();
         std::error_code ignored;
         if (!seen_.insert(std::filesystem::weakly_canonical(path, ignored).string()).second) {
@@ -83,7 +78,7 @@ private:
         if (io::is_series_file(bytes)) {
             const Result<std::vector<io::CollectionFile>> files = io::series_files(bytes, path);
             if (!files) return files.error();
-            return read_first_step(*files, path);
+            return read_step(*files, path);
         }
         if (!is_xml(bytes)) {
             return Error{.what = bytes.empty() ? "the file is empty" : "not a file of VTK",
@@ -98,17 +93,37 @@ private:
         if (!io::is_collection(*tree)) return io::read_xml(bytes, *tree, path, part_);
         const Result<std::vector<io::CollectionFile>> files = io::collection_files(*tree, bytes, path);
         if (!files) return files.error();
-        return io::is_series(*tree) ? read_first_step(*files, path) : read_all(*files, path);
+        return io::is_series(*tree) ? read_step(*files, path) : read_all(*files, path);
+    }
+
+    /// Whether a grid that is no polygon data is among the files, or those that they name.
+    static bool has_cells_of_grids(const std::vector<io::CollectionFile>& files) {
+        for (const io::CollectionFile& file : files) {
+            if (is_polygons(file.path)) continue;
+            for (const std::string& named : vtk_mesh_files(file.path)) {
+                if (io::has_suffix(named, ".vtu") || io::has_suffix(named, ".vtk")) return true;
+            }
+        }
+        return false;
     }
 
     Result<io::RawGrid> read_all(const std::vector<io::CollectionFile>& files, const std::string& path) {
         io::RawGrid grid;
         std::vector<std::string> others;
+        if (!polygons_) polygons_ = !has_cells_of_grids(files);
         for (const io::CollectionFile& file : files) {
-            if (part_ == io::Part::all && is_other_kind(file.path)) {
+            if (part_ == io::Part::all && is_other_kind(file.path) && !(*polygons_ && is_polygons(file.path))) {
                 others.push_back(file.block.empty() ? file.path : file.block + " (" + file.path + ")");
                 continue;
             }
+            std::error_code unknown;
+            if (std::filesystem::status(file.path, unknown).type() == std::filesystem::file_type::not_found)
+                return Error{.what = "a file that is named here is missing",
+                             .file = path,
+                             .line = file.line,
+                             .expected = file.path,
+                             .found = "no such file",
+                             .remedy = "put it there, or correct the name"};
             Result<io::RawGrid> piece = read(file.path);
             if (!piece) return piece;
             if (Status s = io::append_piece(grid, std::move(*piece), path); !s) return s.error();
@@ -123,21 +138,30 @@ private:
         return grid;
     }
 
-    Result<io::RawGrid> read_first_step(const std::vector<io::CollectionFile>& files, const std::string& path) {
+    /// The step that is chosen; of a series within a series the first.
+    Result<io::RawGrid> read_step(const std::vector<io::CollectionFile>& files, const std::string& path) {
         const std::vector<SeriesStep> steps = io::steps_of(files);
-        if (steps.empty()) {
-            return Error{
-                .what = "a series without steps", .file = path, .expected = "a file for each step", .found = "none"};
-        }
-        std::vector<io::CollectionFile> first;
-        for (const std::string& file : steps.front().files) first.push_back({file, {}, 0});
-        Result<io::RawGrid> grid = read_all(first, path);
-        if (grid && steps.size() > 1) {
-            grid->notes.push_back({Note::Kind::left_out,
-                                   "all steps but the first of a series of " + std::to_string(steps.size()), path,
-                                   true});
-        }
+        const StepChoice choice = std::exchange(step_, {});
+        chosen_ = true;
+        const Result<std::size_t> number = io::chosen_step(steps, choice, path);
+        if (!number) return number.error();
+        std::size_t begin = 0;
+        for (std::size_t i = 0; i < *number; ++i) begin += steps[i].files.size();
+        const auto first = files.begin() + static_cast<std::ptrdiff_t>(begin);
+        const auto count = static_cast<std::ptrdiff_t>(steps[*number].files.size());
+        Result<io::RawGrid> grid = read_all({first, first + count}, path);
+        // Who names a number knows what is read.
+        if (!grid || steps.size() == 1 || choice.number) return grid;
+        const std::string which = *number == 0 ? "the first" : "number " + std::to_string(*number);
+        grid->notes.push_back({Note::Kind::left_out,
+                               "all steps but " + which + " of a series of " + std::to_string(steps.size()) +
+                                   ": read is the time " + base::shortest(steps[*number].time),
+                               path, !choice.made()});
         return grid;
+    }
+
+    static bool is_polygons(const std::string& path) {
+        return io::has_suffix(path, ".vtp") || io::has_suffix(path, ".pvtp");
     }
 
     /// Blocks of surfaces and grids beside the mesh.
@@ -148,6 +172,9 @@ private:
     }
 
     io::Part part_;
+    StepChoice step_;
+    bool chosen_;                   ///< no step is left to be chosen
+    std::optional<bool> polygons_;  ///< they are the mesh: there is no other
     std::set<std::string> seen_;
     int depth_ = 0;
 };
@@ -158,7 +185,7 @@ Result<T> without_throwing(const std::string& path, const std::function<Result<T
     try {
         return read();
     } catch (const std::bad_alloc&) {
-        return out_of_memory(path);
+        return base::too_little_memory(path);
     }
 }
 
@@ -167,14 +194,14 @@ Result<T> without_throwing(const std::string& path, const std::function<Result<T
 namespace io {
 
 Result<RawGrid> read_grid(const std::string& path, Part part) {
-    return GridReader(part).read(path);
+    return GridReader(part, {}).read(path);
 }
 
 }  // namespace io
 
-Result<Mesh> read_vtk(const std::string& path) {
+Result<Mesh> read_vtk(const std::string& path, const StepChoice& step) {
     return without_throwing<Mesh>(path, [&]() -> Result<Mesh> {
-        Result<io::RawGrid> grid = io::read_grid(path, io::Part::all);
+        Result<io::RawGrid> grid = GridReader(io::Part::all, step).read(path);
         if (!grid) return grid.error();
         return io::to_mesh(std::move(*grid), path);
     });
@@ -219,7 +246,7 @@ Result<PointData> read_vtk_point_data(const std::string& path, int dimension,
 
 Result<std::vector<SeriesStep>> read_series(const std::string& path) {
     return without_throwing<std::vector<SeriesStep>>(path, [&]() -> Result<std::vector<SeriesStep>> {
-        const Result<base::MappedFile> file = base::MappedFile::open(path);
+        const Result<base::MappedFile> file = base::MappedFile::open(path, 1, base::Text::head);
         if (!file) return file.error();
         if (io::is_series_file(file->bytes())) {
             const Result<std::vector<io::CollectionFile>> files = io::series_files(file->bytes(), path);
@@ -248,7 +275,7 @@ std::vector<std::string> vtk_mesh_files(const std::string& path) {
     // Names within names; what cannot be read is told by the reader.
     std::set<std::string> known{path};
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const Result<base::MappedFile> file = base::MappedFile::open(all[i]);
+        const Result<base::MappedFile> file = base::MappedFile::open(all[i], 1, base::Text::head);
         if (!file) continue;
         const Result<std::vector<io::CollectionFile>> files = files_named_in(file->bytes(), all[i]);
         if (!files) continue;

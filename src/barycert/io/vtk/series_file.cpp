@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 
 namespace barycert::io {
@@ -29,6 +30,7 @@ const char* kind_of(const Json& object, const char* member) {
 }  // namespace
 
 bool is_series_file(std::string_view bytes) {
+    bytes = bytes.substr(0, base::first_block);
     return next_word(bytes).starts_with('{');
 }
 

@@ -105,12 +105,6 @@ bool is_structured(std::string_view type) {
     return type == "ImageData" || type == "RectilinearGrid" || type == "StructuredGrid";
 }
 
-std::string to_simplices(const std::string& path) {
-    return "cut it into simplices with Tetrahedralize in ParaView, or with pyvista: python3 -c \"import pyvista; "
-           "pyvista.read('" +
-           path + "').triangulate().save('simplices.vtu')\"";
-}
-
 Status read_grid_points(const XmlTree& tree, const XmlArrays& arrays, const XmlElement& data, const XmlElement& piece,
                         const std::string& type, RawGrid& grid) {
     const std::string_view whole_text = data.attribute("WholeExtent").value_or(""),

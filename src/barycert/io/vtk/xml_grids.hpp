@@ -18,7 +18,4 @@ bool is_structured(std::string_view type);
 Status read_grid_points(const XmlTree& tree, const XmlArrays& arrays, const XmlElement& data, const XmlElement& piece,
                         const std::string& type, RawGrid& grid);
 
-/// What to do about a file whose cells are no simplices.
-std::string to_simplices(const std::string& path);
-
 }  // namespace barycert::io

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "barycert/io/other_formats.hpp"
 #include "barycert/io/vtk/xml_arrays.hpp"
 #include "barycert/io/vtk/xml_grids.hpp"
 
@@ -64,7 +65,7 @@ private:
                              part_ == Part::all ? "a VTKFile of type UnstructuredGrid or PolyData"
                                                 : "a VTKFile of type UnstructuredGrid, PolyData, ImageData, "
                                                   "RectilinearGrid or StructuredGrid",
-                             found, to_simplices(path_));
+                             found, is_structured(type) ? to_simplices(path_) : "");
     }
 
     Result<std::size_t> count_of(const XmlElement& piece, std::string_view key, std::size_t before) const {

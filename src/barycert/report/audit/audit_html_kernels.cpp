@@ -25,9 +25,9 @@ constexpr std::string_view statistics_heads =
     "<th scope=\"col\" class=\"n\">largest, ulps</th><th scope=\"col\" class=\"n\">cases</th>";
 
 std::string statistics_cells(const KernelStatistics& s) {
-    return share_cell({s.wrong_cases, s.cases}, true) + share_cell(inside_called_outside(s), false) +
-           share_cell(outside_called_inside(s), false) + share_cell(unanswered(s), false) +
-           number_cell(usual_error(s), s.errors.within(0.99)) +
+    return (s.cases == 0 ? number_cell("not run", -1) : share_cell({s.wrong_cases, s.cases}, true)) +
+           share_cell(inside_called_outside(s), false) + share_cell(outside_called_inside(s), false) +
+           share_cell(unanswered(s), false) + number_cell(usual_error(s), s.errors.within(0.99)) +
            number_cell(brief(s.errors.worst.value), s.errors.worst.value) +
            number_cell(brief(s.weight_ulp.value), s.weight_ulp.value) + count_cell(s.cases);
 }
@@ -35,8 +35,9 @@ std::string statistics_cells(const KernelStatistics& s) {
 constexpr std::string_view statistics_legend =
     "<p class=\"small\">Wrong: a wrong sign, zero, region or declaration. Inside counts the boundary. Error: the "
     "largest of the weights of a case, relative to 1 or to the largest weight; \"error of 99 %\" is the power of ten "
-    "that 99 % of the answers stay below. No answer: a weight that is not finite, or a simplex wrongly declared "
-    "degenerate. Ulps: units in the last place of the exact weight, which are tiny for weights near zero.";
+    "that 99 % of the answers stay below. No answer: a crash, a hang or an exception, a weight that is not "
+    "finite, or a simplex wrongly declared degenerate. Ulps: units in the last place of the exact weight, which are "
+    "tiny for weights near zero.";
 
 std::string error_bin_label(std::size_t bin) {
     if (bin == 0) return "no error";
@@ -87,7 +88,7 @@ std::string league_html(const AuditReport& r) {
         "<th scope=\"col\" class=\"n\">ns</th></tr></thead>\n<tbody>\n",
         statistics_heads);
     for (const KernelResult& k : r.kernels)
-        out += fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}</tr>\n", html_escaped(k.kernel.name),
+        out += fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}</tr>\n", html_name(k.kernel.name),
                            statistics_cells(k.total), number_cell(brief(worst_on_meshes(r, k)), worst_on_meshes(r, k)),
                            number_cell(brief_time(k.ns), k.ns));
     return fmt::format("{}</tbody></table></div>\n{} ns: median time of one evaluation.</p>\n", out, statistics_legend);
@@ -109,7 +110,7 @@ std::string kernel_families_html(const AuditReport& r, const KernelResult& k) {
         statistics_heads);
     for (const FamilyResult* f : families_worst_first(k))
         out += fmt::format("<tr><th scope=\"row\" title=\"{}\">{}</th>{}</tr>\n",
-                           html_escaped(r.families[f->family].tests), html_escaped(r.families[f->family].name),
+                           html_escaped(r.families[f->family].tests), html_name(r.families[f->family].name),
                            statistics_cells(f->statistics));
     return fmt::format("{}</tbody></table></div>\n{}</p>\n", out, statistics_legend);
 }
@@ -121,12 +122,12 @@ std::string families_html(const AuditReport& r) {
         "<th scope=\"col\" class=\"n\">kernels without a finding</th><th scope=\"col\" class=\"n\">median wrong, %</th>"
         "<th scope=\"col\" class=\"n\">worst wrong, %</th><th scope=\"col\">worst kernel</th></tr></thead>\n<tbody>\n";
     for (const FamilyLine& f : family_lines(r))
-        out += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td>{}{}{}{}<td>{}</td></tr>\n", html_escaped(f.family),
+        out += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td>{}{}{}{}<td>{}</td></tr>\n", html_name(f.family),
                            f.simplex, count_cell(f.cases),
                            number_cell(fmt::format("{} of {}", f.clean, f.kernels),
                                        static_cast<double>(f.clean) / static_cast<double>(f.kernels)),
                            share_cell({f.median, f.cases}, false), share_cell({f.worst, f.cases}, false),
-                           html_escaped(f.worst_kernel));
+                           html_name(f.worst_kernel));
     return out + "</tbody></table></div>\n";
 }
 
@@ -154,7 +155,8 @@ std::string witnesses_html(const AuditReport& r, const TerminalStyle& style) {
         if (!k.kernel.fails.empty()) out += fmt::format("<p class=\"small\">{}</p>\n", html_escaped(k.kernel.fails));
         if (!k.kernel.note.empty()) out += fmt::format("<p>{}</p>\n", html_escaped(k.kernel.note));
         if (k.total.not_run != 0) out += fmt::format("<p>Given up: {} cases were not run.</p>\n", k.total.not_run);
-        if (k.witnesses.empty()) out += "<p>No witness: every weight and value is correctly rounded.</p>\n";
+        if (k.witnesses.empty() && k.total.not_run == 0)
+            out += "<p>No witness: every weight and value is correctly rounded.</p>\n";
         const bool fold = r.kernels.size() > 1 && k.witnesses.size() > 1;
         for (std::size_t i = 0; i < k.witnesses.size(); ++i) {
             if (i == 1 && fold) out += fmt::format("<details><summary>{} more</summary>\n", k.witnesses.size() - 1);

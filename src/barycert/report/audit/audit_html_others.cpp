@@ -44,7 +44,7 @@ std::string flags_table(const FlagsMatrix& m, auto part, bool red) {
     }
     out += "</tr></thead>\n<tbody>\n";
     for (const FlagsMatrix::Row& row : m.rows) {
-        out += fmt::format("<tr><th scope=\"row\">{}</th>", escaped_line(row.kernel));
+        out += fmt::format("<tr><th scope=\"row\">{}</th>", html_name(base::printable(row.kernel)));
         for (std::size_t c = 0; c < m.columns.size(); ++c) {
             if (column_changes(m, c)) out += share_cell({part(row.cells[c]), row.cells[c].cases}, red);
         }

@@ -44,6 +44,7 @@ std::string place_of(const Witness& w) {
 std::string shows(const Witness& w) {
     if (w.reason.ends_with("_ulp")) return brief(w.magnitude) + " ulps";
     if (!w.detail.empty()) return base::printable(w.detail);
+    if (const auto f = finding_named(w.reason); f && *f <= Finding::printed) return "asked once more, it did not";
     if (w.reason == "false_declaration") return "declared degenerate";
     if (w.reason == "missed_degenerate") return "weights up to " + brief(w.magnitude);
     return std::isfinite(w.magnitude) ? "a weight off by " + brief(w.magnitude) : "a weight that is not finite";
@@ -74,20 +75,26 @@ std::string replay_command(const AuditReport& report, const KernelResult& k, con
     if (family != report.families.end() && family->needs_mesh) {
         for (const std::string& mesh : style.mesh_arguments) command += " --mesh " + shell_word(mesh);
     }
-    return command + fmt::format(" --kernel {} --family {} --case {} --seed {}", shell_word(k.kernel.name),
-                                 shell_word(w.family), w.index, w.seed);
+    command += fmt::format(" --kernel {} --family {} --case {} --seed {}", shell_word(k.kernel.name),
+                           shell_word(w.family), w.index, w.seed);
+    // The answers show what else was found; these may not come again.
+    const auto f = finding_named(w.reason);
+    return f && *f <= Finding::printed ? command + " --reason " + w.reason : command;
 }
 
 std::vector<FamilyLine> family_lines(const AuditReport& report) {
     struct Row {
         std::uint64_t cases = 0;
+        std::size_t kernels = 0;
         std::vector<std::pair<std::uint64_t, std::string>> wrong;  ///< wrong cases and kernel
     };
     std::map<std::pair<std::size_t, Simplex>, Row> rows;
     for (const KernelResult& k : report.kernels) {
         for (const FamilyResult& f : k.families) {
             Row& row = rows[{f.family, k.kernel.simplex}];
-            row.cases = f.statistics.cases;
+            row.cases = std::max(row.cases, f.statistics.cases);
+            ++row.kernels;
+            if (f.statistics.cases == 0) continue;
             row.wrong.emplace_back(f.statistics.wrong_cases,
                                    base::printable(k.kernel.name.substr(k.kernel.name.find('.') + 1)));
         }
@@ -98,6 +105,7 @@ std::vector<FamilyLine> family_lines(const AuditReport& report) {
         Row& row = entry.second;  // no structured binding: lambdas capture it
         std::stable_sort(row.wrong.begin(), row.wrong.end(),
                          [](const auto& a, const auto& b) { return a.first > b.first; });
+        if (row.wrong.empty()) row.wrong.emplace_back(0, "not run");
         const std::uint64_t worst = row.wrong.front().first;
         const auto with = [&](std::uint64_t n) {
             return static_cast<std::size_t>(
@@ -107,11 +115,11 @@ std::vector<FamilyLine> family_lines(const AuditReport& report) {
         lines.push_back({.family = report.families[key.first].name,
                          .simplex = std::string(name(key.second)),
                          .cases = row.cases,
-                         .clean = with(0),
-                         .kernels = row.wrong.size(),
+                         .clean = row.cases == 0 ? 0 : with(0),
+                         .kernels = row.kernels,
                          .median = row.wrong[(row.wrong.size() - 1) / 2].first,
                          .worst = worst,
-                         .worst_kernel = worst == 0 ? "-" : row.wrong.front().second + more});
+                         .worst_kernel = worst == 0 && row.cases != 0 ? "-" : row.wrong.front().second + more});
     }
     return lines;
 }

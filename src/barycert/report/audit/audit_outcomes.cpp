@@ -31,7 +31,11 @@ public:
             add(std::string(text.name), std::string(text.name), State::noted,
                 fmt::format("{} times in {} cases: {}", s.counts[f], s.cases, text.meaning));
         }
-        if (s.wrong_cases == 0) add("no finding", "wrong_cases", State::passed, "");
+        if (s.not_run != 0)
+            add("not run", "not_run", State::noted,
+                fmt::format("{} cases were not run: the kernel had been given up", s.not_run));
+        else if (s.wrong_cases == 0)
+            add("no finding", "wrong_cases", State::passed, "");
     }
 
     void rules(const std::vector<Threshold>& all) {

@@ -54,8 +54,12 @@ Share wrong_on_meshes(const AuditReport& report, const KernelResult& k) {
     return share;
 }
 
+bool without_finding(const KernelStatistics& s) {
+    return s.wrong_cases == 0 && s.not_run == 0;
+}
+
 bool perfect(const KernelStatistics& s) {
-    return s.wrong_cases == 0 && s.errors.worst.value <= 0;
+    return without_finding(s) && s.errors.worst.value <= 0;
 }
 
 Share unanswered(const KernelStatistics& s) {
@@ -80,8 +84,8 @@ std::string usual_error(const KernelStatistics& s) {
 
 std::string incidents(const KernelStatistics& s) {
     std::string out;
-    for (const Finding f :
-         {Finding::crashed, Finding::hung, Finding::out_of_bounds, Finding::changed_environment, Finding::printed}) {
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(Finding::printed); ++i) {
+        const auto f = static_cast<Finding>(i);
         if (count_of(s, f) != 0)
             out += fmt::format("{}{} in {} cases", out.empty() ? "" : ", ", name(f), count_of(s, f));
     }
@@ -90,7 +94,8 @@ std::string incidents(const KernelStatistics& s) {
 }
 
 bool any_wrong(const AuditReport& report) {
-    return wrong_kernels(report) != 0;
+    return std::any_of(report.kernels.begin(), report.kernels.end(),
+                       [](const auto& k) { return !without_finding(k.total); });
 }
 
 std::string verdict_sentence(const AuditReport& report) {
@@ -98,11 +103,14 @@ std::string verdict_sentence(const AuditReport& report) {
     if (all == 1) {
         const KernelResult& k = report.kernels.front();
         const std::string name = base::printable(k.kernel.name);
-        return wrong == 0 ? fmt::format("{}: no wrong answer in {} cases", name, k.total.cases)
+        const std::string left_out = k.total.not_run == 0 ? "" : fmt::format(", {} not run", k.total.not_run);
+        return wrong == 0 ? fmt::format("{}: no wrong answer in {} cases{}", name, k.total.cases, left_out)
                           : fmt::format("{} is wrong in {} % of {} cases", name,
                                         percent(k.total.wrong_cases, k.total.cases), k.total.cases);
     }
-    if (wrong == 0) return fmt::format("none of {} kernels gives a wrong answer", all);
+    if (wrong == 0)
+        return fmt::format("none of {} kernels gives a wrong answer{}", all,
+                           any_wrong(report) ? ", but not all cases were run" : "");
     return fmt::format("{} of {} kernels give wrong answers", wrong, all);
 }
 
@@ -150,7 +158,7 @@ std::vector<std::string> verdict_details(const AuditReport& report) {
     const std::string right = names_of(report, [](const KernelResult& k) { return perfect(k.total); });
     if (!right.empty()) lines.push_back("Right in every case, to the last bit: " + right + ".");
     const std::string clean =
-        names_of(report, [](const KernelResult& k) { return k.total.wrong_cases == 0 && !perfect(k.total); });
+        names_of(report, [](const KernelResult& k) { return without_finding(k.total) && !perfect(k.total); });
     if (!clean.empty()) lines.push_back("No wrong sign or region, but rounding errors: " + clean + ".");
     return lines;
 }
@@ -176,6 +184,11 @@ std::string how_it_was_made(const AuditReport& report) {
 std::vector<MeshLine> mesh_lines(const AuditReport& report, std::string_view command) {
     if (report.meshes.empty()) return {MeshLine{.text = "meshes: none"}};
     std::vector<MeshLine> lines;
+    for (std::size_t i = 0; i < report.curved.size(); ++i) {
+        if (const std::string text = message(report.curved[i]); !text.empty())
+            lines.push_back(
+                {fmt::format("{}: {}", base::printable(report.meshes[i]), text), report.curved[i].cells != 0});
+    }
     const auto line = [&](Verdict verdict, std::string_view text, const std::string& hint) {
         std::string names;
         for (std::size_t i = 0; i < report.meshes.size(); ++i) {

@@ -29,6 +29,8 @@ Share outside_called_inside(const KernelStatistics& s);
 /// Wrong cases of the families that draw from meshes.
 Share wrong_on_meshes(const AuditReport& report, const KernelResult& k);
 
+/// All cases were run, and none has a finding.
+bool without_finding(const KernelStatistics& s);
 /// Every weight of every case is correctly rounded, and nothing else is wrong.
 bool perfect(const KernelStatistics& s);
 

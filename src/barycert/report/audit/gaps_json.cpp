@@ -6,6 +6,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/report/audit/oracle_words.hpp"
 #include "barycert/report/common/environment_json.hpp"
+#include "barycert/report/common/notes_json.hpp"
 
 namespace barycert {
 
@@ -67,6 +68,7 @@ std::string gaps_json(const GapsReport& r) {
     j["schema"] = audit_schema;
     j["environment"] = environment_json(r.environment);
     j["mesh"] = r.mesh;
+    j["curved"] = curved_json(r.curved);
     j["verdict"] = name(r.verdict);
     j["dimension"] = r.dimension;
     j["seed"] = r.seed;

@@ -32,12 +32,12 @@ std::string claim_witness_text(ClaimFault fault, const ClaimWitness& w, int dime
 std::string gaps_text(const GapsReport& report, const TerminalStyle& style) {
     const ExactEnvironment environment;
     const Colours paint(style.colour);
-    std::string out = environment_line(report.environment) + "\n";
+    std::string out = curved_lines(report.curved, paint) + environment_line(report.environment) + "\n";
     const char* const known = report.verdict == Verdict::certified       ? "certified to be a partition"
                               : report.verdict == Verdict::not_certified ? "NOT certified to be a partition"
                                                                          : "not checked";
-    out += fmt::format("{}, {}; seed {}, {} points on {} each, {} threads, {:.1f} s\n", base::printable(report.mesh),
-                       known, report.seed, report.count,
+    out += fmt::format("{}, {}{}; seed {}, {} points on {} each, {} threads, {:.1f} s\n", base::printable(report.mesh),
+                       known, for_straight_sides(report.curved), report.seed, report.count,
                        report.dimension == 2 ? "edges and vertices" : "faces, edges and vertices", report.threads,
                        report.seconds);
     out += oracle_line(report.oracles) + "\n\n";

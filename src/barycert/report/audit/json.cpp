@@ -8,6 +8,7 @@
 #include "barycert/report/audit/oracle_words.hpp"
 #include "barycert/report/common/environment_json.hpp"
 #include "barycert/report/common/json_figure.hpp"
+#include "barycert/report/common/notes_json.hpp"
 
 namespace barycert {
 
@@ -101,6 +102,7 @@ std::string audit_json(const AuditReport& r) {
     j["threads"] = r.threads;
     j["meshes"] = r.meshes;
     j["verdicts"] = list(r.verdicts, [](Verdict v) { return Json(name(v)); });
+    j["curved"] = list(r.curved, curved_json);
     j["cases"] = r.cases;
     for (const Region region : all_regions)
         j["regions"][std::string(name(region))] = r.regions[static_cast<std::size_t>(region)];

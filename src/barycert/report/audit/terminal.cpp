@@ -51,7 +51,7 @@ std::string league_table(const AuditReport& report, const Colours& paint) {
     for (const KernelResult& k : report.kernels) {
         const KernelStatistics& s = k.total;
         const std::string line =
-            row(k.kernel.name, width, percent(s.wrong_cases, s.cases), percent(inside_called_outside(s)),
+            row(k.kernel.name, width, percent({s.wrong_cases, s.cases}), percent(inside_called_outside(s)),
                 percent(outside_called_inside(s)), percent(unanswered(s)), usual_error(s),
                 brief(worst_on_meshes(report, k)), brief(s.weight_ulp.value), brief_time(k.ns));
         out += (perfect(s) ? paint.good(line) : line) + "\n";

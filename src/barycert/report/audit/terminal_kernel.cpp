@@ -37,6 +37,11 @@ std::string kernel_families(const AuditReport& report, const KernelResult& k, co
         paint.bold(row("", width, "", "%", "out %", "in %", "ans. %", "99 %", "max", "ulps")) + "\n";
     for (const FamilyResult* f : families_worst_first(k)) {
         const KernelStatistics& s = f->statistics;
+        if (s.cases == 0) {
+            out += fmt::format("{:<{}} {:>6}  not run, the kernel had been given up\n", report.families[f->family].name,
+                               width, 0);
+            continue;
+        }
         const std::string line =
             row(report.families[f->family].name, width, brief_count(s.cases), percent(s.wrong_cases, s.cases),
                 percent(inside_called_outside(s)), percent(outside_called_inside(s)), percent(unanswered(s)),
@@ -54,7 +59,8 @@ std::string kernel_findings(const AuditReport& report, const KernelResult& k, co
         out +=
             fmt::format("    {}: {}\n    {}\n", place_of(w), shows(w), paint.dim(replay_command(report, k, w, style)));
     }
-    return out.empty() ? "No witness: every weight and value is correctly rounded.\n" : out;
+    if (out.empty() && k.total.not_run == 0) return "No witness: every weight and value is correctly rounded.\n";
+    return out;
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ std::string kernel_table(const AuditReport& report, const Colours& paint) {
         const KernelStatistics& s = k.total;
         const auto n = [&](Finding f) { return brief_count(count_of(s, f)); };
         const std::string line =
-            row(k.kernel.name, width, brief_count(s.cases), percent(s.wrong_cases, s.cases),
+            row(k.kernel.name, width, brief_count(s.cases), percent({s.wrong_cases, s.cases}),
                 percent(wrong_on_meshes(report, k)), n(Finding::opposite_sign), n(Finding::false_zero),
                 n(Finding::false_nonzero), n(Finding::not_finite), n(Finding::false_inside), n(Finding::false_outside),
                 n(Finding::false_declaration), n(Finding::missed_degenerate), brief(s.p999_weight_ulp()),
@@ -59,7 +59,7 @@ std::string family_table(const AuditReport& report, const Colours& paint) {
         paint.bold(line("family", width, "simplex", "cases", "clean", "median %", "worst %", "worst kernel")) + "\n";
     for (const FamilyLine& f : lines) {
         out += line(f.family, width, f.simplex, brief_count(f.cases), fmt::format("{}/{}", f.clean, f.kernels),
-                    percent(f.median, f.cases), percent(f.worst, f.cases), f.worst_kernel) +
+                    percent({f.median, f.cases}), percent({f.worst, f.cases}), f.worst_kernel) +
                "\n";
     }
     return out + paint.dim(
@@ -72,7 +72,9 @@ std::string witness_list(const AuditReport& report, const TerminalStyle& style, 
     for (const KernelResult& k : report.kernels) {
         const Witness* w = worst_witness(k);
         if (w == nullptr) {
-            out += paint.bold(k.kernel.name) + ": no witness, every weight and value is correctly rounded\n";
+            out += paint.bold(k.kernel.name) + (k.total.not_run != 0
+                                                    ? ": no witness\n"
+                                                    : ": no witness, every weight and value is correctly rounded\n");
             continue;
         }
         out += fmt::format("{}: {} in {} ({})\n    {}\n", paint.bold(k.kernel.name), w->reason, place_of(*w), shows(*w),

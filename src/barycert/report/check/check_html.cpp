@@ -15,6 +15,7 @@
 #include "barycert/report/check/check_words.hpp"
 #include "barycert/report/common/html_text.hpp"
 #include "barycert/report/common/page.hpp"
+#include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert {
 
@@ -39,8 +40,9 @@ std::string spaced(std::string_view name) {
 std::string verdict(const CheckReport& r) {
     if (r.certified()) {
         const std::string what = r.cells == 0 ? "The mesh has no cells, so the conditions hold trivially."
-                                              : fmt::format("{}.</p><p>{}", words(r).certified(), certified_sentence);
-        return fmt::format("<section class=\"verdict good\"><b>Certified</b><p>{}</p></section>\n", what);
+                                              : fmt::format("{}.</p><p>{}", words(r).certified(), words(r).proof());
+        return fmt::format("<section class=\"verdict good\"><b>Certified{}</b><p>{}</p></section>\n",
+                           for_straight_sides(r.curved), what);
     }
     // An open boundary follows from other defects, if there are any.
     std::string reasons, open;
@@ -86,8 +88,9 @@ std::string whole_mesh(const CheckReport& r) {
         out += fmt::format("<tr><th class=\"k\">{}</th><td>{}</td></tr>\n", what, fmt::join(sentences, "<br/>"));
     };
     row(r.dimension == 2 ? "Area" : "Volume",
-        {w.volumes() +
-         (r.volume.equal ? ": <span class=\"ok\">exactly equal</span>" : ": <b class=\"bad\">NOT equal</b>")});
+        {w.volumes() + (!r.volume.equal ? ": <b class=\"bad\">NOT equal</b>"
+                        : r.certified() ? ": <span class=\"ok\">exactly equal</span>"
+                                        : ": equal, which alone proves nothing")});
     row("Cells", {w.orientations()});
     const std::string uncounted = w.uncounted();
     row("Boundary", {fmt::format("{}, {}{}{}", b.closed ? "closed" : "<b class=\"bad\">not closed</b>",
@@ -120,26 +123,33 @@ std::string defects(const CheckReport& r, bool breaking) {
     std::string rows;
     for (const Defect& f : r.defects) {
         const DefectText& t = defect_text(f.kind);
-        if (t.breaks != breaking) continue;
+        if (f.breaks() != breaking) continue;
         std::string where;
         const std::size_t shown = std::min(f.places.size(), max_places);
         for (std::size_t i = 0; i < shown; ++i)
-            where += (i == 0 ? "" : "; ") + html_escaped(place_text(r, f.places[i]));
+            where += (i == 0 ? "" : "; ") + html_escaped(place_text(r, f.kind, f.places[i]));
         if (shown > 0 && shown < f.count)
             where += f.at_least ? "; and more" : fmt::format("; and {} more", grouped(f.count - shown));
+        if (f.curved_cells != 0) where += (where.empty() ? "" : "<br/>") + words(r).curved(f);
         rows += fmt::format(
-            "<tr><td class=\"k\"><b>{}</b></td><td>{}{}</td><td{}>{}</td><td class=\"n\" "
-            "data-l=\"count\">{}</td></tr>\n",
+            "<tr><td class=\"k\"><b>{}</b></td><td>{}{}{}</td><td class=\"n\" data-l=\"count\">{}</td></tr>\n",
             spaced(t.name), html_escaped(t.text),
-            where.empty() ? "" : fmt::format("<div class=\"places\">{}</div>", where),
-            breaking ? " data-l=\"remedy\"" : "", html_escaped(t.remedy), words(r).count_of(f));
+            f.remedy().empty() ? "" : fmt::format("<div class=\"remedy\">→ {}</div>", html_escaped(f.remedy())),
+            where.empty() ? "" : fmt::format("<div class=\"places\">{}</div>", where), words(r).count_of(f));
     }
     if (rows.empty()) return "";
     return fmt::format(
-        "<h2>{}</h2>\n<table class=\"stack\"><tr><th class=\"h\">defect</th><th class=\"h\">what it is, and where</th>"
-        "<th class=\"h\">{}</th><th class=\"h n\">count</th></tr>\n"
-        "{}</table>\n",
-        breaking ? breaking_heading : harmless_heading, breaking ? "remedy" : "", rows);
+        "<h2>{}</h2>\n<table class=\"stack\"><tr><th class=\"h\">defect</th><th class=\"h\">what it is, what to do, "
+        "and where</th>"
+        "<th class=\"h n\">count</th></tr>\n{}</table>\n",
+        breaking ? breaking_heading : harmless_heading, rows);
+}
+
+std::string repaired(const FixedMesh& fixed) {
+    std::string done;
+    for (const std::string& line : fix_sentences(fixed.done)) done += fmt::format("<li>{}</li>", html_escaped(line));
+    return fmt::format("<h2>Repaired copy: {}</h2>\n<ul>{}</ul>\n", html_escaped(fixed.file), done) +
+           verdict(fixed.after);
 }
 
 std::string contacts(const CheckReport& r) {
@@ -180,7 +190,7 @@ std::string histograms(const CheckReport& r) {
     const bool plane = r.dimension == 2;
     const std::string unit = plane ? "squared" : "cubed";
     using Kind = BinRule::Kind;
-    std::string out = "<h2>Shapes and sizes of the cells</h2>\n<div class=\"figures\">\n";
+    std::string out;
     // From flat to regular: 70.53 degrees, in 2D 60.
     out += histogram_figure(
         r, m.min_angle, {Kind::given, 0, plane ? 60.0 : 72.0, plane ? 1.5 : 2.0},
@@ -218,7 +228,8 @@ std::string histograms(const CheckReport& r) {
                              .infinite = "overflow",
                              .zero = "zero, or underflow",
                              .max_is_worst = false});
-    return out + "</div>\n";
+    if (out.empty()) return out;
+    return "<h2>Shapes and sizes of the cells</h2>\n<div class=\"figures\">\n" + out + "</div>\n";
 }
 
 std::string exhibits(const CheckReport& r, const Mesh& mesh) {
@@ -240,11 +251,11 @@ std::string exhibits(const CheckReport& r, const Mesh& mesh) {
 
 }  // namespace
 
-std::string check_html(const CheckReport& r, const Mesh& mesh, const std::string& mesh_name) {
+std::string check_html(const CheckReport& r, const Mesh& mesh, const std::string& mesh_name, const FixedMesh* fixed) {
     const ExactEnvironment environment;
     std::string out = page_head(mesh_name + (r.certified() ? ": certified" : ": NOT certified"), html_style) +
                       fmt::format("<h1>Mesh certificate of <b>{}</b></h1>\n", html_escaped(mesh_name));
-    out += verdict(r);
+    out += curved_section(r.curved) + verdict(r);
     // Without a structure there are no measures, and nothing that could be drawn.
     const bool looked_at = r.find(DefectKind::bad_structure) == nullptr;
     const bool cells = looked_at && r.cells != 0 && r.measures.volume.size() == r.cells &&
@@ -255,8 +266,11 @@ std::string check_html(const CheckReport& r, const Mesh& mesh, const std::string
         out += fmt::format("<p class=\"small\">{}</p>\n", numbering_sentence(r, mesh));
     for (const std::string& note : note_sentences(r))
         out += fmt::format("<p class=\"small\">{}</p>\n", html_escaped(note));
-    out += conditions(r, mesh) + defects(r, true) + contacts(r);
-    if (cells) out += exhibits(r, mesh) + histograms(r);
+    out += conditions(r, mesh) + defects(r, true);
+    if (fixed != nullptr) out += repaired(*fixed);
+    if (cells) out += exhibits(r, mesh);
+    out += contacts(r);
+    if (cells) out += histograms(r);
     out += defects(r, false);
     return out + page_foot(fmt::format(
                      "Made by barycert {} check: {}. Signs, counts, contacts and the verdict are exact; angles and "

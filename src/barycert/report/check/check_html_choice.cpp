@@ -93,7 +93,7 @@ std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, s
         }
     }
     for (const Defect& f : report.defects) {
-        if (!defect_text(f.kind).breaks) continue;
+        if (!f.breaks()) continue;
         open_queue();
         for (const DefectPlace& p : f.places) add(of_place(f.kind, p, drawn_of(mesh, p.cells)));
     }

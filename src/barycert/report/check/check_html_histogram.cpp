@@ -202,6 +202,10 @@ Histogram histogram(const std::vector<double>& values, const BinRule& rule) {
 std::string histogram_figure(const CheckReport& r, const std::vector<double>& values, const BinRule& rule,
                              const HistogramText& text) {
     const Histogram h = histogram(values, rule);
+    // An empty picture says nothing; what is counted apart does.
+    if (std::all_of(h.counts.begin(), h.counts.end(), [](std::uint64_t n) { return n == 0; }))
+        return fmt::format("<p class=\"small\">{}: no cell in a bar. {}</p>\n", html_escaped(text.title),
+                           html_escaped(counted_apart(h, text)));
     const Distribution d = distribution(values);
     std::string out = fmt::format("<figure><h3>{}</h3>\n", html_escaped(text.title));
     if (d.min_cell >= 0) {

@@ -45,8 +45,8 @@ struct HistogramText {
     bool max_is_worst = true;
 };
 
-/// A figure: title, least, median, most, the bars, what was counted apart. Counts are on a logarithmic axis if the
-/// smallest bar would else be lower than 1 % of the tallest one.
+/// Empty if no bar would be drawn; else a figure: title, least, median, most, the bars, what was counted apart. Counts
+/// are on a logarithmic axis if the smallest bar would else be lower than 1 % of the tallest one.
 std::string histogram_figure(const CheckReport& report, const std::vector<double>& values, const BinRule& rule,
                              const HistogramText& text);
 

@@ -326,7 +326,10 @@ std::string exhibit_map(const CheckReport& r, const Mesh& mesh, const std::vecto
             ? fmt::format("Grey: {} of its {} boundary facets{}.", grouped(outline.facets.size()),
                           grouped(outline.boundary), outline.creases.empty() ? "" : " and the edges where it bends")
             : fmt::format("Grey: the edges of its {} boundary facets.", grouped(outline.boundary));
-    if (!problems.empty()) drawn += " Red: cells with problems, some of them where they are many.";
+    const bool red = !exhibits.empty() && exhibits.front().defect, blue = !exhibits.empty() && !exhibits.back().defect;
+    if (red) drawn += " Numbers in red: cells with defects, drawn below.";
+    if (blue) drawn += " Numbers in blue: the cells with the smallest angles, which need not be wrong.";
+    if (!problems.empty()) drawn += " Red dots: cells with problems, some of them where they are many.";
     return fmt::format("<figure><div class=\"map\">{}<div>{}</div></div>\n", std::move(svg).finish(),
                        legend(r, mesh, exhibits)) +
            fmt::format("<p class=\"small\">The box of the cells: {}. {}</p></figure>\n", extent(box, mesh.dimension),

@@ -9,6 +9,7 @@ namespace barycert::report {
 inline constexpr std::string_view html_style = R"(
 .k{width:1%;white-space:nowrap;padding-right:18px}
 td.n,th.n{width:1%;padding-right:0}
+.remedy{margin:2px 0}
 .places,.witness-at{font-size:14px;overflow-wrap:anywhere}
 .views{display:flex;flex-wrap:wrap;justify-content:space-around}
 .card p{margin:4px 0;font-size:14px}

@@ -12,6 +12,7 @@
 #include "barycert/report/check/check_words.hpp"
 #include "barycert/report/common/environment_json.hpp"
 #include "barycert/report/common/json_figure.hpp"
+#include "barycert/report/common/not_finite.hpp"
 #include "barycert/report/common/notes_json.hpp"
 
 namespace barycert {
@@ -52,16 +53,22 @@ Json finding_json(const CheckReport& r, const Defect& f) {
     Json j;
     j["name"] = t.name;
     if (!t.condition.empty()) j["condition"] = t.condition;
-    j["breaks"] = t.breaks;
+    j["breaks"] = f.breaks();
     j["count"] = f.count;
     j["at_least"] = f.at_least;
+    j["curved_cells"] = f.curved_cells;
     j["text"] = t.text;
-    j["remedy"] = t.remedy;
+    j["remedy"] = f.remedy();
     j["places"] = Json::array();
     for (const DefectPlace& p : f.places) {
         Json place;
         place["cells"] = indices(r.cell_number(p.cells));
         place["nodes"] = indices(p.nodes);
+        if (p.other_nodes[0] >= 0) place["other_nodes"] = indices(p.other_nodes);
+        if (f.kind == DefectKind::near_nodes) {
+            place["distance"] = figure(p.distance);
+            place["relative"] = figure(p.relative);
+        }
         if (*p.detail != '\0') place["detail"] = p.detail;
         j["places"].push_back(std::move(place));
     }
@@ -149,18 +156,45 @@ Json conformity_json(const ConformityReport& c) {
     return j;
 }
 
+Json fix_json(const FixedMesh& fixed) {
+    const FixReport& done = fixed.done;
+    Json j;
+    j["file"] = fixed.file;
+    j["merged"] = Json::array();
+    for (const MergedNode& m : done.merged)
+        j["merged"].push_back(Json{{"node", m.node}, {"into", m.into}, {"moved", figure(m.moved)}});
+    j["dropped"] = Json::array();
+    for (const DroppedCell& c : done.dropped)
+        j["dropped"].push_back(Json{{"cell", c.cell}, {"why", defect_text(c.why).name}});
+    j["collapsed"] = done.collapsed;
+    j["turned"] = done.turned;
+    j["dropped_faces"] = done.dropped_faces;
+    j["differing_markers"] = done.differing_markers;
+    j["fields"] = Json::array();
+    for (const MergedField& f : done.fields)
+        j["fields"].push_back(
+            Json{{"name", f.name}, {"differ", f.differ}, {"largest_difference", figure(f.max_difference)}});
+    j["verdict"] = barycert::name(fixed.after.certificate.verdict());
+    j["remaining"] = Json::array();
+    for (const Defect& f : fixed.after.defects) j["remaining"].push_back(finding_json(fixed.after, f));
+    return j;
+}
+
 }  // namespace
 
-std::string check_json(const CheckReport& r, const std::string& name, const Environment& environment) {
+std::string check_json(const CheckReport& r, const std::string& name, const Environment& environment,
+                       const FixedMesh* fixed) {
     const ExactEnvironment exact;
     Json j;
     j["schema"] = check_schema;
     j["mesh"] = name;
+    j["curved"] = curved_json(r.curved);
     j["verdict"] = barycert::name(r.certificate.verdict());
     j["dimension"] = r.dimension;
     j["nodes"] = r.nodes;
     j["cells"] = r.cells;
     j["notes"] = notes_json(r.notes);
+    j["not_finite"] = not_finite_json(r.not_finite);
     j["conditions"] = conditions_json(r, Mesh());  // whether files came changes no count
     j["findings"] = Json::array();
     for (const Defect& f : r.defects) j["findings"].push_back(finding_json(r, f));
@@ -177,6 +211,7 @@ std::string check_json(const CheckReport& r, const std::string& name, const Envi
     j["measures"] = measures_json(r);
     if (r.delaunay) j["delaunay"] = delaunay_json(r);
     if (r.conformity) j["conformity"] = conformity_json(*r.conformity);
+    if (fixed != nullptr) j["fix"] = fix_json(*fixed);
     j["problem_bits"] = Json::array();
     for (const DefectText& t : defect_texts) j["problem_bits"].push_back(t.name);
     j["seconds"] = r.seconds;

@@ -23,7 +23,7 @@ struct Clause {
     DefectKind kind;
     std::string_view one, more;
 };
-constexpr std::array<Clause, 15> clauses{{
+constexpr std::array<Clause, 16> clauses{{
     {DefectKind::bad_structure, "array has a wrong size", "arrays have a wrong size"},
     {DefectKind::index_out_of_range, "cell has an invalid index", "cells have an invalid index"},
     {DefectKind::not_finite, "node is not finite", "nodes are not finite"},
@@ -37,8 +37,9 @@ constexpr std::array<Clause, 15> clauses{{
     {DefectKind::nested_part, "piece of the boundary lies in cells", "pieces of the boundary lie in cells"},
     {DefectKind::overlapping_cells, "pair of cells overlaps", "pairs of cells overlap"},
     {DefectKind::wrong_neighbour, "entry of .neigh is wrong", "entries of .neigh are wrong"},
-    {DefectKind::wrong_face, "triangle of .face is not a facet", "triangles of .face are not facets"},
+    {DefectKind::wrong_face, "face in the files is not a facet", "faces in the files are not facets"},
     {DefectKind::unfit_array, "array does not fit nodes and cells", "arrays do not fit nodes and cells"},
+    {DefectKind::hanging_node, "node hangs on a cell", "nodes hang on cells"},
 }};
 
 std::string clause(const Defect& f) {
@@ -52,8 +53,8 @@ CheckWords words(const CheckReport& report) {
 
 std::string certified(const CheckReport& r, const std::string& name, const Colours& paint) {
     if (r.cells == 0) return paint.good(name + ": certified, trivially: the mesh has no cells") + "\n";
-    return paint.good(fmt::format("{}: certified: {}", name, words(r).certified())) +
-           fmt::format("\n{}\n", certified_sentence);
+    return paint.good(fmt::format("{}: certified{}: {}", name, for_straight_sides(r.curved), words(r).certified())) +
+           fmt::format("\n{}\n", words(r).proof());
 }
 
 /// As many reasons as fit in a line, at least one.
@@ -120,7 +121,7 @@ std::string places(const CheckReport& r, const Defect& f) {
     const bool cells = plain(true), nodes = !cells && plain(false);
     std::vector<std::string> pieces;
     for (const DefectPlace& p : f.places) {
-        std::string text = place_text(r, p);
+        std::string text = place_text(r, f.kind, p);
         if (cells || nodes) {
             const std::string number = text.substr(text.find(' ') + 1);
             const std::string what = cells ? "cell" : "node";
@@ -138,20 +139,21 @@ std::string defect_lines(const CheckReport& r, const Defect& f, const Colours& p
     const std::string count = (f.at_least ? ">= " : "") + std::to_string(f.count);
     std::string out = fmt::format("{} {:>11}  {}\n", paint.bold(fmt::format("{:<18}", t.name)), count, t.text);
     out += places(r, f);
+    if (f.curved_cells != 0) out += fmt::format("    {}\n", words(r).curved(f));
     // That remedy repairs no folded cell.
     const bool folded = f.kind == DefectKind::mixed_orientation && r.find(DefectKind::same_side) != nullptr;
-    return t.remedy.empty()
+    return f.remedy().empty()
                ? out
-               : out + fmt::format("    -> {}{}\n", t.remedy, folded ? "; this does not repair folded cells" : "");
+               : out + fmt::format("    -> {}{}\n", f.remedy(), folded ? "; this does not repair folded cells" : "");
 }
 
-std::string defect_list(const CheckReport& r, bool breaking, const Colours& paint) {
+std::string defect_list(const CheckReport& r, bool breaking, std::string_view heading, const Colours& paint) {
     std::string out;
     for (const Defect& f : r.defects) {
-        if (defect_text(f.kind).breaks == breaking) out += defect_lines(r, f, paint);
+        if (f.breaks() == breaking) out += defect_lines(r, f, paint);
     }
     if (out.empty()) return out;
-    return "\n" + paint.bold(breaking ? breaking_heading : harmless_heading) + "\n" + out;
+    return "\n" + paint.bold(std::string(heading)) + "\n" + out;
 }
 
 constexpr std::size_t max_fraction = 80;
@@ -250,16 +252,28 @@ std::string check_text(const CheckReport& r, const Mesh& mesh, const std::string
     const ExactEnvironment environment;
     const Colours paint(style.colour);
     const std::string name = base::printable(path);
-    std::string out = r.certified() ? certified(r, name, paint) : not_certified(r, name, paint);
+    std::string out = curved_lines(r.curved, paint);
+    out += r.certified() ? certified(r, name, paint) : not_certified(r, name, paint);
     if (!r.defects.empty() || r.cells != 0) {
         out += numbering_sentence(r, mesh) + "\n";
     }
     out += "\n" + condition_table(r, mesh, paint);
-    out += defect_list(r, true, paint) + contact_list(r, paint);
+    out += defect_list(r, true, breaking_heading, paint) + contact_list(r, paint);
     if (r.cells != 0) out += whole_mesh(r) + measure_table(r, paint);
-    out += defect_list(r, false, paint);
+    out += defect_list(r, false, harmless_heading, paint);
     out += named_lines("\nread", note_sentences(r));
     return out + fmt::format("\n{}\n", words(r).checked());
+}
+
+std::string fix_text(const FixedMesh& fixed, const TerminalStyle& style) {
+    const ExactEnvironment environment;
+    const Colours paint(style.colour);
+    const std::string name = base::printable(fixed.file);
+    const CheckReport& after = fixed.after;
+    std::string out = "\n" + paint.bold(fmt::format("Repaired copy: {}", name)) + "\n";
+    for (const std::string& line : fix_sentences(fixed.done)) out += line + "\n";
+    out += after.certified() ? certified(after, name, paint) : not_certified(after, name, paint);
+    return after.certified() ? out : out + defect_list(after, true, "What remains in the copy", paint);
 }
 
 }  // namespace barycert

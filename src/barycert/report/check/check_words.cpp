@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "barycert/base/text.hpp"
+#include "barycert/report/common/not_finite.hpp"
 
 namespace barycert::report {
 namespace {
@@ -58,13 +59,22 @@ std::string_view left_out_sentence(const CheckReport& report) {
     return some ? "P2 to P5 leave out cells with an invalid index, a non-finite coordinate or a repeated node." : "";
 }
 
-std::string place_text(const CheckReport& report, const DefectPlace& p) {
+std::string place_text(const CheckReport& report, DefectKind kind, const DefectPlace& p) {
     const auto cells = used(report.cell_number(p.cells));
-    const auto nodes = used(p.nodes);
+    auto nodes = used(p.nodes), others = used(p.other_nodes);
+    if (kind == DefectKind::hanging_node)
+        return fmt::format("node {} within {} {} of cell {}", fmt::join(nodes, " "),
+                           others.size() == 2 && report.dimension == 3 ? "edge" : "facet", fmt::join(others, " "),
+                           fmt::join(cells, " "));
+    if (kind == DefectKind::near_nodes)
+        return fmt::format("nodes {}, {:.3g} apart ({:.3g} of an edge)", fmt::join(nodes, " and "), p.distance,
+                           p.relative);
+    if (kind == DefectKind::missing_cell) nodes.insert(nodes.end(), others.begin(), others.end()), others.clear();
     std::string out;
     if (!cells.empty()) out += fmt::format("cell{} {}", cells.size() == 1 ? "" : "s", fmt::join(cells, " and "));
     if (!nodes.empty())
-        out += fmt::format("{}node{} {}", out.empty() ? "" : ", ", nodes.size() == 1 ? "" : "s", fmt::join(nodes, " "));
+        out += fmt::format("{}node{} {}{}{}", out.empty() ? "" : ", ", nodes.size() == 1 ? "" : "s",
+                           fmt::join(nodes, " "), others.empty() ? "" : " and ", fmt::join(others, " "));
     if (*p.detail != '\0') out += fmt::format("{}({})", out.empty() ? "" : " ", p.detail);
     return out;
 }
@@ -79,6 +89,52 @@ std::vector<std::string> note_sentences(const CheckReport& report) {
     std::vector<std::string> all;
     all.reserve(report.notes.size());
     for (const Note& note : report.notes) all.push_back(message(note));
+    for (const NotFinite& field : report.not_finite) all.push_back(not_finite_text(field));
+    return all;
+}
+
+std::vector<std::string> fix_sentences(const FixReport& done) {
+    const auto counted = [](std::uint64_t n, std::string_view one, std::string_view more) {
+        return fmt::format("{} {}", n, n == 1 ? one : more);
+    };
+    std::vector<std::string> all;
+    if (!done.merged.empty()) {
+        const auto far = std::max_element(done.merged.begin(), done.merged.end(),
+                                          [](const MergedNode& a, const MergedNode& b) { return a.moved < b.moved; });
+        all.push_back(fmt::format("{} merged into the lowest at their place{}",
+                                  counted(done.merged.size(), "node", "nodes"),
+                                  far->moved == 0 ? "; none moved"
+                                                  : fmt::format(", moved by at most {} (node {} to node {})",
+                                                                base::shortest(far->moved), far->node, far->into)));
+    }
+    for (const MergedField& f : done.fields)
+        all.push_back(fmt::format("field {}: {} than the node that is kept, by up to {}: those are left out",
+                                  base::printable(f.name),
+                                  counted(f.differ, "merged node has another value", "merged nodes have other values"),
+                                  base::shortest(f.max_difference)));
+    if (done.differing_markers != 0)
+        all.push_back(
+            counted(done.differing_markers, "merged node has another marker", "merged nodes have other markers") +
+            " than the node that is kept: those are left out");
+    if (!done.dropped.empty()) {
+        std::vector<std::string> kinds;
+        for (const DefectKind kind :
+             {DefectKind::repeated_node, DefectKind::degenerate_cell, DefectKind::duplicate_cell}) {
+            const auto count = std::count_if(done.dropped.begin(), done.dropped.end(),
+                                             [&](const DroppedCell& c) { return c.why == kind; });
+            if (count != 0) kinds.push_back(fmt::format("{} {}", count, defect_text(kind).name));
+        }
+        all.push_back(
+            fmt::format("{} dropped: {}{}", counted(done.dropped.size(), "cell", "cells"), fmt::join(kinds, ", "),
+                        done.collapsed == 0 ? "" : fmt::format("; {} of them have merged nodes", done.collapsed)));
+    }
+    if (done.dropped_faces != 0)
+        all.push_back(counted(done.dropped_faces, "face", "faces") +
+                      " dropped: no cell has them, or they became twins");
+    if (done.turned != 0) all.push_back(counted(done.turned, "cell", "cells") + " turned to positive orientation");
+    if (!done.merged.empty() || !done.dropped.empty())
+        all.emplace_back("nodes and cells behind those that went are numbered anew; --json FILE lists which went");
+    if (all.empty()) all.emplace_back("nothing to repair: the copy is as the mesh is");
     return all;
 }
 
@@ -140,6 +196,16 @@ std::string CheckWords::domain() const {
 std::string CheckWords::certified() const {
     return fmt::format("{} {} a domain of {}", counted(r_.cells, "cell", "cells"), r_.cells == 1 ? "is" : "partition",
                        domain());
+}
+
+std::string CheckWords::proof() const {
+    return fmt::format("Proved {}cells meet in a common face or not at all. No overlap, no gap.",
+                       r_.curved.cells == 0 ? "in exact arithmetic: any two " : "exactly: any two straight ");
+}
+
+std::string CheckWords::curved(const Defect& defect) const {
+    return counted(defect.curved_cells, "cell of these is", "cells of these are") +
+           " curved: sides of curved cells were taken as straight";
 }
 
 std::string CheckWords::orientations() const {

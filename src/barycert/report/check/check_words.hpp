@@ -23,13 +23,11 @@ std::vector<ConditionRow> condition_rows(const CheckReport& report, const Mesh& 
 /// A sentence about cells that took no part in P2 to P5; empty if all did.
 std::string_view left_out_sentence(const CheckReport& report);
 
-inline constexpr std::string_view certified_sentence =
-    "Proved in exact arithmetic: any two cells meet in a common face or not at all. No overlap, no gap.";
 inline constexpr std::string_view breaking_heading = "Defects and remedies";
 inline constexpr std::string_view harmless_heading = "Notes: these do not affect the certificate";
 
 /// "cells 3 and 17, nodes 4 5 6 (coplanar)".
-std::string place_text(const CheckReport& report, const DefectPlace& place);
+std::string place_text(const CheckReport& report, DefectKind kind, const DefectPlace& place);
 
 /// "overlap", "touch in a point", "touch along a segment" or "touch in an area".
 std::string_view meeting_text(const CellContact& contact);
@@ -46,6 +44,9 @@ std::vector<double> lost_bits(const CellMeasures& measures);
 std::string numbering_sentence(const CheckReport& report, const Mesh& mesh);
 std::vector<std::string> note_sentences(const CheckReport& report);
 
+/// What was done to a mesh, a line each.
+std::vector<std::string> fix_sentences(const FixReport& done);
+
 /// "1,234,567".
 std::string grouped(std::uint64_t n);
 
@@ -59,8 +60,11 @@ public:
     std::string counted(std::uint64_t n, std::string_view one, std::string_view more) const;
     std::string count_of(const Defect& defect) const;  ///< "40", or "at least 1000"
 
-    std::string domain() const;        ///< "1 part, 0 cavities, 7 tunnels"; in the plane a cavity is a hole
-    std::string certified() const;     ///< "5 cells partition a domain of 1 part, ..."
+    std::string domain() const;     ///< "1 part, 0 cavities, 7 tunnels"; in the plane a cavity is a hole
+    std::string certified() const;  ///< "5 cells partition a domain of 1 part, ..."
+    std::string proof() const;      ///< what a certificate says
+    /// Where a defect may come from: of one with curved cells.
+    std::string curved(const Defect& defect) const;
     std::string orientations() const;  ///< how many cells are positive, negative, degenerate
     std::string volumes() const;       ///< both volumes, without whether they are equal
     std::string uncounted() const;     ///< why cavities and tunnels were not counted; empty if they were

@@ -22,13 +22,15 @@ std::string defect_message(const CheckReport& r, const Defect& d) {
     std::string places;
     std::size_t shown = 0;
     for (const DefectPlace& place : d.places) {
-        const std::string text = place_text(r, place);
+        const std::string text = place_text(r, d.kind, place);
         if (text.empty() || shown == most_places) continue;
         places += (shown++ == 0 ? ": " : "; ") + text;
     }
     if (shown != 0 && d.count > shown) places += fmt::format("; and {} more", d.count - shown);
-    return fmt::format("{} {}{}{}", CheckWords(r, CheckWords::Digits::plain).count_of(d), t.text, places,
-                       t.remedy.empty() ? "" : fmt::format(". Remedy: {}", t.remedy));
+    const CheckWords words(r, CheckWords::Digits::plain);
+    return fmt::format("{} {}{}{}{}", words.count_of(d), t.text, places,
+                       d.curved_cells == 0 ? "" : ". " + words.curved(d),
+                       d.remedy().empty() ? "" : fmt::format(". Remedy: {}", d.remedy()));
 }
 
 std::string joined(const std::vector<std::string>& sentences) {
@@ -53,8 +55,10 @@ CiReport check_outcomes(const CheckReport& r, const Mesh& mesh, const std::strin
     }
     for (const Defect& d : r.defects) {
         const DefectText& t = defect_text(d.kind);
-        add(t.name, t.name, t.text, t.breaks ? State::failed : State::noted, defect_message(r, d));
+        add(t.name, t.name, t.text, d.breaks() ? State::failed : State::noted, defect_message(r, d));
     }
+    if (r.curved.cells != 0)
+        add("curved_cells", "curved_cells", "cells whose sides are not straight", State::noted, message(r.curved));
     const CheckWords words(r, CheckWords::Digits::plain);
     if (r.delaunay && r.delaunay->violations != 0)
         add("not_delaunay", "not_delaunay", "interior facets that are not locally Delaunay", State::noted,

@@ -1,9 +1,11 @@
-/// What was left out, converted or guessed, as JSON.
+/// What was left out, converted or guessed, and taken as straight, as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
 
+#include "barycert/certificate.hpp"
 #include "barycert/notes.hpp"
+#include "barycert/report/common/json_figure.hpp"
 
 namespace barycert::report {
 
@@ -17,6 +19,15 @@ inline nlohmann::ordered_json notes_json(const Notes& notes) {
         list.push_back(std::move(j));
     }
     return list;
+}
+
+inline nlohmann::ordered_json curved_json(const CurvedCells& curved) {
+    nlohmann::ordered_json j;
+    j["cells"] = curved.cells;
+    j["max_deviation"] = figure(curved.max_deviation);
+    j["rounded_cells"] = curved.rounded_cells;
+    j["max_rounded"] = figure(curved.max_rounded);
+    return j;
 }
 
 }  // namespace barycert::report

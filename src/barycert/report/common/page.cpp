@@ -26,6 +26,15 @@ std::string page_foot(std::string_view made_by, bool script) {
                        script ? "<script>" : "", script ? page_script : "", script ? "</script>\n" : "");
 }
 
+std::string curved_section(const CurvedCells& curved) {
+    const std::string text = html_escaped(message(curved));
+    if (curved.cells == 0) return text.empty() ? text : fmt::format("<p class=\"small\">{}.</p>\n", text);
+    return fmt::format(
+        "<section class=\"verdict told\"><b>Curved cells</b><p>{}. What is said below, \"exact\" and \"certified\" "
+        "included, holds of the cells with straight sides.</p></section>\n",
+        text);
+}
+
 std::string data_uri(std::string_view type, std::string_view bytes) {
     constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string out = fmt::format("data:{};base64,", type);

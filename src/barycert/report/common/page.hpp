@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "barycert/certificate.hpp"
+
 namespace barycert::report {
 
 /// From the document type to the opening of the page's main part. `title` is escaped here; `style` is appended to the
@@ -14,6 +16,9 @@ std::string page_head(std::string_view title, std::string_view style = {});
 /// a click on their heads, and a button beside each code of class "copy" copies it; without JavaScript both are there
 /// to be read all the same.
 std::string page_foot(std::string_view made_by, bool script = false);
+
+/// What stands before all else on a mesh whose sides are not straight; empty if they are.
+std::string curved_section(const CurvedCells& curved);
 
 /// Bytes as "data:TYPE;base64,...".
 std::string data_uri(std::string_view type, std::string_view bytes);

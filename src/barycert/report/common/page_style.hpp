@@ -23,6 +23,7 @@ p{margin:6px 0}
 .verdict ul{margin:6px 0;padding-left:22px}
 .verdict.good{border-color:var(--good);background:var(--good-bg)}.verdict.good b{color:var(--good)}
 .verdict.bad{border-color:var(--bad);background:var(--bad-bg)}.verdict.bad b{color:var(--bad)}
+.verdict.told{border-color:var(--second);background:var(--panel)}.verdict.told b{font-size:20px}
 .tiles{display:flex;flex-wrap:wrap;gap:10px;margin:0 0 12px}
 .tiles div{border:1px solid var(--line);border-radius:4px;padding:8px 14px;min-width:104px}
 .tiles b{display:block;font-size:20px}.tiles span{color:var(--soft);font-size:14px}

@@ -77,6 +77,7 @@ std::string contour_json(const ContourSummary& s, const Environment& environment
     j["schema"] = contour_schema;
     j["command"] = s.value ? "render iso" : "render slice";
     j["mesh"] = s.mesh;
+    j["curved"] = curved_json(s.curved);
     j["dimension"] = s.dimension;
     j["nodes"] = s.nodes;
     j["cells"] = s.cells;

@@ -33,7 +33,7 @@ std::string surface(const ContourSummary& s, const Colours& paint) {
     if (s.parts == 0) {
         const std::string range =
             std::isnan(s.low) ? "no finite number" : base::shortest(s.low) + " to " + base::shortest(s.high);
-        return paint.bold(fmt::format("empty: {} at the nodes has {}", s.value ? "the field" : "normal.x", range));
+        return paint.bold(fmt::format("empty: {} at the nodes has {}", s.value ? "the field" : "D", range));
     }
     return fmt::format("{}, {} ({} of them nodes of the mesh), in {}",
                        flat ? plural(s.parts, "segment", "segments") : plural(s.parts, "triangle", "triangles"),
@@ -42,8 +42,8 @@ std::string surface(const ContourSummary& s, const Colours& paint) {
 
 std::string points(const ContourSummary& s) {
     const TierCounts& t = s.counts.tiers;
-    return fmt::format("exact crossings, rounded once; decided by double-double {}, by integers {}", t.double_double,
-                       t.exact);
+    return fmt::format("exact crossings{}, rounded once; decided by double-double {}, by integers {}",
+                       for_straight_sides(s.curved), t.double_double, t.exact);
 }
 
 std::string names(const std::vector<std::string>& all) {
@@ -110,10 +110,11 @@ std::string times(const ContourSummary& s) {
 std::string contour_text(const ContourSummary& s, bool colour) {
     const ExactEnvironment environment;
     const Colours paint(colour);
-    std::string out = line("cut", level(s));
+    std::string out = curved_lines(s.curved, paint) + line("cut", level(s));
     if (s.pixels) {
         out += line("picture", picture(s));
-        out += line("values", "exact at the pixels' middles, which are rounded to doubles; rounded once");
+        out += line("values", fmt::format("exact{} at the pixels' middles, which are rounded to doubles; rounded once",
+                                          for_straight_sides(s.curved)));
     } else {
         out += line("surface", surface(s, paint));
         if (s.parts != 0) out += line("points", points(s));

@@ -57,6 +57,7 @@ std::string render_json(const RenderSummary& summary, const Environment& environ
     j["schema"] = render_schema;
     j["picture"] = summary.picture;
     j["input"] = summary.input;
+    if (summary.picture == "mesh") j["curved"] = report::curved_json(summary.curved);
     j["output"] = summary.output;
     j["width"] = summary.size.width;
     j["height"] = summary.size.height;

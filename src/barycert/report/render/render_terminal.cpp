@@ -29,7 +29,7 @@ std::string triangles_row(const RenderCounts& n) {
     };
     add(n.outside, "out of sight");
     add(n.degenerate, "without area");
-    add(n.between_pixels, "between pixels");
+    add(n.between_pixels, "too small for the middle of a pixel");
     if (n.clipped != 0) text += fmt::format("; {} clipped", n.clipped);
     return row("triangles", text);
 }
@@ -37,7 +37,7 @@ std::string triangles_row(const RenderCounts& n) {
 std::string pixels_row(const RenderCounts& n) {
     std::string text = fmt::format("{} drawn", n.pixels);
     if (n.hidden != 0 || n.covered != n.pixels)
-        text += fmt::format("; {} covered in all, {} of them hidden", n.covered, n.hidden);
+        text += fmt::format("; triangles cover {} one by one, the nearest is seen", n.covered);
     return row("pixels", text);
 }
 
@@ -46,7 +46,8 @@ std::string pixels_row(const RenderCounts& n) {
 std::string render_text(const RenderSummary& s, bool colour) {
     const ExactEnvironment environment;
     const report::Colours paint(colour);
-    std::string out = picture_row(s) + triangles_row(s.counts) + pixels_row(s.counts);
+    std::string out =
+        report::curved_lines(s.curved, paint) + picture_row(s) + triangles_row(s.counts) + pixels_row(s.counts);
     if (s.colours) {
         const ColourRange& c = *s.colours;
         std::string text = std::isnan(c.low)

@@ -6,6 +6,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/report/common/environment_json.hpp"
 #include "barycert/report/common/json_figure.hpp"
+#include "barycert/report/common/not_finite.hpp"
 #include "barycert/report/common/notes_json.hpp"
 
 namespace barycert {
@@ -57,6 +58,7 @@ Json outside_json(const SampleSummary& summary) {
     j["snapped"] = n.snapped;
     j["extrapolated"] = n.extrapolated;
     j["without_value"] = n.without_value;
+    j["not_finite"] = n.locations.not_finite;
     j["farthest"] = figure(n.farthest);
     return j;
 }
@@ -82,6 +84,20 @@ Json picture_json(const SliceCounts& n) {
     return j;
 }
 
+Json integrals_json(const std::vector<FieldIntegral>& all) {
+    Json list = Json::array();
+    for (const FieldIntegral& of : all) {
+        Json j;
+        j["column"] = of.column;
+        j["source"] = figure(of.source);
+        j["target"] = figure(of.target);
+        j["source_left_out"] = of.source_left_out;
+        j["target_left_out"] = of.target_left_out;
+        list.push_back(std::move(j));
+    }
+    return list;
+}
+
 Json seconds_json(const SampleSeconds& s) {
     Json j;
     j["mesh"] = s.mesh;
@@ -101,6 +117,8 @@ std::string sample_json(const SampleSummary& summary, const Environment& environ
     j["schema"] = sample_schema;
     j["command"] = summary.command;
     j["mesh"] = summary.mesh;
+    j["curved"] = curved_json(summary.curved);
+    if (summary.from == PointsFrom::mesh) j["onto_curved"] = curved_json(summary.onto_curved);
     j["dimension"] = summary.dimension;
     j["nodes"] = summary.nodes;
     j["cells"] = summary.cells;
@@ -116,6 +134,10 @@ std::string sample_json(const SampleSummary& summary, const Environment& environ
     j["output"] = summary.output;
     if (!summary.weights.empty()) j["weights"] = summary.weights;
     if (!summary.steps.empty()) j["steps"] = summary.steps;
+    if (!summary.times.empty()) {
+        j["times"] = summary.times;
+        j["meshes"] = summary.meshes;
+    }
     j["columns"] = summary.columns;
     j["carried"] = summary.carried;
     j["points"] = summary.counts.locations.points();
@@ -125,10 +147,12 @@ std::string sample_json(const SampleSummary& summary, const Environment& environ
     j["outside"] = outside_json(summary);
     j["values"] = values_json(summary);
     if (summary.picture) j["picture"] = picture_json(*summary.picture);
+    if (!summary.integrals.empty()) j["integrals"] = integrals_json(summary.integrals);
     j["method"] = name(summary.method);
     j["reason"] = summary.reason;
     if (summary.counts.locations.ways.points() != 0) j["ways"] = ways_json(summary.counts.locations.ways);
     j["notes"] = notes_json(summary.notes);
+    j["not_finite"] = not_finite_json(summary.not_finite);
     j["seconds"] = seconds_json(summary.seconds);
     j["threads"] = summary.threads;
     j["environment"] = environment_json(environment);

@@ -5,6 +5,7 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/report/common/not_finite.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert {
@@ -53,11 +54,13 @@ std::string outside(const SampleSummary& summary, const Colours& paint) {
         fates.push_back(fmt::format("{} snapped to the nearest point of the mesh, {}", n.snapped, far()));
     if (n.extrapolated != 0)
         fates.push_back(fmt::format("{} extrapolated from the nearest cell, {}", n.extrapolated, far()));
-    if (n.without_value != 0) {
+    if (const std::uint64_t strange = n.locations.not_finite; strange != 0)
+        fates.push_back(fmt::format("{} not finite, got NaN", strange));
+    if (const std::uint64_t without = n.without_value - n.locations.not_finite; without != 0) {
         const bool limited = summary.outside.kind == Outside::nearest;
         const std::string what =
             summary.outside.kind == Outside::fill ? "got " + base::shortest(summary.outside.fill) : "got NaN";
-        fates.push_back(fmt::format("{} {}{}", n.without_value, what,
+        fates.push_back(fmt::format("{} {}{}", without, what,
                                     limited ? ", farther than " + base::shortest(summary.outside.limit) : ""));
     }
     return paint.bold(fmt::format("{}: {}", count, fmt::join(fates, "; ")));
@@ -67,7 +70,7 @@ std::string values(const SampleSummary& summary) {
     if (summary.columns.empty()) return "none: the mesh has no fields, and --field was not given";
     if (summary.rounding == Rounding::plain) return "plain double, by --rounding plain; cells and features are exact";
     const TierCounts& t = summary.counts.values;
-    std::string text = "exact, rounded once";
+    std::string text = fmt::format("exact{}, rounded once", for_straight_sides(summary.curved));
     if (t.cases() != 0)
         text += fmt::format("; decided by the filter {}, by double-double {}, by integers {}", t.filter,
                             t.double_double, t.exact);
@@ -82,6 +85,17 @@ std::string picture(const SliceCounts& n) {
     const std::uint64_t clear = n.outside + n.not_finite;
     return text +
            (clear == 0 ? "" : fmt::format("; {} without a value, transparent", plural(clear, "point", "points")));
+}
+
+std::string integral(const FieldIntegral& of) {
+    const auto over = [](double sum, const char* where, std::uint64_t left_out) {
+        std::string text = fmt::format("{} over {}", base::shortest(sum), where);
+        if (left_out != 0)
+            text += fmt::format(" ({} without a finite value left out)", plural(left_out, "cell", "cells"));
+        return text;
+    };
+    return fmt::format("{}: {}, {}", base::printable(of.column), over(of.source, "MESH", of.source_left_out),
+                       over(of.target, "MESH2", of.target_left_out));
 }
 
 std::string times(const SampleSummary& summary) {
@@ -124,17 +138,28 @@ std::string sample_text(const SampleSummary& summary, bool colour) {
     }
     if (summary.all)
         points += fmt::format(", in {}: one for each cell that holds a point", plural(summary.rows, "row", "rows"));
-    std::string out = line("points", points);
+    std::string out = curved_lines(summary.curved, paint);
+    if (const std::string onto = curved_lines(summary.onto_curved, paint); !onto.empty())
+        out += line("--onto", base::printable(summary.points) + ":") + onto;
+    out += line("points", points);
     out += line("inside", inside(summary.counts.locations));
     out += line("outside", outside(summary, paint));
     out += line("values", values(summary));
     if (summary.nan_values != 0)
         out += line("NaN", paint.bold(fmt::format("{} at points inside: values of nodes or cells there are not finite",
                                                   plural(summary.nan_values, "value", "values"))));
-    if (const auto& steps = summary.steps; !steps.empty())
-        out += line("steps", fmt::format("{}: {} to {}", steps.size(), base::printable(steps.front()),
-                                         base::printable(steps.back())));
+    if (const auto& steps = summary.steps; !steps.empty()) {
+        std::string text =
+            fmt::format("{}: {} to {}", steps.size(), base::printable(steps.front()), base::printable(steps.back()));
+        if (const auto& times = summary.times; !times.empty())
+            text += fmt::format(", times {} to {}", base::shortest(times.front()), base::shortest(times.back()));
+        if (summary.meshes > 1)
+            text += fmt::format("; on {} meshes, in each of which the points were located, and counted above",
+                                summary.meshes);
+        out += line("steps", text);
+    }
     if (summary.picture) out += line("picture", picture(*summary.picture));
+    for (const FieldIntegral& of : summary.integrals) out += line("integral", integral(of));
     std::string cells = plural(summary.cells, "cell", "cells") + ", " + plural(summary.nodes, "node", "nodes");
     if (summary.degenerate_cells != 0)
         cells += paint.bold(fmt::format("; {} degenerate and own{} nothing",
@@ -144,6 +169,7 @@ std::string sample_text(const SampleSummary& summary, bool colour) {
     out += line("method", fmt::format("{}: {}", name(summary.method), summary.reason));
     if (summary.counts.locations.ways.points() != 0) out += line("found", ways(summary.counts.locations.ways));
     for (const Note& note : summary.notes) out += line("note", message(note));
+    for (const NotFinite& field : summary.not_finite) out += line("note", not_finite_text(field));
     out += line("time", times(summary));
     return out;
 }

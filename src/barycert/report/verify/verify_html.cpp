@@ -25,10 +25,8 @@ std::string text(std::string_view s) {
 
 std::string verdict_section(const VerifySummary& s) {
     const Verdicts& v = s.verdicts;
-    return fmt::format(
-        "<section class=\"verdict {}\"><b>{}</b><p>{} rows: {} inside the mesh, {} of them on a face, an edge or a "
-        "vertex; {} outside.</p></section>\n",
-        v.wrong() == 0 ? "good" : "bad", text(verdict_sentence(s)), v.rows, v.inside, v.on_boundary, v.outside);
+    return fmt::format("<section class=\"verdict {}\"><b>{}</b><p>{} rows: {}.</p></section>\n",
+                       v.wrong() == 0 ? "good" : "bad", text(verdict_sentence(s)), v.rows, places_sentence(v));
 }
 
 std::string verdict_rows(const VerifySummary& s) {
@@ -63,7 +61,10 @@ std::string value_rows(const VerifySummary& s) {
                                i + 1 == figures.size() && wrong != 0 ? " bad" : "", heads[i + 2], figures[i]);
         out += "</tr>\n";
     }
-    return out + "</table>\n<p class=\"small\">Errors are told in parts of the range of the field, max - min.</p>\n";
+    out += "</table>\n";
+    for (const std::string& sentence : scale_sentences(s))
+        out += fmt::format("<p class=\"small\">{}.</p>\n", text(sentence));
+    return out;
 }
 
 std::string histograms(const VerifySummary& s) {
@@ -112,8 +113,8 @@ std::string verify_html(const VerifySummary& s, const Environment& environment) 
     const ExactEnvironment exact;
     std::string out = page_head("barycert verify: " + s.results) +
                       fmt::format("<h1>barycert verify: {} on {}</h1>\n", text(s.results), text(s.mesh));
-    out += verdict_section(s) + verdict_rows(s) + "<h2>Values</h2>\n" + value_rows(s) + histograms(s) + examples(s) +
-           notes(s);
+    out += curved_section(s.curved) + verdict_section(s) + verdict_rows(s) + "<h2>Values</h2>\n" + value_rows(s) +
+           histograms(s) + examples(s) + notes(s);
     return out + page_foot(environment_line(environment));
 }
 

@@ -22,6 +22,7 @@ Json errors_json(const VerifySummary& s, std::size_t c) {
     j["name"] = s.columns[c];
     j["column"] = s.found_in[c];
     j["range"] = s.ranges[c];
+    j["relative_to"] = name(s.relative_to[c]);
     j["compared"] = e.values;
     j["identical"] = e.identical;
     j["over"] = e.over;
@@ -64,6 +65,7 @@ std::string verify_json(const VerifySummary& s, const Environment& environment) 
     j["command"] = "verify";
     j["mesh"] = s.mesh;
     j["results"] = s.results;
+    j["curved"] = curved_json(s.curved);
     j["dimension"] = s.dimension;
     j["nodes"] = s.nodes;
     j["cells"] = s.cells;
@@ -82,6 +84,7 @@ std::string verify_json(const VerifySummary& s, const Environment& environment) 
     j["wrong_value"] = v.wrong_value;
     j["inside"] = v.inside;
     j["outside"] = v.outside;
+    j["not_finite"] = v.not_finite;
     j["on_boundary"] = v.on_boundary;
     j["missed_on_boundary"] = v.missed_on_boundary;
     j["invented_zero"] = v.invented_zero;

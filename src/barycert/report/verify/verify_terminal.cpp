@@ -19,8 +19,7 @@ std::string verdict_lines(const VerifySummary& s, const Colours& paint) {
     const Verdicts& v = s.verdicts;
     std::string out = fmt::format("{}: {}\n", base::printable(s.results),
                                   v.wrong() == 0 ? paint.good(verdict_sentence(s)) : paint.bad(verdict_sentence(s)));
-    out += fmt::format("{} row{}: {} inside the mesh, {} of them on a face, an edge or a vertex; {} outside\n\n",
-                       v.rows, v.rows == 1 ? "" : "s", v.inside, v.on_boundary, v.outside);
+    out += fmt::format("{} row{}: {}\n\n", v.rows, v.rows == 1 ? "" : "s", places_sentence(v));
     for (const VerdictLine& line : verdict_table(s))
         out +=
             fmt::format("{:<12} {:>12} {:>7} %  {}\n", line.name, line.count, percent(line.count, v.rows), line.what);
@@ -39,7 +38,7 @@ std::string value_lines(const VerifySummary& s, const Colours& paint) {
                            percent(e.identical, e.values), brief(e.max_ulps), brief(e.max_relative),
                            e.over + e.missing + e.spurious == 0 ? wrong : paint.bad(fmt::format("{:>10}", wrong)));
     }
-    return out + "max error: in parts of the range of the field (max - min)\n";
+    return out + fmt::format("{}\n", fmt::join(scale_sentences(s), "\n"));
 }
 
 std::string histogram_lines(const VerifySummary& s) {
@@ -76,8 +75,8 @@ std::string example_lines(const VerifySummary& s, const Colours& paint) {
 std::string verify_text(const VerifySummary& summary, bool colour) {
     const ExactEnvironment environment;
     const Colours paint(colour);
-    std::string out = verdict_lines(summary, paint) + value_lines(summary, paint) + histogram_lines(summary) +
-                      example_lines(summary, paint);
+    std::string out = curved_lines(summary.curved, paint) + verdict_lines(summary, paint) +
+                      value_lines(summary, paint) + histogram_lines(summary) + example_lines(summary, paint);
     out +=
         fmt::format("\n{:<10} {} cells, {} nodes: {}\n", "mesh", summary.cells, summary.nodes, mesh_sentence(summary));
     for (const Note& note : summary.notes)

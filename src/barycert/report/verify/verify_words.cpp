@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 #include "barycert/base/decades.hpp"
 #include "barycert/base/text.hpp"
@@ -34,11 +35,19 @@ std::string value_clause(const VerifySummary& summary, const WrongRow& row) {
 
 }  // namespace
 
+std::string places_sentence(const Verdicts& v) {
+    return fmt::format("{} inside the mesh, {} of them on a face, an edge or a vertex; {} outside{}", v.inside,
+                       v.on_boundary, v.outside,
+                       v.not_finite == 0 ? "" : fmt::format(", {} of them not finite", v.not_finite));
+}
+
 std::string verdict_sentence(const VerifySummary& summary) {
     const Verdicts& v = summary.verdicts;
     if (v.rows == 0) return "no rows";
-    if (v.wrong() == 0) return v.rows == 1 ? "the row is right" : fmt::format("all {} rows are right", v.rows);
-    return fmt::format("WRONG: {} of {} rows", v.wrong(), v.rows);
+    const std::string_view of = for_straight_sides(summary.curved);
+    if (v.wrong() == 0)
+        return v.rows == 1 ? fmt::format("the row is right{}", of) : fmt::format("all {} rows are right{}", v.rows, of);
+    return fmt::format("WRONG{}: {} of {} rows", of, v.wrong(), v.rows);
 }
 
 std::vector<VerdictLine> verdict_table(const VerifySummary& summary) {
@@ -52,7 +61,7 @@ std::vector<VerdictLine> verdict_table(const VerifySummary& summary) {
         missed += fmt::format("; {} on a face, an edge or a vertex of the cell", v.missed_on_boundary);
     std::string invented = "in no cell, and said to be inside";
     if (v.invented_zero != 0) invented += fmt::format("; {} have the value 0", v.invented_zero);
-    if (v.invented != 0) {
+    if (v.invented_measured != 0) {
         const bool all = v.invented_measured == v.invented;
         invented += all ? "; the farthest" : fmt::format("; the farthest of {} of them", v.invented_measured);
         invented += fmt::format(" lies {} from the mesh", brief(v.invented_distance));
@@ -80,6 +89,19 @@ std::string_view meaning(RowVerdict verdict) {
     return meanings[static_cast<std::size_t>(verdict)];
 }
 
+std::vector<std::string> scale_sentences(const VerifySummary& summary) {
+    std::vector<std::string> all{"max error: in parts of the range of the field (max - min)"};
+    for (std::size_t c = 0; c < summary.columns.size(); ++c) {
+        const std::string name = base::printable(summary.columns[c]);
+        if (summary.relative_to[c] == RelativeTo::magnitude)
+            all.push_back(fmt::format("{} is constant, its range is 0: its errors are in parts of its magnitude, {}",
+                                      name, base::shortest(summary.ranges[c])));
+        if (summary.relative_to[c] == RelativeTo::one)
+            all.push_back(fmt::format("{} is 0 throughout: its errors are absolute", name));
+    }
+    return all;
+}
+
 std::pair<std::size_t, std::size_t> used_bins(const ValueErrors& errors) {
     std::size_t first = 0, last = errors.by_relative.size() - 1;
     while (first < last && errors.by_relative[first] == 0) ++first;
@@ -97,7 +119,7 @@ std::string example_sentence(const VerifySummary& summary, const WrongRow& row) 
         case RowVerdict::missed:
             return text + ", and said to be outside";
         case RowVerdict::invented:
-            text += fmt::format(", {} from the mesh", brief(row.distance));
+            if (!std::isnan(row.distance)) text += fmt::format(", {} from the mesh", brief(row.distance));
             return text + (summary.columns.empty()
                                ? ", and said to be inside"
                                : fmt::format(", and {} is {}", base::printable(summary.columns[row.column]),
@@ -113,13 +135,13 @@ std::string example_sentence(const VerifySummary& summary, const WrongRow& row) 
 }
 
 std::string example_command(const VerifySummary& summary, const WrongRow& row) {
-    return fmt::format("echo {} | {} sample {} --columns 1,2{} --on-boundary all --points - --output -",
+    return fmt::format("echo {} | {} sample {} --columns 1,2{} --on-boundary all{} --points - --output -",
                        coordinates(summary, row), summary.program, shell_word(summary.mesh),
-                       summary.dimension == 3 ? ",3" : "");
+                       summary.dimension == 3 ? ",3" : "", std::isnan(row.distance) ? " --nonfinite-points nan" : "");
 }
 
 std::string mesh_sentence(const VerifySummary& summary) {
-    if (summary.certified) return "certified, no two cells overlap";
+    if (summary.certified) return fmt::format("certified{}, no two cells overlap", for_straight_sides(summary.curved));
     if (summary.contested_cells == 0) return "cells meet in common faces";
     return fmt::format("{} cells may meet others beside common faces; any cell that contains a point counts as right",
                        summary.contested_cells);

@@ -12,6 +12,9 @@
 
 namespace barycert::report {
 
+/// How many rows are where.
+std::string places_sentence(const Verdicts& verdicts);
+
 /// "every row is right", or how many are wrong.
 std::string verdict_sentence(const VerifySummary& summary);
 
@@ -30,6 +33,9 @@ std::string_view meaning(RowVerdict verdict);
 std::pair<std::size_t, std::size_t> used_bins(const ValueErrors& errors);
 /// What is in a bin: "right", "< 1e-16".
 std::string bin_label(std::size_t bin);
+
+/// What errors are in parts of, a sentence for all fields that vary and one for each that does not.
+std::vector<std::string> scale_sentences(const VerifySummary& summary);
 
 /// What is wrong with a row.
 std::string example_sentence(const VerifySummary& summary, const WrongRow& row);

@@ -12,9 +12,10 @@ namespace {
 
 constexpr std::size_t cells_at_once = 256, cells_to_fill = 4096;
 
-/// Values that fill_cells finds.
-bool can_fill(const SamplerData& data, const Raster& raster) {
-    return raster.precise && !data.quadratic && data.point_components != 0;
+/// Values that fill_cells finds. Of plain ones it does not see which have a node that is not finite.
+bool can_fill(const SamplerData& data, const Raster& raster, Rounding rounding) {
+    return raster.precise && !data.quadratic && data.point_components != 0 &&
+           (data.finite || rounding == Rounding::correct);
 }
 
 }  // namespace
@@ -37,7 +38,7 @@ void SlabSampler::run(std::int32_t first, std::int32_t last, const SlabCells& ce
     counts_ = {};
     sampler_.emplace(data_, options_,
                      BlockRows{owners_.data(), found_.data(), values_.data(), distances ? distances_.data() : nullptr});
-    filled_ = can_fill(data_, raster_);
+    filled_ = can_fill(data_, raster_, options_.rounding);
     cells.for_parts(slab, [&](std::span<const locate::Place> some) { filled_ ? fill(some) : raster(some); });
     finish();
     counts_.add(sampler_->counts());

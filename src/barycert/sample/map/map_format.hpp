@@ -57,7 +57,7 @@ constexpr std::size_t map_block_size(int dimension, std::size_t rows) {
 inline const char* map_row_fault(const double* point, int dimension, Mesh::Index cell, unsigned feature,
                                  std::uint64_t cell_count) {
     for (int axis = 0; axis < dimension; ++axis) {
-        if (!std::isfinite(point[axis])) return "finite coordinates";
+        if (cell != -1 && !std::isfinite(point[axis])) return "finite coordinates where there is a cell";
     }
     if (cell < -1 || (cell >= 0 && static_cast<std::uint64_t>(cell) >= cell_count)) {
         return "a cell of the mesh, or -1 for none";

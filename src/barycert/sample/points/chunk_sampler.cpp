@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "barycert/base/finite.hpp"
+#include "barycert/core/blocks.hpp"
 #include "barycert/core/exact_tier.hpp"
 #include "barycert/quadratic.hpp"
 #include "barycert/sample/points/outside.hpp"
@@ -45,7 +47,10 @@ void ChunkSampler::interpolate_linear(const locate::PointRecord* points, std::si
     const std::size_t undecided =
         interpolate_lanes({index.simplex, index.cells.data(), nodes, points, std::span(inside_).first(count)},
                           options_.rounding, {rows_.values, rows_.stride}, undecided_.data());
-    if (options_.rounding == Rounding::plain) return;
+    if (options_.rounding == Rounding::plain) {
+        for (std::size_t i = 0; !data_.finite && i < count; ++i) mend_plain(points[inside_[i].point], inside_[i].cell);
+        return;
+    }
     counts_.values.add(Tier::double_double, count - undecided);
     for (std::size_t i = 0; i < undecided; ++i) {
         const locate::Walk& item = inside_[undecided_[i]];
@@ -67,13 +72,32 @@ void ChunkSampler::interpolate_exactly(const locate::PointRecord& point, locate:
     }
     bool finite = true;
     for (std::size_t c = 0; c < data_.point_components; ++c) {
-        std::array<double, 4> f{};
+        std::array<double, 4> numbers{};
+        const std::span f(numbers.data(), corners);
         for (std::size_t i = 0; i < corners; ++i) f[i] = data_.value_at(static_cast<std::size_t>(node[i]), c);
-        const bool usable = std::all_of(f.begin(), f.end(), [](double x) { return std::isfinite(x); });
+        const bool usable = weights.leave_out_not_finite(f);
         finite &= usable;
-        row(point)[c] = usable ? weights.interpolate({f.data(), corners}) : std::numeric_limits<double>::quiet_NaN();
+        row(point)[c] = usable ? weights.interpolate(f) : std::numeric_limits<double>::quiet_NaN();
     }
     counts_.values.not_finite += finite ? 0 : 1;
+}
+
+void ChunkSampler::mend_plain(const locate::PointRecord& point, locate::Place cell) {
+    const locate::CellIndex& index = data_.index();
+    const auto& node = index.cells[static_cast<std::size_t>(cell)].node;
+    const std::array<double, 12> vertices = locate::vertices_of(index, cell);
+    const core::CaseBlock block = core::single_block(index.simplex, vertices.data(), point.at.data());
+    constexpr std::uint32_t only = 0;
+    for (std::size_t c = 0; c < data_.point_components; ++c) {
+        double& value = row(point)[c];
+        if (std::isfinite(value)) continue;
+        std::array<double, 4> f{};
+        std::array<const double*, 4> at{};
+        for (std::size_t i = 0; i < index.corners(); ++i)
+            at[i] = &(f[i] = data_.value_at(static_cast<std::size_t>(node[i]), c));
+        core::mend_plain_values(index.simplex, block, {&only, 1}, at.data(), static_cast<int>(index.corners()), 1,
+                                &value);
+    }
 }
 
 void ChunkSampler::interpolate_second_order(const locate::PointRecord* points, std::size_t count) {
@@ -101,7 +125,8 @@ void ChunkSampler::interpolate_second_order(const locate::PointRecord* points, s
 
 void ChunkSampler::outside(const double* point, std::uint32_t number, double* values, double* distance) {
     if (distance == nullptr) return outside(1, number, values);
-    if (const auto found = value_outside(data_, options_, point, values, counts_.values)) {
+    const bool finite = base::all_finite({point, data_.index().dimension()});
+    if (const auto found = !finite ? std::nullopt : value_outside(data_, options_, point, values, counts_.values)) {
         ++(options_.outside.kind == Outside::nearest ? counts_.snapped : counts_.extrapolated);
         *distance = *found;
         counts_.farthest = std::max(counts_.farthest, *found);

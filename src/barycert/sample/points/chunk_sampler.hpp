@@ -29,7 +29,7 @@ public:
         if (rows_.stride == 0) rows_.stride = data.width;
     }
 
-    /// Precondition: finite points; owners are places of cells, or -1 outside.
+    /// Precondition: points with an owner are finite; owners are places of cells, or -1 outside.
     void operator()(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
                     const Feature* feature);
 
@@ -45,6 +45,7 @@ public:
 private:
     void interpolate_linear(const locate::PointRecord* points, std::size_t count);
     void interpolate_exactly(const locate::PointRecord& point, locate::Place cell);
+    void mend_plain(const locate::PointRecord& point, locate::Place cell);
     void interpolate_second_order(const locate::PointRecord* points, std::size_t count);
     double* row(const locate::PointRecord& point) { return rows_.values + rows_.stride * point.number; }
 

@@ -10,7 +10,6 @@
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/locate/near_feature.hpp"
-#include "barycert/mesh/mid_edges.hpp"
 #include "barycert/quadratic.hpp"
 #include "barycert/sample/points/near_piece.hpp"
 #include "barycert/sample/points/row_rest.hpp"
@@ -26,23 +25,6 @@ double nodal_value(const SamplerData& data, Mesh::Index node, std::size_t c) {
         c -= components;
     }
     return 0;  // not reached
-}
-
-/// NaN for each component of which the cell has a nodal value that is not finite. True if there is one.
-bool set_not_finite(const SamplerData& data, std::size_t cell, double* values) {
-    const Mesh& mesh = *data.located().mesh;
-    const std::size_t corners = mesh.corners(), mid = data.quadratic ? mesh::edges_of(mesh.dimension).size() : 0;
-    bool any = false;
-    for (std::size_t c = 0; c < data.point_components; ++c) {
-        bool finite = true;
-        for (std::size_t i = 0; i < corners; ++i)
-            finite &= std::isfinite(nodal_value(data, mesh.cells[corners * cell + i], c));
-        for (std::size_t i = 0; i < mid; ++i)
-            finite &= std::isfinite(nodal_value(data, mesh.mid_nodes[mid * cell + i], c));
-        if (!finite) values[c] = std::numeric_limits<double>::quiet_NaN();
-        any |= !finite;
-    }
-    return any;
 }
 
 double linear(const SamplerData& data, Rounding rounding, const Piece& piece, const double* point, std::size_t c,
@@ -155,7 +137,11 @@ std::optional<double> value_outside(const SamplerData& data, const SampleOptions
     const std::vector<Mesh::Index> nodes = nodes_of(nearest);
     TierCounts used;
     if (snap && nodes.size() == 1 && data.point_components != 0) {
-        for (std::size_t c = 0; c < data.point_components; ++c) values[c] = nodal_value(data, nodes[0], c) + 0.0;
+        for (std::size_t c = 0; c < data.point_components; ++c) {
+            const double f = nodal_value(data, nodes[0], c);
+            values[c] = std::isfinite(f) ? f + 0.0 : std::numeric_limits<double>::quiet_NaN();
+            if (!std::isfinite(f)) used.not_finite = 1;
+        }
         if (options.rounding == Rounding::correct) tiers.add(Tier::filter);
     } else if (data.point_components != 0) {
         const Piece piece = snap ? feature_piece(mesh, nodes) : cell_piece(mesh, cell);
@@ -172,8 +158,6 @@ std::optional<double> value_outside(const SamplerData& data, const SampleOptions
         }
         if (options.rounding == Rounding::correct) tiers.add(used.exact != 0 ? Tier::exact : Tier::double_double);
     }
-    // As at a point of the cell itself (V2), also where the nearest point has no part in that node.
-    if (snap && set_not_finite(data, cell, values)) used.not_finite = 1;
     if (options.rounding == Rounding::correct) tiers.not_finite += used.not_finite != 0 ? 1 : 0;
     if (data.quadratic && snap && !data.at_points.empty()) at = rounded_projection(mesh, at, nodes);
     set_rest_of_row(data, options.rounding, nearest.cell, at.data(), values);

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"
@@ -132,6 +134,7 @@ Status arrange_columns(const Mesh& mesh, const std::vector<FieldChoice>& fields,
             if (one.field == field) one.first = data.point_components;
         }
         data.point_components += components_of(field);
+        data.finite = data.finite && base::all_finite(field->data);
     }
     for (const auto* group : {&of_points, &of_cells, &late})
         data.fields.insert(data.fields.end(), group->begin(), group->end());
@@ -164,42 +167,24 @@ sample::BlockRows rows_from(const SamplerData& data, std::size_t first, Table& o
             out.distances.empty() ? nullptr : out.distances.data() + first};
 }
 
-/// What becomes of the blocks of a call: their counts, and the first point that the policy refuses.
-class Outcome {
-public:
-    explicit Outcome(std::size_t blocks) : counts_(blocks), refused_(blocks) {}
-
-    /// `first`: where the rows of the block begin in `out`.
-    void set(std::size_t block, std::size_t first, const sample::ChunkSampler& sampler, const Table& out) {
-        counts_[block] = sampler.counts();
-        if (!sampler.refused()) return;
-        const auto begin = out.cells.begin() + static_cast<std::ptrdiff_t>(first);
-        refused_[block] = static_cast<std::size_t>(std::find(begin, out.cells.end(), -1) - out.cells.begin());
+/// What the policies say of the rows: an Error, or NaN where a point is not finite. `finite`: all points are.
+Status apply_policies(std::span<const double> points, bool finite, const SampleOptions& options,
+                      std::size_t first_point, Table& out) {
+    const auto d = static_cast<std::size_t>(out.dimension);
+    const std::size_t width = out.columns.size();
+    if (!finite && options.nonfinite_points == NonfinitePoints::error)
+        return locate::check_finite(points, d, first_point);
+    for (std::size_t row = 0; !finite && row < out.row_count(); ++row) {
+        if (base::all_finite({&points[d * row], d})) continue;
+        std::fill_n(out.values.data() + width * row, width, std::numeric_limits<double>::quiet_NaN());
+        ++out.counts.locations.not_finite;
     }
-
-    /// The same where the sampler knows points by the numbers of their rows in `out`.
-    void set(std::size_t block, const sample::ChunkSampler& sampler) {
-        counts_[block] = sampler.counts();
-        refused_[block] = sampler.refused();
-    }
-
-    Status status(std::size_t first_point) const {
-        std::optional<std::size_t> first;
-        for (const auto& refused : refused_) {
-            if (refused) first = std::min(first.value_or(*refused), *refused);
-        }
-        if (!first) return Done{};
-        return Error{.what = "point " + std::to_string(first_point + *first) + " is outside the mesh",
-                     .remedy = "choose what points outside get: nan, fill, nearest or extrapolate"};
-    }
-    void add_to(SampleCounts& counts) const {
-        for (const SampleCounts& part : counts_) counts.add(part);
-    }
-
-private:
-    std::vector<SampleCounts> counts_;
-    std::vector<std::optional<std::size_t>> refused_;
-};
+    if (options.outside.kind != Outside::error) return Done{};
+    const std::optional<std::size_t> refused = locate::first_outside(out.cells, points, d);
+    if (!refused) return Done{};
+    return Error{.what = "point " + std::to_string(first_point + *refused) + " is outside the mesh",
+                 .remedy = "choose what points outside get: nan, fill, nearest or extrapolate"};
+}
 
 }  // namespace
 
@@ -258,24 +243,21 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
     if (Status status = check_call(*data_, points); !status) return status;
     resize(*data_, options, points.size() / data_->index().dimension(), out);
     out.point_begin.clear();
-    LocationCounts locations;
-    Status status = Done{};
+    bool finite = true;
     locate::in_arena(options.threads, [&] {
         const std::size_t count = out.cells.size(), block = locate::block_of(count, data_->index().cell_count());
-        Outcome outcome((count + block - 1) / block);
+        std::vector<SampleCounts> counts((count + block - 1) / block);
         const auto make = [&](std::size_t, std::size_t size) { return sample::SortedRows(*data_, options, size); };
         const auto keep = [&](std::size_t first, const locate::SortedPoints& sorted, sample::SortedRows& rows) {
             rows.write(sorted, first, out);
-            outcome.set(first / block, first, rows.sampler(), out);
+            counts[first / block] = rows.sampler().counts();
         };
         const locate::NodeRecord* const nodes =
             data_->nodes.size() != 0 ? data_->nodes.data() : data_->index().nodes.data();
-        const bool finite = locate::for_chunks(data_->located(), nodes, points, locations, make, keep);
-        status = finite ? outcome.status(first_point)
-                        : locate::check_finite(points, data_->index().dimension(), first_point);
-        outcome.add_to(out.counts);
+        finite = locate::for_chunks(data_->located(), nodes, points, out.counts.locations, make, keep);
+        for (const SampleCounts& part : counts) out.counts.add(part);
     });
-    out.counts.locations = locations;
+    Status status = apply_policies(points, finite, options, first_point, out);
     if (!status) out.counts = {};
     return status;
 }
@@ -285,7 +267,8 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     const ExactEnvironment environment;
     out.counts = {};
     if (Status status = check_call(*data_, points); !status) return status;
-    if (Status status = locate::check_finite(points, data_->index().dimension(), first_point); !status) return status;
+    const Status finite = locate::check_finite(points, data_->index().dimension(), first_point);
+    if (!finite && options.nonfinite_points == NonfinitePoints::error) return finite;
     const std::size_t d = data_->index().dimension(), count = points.size() / d;
     const std::span<const Mesh::Index> cells = out.cells;
     const std::span<const Feature> features = out.features;
@@ -299,6 +282,11 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
                          .expected = "-1 or below " + std::to_string(data_->index().cell_count()),
                          .found = std::to_string(cell)};
     }
+    for (std::size_t row = 0; !finite && row < count; ++row) {
+        if (cells[row] >= 0 && !base::all_finite({&points[d * row], d}))
+            return Error{
+                .what = "a cell of a point that is not finite", .expected = "-1", .found = std::to_string(cells[row])};
+    }
     resize(*data_, options, count, out);
     const std::vector<locate::Place>& places = data_->located().places();
     const locate::CellIndex& index = data_->index();
@@ -309,7 +297,7 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
         rows.values = whole.data();
     }
     constexpr std::size_t block = std::size_t{1} << 13;
-    Outcome outcome((count + block - 1) / block);
+    std::vector<SampleCounts> counts((count + block - 1) / block);
     locate::in_arena(options.threads, [&] {
         tbb::parallel_for(std::size_t{0}, (count + block - 1) / block, [&](std::size_t b) {
             const std::size_t first = b * block, last = std::min(count, first + block);
@@ -333,12 +321,12 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
                 }
                 sampler(records.data(), n, owner.data(), feature.data());
             }
-            outcome.set(b, sampler);
+            counts[b] = sampler.counts();
         });
     });
     if (data_->hidden != 0) sample::leave_out_hidden(*data_, whole.data(), count, out.values.data());
-    if (Status status = outcome.status(first_point); !status) return status;
-    outcome.add_to(out.counts);
+    if (Status status = apply_policies(points, finite.has_value(), options, first_point, out); !status) return status;
+    for (const SampleCounts& part : counts) out.counts.add(part);
     for (const Feature feature : features) out.counts.locations.add(feature);
     return Done{};
 }

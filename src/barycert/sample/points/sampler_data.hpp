@@ -41,6 +41,7 @@ struct SamplerData {
     std::vector<std::string> columns;
     std::size_t point_components = 0, hidden = 0, width = 0;
     bool quadratic = false;
+    bool finite = true;  ///< all values of point fields are
 
     // Linear cells: values of point fields in the order of the locator's nodes.
     locate::Buffer<locate::NodeRecord> nodes;

@@ -10,8 +10,11 @@
 #include <span>
 #include <utility>
 
+#include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/gradient.hpp"
+#include "barycert/mesh/consistency.hpp"
+#include "barycert/sample/quantity/expression.hpp"
 #include "barycert/sample/quantity/length.hpp"
 #include "barycert/sample/quantity/nodal_mean.hpp"
 
@@ -61,13 +64,14 @@ Result<Field> gradient_field(const Mesh& mesh, const Field& of_nodes) {
 
 }  // namespace
 
-Status make_fields(const Mesh& mesh, FieldChoice& choice, std::size_t count, std::deque<Field>& made) {
+Status make_fields(const Mesh& mesh, FieldChoice& choice, std::size_t count, std::deque<Field>& made, bool lengths) {
     const ExactEnvironment environment;
     std::size_t taken = 0;
     for (; taken < count; ++taken) {
         const QuantityStep& step = choice.steps[taken];
         const bool gradient = step.kind == Kind::gradient;
-        const bool at_points = (step.kind == Kind::length && !choice.of_cells) || (gradient && !mesh.mid_nodes.empty());
+        const bool at_points =
+            (step.kind == Kind::length && !choice.of_cells && !lengths) || (gradient && !mesh.mid_nodes.empty());
         if (at_points) break;
         if (gradient) {
             Result<Field> field = gradient_field(mesh, *choice.field);
@@ -84,6 +88,40 @@ Status make_fields(const Mesh& mesh, FieldChoice& choice, std::size_t count, std
     }
     choice.steps.erase(choice.steps.begin(), std::next(choice.steps.begin(), static_cast<std::ptrdiff_t>(taken)));
     return Done{};
+}
+
+Status make_all_fields(const Mesh& mesh, std::vector<FieldChoice>& choices, std::deque<Field>& made, Notes& notes) {
+    for (FieldChoice& choice : choices) {
+        if (choice.steps.empty()) continue;
+        if (const char* const wrong = mesh::inconsistency_of_cells(mesh, mesh::FieldValues::any); wrong != nullptr)
+            return Error{.what = std::string("the mesh is inconsistent: ") + wrong};
+        const Result<QuantityShape> shape = shape_of(mesh, choice);
+        if (!shape) return shape.error();
+        if (Status done = make_fields(mesh, choice, choice.steps.size(), made, true); !done) return done;
+        if (!choice.steps.empty())
+            return Error{.what = "no field has what differs from point to point in a cell",
+                         .found = '"' + choice.name + '"',
+                         .remedy = "on cells of second order draw the field itself, or sample its gradient at points"};
+        made.back().name = choice.name;
+        const Note note{Note::Kind::converted, choice.name + ": taken at the nodes, and interpolated between them"};
+        if (shape->at_points && std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+    }
+    return Done{};
+}
+
+Result<FieldChoice> number_named(const Mesh& mesh, const std::string& name) {
+    Result<std::vector<FieldChoice>> chosen = quantities_named(mesh, {name});
+    if (!chosen) return chosen.error();
+    if (chosen->size() != 1)
+        return Error{
+            .what = "more than one field", .expected = "one", .found = base::quoted(name), .remedy = "name one"};
+    const std::size_t n = shape_of(mesh, chosen->front())->components;
+    if (n == 1) return std::move(chosen->front());
+    return Error{
+        .what = "the field has several components",
+        .expected = "one: " + name + ".0 to " + name + '.' + std::to_string(n - 1) + ", or the length |" + name + "|",
+        .found = base::quoted(name),
+        .remedy = "choose one of them"};
 }
 
 std::size_t steps_of_whole_mesh(const FieldChoice& choice) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/quadratic.hpp"
 #include "barycert/sample/points/near_piece.hpp"
@@ -120,7 +121,7 @@ private:
 
     Status add_outside(const double* point) {
         const bool snap = outside_.kind == Outside::nearest;
-        if (!snap && outside_.kind != Outside::extrapolate) {
+        if ((!snap && outside_.kind != Outside::extrapolate) || !base::all_finite({point, d_})) {
             out_.begin.push_back(out_.nodes.size());
             return Done{};
         }

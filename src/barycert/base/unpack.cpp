@@ -1,0 +1,108 @@
+#include "barycert/base/unpack.hpp"
+
+#include <fcntl.h>
+#include <libdeflate.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include "barycert/base/input_file.hpp"
+
+namespace barycert::base {
+namespace {
+
+/// Room for the bytes of a file, in memory as far as it is filled, until it goes.
+struct Room {
+    Room(int descriptor, std::size_t length)
+        : size(length),
+          data(::ftruncate(descriptor, static_cast<off_t>(length)) != 0
+                   ? MAP_FAILED
+                   : ::mmap(nullptr, length, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_NORESERVE, descriptor, 0)) {}
+    Room(const Room&) = delete;
+    Room& operator=(const Room&) = delete;
+    ~Room() {
+        if (data != MAP_FAILED) ::munmap(data, size);
+    }
+
+    std::size_t size;
+    void* data;
+};
+
+std::size_t most_unpacked(std::size_t packed) {
+    const auto memory =
+        static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    constexpr std::size_t least = std::size_t{256} << 20;
+    return std::min(memory / 2, least + 200 * std::min(packed, memory / 200));
+}
+
+/// All members, one after the other, and how many bytes that made.
+libdeflate_result unpack_members(std::string_view packed, const Room& room, std::size_t& size) {
+    const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> own(
+        libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
+    if (own == nullptr || room.data == MAP_FAILED) return LIBDEFLATE_INSUFFICIENT_SPACE;
+    libdeflate_result result = LIBDEFLATE_SUCCESS;
+    for (size = 0; !packed.empty() && result == LIBDEFLATE_SUCCESS;) {
+        std::size_t in = 0, out = 0;
+        result = libdeflate_gzip_decompress_ex(own.get(), packed.data(), packed.size(),
+                                               static_cast<char*>(room.data) + size, room.size - size, &in, &out);
+        packed.remove_prefix(result == LIBDEFLATE_SUCCESS ? in : 0);
+        size += out;
+    }
+    return result;
+}
+
+}  // namespace
+
+Status unpack(int& descriptor, const std::string& path) {
+    struct stat status {};
+    std::array<char, 2> magic{};
+    if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode) ||
+        ::pread(descriptor, magic.data(), magic.size(), 0) != 2 || magic != std::array<char, 2>{'\x1f', '\x8b'})
+        return Done{};
+    std::string packed(static_cast<std::size_t>(status.st_size), '\0');
+    for (std::size_t have = 0; have < packed.size();) {
+        const ssize_t got = ::pread(descriptor, packed.data() + have, packed.size() - have, static_cast<off_t>(have));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return read_failure(path, errno);
+        if (got == 0) packed.resize(have);  // it has become shorter
+        have += static_cast<std::size_t>(got);
+    }
+    const int plain = ::memfd_create("barycert-unpacked", MFD_CLOEXEC);
+    if (plain < 0) return read_failure(path, errno);
+    // The last four bytes are the size of the last member, which is mostly the only one.
+    const std::size_t most = most_unpacked(packed.size());
+    std::uint32_t hint = 0;
+    for (std::size_t i = 0; i < std::min<std::size_t>(4, packed.size()); ++i)
+        hint = hint << 8 | static_cast<unsigned char>(packed[packed.size() - 1 - i]);
+    libdeflate_result result = LIBDEFLATE_INSUFFICIENT_SPACE;
+    std::size_t size = 0;
+    for (const std::size_t length : {std::clamp<std::size_t>(hint, 1, most), most}) {
+        if (result == LIBDEFLATE_INSUFFICIENT_SPACE) result = unpack_members(packed, Room(plain, length), size);
+    }
+    if (result == LIBDEFLATE_SUCCESS && ::ftruncate(plain, static_cast<off_t>(size)) == 0) {
+        ::close(std::exchange(descriptor, plain));
+        return Done{};
+    }
+    ::close(plain);
+    if (result == LIBDEFLATE_INSUFFICIENT_SPACE)
+        return Error{.what = "the file is packed by gzip, and takes too much memory once it is unpacked",
+                     .file = path,
+                     .expected = "at most " + std::to_string(most) + " bytes",
+                     .found = "more",
+                     .remedy = "unpack it before, if you trust it"};
+    return Error{.what = "the file is packed by gzip, and cannot be unpacked",
+                 .file = path,
+                 .expected = "whole members, each with its checksum",
+                 .found = "others",
+                 .remedy = "copy it again, or pack it again"};
+}
+
+}  // namespace barycert::base

@@ -1,0 +1,165 @@
+// Second-order cells whose sides are not straight.
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "barycert/certificate.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/mesh/mid_edges.hpp"
+
+namespace barycert {
+namespace {
+
+/// A unit of the last place of coordinates: `relative` to a coordinate, or `absolute`, whichever is more. Three nodes
+/// that were each rounded by half of it are off the middle by (1/2 + 1/2 + 1) / 2 = 1 unit at most.
+struct LastPlace {
+    double relative = 0, absolute = 0;
+    bool known() const { return relative > 0; }
+};
+
+LastPlace last_place(const std::vector<double>& coordinates) {
+    bool single = true, decimal = true;
+    int digits = 1, lowest = std::numeric_limits<int>::max();
+    for (const double x : coordinates) {
+        if (x == 0 || !std::isfinite(x)) continue;
+        single = single && static_cast<double>(static_cast<float>(x)) == x;
+        if (decimal) {
+            std::array<char, 32> text{};  // d.ddde-xx
+            const char* const end =
+                std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific).ptr;
+            const char* const e = std::find(static_cast<const char*>(text.data()), end, 'e');
+            const auto count = static_cast<int>(
+                std::count_if(static_cast<const char*>(text.data()), e, [](char c) { return c >= '0' && c <= '9'; }));
+            int exponent = 0;
+            std::from_chars(e + (e[1] == '+' ? 2 : 1), end, exponent);
+            digits = std::max(digits, count);
+            lowest = std::min(lowest, exponent - count + 1);
+            decimal = digits <= 15;
+        }
+        if (!single && !decimal) return {};
+    }
+    LastPlace last;
+    if (single) last.relative = 0x1p-23;
+    if (decimal) last = {std::max(last.relative, std::pow(10, 1 - digits)), std::pow(10, lowest)};
+    return last;
+}
+
+constexpr double max_rounded_part = 1e-3;  ///< of an edge: units beyond it would not resolve the edge
+
+/// Deviations of the nodes of one cell, 0 where there is none.
+struct Bend {
+    double curved = 0, rounded = 0;
+};
+
+void look_at_edge(const double* a, const double* b, const double* m, std::size_t d, const LastPlace& last, Bend& bend) {
+    double largest = 0;
+    for (std::size_t k = 0; k < d; ++k) largest = std::max({largest, std::fabs(a[k]), std::fabs(b[k])});
+    const double scale = largest > 0x1p1000 ? 0.25 : 1;  // no sum below overflows, and no subnormal number is lost
+    largest *= scale;
+    std::array<double, 3> off{}, edge{};
+    double most = 0;
+    for (std::size_t k = 0; k < d; ++k) {
+        off[k] = a[k] * scale + b[k] * scale - 2 * (m[k] * scale);
+        edge[k] = b[k] * scale - a[k] * scale;
+        most = std::max(most, std::fabs(off[k]));
+    }
+    // With u = 2^-53 and coordinates up to L: (a + b) / 2 and a + (b - a) / 2 are off by up to 2uL; coordinates of 16
+    // digits by up to 5e-16 L < 5uL each, 10uL for the three; the terms above are off by 2uL. That is below 16uL, twice
+    // that here, as `off` is twice the distance. Subnormal numbers are rounded by their unit.
+    const double nothing = std::max(0x1p-48 * largest, std::numeric_limits<double>::denorm_min());
+    if (!(most > nothing) || !std::isfinite(most)) return;
+    const double deviation = std::hypot(off[0], off[1], off[2]) / (2 * std::hypot(edge[0], edge[1], edge[2]));
+    const bool rounded =
+        most <= 2 * std::max(last.relative * largest, last.absolute * scale) && deviation <= max_rounded_part;
+    double& most_so_far = rounded ? bend.rounded : bend.curved;
+    most_so_far = std::max(most_so_far, deviation);
+}
+
+CurvedCells measure(const Mesh& mesh, const LastPlace& last, std::vector<std::uint8_t>* each) {
+    const auto edges = mesh::edges_of(mesh.dimension);
+    const std::size_t d = static_cast<std::size_t>(mesh.dimension), nodes = mesh.point_count();
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, mesh.cell_count(), 1 << 12), CurvedCells{},
+        [&](const tbb::blocked_range<std::size_t>& range, CurvedCells found) {
+            const ExactEnvironment of_task;
+            for (std::size_t cell = range.begin(); cell != range.end(); ++cell) {
+                const auto point = [&](Mesh::Index node) -> const double* {
+                    const auto at = static_cast<std::size_t>(node);
+                    return node < 0 || at >= nodes ? nullptr : &mesh.points[d * at];
+                };
+                Bend bend;
+                for (std::size_t e = 0; e < edges.size(); ++e) {
+                    const double* const a = point(mesh.cells[(d + 1) * cell + edges[e][0]]);
+                    const double* const b = point(mesh.cells[(d + 1) * cell + edges[e][1]]);
+                    const double* const m = point(mesh.mid_nodes[edges.size() * cell + e]);
+                    if (a != nullptr && b != nullptr && m != nullptr) look_at_edge(a, b, m, d, last, bend);
+                }
+                if (each != nullptr && bend.curved > 0) (*each)[cell] = 1;
+                found.cells += bend.curved > 0 ? 1 : 0;
+                found.rounded_cells += bend.rounded > 0 && !(bend.curved > 0) ? 1 : 0;
+                found.max_deviation = std::max(found.max_deviation, bend.curved);
+                found.max_rounded = std::max(found.max_rounded, bend.rounded);
+            }
+            return found;
+        },
+        [](const CurvedCells& x, const CurvedCells& y) {
+            return CurvedCells{x.cells + y.cells, std::max(x.max_deviation, y.max_deviation),
+                               x.rounded_cells + y.rounded_cells, std::max(x.max_rounded, y.max_rounded)};
+        });
+}
+
+/// What CurvedCells says, without what became of it.
+std::string deviations(const CurvedCells& c) {
+    const bool curved = c.cells != 0;
+    const std::uint64_t cells = curved ? c.cells : c.rounded_cells;
+    return fmt::format("{} cell{}: mid-edge nodes lie up to {:.2g} of the edge off its middle{}", cells,
+                       !curved      ? cells == 1 ? "" : "s"
+                       : cells == 1 ? " is curved"
+                                    : "s are curved",
+                       curved ? c.max_deviation : c.max_rounded, curved ? "" : ", by rounding");
+}
+
+}  // namespace
+
+CurvedCells curved_cells(const Mesh& mesh, std::vector<std::uint8_t>* each) {
+    const ExactEnvironment environment;
+    if (each != nullptr) each->clear();
+    if (mesh.mid_nodes.empty() || (mesh.dimension != 2 && mesh.dimension != 3) ||
+        mesh.mid_nodes.size() != mesh.cell_count() * mesh::edges_of(mesh.dimension).size())
+        return {};
+    CurvedCells found = measure(mesh, {}, nullptr);
+    if (found.cells == 0) return found;
+    const LastPlace last = last_place(mesh.points);
+    if (!last.known() && each == nullptr) return found;
+    if (each != nullptr) each->assign(mesh.cell_count(), 0);
+    found = measure(mesh, last, each);
+    if (each != nullptr && found.cells == 0) each->clear();
+    return found;
+}
+
+std::string message(const CurvedCells& curved) {
+    if (curved.cells == 0 && curved.rounded_cells == 0) return "";
+    return deviations(curved) + "; sides were taken as straight";
+}
+
+Result<CurvedCells> take_as_straight(const Mesh& mesh, const std::string& file, Curved curved) {
+    const CurvedCells found = curved_cells(mesh);
+    if (curved == Curved::straight || found.cells == 0) return found;
+    return Error{.what = "the mesh is curved",
+                 .file = file,
+                 .expected = "every mid-edge node at the middle of its edge",
+                 .found = deviations(found),
+                 .remedy =
+                     "mesh it with straight sides, or let them be taken as straight: `straight` in place of "
+                     "`refuse`"};
+}
+
+}  // namespace barycert

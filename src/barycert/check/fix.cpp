@@ -1,0 +1,271 @@
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "barycert/base/disjoint_sets.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/check.hpp"
+#include "barycert/check/cells.hpp"
+#include "barycert/check/near_nodes.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/mesh/adjacency.hpp"
+#include "barycert/mesh/columns.hpp"
+#include "barycert/mesh/consistency.hpp"
+#include "barycert/mesh/mid_edges.hpp"
+#include "barycert/mesh/part.hpp"
+#include "barycert/predicates.hpp"
+
+namespace barycert {
+namespace {
+
+using Index = Mesh::Index;
+using Nodes = std::array<Index, 4>;
+
+std::size_t at(Index i) {
+    return static_cast<std::size_t>(i);
+}
+
+/// Only these rows, if there are any.
+template <class T>
+void keep(std::vector<T>& values, std::size_t size, const std::vector<Index>& rows) {
+    std::vector<T> kept;
+    if (!values.empty()) mesh::append_rows_of(values, size, rows, kept);
+    values = std::move(kept);
+}
+
+class Fix {
+public:
+    Fix(const Mesh& mesh, const FixOptions& options, FixReport& report)
+        : old_(mesh), options_(options), report_(report), mesh_(mesh), same_(mesh.point_count()) {}
+
+    Result<Mesh> run() {
+        if (options_.nodes && !merge_nodes())
+            return Error{.what = "so large a distance would merge nodes throughout the mesh",
+                         .found = base::shortest(options_.merge_within),
+                         .remedy = "take one that is small beside the edges of the cells"};
+        renumber();
+        if (options_.cells) drop_cells();
+        if (options_.nodes || options_.cells) drop_faces();
+        if (options_.orientation) turn_cells();
+        if (!mesh_.neighbours.empty()) mesh_.neighbours = mesh::compute_neighbours(mesh_);
+        return std::move(mesh_);
+    }
+
+private:
+    /// Vertices of cells by themselves, and the other nodes of edges: a node that no cell has may have any values.
+    /// False if too many are near.
+    bool merge_nodes() {
+        std::vector<std::uint8_t> role(old_.point_count(), 0);
+        for (const Index n : old_.mid_nodes) role[at(n)] = 1;
+        for (const Index n : old_.cells) role[at(n)] = 2;
+        for (const int kind : {1, 2}) {
+            std::vector<Index> nodes;
+            for (std::size_t n = 0; n < role.size(); ++n) {
+                if (role[n] == kind) nodes.push_back(static_cast<Index>(n));
+            }
+            const auto coincident = check::coincident_nodes(old_, nodes);
+            for (const auto& [first, second] : coincident) same_.join(at(first), at(second));
+            if (options_.merge_within == 0) continue;
+            std::erase_if(nodes, [&](Index n) { return same_.find(at(n)) != at(n); });
+            const std::size_t limit = 50 * nodes.size();
+            const auto near =
+                check::near_pairs(old_, nodes, std::vector<double>(nodes.size(), options_.merge_within), limit);
+            if (near.size() > limit) return false;
+            for (const check::NearPair& p : near) same_.join(at(p.first), at(p.second));
+        }
+        return true;
+    }
+
+    void renumber() {
+        std::vector<Index> kept, number(old_.point_count());
+        for (std::size_t n = 0; n < number.size(); ++n) {
+            const std::uint32_t into = same_.find(n);
+            if (into == n) {
+                number[n] = static_cast<Index>(kept.size());
+                kept.push_back(static_cast<Index>(n));
+                continue;
+            }
+            number[n] = number[into];
+            report_.merged.push_back({static_cast<Index>(n), static_cast<Index>(into),
+                                      check::node_distance(old_, static_cast<Index>(n), static_cast<Index>(into))});
+        }
+        if (report_.merged.empty()) return;
+        compare_values();
+        for (auto* list : {&mesh_.cells, &mesh_.mid_nodes, &mesh_.faces, &mesh_.face_mid_nodes}) {
+            for (Index& n : *list) n = number[at(n)];
+        }
+        keep(mesh_.points, at(old_.dimension), kept);
+        keep(mesh_.point_markers, 1, kept);
+        for (Field& f : mesh_.point_fields) keep(f.data, at(f.components), kept);
+    }
+
+    void compare_values() {
+        const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+        for (const Field& f : old_.point_fields) {
+            MergedField told{f.name};
+            for (const MergedNode& m : report_.merged) {
+                bool differs = false;
+                for (std::size_t c = 0; c < at(f.components); ++c) {
+                    const double a = f.data[at(m.node) * at(f.components) + c];
+                    const double b = f.data[at(m.into) * at(f.components) + c];
+                    if (same(a, b)) continue;
+                    differs = true;
+                    if (std::isfinite(a) && std::isfinite(b))
+                        told.max_difference = std::max(told.max_difference, std::fabs(a - b));
+                }
+                told.differ += differs ? 1 : 0;
+            }
+            if (told.differ != 0) report_.fields.push_back(std::move(told));
+        }
+        for (const MergedNode& m : report_.merged) {
+            const auto& markers = old_.point_markers;
+            if (!markers.empty() && markers[at(m.node)] != markers[at(m.into)]) ++report_.differing_markers;
+        }
+    }
+
+    int sign(std::size_t cell) const {
+        const auto p = check::corner_points(mesh_, cell);
+        return static_cast<int>(mesh_.dimension == 2 ? orient2d(p[0], p[1], p[2]) : orient3d(p[0], p[1], p[2], p[3]));
+    }
+
+    Nodes sorted_nodes(std::size_t cell) const {
+        Nodes nodes{-1, -1, -1, -1};
+        std::copy_n(&mesh_.cells[cell * mesh_.corners()], mesh_.corners(), nodes.begin());
+        std::sort(nodes.begin(), nodes.end());  // a triangle's first is -1
+        return nodes;
+    }
+
+    bool has_merged_node(std::size_t cell) {
+        const Index* const nodes = &old_.cells[cell * mesh_.corners()];
+        return std::any_of(nodes, nodes + mesh_.corners(), [&](Index n) {
+            const auto found = std::lower_bound(report_.merged.begin(), report_.merged.end(), n,
+                                                [](const MergedNode& m, Index node) { return m.node < node; });
+            return found != report_.merged.end() && found->node == n;
+        });
+    }
+
+    void drop_cells() {
+        std::vector<std::pair<Nodes, Index>> good;
+        const auto drop = [&](Index cell, DefectKind why) {
+            report_.dropped.push_back({cell, why});
+            report_.collapsed += has_merged_node(at(cell)) ? 1 : 0;
+        };
+        for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
+            const Nodes nodes = sorted_nodes(cell);
+            const auto number = static_cast<Index>(cell);
+            if (std::adjacent_find(nodes.begin(), nodes.end()) != nodes.end())
+                drop(number, DefectKind::repeated_node);
+            else if (sign(cell) == 0)
+                drop(number, DefectKind::degenerate_cell);
+            else
+                good.emplace_back(nodes, number);
+        }
+        std::sort(good.begin(), good.end());
+        std::vector<Index> kept;
+        for (std::size_t i = 0; i < good.size(); ++i) {
+            if (i > 0 && good[i].first == good[i - 1].first)
+                drop(good[i].second, DefectKind::duplicate_cell);
+            else
+                kept.push_back(good[i].second);
+        }
+        if (report_.dropped.empty()) return;
+        std::sort(kept.begin(), kept.end());
+        std::sort(report_.dropped.begin(), report_.dropped.end(),
+                  [](const DroppedCell& a, const DroppedCell& b) { return a.cell < b.cell; });
+        keep(mesh_.cells, mesh_.corners(), kept);
+        keep(mesh_.mid_nodes, mesh::edges_of(mesh_.dimension).size(), kept);
+        for (Field& f : mesh_.cell_fields) keep(f.data, at(f.components), kept);
+        for (Column& labels : mesh_.cell_labels) labels = mesh::labels_at(labels, kept);
+        if (mesh_.cell_numbers.empty())
+            mesh_.cell_numbers = kept;
+        else
+            keep(mesh_.cell_numbers, 1, kept);
+    }
+
+    /// Those that no cell has, and of those that merging made the same all but the first.
+    void drop_faces() {
+        using Triple = std::array<Index, 3>;
+        if (mesh_.faces.empty()) return;
+        std::vector<Triple> facets;
+        for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
+            const Nodes n = sorted_nodes(cell);
+            facets.insert(facets.end(),
+                          {{n[0], n[1], n[2]}, {n[0], n[1], n[3]}, {n[0], n[2], n[3]}, {n[1], n[2], n[3]}});
+        }
+        std::sort(facets.begin(), facets.end());
+        std::vector<std::pair<Triple, Index>> faces;
+        for (std::size_t f = 0; f < mesh_.face_count(); ++f) {
+            Triple face{mesh_.faces[3 * f], mesh_.faces[3 * f + 1], mesh_.faces[3 * f + 2]};
+            std::sort(face.begin(), face.end());
+            if (std::binary_search(facets.begin(), facets.end(), face)) faces.emplace_back(face, static_cast<Index>(f));
+        }
+        std::sort(faces.begin(), faces.end());
+        std::vector<Index> kept;
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            const bool twin = i > 0 && faces[i].first == faces[i - 1].first;
+            if (!twin || report_.merged.empty()) kept.push_back(faces[i].second);
+        }
+        report_.dropped_faces = mesh_.face_count() - kept.size();
+        if (report_.dropped_faces == 0) return;
+        std::sort(kept.begin(), kept.end());
+        keep(mesh_.faces, 3, kept);
+        keep(mesh_.face_mid_nodes, 3, kept);
+        keep(mesh_.face_markers, 1, kept);
+    }
+
+    /// The last two vertices of negative cells swapped, and their mid-edge nodes with them.
+    void turn_cells() {
+        const std::size_t corners = mesh_.corners(), last = corners - 1;
+        const auto swapped = [&](std::size_t corner) {
+            return corner == last ? last - 1 : corner == last - 1 ? last : corner;
+        };
+        // Which edge lies, after the swap, where edge e lay.
+        const auto edges = mesh::edges_of(mesh_.dimension);
+        std::array<std::size_t, 6> edge_from{};
+        for (std::size_t e = 0; e < edges.size(); ++e) {
+            const std::size_t a = swapped(edges[e][0]), b = swapped(edges[e][1]);
+            const auto same = std::find_if(edges.begin(), edges.end(), [&](const std::array<std::size_t, 2>& f) {
+                return (f[0] == a && f[1] == b) || (f[0] == b && f[1] == a);
+            });
+            edge_from[e] = static_cast<std::size_t>(same - edges.begin());
+        }
+        for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
+            if (sign(cell) >= 0) continue;
+            ++report_.turned;
+            std::swap(mesh_.cells[cell * corners + last - 1], mesh_.cells[cell * corners + last]);
+            if (mesh_.mid_nodes.empty()) continue;
+            std::array<Index, 6> mid{};
+            for (std::size_t e = 0; e < edges.size(); ++e) mid[e] = mesh_.mid_nodes[cell * edges.size() + edge_from[e]];
+            std::copy_n(mid.begin(), edges.size(), &mesh_.mid_nodes[cell * edges.size()]);
+        }
+    }
+
+    const Mesh& old_;
+    const FixOptions& options_;
+    FixReport& report_;
+    Mesh mesh_;
+    base::DisjointSets same_;
+};
+
+}  // namespace
+
+Result<Mesh> fix_mesh(const Mesh& mesh, const FixOptions& options, FixReport& report) {
+    const ExactEnvironment environment;
+    report = {};
+    if (const char* fault = mesh::inconsistency(mesh, mesh::FieldValues::any); fault != nullptr)
+        return Error{.what = "this mesh cannot be fixed", .found = fault};
+    if (!(options.merge_within >= 0) || !std::isfinite(options.merge_within))
+        return Error{.what = "the distance within which nodes are merged is not one",
+                     .expected = "a finite number from 0 on",
+                     .found = base::shortest(options.merge_within)};
+    const int available = tbb::info::default_concurrency();
+    tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, available) : available);
+    return arena.execute([&] { return Fix(mesh, options, report).run(); });
+}
+
+}  // namespace barycert

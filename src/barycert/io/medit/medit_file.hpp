@@ -1,0 +1,80 @@
+/// Medit's files (the Gamma mesh format), text and binary: what sections there are, and the numbers in them.
+///
+/// text    MeshVersionFormatted VERSION, then keywords with what belongs to them, words parted by white space;
+///         # starts a comment that goes to the end of the line. Vertices, cells: COUNT, rows. SolAt...: COUNT, the
+///         number of fields, the type of each, rows. The last keyword is End, which may be missing.
+/// binary  1 (whose bytes tell their order), version; then keyword, place of the next keyword, data, as above, up to
+///         the keyword End. All are int32; places are int64 from version 3 on, counts and indices in version 4; real
+///         numbers are float32 in version 1, else float64.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "barycert/base/mapped_file.hpp"
+#include "barycert/io/medit/medit_keywords.hpp"
+#include "barycert/result.hpp"
+
+namespace barycert::io {
+
+struct MeditSection {
+    MeditKeyword keyword;
+    std::string name = {};                 ///< as in the file
+    std::size_t count = 0;                 ///< of rows; 0 where the keyword is not known
+    std::vector<std::int64_t> types = {};  ///< of the fields of a solution
+    std::string_view body = {};            ///< the rows
+};
+
+/// The numbers of a section, row after row: some real ones and then some integers.
+struct MeditRows {
+    std::size_t reals_a_row = 0, integers_a_row = 0;
+    std::vector<double> reals;  ///< any, infinities and NaN included
+    std::vector<std::int64_t> integers;
+};
+
+class MeditFile {
+public:
+    /// Error: no file of Medit; a section that does not end within it; two of one kind; another dimension than 2 or 3.
+    static Result<MeditFile> open(const std::string& path);
+
+    const std::string& path() const { return path_; }
+    int dimension() const { return static_cast<int>(dimension_); }
+    bool narrow() const { return binary_ && version_ == 1; }  ///< real numbers are float32
+    const std::vector<MeditSection>& sections() const { return sections_; }
+
+    /// Error: fewer numbers or more, or others. Memory is bounded by a multiple of the file's size.
+    Result<MeditRows> rows(const MeditSection& section, std::size_t reals_a_row, std::size_t integers_a_row) const;
+
+    /// That a number of a row is refused.
+    Error error_in(const MeditSection& section, const MeditRows& rows, std::size_t row, std::size_t column,
+                   std::string expected, std::string found, std::string remedy = {}) const;
+
+private:
+    Status list_text();
+    Status list_binary();
+    Status add(std::string name, const MeditKeyword* keyword, std::string_view body);
+    Status set_header(std::int64_t& number, std::string_view text, std::int64_t least, std::int64_t most);
+    Result<std::int64_t> count_at(std::string_view& text, std::size_t bytes, const char* what, std::int64_t least,
+                                  std::int64_t most) const;
+    Status read_text_rows(const MeditSection& section, MeditRows& rows) const;
+    std::size_t real_bytes() const { return version_ == 1 ? 4 : 8; }
+    std::size_t integer_bytes() const { return version_ == 4 ? 8 : 4; }
+    Error error_at(const char* at, std::string what, std::string expected, std::string found,
+                   std::string remedy = {}) const;
+
+    std::string path_;
+    base::MappedFile data_;
+    std::vector<char> uncommented_;  ///< the text, with blanks for comments, if it has any
+    std::string_view bytes_;
+    bool binary_ = false, swapped_ = false;
+    std::int64_t version_ = 0, dimension_ = 0;
+    std::vector<MeditSection> sections_;
+};
+
+/// By the first bytes of a file.
+bool is_medit(std::string_view head);
+
+}  // namespace barycert::io

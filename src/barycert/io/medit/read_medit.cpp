@@ -1,0 +1,267 @@
+#include "barycert/io/medit/read_medit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <new>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "barycert/base/input_file.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/io/medit/medit_fields.hpp"
+#include "barycert/io/medit/medit_file.hpp"
+#include "barycert/io/vtk/grid_to_mesh.hpp"
+#include "barycert/io/vtk/xml_grids.hpp"
+#include "barycert/mesh/mid_edges.hpp"
+
+namespace barycert::io {
+namespace {
+
+/// "12 Edges, 1 Triangles"
+std::string counted_sections(const std::vector<const MeditSection*>& sections) {
+    std::string text;
+    for (const MeditSection* section : sections)
+        text += (text.empty() ? "" : ", ") + std::to_string(section->count) + " " + section->name;
+    return text;
+}
+
+bool is_simplex(const MeditKeyword& cell, int order) {
+    return cell.nodes == (cell.dimension == 3 ? (order == 1 ? 4U : 10U) : (order == 1 ? 3U : 6U));
+}
+
+class MeditReader {
+public:
+    MeditReader(const MeditFile& file, const ReadOptions& options) : file_(file), options_(options) {}
+
+    Result<Mesh> read() {
+        Status status = choose();
+        if (status) status = read_nodes();
+        if (status) status = read_cells();
+        if (status) status = settle_order();
+        if (status) status = read_the_lower();
+        if (status) status = add_medit_fields(file_, mesh_);
+        if (status) status = check_fields();
+        if (!status) return status.error();
+        note_medit_sections(file_, mesh_.notes);
+        note_solution_beside();
+        mesh_.index_base = 1;
+        return std::move(mesh_);
+    }
+
+private:
+    Error error(std::string what, std::string expected, std::string found, std::string remedy) const {
+        return {.what = std::move(what),
+                .file = file_.path(),
+                .expected = std::move(expected),
+                .found = std::move(found),
+                .remedy = std::move(remedy)};
+    }
+
+    /// Which section has the cells.
+    Status choose() {
+        std::vector<const MeditSection*> found;
+        for (const MeditSection& section : file_.sections()) {
+            if (section.keyword.kind == MeditKind::vertices) nodes_ = &section;
+            if (section.keyword.kind != MeditKind::cells || section.count == 0) continue;
+            const int dimension = section.keyword.dimension;
+            if (!found.empty() && dimension > found.front()->keyword.dimension) {
+                lower_.insert(lower_.end(), found.begin(), found.end());
+                found.clear();
+            }
+            (found.empty() || dimension == found.front()->keyword.dimension ? found : lower_).push_back(&section);
+        }
+        if (nodes_ == nullptr || found.empty() || found.front()->keyword.dimension < 2)
+            return error("the file contains no mesh", "Vertices, and Tetrahedra or Triangles",
+                         file_.sections().empty() ? "nothing" : file_.sections().front().name,
+                         "name a file with a mesh; the fields of a .sol file go with --field NAME=FILE");
+        cells_ = found.front();
+        mesh_.dimension = cells_->keyword.dimension;
+        const bool solid = mesh_.dimension == 3;
+        const std::string expected = solid ? "Tetrahedra or TetrahedraP2" : "Triangles or TrianglesP2";
+        for (const MeditSection* section : found) {
+            if (is_simplex(section->keyword, 1) || is_simplex(section->keyword, 2)) continue;
+            return error(solid ? "cells that are no tetrahedra" : "cells that are no triangles", expected,
+                         counted_sections(found), to_simplices(file_.path()));
+        }
+        if (found.size() > 1)
+            return error("cells of both orders in one mesh", expected, counted_sections(found),
+                         "write the mesh with cells of one order");
+        if (mesh_.dimension > file_.dimension())
+            return error("cells in space, and nodes in the plane", "Dimension 3", "Dimension 2", "mend the dimension");
+        return Done{};
+    }
+
+    Status read_nodes() {
+        const auto dimension = static_cast<std::size_t>(file_.dimension());
+        Result<MeditRows> rows = file_.rows(*nodes_, dimension, 1);
+        if (!rows) return rows.error();
+        for (std::size_t i = 0; i < rows->reals.size(); ++i) {
+            if (std::isfinite(rows->reals[i])) continue;
+            return file_.error_in(*nodes_, *rows, i / dimension, i % dimension, "a finite coordinate",
+                                  base::shortest(rows->reals[i]), "correct the point");
+        }
+        mesh_.point_markers = references(std::move(rows->integers));
+        mesh_.points = std::move(rows->reals);
+        if (mesh_.dimension < file_.dimension()) {
+            Result<std::vector<double>> flat = to_points(std::move(mesh_.points), 2, file_.path());
+            if (!flat) return flat.error();
+            mesh_.points = std::move(*flat);
+        }
+        if (file_.narrow())
+            mesh_.notes.push_back({Note::Kind::converted, "float32 to double: the coordinates", file_.path()});
+        return Done{};
+    }
+
+    /// Where all are 0 there are none.
+    static std::vector<std::int64_t> references(std::vector<std::int64_t> numbers) {
+        if (std::all_of(numbers.begin(), numbers.end(), [](std::int64_t n) { return n == 0; })) numbers = {};
+        return numbers;
+    }
+
+    /// Corners, nodes at mid-edges and references of a section of cells.
+    struct Cells {
+        std::vector<Mesh::Index> corners, mids;
+        std::vector<std::int64_t> references;
+    };
+    Result<Cells> take(const MeditSection& section, std::size_t corners) const {
+        const std::size_t nodes = section.keyword.nodes, width = nodes + 1, count = section.count;
+        const Result<MeditRows> rows = file_.rows(section, 0, width);
+        if (!rows) return rows.error();
+        Cells cells;
+        base::resize_large(cells.corners, count * corners);
+        base::resize_large(cells.mids, count * (nodes - corners));
+        cells.references.resize(count);
+        const std::uint64_t points = mesh_.point_count();
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::int64_t* const row = &rows->integers[i * width];
+            for (std::size_t k = 0; k < nodes; ++k) {
+                const std::int64_t node = row[k] - 1;
+                if (row[k] < 1 || static_cast<std::uint64_t>(node) >= points)
+                    return file_.error_in(section, *rows, i, k, "a node from 1 to " + std::to_string(points),
+                                          std::to_string(row[k]),
+                                          row[k] == 0 ? "nodes count from 1: add 1 to all" : "check the numbers");
+                Mesh::Index& to =
+                    k < corners ? cells.corners[i * corners + k] : cells.mids[i * (nodes - corners) + k - corners];
+                to = static_cast<Mesh::Index>(node);
+            }
+            cells.references[i] = row[nodes];
+        }
+        return cells;
+    }
+
+    Status read_cells() {
+        Result<Cells> cells = take(*cells_, mesh_.corners());
+        if (!cells) return cells.error();
+        mesh_.cells = std::move(cells->corners);
+        mesh_.mid_nodes = std::move(cells->mids);
+        const std::vector<std::int64_t> all = references(std::move(cells->references));
+        const bool doubles =
+            std::all_of(all.begin(), all.end(), [](std::int64_t n) { return std::abs(n) <= 1LL << 53; });
+        if (all.empty()) return Done{};
+        if (doubles) {
+            mesh_.cell_fields.push_back({"medit:ref", 1, {all.begin(), all.end()}});
+        } else {
+            mesh_.cell_labels.push_back({"medit:ref", all});
+        }
+        return Done{};
+    }
+
+    Status settle_order() {
+        if (mesh_.mid_nodes.empty()) return Done{};
+        const std::optional<mesh::MidEdgeVote> vote = mesh::detect_mid_edge_order(mesh_);
+        if (!vote)
+            return error("the order of the mid-edge nodes is unknown",
+                         "each near the middle of its edge, in the order 12 23 13 14 24 34, or that of TetGen or Gmsh",
+                         "another order in most cells", "write the mesh again with cells of order 1");
+        // Where no cell tells it, as libMeshb documents it.
+        mesh_.mid_edge_order = vote->guessed ? MidEdgeOrder::vtk : vote->order;
+        if (vote->guessed)
+            mesh_.notes.push_back({Note::Kind::guessed,
+                                   "mid-edge nodes in the order of Medit, as no cell tells another", file_.path(),
+                                   true});
+        mesh::normalise_mid_nodes(mesh_);
+        return Done{};
+    }
+
+    /// Cells of a lower dimension: triangles beside tetrahedra are faces, the others are left out. What has nodes of
+    /// its own is told to all, as by Gmsh's reader.
+    Status read_the_lower() {
+        std::vector<std::uint8_t> used(mesh_.point_count(), 0);
+        for (const auto* nodes : {&mesh_.cells, &mesh_.mid_nodes}) {
+            for (const Mesh::Index node : *nodes) used[static_cast<std::size_t>(node)] = 1;
+        }
+        bool apart = false;
+        std::vector<const MeditSection*> left_out;
+        for (const MeditSection* section : lower_) {
+            const int order = mesh_.mid_nodes.empty() ? 1 : 2;
+            const bool faces = section->keyword.dimension == 2 && is_simplex(section->keyword, order);
+            Result<Cells> cells = take(*section, faces ? 3 : section->keyword.nodes);
+            if (!cells) return cells.error();
+            const bool here = std::any_of(cells->corners.begin(), cells->corners.end(),
+                                          [&](Mesh::Index node) { return used[static_cast<std::size_t>(node)] == 0; });
+            apart = apart || here;
+            if (!faces || here) left_out.push_back(section);
+            if (!faces || here || !options_.faces) continue;
+            mesh_.faces = std::move(cells->corners);
+            mesh_.face_mid_nodes = std::move(cells->mids);
+            mesh_.face_markers = references(std::move(cells->references));
+        }
+        if (!left_out.empty())
+            mesh_.notes.push_back({Note::Kind::left_out,
+                                   "elements of a lower dimension: " + counted_sections(left_out) +
+                                       (apart ? "; some have nodes that no cell has" : ""),
+                                   file_.path(), apart});
+        return Done{};
+    }
+
+    /// Fields in a file of their own are read where they are named.
+    void note_solution_beside() {
+        for (const char* suffix : {".sol", ".solb"}) {
+            const std::string path = std::filesystem::path(file_.path()).replace_extension(suffix).string();
+            std::error_code ignored;
+            if (std::filesystem::exists(path, ignored))
+                mesh_.notes.push_back({Note::Kind::left_out,
+                                       "the fields of " + path + ", unless it is named: --field NAME=" + path,
+                                       file_.path()});
+        }
+    }
+
+    /// Of a file that holds both.
+    Status check_fields() const {
+        for (const auto& [fields, rows] :
+             {std::pair(&mesh_.point_fields, mesh_.point_count()), std::pair(&mesh_.cell_fields, mesh_.cell_count())}) {
+            for (const Field& field : *fields) {
+                const std::size_t found = field.data.size() / static_cast<std::size_t>(field.components);
+                if (found != rows)
+                    return error("the rows of " + field.name, std::to_string(rows), std::to_string(found),
+                                 "one for each node or cell");
+            }
+        }
+        return Done{};
+    }
+
+    const MeditFile& file_;
+    const ReadOptions& options_;
+    const MeditSection *nodes_ = nullptr, *cells_ = nullptr;
+    std::vector<const MeditSection*> lower_;
+    Mesh mesh_;
+};
+
+}  // namespace
+
+Result<Mesh> read_medit(const std::string& path, const ReadOptions& options) {
+    const ExactEnvironment environment;
+    try {
+        const Result<MeditFile> file = MeditFile::open(path);
+        if (!file) return file.error();
+        return MeditReader(*file, options).read();
+    } catch (const std::bad_alloc&) {
+        return base::too_little_memory(path);
+    }
+}
+
+}  // namespace barycert::io

@@ -1,0 +1,164 @@
+// What has one right answer is made so, and all else stays.
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "barycert/mesh/adjacency.hpp"
+#include "check/meshes.hpp"
+#include "io/tetgen/mesh_files.hpp"
+
+namespace barycert::testing {
+namespace {
+
+using Indices = std::vector<Mesh::Index>;
+
+/// Two cubes side by side, the first cell of each twice, a flat cell, a cell of three nodes; with everything a mesh
+/// has.
+Mesh cubes_apart() {
+    const Mesh cube = box(3, {1, 1, 1});
+    Mesh mesh = joined(cube, mapped(cube, {1, 1, 1}, {1, 0, 0}));
+    const Indices first(mesh.cells.begin(), mesh.cells.begin() + 4);
+    mesh.cells.insert(mesh.cells.end(), {first[2], first[0], first[1], first[3]});
+    mesh.cells.insert(mesh.cells.end(), {0, 1, 2, 3});  // of one side of the cube
+    mesh.cells.insert(mesh.cells.end(), {5, 5, 6, 7});
+    mesh.neighbours.assign(mesh.cells.size(), -1);
+    Field nodes{"T", 1, {}}, cells{"rho", 2, {}};
+    Column label{"region", std::vector<std::int64_t>()};
+    for (std::size_t n = 0; n < mesh.point_count(); ++n) {
+        nodes.data.push_back(static_cast<double>(n % 8));
+        mesh.point_markers.push_back(static_cast<std::int64_t>(n));
+    }
+    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+        for (const double x : {0.0, 0.5}) cells.data.push_back(static_cast<double>(c) + x);
+        std::get<std::vector<std::int64_t>>(label.values).push_back(static_cast<std::int64_t>(c));
+    }
+    mesh.point_fields = {nodes};
+    mesh.cell_fields = {cells};
+    mesh.cell_labels = {label};
+    const Mesh::Index* const c = mesh.cells.data();
+    mesh.faces = {c[1], c[2], c[3], 0, 14, 9};
+    mesh.face_markers = {4, 5};
+    return mesh;
+}
+
+TEST(Fix, merges_drops_and_carries_all_else) {
+    const Mesh broken = cubes_apart();
+    ASSERT_FALSE(quick(broken).certified());
+    FixReport done;
+    const Mesh fixed = fix_mesh(broken, {}, done).value();
+    const CheckReport after = quick(fixed);
+    EXPECT_TRUE(after.certified()) << words(found(after));
+    EXPECT_EQ(after.parts, 1U);
+    EXPECT_EQ(after.negative, 0U);
+    ASSERT_EQ(done.merged.size(), 4U);
+    EXPECT_EQ(fixed.point_count(), 12U);
+    for (const MergedNode& m : done.merged) {
+        EXPECT_EQ(node_at(broken, m.node), node_at(broken, m.into));
+        EXPECT_LT(m.into, m.node);
+        EXPECT_EQ(m.moved, 0);
+    }
+    ASSERT_EQ(done.dropped.size(), 3U);
+    EXPECT_EQ(done.dropped[0].cell, 12);
+    EXPECT_EQ(done.dropped[0].why, DefectKind::duplicate_cell);
+    EXPECT_EQ(done.dropped[1].why, DefectKind::degenerate_cell);
+    EXPECT_EQ(done.dropped[2].why, DefectKind::repeated_node);
+    EXPECT_EQ(fixed.cell_count(), 12U);
+    EXPECT_EQ(fixed.cell_fields[0].data[23], 11.5);
+    EXPECT_EQ(std::get<std::vector<std::int64_t>>(fixed.cell_labels[0].values).size(), 12U);
+    EXPECT_EQ(fixed.cell_numbers.size(), 12U);
+    EXPECT_EQ(fixed.neighbours, mesh::compute_neighbours(fixed));
+    EXPECT_EQ(fixed.faces.size(), 3U) << "one that no cell has";
+    EXPECT_EQ(fixed.face_markers, std::vector<std::int64_t>{4});
+    EXPECT_EQ(done.dropped_faces, 1U);
+    EXPECT_EQ(done.differing_markers, 4U);
+    // T is n % 8 in both cubes: nodes at x = 1 and 0 differ.
+    ASSERT_EQ(done.fields.size(), 1U);
+    EXPECT_EQ(done.fields[0].name, "T");
+    EXPECT_EQ(done.fields[0].differ, 4U);
+    double most = 0;
+    for (const MergedNode& m : done.merged)
+        most = std::max(most, std::fabs(static_cast<double>(m.node % 8) - static_cast<double>(m.into % 8)));
+    EXPECT_EQ(done.fields[0].max_difference, most);
+    // The values of each node that stays are its own.
+    std::size_t at = 0;
+    for (std::size_t n = 0; n < broken.point_count(); ++n) {
+        const bool gone = std::any_of(done.merged.begin(), done.merged.end(),
+                                      [&](const MergedNode& m) { return static_cast<std::size_t>(m.node) == n; });
+        if (gone) continue;
+        EXPECT_EQ(fixed.point_markers[at], static_cast<std::int64_t>(n));
+        EXPECT_EQ(fixed.point_fields[0].data[at], static_cast<double>(n % 8));
+        EXPECT_EQ(node_at(fixed, static_cast<Mesh::Index>(at++)), node_at(broken, static_cast<Mesh::Index>(n)));
+    }
+}
+
+TEST(Fix, merges_within_a_distance_and_tells_how_far) {
+    const double ulp = std::numeric_limits<double>::epsilon();
+    Mesh mesh = joined(box(2, {1, 1, 1}), mapped(box(2, {1, 1, 1}), {1, 1, 1}, {1, 0, 0}));
+    mesh.points[8] += ulp;
+    FixReport done;
+    const Mesh exact = fix_mesh(mesh, {}, done).value();
+    EXPECT_EQ(done.merged.size(), 1U);
+    EXPECT_EQ(quick(exact).parts, 2U) << "a slit";
+    const Mesh within = fix_mesh(mesh, {.merge_within = ulp}, done).value();
+    ASSERT_EQ(done.merged.size(), 2U);
+    EXPECT_EQ(std::max(done.merged[0].moved, done.merged[1].moved), ulp);
+    EXPECT_TRUE(quick(within).certified());
+    EXPECT_EQ(quick(within).parts, 1U);
+    EXPECT_EQ(fix_mesh(mesh, {.merge_within = ulp / 2}, done).value().point_count(), 7U);
+    // Cells that collapse are dropped and told.
+    Mesh thin = mapped(box(2, {1, 1, 1}), {1, 0x1p-30, 1}, {0, 0, 0});
+    EXPECT_EQ(fix_mesh(thin, {.merge_within = 0x1p-29}, done).value().cell_count(), 0U);
+    EXPECT_EQ(done.collapsed, 2U);
+}
+
+TEST(Fix, nodes_of_no_cell_are_left_alone) {
+    Mesh mesh = box(2, {1, 1, 1});
+    mesh.points.insert(mesh.points.begin(), {0, 0});  // before the node that cells have
+    for (Mesh::Index& n : mesh.cells) ++n;
+    FixReport done;
+    EXPECT_EQ(fix_mesh(mesh, {}, done).value().points, mesh.points);
+    EXPECT_FALSE(done.changed());
+}
+
+TEST(Fix, leaves_good_meshes_as_they_are) {
+    for (const char* name : {"cube-hole", "cube-hole-o2", "bracket", "plate"}) {
+        const Mesh mesh = own_mesh(name);
+        FixReport done;
+        expect_same(fix_mesh(mesh, {}, done).value(), mesh);
+        EXPECT_FALSE(done.changed()) << name;
+    }
+}
+
+TEST(Fix, second_order_cells_keep_their_nodes) {
+    const Mesh mesh = own_mesh("cube-hole-o2");
+    Mesh twice = mesh;  // each cell of the second half with nodes of its own
+    const std::size_t half = mesh.cell_count() / 2;
+    for (auto [list, size] : {std::pair(&twice.cells, mesh.corners()), {&twice.mid_nodes, std::size_t{6}}}) {
+        for (std::size_t i = half * size; i < list->size(); ++i)
+            (*list)[i] += static_cast<Mesh::Index>(mesh.point_count());
+    }
+    twice.points.insert(twice.points.end(), mesh.points.begin(), mesh.points.end());
+    twice.point_fields.clear();
+    twice.point_markers.clear();
+    twice.faces.clear(), twice.face_markers.clear(), twice.face_mid_nodes.clear(), twice.neighbours.clear();
+    FixReport done;
+    const Mesh fixed = fix_mesh(twice, {}, done).value();
+    EXPECT_TRUE(quick(fixed).certified());
+    for (std::size_t i = 0; i < mesh.mid_nodes.size(); ++i) {
+        ASSERT_EQ(node_at(fixed, fixed.mid_nodes[i]), node_at(mesh, mesh.mid_nodes[i])) << i;
+    }
+}
+
+TEST(Fix, refuses_what_is_no_mesh_or_no_distance) {
+    FixReport done;
+    Mesh mesh = box(2, {1, 1, 1});
+    for (const double d : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+        EXPECT_FALSE(fix_mesh(mesh, {.merge_within = d}, done)) << d;
+    EXPECT_FALSE(fix_mesh(box(2, {30, 30, 1}), {.merge_within = 1e300}, done)) << "all with all";
+    mesh.cells[0] = 99;
+    EXPECT_FALSE(fix_mesh(mesh, {}, done));
+}
+
+}  // namespace
+}  // namespace barycert::testing

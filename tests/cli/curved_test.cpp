@@ -1,0 +1,212 @@
+// Curved second-order cells: every command that reads a mesh says first that it took their sides as straight.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "barycert/io.hpp"
+#include "mesh/curved_mesh.hpp"
+#include "process.hpp"
+#include "sample_meshes.hpp"
+
+namespace barycert::cli_test {
+namespace {
+
+const std::string told = "8 cells are curved: mid-edge nodes lie up to 0.21 of the edge off its middle";
+
+/// With x as a field of nodes and the number of a cell as one of cells; returns its path.
+std::string put_ball(const Scratch& scratch, const std::string& name, Mesh mesh) {
+    mesh.point_fields.push_back({"t", 1, {}});
+    for (std::size_t i = 0; i < mesh.points.size(); i += 3) mesh.point_fields[0].data.push_back(mesh.points[i]);
+    mesh.cell_fields.push_back({"c", 1, std::vector<double>(mesh.cell_count(), 1)});
+    const std::string path = scratch.path(name);
+    EXPECT_TRUE(write_mesh(mesh, path));
+    return path;
+}
+
+std::string put_curved(const Scratch& scratch) {
+    return put_ball(scratch, "ball.vtu", testing::curved_ball(3));
+}
+
+/// A kind of command on a mesh: all take --curved and say the same.
+std::vector<Words> commands(const Scratch& scratch, const std::string& mesh) {
+    const std::string points = scratch.put("p.csv", "x,y,z\n.25,.25,.25\n.5,.5,0\n");
+    scratch.put("rows.csv", "x,y,z,t\n.25,.25,.25,.25\n.5,.5,0,.5\n");
+    return {{"check", mesh},
+            {"sample", mesh, "--points", points, "--output", scratch.path("out.csv")},
+            {"resample", mesh, "--grid", "3x3x3", "--output", scratch.path("out.vti")},
+            {"resample", mesh, "--onto", mesh, "--output", scratch.path("onto.vtu")},
+            {"verify", mesh, "--results", scratch.path("rows.csv")},
+            {"render", "mesh", mesh, "--output", scratch.path("mesh.png")},
+            {"render", "slice", mesh, "--plane", "0,0,1,0.25", "--output", scratch.path("slice.vtp")},
+            {"render", "slice", mesh, "--plane", "0,0,1,0.25", "--field", "t", "--output", scratch.path("slice.png")},
+            {"render", "iso", mesh, "--field", "t", "--value", "0.25", "--output", scratch.path("iso.vtp")},
+            {"gaps", mesh, "--kernel", "tetrahedron.signed-volume", "--count", "10"}};
+}
+
+TEST(curved, every_command_says_so_first) {
+    const Scratch scratch;
+    for (const Words& command : commands(scratch, put_curved(scratch))) {
+        const Ended ended = run(command);
+        EXPECT_NE(ended.code, 2) << ended.err;
+        const std::string said = ended.out.substr(0, ended.out.find("as straight"));
+        EXPECT_TRUE(contains(said, told)) << ended.out;
+        EXPECT_LT(said.size(), 200U) << ended.out;  // nothing stands before it
+        EXPECT_FALSE(contains(ended.out, "exact, rounded once")) << ended.out;
+        EXPECT_FALSE(contains(ended.out, "certified:")) << ended.out;
+    }
+}
+
+TEST(curved, json_has_the_figures) {
+    const Scratch scratch;
+    for (const Words& command : commands(scratch, put_curved(scratch))) {
+        const std::string json = scratch.path("report.json");
+        EXPECT_NE(run(plus(command, {"--json", json, "--quiet"})).code, 2) << command[0];
+        const auto j = parse(read_file(json));
+        EXPECT_EQ(j["curved"]["cells"], 8) << command[0];
+        EXPECT_NEAR(j["curved"]["max_deviation"].get<double>(), testing::deviation_of_ball, 1e-15);
+        EXPECT_EQ(j["curved"]["rounded_cells"], 0);
+        EXPECT_EQ(j.contains("onto_curved"), command[0] == "resample" && command[2] == "--onto");
+        if (j.contains("onto_curved")) {
+            EXPECT_EQ(j["onto_curved"], j["curved"]);
+        }
+    }
+}
+
+TEST(curved, refused_if_asked_for) {
+    const Scratch scratch;
+    const std::string mesh = put_curved(scratch);
+    for (const Words& command : commands(scratch, mesh)) {
+        for (const std::string file :
+             {"out.csv", "out.vti", "onto.vtu", "mesh.png", "slice.vtp", "slice.png", "iso.vtp"})
+            std::filesystem::remove(scratch.path(file));
+        const Ended ended = run(plus(command, {"--curved", "refuse"}));
+        EXPECT_EQ(ended.code, 2) << command[0];
+        EXPECT_EQ(ended.out, "");
+        for (const std::string& part : {std::string("ball.vtu"), std::string("the mesh is curved"), told,
+                                        std::string("let them be taken as straight")})
+            EXPECT_TRUE(contains(ended.err, part)) << ended.err;
+        // Nothing was written, and the remedy works.
+        for (const std::string file :
+             {"out.csv", "out.vti", "onto.vtu", "mesh.png", "slice.vtp", "slice.png", "iso.vtp"})
+            EXPECT_FALSE(std::filesystem::exists(scratch.path(file))) << file;
+        EXPECT_NE(run(plus(command, {"--curved", "straight", "--quiet"})).code, 2);
+    }
+    const std::string straight = put_ball(scratch, "straight.vtu", testing::straight_ball(3));
+    for (const Words& command : commands(scratch, straight)) {
+        const Ended ended = run(plus(command, {"--curved", "refuse"}));
+        EXPECT_EQ(ended.code, 0) << ended.err << ended.out;
+        EXPECT_FALSE(contains(ended.out, "as straight")) << ended.out;
+    }
+    // The target of --onto is a mesh that is read, too.
+    expect_error({"resample", straight, "--onto", mesh, "--output", scratch.path("o.vtu"), "--curved", "refuse"},
+                 "ball.vtu");
+}
+
+TEST(curved, audit_names_each_mesh) {
+    const Scratch scratch;
+    const std::string mesh = put_curved(scratch), json = scratch.path("audit.json");
+    const Words audit{"audit", mesh, "--kernel", "tetrahedron.signed-volume", "--family", "mesh.*", "--count", "10"};
+    const Ended ended = run(plus(audit, {"--json", json}));
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_TRUE(contains(ended.out, "ball.vtu: " + told)) << ended.out;
+    EXPECT_EQ(parse(read_file(json))["curved"][0]["cells"], 8);
+    expect_error(plus(audit, {"--curved", "refuse"}), "the mesh is curved");
+}
+
+TEST(curved, values_are_those_of_straight_sides_and_said_to_be) {
+    const Scratch scratch;
+    const std::string mesh = put_curved(scratch);
+    const std::string points = scratch.put("outer.csv", "x,y,z\n0.7,0.7,0\n.5,.5,0\n");
+    const Ended ended = run({"sample", mesh, "--points", points, "--output", scratch.path("out.csv")});
+    EXPECT_TRUE(contains(ended.out, "values     exact for straight sides, rounded once")) << ended.out;
+    EXPECT_TRUE(contains(read_file(scratch.path("out.csv")), "0.7,0.7,0,-1,outside")) << "inside the curved cell";
+    const Ended check = run({"check", mesh});
+    EXPECT_EQ(check.code, 0);
+    EXPECT_TRUE(contains(check.out, "certified for straight sides: 8 cells partition")) << check.out;
+    EXPECT_TRUE(contains(check.out, "any two straight cells meet in a common face")) << check.out;
+    for (const std::string& line : lines_of(check.out)) {
+        EXPECT_LE(line.size(), contains(line, mesh) ? 100 + mesh.size() : 100U) << line;
+    }
+}
+
+TEST(curved, pages_say_so_before_the_verdict) {
+    const Scratch scratch;
+    const std::string mesh = put_curved(scratch), page = scratch.path("page.html");
+    scratch.put("rows.csv", "x,y,z,t\n.25,.25,.25,.25\n");
+    for (const Words& command : {Words{"check", mesh}, Words{"verify", mesh, "--results", scratch.path("rows.csv")}}) {
+        run(plus(command, {"--html", page, "--quiet"}));
+        const std::string text = read_file(page);
+        const std::size_t at = text.find("8 cells are curved");
+        ASSERT_NE(at, std::string::npos) << command[0];
+        EXPECT_LT(at, text.find("class=\"verdict good\"")) << command[0];
+    }
+    // Where no table says so, stderr does.
+    for (const std::string option : {"--html", "--json"})
+        EXPECT_TRUE(contains(run({"check", mesh, option, "-"}).err, "note: " + told));
+    EXPECT_EQ(run({"check", mesh, "--quiet"}).err, "");
+}
+
+// Two curved cells whose straight sides overlap: the corner of one stands in the other by less than their sides bulge.
+TEST(curved, a_defect_names_straightened_sides_as_its_cause) {
+    const Scratch scratch;
+    Mesh mesh = testing::curved_ball(3);
+    // A cell of its own, its vertex just within a face of the octahedron, under the bulge of other sides.
+    Mesh other;
+    other.points = {0.33, 0.33, 0.33, 2, 0.5, 0.5, 0.5, 2, 0.5, 0.5, 0.5, 2};
+    other.cells = {0, 1, 2, 3};
+    other = testing::second_order(std::move(other));
+    const auto first = static_cast<Mesh::Index>(mesh.point_count());
+    mesh.points.insert(mesh.points.end(), other.points.begin(), other.points.end());
+    for (const Mesh::Index node : other.cells) mesh.cells.push_back(first + node);
+    for (const Mesh::Index node : other.mid_nodes) mesh.mid_nodes.push_back(first + node);
+    const std::string path = put_ball(scratch, "two.vtu", std::move(mesh)), json = scratch.path("two.json");
+    const Ended check = run({"check", path, "--json", json, "--html", scratch.path("two.html")});
+    EXPECT_EQ(check.code, 1);
+    const std::string cause = "1 cell of these is curved: sides of curved cells were taken as straight";
+    EXPECT_TRUE(contains(check.out, cause)) << check.out;
+    EXPECT_TRUE(contains(read_file(scratch.path("two.html")), cause));
+    bool found = false;
+    const auto report = parse(read_file(json));
+    for (const auto& finding : report["findings"]) {
+        if (!finding["breaks"]) {
+            EXPECT_EQ(finding["curved_cells"], 0);
+        }
+        if (finding["name"] != "overlapping_cells") continue;
+        found = true;
+        EXPECT_EQ(finding["curved_cells"], 1);
+    }
+    EXPECT_TRUE(found) << check.out;
+}
+
+// What Gmsh writes: its curved cells are found, its straight ones are not taken for curved.
+TEST(curved, meshes_of_gmsh) {
+    const Scratch scratch;
+    if (run_shell("command -v gmsh", {.folder = scratch.folder()}).code != 0) GTEST_SKIP() << "no gmsh here";
+    scratch.put("sphere.geo", "SetFactory(\"OpenCASCADE\");\nSphere(1) = {0, 0, 0, 1};\nMesh.MeshSizeMax = 0.5;\n");
+    const auto made = [&](const std::string& name, const std::string& options) {
+        const Ended ended =
+            run_shell("gmsh -3 sphere.geo " + options + " -v 1 -o " + name, {.folder = scratch.folder()});
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        return scratch.path(name);
+    };
+    const auto curved = [&](const std::string& mesh) {
+        return parse(run({"check", mesh, "--json", "-", "--quiet"}).out)["curved"];
+    };
+    for (const std::string format : {"msh22", "msh41"}) {
+        for (const std::string binary : {"0", "1"}) {
+            const std::string options = "-order 2 -format " + format + " -setnumber Mesh.Binary " + binary;
+            const auto sphere = curved(made("sphere-" + format + binary + ".msh", options));
+            EXPECT_GT(sphere["cells"], 100);
+            EXPECT_NEAR(sphere["max_deviation"].get<double>(), 0.06, 0.02);
+            const auto straight =
+                curved(made("straight-" + format + binary + ".msh", options + " -setnumber Mesh.SecondOrderLinear 1"));
+            EXPECT_EQ(straight["cells"], 0);
+            EXPECT_EQ(straight["rounded_cells"], 0);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace barycert::cli_test

@@ -1,0 +1,129 @@
+// Each command that an error prints does what it says: it is run on a file of that kind, and what it makes is read.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "process.hpp"
+
+namespace barycert::cli_test {
+namespace {
+
+struct Remedy {
+    const char* name;
+    const char* needs;    ///< programs, and modules of Python as "python:NAME"
+    const char* make;     ///< shell that makes the file
+    const char* command;  ///< what refuses it
+    const char* then;     ///< what works once the commands of the remedy were run; empty: there are none
+};
+
+constexpr const char* cube_geo = R"(printf 'SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 1, 1, 1};' > cube.geo; )";
+constexpr const char* pyramid_off =
+    "printf 'OFF\n5 5 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n.5 .5 1\n4 3 2 1 0\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n' > "
+    "s.off; ";
+/// Points of a cube, then cells: of VTK's legacy format.
+constexpr const char* cube_vtk =
+    "printf '# vtk DataFile Version 3.0\nm\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n0 0 0 1 0 0 1 1 0 0 1 0 "
+    "0 0 1 1 0 1 1 1 1 0 1 1\n' > c.vtk; ";
+
+const Remedy remedies[] = {
+    {"msh_of_version_1", "gmsh", "gmsh -3 cube.geo -format msh1 -o a.msh", "check a.msh", "check a-new.msh"},
+    {"msh_of_another_2", "gmsh", "gmsh -3 cube.geo -format msh2 -o b.msh; sed 's/^2.2 0 8/2.5 0 8/' b.msh > a.msh",
+     "check a.msh", "check a-new.msh"},
+    {"msh_of_version_3", "gmsh", "gmsh -3 cube.geo -format msh3 -o a.msh", "check a.msh", "check a-new.msh"},
+    {"msh_of_order_3", "gmsh", "gmsh -3 -order 3 cube.geo -format msh41 -o a.msh", "check a.msh", "check a-new.msh"},
+    {"msh_with_groups", "gmsh",
+     "printf 'Physical Volume(7) = {1};' >> cube.geo; gmsh -3 -order 3 cube.geo -format msh41 -o a.msh", "check a.msh",
+     "check a-new.msh"},
+    {"unv", "gmsh", "gmsh -3 cube.geo -format unv -o a.unv", "check a.unv", "check a-new.msh"},
+    {"geo", "gmsh", "", "check cube.geo", "check cube.msh"},
+    {"msh_of_a_closed_surface", "gmsh meshio", "gmsh -2 cube.geo -format msh41 -o a.msh", "check a.msh", "check a.1"},
+    {"msh_of_a_closed_surface_of_order_2", "gmsh", "gmsh -2 -order 2 cube.geo -format msh41 -o a.msh", "check a.msh",
+     ""},
+    {"vtk_of_a_closed_surface", "meshio",
+     "printf 'CELLS 4 16\n3 0 2 1\n3 0 1 5\n3 1 2 5\n3 2 0 5\nCELL_TYPES 4\n5 5 5 5\n' >> c.vtk", "check c.vtk",
+     "check c.1"},
+    {"vtk_of_quads_in_space", "", "printf 'CELLS 2 10\n4 0 1 2 3\n4 0 1 5 4\nCELL_TYPES 2\n9 9\n' >> c.vtk",
+     "check c.vtk", ""},
+    {"vtk_of_a_plane_at_z_1", "",
+     "printf 'CELLS 1 4\n3 4 5 6\nCELL_TYPES 1\n5\n' >> c.vtk; sed -i 's/0 0 0 1 0 0 1 1 0 "
+     "0 1 0 /0 0 1 1 0 1 1 1 1 0 1 1 /' c.vtk",
+     "check c.vtk", ""},
+    {"vtk_of_quads_in_the_plane", "python:pyvista",
+     "printf 'CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\n' >> c.vtk; sed -i 's/0 0 1 1 0 1 1 1 1 0 1 1/0 0 0 1 0 0 1 1 0 0 "
+     "1 "
+     "0/' c.vtk",
+     "check c.vtk", "check c-simplices.vtu"},
+    {"vtk_of_hexahedra", "python:pyvista", "printf 'CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n12\n' >> c.vtk",
+     "check c.vtk", "check c-simplices.vtu"},
+    {"off", "", "", "check s.off", "check s.1"},
+    {"binary_ply", "meshio",
+     "printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' > t.off; meshio convert "
+     "t.off s.ply",
+     "mesh s.ply", "mesh s-text.ply"},
+    {"obj", "", "printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' > a.obj", "check a.obj", ""},
+    {"poly_in_the_plane", "", "printf '# square\n4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n' > a.poly", "check a.poly", ""},
+    {"poly_in_the_plane_meshed", "", "printf '4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n' > a.poly", "mesh a.poly", ""},
+    {"structured_points_as_points", "",
+     "printf '# vtk DataFile Version 3.0\nm\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\nORIGIN 0 0 0\nSPACING "
+     "1 "
+     "1 1\n' > p.vtk; barycert mesh s.off",
+     "sample s.1 --points p.vtk --output -", ""},
+    {"packed_by_bzip2", "bzip2", "printf 'CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n' >> c.vtk; bzip2 c.vtk",
+     "check c.vtk.bz2", "check c.vtk"},
+    {"packed_by_xz", "xz", "printf 'CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n' >> c.vtk; xz -c c.vtk > a.vtk",
+     "check a.vtk", "check plain-a.vtk"},
+    {"unknown", "", "echo words > a.tsh", "check a.tsh", ""},
+    {"matlab", "", "echo words > a.mat", "check a.mat", ""},
+};
+
+bool is_there(const std::string& needs) {
+    std::string line;
+    for (const std::string& word : lines_of(run_shell("printf '%s\\n' " + needs).out)) {
+        const std::string python = "python:";
+        line += word.starts_with(python) ? "python3 -c 'import " + word.substr(python.size()) + "' && "
+                                         : "command -v " + word + " && ";
+    }
+    return needs.empty() || run_shell(line + "true").code == 0;
+}
+
+Words commands_in(const std::string& message) {
+    Words commands;
+    for (std::size_t at = message.find('`'); at != std::string::npos; at = message.find('`', at + 1)) {
+        const std::size_t end = message.find('`', at + 1);
+        if (end == std::string::npos) break;
+        commands.push_back(message.substr(at + 1, end - at - 1));
+        at = end;
+    }
+    return commands;
+}
+
+class Remedies : public ::testing::TestWithParam<Remedy> {};
+
+TEST_P(Remedies, does_what_it_says) {
+    const Remedy& remedy = GetParam();
+    if (!is_there(remedy.needs)) GTEST_SKIP() << "not installed: " << remedy.needs;
+    const Scratch scratch;
+    const How here{.folder = scratch.folder()};
+    run_shell(std::string(cube_geo) + pyramid_off + cube_vtk, here);
+    const Ended made = run_shell(remedy.make, here);
+    const Ended refused = run_shell(std::string("barycert ") + remedy.command, here);
+    ASSERT_EQ(refused.code, 2) << made.err << refused.err;
+    ASSERT_TRUE(contains(refused.err, "; ")) << "no remedy: " << refused.err;
+    const Words commands = commands_in(refused.err);
+    EXPECT_EQ(commands.empty(), std::string(remedy.then).empty()) << refused.err;
+    EXPECT_FALSE(contains(refused.err, "IN.") || contains(refused.err, "OUT.")) << refused.err;
+    for (const std::string& command : commands) {
+        const Ended done = run_shell(command, here);
+        EXPECT_EQ(done.code, 0) << command << '\n' << done.err;
+    }
+    if (commands.empty()) return;
+    const Ended works = run_shell(std::string("barycert ") + remedy.then, here);
+    EXPECT_EQ(works.code, 0) << refused.err << works.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(errors, Remedies, ::testing::ValuesIn(remedies),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+}  // namespace
+}  // namespace barycert::cli_test

@@ -1,0 +1,32 @@
+// Files from real programs, in a folder beside the checkout that may be absent.
+#include <filesystem>
+
+#include "barycert/check.hpp"
+#include "io/medit/medit_files.hpp"
+
+namespace barycert::testing {
+namespace {
+
+const std::string shared = BARYCERT_SHARED_DATA_DIR "/medit/";
+
+TEST(MeditRealFiles, text_of_sfepy) {
+    if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no " << shared;
+    const Result<Mesh> mesh = read_mesh(shared + "sfepy_cubecyl.mesh");
+    ASSERT_TRUE(mesh) << mesh.error().message();
+    EXPECT_EQ(mesh->point_count(), 10490U);
+    EXPECT_EQ(mesh->points[0], 1);
+    EXPECT_TRUE(check_mesh(*mesh).certified());
+}
+
+TEST(MeditRealFiles, binary_of_refine) {
+    if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no " << shared;
+    const Result<Mesh> mesh = read_mesh(shared + "refine_cubesphere.meshb");
+    ASSERT_TRUE(mesh) << mesh.error().message();
+    EXPECT_EQ(mesh->point_count(), 5062U);
+    EXPECT_FALSE(mesh->faces.empty());
+    EXPECT_EQ(mesh->faces.size(), 3 * mesh->face_markers.size());
+    EXPECT_TRUE(check_mesh(*mesh).certified());
+}
+
+}  // namespace
+}  // namespace barycert::testing

@@ -1,0 +1,193 @@
+// Which cells are curved, and what is rounding.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "barycert/certificate.hpp"
+#include "curved_mesh.hpp"
+
+namespace barycert::testing {
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+void expect_curved(const CurvedCells& found, std::uint64_t cells, double deviation) {
+    EXPECT_EQ(found.cells, cells);
+    EXPECT_NEAR(found.max_deviation, deviation, 1e-12 * deviation);
+}
+
+void expect_straight(const CurvedCells& found) {
+    EXPECT_EQ(found.cells, 0U);
+    EXPECT_EQ(found.max_deviation, 0);
+    EXPECT_EQ(found.rounded_cells, 0U);
+    EXPECT_EQ(found.max_rounded, 0);
+    EXPECT_EQ(message(found), "");
+}
+
+/// Each coordinate as a file has it that was written in that format of printf.
+Mesh printed(Mesh mesh, const char* format) {
+    for (double& x : mesh.points) {
+        char text[64];
+        std::snprintf(text, sizeof text, format, x);
+        x = std::strtod(text, nullptr);
+    }
+    return mesh;
+}
+
+/// A ball that is moved, turned and scaled: no coordinate is a round number, and each is rounded a few times.
+Mesh turned(Mesh mesh, double unit = 1) {
+    const double scale = unit * std::sqrt(0.1);
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    for (std::size_t i = 0; i < mesh.points.size(); i += d) {
+        double& x = mesh.points[i];
+        double& y = mesh.points[i + 1];
+        const double old = x;
+        x = scale * (0.8 * old - 0.6 * y + 0.3);
+        y = scale * (0.6 * old + 0.8 * y + 0.7);
+        if (d == 3) mesh.points[i + 2] *= 1.1 * scale;
+    }
+    return mesh;
+}
+
+TEST(Curved, ball_whose_outer_nodes_lie_on_the_sphere) {
+    for (const int d : {2, 3}) {
+        std::vector<std::uint8_t> each{7};
+        expect_straight(curved_cells(straight_ball(d), &each));
+        EXPECT_TRUE(each.empty());
+        Mesh mesh = curved_ball(d);
+        expect_curved(curved_cells(mesh, &each), 1U << d, deviation_of_ball);
+        EXPECT_EQ(each, std::vector<std::uint8_t>(1U << d, 1));
+        // One node alone: of the cells around its edge.
+        mesh = straight_ball(d);
+        mesh.points.back() += 0.25;
+        const CurvedCells one = curved_cells(mesh, &each);
+        EXPECT_EQ(one.cells, d == 2 ? 1U : 2U);
+        EXPECT_NEAR(one.max_deviation, 0.25 / std::sqrt(2.0), 1e-15);
+        EXPECT_EQ(std::count(each.begin(), each.end(), 1), d == 2 ? 1 : 2);
+        EXPECT_EQ(each.back(), 1);
+    }
+}
+
+TEST(Curved, linear_meshes_have_none) {
+    Mesh mesh = curved_ball(3);
+    mesh.mid_nodes.clear();
+    expect_straight(curved_cells(mesh));
+    expect_straight(curved_cells(Mesh()));
+}
+
+TEST(Curved, middles_that_were_computed_or_written_with_16_digits_are_middles) {
+    for (const int d : {2, 3}) {
+        for (const double unit : {1.0, 1e-3, 1e6, 1e300, 1e-300}) {
+            const Mesh mesh = turned(straight_ball(d), unit);
+            expect_straight(curved_cells(mesh));
+            expect_straight(curved_cells(printed(mesh, "%.16g")));
+        }
+    }
+}
+
+TEST(Curved, what_the_digits_of_coordinates_explain_is_rounding) {
+    for (const int d : {2, 3}) {
+        const Mesh mesh = turned(straight_ball(d));
+        for (const char* const format : {"%.6g", "%.6f", "%.9g", "%.12e"}) {
+            const CurvedCells found = curved_cells(printed(mesh, format));
+            EXPECT_EQ(found.cells, 0U) << format;
+            EXPECT_GT(found.rounded_cells, 0U) << format;
+            EXPECT_GT(found.max_rounded, 0) << format;
+            EXPECT_LT(found.max_rounded, 1e-5) << format;
+        }
+        Mesh single = mesh;
+        for (double& x : single.points) x = static_cast<float>(x);
+        const CurvedCells found = curved_cells(single);
+        EXPECT_EQ(found.cells, 0U);
+        EXPECT_GT(found.rounded_cells, 0U);
+        EXPECT_LT(found.max_rounded, 1e-6);
+        EXPECT_NE(message(found).find("by rounding"), std::string::npos);
+        // Curves stay curves with few digits, and a small one with all digits is one.
+        const CurvedCells curved = curved_cells(printed(turned(curved_ball(d)), "%.6g"));
+        EXPECT_EQ(curved.cells, 1U << d);
+        EXPECT_NEAR(curved.max_deviation, deviation_of_ball, 1e-5);
+        const CurvedCells slight = curved_cells(turned(curved_ball(d, 1e-9)));
+        EXPECT_EQ(slight.cells, 1U << d);
+        EXPECT_NEAR(slight.max_deviation, 1e-9 * deviation_of_ball, 1e-15);
+        EXPECT_EQ(slight.rounded_cells, 0U);
+    }
+}
+
+// Coordinates of one digit, whose unit is a tenth: no deviation of that size is put down to rounding.
+TEST(Curved, few_digits_hide_no_curve) {
+    Mesh mesh = straight_ball(2);
+    mesh.points[mesh.points.size() - 2] += 0.1;
+    expect_curved(curved_cells(mesh), 1, 0.1 / std::sqrt(2.0));
+    expect_curved(curved_cells(printed(curved_ball(3, 0.05), "%.2f")), 8, 0.01);
+}
+
+// A node far away makes the rest no straighter.
+TEST(Curved, measured_where_it_is) {
+    for (const double far : {1e6, 1e15, 1e300}) {
+        Mesh mesh = curved_ball(3, 1e-6);
+        mesh.points.insert(mesh.points.end(), {far, far, far});
+        EXPECT_EQ(curved_cells(mesh).cells, 8U) << far;
+    }
+}
+
+TEST(Curved, scaling_by_powers_of_two_changes_nothing) {
+    for (const double scale : {0x1p-1000, 0x1p-30, 0x1p+700, 0x1p+1023}) {
+        for (const Mesh& unscaled : {turned(curved_ball(3)), turned(straight_ball(3))}) {
+            Mesh mesh = unscaled;
+            for (double& x : mesh.points) x *= scale / 2;
+            EXPECT_EQ(curved_cells(mesh).cells, curved_cells(unscaled).cells) << scale;
+            EXPECT_EQ(curved_cells(mesh).max_deviation, curved_cells(unscaled).max_deviation) << scale;
+        }
+    }
+}
+
+TEST(Curved, subnormal_numbers) {
+    const double unit = std::numeric_limits<double>::denorm_min();
+    Mesh mesh = straight_ball(2);
+    for (double& x : mesh.points) x *= 3 * unit;  // a middle of 1.5 units is one or two
+    expect_straight(curved_cells(mesh));
+    mesh = straight_ball(2);
+    for (double& x : mesh.points) x *= 8 * unit;
+    expect_straight(curved_cells(mesh));
+    mesh.points.back() += unit;
+    EXPECT_EQ(curved_cells(mesh).cells, 1U);
+}
+
+TEST(Curved, broken_meshes_are_measured_as_far_as_they_can_be) {
+    Mesh mesh = curved_ball(3);
+    mesh.cells[1] = 1000;
+    mesh.mid_nodes[9] = -1;
+    EXPECT_EQ(curved_cells(mesh).cells, 8U);
+    mesh = straight_ball(3);
+    for (const double x : {inf, -inf, std::numeric_limits<double>::quiet_NaN()}) {
+        mesh.points[0] = mesh.points.back() = x;
+        expect_straight(curved_cells(mesh));
+    }
+    mesh = curved_ball(3);
+    mesh.mid_nodes.pop_back();
+    expect_straight(curved_cells(mesh));
+    // An edge without length has no middle but its ends.
+    mesh = straight_ball(3);
+    for (std::size_t k = 0; k < 3; ++k) mesh.points[3 + k] = mesh.points[k];
+    EXPECT_EQ(curved_cells(mesh).max_deviation, inf);
+}
+
+TEST(Curved, words) {
+    const CurvedCells found = curved_cells(curved_ball(3));
+    EXPECT_EQ(message(found),
+              "8 cells are curved: mid-edge nodes lie up to 0.21 of the edge off its middle; sides were taken "
+              "as straight");
+    EXPECT_TRUE(take_as_straight(curved_ball(3), "ball.vtu", Curved::straight));
+    EXPECT_TRUE(take_as_straight(straight_ball(3), "ball.vtu", Curved::refuse));
+    const auto refused = take_as_straight(curved_ball(3), "ball.vtu", Curved::refuse);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().file, "ball.vtu");
+    EXPECT_NE(refused.error().found.find("8 cells are curved"), std::string::npos);
+    EXPECT_NE(refused.error().remedy.find("straight"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace barycert::testing
