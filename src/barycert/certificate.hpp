@@ -49,10 +49,10 @@ private:
 /// The deviation of a mid-edge node is its distance from the middle of the two ends, in parts of their distance. It is
 ///   nothing   up to 2^-49 of the largest coordinate of the ends, on each axis: a middle computed in double, or written
 ///             with 16 digits (derived in check/curved.cpp);
-///   rounding  up to one unit of the last place of the mesh's coordinates, and 1/1000 of the edge, if all coordinates
-///   are
-///             single precision, or have at most 15 decimal digits: the unit is that of the largest coordinate of the
-///             ends, or that of the last decimal place in the mesh;
+///   rounding  up to 1e-10 of the edge: what meshers and motions compute. Or up to one unit of the last place of the
+///             mesh's coordinates, and 1/1000 of the edge, if all coordinates are single precision, or have at most 15
+///             decimal digits: the unit is that of the last decimal place in the mesh or, in single precision and with
+///             at least 5 digits, that of the largest coordinate of the ends;
 ///   a curve   else.
 struct CurvedCells {
     std::uint64_t cells = 0;          ///< with a node off the middle by a curve

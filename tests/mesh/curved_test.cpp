@@ -122,6 +122,29 @@ TEST(Curved, few_digits_hide_no_curve) {
     mesh.points[mesh.points.size() - 2] += 0.1;
     expect_curved(curved_cells(mesh), 1, 0.1 / std::sqrt(2.0));
     expect_curved(curved_cells(printed(curved_ball(3, 0.05), "%.2f")), 8, 0.01);
+    // One digit a coordinate is no digit of 1000.
+    Mesh big;
+    big.dimension = 2;
+    big.points = {0, 0, 1000, 0, 0, 1000, 500, -0.9, 500, 500, 0, 500};
+    big.cells = {0, 1, 2};
+    big.mid_nodes = {3, 4, 5};
+    expect_curved(curved_cells(big), 1, 0.0009);
+}
+
+// What a mesher computes on a straight line, and a motion there and back.
+TEST(Curved, errors_of_arithmetic_are_rounding) {
+    for (const int d : {2, 3}) {
+        Mesh moved = turned(straight_ball(d));
+        for (double& x : moved.points) x = (x + 1000) - 1000;
+        const CurvedCells found = curved_cells(moved);
+        EXPECT_EQ(found.cells, 0U);
+        EXPECT_GT(found.rounded_cells, 0U);
+        EXPECT_LT(found.max_rounded, 1e-12);
+        for (const double part : {2e-12, 1e-11}) {
+            EXPECT_EQ(curved_cells(turned(curved_ball(d, part))).cells, 0U);
+            EXPECT_EQ(curved_cells(turned(curved_ball(d, part))).rounded_cells, 1U << d);
+        }
+    }
 }
 
 // A node far away makes the rest no straighter.
@@ -173,6 +196,7 @@ TEST(Curved, broken_meshes_are_measured_as_far_as_they_can_be) {
     mesh = straight_ball(3);
     for (std::size_t k = 0; k < 3; ++k) mesh.points[3 + k] = mesh.points[k];
     EXPECT_EQ(curved_cells(mesh).max_deviation, inf);
+    EXPECT_NE(message(curved_cells(mesh)).find("off edges of length 0"), std::string::npos);
 }
 
 TEST(Curved, words) {

@@ -22,7 +22,7 @@ namespace {
 /// that were each rounded by half of it are off the middle by (1/2 + 1/2 + 1) / 2 = 1 unit at most.
 struct LastPlace {
     double relative = 0, absolute = 0;
-    bool known() const { return relative > 0; }
+    bool known() const { return relative > 0 || absolute > 0; }
 };
 
 LastPlace last_place(const std::vector<double>& coordinates) {
@@ -48,11 +48,16 @@ LastPlace last_place(const std::vector<double>& coordinates) {
     }
     LastPlace last;
     if (single) last.relative = 0x1p-23;
-    if (decimal) last = {std::max(last.relative, std::pow(10, 1 - digits)), std::pow(10, lowest)};
+    // Programs write at least 5 digits: fewer come from round numbers, and say nothing about the others.
+    if (decimal) last.absolute = std::pow(10, lowest);
+    if (decimal && digits >= 5) last.relative = std::max(last.relative, std::pow(10, 1 - digits));
     return last;
 }
 
 constexpr double max_rounded_part = 1e-3;  ///< of an edge: units beyond it would not resolve the edge
+/// Of an edge: what a mesher's own arithmetic leaves where it puts nodes on straight lines (Gmsh: up to 2e-12), and a
+/// motion there and back (4e-13).
+constexpr double computed_part = 1e-10;
 
 /// Deviations of the nodes of one cell, 0 where there is none.
 struct Bend {
@@ -77,8 +82,9 @@ void look_at_edge(const double* a, const double* b, const double* m, std::size_t
     const double nothing = std::max(0x1p-48 * largest, std::numeric_limits<double>::denorm_min());
     if (!(most > nothing) || !std::isfinite(most)) return;
     const double deviation = std::hypot(off[0], off[1], off[2]) / (2 * std::hypot(edge[0], edge[1], edge[2]));
-    const bool rounded =
+    const bool written =
         most <= 2 * std::max(last.relative * largest, last.absolute * scale) && deviation <= max_rounded_part;
+    const bool rounded = written || deviation <= computed_part;
     double& most_so_far = rounded ? bend.rounded : bend.curved;
     most_so_far = std::max(most_so_far, deviation);
 }
@@ -120,10 +126,12 @@ CurvedCells measure(const Mesh& mesh, const LastPlace& last, std::vector<std::ui
 std::string deviations(const CurvedCells& c) {
     const bool curved = c.cells != 0;
     const std::uint64_t cells = curved ? c.cells : c.rounded_cells;
-    return fmt::format("{} cell{}: mid-edge nodes lie up to {:.2g} of the edge off its middle{}", cells,
-                       !curved      ? cells == 1 ? "" : "s"
-                       : cells == 1 ? " is curved"
-                                    : "s are curved",
+    const std::string which = fmt::format("{} cell{}", cells,
+                                          !curved      ? cells == 1 ? "" : "s"
+                                          : cells == 1 ? " is curved"
+                                                       : "s are curved");
+    if (curved && std::isinf(c.max_deviation)) return which + ": mid-edge nodes lie off edges of length 0";
+    return fmt::format("{}: mid-edge nodes lie up to {:.2g} of the edge off its middle{}", which,
                        curved ? c.max_deviation : c.max_rounded, curved ? "" : ", by rounding");
 }
 

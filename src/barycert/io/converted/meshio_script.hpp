@@ -42,7 +42,24 @@ except ImportError as error:
 TYPES = dict(vertex=1, line=3, triangle=5, polygon=7, quad=9, tetra=10, hexahedron=12, wedge=13, pyramid=14, line3=21,
              triangle6=22, quad8=23, tetra10=24, hexahedron20=25, wedge15=26, pyramid13=27, quad9=28, hexahedron27=29,
              triangle7=34, line4=35, polyhedron=42)
-lost = []
+lost, files = [], []
+
+def opened(event, arguments):
+    "Files that are read beside the one that was named, XDMF's numbers for one: nothing may replace them."
+    if event == "open" and isinstance(arguments[0], (str, bytes)) and arguments[1] in (None, "r", "rb"):
+        files.append(os.path.abspath(os.fsdecode(arguments[0])))
+
+def watch_hdf5():
+    "HDF5 opens files by itself."
+    try:
+        import h5py
+    except ImportError:
+        return
+    class File(h5py.File):
+        def __init__(self, name, *others, **named):
+            files.append(os.path.abspath(os.fsdecode(name)))
+            super().__init__(name, *others, **named)
+    h5py.File = File
 
 def plain(name, parts, rows):
     "One array of bytes, integers or floats, a row a node or cell; None if that would lose anything."
@@ -108,12 +125,15 @@ def write(file, mesh):
     return dict(nodes=nodes, types=types, rows=rows)
 
 try:
+    if kind in ("xdmf", "med", "h5m"):
+        watch_hdf5()
+    sys.addaudithook(opened)
     with os.fdopen(3, "wb") as file:
         read = write(file, meshio.read(path, file_format=kind))
 except BaseException as error:
     tell(meshio=meshio.__version__, module=getattr(error, "name", None) if isinstance(error, ImportError) else None,
          error="%s: %s" % (type(error).__name__, error))
-tell(meshio=meshio.__version__, lost=lost, **read)
+tell(meshio=meshio.__version__, lost=lost, files=files, **read)
 )python";
 
 }  // namespace barycert::io

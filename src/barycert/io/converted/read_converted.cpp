@@ -7,6 +7,8 @@
 #include <set>
 #include <system_error>
 
+#include "barycert/base/input_file.hpp"
+#include "barycert/base/run_files.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/converted/meshio_process.hpp"
 #include "barycert/vtk.hpp"
@@ -84,7 +86,17 @@ void tell_messages(const std::string& messages, const std::string& path, Notes& 
     }
 }
 
+/// What meshio has opened beside the file is read by this run, too.
+void record(const Json& files) {
+    for (const Json& file : files) {
+        const std::string path = file.get<std::string>();
+        if (const Result<base::InputFile> input = base::InputFile::open(path); input)
+            base::record_input(input->descriptor(), path);
+    }
+}
+
 Result<Mesh> checked(const Json& answer, const MeshioFile& file, const std::string& path, const std::string& format) {
+    record(answer.value("files", Json::array()));
     if (answer.contains("error")) return not_read(answer, file.messages, path, format);
     Result<Mesh> mesh = read_vtk(file.vtu);
     if (!mesh) {
