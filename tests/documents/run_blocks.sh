@@ -201,7 +201,7 @@ for block in "$folder"/blocks/*; do
     esac
 done
 for link in $(awk '/^```/ { code = !code } !code' "$sources/$document" | grep -oE '(\]\(|src=")[^)"#: ]+' | sed -E 's/^(\]\(|src=")//'); do
-    [ -e "$(dirname "$sources/$document")/$link" ] || fails "no such file: $link"
+    [ "$link" = https ] || [ -e "$(dirname "$sources/$document")/$link" ] || fails "no such file: $link"
 done
 if [ "${UPDATE:-0}" = 1 ]; then
     awk -v folder="$folder/blocks" '

@@ -1,5 +1,6 @@
 // The JSON that is written and SCHEMA.md say the same, member by member, both ways.
 
+#include <algorithm>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -89,7 +90,8 @@ void verify_reports(Schema& schema) {
         row.claimed_cell = 1;
         row.claimed = row.value = std::numeric_limits<double>::quiet_NaN();
         row.ulps = HUGE_VAL;
-        run.verdicts.examples = {row};
+        run.verdicts.examples = {row, row};
+        run.verdicts.examples.back().distance = std::numeric_limits<double>::quiet_NaN();
         schema.check("Verify", Json::parse(verify_json(run, measure_environment())), "verify");
     }
 }
@@ -195,7 +197,10 @@ TEST(schema, every_member_documented_is_written) {
 
 TEST(schema, null_is_met_where_it_is_documented_and_so_is_a_figure) {
     const Schema schema = schema_with_all_reports();
-    EXPECT_EQ(schema.seen_null, without_templates(schema.nullable()));
+    std::vector<std::string> differ;  // gtest cuts long sets off
+    const std::set<std::string> nullable = without_templates(schema.nullable());
+    std::ranges::set_symmetric_difference(schema.seen_null, nullable, std::back_inserter(differ));
+    EXPECT_EQ(differ, std::vector<std::string>{});
     EXPECT_EQ(schema.seen_value, schema.seen);
 }
 
