@@ -28,6 +28,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds most_time{600};
+constexpr std::int64_t tick = 50;  // milliseconds after which it is looked at
 constexpr std::size_t most_text = std::size_t{1} << 18;  // of each stream
 
 /// Both ends, closed when it goes.
@@ -103,14 +104,22 @@ struct Process {
         return status;
     }
 
-    /// All that it prints, up to its end. False: it takes too long.
+    bool has_ended() const {
+        siginfo_t found{};
+        return ::waitid(P_PID, static_cast<id_t>(id), &found, WEXITED | WNOHANG | WNOWAIT) == 0 && found.si_pid == id;
+    }
+
+    /// All that it prints, up to its end, whoever else holds the other ends. False: it takes too long.
     bool listen(std::string& text, std::string& errors) {
         std::array<pollfd, 2> open{{{answer.ends[0], POLLIN, 0}, {messages.ends[0], POLLIN, 0}}};
         const auto until = Clock::now() + most_time;
         while (open[0].fd >= 0 || open[1].fd >= 0) {
             const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
             if (left <= 0) return false;
-            if (::poll(open.data(), open.size(), static_cast<int>(left)) <= 0) continue;
+            const bool ended = has_ended();  // what it wrote before can be read now
+            const int ready = ::poll(open.data(), open.size(), ended ? 0 : static_cast<int>(std::min(left, tick)));
+            if (ready <= 0 && ended) break;
+            if (ready <= 0) continue;
             for (pollfd& one : open) {
                 if (one.fd < 0 || one.revents == 0) continue;
                 std::array<char, 4096> bytes{};
