@@ -447,5 +447,48 @@ TEST_F(Series, integrals_of_cell_fields_at_nodes) {
     EXPECT_TRUE(contains(far.out, "1.1666666666666667 over MESH2 (1 cell without a finite value left out)")) << far.out;
 }
 
+TEST_F(SeriesOfMeshes, beside_a_series_of_fields_one_step_is_chosen) {
+    const Words both = plus(sample, {"--field", "U@run.pvd:T", "--output", "b_{time}.csv", "--quiet"});
+    const Ended r = there(both);
+    EXPECT_EQ(r.code, 2) << r.out;
+    EXPECT_TRUE(contains(r.err, "choose one step of the mesh: --step N")) << r.err;
+    EXPECT_EQ(there(plus(both, {"--step", "0"})).code, 0);
+}
+
+TEST_F(SeriesOfMeshes, what_is_wrong_with_a_step_is_said_of_that_step) {
+    std::string other = of("s2.vtu");
+    other.replace(other.find("Name='T'"), 8, "Name='W'");
+    scratch.put("s2.vtu", other);
+    const Ended all = there(plus(sample, {"--output", "a_{step}.csv"}));
+    EXPECT_EQ(all.code, 0) << all.err;
+    EXPECT_TRUE(contains(all.err, "in step 2 the fields of the first step: there they are \"T\", here \"W\""))
+        << all.err;
+    const Ended named = there(plus(sample, {"--fields", "T", "--output", "n_{step}.csv"}));
+    EXPECT_EQ(named.code, 2);
+    EXPECT_TRUE(contains(named.err, "step 2: no field of that name")) << named.err;
+    // A piece that is not there is known before anything is written.
+    std::filesystem::remove(scratch.path("s2.vtu"));
+    const Ended missing = there(plus(sample, {"--output", "m_{step}.csv"}));
+    EXPECT_EQ(missing.code, 2);
+    EXPECT_TRUE(contains(missing.err, "s2.vtu: no such file, which step 2 of the series names")) << missing.err;
+    EXPECT_FALSE(std::filesystem::exists(scratch.path("m_0.csv")));
+}
+
+TEST_F(SeriesOfMeshes, integrals_of_cell_fields_that_are_not_printed_are_told) {
+    for (const std::string step : {"0", "1", "2"}) {
+        std::string text = of("s" + step + ".vtu");
+        const std::string empty = "<CellData/>";
+        text.replace(text.find(empty), empty.size(),
+                     "<CellData><DataArray type='Float64' Name='k' NumberOfComponents='2'>1 2</DataArray></CellData>");
+        scratch.put("s" + step + ".vtu", text);
+    }
+    const Ended all = there({"resample", "run.pvd", "--onto", "s0.vtu", "--output", "r_{step}.vtu"});
+    EXPECT_EQ(all.code, 0) << all.err;
+    EXPECT_TRUE(contains(all.err, "their integrals are printed for one step alone: --step N")) << all.err;
+    const Ended part = there({"resample", "s0.vtu", "--onto", "s0.vtu", "--fields", "k.x", "--output", "c.vtu"});
+    EXPECT_EQ(part.code, 0) << part.err;
+    EXPECT_TRUE(contains(part.err, "integrals are printed of whole fields, not of \"k.x\"")) << part.err;
+}
+
 }  // namespace
 }  // namespace barycert::cli_test

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "barycert/base/finite.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "barycert/locate/batch.hpp"
@@ -81,6 +82,7 @@ Result<std::unique_ptr<Engine>> Engine::open(Run& run) {
     engine->mesh_ = std::move(*mesh);
     if (Status added = engine->add_fields_of_job(); !added) return added.error();
     if (Status chosen = engine->choose_fields(); !chosen) return chosen.error();
+    engine->names_of_first_ = engine->names_of_chosen();
     SampleSummary& summary = run.summary;
     summary.notes = engine->mesh_.notes;
     note_labels(engine->mesh_, run.job.fields, summary.notes);
@@ -123,6 +125,14 @@ Status Engine::add_fields_of_job() {
 }
 
 Status Engine::go_to(const Step& step) {
+    Status gone = go(step);
+    if (gone || !step.of_mesh) return gone;
+    Error error = gone.error();
+    error.what = "step " + step.label + ": " + error.what;
+    return error;
+}
+
+Status Engine::go(const Step& step) {
     Stopwatch watch;
     Status read = step.of_mesh ? go_to_mesh(step) : go_to_fields(step);
     run_.summary.seconds.mesh += watch.lap();
@@ -130,6 +140,12 @@ Status Engine::go_to(const Step& step) {
     sampler_.reset();
     made_.clear();
     if (Status chosen = choose_fields(); !chosen) return chosen;
+    if (const std::string names = names_of_chosen(); names != names_of_first_) {
+        tell_once({{Note::Kind::left_out,
+                    fmt::format("in step {} the fields of the first step: there they are {}, here {}", step.label,
+                                names_of_first_, names),
+                    run_.job.mesh, true}});
+    }
     Status built = another_mesh_ ? Status(Done{}) : build_sampler(part_ ? fields_of_part() : fields_);
     run_.summary.seconds.build += watch.lap();
     return built;
@@ -250,6 +266,13 @@ Status Engine::choose_fields() {
         if (Status done = sample::make_fields(mesh_, choice, steps, made_); !done) return done;
     }
     return Done{};
+}
+
+std::string Engine::names_of_chosen() const {
+    std::string names;
+    for (const FieldChoice& choice : fields_)
+        names += (names.empty() ? "" : ", ") + base::quoted(choice.name.empty() ? choice.field->name : choice.name);
+    return names.empty() ? "none" : names;
 }
 
 TableFormat Engine::format() const {

@@ -73,6 +73,8 @@ public:
 private:
     explicit Engine(Run& run) : run_(run) {}
     Result<Mesh> read(const Step* step);
+    Status go(const Step& step);
+    std::string names_of_chosen() const;
     Status add_fields_of_job();
     Status go_to_fields(const Step& step);
     Status go_to_mesh(const Step& step);
@@ -87,6 +89,7 @@ private:
     Run& run_;
     Mesh mesh_;
     bool another_mesh_ = false;
+    std::string names_of_first_;  ///< of the fields that are sampled in the first step
     std::vector<FieldPlace> places_of_series_;
     std::deque<Field> made_;  ///< of fields of the mesh
     std::vector<FieldChoice> fields_;

@@ -132,18 +132,22 @@ private:
 
 }  // namespace
 
-void note_cell_fields(Run& run, const Engine& engine) {
-    std::string names;
+void note_cell_fields(Run& run, const Engine& engine, bool of_series) {
+    std::string names, made;
     std::size_t count = 0;
     for (const FieldChoice& choice : engine.fields()) {
         if (!choice.of_cells) continue;
         names += (count++ == 0 ? "" : ", ") + base::quoted(name_of(choice));
+        if (!choice.steps.empty()) made += (made.empty() ? "" : ", ") + base::quoted(name_of(choice));
     }
     if (count == 0) return;
+    const std::string without = of_series      ? "; their integrals are printed for one step alone: --step N"
+                                : made.empty() ? ""
+                                               : "; integrals are printed of whole fields, not of " + made;
     run.summary.notes.push_back(
         {Note::Kind::converted,
          std::to_string(count) + (count == 1 ? " field" : " fields") +
-             " of cells into values at nodes, each that of the cell that owns the node: " + names,
+             " of cells into values at nodes, each that of the cell that owns the node: " + names + without,
          run.job.mesh, true});
 }
 

@@ -17,7 +17,7 @@ Result<std::unique_ptr<TableSink>> with_integrals(Run& run, const Engine& engine
                                                   const TableFormat& format,
                                                   const std::function<Result<std::unique_ptr<TableSink>>()>& open);
 
-/// That cell fields become values at nodes, if there are some: a note of the run.
-void note_cell_fields(Run& run, const Engine& engine);
+/// That cell fields become values at nodes, if there are some, and of which there are no integrals: a note of the run.
+void note_cell_fields(Run& run, const Engine& engine, bool of_series);
 
 }  // namespace barycert::pipeline

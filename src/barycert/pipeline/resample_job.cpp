@@ -208,7 +208,7 @@ Status onto_mesh(Run& run, const ResampleJob& job, Engine& engine) {
     auto source = memory_points(other->points, d);
     run.summary.seconds.read = watch.lap();
     note_the_other(run, job, *other);
-    pipeline::note_cell_fields(run, engine);
+    pipeline::note_cell_fields(run, engine, further);
     const auto sink_to = [&](const std::string& output) -> pipeline::SinkFactory {
         return [&, output](const TableFormat& of_rows) -> Result<std::unique_ptr<TableSink>> {
             const Result<TableFormat> format = user_format(run, engine, of_rows);

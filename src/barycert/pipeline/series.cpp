@@ -182,9 +182,11 @@ Result<std::vector<Step>> find_steps(const std::vector<FieldFile>& series) {
 }
 
 Result<std::vector<Step>> find_steps(const SamplingJob& job) {
-    if (!job.series.empty() && !job.all_steps) return find_steps(job.series);
     const bool place = has_step_place(job.output), series = names_steps(job.mesh);
-    if (job.all_steps && !job.series.empty())
+    // The steps of which of them? And which mesh would be that of a step of the fields?
+    const bool both = !job.series.empty() && (job.all_steps || (place && series && !job.step.made()));
+    if (!job.series.empty() && !both) return find_steps(job.series);
+    if (both)
         return Error{.what = "all steps of the mesh, and of series of fields",
                      .file = job.mesh,
                      .remedy = "choose one step of the mesh: --step N"};
@@ -201,8 +203,15 @@ Result<std::vector<Step>> find_steps(const SamplingJob& job) {
     if (!chosen) return chosen.error();
     std::vector<Step> steps;
     for (std::size_t i = 0; i < all->size(); ++i) {
-        if (!job.step.made() || i == *chosen)
-            steps.push_back({.label = std::to_string(i), .time = base::shortest((*all)[i].time), .of_mesh = i});
+        if (job.step.made() && i != *chosen) continue;
+        // Before there is an output of any step.
+        for (const std::string& file : (*all)[i].files) {
+            if (std::error_code failed; !fs::exists(file, failed))
+                return Error{.what = "no such file, which step " + std::to_string(i) + " of the series names",
+                             .file = file,
+                             .remedy = "restore it, or choose one step: --step N"};
+        }
+        steps.push_back({.label = std::to_string(i), .time = base::shortest((*all)[i].time), .of_mesh = i});
     }
     return steps;
 }
