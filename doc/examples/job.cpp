@@ -1,6 +1,6 @@
 // A whole job, files to files: what `barycert sample` does.
 
-#include <barycert/pipeline.hpp>
+#include <barycert/jobs.hpp>
 #include <barycert/report.hpp>
 
 #include <cstdio>
@@ -14,6 +14,6 @@ int main() {
     job.fields = {"attribute0"};
     job.output = "rows.csv";
     job.options.outside = {.kind = Outside::nearest};
-    const SampleSummary summary = sample_files(job).value();
+    const SampleReport summary = sample_files(job).value();
     std::printf("%s", sample_text(summary, false).c_str());
 }

@@ -1,21 +1,69 @@
 /// What an audit found, as text, JSON and pictures; the catalogue and the families likewise.
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "barycert/audit.hpp"
-#include "barycert/audit_drift.hpp"
-#include "barycert/audit_gaps.hpp"
-#include "barycert/audit_maps.hpp"
-#include "barycert/audit_others.hpp"
-#include "barycert/audit_signs.hpp"
-#include "barycert/audit_texels.hpp"
+#include "barycert/audit_pictures.hpp"
+#include "barycert/audit_search.hpp"
 #include "barycert/report.hpp"
-
-// Reports as text for a terminal or a log.
+#include "barycert/result.hpp"
 
 namespace barycert {
+
+// What `./run flags` and `./run systems` measured, for the page of an audit: formulas under compiler flags, and other
+// systems held against exact answers. Both write JSON, which is read here.
+
+/// Formulas in rows, sets of compiler flags in columns.
+struct FlagsMatrix {
+    struct Column {
+        std::string compiler, label, flags;
+    };
+    /// Answers of a formula under a set of flags; `cases` is 0 where it was not run. `changed`: other than the strict
+    /// build's by a bit or more; `newly_wrong` and `newly_right`: wrong here and not there, and the reverse.
+    struct Cell {
+        std::uint64_t cases = 0, changed = 0, wrong = 0, newly_wrong = 0, newly_right = 0;
+    };
+    struct Row {
+        std::string kernel;
+        std::vector<Cell> cells;  ///< one a column
+    };
+    std::uint64_t seed = 0, count = 0;  ///< cases of each family
+    std::size_t families = 0;
+    std::vector<std::string> compilers;  ///< by name and version
+    std::vector<Column> columns;
+    std::vector<Row> rows;
+};
+
+/// What systems answered to points, held against the exact owners and values.
+struct SystemsLeague {
+    struct Standing {
+        std::string name = {}, version = {};
+        int dimension = 3;
+        std::string not_run = {};  ///< why; then there are no counts
+        std::uint64_t points = 0, inside = 0, outside = 0;
+        std::uint64_t inside_called_outside = 0, outside_called_inside = 0;
+        std::optional<std::uint64_t> wrong_owner = {};  ///< not containing the point; nothing if it names none
+        std::optional<double> max_value_error = {};  ///< in parts of the field's range; nothing if it gives no values
+        std::optional<double> ns = {};               ///< a random point
+        std::vector<std::string> failures = {};      ///< meshes without answers or times, and why
+    };
+    std::uint64_t seed = 0, count = 0;  ///< points of each set on each mesh
+    std::vector<Standing> standings;
+};
+
+using OtherResults = std::variant<FlagsMatrix, SystemsLeague>;
+
+/// Reads a file of `./run flags --json` or `./run systems --json`. Errors: the file cannot be read, is no JSON, or
+/// is neither of the two; a member is missing, or does not fit the others.
+Result<OtherResults> read_other_results(const std::string& path);
+
+// Reports as text for a terminal or a log.
 
 /// At most 100 columns, names aside: who is wrong, how often and by how much, a line a kernel, worst first. Of one
 /// kernel: its families, its findings and the commands that replay them. With style.wide all counts, the families, each
@@ -72,7 +120,7 @@ std::string condition_plot(const AuditReport& report);
 // A worst-case search, and the mutation score of the families.
 
 struct SearchReport;  // audit_search.hpp
-struct MutantReport;  // audit_mutants.hpp
+struct MutantReport;  // audit_search.hpp
 
 /// The table of faults; below it the plainest case of each, with the command that replays it if a file of witnesses is
 /// named.
@@ -104,5 +152,17 @@ std::string texels_json(const std::vector<TexelResult>& results);
 /// A table: a row a kernel and rule; below it the first witnesses of the kernels.
 std::string gaps_text(const GapsReport& report, const TerminalStyle& style);
 std::string gaps_json(const GapsReport& report);
+
+// What an audit found, for the systems that run it (see report.hpp).
+//
+// An outcome fails where a rule of --fail-on is broken, or a figure is worse than the baseline's. Findings without a
+// rule against them are told and pass.
+
+/// The outcomes of an audit. `comparison` may be null. `artifacts`: kernel to file, of kernels from libraries.
+CiReport audit_outcomes(const AuditReport& report, const std::vector<Threshold>& rules,
+                        const BaselineComparison* comparison, const std::map<std::string, std::string>& artifacts);
+
+/// What got worse and better, some lines of each; what could not be compared.
+std::string baseline_text(const BaselineComparison& comparison, const std::string& path);
 
 }  // namespace barycert

@@ -14,16 +14,22 @@
 /// (load_contained_kernel) may crash or hang: that is a finding, too, whose plainest case is the plainest that was met.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
-#include "barycert/audit_families.hpp"
-#include "barycert/audit_witness.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/check.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/kernels.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert {
 
@@ -87,5 +93,151 @@ Witness plainest_witness(const Kernel& kernel, const Witness& witness, std::uint
 
 /// {"schema": 1, "witnesses": [...]} of the plain witnesses, for `barycert replay`.
 std::string witnesses_json(const SearchReport& report);
+
+// Gaps and overlaps: does a kernel give each point of a mesh to a cell that holds it, and to one only?
+//
+// Cells of a mesh are asked one by one, as a search does that tests cells until one says yes. At points on shared
+// faces, edges and vertices, and within a few ulps of them, a kernel that rounds may have no cell say yes (a gap: the
+// point is lost), several, or a cell that does not hold the point.
+
+/// When a cell claims a point.
+enum class ClaimRule : std::uint8_t {
+    strict,    ///< every weight > 0
+    exact,     ///< every weight >= 0: with exact weights, the closed cell
+    tolerant,  ///< every weight >= -tolerance
+    own,       ///< as the kernel says: of kernels that classify, or have a tolerance
+};
+
+inline constexpr std::array<ClaimRule, 4> all_claim_rules{ClaimRule::strict, ClaimRule::exact, ClaimRule::tolerant,
+                                                          ClaimRule::own};
+
+constexpr std::string_view name(ClaimRule r) {
+    constexpr std::array<std::string_view, 4> names{"strict", "exact", "tolerant", "own"};
+    return names[static_cast<std::size_t>(r)];
+}
+
+/// What can go wrong at a point. The first four where a cell holds the point, the last where none does.
+enum class ClaimFault : std::uint8_t {
+    gap,              ///< no cell claims it
+    several,          ///< more than one does; right where it lies on what they share
+    wrong,            ///< a cell claims it that does not hold it
+    wrong_first,      ///< the one of the lowest number among those that claim it does not hold it
+    outside_claimed,  ///< a cell claims it
+};
+
+inline constexpr std::size_t claim_fault_count = 5;
+
+constexpr std::string_view name(ClaimFault f) {
+    constexpr std::array<std::string_view, claim_fault_count> names{"gaps", "several", "wrong", "wrong_first",
+                                                                    "outside_claimed"};
+    return names[static_cast<std::size_t>(f)];
+}
+
+/// A point at which something went wrong. Cells by their numbers in the mesh's file, nodes by their numbers from 0.
+struct ClaimWitness {
+    Feature feature = Feature::vertex;  ///< what the point was made on: face, edge or vertex
+    std::uint64_t index = 0;            ///< number of the point among those of this feature
+    std::vector<Mesh::Index> nodes;     ///< of the feature
+    std::array<double, 3> point{};
+    std::vector<Mesh::Index> holders;    ///< cells that hold the point, exactly
+    std::vector<Mesh::Index> claimants;  ///< cells that claim it
+};
+
+struct ClaimCounts {
+    std::uint64_t inside = 0;   ///< points that a cell holds
+    std::uint64_t outside = 0;  ///< points that no cell around the feature holds
+    std::array<std::uint64_t, claim_fault_count> faults{};
+
+    std::uint64_t of(ClaimFault f) const { return faults[static_cast<std::size_t>(f)]; }
+};
+
+struct ClaimResult {
+    std::string kernel;  ///< empty: exact arithmetic
+    ClaimRule rule = ClaimRule::exact;
+    std::array<ClaimCounts, 3> by_feature{};  ///< face, edge, vertex
+    /// Pairs of point and cell to which the kernel gave no answer: it ended, took too long, or had been given up for
+    /// that and was no longer asked. The cell does not claim the point then.
+    std::uint64_t unanswered = 0;
+    std::vector<std::pair<ClaimFault, ClaimWitness>> witnesses;  ///< the first of each fault
+
+    ClaimCounts total() const;
+};
+
+struct GapsOptions {
+    std::vector<Kernel> kernels;  ///< those for the cells of the mesh take part
+    std::uint64_t count = 10000;  ///< points on faces, on edges and on vertices each
+    std::uint64_t seed = 1;
+    int threads = 0;                    ///< 0: one per core
+    double tolerance = 1e-10;           ///< of ClaimRule::tolerant
+    std::vector<ClaimRule> rules = {};  ///< no others are looked at; empty: all
+};
+
+struct GapsReport {
+    Environment environment;
+    std::string mesh;
+    int dimension = 3;
+    Verdict verdict = Verdict::not_checked;
+    CurvedCells curved;  ///< of the mesh: taken with straight sides
+    std::uint64_t seed = 0, count = 0;
+    int threads = 0;
+    double tolerance = 0;
+    double seconds = 0;
+    OracleCounts oracles;              ///< by pairs of point and cell
+    std::vector<ClaimResult> results;  ///< exact arithmetic first, then the kernels as given, rule by rule
+};
+
+/// `name` is what the user calls the mesh, `verdict` what is known of it. Points depend on seed and mesh alone. Errors:
+/// a floating-point environment in which results cannot be exact; a mesh without cells; no kernel for its cells, or
+/// none that has one of the rules; two oracles that disagree.
+Result<GapsReport> find_gaps(const GapsOptions& options, const Mesh& mesh, const std::string& name, Verdict verdict);
+
+/// The features of ClaimResult::by_feature.
+inline constexpr std::array<Feature, 3> claim_features{Feature::face, Feature::edge, Feature::vertex};
+
+// The mutation score of the families: kernels with seeded faults, each beside the sound kernel that it was made from,
+// and the families whose figures tell them apart.
+//
+// A family that no mutant needs may be idle; a mutant that no family catches shows a gap. Faults are of the kinds seen
+// in public code: a constant off by ten, a guard left out, vertices swapped, a term dropped, a tie decided the other
+// way.
+
+struct Mutant {
+    Kernel kernel;  ///< its name is the sound kernel's, "!" and the fault
+    Kernel sound;
+    std::string fault;   ///< the kind: "dropped-term", ...
+    std::string change;  ///< what is wrong, one line
+};
+
+/// All of them, in a fixed order.
+const std::vector<Mutant>& all_mutants();
+
+/// A family in which the mutant does worse than the sound kernel on the same cases.
+struct MutantCatch {
+    std::string family;
+    std::string figure;            ///< the most telling one: a class of finding, wrong_cases or an error
+    double sound = 0, mutant = 0;  ///< that figure of both; -1: none
+};
+
+struct MutantResult {
+    Mutant mutant;
+    std::uint64_t families = 0;        ///< that have cases for it
+    std::vector<MutantCatch> catches;  ///< most telling first
+};
+
+struct MutantReport {
+    Environment environment;
+    std::uint64_t seed = 0, count = 0;
+    int threads = 0;
+    double seconds = 0;
+    std::vector<MutantResult> mutants;
+
+    std::uint64_t caught() const;
+};
+
+/// Audits the mutants and their sound kernels; options.kernels are ignored. A family catches a mutant if more of its
+/// cases have a finding, or if an error, worst or 99.9th percentile, of weight or value, is more than twice that of the
+/// sound kernel. Errors: as run_audit().
+Result<MutantReport> audit_mutants(AuditOptions options, const MeshSource& meshes,
+                                   const std::vector<Mutant>& mutants = all_mutants());
 
 }  // namespace barycert

@@ -39,15 +39,11 @@
 /// undecided) prove their bounds where they use them; NOTES.md has measurements, and what was tried.
 #pragma once
 
-#include "barycert/batch.hpp"        // IWYU pragma: export
-#include "barycert/condition.hpp"    // IWYU pragma: export
 #include "barycert/environment.hpp"  // IWYU pragma: export
 #include "barycert/gradient.hpp"     // IWYU pragma: export
-#include "barycert/inverse.hpp"      // IWYU pragma: export
 #include "barycert/perspective.hpp"  // IWYU pragma: export
 #include "barycert/predicates.hpp"   // IWYU pragma: export
 #include "barycert/quadratic.hpp"    // IWYU pragma: export
 #include "barycert/result.hpp"       // IWYU pragma: export
 #include "barycert/simplex.hpp"      // IWYU pragma: export
-#include "barycert/tiers.hpp"        // IWYU pragma: export
 #include "barycert/weights.hpp"      // IWYU pragma: export

@@ -39,15 +39,208 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "barycert/certificate.hpp"
-#include "barycert/defects.hpp"
+#include "barycert/io.hpp"
 #include "barycert/mesh.hpp"
-#include "barycert/plc.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert {
+
+// The result of a mesh check as a value that stays bound to the mesh it was made for; and how far the sides of
+// second-order cells are from the straight ones that it is said of.
+
+struct CheckReport;
+struct CheckOptions;
+
+enum class Verdict : std::uint8_t { not_checked, not_certified, certified };
+
+constexpr std::string_view name(Verdict v) {
+    return v == Verdict::certified ? "certified" : v == Verdict::not_certified ? "not certified" : "not checked";
+}
+
+/// Made by check_mesh; a default-constructed one is `not_checked`. It identifies its mesh by a hash of coordinates,
+/// cells, neighbours and faces.
+class Certificate {
+public:
+    Certificate() = default;
+
+    Verdict verdict() const { return verdict_; }
+
+    /// The verdict if `mesh` is the mesh that was checked, else not_checked. Reads the whole mesh.
+    Verdict verdict_on(const Mesh& mesh) const;
+
+    /// True if `mesh` is the mesh that was checked and is certified: P1 to P5 of check.hpp hold.
+    bool covers(const Mesh& mesh) const { return verdict_on(mesh) == Verdict::certified; }
+
+private:
+    friend CheckReport check_mesh(const Mesh&, const CheckOptions&);
+    Certificate(Verdict verdict, const Mesh& mesh);
+
+    Verdict verdict_ = Verdict::not_checked;
+    std::uint64_t fingerprint_ = 0;
+};
+
+/// Second-order cells whose sides are not straight. They are taken with straight sides everywhere: what is said of them
+/// is exact for these, and for the file's own shapes only up to about `max_deviation`.
+///
+/// The deviation of a mid-edge node is its distance from the middle of the two ends, in parts of their distance. It is
+///   nothing   up to 2^-49 of the largest coordinate of the ends, on each axis: a middle computed in double, or written
+///             with 16 digits (derived in check/curved.cpp);
+///   rounding  up to 1e-10 of the edge: what meshers and motions compute. Or up to one unit of the last place of the
+///             mesh's coordinates, and 1/1000 of the edge, if all coordinates are single precision, or have at most 15
+///             decimal digits: the unit is that of the last decimal place in the mesh or, in single precision and with
+///             at least 5 digits, that of the largest coordinate of the ends;
+///   a curve   else.
+struct CurvedCells {
+    std::uint64_t cells = 0;          ///< with a node off the middle by a curve
+    double max_deviation = 0;         ///< of such nodes
+    std::uint64_t rounded_cells = 0;  ///< of the others: with a node off the middle by rounding
+    double max_rounded = 0;           ///< of such nodes
+};
+
+/// Cells with an index that is no node are left out, and so are coordinates that are not finite. `each`, if given: 1
+/// for each curved cell, 0 for others; empty if none is curved.
+CurvedCells curved_cells(const Mesh& mesh, std::vector<std::uint8_t>* each = nullptr);
+
+/// In one sentence, empty if all sides are straight.
+std::string message(const CurvedCells& curved);
+
+/// What becomes of curved cells.
+enum class Curved : std::uint8_t { straight, refuse };
+
+/// Error, with Curved::refuse: there are curved cells. `file` is what the user calls the mesh.
+Result<CurvedCells> take_as_straight(const Mesh& mesh, const std::string& file, Curved curved);
+
+// The defects that a check may find in a mesh, and which of them break the certificate.
+
+enum class DefectKind : std::uint8_t {
+    // These break the certificate. P1 to P5: the condition of check.hpp that fails.
+    bad_structure,       ///< P1  array sizes that are no whole number of nodes or cells
+    index_out_of_range,  ///< P1  a vertex of a cell is not a node of the mesh
+    not_finite,          ///< P1  a node has a NaN or infinite coordinate
+    repeated_node,       ///< P1  a cell names a node twice
+    degenerate_cell,     ///< P1  exactly zero volume: coplanar, collinear, or one point
+    duplicate_cell,      ///< P2  two cells have the same nodes
+    overfull_facet,      ///< P2  a facet belongs to more than two cells
+    same_side,           ///< P2  two cells lie on the same side of their common facet
+    open_boundary,       ///< the boundary does not continue at a ridge: follows from P2 failing
+    boundary_contact,    ///< P3  two boundary facets meet outside common vertices and edges
+    nested_part,         ///< P4  a piece of the boundary at which a cell overlaps others
+    overlapping_cells,   ///< the interiors of two cells meet: caused by the defects above
+    wrong_neighbour,     ///< P5  .neigh names a cell that does not share that facet, or misses one that does
+    wrong_face,          ///< P5  a face in the files is not a facet of any cell; a mesh of triangles has faces
+    unfit_array,         ///< P5  fields, markers or mid-edge nodes do not fit the nodes and cells
+    // These are reported and do not affect the certificate.
+    mixed_orientation,  ///< cells are ordered in both ways
+    plain_sign_wrong,   ///< the sign of the cell's volume in plain double is not the exact one
+    coincident_nodes,   ///< two nodes have the same coordinates
+    unused_node,        ///< a node of no cell
+    pinched_ridge,      ///< the boundary touches itself along a ridge of more than two of its facets
+    pinched_node,       ///< the boundary touches itself in a node of several fans
+    // Later ones stand last, so that the bits of DefectSet stay.
+    hanging_node,  ///< breaks it: a node of one boundary facet lies within an edge of another one, or within that facet
+    near_nodes,    ///< two nodes of the boundary nearly coincide: CheckOptions::near
+    crack,         ///< two boundary facets would be one if coincident and near nodes were merged
+    missing_cell,  ///< a void of the shape of one cell, whose facets are a piece of the boundary
+};
+
+struct DefectText {
+    DefectKind kind;
+    std::string_view name;       ///< as in reports
+    std::string_view condition;  ///< "P1" ... or "" if it does not break the certificate by itself
+    std::string_view text;       ///< what it is
+    std::string_view remedy;     ///< what to do about it; empty if nothing need be done
+    bool breaks;                 ///< the certificate
+};
+
+inline constexpr std::array<DefectText, 25> defect_texts{{
+    {DefectKind::bad_structure, "bad_structure", "P1", "arrays whose sizes are no whole number of nodes or cells",
+     "give d coordinates per node and d + 1 vertices per cell", true},
+    {DefectKind::index_out_of_range, "index_out_of_range", "P1", "cells with a vertex index out of range",
+     "check the index base and the node count", true},
+    {DefectKind::not_finite, "not_finite", "P1", "nodes with a NaN or infinite coordinate",
+     "find where these coordinates were computed", true},
+    {DefectKind::repeated_node, "repeated_node", "P1", "cells that name a node twice", "remove these collapsed cells",
+     true},
+    {DefectKind::degenerate_cell, "degenerate_cell", "P1", "cells with a volume of exactly zero",
+     "mesh again with a quality bound, or move a node", true},
+    {DefectKind::duplicate_cell, "duplicate_cell", "P2", "cells with the same nodes as another", "keep one of each",
+     true},
+    {DefectKind::overfull_facet, "overfull_facet", "P2", "facets that belong to more than two cells",
+     "cells overlap there or are duplicates: remove them", true},
+    {DefectKind::same_side, "same_side", "P2", "facets with both cells on the same side",
+     "move back the node that passed through the facet", true},
+    {DefectKind::open_boundary, "open_boundary", "", "ridges where the boundary is not closed",
+     "remove the defects above: this one follows from them", true},
+    {DefectKind::boundary_contact, "boundary_contact", "P3",
+     "pairs of boundary facets that meet outside common vertices and edges",
+     "move the parts apart, or cut both where they cross", true},
+    {DefectKind::nested_part, "nested_part", "P4", "pieces of the boundary where a cell overlaps others",
+     "a part lies inside another one: remove one of them", true},
+    {DefectKind::overlapping_cells, "overlapping_cells", "", "pairs of cells whose interiors meet",
+     "remove the other defects: this one follows from them", true},
+    {DefectKind::wrong_neighbour, "wrong_neighbour", "P5", "entries of .neigh that disagree with the cells",
+     "delete the .neigh file or write it again", true},
+    {DefectKind::wrong_face, "wrong_face", "P5", "faces in the files that are not facets of a cell",
+     "delete the .face file (of Medit the section Triangles) or write it again", true},
+    {DefectKind::unfit_array, "unfit_array", "P5", "other arrays that do not fit the nodes and cells",
+     "give one value per component of each node or cell, and valid node indices", true},
+    {DefectKind::mixed_orientation, "mixed_orientation", "", "cells of the less frequent orientation",
+     "check --fix writes a copy with positive cells", false},
+    {DefectKind::plain_sign_wrong, "plain_sign_wrong", "", "cells whose volume has the wrong sign in plain double",
+     "use exact predicates on these cells", false},
+    {DefectKind::coincident_nodes, "coincident_nodes", "", "nodes with the same coordinates as another",
+     "check --fix merges them, if their cells should be neighbours", false},
+    {DefectKind::unused_node, "unused_node", "", "nodes that no cell uses", "", false},
+    {DefectKind::pinched_ridge, "pinched_ridge", "", "ridges where the boundary touches itself", "", false},
+    {DefectKind::pinched_node, "pinched_node", "", "nodes where the boundary touches itself", "", false},
+    {DefectKind::hanging_node, "hanging_node", "", "nodes that lie within an edge or a facet of another cell",
+     "split that cell at the node", true},
+    {DefectKind::near_nodes, "near_nodes", "", "pairs of boundary nodes that nearly coincide",
+     "check --fix --merge-within DISTANCE merges them, if their cells should be neighbours", false},
+    {DefectKind::crack, "crack", "", "pairs of boundary facets that merging these nodes would join", "", false},
+    {DefectKind::missing_cell, "missing_cell", "", "voids that one cell would fill", "is one cell missing?", false},
+}};
+
+inline constexpr std::size_t defect_kind_count = defect_texts.size();
+
+constexpr const DefectText& defect_text(DefectKind p) {
+    return defect_texts[static_cast<std::size_t>(p)];
+}
+
+/// A set of kinds: bit i is kind i.
+using DefectSet = std::uint32_t;
+constexpr DefectSet defect_bit(DefectKind p) {
+    return DefectSet{1} << static_cast<unsigned>(p);
+}
+
+/// Where a defect is. Unused entries are -1.
+struct DefectPlace {
+    std::array<Mesh::Index, 2> cells{-1, -1};
+    std::array<Mesh::Index, 3> nodes{-1, -1, -1};
+    const char* detail = "";  ///< which kind, where a defect has several
+    /// Of the facet that those meet or would join, of the edge or facet that the node lies within, and the fourth node
+    /// of a missing cell.
+    std::array<Mesh::Index, 3> other_nodes{-1, -1, -1};
+    double distance = 0;  ///< of near nodes, rounded
+    double relative = 0;  ///< that over the shorter one of the shortest edges of the boundary at both
+};
+
+struct Defect {
+    DefectKind kind{};
+    std::uint64_t count = 0;
+    bool at_least = false;            ///< the search stopped at that count
+    std::vector<DefectPlace> places;  ///< the first of them
+    std::uint64_t curved_cells = 0;   ///< with this defect: their sides were taken as straight, and may be its cause
+    /// It is why others break the certificate, though its kind does not in every case.
+    bool cause = false;
+    std::string_view better_remedy = {};  ///< where the cause is known
+
+    bool breaks() const { return cause || defect_text(kind).breaks; }
+    std::string_view remedy() const { return better_remedy.empty() ? defect_text(kind).remedy : better_remedy; }
+};
 
 /// Exact orientation, volume, condition and shape: one entry per cell. A cell with an index out of range or a
 /// coordinate that is not finite has NaN everywhere and orientation 0.
@@ -55,7 +248,7 @@ struct CellMeasures {
     std::vector<std::int8_t> orientation;  ///< exact sign of the volume: -1, 0, 1
     std::vector<DefectSet> defects;        ///< that the cell is part of
     std::vector<double> volume;            ///< signed (2D: area), correctly rounded, in the unit of coordinates cubed
-    std::vector<double> condition;         ///< of the weights, see condition.hpp; infinity if degenerate
+    std::vector<double> condition;         ///< of the weights, see weights.hpp; infinity if degenerate
 
     // Shape, in plain double from correctly rounded volumes. Of a degenerate cell: infinite ratios.
     std::vector<double> radius_edge;  ///< circumradius / shortest edge; regular: 0.612 (2D: 0.577)

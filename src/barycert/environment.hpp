@@ -9,7 +9,7 @@
 /// reads the control registers (less than a nanosecond); if they are not as above it sets them for the calling thread,
 /// and restores the caller's when the function returns or throws. So answers, counts of tiers and the signs of zeros
 /// are the same in every environment. Functions that answer by integers, or by a filter that holds in every
-/// environment, set nothing: the predicates of single points (predicates.hpp) and inverse.hpp.
+/// environment, set nothing: the predicates of single points (predicates.hpp) and weights.hpp.
 ///
 /// Threads. A std::thread starts with the environment of the thread that starts it. Threads of oneTBB take over that in
 /// which the arena was made, not that of the caller of an algorithm: within the scope of an ExactEnvironment, work must

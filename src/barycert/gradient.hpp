@@ -20,10 +20,8 @@
 #include <cstdint>
 #include <span>
 
-#include "barycert/batch.hpp"
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"
-#include "barycert/tiers.hpp"
 
 namespace barycert {
 

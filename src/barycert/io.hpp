@@ -1,18 +1,20 @@
 /// Files in and out: meshes of TetGen and Triangle, streams of points, rows of results.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 #include "barycert/table.hpp"
-#include "barycert/vtk.hpp"
 
 namespace barycert {
 
@@ -25,8 +27,8 @@ struct ReadOptions {
     StepChoice step = {};    ///< of a series; Error: one is chosen, and there is no series
 };
 
-/// Reads a mesh: TetGen's or Triangle's files by their stem or any one of them; a file of Gmsh, .msh (gmsh.hpp), or
-/// Medit, .mesh and .meshb; and VTK's .vtu, .vtk, .vtp, .pvtu, .vtm, .pvd and .vtu.series (vtk.hpp). The format is told
+/// Reads a mesh: TetGen's or Triangle's files by their stem or any one of them; a file of Gmsh, .msh, or
+/// Medit, .mesh and .meshb; and VTK's .vtu, .vtk, .vtp, .pvtu, .vtm, .pvd and .vtu.series. The format is told
 /// by the first bytes, or else by the suffix. Returns an Error if it cannot be read: a file of another format is named
 /// as what it is, with the command that converts it.
 Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options = {});
@@ -52,7 +54,7 @@ struct WriteOptions {
 /// reads back to the same bits. No file is left half-written.
 Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOptions& options = {});
 
-/// Writes the mesh as its path ends: .msh (gmsh.hpp), .vtu and .vtk (vtk.hpp), and TetGen's files by .node, .ele or a
+/// Writes the mesh as its path ends: .msh, .vtu and .vtk, and TetGen's files by .node, .ele or a
 /// stem. Error: another suffix; as these writers.
 Status write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options = {});
 
@@ -131,7 +133,7 @@ public:
 };
 
 /// Opens the points of a CSV, NPY or .node file, of a mesh, or of VTK's files with or without cells (read_vtk_points in
-/// vtk.hpp); "-" is CSV from the standard input. `dimension`: 2 or 3. Returns an Error if the file cannot be read, is
+/// io.hpp); "-" is CSV from the standard input. `dimension`: 2 or 3. Returns an Error if the file cannot be read, is
 /// of an unknown kind, or has another dimension, or if there are no such columns.
 Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int dimension,
                                                  const PointOptions& options = {});
@@ -176,5 +178,262 @@ public:
 /// Opens a CSV, NPY or .vtu file by the suffix of the path; "-" is CSV on the standard output. Returns an Error if the
 /// suffix is another one, the path cannot be written, or NPY names would be refused by NumPy.
 Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const TableFormat& format);
+
+// Gmsh's .msh files: meshes in and out. read_mesh and write_mesh (io.hpp) come here for what ends in .msh.
+
+struct GmshReadOptions {
+    /// Which step in time fields are read of; not set: of each field its first one. A field with a single step is read
+    /// in any case.
+    std::optional<std::int64_t> step = {};
+    int threads = 0;  ///< 0: as many as the machine has
+};
+
+/// Reads a .msh file of version 4.1, 4.0 or 2.x, text or binary of either byte order.
+///
+/// - Tetrahedra make a mesh of dimension 3. Where there are no cells of dimension 3, triangles make one of dimension 2,
+///   and all nodes must have z = 0. All cells are of order 1 or all of order 2.
+/// - Elements of a lower dimension are left out, with a Note; `cell_numbers` are positions among all elements.
+/// - Nodes stand in the order of the file whatever their tags, those of no cell included.
+/// - Cell fields "gmsh:physical" (the tag of the cell's physical group, 0 for none; absent if no cell has one) and
+///   "gmsh:geometrical" (that of its entity; absent if it is 1 for all cells, or 0 for all). Cell labels
+///   "gmsh:physical_name", if a group of cells has a name, and "gmsh:tag", the elements' tags, unless they are 1, 2, 3,
+///   ... in the order of the file.
+/// - $NodeData and $ElementData become fields of the view's name. Nodes and cells without a value have NaN.
+/// - What else there is (values at the nodes of each element, interpolation schemes, periodic nodes) is left out, with
+/// a
+///   Note.
+///
+/// Error: the file is missing, cut off, contradicts itself, has a coordinate that is not finite, two nodes with one
+/// tag, an element with an unknown node, cells of other types (they are named), no cells, or triangles off the plane z
+/// = 0; memory is short. Memory is bounded by a multiple of the file's size.
+Result<Mesh> read_gmsh(const std::string& path, const GmshReadOptions& options = {});
+
+/// One section of values of a .msh file.
+struct GmshStep {
+    std::string field;  ///< the view's name
+    bool of_cells = false;
+    int components = 1;
+    std::int64_t step = 0;
+    double time = 0;
+
+    friend bool operator==(const GmshStep&, const GmshStep&) = default;
+};
+
+/// All of $NodeData and $ElementData, in the order of the file; only their headers are read. Error: as read_gmsh, as
+/// far as it concerns these. A file without a mesh is none.
+Result<std::vector<GmshStep>> gmsh_steps(const std::string& path);
+
+/// The nodes, `dimension` coordinates a node. In dimension 2 every z must be 0. Elements are not read.
+Result<std::vector<double>> read_gmsh_points(const std::string& path, int dimension, int threads = 0);
+
+struct GmshWriteOptions {
+    enum class Version : std::uint8_t { v41, v22 };
+    Version version = Version::v41;
+    bool binary = true;
+};
+
+/// Writes nodes, cells, and fields as $NodeData and $ElementData. Every double reads back to the same bits; in text,
+/// NaN loses its payload.
+///
+/// - The cell field "gmsh:physical" becomes physical groups, named by the cell labels "gmsh:physical_name", and
+///   "gmsh:geometrical" the entities. Where that cannot be (tags that are no integers of 32 bits; in 4.1, an entity in
+///   several groups), they are written as $ElementData, which read_gmsh gives back just so. In 4.1 each group needs an
+///   entity: without "gmsh:geometrical" they are numbered from 1, and read_gmsh gives them as that field.
+/// - Elements have the tags of the label "gmsh:tag" if these are positive and differ, or else the numbers of the cells
+///   in the file they came from, from 1.
+/// - point_markers become $NodeData "marker". Faces, neighbours and other labels are not written.
+///
+/// The file appears whole or not at all. Error: the mesh is inconsistent; two fields of one kind have the same name, or
+/// one has a line break or a quote in it; the file cannot be written.
+Status write_gmsh(const Mesh& mesh, const std::string& path, const GmshWriteOptions& options = {});
+
+// Files of VTK: meshes, points and series. VTK itself is not needed.
+
+/// Which step of a series (.pvd, .vtu.series) is meant: at most one of these. None: the first.
+struct StepChoice {
+    std::optional<std::size_t> number = {};  ///< from 0, in the order of the file
+    std::optional<double> time = {};         ///< exactly as the file has it
+    bool last = false;
+
+    bool made() const { return number || time || last; }
+};
+
+/// Reads a mesh: an unstructured grid or polygon data in XML (.vtu, .vtp) or in the legacy format (.vtk); the pieces of
+/// a partitioned one (.pvtu), of the blocks of a multiblock data set (.vtm, .vtpd, .vtpc); a step of a series
+/// (.pvd, .vtu.series, .vtp.series). Which of them it is, is told by its first bytes. ASCII, base64, raw, compressed by
+/// zlib, LZ4 or LZMA, of either byte order, in one piece or several.
+///
+/// - Tetrahedra make a mesh of dimension 3. Where there are none, triangles make one of dimension 2, and all points
+///   must have z = 0. All cells are linear or all are quadratic (VTK_QUADRATIC_TETRA, VTK_QUADRATIC_TRIANGLE), whose
+///   mid-edge nodes go to mid_nodes.
+/// - Vertices, lines and, beside tetrahedra, triangles are left out, as are ghost cells (vtkGhostType: duplicate,
+///   refined, hidden), with their rows of the cell arrays. cell_numbers then says which cells of the file stay; those
+///   of several files count on.
+/// - Of a collection with unstructured grids, polygon data and other grids are left out; where there are none, polygon
+///   data are the mesh.
+/// - Nodes of pieces are kept as they are. Where the file gives their global numbers (GlobalIds, GlobalNodeId), nodes
+///   of one number and place are one.
+/// - Arrays of any numeric type and any number of components become fields of the same name, exactly. Strings of cells,
+///   and 64-bit integers of one component that no doubles represent, become cell_labels. Other arrays are left out: of
+///   strings of points, without a name, missing in one of the pieces. Of arrays with time steps the first is read.
+/// - A point array "marker" of 64-bit integers, one a point, becomes point_markers: write_vtk keeps them there.
+///
+/// Mesh::notes tells what was left out or converted (float32 to double), and where pieces may share nodes.
+///
+/// Error: a step is chosen, and there is no series, or no such step; the file, or one that it names, is missing, cut
+/// off, contradicts itself, has a coordinate that is not finite,
+/// an index that is no point, more than 2147483647 points or cells, cells of other types (they are named), no cells of
+/// its dimension, or triangles off the plane z = 0; XML with a document type; memory is short. Memory is bounded by
+/// what the file holds once it is decompressed.
+Result<Mesh> read_vtk(const std::string& path, const StepChoice& step = {});
+
+/// The path and, of a file that names files, theirs.
+std::vector<std::string> vtk_mesh_files(const std::string& path);
+
+/// The points of any .vtu, .vtp, .vti, .vtr, .vts, .pvtu, .pvtp, .vtm or .vtk (unstructured grid, polygon data,
+/// structured grid), `dimension` coordinates a point. In dimension 2, every z must be 0. Points of image data are
+/// origin + spacing * index, with two roundings, as VTK has them.
+///
+/// Error: as in read_vtk, as far as it concerns points; cells are not read.
+Result<std::vector<double>> read_vtk_points(const std::string& path, int dimension);
+
+/// Points with what stands at them.
+struct PointData {
+    int dimension = 3;
+    std::vector<double> points;  ///< `dimension` coordinates a point
+    std::vector<Field> fields;   ///< one value a point, as in read_vtk
+    std::vector<Column> labels;  ///< the array "marker"
+    Notes notes;
+};
+
+/// read_vtk_points with the point arrays of these names, or all. A name that is not there is no error.
+Result<PointData> read_vtk_point_data(const std::string& path, int dimension,
+                                      const std::optional<std::vector<std::string>>& names = std::nullopt);
+
+/// A step of a series: files that make one data set.
+struct SeriesStep {
+    double time = 0;
+    std::vector<std::string> files;  ///< as they can be opened
+};
+
+/// The steps of a series (.pvd, or ParaView's .vtu.series) in the order of the file: entries of one time that follow
+/// each other are one step. Error: no such file; no well-formed XML, another kind; an entry without a file, a time that
+/// is no finite number.
+Result<std::vector<SeriesStep>> read_series(const std::string& path);
+
+/// Writes the mesh as its path ends: .vtu as write_vtu does; .vtk in the legacy format, binary (`data` raw) or as text
+/// (ascii). read_vtk reads the same mesh from either, to the bits of every double, but for faces, neighbours and the
+/// index base; in ascii a NaN loses its payload.
+///
+/// A legacy file is of version 4.2, which every reader of the format knows, and of 5.1 from 2^31 numbers of cells on.
+/// It appears whole or not at all and is written as it is made. Names of fields may hold any bytes.
+///
+/// Error: an ending that is neither; compression of a legacy file, which knows none; as write_vtu, but for what
+/// concerns XML; in a legacy file a name that takes more than 200 bytes there (all but letters and digits may take
+/// three), which VTK's own readers would not read, or the name METADATA or NULL_ARRAY, which mean something else there.
+Status write_vtk(const Mesh& mesh, const std::string& path, VtkData data = VtkData::raw);
+
+/// Writes points, cells and fields as one piece of XML (unstructured grid), for every reader of VTU files.
+///
+/// - Triangles get z = 0. Where there are mid-edge nodes, cells are quadratic ones. Corners keep their order, so a cell
+///   of negative volume stays one.
+/// - Fields are Float64 arrays under their own names, with their components; any value may be in them, NaN and infinity
+///   too. point_markers are an Int64 array "marker"; cell labels are Int64 and String arrays. Faces and neighbours have
+///   no place in the format.
+/// - Every double reads back to the same bits, NaNs with their payloads (but in ascii, and VTK's own reader of ascii
+///   knows no NaN), and the same mesh gives the same bytes on any number of threads.
+///
+/// The file appears whole or not at all; beside the mesh little memory is taken.
+///
+/// Error: the mesh is inconsistent; a field has no name, the name of another one of its kind (of "marker", where there
+/// are markers), or a name that XML cannot hold (not UTF-8, or control characters but for tab and line breaks); a label
+/// that holds a zero byte; the file cannot be written; memory is short.
+Status write_vtu(const Mesh& mesh, const std::string& path, VtkData data = VtkData::raw);
+
+// Piecewise linear complexes (PLCs): polygons in space that bound and cut the region to be meshed.
+//
+// barycert reads PLC files itself and hands TetGen arrays: TetGen's own loaders read `010` as 8 and `1.0D+03` as 1,
+// shift columns at a `nan`, ignore node numbers and crash on truncated files.
+// In: .poly .smesh (nodes in the file or in STEM.node), .off, .stl (text or binary), .ply (text). Counts are
+// checked against the file's size, so memory stays within a small multiple of it. A number with which the file ends is
+// refused, for more digits may have been cut. Indices in memory are 0-based.
+
+struct PlcFacet {
+    std::vector<std::vector<std::int32_t>> polygons;  ///< rings of nodes; a ring of two is a segment
+    std::vector<double> holes;                        ///< 3 coordinates a point inside a hole of the facet
+    std::int32_t marker = 0;
+};
+
+struct Plc {
+    std::vector<double> points;  ///< 3 coordinates a node
+    int attribute_count = 0;
+    std::vector<double> attributes;           ///< attribute_count a node
+    std::vector<std::int32_t> point_markers;  ///< empty, or one a node
+    std::vector<PlcFacet> facets;
+    bool has_facet_markers = false;
+    std::vector<double> holes;    ///< 3 coordinates a point inside a cavity
+    std::vector<double> regions;  ///< 5 numbers a region: a point inside, an attribute, a largest volume
+    int index_base = 0;           ///< 0 or 1: the file's own numbering
+    bool nodes_apart = false;     ///< the nodes were in STEM.node
+
+    std::size_t point_count() const { return points.size() / 3; }
+};
+
+inline constexpr std::array<std::string_view, 5> plc_extensions{".poly", ".smesh", ".off", ".stl", ".ply"};
+
+/// An error of a whole file.
+inline Error file_error(std::string file, std::string what, std::string expected = {}, std::string found = {},
+                        std::string remedy = {}) {
+    return {std::move(what), std::move(file), 0, std::move(expected), std::move(found), std::move(remedy)};
+}
+
+/// The paths of the files that the PLC may be in: `path`, and STEM.node beside STEM.poly or STEM.smesh.
+std::vector<std::string> plc_files(const std::string& path);
+
+/// Reads the PLC in the format that the path's extension names, from regular files or pipes. An error names the file
+/// and, for text, the line.
+Result<Plc> read_plc(const std::string& path);
+
+// Pictures of slices: one scalar on a regular grid in a plane, by colour, as a PNG file.
+
+struct Slice {
+    std::size_t width = 0, height = 0;
+    std::span<const double> values = {};  ///< width * height, line after line, the second coordinate ascending
+    double aspect = 1;                    ///< spacing of the values along a line over the spacing of lines
+
+    /// What the first and the last colour mean; without one, the least and the greatest of the values that are drawn.
+    std::optional<std::pair<double, double>> range = {};
+    std::span<const std::uint8_t> valid = {};  ///< empty, or one a value: 0 where there is none (outside)
+    bool bar = true;                           ///< a colour bar with the range in numbers, to the right of the slice
+
+    std::string title = {};   ///< a line under the slice; printable ASCII, other characters are drawn as boxes
+    double pixel_length = 0;  ///< of a column; if above 0, a scale of lengths stands under the slice
+};
+
+/// What became of the values.
+struct SliceCounts {
+    std::uint64_t drawn = 0;       ///< with a colour
+    std::uint64_t below = 0;       ///< of these: below the range, drawn as its low end
+    std::uint64_t above = 0;       ///< of these: above it, drawn as its high end
+    std::uint64_t not_finite = 0;  ///< valid but NaN or infinite: transparent
+    std::uint64_t outside = 0;     ///< not valid: transparent
+    double low = 0, high = 0;      ///< the range; NaN if nothing is drawn and none was given
+};
+
+/// Writes the slice as 8-bit RGBA in sRGB with colours of colour_map.hpp; the file appears whole or not at all.
+///
+/// One pixel a value, the second coordinate upwards: values[0] is at the lower left. Where aspect is not 1, columns or
+/// lines are repeated so that the picture has the shape of the plane: round(width * aspect) columns if it is above 1,
+/// else round(height / aspect) lines, each showing the value whose place holds its middle.
+/// The range is divided into 256 equal parts, a colour each; its ends have the first and the last colour. If all that
+/// is drawn has one value, or the range is one number, that has the colour in the middle. The bar is a white panel of
+/// its own beside the slice; a slice less than 25 pixels high is made so high by transparent lines below it. Without a
+/// range there is no bar. Title and scale are a white panel below both; a title that is too long is cut, and there is
+/// no scale where there is no place for it. The scale is a line of 1, 2 or 5 times a power of ten, rounded to pixels,
+/// with that number.
+///
+/// `counts`: if given, set. Errors: sizes that do not fit together, no value at all, more than a million pixels a side;
+/// an aspect or a range that is none; a file that cannot be written.
+Status write_png(const std::string& path, const Slice& slice, SliceCounts* counts = nullptr);
 
 }  // namespace barycert

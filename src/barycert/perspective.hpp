@@ -31,7 +31,7 @@
 #include <span>
 
 #include "barycert/result.hpp"
-#include "barycert/tiers.hpp"
+#include "barycert/simplex.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert {

@@ -56,10 +56,8 @@
 #include <cstdint>
 #include <span>
 
-#include "barycert/batch.hpp"
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"
-#include "barycert/tiers.hpp"
 
 namespace barycert {
 

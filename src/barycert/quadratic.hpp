@@ -27,11 +27,9 @@
 #include <cstdint>
 #include <span>
 
-#include "barycert/batch.hpp"
 #include "barycert/gradient.hpp"
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"
-#include "barycert/tiers.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert {

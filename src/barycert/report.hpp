@@ -11,13 +11,11 @@
 #include <vector>
 
 #include "barycert/check.hpp"
-#include "barycert/contour.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/pipeline.hpp"
-#include "barycert/rendering.hpp"
+#include "barycert/jobs.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
-#include "barycert/verification.hpp"
 
 namespace barycert {
 
@@ -80,41 +78,85 @@ std::string check_html(const CheckReport& report, const Mesh& mesh, const std::s
 // What a run of sampling did, for people.
 
 /// A few lines of at most 120 columns, names of files aside.
-std::string sample_text(const SampleSummary& summary, bool colour);
+std::string sample_text(const SampleReport& summary, bool colour);
 
 // What a run of sampling did, as JSON. Every member is documented in SCHEMA.md beside this file.
 
 inline constexpr int sample_schema = 1;
 
-std::string sample_json(const SampleSummary& summary, const Environment& environment);
+std::string sample_json(const SampleReport& summary, const Environment& environment);
 
 // What a verification of results found, for people and as JSON and HTML. JSON is documented in SCHEMA.md.
 
 inline constexpr int verify_schema = 1;
 
 /// The verdict, a table, errors, the worst rows with commands. At most 120 columns, names and rows aside.
-std::string verify_text(const VerifySummary& summary, bool colour);
-std::string verify_json(const VerifySummary& summary, const Environment& environment);
+std::string verify_text(const VerifyReport& summary, bool colour);
+std::string verify_json(const VerifyReport& summary, const Environment& environment);
 /// One self-contained page without scripts, for screens of any width, light and dark, and for paper; it is well-formed
 /// XML, too.
-std::string verify_html(const VerifySummary& summary, const Environment& environment);
+std::string verify_html(const VerifyReport& summary, const Environment& environment);
 
 // What a run of cutting did, for people and as JSON.
 
 /// A few lines of at most 120 columns, names of files and fields aside.
-std::string contour_text(const ContourSummary& summary, bool colour);
+std::string contour_text(const ContourReport& summary, bool colour);
 
 inline constexpr int contour_schema = 1;
 
-std::string contour_json(const ContourSummary& summary, const Environment& environment);
+std::string contour_json(const ContourReport& summary, const Environment& environment);
 
 // What a picture shows, for people; and as JSON, whose members are documented in SCHEMA.md beside this file.
 
 /// A few lines of at most 120 columns, names aside.
-std::string render_text(const RenderSummary& summary, bool colour);
+std::string render_text(const RenderReport& summary, bool colour);
 
 inline constexpr int render_schema = 1;
 
-std::string render_json(const RenderSummary& summary, const Environment& environment);
+std::string render_json(const RenderReport& summary, const Environment& environment);
+
+// What a run found, for the systems that run it: JUnit's XML, SARIF 2.1.0, annotations of GitHub's workflows.
+//
+// All three say the same outcomes. One fails where the program's exit code says so and nowhere else: a mesh that is
+// not certified, rows that are wrong, a broken rule of --fail-on. What else was found is told and passes.
+
+struct CiOutcome {
+    enum class State : unsigned char { passed, noted, failed };
+    std::string subject;  ///< a kernel, a mesh, a file of results
+    std::string name;     ///< what was asked: a rule, a condition, a family, a class of finding
+    std::string rule;     ///< the class or figure, a handle that stays the same from run to run
+    std::string meaning;  ///< of the rule, one sentence
+    State state = State::passed;
+    std::string message;   ///< one line; empty if passed
+    std::string artifact;  ///< the file that the subject comes from; may be empty
+};
+
+struct CiReport {
+    std::string command;  ///< "barycert audit"
+    std::string kind;     ///< what subjects are, as SARIF calls it: function, resource
+    Environment environment;
+    double seconds = 0;
+    std::vector<CiOutcome> outcomes = {};  ///< those of one subject together
+
+    bool failed() const;
+};
+
+/// The conditions of the certificate that hold, and the defects by kind, each with its first places. `name` is what the
+/// user calls the mesh, `artifact` the file that it is in.
+CiReport check_outcomes(const CheckReport& report, const Mesh& mesh, const std::string& name,
+                        const std::string& artifact, const Environment& environment);
+
+/// Kinds of wrong rows with their number and the worst; those fail of which there are more than a limit says.
+CiReport verify_outcomes(const VerifyReport& summary, const std::vector<VerifyLimit>& limits,
+                         const Environment& environment);
+
+/// A suite a subject, a case an outcome. Valid by the schema of Jenkins (junit-10.xsd).
+std::string ci_junit(const CiReport& report);
+
+/// Static Analysis Results Interchange Format 2.1.0: a result for each outcome that failed (error) or is noted (note).
+std::string ci_sarif(const CiReport& report);
+
+/// A line `::error title=...::...` for each outcome that failed.
+std::string ci_annotations(const CiReport& report);
 
 }  // namespace barycert

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace barycert {
@@ -94,5 +95,81 @@ constexpr std::string_view name(Feature f) {
     constexpr std::array<std::string_view, 6> names{"interior", "face", "edge", "vertex", "outside", "degenerate"};
     return names[static_cast<std::size_t>(f)];
 }
+
+// How many cases lie in memory for one call.
+
+/// `count` independent cases in structure of arrays. With d = space_dimension(simplex), coordinate k of vertex i of
+/// case j is vertices[d * i + k][j] and that of its point is point[k][j]. The caller owns the arrays; they must live
+/// until the call returns.
+struct CaseArrays {
+    Simplex simplex = Simplex::tetrahedron;
+    std::size_t count = 0;
+    std::array<const double*, 12> vertices{};
+    std::array<const double*, 3> point{};
+};
+
+/// Points against cells of a mesh. Case j is cell cells[j] with the point at points[d * j]; its vertex i is node
+/// corners[n * cells[j] + i], with coordinates nodes[d * node ...], n = vertex_count(simplex),
+/// d = space_dimension(simplex). Requires every index in range: indices are not checked.
+struct MeshQueries {
+    Simplex simplex = Simplex::tetrahedron;
+    std::span<const double> nodes;
+    std::span<const std::int32_t> corners;
+    std::span<const std::int32_t> cells;
+    std::span<const double> points;
+
+    std::size_t count() const { return cells.size(); }
+};
+
+/// Nodal values for CaseArrays, T double or float: component c at vertex i of case j is at[i][components * j + c].
+template <class T>
+struct ValueArrays {
+    std::array<const T*, 4> at{};
+    int components = 1;
+};
+
+/// Nodal values of a mesh, T double or float: component c at node k is data[components * k + c]. A float is converted
+/// to double, which is exact.
+template <class T>
+struct NodalValues {
+    std::span<const T> data;
+    int components = 1;
+};
+
+// Which tier of arithmetic decided an answer.
+
+/// From cheap to expensive. A tier answers only what its error bound proves; what it leaves undecided goes to the next.
+enum class Tier : std::uint8_t {
+    filter,         ///< double, with a bound on the error of the determinant
+    double_double,  ///< double + correction, with a bound on the error of their sum
+    exact,          ///< integers
+};
+
+constexpr std::string_view name(Tier t) {
+    return t == Tier::filter ? "filter" : t == Tier::double_double ? "double-double" : "exact";
+}
+
+/// How many cases each tier decided. Functions add to the counts they are given; one that returns an Error leaves them
+/// unchanged.
+struct TierCounts {
+    std::uint64_t filter = 0;
+    std::uint64_t double_double = 0;
+    std::uint64_t exact = 0;
+    std::uint64_t degenerate = 0;  ///< cases, of those above, whose simplex is degenerate
+    std::uint64_t not_finite = 0;  ///< cases, of those above, with a NaN or infinite nodal value that takes part
+
+    std::uint64_t cases() const { return filter + double_double + exact; }
+    void add(Tier t, std::uint64_t count = 1) {
+        (t == Tier::filter ? filter : t == Tier::double_double ? double_double : exact) += count;
+    }
+    void add(const TierCounts& other) {
+        filter += other.filter;
+        double_double += other.double_double;
+        exact += other.exact;
+        degenerate += other.degenerate;
+        not_finite += other.not_finite;
+    }
+    friend bool operator==(const TierCounts&, const TierCounts&) = default;
+};
 
 }  // namespace barycert

@@ -42,8 +42,8 @@
 
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
-#include "barycert/tiers.hpp"
-#include "barycert/vtk_data.hpp"
+#include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
 
 namespace barycert {
 

@@ -11,8 +11,8 @@
 
 #include "audit_inputs.hpp"
 #include "barycert/audit.hpp"
-#include "barycert/audit_mutants.hpp"
 #include "barycert/audit_report.hpp"
+#include "barycert/audit_search.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
 #include "baseline.hpp"

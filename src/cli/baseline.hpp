@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "barycert/audit_baseline.hpp"
-#include "barycert/audit_ci.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/audit_report.hpp"
 #include "barycert/result.hpp"
 #include "ci.hpp"
 

@@ -14,7 +14,6 @@
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/report.hpp"
-#include "barycert/vtk.hpp"
 #include "ci.hpp"
 #include "command.hpp"
 #include "files.hpp"

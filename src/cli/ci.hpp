@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "barycert/base/named_file.hpp"
-#include "barycert/ci.hpp"
+#include "barycert/report.hpp"
 #include "barycert/result.hpp"
 
 namespace CLI {

@@ -4,8 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "barycert/certificate.hpp"
-#include "barycert/notes.hpp"
+#include "barycert/check.hpp"
 #include "barycert/result.hpp"
 
 namespace CLI {

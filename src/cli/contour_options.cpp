@@ -54,7 +54,7 @@ int run_contour(ContourJob& job, bool quiet) {
         p.done == 0 ? progress.stage(p.stage) : progress.count(p.stage, p.done);
     };
     job.program = command_name();
-    const Result<ContourSummary> summary = contour_files(job);
+    const Result<ContourReport> summary = contour_files(job);
     progress.clear();
     if (!summary) return fail(summary.error());
     Status json = Done{}, told = Done{};

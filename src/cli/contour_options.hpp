@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "barycert/contour.hpp"
+#include "barycert/jobs.hpp"
 
 namespace CLI {
 class App;

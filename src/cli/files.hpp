@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "barycert/base/named_file.hpp"
+#include "barycert/io.hpp"
 #include "barycert/result.hpp"
-#include "barycert/vtk.hpp"
 
 namespace CLI {
 class App;

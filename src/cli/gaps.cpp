@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "audit_inputs.hpp"
-#include "barycert/audit_gaps.hpp"
 #include "barycert/audit_report.hpp"
+#include "barycert/audit_search.hpp"
 #include "barycert/base/named_limit.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"

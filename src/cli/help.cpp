@@ -13,7 +13,7 @@
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/verification.hpp"
+#include "barycert/jobs.hpp"
 #include "command.hpp"
 #include "files.hpp"
 #include "options/choice.hpp"

@@ -1,8 +1,7 @@
 #include "names.hpp"
 
 #include "barycert/audit.hpp"
-#include "barycert/audit_findings.hpp"
-#include "barycert/audit_gaps.hpp"
+#include "barycert/audit_search.hpp"
 #include "barycert/kernels.hpp"
 
 namespace barycert::cli {

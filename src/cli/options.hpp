@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "barycert/certificate.hpp"
-#include "barycert/vtk_data.hpp"
+#include "barycert/check.hpp"
+#include "barycert/table.hpp"
 #include "options/choice.hpp"
 
 namespace barycert::cli {

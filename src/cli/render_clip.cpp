@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "barycert/clip.hpp"
+#include "barycert/raster.hpp"
 #include "command.hpp"
 #include "render.hpp"
 #include "render_options.hpp"

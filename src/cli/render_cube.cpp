@@ -76,10 +76,10 @@ Result<TexelError> texel_error(const Scene& scene, const PixelValues& drawn) {
     return worst;
 }
 
-Result<RenderSummary> draw_cube(const CubePicture& p) {
+Result<RenderReport> draw_cube(const CubePicture& p) {
     const Result<Scene> scene = cube_scene(p);
     if (!scene) return scene.error();
-    RenderSummary summary = summary_of("cube", p.files, *scene);
+    RenderReport summary = summary_of("cube", p.files, *scene);
     PixelValues coordinates;
     const Result<Image> image = render(*scene, &summary.counts, &coordinates);
     if (!image) return image.error();

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "barycert/base/text.hpp"
-#include "barycert/inverse.hpp"
+#include "barycert/weights.hpp"
 #include "command.hpp"
 #include "contour_options.hpp"
 #include "files.hpp"

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "barycert/io.hpp"
-#include "barycert/pipeline/job_files.hpp"
+#include "barycert/jobs/job_files.hpp"
 #include "command.hpp"
 #include "files.hpp"
 #include "options.hpp"
@@ -23,7 +23,7 @@ struct MeshPicture {
     bool no_bar = false;
 };
 
-Result<RenderSummary> draw_mesh(MeshPicture& p) {
+Result<RenderReport> draw_mesh(MeshPicture& p) {
     Progress progress(!p.files.quiet && stderr_is_terminal());
     progress.stage("reading " + p.job.mesh);
     p.job.output = p.files.output;
@@ -78,7 +78,7 @@ void add_render_mesh(CLI::App& render, int& exit_code) {
     sub->callback([=, &exit_code] {
         auto inputs = base::named_files("the mesh", mesh_files(p->job.mesh));
         for (const FieldFile& field : p->job.field_files) {
-            for (base::NamedFile& file : pipeline::input_files("field " + field.name, field.path))
+            for (base::NamedFile& file : jobs::input_files("field " + field.name, field.path))
                 inputs.push_back(std::move(file));
         }
         exit_code = run_picture(p->files, inputs, [&] { return draw_mesh(*p); });

@@ -24,7 +24,7 @@ Status check_picture_files(const PictureOptions& o, const std::vector<base::Name
     return base::check_outputs(inputs, std::move(outputs));
 }
 
-Status tell_summary(const PictureOptions& o, const RenderSummary& summary) {
+Status tell_summary(const PictureOptions& o, const RenderReport& summary) {
     Status json = Done{};
     if (!o.json.empty()) json = write_output(o.json, render_json(summary, measure_environment()));
     if (o.quiet) return json;
@@ -72,10 +72,10 @@ void add_method_options(CLI::App& sub, FillMethod& method, Rounding& rounding) {
 }
 
 int run_picture(const PictureOptions& o, const std::vector<base::NamedFile>& inputs,
-                const std::function<Result<RenderSummary>()>& work) {
+                const std::function<Result<RenderReport>()>& work) {
     if (const Status ok = check_picture_files(o, inputs); !ok) return fail(ok.error());
     const auto begin = std::chrono::steady_clock::now();
-    Result<RenderSummary> summary = work();
+    Result<RenderReport> summary = work();
     if (!summary) return fail(summary.error());
     summary->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (!o.quiet) tell_important(summary->notes);
@@ -83,8 +83,8 @@ int run_picture(const PictureOptions& o, const std::vector<base::NamedFile>& inp
     return told ? exit_clean : fail(told.error());
 }
 
-RenderSummary summary_of(const std::string& picture, const PictureOptions& o, const Scene& scene) {
-    RenderSummary summary;
+RenderReport summary_of(const std::string& picture, const PictureOptions& o, const Scene& scene) {
+    RenderReport summary;
     summary.picture = picture;
     summary.output = o.output;
     summary.size = scene.size;
@@ -96,10 +96,10 @@ RenderSummary summary_of(const std::string& picture, const PictureOptions& o, co
 
 int run_scene(const PictureOptions& o, const std::string& picture, const std::vector<base::NamedFile>& inputs,
               const std::function<Result<Scene>()>& make) {
-    return run_picture(o, inputs, [&]() -> Result<RenderSummary> {
+    return run_picture(o, inputs, [&]() -> Result<RenderReport> {
         const Result<Scene> scene = make();
         if (!scene) return scene.error();
-        RenderSummary summary = summary_of(picture, o, *scene);
+        RenderReport summary = summary_of(picture, o, *scene);
         if (!inputs.empty()) summary.input = inputs.front().path;
         const Result<Image> image = render(*scene, &summary.counts);
         if (!image) return image.error();

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "barycert/base/named_file.hpp"
-#include "barycert/rendering.hpp"
+#include "barycert/jobs.hpp"
 #include "barycert/result.hpp"
 #include "barycert/scene.hpp"
 
@@ -32,13 +32,13 @@ void add_method_options(CLI::App& sub, FillMethod& method, Rounding& rounding);
 
 /// Checks files before the work, does it, tells its summary; returns the exit code. `work` writes the picture.
 int run_picture(const PictureOptions& o, const std::vector<base::NamedFile>& inputs,
-                const std::function<Result<RenderSummary>()>& work);
+                const std::function<Result<RenderReport>()>& work);
 
 /// The same for one scene that is drawn and written.
 int run_scene(const PictureOptions& o, const std::string& picture, const std::vector<base::NamedFile>& inputs,
               const std::function<Result<Scene>()>& make);
 
 /// What render_text and render_json say of a scene, but for the counts and the time.
-RenderSummary summary_of(const std::string& picture, const PictureOptions& o, const Scene& scene);
+RenderReport summary_of(const std::string& picture, const PictureOptions& o, const Scene& scene);
 
 }  // namespace barycert::cli

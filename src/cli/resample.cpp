@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "barycert/pipeline.hpp"
+#include "barycert/jobs.hpp"
 #include "command.hpp"
 #include "files.hpp"
 #include "options.hpp"

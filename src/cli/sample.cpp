@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "barycert/pipeline.hpp"
+#include "barycert/jobs.hpp"
 #include "command.hpp"
 #include "files.hpp"
 #include "options/choice.hpp"

@@ -75,7 +75,7 @@ FieldFile field_file_of(const std::string& option, FieldFile::Of of, const std::
     return file;
 }
 
-Status write_reports(const SamplingJob& job, bool quiet, const SampleSummary& summary) {
+Status write_reports(const SamplingJob& job, bool quiet, const SampleReport& summary) {
     Status json = Done{};
     if (!job.report.empty()) json = write_output(job.report, sample_json(summary, measure_environment()));
     if (quiet) return json;
@@ -163,7 +163,7 @@ void add_sampling_options(CLI::App& sub, SamplingJob& a, bool& quiet) {
     sub.add_flag("--quiet", quiet, "Print no summary, no notes and no progress");
 }
 
-int run_sampling(SamplingJob& job, bool quiet, const std::function<Result<SampleSummary>()>& run) {
+int run_sampling(SamplingJob& job, bool quiet, const std::function<Result<SampleReport>()>& run) {
     // Rows on the same terminal would run into the progress.
     const bool rows_on_terminal = job.output == "-" && isatty(STDOUT_FILENO) == 1;
     Progress progress(!quiet && stderr_is_terminal() && !rows_on_terminal);
@@ -172,7 +172,7 @@ int run_sampling(SamplingJob& job, bool quiet, const std::function<Result<Sample
     };
     job.program = command_name();
     job.count_degenerate = !quiet || !job.report.empty();
-    const Result<SampleSummary> summary = run();
+    const Result<SampleReport> summary = run();
     progress.clear();
     if (!summary) return fail(summary.error());
     const Status written = write_reports(job, quiet, *summary);

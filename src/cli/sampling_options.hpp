@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "barycert/pipeline.hpp"
+#include "barycert/jobs.hpp"
 #include "barycert/result.hpp"
 
 namespace CLI {
@@ -26,6 +26,6 @@ void add_sampling_options(CLI::App& sub, SamplingJob& job, bool& quiet);
 
 /// Does the job by `run`, with progress on a terminal, and writes its reports: the JSON where it is asked for, and the
 /// summary on stdout, or, where that has rows or the JSON, on stderr. Returns the exit code.
-int run_sampling(SamplingJob& job, bool quiet, const std::function<Result<SampleSummary>()>& run);
+int run_sampling(SamplingJob& job, bool quiet, const std::function<Result<SampleReport>()>& run);
 
 }  // namespace barycert::cli

@@ -7,8 +7,8 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/jobs.hpp"
 #include "barycert/report.hpp"
-#include "barycert/verification.hpp"
 #include "ci.hpp"
 #include "command.hpp"
 #include "files.hpp"
@@ -28,7 +28,7 @@ struct VerifyArguments {
 };
 
 /// Tells which limits of --fail-on are exceeded.
-void tell_failures(const VerifySummary& summary, const std::vector<VerifyLimit>& failures) {
+void tell_failures(const VerifyReport& summary, const std::vector<VerifyLimit>& failures) {
     for (const VerifyLimit& limit : failures)
         tell(fmt::format("fails: {}: {} = {}, limit {}\n", base::printable(summary.results), handle(limit.verdict),
                          summary.verdicts.of(limit.verdict), limit.most));
@@ -50,7 +50,7 @@ int run_verify(VerifyArguments& a) {
         p.done == 0 ? progress.stage(p.stage) : progress.count(p.stage, p.done);
     };
     a.job.program = command_name();
-    const Result<VerifySummary> summary = verify_files(a.job);
+    const Result<VerifyReport> summary = verify_files(a.job);
     progress.clear();
     if (!summary) return fail(summary.error());
     if (const Status ok = check_limits(*summary, limits); !ok) return fail(ok.error());

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "barycert/audit.hpp"
+#include "barycert/audit_pictures.hpp"
 #include "barycert/audit_report.hpp"
-#include "barycert/audit_signs.hpp"
 #include "barycert/kernels.hpp"
 #include "mesh_object.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "arrays.hpp"
-#include "barycert/node_weights.hpp"
+#include "barycert/sampler.hpp"
 #include "barycert/weights.hpp"
 #include "bindings.hpp"
 #include "errors.hpp"

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "arrays.hpp"
-#include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
 #include "barycert/gradient.hpp"
 #include "barycert/io.hpp"
-#include "barycert/notes.hpp"
+#include "barycert/result.hpp"
 #include "bindings.hpp"
 #include "errors.hpp"
 #include "mesh_object.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "barycert/io.hpp"
 #include "barycert/mesh.hpp"
-#include "barycert/plc.hpp"
 
 namespace barycert {
 

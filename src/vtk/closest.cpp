@@ -6,7 +6,6 @@
 #include <span>
 
 #include "barycert/environment.hpp"
-#include "barycert/inverse.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert::in_vtk {

@@ -11,7 +11,7 @@
  * - orientation (exact sign of the volume), volume (signed, correctly rounded; of triangles the area), condition,
  *   radius_edge, aspect, min_angle, max_angle (of dihedral angles, in degrees), as `barycert check` has them; NaN, and
  *   orientation 0, in cells that are left out;
- * - problems: bits of the defects that the cell is part of, in the order of defects.hpp (the active scalars); and for
+ * - problems: bits of the defects that the cell is part of, in the order of check.hpp (the active scalars); and for
  *   each kind of defect that some cell is part of an array of its name (degenerate_cell, same_side, ...): 1 or 0;
  * and field data certified (1 or 0) and barycert_check (the report of `barycert check`, line by line). A mesh that is
  * not certified is also told by a warning.

@@ -1,6 +1,6 @@
 // Drift: increments lose with the size, kernels that compute each pixel afresh do not.
 
-#include "barycert/audit_drift.hpp"
+#include "barycert/audit_pictures.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Gaps and overlaps: what exact weights do at shared faces is known, and kernels with a known fault are found out.
 
-#include "barycert/audit_gaps.hpp"
+#include "barycert/audit_search.hpp"
 
 #include <gtest/gtest.h>
 

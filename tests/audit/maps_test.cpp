@@ -1,6 +1,6 @@
 // Maps of meshes: the cells under the pixels, the errors in the cells.
 
-#include "barycert/audit_maps.hpp"
+#include "barycert/audit_pictures.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "audit/audit_helpers.hpp"
-#include "barycert/condition.hpp"
 #include "barycert/oracle.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert::audit {
 namespace {
@@ -141,7 +141,7 @@ const AuditReport& everything() {
 }
 
 /// Every kernel that works with differences alone, in all families together. The constants are those that
-/// condition.hpp proves, for weights over the sum of all numerators; what is measured stays far below
+/// weights.hpp proves, for weights over the sum of all numerators; what is measured stays far below
 /// (2.6 at most with 10,000 cases a family and three seeds): a kernel that loses more would show.
 TEST(Prediction, HoldsForKernelsThatWorkWithDifferences) {
     int met = 0;

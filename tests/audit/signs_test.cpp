@@ -1,6 +1,6 @@
 // Pictures of signs: the exact one is what the construction says, and kernels fail where they are known to.
 
-#include "barycert/audit_signs.hpp"
+#include "barycert/audit_pictures.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Texel addressing: the source's clamp reads past the end at u = 1, and is caught; the exact rules never do.
 
-#include "barycert/audit_texels.hpp"
+#include "barycert/audit_pictures.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "barycert/environment.hpp"
-#include "barycert/tiers.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::bench {
 

@@ -15,7 +15,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include "barycert/gmsh.hpp"
 #include "barycert/io.hpp"
 #include "large_mesh.hpp"
 

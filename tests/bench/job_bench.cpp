@@ -34,7 +34,6 @@
 #ifdef BARYCERT_WITH_TETGEN
 #include "large_mesh.hpp"
 #endif
-#include "barycert/vtk.hpp"
 
 namespace {
 

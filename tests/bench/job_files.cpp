@@ -16,7 +16,6 @@
 #include "barycert/base/text.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
-#include "barycert/vtk.hpp"
 #include "job_process.hpp"
 #include "sample_subject.hpp"
 

@@ -8,7 +8,6 @@
 #include <numeric>
 #include <string>
 
-#include "barycert/condition.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/oracle.hpp"
 #include "barycert/predicates.hpp"

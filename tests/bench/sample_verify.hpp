@@ -18,7 +18,7 @@ namespace barycert::bench {
 ///   some values and features, by the oracle, which shares no code;
 ///   one thread, two threads, no certificate, evaluate() and fields together: the same bits;
 ///   plain: the same owners, values within 200 kappa 2^-53 of the largest nodal value. (Each of four weights is off by
-///   at most 48 kappa u + u, condition.hpp, and kappa >= 3 pays for the rest.)
+///   at most 48 kappa u + u, weights.hpp, and kappa >= 3 pays for the rest.)
 /// Prints what was looked at.
 void verify_points(const Subject& subject, const Ours& ours, Table& rows);
 

@@ -1,6 +1,6 @@
 // Iso-surfaces and slices of about 2 million tetrahedra, beside VTK's filters.
 //
-// Before any time is taken, every point of ours must be the one that inverse.hpp computes for its edge, by integers,
+// Before any time is taken, every point of ours must be the one that weights.hpp computes for its edge, by integers,
 // and the area that of VTK's surface up to the rounding of the sum. How many of VTK's points have correctly rounded
 // coordinates is printed: a difference of an ulp in a point is no fault of a picture, but equal crossings that differ
 // are cracks where points are not merged. Wall times, medians of several runs taken in turn; demands are printed, no
@@ -19,9 +19,9 @@
 #include <string>
 #include <vector>
 
-#include "barycert/inverse.hpp"
 #include "barycert/io.hpp"
 #include "barycert/surface.hpp"
+#include "barycert/weights.hpp"
 #include "large_mesh.hpp"
 #include "require.hpp"
 #ifdef BARYCERT_WITH_VTK
@@ -76,7 +76,7 @@ double area_of(const Surface& s) {
     return sum;
 }
 
-/// Each point, from the values at the ends of its edge, as inverse.hpp has it.
+/// Each point, from the values at the ends of its edge, as weights.hpp has it.
 void verify(const Mesh& mesh, const Surface& s, const std::vector<double>& f, double value) {
     for (std::size_t v = 0; v < s.point_count(); ++v) {
         const auto a = static_cast<std::size_t>(s.mesh_edges[2 * v]),

@@ -15,11 +15,10 @@
 #include <string>
 #include <vector>
 
-#include "barycert/vtk.hpp"
+#include "barycert/io.hpp"
 #include "generated_mesh.hpp"
 #include "require.hpp"
 #ifdef BARYCERT_WITH_TETGEN
-#include "barycert/io.hpp"
 #include "large_mesh.hpp"
 #endif
 #ifdef BARYCERT_WITH_VTK

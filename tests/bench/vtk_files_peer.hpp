@@ -5,7 +5,7 @@
 #include <string>
 
 #include "barycert/mesh.hpp"
-#include "barycert/vtk_data.hpp"
+#include "barycert/table.hpp"
 
 namespace barycert::bench {
 

@@ -10,7 +10,6 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/check.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 #include "io/tetgen/mesh_files.hpp"

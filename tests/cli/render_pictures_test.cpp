@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/texture.hpp"
+#include "barycert/raster.hpp"
 #include "process.hpp"
 
 namespace barycert::cli_test {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "barycert/base/random.hpp"
-#include "barycert/inverse.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
 #include "core/environments.hpp"

@@ -1,4 +1,4 @@
-#include "barycert/condition.hpp"
+#include "barycert/weights.hpp"
 
 #include <algorithm>
 #include <array>

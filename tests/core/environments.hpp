@@ -10,7 +10,6 @@
 #include <xmmintrin.h>
 #endif
 
-#include "barycert/batch.hpp"
 #include "barycert/simplex.hpp"
 
 namespace barycert::testing_environments {

@@ -1,5 +1,5 @@
 // The other way round: places of values, points of weights, each against exact rationals.
-#include "barycert/inverse.hpp"
+#include "barycert/weights.hpp"
 
 #include "core/environments.hpp"
 #include "core/rational.hpp"

@@ -2,7 +2,6 @@
 // of what is no number.
 
 #include "barycert/environment.hpp"
-#include "barycert/inverse.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
 #include "core/environments.hpp"

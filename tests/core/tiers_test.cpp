@@ -1,5 +1,5 @@
 // Which tier answers: each test names the one that must.
-#include "barycert/tiers.hpp"
+#include "barycert/simplex.hpp"
 
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"

@@ -9,28 +9,22 @@
 #include <unistd.h>
 
 #include "barycert/audit.hpp"
-#include "barycert/audit_ci.hpp"
-#include "barycert/audit_gaps.hpp"
-#include "barycert/audit_mutants.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/audit_search.hpp"
 #include "barycert/base/random.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/check.hpp"
-#include "barycert/contour.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/gmsh.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/vti/vti.hpp"
+#include "barycert/jobs.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/map.hpp"
-#include "barycert/node_weights.hpp"
 #include "barycert/oracle.hpp"
-#include "barycert/plc.hpp"
 #include "barycert/report.hpp"
+#include "barycert/sampler.hpp"
 #include "barycert/surface.hpp"
-#include "barycert/vtk.hpp"
 #include "check/meshes.hpp"
 #include "core/same_everywhere.hpp"
 #include "mesh/curved_mesh.hpp"
@@ -665,7 +659,7 @@ TEST(EveryEnvironment, VerifiedResults) {
         job.mesh = folder.path("two");
         job.results = folder.path("rows.csv");
         job.options.threads = 2;
-        Result<VerifySummary> summary = verify_files(job);
+        Result<VerifyReport> summary = verify_files(job);
         out.add(summary.has_value());
         if (!summary) return;
         EXPECT_GT(summary->verdicts.wrong(), 2U);

@@ -2,8 +2,7 @@
 #include "barycert/scene.hpp"
 
 #include "barycert/base/random.hpp"
-#include "barycert/clip.hpp"
-#include "barycert/view.hpp"
+#include "barycert/raster.hpp"
 #include "core/same_everywhere.hpp"
 
 namespace barycert {

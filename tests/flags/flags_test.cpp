@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "barycert/audit_others.hpp"
+#include "barycert/audit_report.hpp"
 #include "matrix.hpp"
 
 namespace barycert::flags {

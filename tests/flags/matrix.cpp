@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "barycert/audit.hpp"
 #include "barycert/audit/comparison.hpp"
-#include "barycert/audit_families.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/kernels.hpp"
 #include "barycert/oracle.hpp"

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "barycert/column.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 

@@ -6,13 +6,10 @@
 #include <fstream>
 
 #include "barycert/audit.hpp"
-#include "barycert/audit_witness.hpp"
-#include "barycert/gmsh.hpp"
 #include "barycert/io.hpp"
 #include "barycert/map.hpp"
+#include "barycert/raster.hpp"
 #include "barycert/surface.hpp"
-#include "barycert/texture.hpp"
-#include "barycert/vtk.hpp"
 #include "fuzz/files.hpp"
 #include "fuzz/seed_texts.hpp"
 #include "fuzz/small_meshes.hpp"

@@ -1,6 +1,6 @@
 #include "fuzz/vtk_round_trip.hpp"
 
-#include "barycert/vtk.hpp"
+#include "barycert/io.hpp"
 #include "fuzz/files.hpp"
 #include "fuzz/same.hpp"
 #include "fuzz/target.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "barycert/vtk_data.hpp"
+#include "barycert/table.hpp"
 
 namespace barycert::fuzz {
 

@@ -4,10 +4,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "barycert/gmsh.hpp"
+#include "barycert/io.hpp"
 #include "barycert/io/other_formats.hpp"
-#include "barycert/plc.hpp"
-#include "barycert/vtk.hpp"
 #include "io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {

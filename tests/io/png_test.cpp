@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "barycert/base/random.hpp"
+#include "barycert/io.hpp"
 #include "barycert/io/png/colour_bar.hpp"
 #include "barycert/io/png/colour_map.hpp"
 #include "barycert/io/png/indexed_png.hpp"
-#include "barycert/picture.hpp"
 #include "io/tetgen/mesh_files.hpp"
 
 namespace barycert::io {

@@ -11,7 +11,7 @@
 #endif
 
 #include "barycert/base/random.hpp"
-#include "barycert/inverse.hpp"
+#include "barycert/weights.hpp"
 #include "judge.hpp"
 
 namespace barycert::laws {

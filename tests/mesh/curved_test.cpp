@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
 #include "curved_mesh.hpp"
 
 namespace barycert::testing {

@@ -25,7 +25,7 @@ struct Record {
 };
 static_assert(std::is_trivially_copyable_v<Record>);
 
-/// Input and answer of inverse.hpp. kind 0: point_from_weights (12 coordinates, 4 weights); 1: point_of_value (a, b, 3
+/// Input and answer of weights.hpp. kind 0: point_from_weights (12 coordinates, 4 weights); 1: point_of_value (a, b, 3
 /// attribute values), whose answer has t as the fourth.
 struct Inverse {
     int kind = 0;

@@ -12,7 +12,6 @@
 #include <immintrin.h>
 #endif
 
-#include "barycert/inverse.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
 #include "cases.hpp"

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "barycert/base/random.hpp"
-#include "barycert/texture.hpp"
+#include "barycert/raster.hpp"
 #include "io/tetgen/mesh_files.hpp"
 
 namespace barycert {

@@ -1,4 +1,4 @@
-#include "barycert/texture.hpp"
+#include "barycert/raster.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -13,7 +13,6 @@
 #include "barycert/environment.hpp"
 #include "barycert/perspective.hpp"
 #include "barycert/raster.hpp"
-#include "barycert/textured.hpp"
 
 namespace barycert {
 namespace {

@@ -1,4 +1,4 @@
-#include "barycert/view.hpp"
+#include "barycert/scene.hpp"
 
 #include <gtest/gtest.h>
 

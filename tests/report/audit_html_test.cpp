@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "barycert/audit_pictures.hpp"
 #include "barycert/audit_report.hpp"
-#include "barycert/audit_signs.hpp"
 #include "barycert/report/common/html_text.hpp"
 #include "barycert/report/common/page.hpp"
 #include "small_audit.hpp"

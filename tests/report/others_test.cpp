@@ -9,7 +9,6 @@
 #include <regex>
 #include <string>
 
-#include "barycert/audit_others.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/report/common/html_text.hpp"
 #include "small_audit.hpp"

@@ -6,8 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "barycert/audit.hpp"
-#include "barycert/audit_gaps.hpp"
-#include "barycert/audit_mutants.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/audit_search.hpp"
 #include "barycert/report.hpp"
@@ -48,7 +46,7 @@ void check_reports(Schema& schema) {
 
 /// Runs of sampling with something of everything.
 void sample_reports(Schema& schema) {
-    SampleSummary run;
+    SampleReport run;
     run.columns = {"t"};
     run.carried = {"id"};
     run.counts.locations.ways.walk = 1;
@@ -68,7 +66,7 @@ void sample_reports(Schema& schema) {
 
 /// Verifications with something of everything.
 void verify_reports(Schema& schema) {
-    VerifySummary run;
+    VerifyReport run;
     for (const bool much : {false, true}) {
         if (much) {
             run.dimension = 2;
@@ -130,7 +128,7 @@ void kernel_reports(Schema& schema) {
 
 /// Runs of cutting with something of everything.
 void contour_reports(Schema& schema) {
-    ContourSummary run;
+    ContourReport run;
     run.file.left_out = {"a"};
     for (const double low : {0.25, std::numeric_limits<double>::quiet_NaN()}) {
         run.low = run.high = run.picture.low = run.picture.high = low;
@@ -149,7 +147,7 @@ void contour_reports(Schema& schema) {
 
 /// Pictures with something of everything.
 void render_reports(Schema& schema) {
-    RenderSummary picture;
+    RenderReport picture;
     picture.picture = "mesh";
     for (const double low : {0.25, std::numeric_limits<double>::quiet_NaN()}) {
         picture.colours = ColourRange{"t", low, low, 1};

@@ -1,6 +1,6 @@
 // An audit against an earlier one: the same is the same, one wrong case more is told, other cases are not compared.
 
-#include "barycert/audit_baseline.hpp"
+#include "barycert/audit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The mutation score of the families: sound kernels are sound, mutants differ from them, and every one is caught.
 
-#include "barycert/audit_mutants.hpp"
+#include "barycert/audit_search.hpp"
 
 #include <gtest/gtest.h>
 

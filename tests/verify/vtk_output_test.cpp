@@ -24,8 +24,8 @@
 
 #include "barycert/base/random.hpp"
 #include "barycert/grid.hpp"
-#include "barycert/verification.hpp"
-#include "barycert/vtk.hpp"
+#include "barycert/io.hpp"
+#include "barycert/jobs.hpp"
 #include "io/tetgen/mesh_files.hpp"
 #include "locate/judge.hpp"
 #include "locate/points.hpp"
@@ -94,7 +94,7 @@ protected:
         job.mesh = mesh_path_;
         job.results = path;
         job.options.exact = exact;
-        const Result<VerifySummary> summary = verify_files(job);
+        const Result<VerifyReport> summary = verify_files(job);
         EXPECT_TRUE(summary) << summary.error().message();
         EXPECT_EQ(summary->mask_column, "vtkValidPointMask");
         EXPECT_EQ(summary->cell_column, "cell");

@@ -6,9 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "barycert/audit.hpp"
 #include "barycert/audit/judge.hpp"
-#include "barycert/audit_families.hpp"
-#include "barycert/audit_findings.hpp"
 #include "barycert/kernels.hpp"
 
 namespace barycert::audit {

@@ -3,8 +3,8 @@
 
 #include <span>
 
+#include "barycert/audit.hpp"
 #include "barycert/audit/asking.hpp"
-#include "barycert/audit_findings.hpp"
 #include "barycert/kernels.hpp"
 #include "barycert/oracle.hpp"
 #include "barycert/simplex.hpp"

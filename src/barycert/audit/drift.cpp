@@ -1,4 +1,4 @@
-#include "barycert/audit_drift.hpp"
+#include "barycert/audit_pictures.hpp"
 
 #include <algorithm>
 #include <cmath>

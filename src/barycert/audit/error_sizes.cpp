@@ -2,7 +2,7 @@
 #include <limits>
 #include <numeric>
 
-#include "barycert/audit_findings.hpp"
+#include "barycert/audit.hpp"
 #include "barycert/base/decades.hpp"
 #include "barycert/environment.hpp"
 

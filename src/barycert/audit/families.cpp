@@ -1,6 +1,6 @@
+#include "barycert/audit.hpp"
 #include "barycert/audit/mesh_draws.hpp"
 #include "barycert/audit/recipes.hpp"
-#include "barycert/audit_families.hpp"
 #include "barycert/base/random.hpp"
 
 #include <algorithm>

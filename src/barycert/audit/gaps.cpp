@@ -1,4 +1,4 @@
-#include "barycert/audit_gaps.hpp"
+#include "barycert/audit_search.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>

@@ -8,7 +8,7 @@
 #include "barycert/audit/combine.hpp"
 #include "barycert/audit/comparison.hpp"
 #include "barycert/audit/mesh_draws.hpp"
-#include "barycert/audit_maps.hpp"
+#include "barycert/audit_pictures.hpp"
 #include "barycert/base/workers.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locator.hpp"

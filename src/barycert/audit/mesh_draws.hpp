@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "barycert/audit_families.hpp"
+#include "barycert/audit.hpp"
 #include "barycert/base/random.hpp"
-#include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"
 

@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "barycert/base/strict_math.hpp"
-#include "barycert/condition.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert {
 namespace {

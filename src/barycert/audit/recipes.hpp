@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "barycert/audit.hpp"
 #include "barycert/audit/combine.hpp"
-#include "barycert/audit_families.hpp"
 #include "barycert/base/random.hpp"
 
 namespace barycert::audit {

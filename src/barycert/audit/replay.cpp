@@ -1,6 +1,6 @@
+#include "barycert/audit.hpp"
 #include "barycert/audit/comparison.hpp"
 #include "barycert/audit/search/evaluation.hpp"
-#include "barycert/audit_witness.hpp"
 
 #include <algorithm>
 #include <span>

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "barycert/audit/asking.hpp"
-#include "barycert/audit_signs.hpp"
+#include "barycert/audit_pictures.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/oracle.hpp"
 

@@ -1,4 +1,4 @@
-#include "barycert/audit_findings.hpp"
+#include "barycert/audit.hpp"
 
 #include <algorithm>
 #include <bit>

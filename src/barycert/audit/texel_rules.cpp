@@ -1,7 +1,7 @@
 // The rules of texel addressing: those of the literature as it has them, faults included, and exact ones.
 #include <cmath>
 
-#include "barycert/audit_texels.hpp"
+#include "barycert/audit_pictures.hpp"
 #include "barycert/base/strict_math.hpp"
 
 namespace barycert {

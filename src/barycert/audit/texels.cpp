@@ -1,4 +1,4 @@
-#include "barycert/audit_texels.hpp"
+#include "barycert/audit_pictures.hpp"
 
 #include <array>
 #include <bit>

@@ -1,5 +1,4 @@
 #include "barycert/audit.hpp"
-#include "barycert/audit_witness.hpp"
 
 #include <cmath>
 #include <limits>

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "barycert/audit_witness.hpp"
+#include "barycert/audit.hpp"
 
 namespace barycert::audit {
 

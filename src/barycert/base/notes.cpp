@@ -1,4 +1,4 @@
-#include "barycert/notes.hpp"
+#include "barycert/result.hpp"
 
 #include "barycert/base/text.hpp"
 

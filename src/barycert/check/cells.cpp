@@ -7,9 +7,9 @@
 #include "barycert/base/large_pages.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/check/shape.hpp"
-#include "barycert/condition.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/simplex.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert::check {
 namespace {

@@ -1,4 +1,4 @@
-#include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
 
 #include <bit>
 #include <cstddef>

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "barycert/check.hpp"
+#include "barycert/io.hpp"
 #include "barycert/mesh.hpp"
-#include "barycert/plc.hpp"
 
 namespace barycert::check {
 

@@ -11,7 +11,7 @@
 #include <limits>
 #include <string_view>
 
-#include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 

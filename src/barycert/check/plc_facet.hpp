@@ -7,7 +7,7 @@
 
 #include "barycert/check/names.hpp"
 #include "barycert/index/box_tree.hpp"
-#include "barycert/plc.hpp"
+#include "barycert/io.hpp"
 
 namespace barycert::check {
 

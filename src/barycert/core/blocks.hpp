@@ -7,11 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "barycert/batch.hpp"
 #include "barycert/core/input_checks.hpp"
 #include "barycert/core/lanes.hpp"
 #include "barycert/result.hpp"
-#include "barycert/tiers.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::core {
 

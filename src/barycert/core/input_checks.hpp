@@ -7,7 +7,6 @@
 #include <string>
 
 #include "barycert/base/strict_math.hpp"
-#include "barycert/batch.hpp"
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"
 

@@ -1,4 +1,4 @@
-#include "barycert/inverse.hpp"
+#include "barycert/weights.hpp"
 
 #include <algorithm>
 #include <cmath>

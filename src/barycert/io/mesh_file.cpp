@@ -1,12 +1,10 @@
 #include <tbb/task_arena.h>
 
-#include "barycert/gmsh.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/converted/read_converted.hpp"
 #include "barycert/io/medit/read_medit.hpp"
 #include "barycert/io/mesh_format.hpp"
 #include "barycert/io/vtk/collection.hpp"
-#include "barycert/vtk.hpp"
 
 namespace barycert {
 namespace {

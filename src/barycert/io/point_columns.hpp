@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "barycert/io.hpp"
-#include "barycert/notes.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {

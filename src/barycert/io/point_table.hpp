@@ -7,7 +7,6 @@
 
 #include "barycert/io.hpp"
 #include "barycert/mesh.hpp"
-#include "barycert/notes.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {

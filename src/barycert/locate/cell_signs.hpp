@@ -3,7 +3,7 @@
 
 #include "barycert/locate/names.hpp"
 #include "barycert/predicates.hpp"
-#include "barycert/tiers.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::locate {
 

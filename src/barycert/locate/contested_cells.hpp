@@ -13,7 +13,6 @@
 #include "barycert/locate/names.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/simplex.hpp"
-#include "barycert/tiers.hpp"
 
 namespace barycert::locate {
 

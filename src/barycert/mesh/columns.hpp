@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "barycert/column.hpp"
 #include "barycert/mesh.hpp"
 
 namespace barycert::mesh {

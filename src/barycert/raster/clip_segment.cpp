@@ -2,8 +2,8 @@
 #include <optional>
 #include <string>
 
-#include "barycert/clip.hpp"
 #include "barycert/core/scaled_double.hpp"
+#include "barycert/raster.hpp"
 #include "barycert/raster/exact_point.hpp"
 
 namespace barycert::raster {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <string>
 
-#include "barycert/clip.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/raster.hpp"
 #include "barycert/raster/exact_point.hpp"
 
 // Sutherland and Hodgman's way (Reentrant Polygon Clipping, CACM 17, 1974): bound after bound, each taking off what

@@ -3,7 +3,7 @@
 
 #include "barycert/io/png/png_reader.hpp"
 #include "barycert/io/png/png_rows.hpp"
-#include "barycert/texture.hpp"
+#include "barycert/raster.hpp"
 
 namespace barycert {
 namespace {

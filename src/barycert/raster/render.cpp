@@ -4,10 +4,10 @@
 #include <string>
 
 #include "barycert/base/strict_math.hpp"
-#include "barycert/clip.hpp"
 #include "barycert/core/exact_tier.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/predicates.hpp"
+#include "barycert/raster.hpp"
 #include "barycert/raster/draw.hpp"
 #include "barycert/scene.hpp"
 

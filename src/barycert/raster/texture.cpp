@@ -1,4 +1,4 @@
-#include "barycert/texture.hpp"
+#include "barycert/raster.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,9 @@
-#include "barycert/textured.hpp"
+#include "barycert/raster.hpp"
 
 #include <cmath>
 #include <string>
 
 #include "barycert/environment.hpp"
-#include "barycert/raster.hpp"
 #include "barycert/raster/textured_lanes.hpp"
 
 namespace barycert {

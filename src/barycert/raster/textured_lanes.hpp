@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "barycert/texture.hpp"
-#include "barycert/textured.hpp"
+#include "barycert/raster.hpp"
 
 namespace barycert::raster {
 
@@ -23,7 +22,7 @@ struct TexelRows {
     Wrap wrap = Wrap::clamp;
 };
 
-/// draw_textured of textured.hpp. Preconditions: three vertices a triangle, all numbers finite, with perspective w > 0.
+/// draw_textured of raster.hpp. Preconditions: three vertices a triangle, all numbers finite, with perspective w > 0.
 std::size_t draw_lanes(const PixelRows& out, const TexelRows& texture, std::span<const TexturedVertex> vertices,
                        bool perspective);
 

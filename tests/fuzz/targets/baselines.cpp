@@ -1,5 +1,5 @@
 // Baselines: the JSON of an earlier audit.
-#include "barycert/audit_baseline.hpp"
+#include "barycert/audit.hpp"
 #include "fuzz/files.hpp"
 #include "fuzz/target.hpp"
 

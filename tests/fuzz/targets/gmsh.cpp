@@ -1,5 +1,5 @@
 // Gmsh's .msh files of all versions.
-#include "barycert/gmsh.hpp"
+#include "barycert/io.hpp"
 
 #include <algorithm>
 

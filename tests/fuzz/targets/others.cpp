@@ -1,5 +1,5 @@
 // What other systems and formulas under compiler flags answered: JSON for the page of an audit.
-#include "barycert/audit_others.hpp"
+#include "barycert/audit_report.hpp"
 #include "fuzz/files.hpp"
 #include "fuzz/target.hpp"
 

@@ -1,5 +1,5 @@
 // Piecewise linear complexes. The first byte: .poly (with .node behind a form feed), .smesh, .off, .stl, .ply.
-#include "barycert/plc.hpp"
+#include "barycert/io.hpp"
 
 #include <array>
 #include <cmath>

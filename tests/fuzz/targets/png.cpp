@@ -1,5 +1,5 @@
 // PNG files: textures.
-#include "barycert/texture.hpp"
+#include "barycert/raster.hpp"
 #include "fuzz/files.hpp"
 #include "fuzz/target.hpp"
 

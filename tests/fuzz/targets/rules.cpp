@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "barycert/audit.hpp"
-#include "barycert/verification.hpp"
+#include "barycert/jobs.hpp"
 #include "fuzz/target.hpp"
 
 namespace barycert::fuzz {

@@ -2,8 +2,7 @@
 #include <array>
 
 #include "barycert/io.hpp"
-#include "barycert/verification.hpp"
-#include "barycert/vtk.hpp"
+#include "barycert/jobs.hpp"
 #include "fuzz/files.hpp"
 #include "fuzz/small_meshes.hpp"
 #include "fuzz/target.hpp"
@@ -35,7 +34,7 @@ BARYCERT_FUZZ_TARGET(verify, {std::size_t{24} << 20, std::size_t{1} << 14}) {
     if ((how & 64) != 0) job.options.outside_value = 0;
     if ((how & 128) != 0) job.columns = {"1,2,3"};
     job.options.threads = 1;
-    const Result<VerifySummary> summary = verify_files(job);
+    const Result<VerifyReport> summary = verify_files(job);
     if (!summary) return expect_useful(summary.error(), lines_of(input));
     const Verdicts& v = summary->verdicts;
     expect(v.right + v.missed + v.invented + v.wrong_cell + v.wrong_value == v.rows, "rows without a verdict");

@@ -3,7 +3,7 @@
 #include <array>
 #include <memory>
 
-#include "barycert/vtk.hpp"
+#include "barycert/io.hpp"
 #include "fuzz/files.hpp"
 #include "fuzz/target.hpp"
 #include "fuzz/vtk_round_trip.hpp"

@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "barycert/audit.hpp"
-#include "barycert/audit_witness.hpp"
 #include "fuzz/files.hpp"
 #include "fuzz/target.hpp"
 

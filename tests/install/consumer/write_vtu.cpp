@@ -4,7 +4,7 @@
 #include <fstream>
 #include <string>
 
-#include <barycert/vtk.hpp>
+#include <barycert/io.hpp>
 
 int main(int argc, char** argv) {
     const std::string path = argc > 1 ? argv[1] : "";

@@ -12,7 +12,7 @@
 
 #include "barycert/base/random.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/gmsh.hpp"
+#include "barycert/io.hpp"
 #include "io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {

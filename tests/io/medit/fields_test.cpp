@@ -1,5 +1,5 @@
 // .sol and .solb: fields for a mesh that stands in another file, or in the same.
-#include "barycert/pipeline/field_files.hpp"
+#include "barycert/jobs/field_files.hpp"
 #include "io/medit/medit_files.hpp"
 
 namespace barycert::testing {
@@ -74,7 +74,7 @@ TEST(MeditFields, named_as_field_files) {
     Mesh mesh = read_medit_bytes(medit_bytes(two_of_medit(), 2, Form::text)).value();
     const auto add = [&](const std::string& name, const std::string& file, const std::string& column,
                          FieldFile::Of of = FieldFile::Of::either) {
-        return pipeline::add_field({of, name, folder / file, column}, mesh, false);
+        return jobs::add_field({of, name, folder / file, column}, mesh, false);
     };
     Medit one = solution();
     one.parts = {one.parts[1]};

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <sstream>
 
-#include "barycert/plc.hpp"
+#include "barycert/io.hpp"
 #include "io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {

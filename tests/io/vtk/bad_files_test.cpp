@@ -1,7 +1,7 @@
 /// Files that are damaged or that hold no mesh of ours: an error with the file's name, never a crash, nothing printed.
 #include <functional>
 
-#include "barycert/vtk.hpp"
+#include "barycert/io.hpp"
 #include "io/vtk/good_files.hpp"
 #include "io/vtk/mesh_notes.hpp"
 

@@ -1,5 +1,5 @@
 /// Files that name files: partitioned data sets, blocks, series; and points of grids.
-#include "barycert/vtk.hpp"
+#include "barycert/io.hpp"
 
 #include "io/vtk/mesh_notes.hpp"
 

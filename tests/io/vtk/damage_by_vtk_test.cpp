@@ -2,7 +2,7 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include "barycert/base/random.hpp"
-#include "barycert/vtk.hpp"
+#include "barycert/io.hpp"
 #include "io/vtk/good_files.hpp"
 #include "io/vtk/mixed_grid.hpp"
 #include "io/vtk/vtk_files.hpp"

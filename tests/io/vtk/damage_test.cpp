@@ -3,8 +3,8 @@
 
 #include <chrono>
 
+#include "barycert/io.hpp"
 #include "barycert/io/vtk/codec.hpp"
-#include "barycert/vtk.hpp"
 #include "io/vtk/mesh_notes.hpp"
 #include "sanitized.hpp"
 

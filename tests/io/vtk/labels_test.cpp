@@ -1,5 +1,5 @@
 /// Strings and wide integers of cells, cell numbers, ghost cells and notes, in files written here.
-#include "barycert/vtk.hpp"
+#include "barycert/io.hpp"
 
 #include "io/vtk/mesh_notes.hpp"
 

@@ -12,7 +12,7 @@
 #include <bit>
 #include <limits>
 
-#include "barycert/vtk.hpp"
+#include "barycert/io.hpp"
 #include "io/tetgen/random_mesh.hpp"
 #include "io/vtk/mixed_grid.hpp"
 #include "io/vtk/vtk_files.hpp"

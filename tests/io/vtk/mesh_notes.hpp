@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "barycert/vtk.hpp"
+#include "barycert/io.hpp"
 #include "io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {

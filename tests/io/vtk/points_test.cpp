@@ -11,8 +11,8 @@
 
 #include <limits>
 
+#include "barycert/io.hpp"
 #include "barycert/io/vtk/point_rows.hpp"
-#include "barycert/vtk.hpp"
 #include "io/vtk/vtk_files.hpp"
 
 namespace barycert::testing {

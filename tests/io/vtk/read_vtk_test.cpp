@@ -1,4 +1,4 @@
-#include "barycert/vtk.hpp"
+#include "barycert/io.hpp"
 
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>

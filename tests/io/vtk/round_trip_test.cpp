@@ -1,7 +1,7 @@
 #include <bit>
 #include <limits>
 
-#include "barycert/vtk.hpp"
+#include "barycert/io.hpp"
 #include "io/tetgen/random_mesh.hpp"
 #include "io/vtk/mesh_notes.hpp"
 

@@ -3,7 +3,6 @@
 
 #include "barycert/base/spool.hpp"
 #include "barycert/io.hpp"
-#include "barycert/vtk.hpp"
 
 namespace barycert::testing {
 namespace {

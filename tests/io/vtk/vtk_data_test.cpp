@@ -9,7 +9,7 @@
 #include <limits>
 #include <thread>
 
-#include "barycert/vtk.hpp"
+#include "barycert/io.hpp"
 #include "io/tetgen/random_mesh.hpp"
 #include "io/vtk/mesh_notes.hpp"
 

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "barycert/vtk.hpp"
+#include "barycert/io.hpp"
 #include "io/tetgen/mesh_files.hpp"
 #include "io/vtk/mesh_notes.hpp"
 

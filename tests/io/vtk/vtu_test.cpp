@@ -1,4 +1,4 @@
-#include "barycert/vtk.hpp"
+#include "barycert/io.hpp"
 
 #include <sys/resource.h>
 #include <vtkAbstractArray.h>

@@ -11,7 +11,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/map.hpp"
-#include "barycert/node_weights.hpp"
+#include "barycert/sampler.hpp"
 #include "check/meshes.hpp"
 #include "core/rational.hpp"
 #include "locate/points.hpp"

@@ -6,8 +6,8 @@
 #include <limits>
 #include <map>
 
-#include "barycert/node_weights.hpp"
 #include "barycert/oracle.hpp"
+#include "barycert/sampler.hpp"
 #include "check/meshes.hpp"
 #include "check/random_complexes.hpp"
 #include "locate/points.hpp"

@@ -1,4 +1,4 @@
-#include "barycert/audit_baseline.hpp"
+#include "barycert/audit.hpp"
 
 #include <algorithm>
 #include <map>

@@ -2,7 +2,7 @@
 // floating point where it proves them.
 //
 // The sound filter. Differences of coordinates are rounded once each; a determinant of them is a sum of products that
-// each meet at most 8 roundings in 3D and 4 in 2D (condition.hpp), so that it is off by at most 8 u or 4 u times the
+// each meet at most 8 roundings in 3D and 4 in 2D (weights.hpp), so that it is off by at most 8 u or 4 u times the
 // sum of the products' magnitudes, to first order; what is of higher order, and the rounding of that sum itself, is
 // below the margin taken: 10 u and 5 u. All that holds where no product underflows: differences are 0 or at least
 // 2^-300. (Beyond the largest double the sum of magnitudes is infinite or not a number, and decides nothing.)

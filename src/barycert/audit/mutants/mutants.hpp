@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "barycert/audit_mutants.hpp"
+#include "barycert/audit_search.hpp"
 
 namespace barycert::audit {
 

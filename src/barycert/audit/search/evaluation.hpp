@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "barycert/audit_findings.hpp"
+#include "barycert/audit.hpp"
 #include "barycert/kernels.hpp"
 #include "barycert/oracle.hpp"
 

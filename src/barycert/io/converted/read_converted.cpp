@@ -10,8 +10,8 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/run_files.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/io.hpp"
 #include "barycert/io/converted/meshio_process.hpp"
-#include "barycert/vtk.hpp"
 
 namespace barycert::io {
 namespace {

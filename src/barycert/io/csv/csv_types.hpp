@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "barycert/column.hpp"
+#include "barycert/mesh.hpp"
 
 namespace barycert::io {
 

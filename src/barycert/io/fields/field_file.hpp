@@ -4,7 +4,6 @@
 #include <string>
 
 #include "barycert/mesh.hpp"
-#include "barycert/notes.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {

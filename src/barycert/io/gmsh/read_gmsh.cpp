@@ -8,7 +8,7 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/gmsh.hpp"
+#include "barycert/io.hpp"
 #include "barycert/io/gmsh/msh_cells.hpp"
 #include "barycert/io/gmsh/msh_elements.hpp"
 #include "barycert/io/gmsh/msh_file.hpp"

@@ -6,7 +6,7 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/gmsh.hpp"
+#include "barycert/io.hpp"
 #include "barycert/io/gmsh/cell_groups.hpp"
 #include "barycert/io/gmsh/msh_output.hpp"
 #include "barycert/mesh/consistency.hpp"

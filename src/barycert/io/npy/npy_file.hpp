@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "barycert/base/input_file.hpp"
-#include "barycert/column.hpp"
 #include "barycert/io/npy/npy_columns.hpp"
 #include "barycert/io/npy/npy_header.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {

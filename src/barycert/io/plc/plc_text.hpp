@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "barycert/plc.hpp"
+#include "barycert/io.hpp"
 
 namespace barycert::io {
 

@@ -1,4 +1,4 @@
-#include "barycert/picture.hpp"
+#include "barycert/io.hpp"
 
 #include <algorithm>
 #include <cmath>

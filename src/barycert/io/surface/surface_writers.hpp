@@ -5,7 +5,7 @@
 
 #include "barycert/result.hpp"
 #include "barycert/surface.hpp"
-#include "barycert/vtk_data.hpp"
+#include "barycert/table.hpp"
 
 namespace barycert::io {
 

@@ -14,7 +14,7 @@
 #include "barycert/base/output_file.hpp"
 #include "barycert/base/spool.hpp"
 #include "barycert/result.hpp"
-#include "barycert/vtk_data.hpp"
+#include "barycert/table.hpp"
 
 namespace barycert::io {
 

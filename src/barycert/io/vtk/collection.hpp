@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "barycert/io.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/io/vtk/xml_tree.hpp"
-#include "barycert/vtk.hpp"
 
 namespace barycert::io {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "barycert/io.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
-#include "barycert/vtk.hpp"
 
 namespace barycert::io {
 

@@ -7,10 +7,10 @@
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/io.hpp"
 #include "barycert/io/vti/appended.hpp"
 #include "barycert/io/vtk/mesh_arrays.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
-#include "barycert/vtk.hpp"
 
 namespace barycert {
 namespace {

@@ -12,7 +12,7 @@
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"
-#include "barycert/vtk_data.hpp"
+#include "barycert/table.hpp"
 
 namespace barycert::io {
 

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "barycert/column.hpp"
 #include "barycert/io/vtk/numbers.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"

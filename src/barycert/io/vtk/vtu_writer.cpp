@@ -3,9 +3,9 @@
 #include <string>
 
 #include "barycert/environment.hpp"
+#include "barycert/io.hpp"
 #include "barycert/io/vtk/mesh_arrays.hpp"
 #include "barycert/io/vtk/xml_writer.hpp"
-#include "barycert/vtk.hpp"
 
 namespace barycert {
 namespace {

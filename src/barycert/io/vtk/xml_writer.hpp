@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "barycert/io/vtk/out_array.hpp"
-#include "barycert/vtk_data.hpp"
+#include "barycert/table.hpp"
 
 namespace barycert::io {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "barycert/audit_ci.hpp"
+#include "barycert/audit_report.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <map>
 
-#include "barycert/audit_mutants.hpp"
 #include "barycert/audit_report.hpp"
+#include "barycert/audit_search.hpp"
 #include "barycert/base/json_text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report/common/environment_json.hpp"

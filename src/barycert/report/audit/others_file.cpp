@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "barycert/audit/json_members.hpp"
-#include "barycert/audit_others.hpp"
+#include "barycert/audit_report.hpp"
 #include "barycert/base/input_file.hpp"
 #include "barycert/environment.hpp"
 

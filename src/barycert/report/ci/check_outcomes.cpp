@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "barycert/ci.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/report.hpp"
 #include "barycert/report/check/check_words.hpp"
 
 namespace barycert {

@@ -5,8 +5,8 @@
 
 #include "barycert/base/json_text.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/ci.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/report.hpp"
 #include "barycert/report/common/html_text.hpp"
 
 namespace barycert {

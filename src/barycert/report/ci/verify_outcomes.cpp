@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "barycert/ci.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/report.hpp"
 #include "barycert/report/verify/verify_words.hpp"
 
 namespace barycert {
@@ -16,7 +16,7 @@ namespace {
 using State = CiOutcome::State;
 
 /// "3 of 7 rows: what such rows are. Worst: row 5: ...".
-std::string kind_message(const VerifySummary& s, RowVerdict kind, const VerdictLine& line) {
+std::string kind_message(const VerifyReport& s, RowVerdict kind, const VerdictLine& line) {
     std::string text = fmt::format("{} of {} rows: {}", line.count, s.verdicts.rows, line.what);
     const auto& examples = s.verdicts.examples;
     const auto worst =
@@ -27,7 +27,7 @@ std::string kind_message(const VerifySummary& s, RowVerdict kind, const VerdictL
 
 }  // namespace
 
-CiReport verify_outcomes(const VerifySummary& s, const std::vector<VerifyLimit>& limits,
+CiReport verify_outcomes(const VerifyReport& s, const std::vector<VerifyLimit>& limits,
                          const Environment& environment) {
     const ExactEnvironment exact;
     CiReport ci{"barycert verify", "resource", environment, s.seconds.total};

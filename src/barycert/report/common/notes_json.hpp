@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "barycert/certificate.hpp"
-#include "barycert/notes.hpp"
+#include "barycert/check.hpp"
 #include "barycert/report/common/json_figure.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert::report {
 

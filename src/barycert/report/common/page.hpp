@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
 
 namespace barycert::report {
 

@@ -10,7 +10,7 @@
 
 #include "barycert/base/shell_word.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/certificate.hpp"
+#include "barycert/check.hpp"
 
 namespace barycert::report {
 

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json pixels_json(const ContourSummary& s) {
+Json pixels_json(const ContourReport& s) {
     Json j;
     j["width"] = s.pixels->width;
     j["height"] = s.pixels->height;
@@ -34,7 +34,7 @@ Json pixels_json(const ContourSummary& s) {
     return j;
 }
 
-Json view_json(const ContourSummary& s) {
+Json view_json(const ContourReport& s) {
     Json j;
     j["width"] = s.view->width;
     j["height"] = s.view->height;
@@ -71,7 +71,7 @@ Json seconds_json(const ContourSeconds& s) {
 
 }  // namespace
 
-std::string contour_json(const ContourSummary& s, const Environment& environment) {
+std::string contour_json(const ContourReport& s, const Environment& environment) {
     const ExactEnvironment exact;
     Json j;
     j["schema"] = contour_schema;

@@ -21,14 +21,14 @@ std::string line(std::string_view name, const std::string& text) {
 }
 
 /// What is cut, and at what.
-std::string level(const ContourSummary& s) {
+std::string level(const ContourReport& s) {
     if (s.value) return base::printable(s.field) + " = " + base::shortest(*s.value);
     std::string text = "plane ";
     for (const double n : s.plane->normal) text += base::shortest(n) + ",";
     return text + base::shortest(s.plane->offset);
 }
 
-std::string surface(const ContourSummary& s, const Colours& paint) {
+std::string surface(const ContourReport& s, const Colours& paint) {
     const bool flat = s.dimension == 2;
     if (s.parts == 0) {
         const std::string range =
@@ -40,7 +40,7 @@ std::string surface(const ContourSummary& s, const Colours& paint) {
                        plural(s.points, "point", "points"), s.counts.at_nodes, plural(s.counts.cells, "cell", "cells"));
 }
 
-std::string points(const ContourSummary& s) {
+std::string points(const ContourReport& s) {
     const TierCounts& t = s.counts.tiers;
     return fmt::format("exact crossings{}, rounded once; decided by double-double {}, by integers {}",
                        for_straight_sides(s.curved), t.double_double, t.exact);
@@ -54,7 +54,7 @@ std::string names(const std::vector<std::string>& all) {
 }
 
 /// What is not in the file, or is not what it looks like.
-std::vector<std::string> notes(const ContourSummary& s) {
+std::vector<std::string> notes(const ContourReport& s) {
     std::vector<std::string> all;
     const CutCounts& n = s.counts;
     if (n.not_finite != 0)
@@ -75,7 +75,7 @@ std::vector<std::string> notes(const ContourSummary& s) {
     return all;
 }
 
-std::string picture(const ContourSummary& s) {
+std::string picture(const ContourReport& s) {
     const SliceCounts& n = s.picture;
     std::string text = fmt::format("{} x {} pixels of {:.6g}", s.pixels->width, s.pixels->height, s.pixels->pixel);
     if (std::isnan(n.low)) return text + "; nothing drawn: no point has a finite value";
@@ -85,7 +85,7 @@ std::string picture(const ContourSummary& s) {
     return text + (clear == 0 ? "" : fmt::format("; {} without a value, transparent", clear));
 }
 
-std::string view(const ContourSummary& s) {
+std::string view(const ContourReport& s) {
     std::string text = fmt::format("{} x {} pixels", s.view->width, s.view->height);
     if (s.colours.empty()) return text + ", grey: --colours names a field";
     if (std::isnan(s.drawn.low)) return text + "; no value is finite";
@@ -96,7 +96,7 @@ std::string view(const ContourSummary& s) {
     return text;
 }
 
-std::string times(const ContourSummary& s) {
+std::string times(const ContourReport& s) {
     std::string text =
         fmt::format("{:.3g} s on {}: mesh {:.3g}, cutting {:.3g}", s.seconds.total,
                     plural(static_cast<std::uint64_t>(s.threads), "thread", "threads"), s.seconds.mesh, s.seconds.cut);
@@ -107,7 +107,7 @@ std::string times(const ContourSummary& s) {
 
 }  // namespace
 
-std::string contour_text(const ContourSummary& s, bool colour) {
+std::string contour_text(const ContourReport& s, bool colour) {
     const ExactEnvironment environment;
     const Colours paint(colour);
     std::string out = curved_lines(s.curved, paint) + line("cut", level(s));

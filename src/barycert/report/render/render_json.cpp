@@ -51,7 +51,7 @@ Json texel_error_json(const TexelError& e) {
 
 }  // namespace
 
-std::string render_json(const RenderSummary& summary, const Environment& environment) {
+std::string render_json(const RenderReport& summary, const Environment& environment) {
     const ExactEnvironment exact;
     Json j;
     j["schema"] = render_schema;

@@ -13,7 +13,7 @@ std::string row(std::string_view name, const std::string& text) {
     return fmt::format("{:<10} {}\n", name, text);
 }
 
-std::string picture_row(const RenderSummary& s) {
+std::string picture_row(const RenderReport& s) {
     std::string text =
         fmt::format("{}, {} x {} pixels: {}", s.picture, s.size.width, s.size.height, report::word(s.method));
     if (s.interpolation != Interpolation::perspective || s.texel_error)
@@ -43,7 +43,7 @@ std::string pixels_row(const RenderCounts& n) {
 
 }  // namespace
 
-std::string render_text(const RenderSummary& s, bool colour) {
+std::string render_text(const RenderReport& s, bool colour) {
     const ExactEnvironment environment;
     const report::Colours paint(colour);
     std::string out =

@@ -50,7 +50,7 @@ Json ways_json(const WayCounts& n) {
     return j;
 }
 
-Json outside_json(const SampleSummary& summary) {
+Json outside_json(const SampleReport& summary) {
     const SampleCounts& n = summary.counts;
     Json j;
     j["count"] = n.locations.outside;
@@ -63,7 +63,7 @@ Json outside_json(const SampleSummary& summary) {
     return j;
 }
 
-Json values_json(const SampleSummary& summary) {
+Json values_json(const SampleReport& summary) {
     const TierCounts& t = summary.counts.values;
     Json j;
     j["rounding"] = summary.rounding == Rounding::correct ? "correct" : "plain";
@@ -111,7 +111,7 @@ Json seconds_json(const SampleSeconds& s) {
 
 }  // namespace
 
-std::string sample_json(const SampleSummary& summary, const Environment& environment) {
+std::string sample_json(const SampleReport& summary, const Environment& environment) {
     const ExactEnvironment exact;
     Json j;
     j["schema"] = sample_schema;

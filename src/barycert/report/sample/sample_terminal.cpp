@@ -44,7 +44,7 @@ std::string ways(const WayCounts& n) {
 }
 
 /// What became of points outside.
-std::string outside(const SampleSummary& summary, const Colours& paint) {
+std::string outside(const SampleReport& summary, const Colours& paint) {
     const SampleCounts& n = summary.counts;
     const std::uint64_t count = n.locations.outside;
     if (count == 0) return "0";
@@ -66,7 +66,7 @@ std::string outside(const SampleSummary& summary, const Colours& paint) {
     return paint.bold(fmt::format("{}: {}", count, fmt::join(fates, "; ")));
 }
 
-std::string values(const SampleSummary& summary) {
+std::string values(const SampleReport& summary) {
     if (summary.columns.empty()) return "none: the mesh has no fields, and --field was not given";
     if (summary.rounding == Rounding::plain) return "plain double, by --rounding plain; cells and features are exact";
     const TierCounts& t = summary.counts.values;
@@ -98,7 +98,7 @@ std::string integral(const FieldIntegral& of) {
                        over(of.target, "MESH2", of.target_left_out));
 }
 
-std::string times(const SampleSummary& summary) {
+std::string times(const SampleReport& summary) {
     const SampleSeconds& s = summary.seconds;
     std::string text = fmt::format("{:.3g} s on {}: mesh {:.3g}", s.total,
                                    plural(static_cast<std::uint64_t>(summary.threads), "thread", "threads"), s.mesh);
@@ -127,7 +127,7 @@ std::string policy_text(const OutsidePolicy& policy) {
     }
 }
 
-std::string sample_text(const SampleSummary& summary, bool colour) {
+std::string sample_text(const SampleReport& summary, bool colour) {
     const ExactEnvironment environment;
     const Colours paint(colour);
     std::string points = std::to_string(summary.counts.locations.points());

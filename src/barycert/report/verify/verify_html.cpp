@@ -23,13 +23,13 @@ std::string text(std::string_view s) {
     return html_escaped(s);
 }
 
-std::string verdict_section(const VerifySummary& s) {
+std::string verdict_section(const VerifyReport& s) {
     const Verdicts& v = s.verdicts;
     return fmt::format("<section class=\"verdict {}\"><b>{}</b><p>{} rows: {}.</p></section>\n",
                        v.wrong() == 0 ? "good" : "bad", text(verdict_sentence(s)), v.rows, places_sentence(v));
 }
 
-std::string verdict_rows(const VerifySummary& s) {
+std::string verdict_rows(const VerifyReport& s) {
     std::string out =
         "<div class=\"scroll\"><table><tr><th>row is</th><th class=\"n\">rows</th><th class=\"n\">%</th>"
         "<th>meaning</th></tr>\n";
@@ -42,7 +42,7 @@ std::string verdict_rows(const VerifySummary& s) {
     return out + "</table></div>\n";
 }
 
-std::string value_rows(const VerifySummary& s) {
+std::string value_rows(const VerifyReport& s) {
     if (s.columns.empty()) return "<p>The results have no values to compare.</p>\n";
     std::string out = "<table class=\"stack\"><tr>";
     constexpr std::array heads{"value", "column", "compared", "bits right, %", "max ulps", "max error", "wrong"};
@@ -67,7 +67,7 @@ std::string value_rows(const VerifySummary& s) {
     return out;
 }
 
-std::string histograms(const VerifySummary& s) {
+std::string histograms(const VerifyReport& s) {
     std::string out;
     for (std::size_t c = 0; c < s.columns.size(); ++c) {
         const ValueErrors& e = s.verdicts.columns[c];
@@ -91,7 +91,7 @@ std::string histograms(const VerifySummary& s) {
     return out;
 }
 
-std::string examples(const VerifySummary& s) {
+std::string examples(const VerifyReport& s) {
     std::string out;
     for (const WrongRow& row : s.verdicts.examples)
         out += fmt::format("<div class=\"card\"><p><b>{}</b>, row {} (from 0): {}</p><p><code>{}</code></p></div>\n",
@@ -99,7 +99,7 @@ std::string examples(const VerifySummary& s) {
     return out.empty() ? out : "<h2>Worst rows</h2>\n" + out;
 }
 
-std::string notes(const VerifySummary& s) {
+std::string notes(const VerifyReport& s) {
     std::string out = fmt::format("<p>{} cells, {} nodes: {}.</p>\n", s.cells, s.nodes, text(mesh_sentence(s)));
     for (const Note& note : s.notes)
         out += fmt::format("<p>{}: {}{}</p>\n", name(note.kind), text(note.text),
@@ -109,7 +109,7 @@ std::string notes(const VerifySummary& s) {
 
 }  // namespace
 
-std::string verify_html(const VerifySummary& s, const Environment& environment) {
+std::string verify_html(const VerifyReport& s, const Environment& environment) {
     const ExactEnvironment exact;
     std::string out = page_head("barycert verify: " + s.results) +
                       fmt::format("<h1>barycert verify: {} on {}</h1>\n", text(s.results), text(s.mesh));

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json errors_json(const VerifySummary& s, std::size_t c) {
+Json errors_json(const VerifyReport& s, std::size_t c) {
     const ValueErrors& e = s.verdicts.columns[c];
     Json j;
     j["name"] = s.columns[c];
@@ -35,7 +35,7 @@ Json errors_json(const VerifySummary& s, std::size_t c) {
     return j;
 }
 
-Json example_json(const VerifySummary& s, const WrongRow& row) {
+Json example_json(const VerifyReport& s, const WrongRow& row) {
     Json j;
     j["verdict"] = name(row.verdict);
     j["row"] = row.row;
@@ -57,7 +57,7 @@ Json example_json(const VerifySummary& s, const WrongRow& row) {
 
 }  // namespace
 
-std::string verify_json(const VerifySummary& s, const Environment& environment) {
+std::string verify_json(const VerifyReport& s, const Environment& environment) {
     const ExactEnvironment exact;
     const Verdicts& v = s.verdicts;
     Json j;

@@ -15,7 +15,7 @@ using namespace report;
 
 namespace {
 
-std::string verdict_lines(const VerifySummary& s, const Colours& paint) {
+std::string verdict_lines(const VerifyReport& s, const Colours& paint) {
     const Verdicts& v = s.verdicts;
     std::string out = fmt::format("{}: {}\n", base::printable(s.results),
                                   v.wrong() == 0 ? paint.good(verdict_sentence(s)) : paint.bad(verdict_sentence(s)));
@@ -26,7 +26,7 @@ std::string verdict_lines(const VerifySummary& s, const Colours& paint) {
     return out;
 }
 
-std::string value_lines(const VerifySummary& s, const Colours& paint) {
+std::string value_lines(const VerifyReport& s, const Colours& paint) {
     if (s.columns.empty()) return "\nvalues       not compared\n";
     const std::string over = fmt::format("over {}", s.exact ? "0" : base::shortest(s.tolerance));
     std::string out = fmt::format("\n{:<20} {:>12} {:>12} {:>12} {:>12} {:>10}\n", "values of", "compared",
@@ -41,7 +41,7 @@ std::string value_lines(const VerifySummary& s, const Colours& paint) {
     return out + fmt::format("{}\n", fmt::join(scale_sentences(s), "\n"));
 }
 
-std::string histogram_lines(const VerifySummary& s) {
+std::string histogram_lines(const VerifyReport& s) {
     std::string out;
     for (std::size_t c = 0; c < s.columns.size(); ++c) {
         const ValueErrors& e = s.verdicts.columns[c];
@@ -59,7 +59,7 @@ std::string histogram_lines(const VerifySummary& s) {
     return out;
 }
 
-std::string example_lines(const VerifySummary& s, const Colours& paint) {
+std::string example_lines(const VerifyReport& s, const Colours& paint) {
     const auto& examples = s.verdicts.examples;
     if (examples.empty()) return "";
     std::string out = "\nworst rows, counted from 0\n";
@@ -72,7 +72,7 @@ std::string example_lines(const VerifySummary& s, const Colours& paint) {
 
 }  // namespace
 
-std::string verify_text(const VerifySummary& summary, bool colour) {
+std::string verify_text(const VerifyReport& summary, bool colour) {
     const ExactEnvironment environment;
     const Colours paint(colour);
     std::string out = curved_lines(summary.curved, paint) + verdict_lines(summary, paint) +

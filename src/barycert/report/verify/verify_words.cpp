@@ -13,7 +13,7 @@ namespace barycert::report {
 namespace {
 
 /// The doubles of a point, with commas.
-std::string coordinates(const VerifySummary& summary, const WrongRow& row) {
+std::string coordinates(const VerifyReport& summary, const WrongRow& row) {
     std::string text;
     for (int k = 0; k < summary.dimension; ++k)
         text += (k == 0 ? "" : ",") + base::shortest(row.point[static_cast<std::size_t>(k)]);
@@ -27,7 +27,7 @@ std::string where(const WrongRow& row) {
                        row.exact.cell);
 }
 
-std::string value_clause(const VerifySummary& summary, const WrongRow& row) {
+std::string value_clause(const VerifyReport& summary, const WrongRow& row) {
     if (summary.columns.empty()) return "";
     return fmt::format("{} is {}, should be {}", base::printable(summary.columns[row.column]),
                        base::shortest(row.claimed), base::shortest(row.value));
@@ -41,7 +41,7 @@ std::string places_sentence(const Verdicts& v) {
                        v.not_finite == 0 ? "" : fmt::format(", {} of them not finite", v.not_finite));
 }
 
-std::string verdict_sentence(const VerifySummary& summary) {
+std::string verdict_sentence(const VerifyReport& summary) {
     const Verdicts& v = summary.verdicts;
     if (v.rows == 0) return "no rows";
     const std::string_view of = for_straight_sides(summary.curved);
@@ -50,7 +50,7 @@ std::string verdict_sentence(const VerifySummary& summary) {
     return fmt::format("WRONG{}: {} of {} rows", of, v.wrong(), v.rows);
 }
 
-std::vector<VerdictLine> verdict_table(const VerifySummary& summary) {
+std::vector<VerdictLine> verdict_table(const VerifyReport& summary) {
     const Verdicts& v = summary.verdicts;
     const bool named = !summary.cell_column.empty();
     std::string right = summary.exact ? "the exact value, rounded once" : "values off by at most the tolerance";
@@ -89,7 +89,7 @@ std::string_view meaning(RowVerdict verdict) {
     return meanings[static_cast<std::size_t>(verdict)];
 }
 
-std::vector<std::string> scale_sentences(const VerifySummary& summary) {
+std::vector<std::string> scale_sentences(const VerifyReport& summary) {
     std::vector<std::string> all{"max error: in parts of the range of the field (max - min)"};
     for (std::size_t c = 0; c < summary.columns.size(); ++c) {
         const std::string name = base::printable(summary.columns[c]);
@@ -113,7 +113,7 @@ std::string bin_label(std::size_t bin) {
     return bin == 0 ? "right" : base::decade_label(bin);
 }
 
-std::string example_sentence(const VerifySummary& summary, const WrongRow& row) {
+std::string example_sentence(const VerifyReport& summary, const WrongRow& row) {
     std::string text = "point (" + coordinates(summary, row) + ") is " + where(row);
     switch (row.verdict) {
         case RowVerdict::missed:
@@ -134,13 +134,13 @@ std::string example_sentence(const VerifySummary& summary, const WrongRow& row) 
     }
 }
 
-std::string example_command(const VerifySummary& summary, const WrongRow& row) {
+std::string example_command(const VerifyReport& summary, const WrongRow& row) {
     return fmt::format("echo {} | {} sample {} --columns 1,2{} --on-boundary all{} --points - --output -",
                        coordinates(summary, row), summary.program, shell_word(summary.mesh),
                        summary.dimension == 3 ? ",3" : "", std::isnan(row.distance) ? " --nonfinite-points nan" : "");
 }
 
-std::string mesh_sentence(const VerifySummary& summary) {
+std::string mesh_sentence(const VerifyReport& summary) {
     if (summary.certified) return fmt::format("certified{}, no two cells overlap", for_straight_sides(summary.curved));
     if (summary.contested_cells == 0) return "cells meet in common faces";
     return fmt::format("{} cells may meet others beside common faces; any cell that contains a point counts as right",

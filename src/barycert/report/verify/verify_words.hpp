@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/verification.hpp"
+#include "barycert/jobs.hpp"
 
 namespace barycert::report {
 
@@ -16,7 +16,7 @@ namespace barycert::report {
 std::string places_sentence(const Verdicts& verdicts);
 
 /// "every row is right", or how many are wrong.
-std::string verdict_sentence(const VerifySummary& summary);
+std::string verdict_sentence(const VerifyReport& summary);
 
 struct VerdictLine {
     std::string name;
@@ -24,7 +24,7 @@ struct VerdictLine {
     std::string what;  ///< what such rows are
 };
 /// A line for each RowVerdict.
-std::vector<VerdictLine> verdict_table(const VerifySummary& summary);
+std::vector<VerdictLine> verdict_table(const VerifyReport& summary);
 
 /// What a wrong row of that kind is, whatever the results.
 std::string_view meaning(RowVerdict verdict);
@@ -35,13 +35,13 @@ std::pair<std::size_t, std::size_t> used_bins(const ValueErrors& errors);
 std::string bin_label(std::size_t bin);
 
 /// What errors are in parts of, a sentence for all fields that vary and one for each that does not.
-std::vector<std::string> scale_sentences(const VerifySummary& summary);
+std::vector<std::string> scale_sentences(const VerifyReport& summary);
 
 /// What is wrong with a row.
-std::string example_sentence(const VerifySummary& summary, const WrongRow& row);
+std::string example_sentence(const VerifyReport& summary, const WrongRow& row);
 /// A command that shows what the exact answer is.
-std::string example_command(const VerifySummary& summary, const WrongRow& row);
+std::string example_command(const VerifyReport& summary, const WrongRow& row);
 
-std::string mesh_sentence(const VerifySummary& summary);
+std::string mesh_sentence(const VerifyReport& summary);
 
 }  // namespace barycert::report

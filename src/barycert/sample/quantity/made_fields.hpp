@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "barycert/mesh.hpp"
-#include "barycert/notes.hpp"
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
 

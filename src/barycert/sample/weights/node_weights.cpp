@@ -1,4 +1,4 @@
-#include "barycert/node_weights.hpp"
+#include "barycert/sampler.hpp"
 
 #include <algorithm>
 #include <array>

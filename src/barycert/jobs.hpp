@@ -1,0 +1,386 @@
+/// Whole jobs, files to files: what the command line and the bindings call.
+///
+/// A job names its files and options; one call reads the mesh and its fields, checks the mesh where that pays, streams
+/// points through a Sampler and writes rows, grids, pictures or meshes. Memory is that of the mesh and some blocks of
+/// points. Output files appear whole or not at all; rows on stdout cannot be taken back.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "barycert/check.hpp"
+#include "barycert/grid.hpp"
+#include "barycert/io.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
+#include "barycert/scene.hpp"
+#include "barycert/surface.hpp"
+#include "barycert/table.hpp"
+#include "barycert/verify.hpp"
+
+namespace barycert {
+
+/// A field from a file of its own: a row of numbers for each node, or for each cell.
+struct FieldFile {
+    enum class Of : std::uint8_t { either, points, cells };
+    Of of = Of::either;
+    std::string name, path;
+    /// Of a CSV file the name or number (from 1) of the column, of a structured NPY file the field, of a mesh the
+    /// array. Empty: all that a text or NPY file holds.
+    std::string column = {};
+};
+
+/// What a job is doing.
+struct JobProgress {
+    std::string_view stage;  ///< such as "reading part.1" or "points"
+    std::uint64_t done = 0;  ///< how many; 0: not counted
+};
+
+/// What both jobs have.
+struct SamplingJob {
+    std::string mesh;  ///< as for read_mesh
+    /// Of a mesh that is a series (.pvd, .vtu.series): which step. None: where the output has {step} or {time} in its
+    /// name, and there are no series of fields, every one, each into an output of its own, in which its number or time
+    /// takes that place; points are located anew where the mesh is another one. Else the first.
+    StepChoice step = {};
+    bool all_steps = false;  ///< Error where that is not so
+    std::vector<FieldFile> field_files = {};
+    /// Fields that change from step to step: each path has one *, and each file that it matches is a step, in natural
+    /// order (2 before 10); or it is a .pvd or .vtu.series file. Where the output has {step} in its name, each step has
+    /// an output of its own, in which what the * stood for, or the time, takes that place ({time} likewise); points are
+    /// located once, and values of one step at a time are in memory. Else the steps of NAME, 256 at most, are columns
+    /// NAME@STEP.
+    std::vector<FieldFile> series = {};
+    Curved curved = Curved::straight;      ///< what becomes of curved cells, of the mesh of `onto` as well
+    std::vector<std::string> fields = {};  ///< names, see Sampler::build; empty: all
+    std::string output;                    ///< the format goes by the suffix; "-" is CSV on stdout
+    /// Where to write the weights of the points on the nodes of the mesh (sampler.hpp): .npz, a matrix that
+    /// scipy.sparse.load_npz reads. Empty: nowhere. Not for grids. A SampleJob with weights needs no output.
+    std::string weights = {};
+    SampleOptions options = {};
+    std::optional<VtkData> vtk_data = {};  ///< of an output in a format of VTK; not set: raw
+
+    /// Where the caller will write a report: the job makes sure that this is no other file of the job, and can be
+    /// written. Empty: nowhere.
+    std::string report;
+    bool count_degenerate = true;      ///< of SampleSummary: a pass over the cells
+    std::string program = "barycert";  ///< how the user calls the program, for commands in messages
+    /// Called by one thread at a time, which need not be the caller's.
+    std::function<void(const JobProgress&)> progress = {};
+};
+
+/// Fields at points: rows to CSV, NPY or VTU files.
+struct SampleJob : SamplingJob {
+    std::string points;                     ///< as for open_points; or
+    std::vector<std::string> columns = {};  ///< PointOptions::columns
+    std::vector<std::string> keep = {};     ///< PointOptions::keep: columns of the points that rows have, too
+    std::string map;                        ///< a map (map.hpp) in place of points
+    std::string save_map;                   ///< where to write one; empty: nowhere
+    std::optional<bool> all{};  ///< a row for each cell that holds a point; not set: no, or as the map has it
+};
+
+/// Fields on a regular grid, or at the nodes of another mesh: exactly one of counts, spacing and onto is set.
+struct ResampleJob : SamplingJob {
+    std::vector<std::int64_t> counts = {};         ///< points along each axis
+    std::vector<double> spacing = {};              ///< of points: one for all axes, or one each
+    std::vector<double> bounds = {};               ///< low and high, axis after axis; empty: the box of the cells
+    std::string onto;                              ///< a mesh
+    std::optional<std::array<double, 2>> range{};  ///< of the colours of a picture
+};
+
+/// How the owners of points were found. `pass`: one look at each cell, and no index of the mesh.
+enum class FoundBy : std::uint8_t { walk, candidates, map, grid, pass };
+
+constexpr std::string_view name(FoundBy f) {
+    return f == FoundBy::walk         ? "walk"
+           : f == FoundBy::candidates ? "candidates"
+           : f == FoundBy::map        ? "map"
+           : f == FoundBy::grid       ? "grid"
+                                      : "pass";
+}
+
+/// Where points came from.
+enum class PointsFrom : std::uint8_t { points, map, mesh, grid };
+
+constexpr std::string_view name(PointsFrom f) {
+    return f == PointsFrom::points ? "points" : f == PointsFrom::map ? "map" : f == PointsFrom::mesh ? "mesh" : "grid";
+}
+
+/// Wall times of the stages. Points are read, sampled and written at the same time: of these each has the time in which
+/// somebody was busy with it, divided by the threads where several may be.
+struct SampleSeconds {
+    double mesh = 0;    ///< reading the mesh and the files of fields
+    double build = 0;   ///< of the locator and the sampler
+    double read = 0;    ///< of points
+    double sample = 0;  ///< owners, features and values
+    double write = 0;
+    double total = 0;
+};
+
+/// A column of a cell field over the cells of MESH, and over those of the mesh at whose nodes it was sampled, between
+/// which it is then linear (quadratic on second-order cells). Exact sums of value times volume (in the plane area; of
+/// straight sides, and positive whatever the orientation), rounded once; cells that overlap count twice.
+struct FieldIntegral {
+    std::string column;
+    double source = 0, target = 0;
+    std::uint64_t source_left_out = 0, target_left_out = 0;  ///< cells with a value that is not finite
+};
+
+/// What a job did: what its reports are made of.
+struct SampleSummary {
+    std::string command;  ///< "sample" or "resample"
+    std::string mesh, output, weights;
+    std::string points;                ///< the file they came from; empty for a grid
+    CurvedCells curved;                ///< of the mesh: taken with straight sides
+    CurvedCells onto_curved;           ///< of the mesh of ResampleJob::onto
+    std::vector<std::string> columns;  ///< of values
+    std::vector<std::string> carried;  ///< columns that were carried through: labels of cells, columns of points
+    Notes notes;                       ///< what was left out, converted or guessed: of the mesh, of fields, of points
+    std::string reason;                ///< why `method`: a clause
+    std::optional<Grid> grid;          ///< of ResampleJob::counts and spacing
+    std::optional<SliceCounts> picture;
+    std::vector<FieldIntegral> integrals;  ///< of the cell fields that became values at nodes of another mesh
+    OutsidePolicy outside;
+    SampleCounts counts;  ///< locations: one a point
+    SampleSeconds seconds;
+    std::uint64_t nodes = 0, cells = 0;
+    std::uint64_t degenerate_cells = 0;  ///< method `pass`: of the cells near the points
+    std::uint64_t contested_cells = 0;   ///< see Locator::contested_cells
+    std::uint64_t rows = 0;
+    /// Fields that are sampled and have values that are not finite; of series, those of the first step that has some.
+    std::vector<NotFinite> not_finite;
+    std::uint64_t nan_values = 0;    ///< of points inside: from values of nodes or cells that are not finite
+    std::vector<std::string> steps;  ///< of series, in order; all else but nan_values and seconds is of one of them
+    std::vector<double> times;       ///< of these steps, where the mesh is the series
+    std::uint64_t meshes = 1;        ///< of such steps; in each of them points are located, and counted
+    int dimension = 3, threads = 1;
+    PointsFrom from = PointsFrom::points;
+    FoundBy method = FoundBy::walk;
+    Rounding rounding = Rounding::correct;
+    Verdict verdict = Verdict::not_checked;  ///< certified: P1 to P4 of check.hpp are proved
+    bool all = false;                        ///< a row for each cell that holds a point
+};
+
+/// Returns an Error, and writes nothing, if the job contradicts itself, an input cannot be read, an output is an input
+/// or cannot be written, or the policy for points outside is `error` and a point is outside.
+Result<SampleSummary> sample_files(const SampleJob& job);
+Result<SampleSummary> resample_files(const ResampleJob& job);
+
+// A whole job: the results that some tool wrote into a file, held against the exact ones.
+
+struct VerifyJob {
+    std::string mesh;      ///< as for read_mesh
+    StepChoice step = {};  ///< of a series
+    std::vector<FieldFile> field_files = {};
+    Curved curved = Curved::straight;      ///< what becomes of curved cells
+    std::vector<std::string> fields = {};  ///< names, see Sampler::build; empty: those that the results have
+
+    /// Points with columns, as for open_points: .csv .npy .vtu .vtp .vti .vtk ...; "-" is CSV from stdin.
+    std::string results;
+    std::vector<std::string> columns = {};  ///< those of the coordinates: PointOptions::columns
+
+    /// Columns of values by the columns of the sampler (T, v.0, ...). Those that are not named here are looked for
+    /// under their own name, and as NAME:0 and NAME_0, as ParaView writes them.
+    std::map<std::string, std::string> values = {};
+    /// The column that names cells, from cell_base. Empty: `cell`, if there is one; "none": none.
+    std::string cell_column;
+    int cell_base = 0;
+    /// The column that is 0 outside. Empty: vtkValidPointMask, if there is one; "none": none.
+    std::string mask_column;
+
+    VerifyOptions options = {};
+    bool tolerance_given = false;  ///< else 1e-6 is taken where values are single precision throughout
+
+    /// Where the caller will write reports, after what it calls them: as SamplingJob::report.
+    std::vector<std::pair<std::string, std::string>> reports = {};
+    std::string program = "barycert";  ///< how the user calls the program, for commands in messages
+    std::function<void(const JobProgress&)> progress = {};
+};
+
+/// What a verification did: what its reports are made of.
+struct VerifySummary {
+    std::string mesh, results;
+    std::uint64_t nodes = 0, cells = 0;
+    int dimension = 3, threads = 1;
+    CurvedCells curved;  ///< of the mesh: results are held against straight sides
+    bool certified = false;
+    std::uint64_t contested_cells = 0;
+
+    std::vector<std::string> columns;      ///< of the sampler: what was compared
+    std::vector<std::string> found_in;     ///< the column of the results for each
+    std::string cell_column, mask_column;  ///< empty: none
+    std::vector<double> ranges;            ///< what errors are relative to
+    std::vector<RelativeTo> relative_to;   ///< what these are
+    double tolerance = 0;
+    bool exact = false;
+    std::optional<double> outside_value;
+
+    Verdicts verdicts;  ///< cells of examples are the file's own numbers
+    Notes notes;
+    std::string program;
+    SampleSeconds seconds;
+};
+
+/// A rule of --fail-on: more such rows than that fail.
+struct VerifyLimit {
+    RowVerdict verdict = RowVerdict::missed;
+    std::uint64_t most = 0;
+};
+
+/// NAME or NAME>NUMBER, with NAME missed, invented, wrong_cell or wrong_value.
+Result<VerifyLimit> parse_verify_limit(std::string_view text);
+
+/// The names that it takes.
+std::vector<std::string> verify_limit_names();
+
+/// Every kind, 0 of it: what fails without a rule.
+std::vector<VerifyLimit> strict_limits();
+
+/// Whether rows could be of that kind: wrong_cell takes a column of cells, wrong_value one of values.
+bool compared(const VerifySummary& summary, RowVerdict verdict);
+
+/// Error: a limit on what was not compared. Nothing could fail.
+Status check_limits(const VerifySummary& summary, const std::vector<VerifyLimit>& limits);
+
+/// Those that are exceeded.
+std::vector<VerifyLimit> exceeded(const Verdicts& verdicts, const std::vector<VerifyLimit>& limits);
+
+/// Returns an Error if an input cannot be read, or the results have no column that could be compared.
+Result<VerifySummary> verify_files(const VerifyJob& job);
+
+// Pictures as jobs, files to files: what `barycert render` does and tells.
+
+/// The colours of a picture of values.
+struct ColourRange {
+    std::string field;
+    double low = 0, high = 0;         ///< NaN if no value is finite
+    std::uint64_t without_value = 0;  ///< triangles, drawn in grey
+};
+
+/// The largest difference of an interpolated texture coordinate from the correctly rounded perspective-correct one,
+/// over all pixels, and where.
+struct TexelError {
+    double texels = 0;
+    std::int32_t column = 0, row = 0;  ///< row counted from the bottom
+};
+
+/// What was drawn.
+struct RenderSummary {
+    std::string picture;  ///< gradient, texture, cube, clip, mesh, scene
+    std::string input;    ///< the scene, mesh or image; empty if there is none
+    std::string output;
+    CurvedCells curved;  ///< of the mesh: drawn with straight sides
+    RasterSize size;
+    RenderCounts counts;
+    FillMethod method = FillMethod::barycentric;
+    Interpolation interpolation = Interpolation::perspective;
+    Rounding rounding = Rounding::plain;
+    std::optional<ColourRange> colours;
+    std::optional<TexelError> texel_error;
+    Notes notes;         ///< of the mesh
+    double seconds = 0;  ///< from the options to the file
+};
+
+/// The boundary of a mesh of tetrahedra, or a mesh of triangles in the plane, as a PNG file.
+struct MeshPictureJob {
+    std::string mesh;      ///< as for read_mesh
+    StepChoice step = {};  ///< of a series
+    std::vector<FieldFile> field_files = {};
+    Curved curved = Curved::straight;  ///< what becomes of curved cells
+    std::string field;   ///< NAME, point:NAME, cell:NAME, each perhaps with .K for component K; empty: grey
+    std::string output;  ///< must end in .png
+    ViewOptions view;
+    int threads = 0;  ///< 0: as many as the machine has
+};
+
+/// Draws facets that one cell alone has; their colours are those of nodes, or of that cell. Returns an Error if the
+/// mesh cannot be read, has no such field or component or no cells, as draw_surface does, or if the file cannot be
+/// written.
+Result<RenderSummary> render_mesh_file(const MeshPictureJob& job);
+
+// Whole jobs, files to files: iso-surfaces, iso-lines and slices of meshes. What `barycert render iso` and `barycert
+// render slice` call. Output files appear whole or not at all.
+
+struct ContourJob {
+    std::string mesh;      ///< as for read_mesh
+    StepChoice step = {};  ///< of a series
+    std::vector<FieldFile> field_files = {};
+    Curved curved = Curved::straight;  ///< what becomes of curved cells
+
+    // Either: the field of nodes and its value; a field of several components as NAME.0, NAME.1, ...
+    std::string field;
+    std::optional<double> value = {};
+    // Or a plane; then `field`, which may be one of cells, is what a picture shows, or what a surface carries along.
+    std::optional<Plane> plane = {};
+
+    std::vector<std::string> fields = {};          ///< to carry along, see Sampler::build; empty: all. Not for pictures
+    std::string output;                            ///< .vtp, .ply, .off or .png; segments not as .off or .png
+    std::optional<std::array<double, 2>> range{};  ///< of the colours of a picture
+    std::int64_t width = 800;                      ///< of a picture of a section, in pixels, without bar and caption
+    ViewOptions view = {};                         ///< of a picture of an iso-surface, but for its range
+    std::string colours;  ///< the field, of nodes or cells, that colours it; named as `field`; empty: grey
+
+    std::optional<VtkData> vtk_data = {};  ///< of a .vtp file; not set: raw
+    int threads = 0;                       ///< 0: as many as the machine has
+    std::string report;                    ///< as SamplingJob::report
+    std::string program = "barycert";
+    std::function<void(const JobProgress&)> progress = {};
+};
+
+/// Where the pixels of a picture of a plane lie. The middle of pixel (i, j), counted from the lower left, is
+/// origin + i * step_right + j * step_up, each operation rounded: up to rounding on the plane. Seen from where the
+/// normal points to, z upwards (y, if the normal has no other component than z).
+struct PixelGrid {
+    std::int64_t width = 0, height = 0;
+    std::array<double, 3> origin{}, step_right{}, step_up{};
+    double pixel = 0;  ///< the length of both steps, up to rounding
+
+    std::array<double, 3> middle(std::int64_t i, std::int64_t j) const;
+};
+
+struct ContourSeconds {
+    double mesh = 0;  ///< reading the mesh and the files of fields
+    double cut = 0;
+    double sample = 0;  ///< of a picture: index and values
+    double write = 0;
+    double total = 0;
+};
+
+/// What a job did: what its reports are made of.
+struct ContourSummary {
+    std::string mesh, field, output;
+    CurvedCells curved;  ///< of the mesh: cut with straight sides
+    std::optional<double> value;
+    std::optional<Plane> plane;
+    std::uint64_t nodes = 0, cells = 0;
+    int dimension = 3, threads = 1;
+
+    std::uint64_t points = 0, parts = 0;  ///< of the surface; parts are triangles, in the plane segments
+    CutCounts counts;
+    std::vector<std::string> fields;  ///< in the file
+    SurfaceFile file;
+    Notes notes;  ///< of the mesh
+    /// Of what is cut, the field or normal.x: its least and greatest number at nodes of cells. NaN if there is none.
+    double low = 0, high = 0;
+
+    std::optional<PixelGrid> pixels;  ///< of a picture of a section
+    SliceCounts picture;
+    SampleCounts samples;
+    std::optional<RasterSize> view;  ///< of a picture of an iso-surface
+    ViewCounts drawn;
+    std::string colours;
+    ContourSeconds seconds;
+};
+
+/// Returns an Error, and writes nothing, if the job contradicts itself, an input cannot be read, an output is an input
+/// or cannot be written, or there is nothing to draw in a picture. An empty surface is written, and told.
+Result<ContourSummary> contour_files(const ContourJob& job);
+
+}  // namespace barycert

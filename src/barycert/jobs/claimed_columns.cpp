@@ -1,0 +1,239 @@
+#include "barycert/jobs/claimed_columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+
+#include "barycert/base/nearest_name.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/sample/quantity/expression.hpp"
+
+namespace barycert::jobs {
+namespace {
+
+constexpr const char* none = "none";
+
+bool has(const std::vector<ColumnFormat>& there, const std::string& name) {
+    return std::any_of(there.begin(), there.end(), [&](const ColumnFormat& c) { return c.name == name; });
+}
+
+std::string list_of(const std::vector<ColumnFormat>& there) {
+    std::string text;
+    for (const ColumnFormat& c : there) text += (text.empty() ? "" : ", ") + base::quoted(c.name);
+    return text.empty() ? "none" : text;
+}
+
+Error no_column(const VerifyJob& job, const std::string& what, const std::string& name,
+                const std::vector<ColumnFormat>& there) {
+    std::vector<std::string> names;
+    names.reserve(there.size());
+    for (const ColumnFormat& c : there) names.push_back(c.name);
+    return {.what = what + ": the results have no such column",
+            .file = job.results,
+            .expected = list_of(there),
+            .found = base::quoted(name),
+            .remedy = base::did_you_mean(name, names, "name one of these")};
+}
+
+/// The columns that a choice has in rows.
+TableField columns_of(const Mesh& mesh, const FieldChoice& choice) {
+    return {choice.name.empty() ? choice.field->name : choice.name,
+            static_cast<int>(sample::shape_of(mesh, choice)->components)};
+}
+
+/// The column of component c of a field: what the job says, or one of the usual names.
+std::optional<std::string> column_of(const VerifyJob& job, const TableField& field, int c,
+                                     const std::vector<ColumnFormat>& there) {
+    const std::string number = std::to_string(c);
+    const std::string own = field.components == 1 ? field.name : field.name + '.' + number;
+    if (const auto named = job.values.find(own); named != job.values.end()) return named->second;
+    std::vector<std::string> tries{own};
+    if (field.components != 1) tries.insert(tries.end(), {field.name + ':' + number, field.name + '_' + number});
+    for (const std::string& name : tries) {
+        if (has(there, name)) return name;
+    }
+    return std::nullopt;
+}
+
+Status check_named(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
+                   const std::vector<ColumnFormat>& there) {
+    std::vector<TableField> all;
+    all.reserve(fields.size());
+    for (const FieldChoice& choice : fields) all.push_back(columns_of(mesh, choice));
+    const std::vector<std::string> known = column_names(all);
+    for (const auto& [value, column] : job.values) {
+        if (std::find(known.begin(), known.end(), value) == known.end()) {
+            std::string list;
+            for (const std::string& name : known) list += (list.empty() ? "" : ", ") + base::quoted(name);
+            return Error{.what = "--value: the mesh has no such value",
+                         .expected = list.empty() ? "no field at all: give one with --field" : list,
+                         .found = base::quoted(value),
+                         .remedy = base::did_you_mean(value, known)};
+        }
+        if (!has(there, column)) return no_column(job, "--value", column, there);
+    }
+    for (const auto& [option, column] :
+         {std::pair("--cell-column", job.cell_column), {"--mask-column", job.mask_column}}) {
+        if (!column.empty() && column != none && !has(there, column)) return no_column(job, option, column, there);
+    }
+    return Done{};
+}
+
+std::string chosen(const std::string& asked, const std::string& usual, const std::vector<ColumnFormat>& there) {
+    if (asked == none) return "";
+    if (!asked.empty()) return asked;
+    return has(there, usual) ? usual : "";
+}
+
+const Column* column_named(const std::vector<Column>& columns, const std::string& name) {
+    for (const Column& column : columns) {
+        if (column.name == name) return &column;
+    }
+    return nullptr;
+}
+
+/// As doubles; NaN for an empty text.
+Result<std::vector<double>> numbers_of(const Column& column, const VerifyJob& job, std::uint64_t first_row) {
+    if (const auto* const numbers = std::get_if<std::vector<double>>(&column.values)) return *numbers;
+    std::vector<double> out;
+    out.reserve(column.size());
+    if (const auto* const integers = std::get_if<std::vector<std::int64_t>>(&column.values)) {
+        for (const std::int64_t x : *integers) out.push_back(static_cast<double>(x));
+        return out;
+    }
+    for (const std::string& text : std::get<std::vector<std::string>>(column.values)) {
+        std::optional<double> x = base::parse_double(text);
+        if (text.empty()) x = std::numeric_limits<double>::quiet_NaN();
+        if (!x)
+            return Error{.what = "row " + std::to_string(first_row + out.size()) + " (from 0), column " +
+                                 base::quoted(column.name),
+                         .file = job.results,
+                         .expected = "a number, nan, or nothing",
+                         .found = base::quoted(text),
+                         .remedy = "choose the columns to compare: --fields, --value, --cell-column"};
+        out.push_back(*x);
+    }
+    return out;
+}
+
+/// A mask as numbers. vtkDelimitedTextWriter writes the characters 0 and 1 as such bytes.
+Result<std::vector<double>> mask_of(const Column& column, const VerifyJob& job, std::uint64_t first_row) {
+    const auto* const texts = std::get_if<std::vector<std::string>>(&column.values);
+    if (texts == nullptr) return numbers_of(column, job, first_row);
+    Column digits{column.name, *texts};
+    for (std::string& text : std::get<std::vector<std::string>>(digits.values)) {
+        if (text.size() == 1 && (text[0] == '\0' || text[0] == '\1')) text[0] = static_cast<char>('0' + text[0]);
+    }
+    return numbers_of(digits, job, first_row);
+}
+
+/// Index in the mesh; beyond the last cell where the mesh has no such number.
+std::int64_t index_of(std::int64_t number, const Mesh& mesh) {
+    if (number < 0) return -1;
+    const auto cells = static_cast<std::int64_t>(mesh.cell_count());
+    if (mesh.cell_numbers.empty()) return std::min(number, cells);
+    const auto at = std::lower_bound(mesh.cell_numbers.begin(), mesh.cell_numbers.end(), number);
+    return at != mesh.cell_numbers.end() && *at == number ? at - mesh.cell_numbers.begin() : cells;
+}
+
+}  // namespace
+
+std::vector<std::string> ClaimedColumns::names() const {
+    std::vector<std::string> all;
+    const auto add = [&](const std::string& name) {
+        if (!name.empty() && std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
+    };
+    for (const std::string& name : values) add(name);
+    add(cell);
+    add(mask);
+    return all;
+}
+
+Result<ClaimedColumns> claimed_columns(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
+                                       const std::vector<ColumnFormat>& there, Notes& notes) {
+    if (Status ok = check_named(job, mesh, fields, there); !ok) return ok.error();
+    ClaimedColumns out;
+    for (const FieldChoice& choice : fields) {
+        const TableField own = columns_of(mesh, choice);
+        std::vector<std::string> columns;
+        for (int c = 0; c < own.components; ++c) {
+            const auto column = column_of(job, own, c, there);
+            if (column) columns.push_back(*column);
+        }
+        if (columns.size() == static_cast<std::size_t>(own.components)) {
+            out.fields.push_back(choice);
+            out.values.insert(out.values.end(), columns.begin(), columns.end());
+        } else if (!job.fields.empty()) {
+            return no_column(job, "field " + base::quoted(own.name), own.name, there);
+        } else {
+            notes.push_back(
+                {Note::Kind::left_out,
+                 "field " + base::quoted(own.name) + " of the mesh: the results have no column of that name",
+                 job.results});
+        }
+    }
+    out.cell = chosen(job.cell_column, "cell", there);
+    out.mask = chosen(job.mask_column, "vtkValidPointMask", there);
+    std::string unused;
+    const std::vector<std::string> used = out.names();
+    for (const ColumnFormat& c : there) {
+        if (std::find(used.begin(), used.end(), c.name) == used.end()) unused += (unused.empty() ? "" : ", ") + c.name;
+    }
+    if (!unused.empty())
+        notes.push_back({Note::Kind::left_out, "columns that are not compared: " + unused, job.results});
+    if (used.empty()) {
+        std::string names;
+        for (const FieldChoice& choice : fields)
+            names += (names.empty() ? "" : ", ") + base::quoted(choice.field->name);
+        return Error{.what = "the results have no column to compare",
+                     .file = job.results,
+                     .expected = "columns named as fields of the mesh (" + (names.empty() ? "it has none" : names) +
+                                 "), `cell` or vtkValidPointMask",
+                     .found = list_of(there),
+                     .remedy =
+                         "say which column is which: --value FIELD=COLUMN, --cell-column NAME; fields that are not "
+                         "in the mesh file: --field NAME=FILE"};
+    }
+    return out;
+}
+
+Result<Claims> claims_of(const ClaimedColumns& which, const std::vector<Column>& columns, const Mesh& mesh,
+                         const VerifyJob& job, std::uint64_t first_row) {
+    Claims out;
+    std::vector<std::vector<double>> values;
+    for (const std::string& name : which.values) {
+        auto numbers = numbers_of(*column_named(columns, name), job, first_row);
+        if (!numbers) return numbers.error();
+        values.push_back(std::move(*numbers));
+    }
+    const std::size_t rows = columns.empty() ? 0 : columns.front().size();
+    out.values.resize(rows * values.size());
+    for (std::size_t c = 0; c < values.size(); ++c) {
+        for (std::size_t i = 0; i < rows; ++i) out.values[values.size() * i + c] = values[c][i];
+    }
+    if (!which.cell.empty()) {
+        const auto numbers = numbers_of(*column_named(columns, which.cell), job, first_row);
+        if (!numbers) return numbers.error();
+        for (std::size_t i = 0; i < rows; ++i) {
+            const double x = (*numbers)[i];
+            if (!std::isnan(x) && (std::floor(x) != x || std::fabs(x) > 0x1p53))
+                return Error{.what = "the cell of row " + std::to_string(first_row + i) + " (from 0)",
+                             .file = job.results,
+                             .expected = "an integer",
+                             .found = base::shortest(x),
+                             .remedy = "name the column of cells: --cell-column NAME, or none"};
+            const std::int64_t number = std::isnan(x) ? -1 : static_cast<std::int64_t>(x);
+            out.cells.push_back(number < 0 ? -1 : index_of(number - job.cell_base, mesh));
+        }
+    }
+    if (!which.mask.empty()) {
+        const auto numbers = mask_of(*column_named(columns, which.mask), job, first_row);
+        if (!numbers) return numbers.error();
+        for (const double x : *numbers) out.inside.push_back(x != 0 && !std::isnan(x) ? 1 : 0);
+    }
+    return out;
+}
+
+}  // namespace barycert::jobs

@@ -1,0 +1,365 @@
+// Iso-surfaces, iso-lines and slices, to files of surfaces and pictures.
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "barycert/base/run_files.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/io/formats.hpp"
+#include "barycert/jobs.hpp"
+#include "barycert/jobs/engine.hpp"
+#include "barycert/jobs/job_files.hpp"
+#include "barycert/jobs/pixel_grid.hpp"
+#include "barycert/jobs/run.hpp"
+#include "barycert/sample/quantity/expression.hpp"
+#include "barycert/sample/quantity/made_fields.hpp"
+
+namespace barycert {
+namespace {
+
+using jobs::Engine;
+using jobs::Run;
+using jobs::Stopwatch;
+
+bool is_picture(const ContourJob& job) {
+    return io::has_suffix(job.output, ".png");
+}
+
+Status check_job(const ContourJob& job) {
+    if (job.value.has_value() == job.plane.has_value())
+        return Error{
+            .what = "what to cut at", .expected = "a value or a plane", .found = job.value ? "both" : "neither"};
+    const bool surface =
+        io::has_suffix(job.output, ".vtp") || io::has_suffix(job.output, ".ply") || io::has_suffix(job.output, ".off");
+    const bool picture = is_picture(job);
+    if (!surface && !picture) return jobs::unknown_output(job.output, ".vtp, .ply, .off or .png");
+    if (!picture && !job.colours.empty())
+        return Error{.what = "--colours is for pictures", .remedy = "leave it out, or name a .png file"};
+    if (picture && job.field.empty())
+        return Error{.what = "a picture shows a field", .expected = "--field NAME", .found = "none"};
+    if (job.value && job.field.empty())
+        return Error{.what = "which field has the value", .expected = "--field NAME", .found = "none"};
+    if (job.plane && !picture && !job.field.empty() && !job.fields.empty())
+        return Error{.what = "--field and --fields", .expected = "one of them", .remedy = "--fields names several"};
+    if (picture && !job.fields.empty())
+        return Error{.what = "--fields cannot be combined with a picture", .remedy = "--field names what it shows"};
+    if (!picture && job.range)
+        return Error{.what = "--range is for pictures", .remedy = "leave it out, or name a .png file"};
+    if (job.width < 1 || job.width > 1000000)
+        return Error{.what = "--width", .expected = "1 to 1000000", .found = std::to_string(job.width)};
+    return Done{};
+}
+
+/// What reads the mesh, and samples it.
+SamplingJob sampling_of(const ContourJob& job) {
+    SamplingJob s;
+    s.mesh = job.mesh;
+    s.step = job.step;
+    s.field_files = job.field_files;
+    s.curved = job.curved;
+    s.output = job.output;
+    s.vtk_data = job.vtk_data;
+    s.options.threads = job.threads;
+    s.report = job.report;
+    s.count_degenerate = false;
+    s.program = job.program;
+    s.progress = job.progress;
+    return s;
+}
+
+/// Sets low and high to those of at(node) over the nodes of cells.
+template <class At>
+void set_range(const Mesh& mesh, At at, ContourReport& summary) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    using Range = std::pair<double, double>;
+    const Range range = tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, mesh.cells.size(), std::size_t{1} << 15), Range{infinity, -infinity},
+        [&](const auto& part, Range so_far) {
+            const ExactEnvironment environment;  // threads that were there before have theirs
+            for (std::size_t i = part.begin(); i != part.end(); ++i) {
+                const double x = at(static_cast<std::size_t>(mesh.cells[i]));
+                if (!std::isfinite(x)) continue;
+                so_far = {std::min(so_far.first, x), std::max(so_far.second, x)};
+            }
+            return so_far;
+        },
+        [](const Range& a, const Range& b) {
+            return Range{std::min(a.first, b.first), std::max(a.second, b.second)};
+        });
+    const bool none = range.first > range.second;
+    // A zero may come with either sign, as threads come.
+    summary.low = none ? std::numeric_limits<double>::quiet_NaN() : range.first + 0.0;
+    summary.high = none ? std::numeric_limits<double>::quiet_NaN() : range.second + 0.0;
+}
+
+class Contour {
+public:
+    Contour(const ContourJob& job, Run& run, Engine& engine) : job_(job), run_(run), engine_(engine) {}
+
+    Result<ContourReport> run() {
+        ContourReport& s = summary_;
+        s.mesh = job_.mesh;
+        s.field = job_.field;
+        s.output = job_.output;
+        s.value = job_.value;
+        s.plane = job_.plane;
+        s.nodes = mesh().point_count();
+        s.cells = mesh().cell_count();
+        s.dimension = mesh().dimension;
+        s.curved = run_.summary.curved;
+        s.notes = mesh().notes;
+        s.seconds.mesh = run_.summary.seconds.mesh;
+        if (job_.plane && mesh().dimension == 2)
+            return Error{.what = "a plane cuts meshes of tetrahedra",
+                         .file = job_.mesh,
+                         .found = "triangles in the plane",
+                         .remedy = "draw a mesh of triangles by `" + job_.program + " resample --grid`"};
+        Stopwatch watch;
+        const bool picture = is_picture(job_);
+        if (picture && job_.value && mesh().dimension == 2)
+            return Error{.what = "iso-lines cannot be written as a picture",
+                         .file = job_.output,
+                         .expected = ".vtp or .ply",
+                         .remedy = "choose another name"};
+        Result<Cut> cut = picture && job_.plane ? cut_plane({}) : cut_with_fields();
+        if (!cut) return cut.error();
+        s.counts = cut->counts;
+        s.points = cut->surface.point_count();
+        s.parts = cut->surface.cell_count();
+        s.seconds.cut = watch.lap();
+        const Status written = !picture     ? write(cut->surface)
+                               : job_.plane ? draw(cut->surface)
+                                            : draw_view(cut->surface);
+        if (!written) return written.error();
+        return std::move(summary_);
+    }
+
+private:
+    const Mesh& mesh() const { return engine_.mesh(); }
+
+    Result<Cut> cut_plane(CutOptions options) {
+        run_.stage("cutting");
+        options.threads = job_.threads;
+        const std::array<double, 3>& n = job_.plane->normal;
+        set_range(
+            mesh(),
+            [&](std::size_t i) {
+                const double* const x = mesh().points.data() + 3 * i;
+                return n[0] * x[0] + n[1] * x[1] + n[2] * x[2];
+            },
+            summary_);
+        return slice(mesh(), *job_.plane, options);
+    }
+
+    Result<Cut> cut_with_fields() {
+        // To carry along, a field need not be one number.
+        auto chosen =
+            sample::quantities_named(mesh(), job_.plane && !job_.field.empty() ? std::vector{job_.field} : job_.fields);
+        if (!chosen) return chosen.error();
+        if (Status made = sample::make_all_fields(mesh(), *chosen, made_, summary_.notes); !made) return made.error();
+        CutOptions options;
+        options.threads = job_.threads;
+        for (const FieldChoice& c : *chosen) {
+            (c.of_cells ? options.cell_fields : options.point_fields).push_back(c.field);
+            summary_.fields.push_back(c.field->name);
+        }
+        if (job_.plane) return cut_plane(std::move(options));
+        if (is_picture(job_)) {
+            if (Status good = choose_colours(options); !good) return good.error();
+        }
+        const Result<FieldChoice> column = field_of_numbers(job_.field);
+        if (!column) return column.error();
+        const Field& field = *column->field;
+        if (column->of_cells)
+            return Error{
+                .what = "field \"" + job_.field + "\" is one of cells",
+                .expected = "a field of nodes",
+                .found = "a number for each cell",
+                .remedy = "a field of cells jumps from cell to cell: there is no surface on which it has a value"};
+        run_.stage("cutting");
+        set_range(
+            mesh(), [&](std::size_t i) { return field.data[i]; }, summary_);
+        return mesh().dimension == 2 ? isoline(mesh(), field, *job_.value, options)
+                                     : isosurface(mesh(), field, *job_.value, options);
+    }
+
+    /// A field of one component, made if there is none.
+    Result<FieldChoice> field_of_numbers(const std::string& name) {
+        const Result<FieldChoice> column = sample::number_named(mesh(), name);
+        if (!column) return column.error();
+        std::vector<FieldChoice> one{*column};
+        if (Status made = sample::make_all_fields(mesh(), one, made_, summary_.notes); !made) return made.error();
+        return one.front();
+    }
+
+    Status write(Surface& surface) {
+        Stopwatch watch;
+        for (Mesh::Index& cell : surface.mesh_cells) cell = mesh().cell_number(cell);
+        run_.stage("writing " + job_.output);
+        Result<SurfaceFile> file = write_surface(surface, job_.output, job_.vtk_data.value_or(VtkData::raw));
+        if (!file) return file.error();
+        summary_.file = std::move(*file);
+        std::erase_if(summary_.fields, [&](const std::string& name) {
+            const auto& out = summary_.file.left_out;
+            return std::find(out.begin(), out.end(), name) != out.end();
+        });
+        summary_.seconds.write = watch.lap();
+        return Done{};
+    }
+
+    Status draw(const Surface& section) {
+        Stopwatch watch;
+        const Result<FieldChoice> column = sample::number_named(mesh(), job_.field);
+        if (!column) return column.error();
+        Result<PixelGrid> pixels = jobs::pixels_over(*job_.plane, section.points, job_.width);
+        if (!pixels) {
+            Error e = pixels.error();
+            e.file = job_.mesh;
+            if (!section.points.empty()) return e;
+            const std::array<double, 3>& n = job_.plane->normal;
+            const std::string normal =
+                fmt::format("{},{},{}", base::shortest(n[0]), base::shortest(n[1]), base::shortest(n[2]));
+            e.found = fmt::format("D = {}, where the cells are from {} to {}", base::shortest(job_.plane->offset),
+                                  base::shortest(summary_.low), base::shortest(summary_.high));
+            e.remedy = fmt::format("choose D between them: --plane {},{}", normal,
+                                   base::shortest(summary_.low / 2 + summary_.high / 2));
+            return e;
+        }
+        const auto count = static_cast<std::uint64_t>(pixels->width * pixels->height);
+        if (Status ready = engine_.prepare(); !ready) return ready;
+        const Result<Sampler> sampler = Sampler::build(engine_.locator(), {*column});
+        if (!sampler) return sampler.error();
+        std::vector<double> values(count);
+        std::vector<std::uint8_t> valid(count);
+        if (Status done = sample(*pixels, *sampler, values, valid); !done) return done;
+        summary_.seconds.sample = watch.lap();
+        if (std::none_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }))
+            return Error{.what = "nothing to draw",
+                         .file = job_.output,
+                         .expected = "a pixel whose middle is in the mesh, where the field is finite",
+                         .found = fmt::format("{} x {} pixels without one", pixels->width, pixels->height),
+                         .remedy = "give more pixels, --width N, or another field"};
+        run_.stage("writing " + job_.output);
+        Slice slice;
+        slice.width = static_cast<std::size_t>(pixels->width);
+        slice.height = static_cast<std::size_t>(pixels->height);
+        slice.values = values;
+        slice.valid = valid;
+        if (job_.range) slice.range = {(*job_.range)[0], (*job_.range)[1]};
+        slice.title = fmt::format("{}, plane {},{},{},{}", job_.field, base::shortest(job_.plane->normal[0]),
+                                  base::shortest(job_.plane->normal[1]), base::shortest(job_.plane->normal[2]),
+                                  base::shortest(job_.plane->offset));
+        slice.pixel_length = pixels->pixel;
+        summary_.pixels = *pixels;
+        summary_.fields = {job_.field};
+        Status written = write_png(job_.output, slice, &summary_.picture);
+        summary_.seconds.write = watch.lap();
+        return written;
+    }
+
+    /// A picture of an iso-surface needs the field that colours it, and no other.
+    Status choose_colours(CutOptions& options) {
+        options.point_fields.clear();
+        options.cell_fields.clear();
+        summary_.fields.clear();
+        if (job_.colours.empty()) return Done{};
+        const Result<FieldChoice> column = field_of_numbers(job_.colours);
+        if (!column) return column.error();
+        (column->of_cells ? options.cell_fields : options.point_fields).push_back(column->field);
+        summary_.fields = {job_.colours};
+        return Done{};
+    }
+
+    Status draw_view(const Surface& surface) {
+        if (surface.cells.empty())
+            return Error{.what = "the iso-surface is empty",
+                         .file = job_.output,
+                         .expected = fmt::format("a value from {} to {}", base::shortest(summary_.low),
+                                                 base::shortest(summary_.high)),
+                         .found = base::shortest(*job_.value),
+                         .remedy = "choose another value"};
+        Stopwatch watch;
+        run_.stage("drawing");
+        SurfaceView view{.points = surface.points, .triangles = surface.cells};
+        const bool of_points = !surface.point_fields.empty();
+        if (of_points) view.point_values = surface.point_fields.front().data;
+        if (!of_points && !surface.cell_fields.empty()) view.triangle_values = surface.cell_fields.front().data;
+        ViewOptions options = job_.view;
+        if (job_.range) options.range = {(*job_.range)[0], (*job_.range)[1]};
+        const Result<Image> image = draw_surface(view, options, &summary_.drawn);
+        if (!image) return image.error();
+        summary_.view = options.size;
+        summary_.colours = job_.colours;
+        summary_.seconds.sample = watch.lap();
+        Status written = write_png(job_.output, *image);
+        summary_.seconds.write = watch.lap();
+        return written;
+    }
+
+    /// Lines of pixels at a time, so that memory is that of the values.
+    Status sample(const PixelGrid& pixels, const Sampler& sampler, std::vector<double>& values,
+                  std::vector<std::uint8_t>& valid) {
+        const std::int64_t lines = std::max<std::int64_t>(1, (std::int64_t{1} << 18) / pixels.width);
+        std::vector<double> points;
+        Table rows;
+        std::size_t at = 0;
+        for (std::int64_t first = 0; first < pixels.height; first += lines) {
+            const std::int64_t last = std::min(pixels.height, first + lines);
+            points.clear();
+            for (std::int64_t j = first; j < last; ++j) {
+                for (std::int64_t i = 0; i < pixels.width; ++i) {
+                    const std::array<double, 3> x = pixels.middle(i, j);
+                    points.insert(points.end(), x.begin(), x.end());
+                }
+            }
+            if (Status done = sampler.sample(points, run_.job.options, rows); !done) return done;
+            summary_.samples.add(rows.counts);
+            for (std::size_t r = 0; r < rows.row_count(); ++r, ++at) {
+                values[at] = rows.value(r, 0);
+                valid[at] = rows.cells[r] >= 0 ? 1 : 0;
+            }
+            run_.count(fmt::format("pixels of {}", values.size()), at);
+        }
+        return Done{};
+    }
+
+    const ContourJob& job_;
+    Run& run_;
+    Engine& engine_;
+    ContourReport summary_;
+    std::deque<Field> made_;
+};
+
+}  // namespace
+
+Result<ContourReport> contour_files(const ContourJob& job) {
+    const ExactEnvironment environment;
+    const base::RunFiles run_files;
+    if (Status good = check_job(job); !good) return good.error();
+    const SamplingJob sampling = sampling_of(job);
+    if (Status files = jobs::check_files(sampling, {}, {}, {{"--output", job.output}}); !files) return files.error();
+    Stopwatch whole;
+    std::optional<ContourReport> summary;
+    const auto done = jobs::run_job("render", sampling, {}, [&](Run& run, Engine& engine) -> Status {
+        auto result = Contour(job, run, engine).run();
+        if (!result) return result.error();
+        summary.emplace(std::move(*result));
+        return Done{};
+    });
+    if (!done) return done.error();
+    summary->threads = done->threads;
+    summary->seconds.total = whole.lap();
+    return std::move(*summary);
+}
+
+}  // namespace barycert

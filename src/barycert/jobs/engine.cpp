@@ -1,0 +1,397 @@
+#include "barycert/jobs/engine.hpp"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <utility>
+
+#include "barycert/base/finite.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/io.hpp"
+#include "barycert/jobs/cell_labels.hpp"
+#include "barycert/jobs/few_points.hpp"
+#include "barycert/jobs/field_files.hpp"
+#include "barycert/locate/batch.hpp"
+#include "barycert/locate/cells_at_points.hpp"
+#include "barycert/mesh/consistency.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/sample/points/field_choice.hpp"
+#include "barycert/sample/quantity/expression.hpp"
+#include "barycert/sample/quantity/made_fields.hpp"
+
+namespace barycert::jobs {
+namespace {
+
+bool is_degenerate(const Mesh& mesh, std::size_t cell) {
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    std::array<const double*, 4> at{};
+    for (std::size_t i = 0; i <= d; ++i)
+        at[i] = mesh.points.data() + d * static_cast<std::size_t>(mesh.cells[(d + 1) * cell + i]);
+    const Sign sign = d == 2 ? orient2d(at[0], at[1], at[2]) : orient3d(at[0], at[1], at[2], at[3]);
+    return sign == Sign::zero;
+}
+
+std::uint64_t count_degenerate(const Mesh& mesh) {
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, mesh.cell_count(), 1 << 14), std::uint64_t{0},
+        [&](const tbb::blocked_range<std::size_t>& range, std::uint64_t n) {
+            for (std::size_t c = range.begin(); c != range.end(); ++c) n += is_degenerate(mesh, c) ? 1 : 0;
+            return n;
+        },
+        std::plus<>());
+}
+
+/// Clearing alone would keep the memory.
+template <class T>
+void give_back(std::vector<T>& numbers) {
+    std::vector<T>().swap(numbers);
+}
+
+bool gives_distances(const OutsidePolicy& policy) {
+    return policy.kind == Outside::nearest || policy.kind == Outside::extrapolate;
+}
+
+std::string counted(std::uint64_t n, const char* what) {
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+/// Why points are found by walks, and where not.
+std::string reason_of(const Locator& locator, std::uint64_t degenerate, const std::string& program) {
+    const std::uint64_t contested = locator.contested_cells();
+    if (locator.certified()) return "the mesh is certified";
+    if (contested == 0 && degenerate != 0) return "cells meet in common faces; degenerate ones are left out";
+    return fmt::format(
+        "{} of {} cells may meet others beside common faces, and there other such cells are tested, too; "
+        "`{} check` tells more",
+        contested, locator.mesh().cell_count(), program);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Engine>> Engine::open(Run& run) {
+    Stopwatch watch;
+    run.stage("reading " + run.job.mesh);
+    std::unique_ptr<Engine> engine(new Engine(run));
+    Result<Mesh> mesh = engine->read(run.steps.empty() ? nullptr : &run.steps.front());
+    if (!mesh) return mesh.error();
+    engine->mesh_ = std::move(*mesh);
+    if (Status added = engine->add_fields_of_job(); !added) return added.error();
+    if (Status chosen = engine->choose_fields(); !chosen) return chosen.error();
+    engine->names_of_first_ = engine->names_of_chosen();
+    SampleReport& summary = run.summary;
+    summary.notes = engine->mesh_.notes;
+    note_labels(engine->mesh_, run.job.fields, summary.notes);
+    summary.dimension = engine->mesh_.dimension;
+    summary.nodes = engine->mesh_.point_count();
+    summary.cells = engine->mesh_.cell_count();
+    summary.seconds.mesh = watch.lap();
+    return engine;
+}
+
+/// That of the step, where it has one, or the one that the job asks for.
+Result<Mesh> Engine::read(const Step* step) {
+    const bool of_step = step != nullptr && step->of_mesh.has_value();
+    Result<Mesh> mesh =
+        read_mesh(run_.job.mesh, {.faces = false,
+                                  .neighbours = false,
+                                  .threads = run_.job.options.threads,
+                                  .step = of_step ? StepChoice{.number = step->of_mesh} : run_.job.step});
+    if (!mesh) return mesh;
+    const auto curved = take_as_straight(*mesh, run_.job.mesh, run_.job.curved);
+    if (!curved) return curved.error();
+    // Of steps, that with the largest deviation.
+    if (curved->max_deviation >= run_.summary.curved.max_deviation) run_.summary.curved = *curved;
+    return mesh;
+}
+
+Status Engine::add_fields_of_job() {
+    if (Status added = add_fields(run_.job.field_files, mesh_); !added) return added;
+    for (const Step& step : run_.steps) {
+        for (FieldFile file : step.files) {
+            if (!run_.step_by_step()) file.name = name_of_step(file.name, step);
+            const Result<FieldPlace> place = add_field(file, mesh_, run_.step_by_step());
+            if (!place) return place.error();
+            places_of_series_.push_back(*place);
+        }
+        if (run_.step_by_step()) break;
+    }
+    give_each_a_name(mesh_);
+    return Done{};
+}
+
+Status Engine::go_to(const Step& step) {
+    Status gone = go(step);
+    if (gone || !step.of_mesh) return gone;
+    Error error = gone.error();
+    error.what = "step " + step.label + ": " + error.what;
+    return error;
+}
+
+Status Engine::go(const Step& step) {
+    Stopwatch watch;
+    Status read = step.of_mesh ? go_to_mesh(step) : go_to_fields(step);
+    run_.summary.seconds.mesh += watch.lap();
+    if (!read) return read;
+    sampler_.reset();
+    made_.clear();
+    if (Status chosen = choose_fields(); !chosen) return chosen;
+    if (const std::string names = names_of_chosen(); names != names_of_first_) {
+        tell_once({{Note::Kind::left_out,
+                    fmt::format("in step {} the fields of the first step: there they are {}, here {}", step.label,
+                                names_of_first_, names),
+                    run_.job.mesh, true}});
+    }
+    Status built = another_mesh_ ? Status(Done{}) : build_sampler(part_ ? fields_of_part() : fields_);
+    run_.summary.seconds.build += watch.lap();
+    return built;
+}
+
+Status Engine::go_to_mesh(const Step& step) {
+    Result<Mesh> mesh = read(&step);
+    if (!mesh) return mesh.error();
+    if (mesh->dimension != mesh_.dimension)
+        return Error{.what = "step " + step.label + " has cells of another dimension",
+                     .file = run_.job.mesh,
+                     .expected = std::to_string(mesh_.dimension) + ", as the first one has",
+                     .found = std::to_string(mesh->dimension)};
+    another_mesh_ = mesh->points != mesh_.points || mesh->cells != mesh_.cells || mesh->mid_nodes != mesh_.mid_nodes ||
+                    mesh->cell_numbers != mesh_.cell_numbers;
+    if (another_mesh_) {
+        sampler_.reset();
+        locator_.reset();
+        part_.reset();
+        ++run_.summary.meshes;
+        mesh_ = std::move(*mesh);
+    } else {  // where the locator is, the mesh stays
+        mesh_.point_fields = std::move(mesh->point_fields);
+        mesh_.cell_fields = std::move(mesh->cell_fields);
+        mesh_.cell_labels = std::move(mesh->cell_labels);
+        mesh_.notes = std::move(mesh->notes);
+    }
+    Status added = add_fields_of_job();
+    tell_once(mesh_.notes);
+    return added;
+}
+
+Status Engine::go_to_fields(const Step& step) {
+    Notes notes;
+    for (std::size_t i = 0; i < step.files.size(); ++i) {
+        const FieldPlace place = places_of_series_[i];
+        Field& field = (place.of_cells ? mesh_.cell_fields : mesh_.point_fields)[place.number];
+        FieldFile file = step.files[i];
+        file.of = place.of_cells ? FieldFile::Of::cells : FieldFile::Of::points;
+        Result<Field> read = read_field(mesh_, file, notes);
+        if (!read) return read.error();
+        const auto shape = [](const Field& f) {
+            const auto components = static_cast<std::size_t>(f.components);
+            return fmt::format("{} rows of {}", f.data.size() / components, counted(components, "component"));
+        };
+        if (read->data.size() != field.data.size() || read->components != field.components)
+            return Error{.what = "the steps of field \"" + step.files[i].name + "\" differ",
+                         .file = step.files[i].path,
+                         .expected = shape(field) + ", as in the first step",
+                         .found = shape(*read)};
+        field.data = std::move(read->data);
+    }
+    tell_once(std::move(notes));
+    return Done{};
+}
+
+/// What is told of every step is told once.
+void Engine::tell_once(Notes notes) {
+    for (Note& note : notes) {
+        Notes& told = run_.summary.notes;
+        const bool known = std::any_of(told.begin(), told.end(), [&](const Note& other) {
+            return other.kind == note.kind && other.text == note.text;
+        });
+        if (!known) told.push_back(std::move(note));
+    }
+}
+
+/// With columns for all steps, what is asked of a series is asked of each step.
+std::vector<std::string> Engine::names_of_fields() const {
+    if (run_.step_by_step() || run_.steps.empty()) return run_.job.fields;
+    std::vector<std::string> names;
+    const auto of_steps = [&](const std::string& text) {
+        for (std::size_t s = 0; s < run_.steps.front().files.size(); ++s) {
+            const std::string& series = run_.steps.front().files[s].name;
+            if (!sample::with_other_name(text, series, series)) continue;
+            for (const Step& step : run_.steps)
+                names.push_back(*sample::with_other_name(text, series, name_of_step(series, step)));
+            return true;
+        }
+        return false;
+    };
+    for (const std::string& text : run_.job.fields) {
+        if (of_steps(text)) continue;
+        bool some = false;
+        const std::size_t before = names.size();
+        sample::for_names(text, [&](const std::string& name) {
+            const bool series = of_steps(name);
+            if (!series) names.push_back(name);
+            some = some || series;
+            return true;
+        });
+        if (some) continue;
+        names.resize(before);  // one name may hold commas
+        names.push_back(text);
+    }
+    return names;
+}
+
+Status Engine::choose_fields() {
+    fields_.clear();
+    if (run_.job.output.empty() && !run_.job.weights.empty()) return Done{};
+    std::vector<std::string> names = names_of_fields();
+    Result<std::vector<const Column*>> of_cells = take_labels(mesh_, names);
+    if (!of_cells) return of_cells.error();
+    labels_ = std::move(*of_cells);
+    // No name at all means every field; labels alone mean none.
+    if (!labels_.empty() && names.empty()) return Done{};
+    Result<std::vector<FieldChoice>> fields = sample::quantities_named(mesh_, names);
+    if (!fields) return fields.error();
+    fields_ = std::move(*fields);
+    for (const FieldChoice& choice : fields_) count_not_finite(*choice.field, choice.of_cells, run_.summary.not_finite);
+    // What depends on all cells is made before some of them are looked at.
+    for (FieldChoice& choice : fields_) {
+        const std::size_t steps = sample::steps_of_whole_mesh(choice);
+        if (steps == 0) continue;
+        if (const char* const wrong = mesh::inconsistency_of_cells(mesh_, mesh::FieldValues::any); wrong != nullptr)
+            return Error{.what = std::string("the mesh is inconsistent: ") + wrong, .file = run_.job.mesh};
+        if (Status done = sample::make_fields(mesh_, choice, steps, made_); !done) return done;
+    }
+    return Done{};
+}
+
+std::string Engine::names_of_chosen() const {
+    std::string names;
+    for (const FieldChoice& choice : fields_)
+        names += (names.empty() ? "" : ", ") + base::quoted(choice.name.empty() ? choice.field->name : choice.name);
+    return names.empty() ? "none" : names;
+}
+
+TableFormat Engine::format() const {
+    TableFormat format{mesh_.dimension, sampler_->fields(), gives_distances(run_.job.options.outside)};
+    format.vtk_data = run_.job.vtk_data.value_or(VtkData::raw);
+    return format;
+}
+
+Status Engine::build(bool prove) {
+    return build_on(mesh_, fields_, prove);
+}
+
+Status Engine::build_on(const Mesh& mesh, const std::vector<FieldChoice>& fields, bool prove) {
+    Stopwatch watch;
+    BuildOptions options;
+    options.prove = prove;
+    options.threads = run_.job.options.threads;
+    options.progress = [&](const char* stage) { run_.stage(stage); };
+    Result<Locator> locator = Locator::build(mesh, options);
+    if (!locator) return locator.error();
+    locator_.emplace(std::move(*locator));
+    if (Status built = build_sampler(fields); !built) return built;
+    SampleReport& summary = run_.summary;
+    if (run_.job.count_degenerate)
+        summary.degenerate_cells += prove ? locator_->degenerate_cells() : count_degenerate(mesh);
+    summary.seconds.build += watch.lap();
+    return Done{};
+}
+
+Status Engine::build_sampler(const std::vector<FieldChoice>& fields) {
+    Result<Sampler> sampler = Sampler::build(*locator_, fields);
+    if (!sampler) return sampler.error();
+    sampler_.emplace(std::move(*sampler));
+    run_.summary.columns = sampler_->columns();
+    return Done{};
+}
+
+std::vector<FieldChoice> Engine::fields_of_part() {
+    std::vector<FieldChoice> fields;
+    part_->mesh.point_fields.clear();
+    part_->mesh.cell_fields.clear();
+    part_->mesh.point_fields.reserve(fields_.size());
+    part_->mesh.cell_fields.reserve(fields_.size());
+    for (const FieldChoice& choice : fields_) {
+        auto& of_part = choice.of_cells ? part_->mesh.cell_fields : part_->mesh.point_fields;
+        of_part.push_back(part_->field(*choice.field, choice.of_cells));
+        fields.push_back({&of_part.back(), choice.of_cells, choice.steps, choice.name});
+    }
+    return fields;
+}
+
+Status Engine::prepare() {
+    if (locator_) return Done{};
+    if (Status built = build(true); !built) return built;
+    SampleReport& summary = run_.summary;
+    summary.method = FoundBy::walk;
+    summary.contested_cells += locator_->contested_cells();
+    // Of several meshes, that all are certified, or why one is not.
+    if (summary.verdict == Verdict::not_certified) return Done{};
+    summary.verdict = locator_->certified() ? Verdict::certified : Verdict::not_certified;
+    summary.reason = reason_of(*locator_, locator_->degenerate_cells(), run_.job.program);
+    return Done{};
+}
+
+Status Engine::prepare_for_all(std::span<const double> points) {
+    const ExactEnvironment environment;
+    const std::size_t count = points.size() / static_cast<std::size_t>(mesh_.dimension), cells = mesh_.cell_count();
+    const bool asked = !gives_distances(run_.job.options.outside);
+    const bool fit = std::all_of(fields_.begin(), fields_.end(), [&](const FieldChoice& choice) {
+        const std::size_t entities = choice.of_cells ? cells : mesh_.point_count();
+        return choice.field->data.size() == entities * static_cast<std::size_t>(choice.field->components);
+    });
+    // What is wrong with fields or points is told by the usual way.
+    if (!asked || !needs_no_index(count, cells) || !fit || !base::all_finite(points)) return prepare();
+    Stopwatch watch;
+    run_.stage("looking for the cells of the points");
+    std::optional<std::vector<Mesh::Index>> near;
+    locate::in_arena(run_.job.options.threads,
+                     [&] { near = locate::cells_at_points(mesh_, points, most_cells(cells)); });
+    if (!near) return prepare();
+    part_ = mesh::part_of(mesh_, std::move(*near));
+    const std::vector<FieldChoice> fields = fields_of_part();
+    SampleReport& summary = run_.summary;
+    summary.method = FoundBy::pass;
+    summary.reason = fmt::format("no index for {}: {} of {} may hold some", counted(count, "point"),
+                                 part_->cells.size(), counted(cells, "cell"));
+    summary.seconds.build += watch.lap();
+    return build_on(part_->mesh, fields, false);
+}
+
+void Engine::let_go_of_mesh() {
+    if (gives_distances(run_.job.options.outside) || !mesh_.mid_nodes.empty() || run_.step_by_step()) return;
+    // The index has corners and coordinates in an order of its own, and so has the sampler the values of nodes.
+    give_back(mesh_.points);
+    give_back(mesh_.cells);
+    give_back(mesh_.point_markers);
+    for (Field& field : mesh_.point_fields) give_back(field.data);
+}
+
+Result<NodeWeights> Engine::weights_of(const TableView& rows, const OutsidePolicy& outside) const {
+    Result<NodeWeights> weights = node_weights(*locator_, rows, outside);
+    // Nodes of a part are in the order of the mesh.
+    if (weights && part_) {
+        for (Mesh::Index& node : weights->nodes) node = part_->nodes[static_cast<std::size_t>(node)];
+    }
+    return weights;
+}
+
+void Engine::name_cells(Table& rows) const {
+    if (!part_) return;
+    for (Mesh::Index& cell : rows.cells) {
+        if (cell >= 0) cell = part_->cells[static_cast<std::size_t>(cell)];
+    }
+}
+
+Status Engine::prepare_without_search(FoundBy method, const std::string& reason) {
+    run_.summary.method = method;
+    run_.summary.reason = reason;
+    return build(false);
+}
+
+}  // namespace barycert::jobs

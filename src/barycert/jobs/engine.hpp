@@ -1,0 +1,101 @@
+/// A mesh, what finds points in it, and what samples its fields.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "barycert/io.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/mesh/part.hpp"
+#include "barycert/jobs/field_files.hpp"
+#include "barycert/jobs/run.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
+
+namespace barycert::jobs {
+
+/// Writes what it does into the summary of the run. Holds the mesh, and therefore stays where it is.
+class Engine {
+public:
+    /// Reads the mesh and the files of fields, and chooses fields. The run must stay.
+    static Result<std::unique_ptr<Engine>> open(Run& run);
+
+    const Mesh& mesh() const { return mesh_; }
+
+    /// Prepares for points one by one. A second call does nothing.
+    Status prepare();
+
+    /// The same for points that are all there are. Few of them need no index of the mesh: then it is prepared for these
+    /// points alone.
+    Status prepare_for_all(std::span<const double> points);
+
+    /// Prepares where no owner is asked of a point alone: they are known, or the cells find their points.
+    Status prepare_without_search(FoundBy method, const std::string& reason);
+
+    /// Precondition: prepared.
+    const Locator& locator() const { return *locator_; }
+    const Sampler& sampler() const { return *sampler_; }
+
+    /// Reads the fields of another step of a job that goes step by step, and samples these from now on. Errors: a file
+    /// cannot be read, or has other numbers of rows or components than that of the first step. Precondition: prepared.
+    Status go_to(const Step& step);
+
+    /// Whether the step that was gone to has another mesh than the one before it: then the engine is to be prepared.
+    bool is_another_mesh() const { return another_mesh_; }
+
+    /// Gives back what of the mesh sampling does not read again: of linear cells, unless points outside ask for their
+    /// nearest cell or other steps follow, all but the values of cell fields, labels and numbers of cells.
+    /// Precondition: prepared; nobody else reads the mesh any more, but for its dimension.
+    void let_go_of_mesh();
+
+    /// The weights of rows as the locator names their cells, on the nodes of the mesh. Not after let_go_of_mesh().
+    Result<NodeWeights> weights_of(const TableView& rows, const OutsidePolicy& outside) const;
+
+    /// Sampled rows name cells as the locator counts them; afterwards, as the mesh does.
+    void name_cells(Table& rows) const;
+
+    /// What the rows of this job have, without labels.
+    TableFormat format() const;
+
+    /// Those that are sampled.
+    const std::vector<FieldChoice>& fields() const { return fields_; }
+
+    /// Those of cells that the job asked for.
+    const std::vector<const Column*>& labels() const { return labels_; }
+
+private:
+    explicit Engine(Run& run) : run_(run) {}
+    Result<Mesh> read(const Step* step);
+    Status go(const Step& step);
+    std::string names_of_chosen() const;
+    Status add_fields_of_job();
+    Status go_to_fields(const Step& step);
+    Status go_to_mesh(const Step& step);
+    void tell_once(Notes notes);
+    Status choose_fields();
+    std::vector<std::string> names_of_fields() const;
+    std::vector<FieldChoice> fields_of_part();
+    Status build_sampler(const std::vector<FieldChoice>& fields);
+    Status build(bool prove);
+    Status build_on(const Mesh& mesh, const std::vector<FieldChoice>& fields, bool prove);
+
+    Run& run_;
+    Mesh mesh_;
+    bool another_mesh_ = false;
+    std::string names_of_first_;  ///< of the fields that are sampled in the first step
+    std::vector<FieldPlace> places_of_series_;
+    std::deque<Field> made_;  ///< of fields of the mesh
+    std::vector<FieldChoice> fields_;
+    std::vector<const Column*> labels_;
+    std::optional<mesh::Part> part_;  ///< what the locator is of, if not the mesh
+    std::optional<Locator> locator_;
+    std::optional<Sampler> sampler_;
+};
+
+}  // namespace barycert::jobs

@@ -1,0 +1,189 @@
+#include "barycert/jobs/integrals.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "barycert/base/text.hpp"
+#include "barycert/check/exact_volumes.hpp"
+#include "barycert/core/quotient.hpp"
+#include "barycert/core/scaled_double.hpp"
+
+namespace barycert::jobs {
+namespace {
+
+using core::Integer;
+
+/// In the units of volumes and values.
+struct PartialIntegral {
+    Integer sum;
+    std::uint64_t left_out = 0;
+};
+
+PartialIntegral joined(const PartialIntegral& a, const PartialIntegral& b) {
+    return {a.sum + b.sum, a.left_out + b.left_out};
+}
+
+/// Means over cells, times `denominator`, are sums of weight times value over their entities.
+struct MeanRule {
+    std::size_t corners;             ///< nodes of the cell; 0: the value is that of the cell
+    std::int64_t of_corner, of_mid;  ///< weights
+    std::uint64_t denominator;
+};
+
+/// Of linear and quadratic functions on a simplex: their integrals over it are known in terms of nodal values.
+MeanRule rule_of_nodes(const Mesh& mesh) {
+    if (mesh.mid_nodes.empty()) return {mesh.corners(), 1, 0, mesh.corners()};
+    return mesh.dimension == 2 ? MeanRule{3, 0, 1, 3} : MeanRule{4, -1, 4, 20};
+}
+
+/// Exact, and rounded once.
+std::pair<double, std::uint64_t> integral(const Mesh& mesh, const std::vector<double>& values, const MeanRule& rule) {
+    const check::ExactVolumes volumes(mesh.dimension, mesh.points);
+    core::Unit unit;
+    for (const double x : values) {
+        if (std::isfinite(x)) unit.add(core::scaled(x));
+    }
+    const std::size_t corners = mesh.corners(), mids = mesh.dimension == 2 ? 3 : 6;
+    const auto add_cell = [&](std::size_t c, PartialIntegral& part) {
+        std::array<const double*, 4> at{};
+        for (std::size_t i = 0; i < corners; ++i)
+            at[i] = mesh.points.data() +
+                    static_cast<std::size_t>(mesh.dimension) * static_cast<std::size_t>(mesh.cells[corners * c + i]);
+        const Integer volume = volumes.cell(at.data());
+        if (volume.sign() == 0) return;
+        Integer sum;
+        bool finite = true;
+        const auto add = [&](std::int64_t weight, std::size_t entity) {
+            if (weight == 0) return;
+            finite = finite && std::isfinite(values[entity]);
+            if (!finite) return;
+            const Integer value = unit.multiple<Integer>(core::scaled(values[entity]));
+            sum = sum + Integer(weight < 0, static_cast<std::uint64_t>(std::abs(weight)), 0) * value;
+        };
+        if (rule.corners == 0) add(1, c);
+        for (std::size_t i = 0; i < rule.corners; ++i)
+            add(rule.of_corner, static_cast<std::size_t>(mesh.cells[corners * c + i]));
+        for (std::size_t i = 0; i < (rule.of_mid == 0 ? 0 : mids); ++i)
+            add(rule.of_mid, static_cast<std::size_t>(mesh.mid_nodes[mids * c + i]));
+        if (!finite) {
+            ++part.left_out;
+        } else {
+            const Integer product = volume * sum;
+            part.sum = volume.sign() < 0 ? part.sum - product : part.sum + product;
+        }
+    };
+    const PartialIntegral whole = tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, mesh.cell_count(), 1 << 12), PartialIntegral(),
+        [&](const tbb::blocked_range<std::size_t>& range, PartialIntegral part) {
+            for (std::size_t c = range.begin(); c != range.end(); ++c) add_cell(c, part);
+            return part;
+        },
+        joined);
+    const std::array<std::uint64_t, 1> denominator{(mesh.dimension == 2 ? 2 : 6) * rule.denominator};
+    // Without a value but zeros the unit has no exponent, and the sum is zero in any.
+    return {core::round_quotient(whole.sum.sign() < 0, whole.sum.magnitude(), denominator,
+                                 volumes.unit() + (whole.sum.sign() == 0 ? 0 : unit.exponent - 1074)),
+            whole.left_out};
+}
+
+const std::string& name_of(const FieldChoice& choice) {
+    return choice.name.empty() ? choice.field->name : choice.name;
+}
+
+/// Keeps the values of some columns, one a node.
+class IntegralSink final : public TableSink {
+public:
+    IntegralSink(Run& run, Mesh mesh, std::vector<std::size_t> columns, std::unique_ptr<TableSink> sink)
+        : run_(run), mesh_(std::move(mesh)), columns_(std::move(columns)), sink_(std::move(sink)) {
+        values_.resize(columns_.size());
+    }
+
+    Status write(const TableView& rows) override {
+        const std::size_t all = rows.row_count() == 0 ? 0 : rows.values.size() / rows.row_count();
+        for (std::size_t i = 0; i < rows.row_count(); ++i) {
+            for (std::size_t k = 0; k < columns_.size(); ++k) values_[k].push_back(rows.values[all * i + columns_[k]]);
+        }
+        return sink_->write(rows);
+    }
+
+    Status commit() override {
+        for (std::size_t k = 0; k < columns_.size(); ++k) {
+            FieldIntegral& of = run_.summary.integrals[k];
+            std::tie(of.target, of.target_left_out) = integral(mesh_, values_[k], rule_of_nodes(mesh_));
+        }
+        return sink_->commit();
+    }
+
+private:
+    Run& run_;
+    Mesh mesh_;
+    std::vector<std::size_t> columns_;
+    std::vector<std::vector<double>> values_;
+    std::unique_ptr<TableSink> sink_;
+};
+
+}  // namespace
+
+void note_cell_fields(Run& run, const Engine& engine, bool of_series) {
+    std::string names, made;
+    std::size_t count = 0;
+    for (const FieldChoice& choice : engine.fields()) {
+        if (!choice.of_cells) continue;
+        names += (count++ == 0 ? "" : ", ") + base::quoted(name_of(choice));
+        if (!choice.steps.empty()) made += (made.empty() ? "" : ", ") + base::quoted(name_of(choice));
+    }
+    if (count == 0) return;
+    const std::string without = of_series      ? "; their integrals are printed for one step alone: --step N"
+                                : made.empty() ? ""
+                                               : "; integrals are printed of whole fields, not of " + made;
+    run.summary.notes.push_back(
+        {Note::Kind::converted,
+         std::to_string(count) + (count == 1 ? " field" : " fields") +
+             " of cells into values at nodes, each that of the cell that owns the node: " + names + without,
+         run.job.mesh, true});
+}
+
+Result<std::unique_ptr<TableSink>> with_integrals(Run& run, const Engine& engine, const Mesh& other,
+                                                  const TableFormat& format,
+                                                  const std::function<Result<std::unique_ptr<TableSink>>()>& open) {
+    std::vector<std::size_t> columns;
+    std::size_t first = 0;
+    for (const TableField& field : format.fields) {
+        const auto components = static_cast<std::size_t>(field.components);
+        const auto chosen =
+            std::find_if(engine.fields().begin(), engine.fields().end(), [&](const FieldChoice& choice) {
+                return choice.of_cells && choice.steps.empty() && name_of(choice) == field.name;
+            });
+        for (std::size_t k = 0; chosen != engine.fields().end() && k < components; ++k) {
+            std::vector<double> values;
+            for (std::size_t i = k; i < chosen->field->data.size(); i += components)
+                values.push_back(chosen->field->data[i]);
+            FieldIntegral of;
+            of.column = format.columns()[first + k];
+            std::tie(of.source, of.source_left_out) = integral(engine.mesh(), values, {0, 0, 0, 1});
+            run.summary.integrals.push_back(of);
+            columns.push_back(first + k);
+        }
+        first += components;
+    }
+    if (columns.empty()) return open();
+    Mesh geometry;  // `open` may take the mesh
+    geometry.dimension = other.dimension;
+    geometry.points = other.points;
+    geometry.cells = other.cells;
+    geometry.mid_nodes = other.mid_nodes;
+    auto sink = open();
+    if (!sink) return sink;
+    return std::unique_ptr<TableSink>(
+        std::make_unique<IntegralSink>(run, std::move(geometry), std::move(columns), std::move(*sink)));
+}
+
+}  // namespace barycert::jobs

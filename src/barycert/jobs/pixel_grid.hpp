@@ -1,0 +1,16 @@
+/// Pixels in a plane.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "barycert/jobs.hpp"
+#include "barycert/result.hpp"
+
+namespace barycert::jobs {
+
+/// Pixels over the box of these points (3 coordinates each) of a section by the plane. Error: a box without area, or a
+/// picture that is too large.
+Result<PixelGrid> pixels_over(const Plane& plane, const std::vector<double>& points, std::int64_t width);
+
+}  // namespace barycert::jobs

@@ -1,0 +1,332 @@
+// Results of a tool held against the exact ones.
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "barycert/base/run_files.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/io.hpp"
+#include "barycert/jobs.hpp"
+#include "barycert/jobs/claimed_columns.hpp"
+#include "barycert/jobs/field_files.hpp"
+#include "barycert/jobs/job_files.hpp"
+#include "barycert/jobs/run.hpp"
+#include "barycert/jobs/stages.hpp"
+#include "barycert/locate/batch.hpp"
+#include "barycert/locate/locator_data.hpp"
+#include "barycert/sample/quantity/expression.hpp"
+
+namespace barycert {
+namespace {
+
+using jobs::ClaimedColumns;
+using jobs::Claims;
+using jobs::Stopwatch;
+
+constexpr double tolerance_of_floats = 1e-6;
+
+/// Rows on their way through the stages.
+struct ResultBlock {
+    std::vector<double> points;
+    std::vector<Column> columns;
+    std::uint64_t first = 0, size = 0;
+    Verdicts found;
+    std::optional<Error> error;
+    double seconds = 0;
+};
+
+Status check_job(const VerifyJob& job) {
+    if (job.cell_base != 0 && job.cell_base != 1)
+        return Error{.what = "--cell-base", .expected = "0 or 1", .found = std::to_string(job.cell_base)};
+    std::vector<base::NamedFile> inputs = base::named_files("the mesh", mesh_files(job.mesh));
+    const auto add = [&](const std::string& what, const std::string& path) {
+        for (base::NamedFile& file : jobs::input_files(what, path)) inputs.push_back(std::move(file));
+    };
+    add("--results", job.results);
+    for (const FieldFile& file : job.field_files) add("--field", file.path);
+    std::vector<base::NamedFile> outputs;
+    for (const auto& [what, path] : job.reports) outputs.push_back({what, path});
+    return base::check_outputs(inputs, std::move(outputs));
+}
+
+/// All that was read of a file, to be read again with fewer columns.
+Result<std::unique_ptr<PointSource>> open_results(const VerifyJob& job, int dimension,
+                                                  const std::vector<std::string>& keep) {
+    PointOptions options;
+    options.columns = job.columns;
+    options.keep = keep;
+    options.nonfinite_points = job.options.nonfinite_points;
+    return open_points(job.results, dimension, options);
+}
+
+/// Is every number of the columns of values single precision? False if there is none.
+bool are_floats(const Claims& claims) {
+    std::size_t numbers = 0;
+    for (const double x : claims.values) {
+        if (std::isnan(x) || x == 0) continue;
+        if (static_cast<double>(static_cast<float>(x)) != x) return false;
+        ++numbers;
+    }
+    return numbers > 0;
+}
+
+/// Does x have at most so many decimal digits?
+bool has_digits(double x, int digits) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::general, digits).ptr;
+    return base::parse_double({text.data(), end}) == x;
+}
+
+/// Were the numbers written with six digits, as printf and streams do unless told otherwise?
+bool are_cut_to_six_digits(const Claims& claims) {
+    bool cut = false;
+    for (const double x : claims.values) {
+        if (!std::isfinite(x)) continue;
+        if (!has_digits(x, 6)) return false;
+        cut = cut || !has_digits(x, 5);
+    }
+    return cut;
+}
+
+/// Are these the errors of a tool that stops an iteration in second-order cells at 1e-5, as VTK does? A coordinate of
+/// the cell that is off by s changes a value by up to 5 s of the range: at a vertex the slopes of the shape functions
+/// are -4, -1, 1, 4. So 1e-4 is a bound, but for all three coordinates at their worst. Rounding leaves 1e-12 at most,
+/// single precision 1e-7: few values are so good where an iteration stopped.
+bool may_be_of_iteration(const ValueErrors& e) {
+    const auto count = [&](int from_decade, int to_decade) {  // of errors from 10^from on, below 10^to
+        const auto bin = e.by_relative.begin() + 19;
+        return std::accumulate(bin + from_decade, bin + to_decade, std::uint64_t{0});
+    };
+    const bool single = e.floats == e.values;
+    return e.values == e.identical || (e.values >= 10 && e.missing == 0 && e.spurious == 0 && count(-4, 3) == 0 &&
+                                       count(-19, single ? -7 : -12) <= e.values / 10);
+}
+
+class Verification {
+public:
+    explicit Verification(const VerifyJob& job) : job_(job) {}
+
+    Result<VerifyReport> run() {
+        Stopwatch whole;
+        if (Status ok = read_all(); !ok) return ok.error();
+        if (Status ok = build(); !ok) return ok.error();
+        if (Status ok = compare(); !ok) return ok.error();
+        if (summary_.verdicts.rows == 0)
+            return Error{.what = "there are no results to verify",
+                         .file = job_.results == "-" ? "standard input" : job_.results,
+                         .expected = "a row for each point",
+                         .found = "no row",
+                         .remedy = "look at what should have written them: nothing was compared"};
+        for (WrongRow& row : summary_.verdicts.examples) {
+            row.exact.cell = mesh_.cell_number(row.exact.cell);
+            if (row.claimed_cell >= static_cast<std::int64_t>(mesh_.cell_count())) continue;
+            row.claimed_cell = mesh_.cell_number(static_cast<Mesh::Index>(row.claimed_cell));
+        }
+        summary_.seconds.total = whole.lap();
+        return std::move(summary_);
+    }
+
+private:
+    void stage(const std::string& text) const {
+        if (job_.progress) job_.progress({.stage = text});
+    }
+
+    Status read_all() {
+        Stopwatch watch;
+        stage("reading " + job_.mesh);
+        const int threads = job_.options.threads;
+        Result<Mesh> mesh =
+            read_mesh(job_.mesh, {.faces = false, .neighbours = false, .threads = threads, .step = job_.step});
+        if (!mesh) return mesh.error();
+        const auto curved = take_as_straight(*mesh, job_.mesh, job_.curved);
+        if (!curved) return curved.error();
+        summary_.curved = *curved;
+        mesh_ = std::move(*mesh);
+        if (Status added = jobs::add_fields(job_.field_files, mesh_); !added) return added;
+        auto fields = sample::quantities_named(mesh_, job_.fields);
+        if (!fields) return fields.error();
+        summary_.seconds.mesh = watch.lap();
+        summary_.mesh = job_.mesh;
+        summary_.results = job_.results;
+        summary_.program = job_.program;
+        summary_.nodes = mesh_.point_count();
+        summary_.cells = mesh_.cell_count();
+        summary_.dimension = mesh_.dimension;
+        summary_.notes = mesh_.notes;
+        summary_.threads = threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+        auto all = open_results(job_, mesh_.dimension, {"all"});
+        if (!all) return all.error();
+        auto columns = jobs::claimed_columns(job_, mesh_, *fields, (*all)->carried(), summary_.notes);
+        if (!columns) return columns.error();
+        columns_ = std::move(*columns);
+        // Standard input and pipes cannot be read twice.
+        source_ = std::move(*all);
+        std::error_code ignored;
+        if (!std::filesystem::is_regular_file(job_.results, ignored) && std::filesystem::exists(job_.results, ignored))
+            return Done{};
+        if (job_.results == "-") return Done{};
+        auto some = open_results(job_, mesh_.dimension, columns_.names());
+        if (!some) return some.error();
+        source_ = std::move(*some);
+        return Done{};
+    }
+
+    Status build() {
+        Stopwatch watch;
+        BuildOptions options;
+        options.threads = job_.options.threads;
+        options.progress = [&](const char* text) { stage(text); };
+        Result<Locator> locator = Locator::build(mesh_, options);
+        if (!locator) return locator.error();
+        locator_.emplace(std::move(*locator));
+        Result<Sampler> sampler = Sampler::build(*locator_, columns_.fields);
+        if (!sampler) return sampler.error();
+        sampler_.emplace(std::move(*sampler));
+        summary_.certified = locator_->certified();
+        summary_.contested_cells = locator_->contested_cells();
+        summary_.columns = sampler_->columns();
+        summary_.found_in = columns_.values;
+        summary_.cell_column = columns_.cell;
+        summary_.mask_column = columns_.mask;
+        summary_.seconds.build = watch.lap();
+        return Done{};
+    }
+
+    Result<std::size_t> read(ResultBlock& block, std::size_t size) {
+        Stopwatch watch;
+        block.points.clear();
+        block.columns.clear();
+        block.first = taken_;
+        Result<std::size_t> count = source_->read(size, block.points);
+        if (!count) return count;
+        source_->take_carried(block.columns);
+        taken_ += *count;
+        block.size = *count;
+        summary_.seconds.read += watch.lap();
+        return count;
+    }
+
+    /// Single precision is told by the first block.
+    void choose_tolerance(const ResultBlock& first, VerifyOptions& options) {
+        if (job_.tolerance_given || options.exact) return;
+        const auto claims = jobs::claims_of(columns_, first.columns, mesh_, job_, 0);
+        if (!claims) return;
+        if (are_cut_to_six_digits(*claims)) {
+            cut_ = true;
+            summary_.notes.push_back({Note::Kind::guessed,
+                                      "values have six digits: what was cut off counts as an error; let the tool write "
+                                      "17 digits, of coordinates as well, or see --tolerance",
+                                      job_.results, true});
+            return;
+        }
+        if (!are_floats(*claims)) return;
+        options.tolerance = tolerance_of_floats;
+        summary_.notes.push_back({Note::Kind::guessed,
+                                  "values are single precision: errors up to 1e-6 of the range count as right; "
+                                  "--tolerance says otherwise",
+                                  job_.results, true});
+    }
+
+    Status compare() {
+        const int threads = job_.options.threads;
+        const std::size_t size = jobs::block_size(source_->count(), threads, mesh_.cell_count());
+        ResultBlock first;
+        if (const auto read_first = read(first, size); !read_first) return read_first.error();
+        VerifyOptions options = job_.options;
+        options.threads = 1;  // blocks go side by side
+        choose_tolerance(first, options);
+        const Verifier verifier(*sampler_, options);
+        summary_.ranges = verifier.ranges();
+        summary_.relative_to = verifier.relative_to();
+        summary_.tolerance = options.tolerance;
+        summary_.exact = options.exact;
+        summary_.outside_value = options.outside_value;
+        summary_.verdicts.columns.resize(summary_.columns.size());
+        locate::in_arena(threads, [&] { locator_->data().prepare(source_->count().value_or(taken_)); });
+        bool begun = false;
+        const auto next = [&](ResultBlock& block) -> Status {
+            if (!begun) {
+                begun = true;
+                block = std::move(first);
+                return Done{};
+            }
+            const auto count = read(block, size);
+            return count ? Status(Done{}) : Status(count.error());
+        };
+        const auto work = [&](ResultBlock& block) -> Status {
+            const auto claims = jobs::claims_of(columns_, block.columns, mesh_, job_, block.first);
+            if (!claims) return claims.error();
+            auto found = verifier.verify({block.points, claims->cells, claims->inside, claims->values, block.first});
+            if (!found) return found.error();
+            block.found = std::move(*found);
+            return Done{};
+        };
+        const auto keep = [&](ResultBlock& block) -> Status {
+            summary_.verdicts.add(block.found, options.examples);
+            if (job_.progress) job_.progress({.stage = "rows", .done = block.first + block.size});
+            return Done{};
+        };
+        jobs::StagesOf<ResultBlock> stages(threads);
+        Status done = stages.run(next, work, keep);
+        Stopwatch watch;
+        if (done) done = Verifier(*sampler_, job_.options).measure(summary_.verdicts);
+        for (const Note& note : source_->notes()) {
+            // Which columns are not compared has been told.
+            if (note.kind != Note::Kind::left_out) summary_.notes.push_back(note);
+        }
+        note_iteration();
+        summary_.seconds.sample = stages.seconds() + watch.lap();
+        return done;
+    }
+
+    /// Curved sides and cut digits explain errors of that size as well, and are told.
+    void note_iteration() {
+        const Verdicts& v = summary_.verdicts;
+        const auto& columns = v.columns;
+        if (mesh_.mid_nodes.empty() || summary_.curved.cells != 0 || cut_ || v.wrong_value == 0 ||
+            !std::all_of(columns.begin(), columns.end(), may_be_of_iteration))
+            return;
+        double most = 0;
+        for (const ValueErrors& e : columns) most = std::max(most, e.max_relative);
+        summary_.notes.push_back(
+            {Note::Kind::guessed,
+             fmt::format("the errors are of the size of an iterative solver's tolerance: the largest is {:.2g} of the "
+                         "range, and few are as small as rounding; a tool that finds points in second-order cells by "
+                         "iteration leaves such errors (VTK stops at 1e-5); --tolerance 1e-4 counts them as right",
+                         most),
+             job_.results, true});
+    }
+
+    const VerifyJob& job_;
+    Mesh mesh_;
+    ClaimedColumns columns_;
+    std::unique_ptr<PointSource> source_;
+    std::optional<Locator> locator_;
+    std::optional<Sampler> sampler_;
+    std::uint64_t taken_ = 0;
+    bool cut_ = false;  ///< values have six digits
+    VerifyReport summary_;
+};
+
+}  // namespace
+
+Result<VerifyReport> verify_files(const VerifyJob& job) {
+    const base::RunFiles run;
+    if (Status ok = check_job(job); !ok) return ok.error();
+    std::optional<tbb::global_control> limit;
+    if (job.options.threads > 0)
+        limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(job.options.threads));
+    return Verification(job).run();
+}
+
+}  // namespace barycert
