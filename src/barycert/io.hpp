@@ -124,8 +124,8 @@ public:
     /// The columns that are carried through.
     virtual std::vector<ColumnFormat> carried() const { return {}; }
 
-    /// Puts the carried columns of the points of the last read() into `columns`, a value a point; afterwards they are
-    /// the source's no more. The memory of what was in `columns` may be used again.
+    /// Puts the carried columns of the points of the last read() into `columns`, a value a point; afterwards the
+    /// source has them no longer. It may use the memory of what was in `columns` again.
     virtual void take_carried(std::vector<Column>& columns) { columns.clear(); }
 
     /// What of the file is left out, converted or guessed. Known when opened.
@@ -219,8 +219,8 @@ struct GmshStep {
     friend bool operator==(const GmshStep&, const GmshStep&) = default;
 };
 
-/// All of $NodeData and $ElementData, in the order of the file; only their headers are read. Error: as read_gmsh, as
-/// far as it concerns these. A file without a mesh is none.
+/// The steps of all $NodeData and $ElementData, in the order of the file; only their headers are read. Returns an Error
+/// as read_gmsh does for these sections; a file that has no mesh is no error.
 Result<std::vector<GmshStep>> gmsh_steps(const std::string& path);
 
 /// The nodes, `dimension` coordinates a node. In dimension 2 every z must be 0. Elements are not read.

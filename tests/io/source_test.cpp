@@ -30,7 +30,7 @@ TEST(Formats, sources) {
                  {0, "unknown file suffix",
                   "points (.csv .txt .npy .node .vtu .vtp .vtk .vti .vtr .vts, - for CSV from stdin) or a mesh",
                   "\".odt\"", nullptr});
-    expect_error(open_points("p.csv", 4), "p.csv", {0, "points of an impossible dimension", "2 or 3", "4", nullptr});
+    expect_error(open_points("p.csv", 4), "p.csv", {0, "points can have 2 or 3 coordinates", "2 or 3", "4", nullptr});
 }
 
 TEST(Formats, sinks) {
@@ -40,7 +40,7 @@ TEST(Formats, sinks) {
     expect_error(open_table("p.txt", {}), "p.txt",
                  {0, "cannot write rows in the format of that suffix", nullptr, "\".txt\"", nullptr});
     expect_error(open_table("p.csv", {.dimension = 1}), "p.csv",
-                 {0, "rows of an impossible dimension", "2 or 3", "1", nullptr});
+                 {0, "points of rows can have 2 or 3 coordinates", "2 or 3", "1", nullptr});
 }
 
 TEST(MemorySource, gives_the_points) {

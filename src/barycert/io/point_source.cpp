@@ -71,7 +71,7 @@ Result<std::unique_ptr<PointSource>> open_nodes(const std::string& path, int dim
 Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int dimension, const PointOptions& options) {
     const ExactEnvironment environment;
     if (dimension != 2 && dimension != 3) {
-        return Error{.what = "points of an impossible dimension",
+        return Error{.what = "points can have 2 or 3 coordinates",
                      .file = path,
                      .expected = "2 or 3",
                      .found = std::to_string(dimension),

@@ -50,7 +50,7 @@ TableSink::~TableSink() = default;
 Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const TableFormat& format) {
     const ExactEnvironment environment;
     if (format.dimension != 2 && format.dimension != 3) {
-        return Error{.what = "rows of an impossible dimension",
+        return Error{.what = "points of rows can have 2 or 3 coordinates",
                      .file = path,
                      .expected = "2 or 3",
                      .found = std::to_string(format.dimension),

@@ -60,7 +60,7 @@ Status sample_stream(Run& run, Engine& engine, PointSource& source, const Stream
 /// The rows of a map likewise; the engine is prepared for it.
 Status sample_map(Run& run, Engine& engine, MapReader& map, const StreamTargets& targets);
 
-/// Known rows likewise, of which the summary has been told: only values that are NaN, and times, are added.
+/// Samples rows whose cells are known. The report counts them already: only NaN values and times are added to it.
 Status sample_known(Run& run, Engine& engine, const KnownRows& known, const SinkFactory& factory);
 
 /// That the mesh changes from step to step, and this output is of one mesh.

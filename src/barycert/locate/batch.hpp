@@ -22,7 +22,7 @@
 
 namespace barycert::locate {
 
-/// That many, 0 for as many as there are, and never more than the arena of the caller has.
+/// How many threads to use: those asked for, or all for 0; never more than the arena of the caller has.
 inline int threads_of(int threads) {
     const int available = tbb::this_task_arena::max_concurrency();
     return threads > 0 ? std::min(threads, available) : available;
