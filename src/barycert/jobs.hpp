@@ -70,7 +70,7 @@ struct SamplingJob {
     /// Where the caller will write a report: the job makes sure that this is no other file of the job, and can be
     /// written. Empty: nowhere.
     std::string report;
-    bool count_degenerate = true;      ///< of SampleSummary: a pass over the cells
+    bool count_degenerate = true;      ///< of SampleReport: a pass over the cells
     std::string program = "barycert";  ///< how the user calls the program, for commands in messages
     /// Called by one thread at a time, which need not be the caller's.
     std::function<void(const JobProgress&)> progress = {};
@@ -134,7 +134,7 @@ struct FieldIntegral {
 };
 
 /// What a job did: what its reports are made of.
-struct SampleSummary {
+struct SampleReport {
     std::string command;  ///< "sample" or "resample"
     std::string mesh, output, weights;
     std::string points;                ///< the file they came from; empty for a grid
@@ -170,8 +170,8 @@ struct SampleSummary {
 
 /// Returns an Error, and writes nothing, if the job contradicts itself, an input cannot be read, an output is an input
 /// or cannot be written, or the policy for points outside is `error` and a point is outside.
-Result<SampleSummary> sample_files(const SampleJob& job);
-Result<SampleSummary> resample_files(const ResampleJob& job);
+Result<SampleReport> sample_files(const SampleJob& job);
+Result<SampleReport> resample_files(const ResampleJob& job);
 
 // A whole job: the results that some tool wrote into a file, held against the exact ones.
 
@@ -205,7 +205,7 @@ struct VerifyJob {
 };
 
 /// What a verification did: what its reports are made of.
-struct VerifySummary {
+struct VerifyReport {
     std::string mesh, results;
     std::uint64_t nodes = 0, cells = 0;
     int dimension = 3, threads = 1;
@@ -244,16 +244,16 @@ std::vector<std::string> verify_limit_names();
 std::vector<VerifyLimit> strict_limits();
 
 /// Whether rows could be of that kind: wrong_cell takes a column of cells, wrong_value one of values.
-bool compared(const VerifySummary& summary, RowVerdict verdict);
+bool compared(const VerifyReport& summary, RowVerdict verdict);
 
 /// Error: a limit on what was not compared. Nothing could fail.
-Status check_limits(const VerifySummary& summary, const std::vector<VerifyLimit>& limits);
+Status check_limits(const VerifyReport& summary, const std::vector<VerifyLimit>& limits);
 
 /// Those that are exceeded.
 std::vector<VerifyLimit> exceeded(const Verdicts& verdicts, const std::vector<VerifyLimit>& limits);
 
 /// Returns an Error if an input cannot be read, or the results have no column that could be compared.
-Result<VerifySummary> verify_files(const VerifyJob& job);
+Result<VerifyReport> verify_files(const VerifyJob& job);
 
 // Pictures as jobs, files to files: what `barycert render` does and tells.
 
@@ -272,7 +272,7 @@ struct TexelError {
 };
 
 /// What was drawn.
-struct RenderSummary {
+struct RenderReport {
     std::string picture;  ///< gradient, texture, cube, clip, mesh, scene
     std::string input;    ///< the scene, mesh or image; empty if there is none
     std::string output;
@@ -303,7 +303,7 @@ struct MeshPictureJob {
 /// Draws facets that one cell alone has; their colours are those of nodes, or of that cell. Returns an Error if the
 /// mesh cannot be read, has no such field or component or no cells, as draw_surface does, or if the file cannot be
 /// written.
-Result<RenderSummary> render_mesh_file(const MeshPictureJob& job);
+Result<RenderReport> render_mesh_file(const MeshPictureJob& job);
 
 // Whole jobs, files to files: iso-surfaces, iso-lines and slices of meshes. What `barycert render iso` and `barycert
 // render slice` call. Output files appear whole or not at all.
@@ -354,7 +354,7 @@ struct ContourSeconds {
 };
 
 /// What a job did: what its reports are made of.
-struct ContourSummary {
+struct ContourReport {
     std::string mesh, field, output;
     CurvedCells curved;  ///< of the mesh: cut with straight sides
     std::optional<double> value;
@@ -381,6 +381,6 @@ struct ContourSummary {
 
 /// Returns an Error, and writes nothing, if the job contradicts itself, an input cannot be read, an output is an input
 /// or cannot be written, or there is nothing to draw in a picture. An empty surface is written, and told.
-Result<ContourSummary> contour_files(const ContourJob& job);
+Result<ContourReport> contour_files(const ContourJob& job);
 
 }  // namespace barycert

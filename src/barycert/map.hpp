@@ -63,8 +63,9 @@ public:
     ~MapWriter();
 
     /// Appends the points, cells and features of the rows. Errors: sizes that do not fit together; a row that no map
-    /// can hold (a coordinate that is not finite, a cell that is not in the mesh, a feature that the cell does not have there);
-    /// disk full and the like. After an error, and after commit(), nothing can be written, and each call tells so.
+    /// can hold (a coordinate that is not finite, a cell that is not in the mesh, a feature that the cell does not have
+    /// there); disk full and the like. After an error, and after commit(), nothing can be written, and each call tells
+    /// so.
     Status write(const TableView& rows);
 
     /// Makes the file appear, unless something failed.
