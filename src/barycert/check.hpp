@@ -128,7 +128,8 @@ struct CheckOptions {
     std::size_t examples = 10;  ///< max number of places kept of each defect
     std::size_t contacts = 20;  ///< max number of pairs of cells for which a common point is computed
     /// Boundary nodes of no common cell nearly coincide if they lie at most this times the shortest edge of the
-    /// boundary at either one apart, by distances in plain double; 0: none are looked for.
+    /// boundary at either one apart, by distances in plain double; 0: none are looked for. Likewise a node nearly hangs
+    /// on an edge or a facet of the boundary, but at most at a sixteenth of an edge.
     double near = 1e-3;
     /// Stop at the first defect that breaks the certificate. The verdict is the same; the report then has that defect,
     /// maybe others, the orientations, and nothing else.

@@ -156,6 +156,7 @@ TEST(Fix, refuses_what_is_no_mesh_or_no_distance) {
     for (const double d : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
         EXPECT_FALSE(fix_mesh(mesh, {.merge_within = d}, done)) << d;
     EXPECT_FALSE(fix_mesh(box(2, {30, 30, 1}), {.merge_within = 1e300}, done)) << "all with all";
+    EXPECT_FALSE(fix_mesh(box(2, {500, 500, 1}), {.merge_within = 1e300}, done)) << "and within bounded memory";
     mesh.cells[0] = 99;
     EXPECT_FALSE(fix_mesh(mesh, {}, done));
 }

@@ -72,11 +72,9 @@ private:
             for (const auto& [first, second] : coincident) same_.join(at(first), at(second));
             if (options_.merge_within == 0) continue;
             std::erase_if(nodes, [&](Index n) { return same_.find(at(n)) != at(n); });
-            const std::size_t limit = 50 * nodes.size();
-            const auto near =
-                check::near_pairs(old_, nodes, std::vector<double>(nodes.size(), options_.merge_within), limit);
-            if (near.size() > limit) return false;
-            for (const check::NearPair& p : near) same_.join(at(p.first), at(p.second));
+            const auto join = [&](const check::NearPair& p) { same_.join(at(p.first), at(p.second)); };
+            const std::vector<double> radius(nodes.size(), options_.merge_within);
+            if (!check::for_each_near(old_, nodes, radius, 50 * nodes.size(), join)) return false;
         }
         return true;
     }

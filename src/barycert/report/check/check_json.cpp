@@ -65,7 +65,7 @@ Json finding_json(const CheckReport& r, const Defect& f) {
         place["cells"] = indices(r.cell_number(p.cells));
         place["nodes"] = indices(p.nodes);
         if (p.other_nodes[0] >= 0) place["other_nodes"] = indices(p.other_nodes);
-        if (f.kind == DefectKind::near_nodes) {
+        if (f.kind == DefectKind::near_nodes || f.kind == DefectKind::near_hanging) {
             place["distance"] = figure(p.distance);
             place["relative"] = figure(p.relative);
         }

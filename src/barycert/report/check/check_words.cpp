@@ -62,10 +62,12 @@ std::string_view left_out_sentence(const CheckReport& report) {
 std::string place_text(const CheckReport& report, DefectKind kind, const DefectPlace& p) {
     const auto cells = used(report.cell_number(p.cells));
     auto nodes = used(p.nodes), others = used(p.other_nodes);
-    if (kind == DefectKind::hanging_node)
-        return fmt::format("node {} within {} {} of cell {}", fmt::join(nodes, " "),
-                           others.size() == 2 && report.dimension == 3 ? "edge" : "facet", fmt::join(others, " "),
-                           fmt::join(cells, " "));
+    const std::string on = fmt::format("{} {} of cell {}", others.size() == 2 ? "edge" : "facet",
+                                       fmt::join(others, " "), fmt::join(cells, " "));
+    if (kind == DefectKind::hanging_node) return fmt::format("node {} within {}", fmt::join(nodes, " "), on);
+    if (kind == DefectKind::near_hanging)
+        return fmt::format("node {}, {:.3g} off {} ({:.3g} of an edge)", fmt::join(nodes, " "), p.distance, on,
+                           p.relative);
     if (kind == DefectKind::near_nodes)
         return fmt::format("nodes {}, {:.3g} apart ({:.3g} of an edge)", fmt::join(nodes, " and "), p.distance,
                            p.relative);
