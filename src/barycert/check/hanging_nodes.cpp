@@ -8,6 +8,7 @@
 #include "barycert/check/cells.hpp"
 #include "barycert/check/names.hpp"
 #include "barycert/index/box_tree.hpp"
+#include "barycert/index/facet_contact.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert::check {
@@ -85,6 +86,12 @@ public:
         return h;
     }
 
+    /// It hangs, which is told as such.
+    bool is_on(Index node, const BoundaryFacet& f) const {
+        PlacedFacet facet{f.nodes, {}};
+        for (std::size_t i = 0; i < d_; ++i) facet.at[i] = at(f.nodes[i]);
+        return face_around(mesh_.dimension, facet, at(node))[0] >= 0;
+    }
     /// The node is beyond the facet.
     bool is_beyond(Index node, const BoundaryFacet& f) const {
         return weight(node, index(f.cell), static_cast<std::size_t>(f.corner)) <= 0;
@@ -182,7 +189,7 @@ std::vector<HangingNode> nearly_hanging(const Mesh& mesh, const std::vector<std:
                     if (!facets[f].oriented) return true;  // its cell is degenerate, and told
                     HangingNode h = faces.face_at(static_cast<Index>(node), facets[f]);
                     if (!faces.is_beyond(h.node, facets[f])) h.cell = -1;
-                    if (h.face[1] >= 0) part.push_back(h);
+                    if (h.face[1] >= 0 && !faces.is_on(h.node, facets[f])) part.push_back(h);
                     return part.size() <= limit;
                 });
             }
