@@ -128,7 +128,8 @@ struct CheckOptions {
     std::size_t examples = 10;  ///< max number of places kept of each defect
     std::size_t contacts = 20;  ///< max number of pairs of cells for which a common point is computed
     /// Boundary nodes of no common cell nearly coincide if they lie at most this times the shortest edge of the
-    /// boundary at either one apart, by distances in plain double; 0: none are looked for.
+    /// boundary at either one apart, by distances in plain double; 0: none are looked for. Likewise a node nearly hangs
+    /// on an edge or a facet of the boundary, but at most at a sixteenth of an edge.
     double near = 1e-3;
     /// Stop at the first defect that breaks the certificate. The verdict is the same; the report then has that defect,
     /// maybe others, the orientations, and nothing else.
@@ -213,7 +214,7 @@ CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options = {});
 // What has one right answer, made so.
 
 struct FixOptions {
-    bool nodes = true;        ///< merge nodes of cells that coincide, and mid-edge nodes likewise
+    bool nodes = true;        ///< merge nodes of cells that coincide, and mid-edge nodes likewise or of one edge then
     double merge_within = 0;  ///< and those at most so far apart, chains of them included
     bool cells = true;        ///< drop cells that are degenerate or name a node twice, and all but one of duplicates
     bool orientation = true;  ///< turn negative cells
@@ -230,20 +231,26 @@ struct DroppedCell {
 };
 struct MergedField {
     std::string name;
-    std::uint64_t differ = 0;  ///< merged nodes of another value than the node that is kept, NaN being one value
-    double max_difference = 0;
+    std::uint64_t differ = 0;   ///< nodes or cells that went, of another value than what is kept, NaN being one value
+    double max_difference = 0;  ///< of finite values
 };
 
 struct FixReport {
-    std::vector<MergedNode> merged;       ///< by node; those kept are the lowest
-    std::vector<DroppedCell> dropped;     ///< by cell
-    std::uint64_t collapsed = 0;          ///< of these, cells that merging made so
-    std::uint64_t turned = 0;             ///< cells
-    std::uint64_t dropped_faces = 0;      ///< of Mesh::faces: those that no cell has any more, and twins
-    std::uint64_t differing_markers = 0;  ///< merged nodes of another marker than the node that is kept
-    std::vector<MergedField> fields;      ///< where values differ: those of the node that is kept stay
+    std::vector<MergedNode> merged;            ///< by node; those kept are the lowest
+    std::vector<DroppedCell> dropped;          ///< by cell
+    std::uint64_t collapsed = 0;               ///< of these, cells that merging made so
+    std::uint64_t turned = 0;                  ///< cells
+    std::uint64_t dropped_faces = 0;           ///< of Mesh::faces: those that no cell has any more, and twins
+    std::uint64_t differing_markers = 0;       ///< merged nodes of another marker than the node that is kept
+    std::vector<MergedField> fields;           ///< where values differ: those of the node that is kept stay
+    std::vector<MergedField> cell_fields;      ///< likewise of duplicate cells: fields, then labels
+    std::uint64_t differing_face_markers = 0;  ///< twins of another marker than the face that is kept
+    /// Entries of Mesh::neighbours that were others, where no cell was dropped: else all are new.
+    std::uint64_t changed_neighbours = 0;
 
-    bool changed() const { return !merged.empty() || !dropped.empty() || turned != 0; }
+    bool changed() const {
+        return !merged.empty() || !dropped.empty() || turned != 0 || dropped_faces != 0 || changed_neighbours != 0;
+    }
 };
 
 /// A copy of the mesh with what can be repaired repaired, and in `report` what was done. Nodes merged are taken out and

@@ -40,6 +40,7 @@ enum class DefectKind : std::uint8_t {
     near_nodes,    ///< two nodes of the boundary nearly coincide: CheckOptions::near
     crack,         ///< two boundary facets would be one if coincident and near nodes were merged
     missing_cell,  ///< a void of the shape of one cell, whose facets are a piece of the boundary
+    near_hanging,  ///< a node of the boundary nearly lies within an edge or a facet of it: CheckOptions::near
 };
 
 struct DefectText {
@@ -51,7 +52,7 @@ struct DefectText {
     bool breaks;                 ///< the certificate
 };
 
-inline constexpr std::array<DefectText, 25> defect_texts{{
+inline constexpr std::array<DefectText, 26> defect_texts{{
     {DefectKind::bad_structure, "bad_structure", "P1", "arrays whose sizes are no whole number of nodes or cells",
      "give d coordinates per node and d + 1 vertices per cell", true},
     {DefectKind::index_out_of_range, "index_out_of_range", "P1", "cells with a vertex index out of range",
@@ -98,6 +99,8 @@ inline constexpr std::array<DefectText, 25> defect_texts{{
      "check --fix --merge-within DISTANCE merges them, if their cells should be neighbours", false},
     {DefectKind::crack, "crack", "", "pairs of boundary facets that merging these nodes would join", "", false},
     {DefectKind::missing_cell, "missing_cell", "", "voids that one cell would fill", "is one cell missing?", false},
+    {DefectKind::near_hanging, "near_hanging", "", "nodes that nearly lie within an edge or a facet of another cell",
+     "split that cell at the node, if the cells on both sides should be neighbours", false},
 }};
 
 inline constexpr std::size_t defect_kind_count = defect_texts.size();
@@ -117,11 +120,11 @@ struct DefectPlace {
     std::array<Mesh::Index, 2> cells{-1, -1};
     std::array<Mesh::Index, 3> nodes{-1, -1, -1};
     const char* detail = "";  ///< which kind, where a defect has several
-    /// Of the facet that those meet or would join, of the edge or facet that the node lies within, and the fourth node
-    /// of a missing cell.
+    /// Of the facet that those meet or would join, of the edge or facet that the node lies within or nearly, and the
+    /// fourth node of a missing cell.
     std::array<Mesh::Index, 3> other_nodes{-1, -1, -1};
-    double distance = 0;  ///< of near nodes, rounded
-    double relative = 0;  ///< that over the shorter one of the shortest edges of the boundary at both
+    double distance = 0;  ///< of near nodes, or of a node from what it nearly lies within; rounded
+    double relative = 0;  ///< that over the shortest edge of the boundary at these nodes
 };
 
 struct Defect {

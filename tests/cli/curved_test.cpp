@@ -122,6 +122,9 @@ TEST(curved, values_are_those_of_straight_sides_and_said_to_be) {
     const Ended ended = run({"sample", mesh, "--points", points, "--output", scratch.path("out.csv")});
     EXPECT_TRUE(contains(ended.out, "values     exact for straight sides, rounded once")) << ended.out;
     EXPECT_TRUE(contains(read_file(scratch.path("out.csv")), "0.7,0.7,0,-1,outside")) << "inside the curved cell";
+    const Ended walked =
+        run({"sample", mesh, "--points", points, "--output", scratch.path("out.csv"), "--outside", "nearest"});
+    EXPECT_TRUE(contains(walked.out, "walk: the mesh is certified for straight sides\n")) << walked.out;
     const Ended check = run({"check", mesh});
     EXPECT_EQ(check.code, 0);
     EXPECT_TRUE(contains(check.out, "certified for straight sides: 8 cells partition")) << check.out;
@@ -141,6 +144,9 @@ TEST(curved, pages_say_so_before_the_verdict) {
         const std::size_t at = text.find("8 cells are curved");
         ASSERT_NE(at, std::string::npos) << command[0];
         EXPECT_LT(at, text.find("class=\"verdict good\"")) << command[0];
+        if (command[0] == "check") {
+            EXPECT_TRUE(contains(text, ": certified for straight sides</title>"));
+        }
     }
     // Where no table says so, stderr does.
     for (const std::string option : {"--html", "--json"})
