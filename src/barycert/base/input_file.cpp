@@ -134,7 +134,8 @@ Status check_beginning(std::string_view block, Text text, const std::string& pat
     const auto word = std::find_if_not(line.begin(), line.end(), blank);
     std::string found;
     if (line.find('\0') != std::string_view::npos) {
-        found = "NUL bytes";
+        const bool later = line.substr(0, line.find('\n')).find('\0') == std::string_view::npos;
+        found = later ? "NUL bytes behind the first line: a binary file" : "NUL bytes";
     } else if (line.size() == block.size() && std::find_if(word, line.end(), end) == line.end()) {
         found = std::to_string(block.size()) + " bytes without a word that ends";
     } else if (text == Text::head && word != line.end() &&
