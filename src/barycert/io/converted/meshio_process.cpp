@@ -28,7 +28,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds most_time{600};
-constexpr std::int64_t tick = 50;  // milliseconds after which it is looked at
+constexpr std::int64_t tick = 50;                        // milliseconds after which it is looked at
 constexpr std::size_t most_text = std::size_t{1} << 18;  // of each stream
 
 /// Both ends, closed when it goes.
