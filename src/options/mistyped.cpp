@@ -6,6 +6,7 @@
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/shell_word.hpp"
+#include "barycert/base/text.hpp"
 
 namespace barycert::cli {
 
@@ -39,7 +40,7 @@ std::string usage_error(const CLI::App& app, const std::exception& error, const 
     // The parser tells them in reverse.
     if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
         message = "not expected:";
-        for (const std::string& word : app.remaining(true)) message += ' ' + base::shell_word(word);
+        for (const std::string& word : app.remaining(true)) message += ' ' + base::shell_word(base::printable(word));
     }
     std::string text = message + (message.ends_with('?') ? " " : "; ");
     if (const auto option = mistyped_option(app)) {
