@@ -216,7 +216,9 @@ int run_check(const CheckArguments& a) {
     // the user the table, the fruit of the whole run.
     const std::string name = tetgen_stem(a.mesh);
     for (const TextOutput& t : text_outputs) {
-        if (!(a.*t.path).empty()) written.push_back(write_output(a.*t.path, t.text(report, *mesh, a, told)));
+        // Without the copy these would say less than was asked for.
+        if (!(a.*t.path).empty() && (a.fixed().empty() || fixed))
+            written.push_back(write_output(a.*t.path, t.text(report, *mesh, a, told)));
     }
     if (!a.vtu.empty()) written.push_back(write_measures(report, *mesh, a.vtu, a.vtk_data.value_or(VtkData::raw)));
     if (table) {
