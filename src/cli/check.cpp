@@ -249,7 +249,7 @@ void add_check(CLI::App& app, int& exit_code) {
     file_option(
         *sub, "MESH", a->mesh,
         "A mesh: TetGen's .node/.ele (with .face and .neigh if present) or Triangle's, Gmsh's .msh, Medit's .mesh "
-        ".meshb, VTK's .vtu .vtk .vtp .pvtu .vtm .pvd .vtu.series")
+        ".meshb, VTK's .vtu .vtk .vtp .pvtu .vtm .pvd .vtu.series .vtp.series")
         ->required();
     step_options(*sub, a->step);
     sub->add_flag("--delaunay", a->delaunay, "Also test exactly whether every interior facet is locally Delaunay");
