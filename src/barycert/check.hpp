@@ -144,6 +144,7 @@ enum class DefectKind : std::uint8_t {
     near_nodes,    ///< two nodes of the boundary nearly coincide: CheckOptions::near
     crack,         ///< two boundary facets would be one if coincident and near nodes were merged
     missing_cell,  ///< a void of the shape of one cell, whose facets are a piece of the boundary
+    near_hanging,  ///< a node of the boundary nearly lies within an edge or a facet of it: CheckOptions::near
 };
 
 struct DefectText {
@@ -155,7 +156,7 @@ struct DefectText {
     bool breaks;                 ///< the certificate
 };
 
-inline constexpr std::array<DefectText, 25> defect_texts{{
+inline constexpr std::array<DefectText, 26> defect_texts{{
     {DefectKind::bad_structure, "bad_structure", "P1", "arrays whose sizes are no whole number of nodes or cells",
      "give d coordinates per node and d + 1 vertices per cell", true},
     {DefectKind::index_out_of_range, "index_out_of_range", "P1", "cells with a vertex index out of range",
@@ -202,6 +203,8 @@ inline constexpr std::array<DefectText, 25> defect_texts{{
      "check --fix --merge-within DISTANCE merges them, if their cells should be neighbours", false},
     {DefectKind::crack, "crack", "", "pairs of boundary facets that merging these nodes would join", "", false},
     {DefectKind::missing_cell, "missing_cell", "", "voids that one cell would fill", "is one cell missing?", false},
+    {DefectKind::near_hanging, "near_hanging", "", "nodes that nearly lie within an edge or a facet of another cell",
+     "split that cell at the node, if the cells on both sides should be neighbours", false},
 }};
 
 inline constexpr std::size_t defect_kind_count = defect_texts.size();
@@ -221,11 +224,11 @@ struct DefectPlace {
     std::array<Mesh::Index, 2> cells{-1, -1};
     std::array<Mesh::Index, 3> nodes{-1, -1, -1};
     const char* detail = "";  ///< which kind, where a defect has several
-    /// Of the facet that those meet or would join, of the edge or facet that the node lies within, and the fourth node
-    /// of a missing cell.
+    /// Of the facet that those meet or would join, of the edge or facet that the node lies within or nearly, and the
+    /// fourth node of a missing cell.
     std::array<Mesh::Index, 3> other_nodes{-1, -1, -1};
-    double distance = 0;  ///< of near nodes, rounded
-    double relative = 0;  ///< that over the shorter one of the shortest edges of the boundary at both
+    double distance = 0;  ///< of near nodes, or of a node from what it nearly lies within; rounded
+    double relative = 0;  ///< that over the shortest edge of the boundary at these nodes
 };
 
 struct Defect {
@@ -321,7 +324,8 @@ struct CheckOptions {
     std::size_t examples = 10;  ///< max number of places kept of each defect
     std::size_t contacts = 20;  ///< max number of pairs of cells for which a common point is computed
     /// Boundary nodes of no common cell nearly coincide if they lie at most this times the shortest edge of the
-    /// boundary at either one apart, by distances in plain double; 0: none are looked for.
+    /// boundary at either one apart, by distances in plain double; 0: none are looked for. Likewise a node nearly hangs
+    /// on an edge or a facet of the boundary, but at most at a sixteenth of an edge.
     double near = 1e-3;
     /// Stop at the first defect that breaks the certificate. The verdict is the same; the report then has that defect,
     /// maybe others, the orientations, and nothing else.
@@ -406,7 +410,7 @@ CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options = {});
 // What has one right answer, made so.
 
 struct FixOptions {
-    bool nodes = true;        ///< merge nodes of cells that coincide, and mid-edge nodes likewise
+    bool nodes = true;        ///< merge nodes of cells that coincide, and mid-edge nodes likewise or of one edge then
     double merge_within = 0;  ///< and those at most so far apart, chains of them included
     bool cells = true;        ///< drop cells that are degenerate or name a node twice, and all but one of duplicates
     bool orientation = true;  ///< turn negative cells
@@ -423,20 +427,26 @@ struct DroppedCell {
 };
 struct MergedField {
     std::string name;
-    std::uint64_t differ = 0;  ///< merged nodes of another value than the node that is kept, NaN being one value
-    double max_difference = 0;
+    std::uint64_t differ = 0;   ///< nodes or cells that went, of another value than what is kept, NaN being one value
+    double max_difference = 0;  ///< of finite values
 };
 
 struct FixReport {
-    std::vector<MergedNode> merged;       ///< by node; those kept are the lowest
-    std::vector<DroppedCell> dropped;     ///< by cell
-    std::uint64_t collapsed = 0;          ///< of these, cells that merging made so
-    std::uint64_t turned = 0;             ///< cells
-    std::uint64_t dropped_faces = 0;      ///< of Mesh::faces: those that no cell has any more, and twins
-    std::uint64_t differing_markers = 0;  ///< merged nodes of another marker than the node that is kept
-    std::vector<MergedField> fields;      ///< where values differ: those of the node that is kept stay
+    std::vector<MergedNode> merged;            ///< by node; those kept are the lowest
+    std::vector<DroppedCell> dropped;          ///< by cell
+    std::uint64_t collapsed = 0;               ///< of these, cells that merging made so
+    std::uint64_t turned = 0;                  ///< cells
+    std::uint64_t dropped_faces = 0;           ///< of Mesh::faces: those that no cell has any more, and twins
+    std::uint64_t differing_markers = 0;       ///< merged nodes of another marker than the node that is kept
+    std::vector<MergedField> fields;           ///< where values differ: those of the node that is kept stay
+    std::vector<MergedField> cell_fields;      ///< likewise of duplicate cells: fields, then labels
+    std::uint64_t differing_face_markers = 0;  ///< twins of another marker than the face that is kept
+    /// Entries of Mesh::neighbours that were others, where no cell was dropped: else all are new.
+    std::uint64_t changed_neighbours = 0;
 
-    bool changed() const { return !merged.empty() || !dropped.empty() || turned != 0; }
+    bool changed() const {
+        return !merged.empty() || !dropped.empty() || turned != 0 || dropped_faces != 0 || changed_neighbours != 0;
+    }
 };
 
 /// A copy of the mesh with what can be repaired repaired, and in `report` what was done. Nodes merged are taken out and

@@ -50,6 +50,7 @@ std::string check_text(const CheckReport& report, const Mesh& mesh, const std::s
 struct FixedMesh {
     std::string file;
     FixReport done;
+    Notes notes = {};  ///< what of the mesh the file cannot hold
     CheckReport after;
 };
 

@@ -151,7 +151,7 @@ int run_audit(const AuditArguments& a) {
     // Without a family that draws from meshes barycert's own need not be there.
     const bool wanted = std::any_of(families->begin(), families->end(), [](const Family& f) { return f.needs_mesh; });
     const Result<MeshSource> meshes =
-        wanted || !a.meshes.empty() ? load_meshes(a.meshes, !a.no_check, a.threads, a.curved) : MeshSource();
+        wanted || !a.meshes.empty() ? load_meshes(a.meshes, !a.no_check, a.threads, a.quiet, a.curved) : MeshSource();
     if (!meshes) return fail(meshes.error());
     const auto baseline = read_comparable_baseline(a.baseline, options, *meshes);
     if (!baseline) return fail(baseline.error());
@@ -179,6 +179,9 @@ int run_audit(const AuditArguments& a) {
                               .wide = a.wide};
     if (!a.html.empty()) written.push_back(write_page(*report, a, style, *meshes, *others));
     if (table) written.push_back(write_output("-", audit_text(*report, style)));
+    if (!a.quiet && !table) {
+        for (const CurvedCells& curved : report->curved) tell_curved(curved);
+    }
     const Result<bool> worse = write_audit_ci(a.ci, *report, rules, *baseline, options.kernels, a.libraries, written);
     if (const Status ok = all_written(written); !ok) return fail(ok.error());
     if (!worse) return fail(worse.error());

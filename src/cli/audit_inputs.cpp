@@ -78,7 +78,8 @@ Result<std::vector<std::string>> own_meshes() {
     return paths;
 }
 
-Result<MeshSource> load_meshes(const std::vector<std::string>& paths, bool certify, int threads, Curved curved) {
+Result<MeshSource> load_meshes(const std::vector<std::string>& paths, bool certify, int threads, bool quiet,
+                               Curved curved) {
     std::vector<std::string> from = paths;
     if (from.empty()) {
         auto own = own_meshes();
@@ -91,6 +92,7 @@ Result<MeshSource> load_meshes(const std::vector<std::string>& paths, bool certi
         Result<Mesh> mesh = read_mesh(path, {.faces = false, .neighbours = false, .threads = threads});
         if (!mesh) return mesh.error();
         if (const Status ok = check_curved(*mesh, path, curved); !ok) return ok.error();
+        if (!quiet) tell_important(mesh->notes);
         if (mesh->cell_count() == 0) return Error{.what = "the mesh has no cells", .file = path};
         CheckOptions verdict;
         verdict.verdict_only = true;

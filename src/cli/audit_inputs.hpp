@@ -22,7 +22,7 @@ Result<std::vector<std::string>> own_meshes();
 
 /// The meshes named by the user, or barycert's own if none is.
 /// `certify`: check each (see check.hpp), so that its certificate is known. `threads`: 0 is all.
-Result<MeshSource> load_meshes(const std::vector<std::string>& paths, bool certify, int threads,
+Result<MeshSource> load_meshes(const std::vector<std::string>& paths, bool certify, int threads, bool quiet,
                                Curved curved = Curved::straight);
 
 /// How the kernels of the user's libraries are run, and how it is told what they claim.

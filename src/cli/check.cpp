@@ -13,7 +13,9 @@
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/mesh_format.hpp"
 #include "barycert/report.hpp"
+#include "barycert/report/check/check_words.hpp"
 #include "ci.hpp"
 #include "command.hpp"
 #include "files.hpp"
@@ -83,6 +85,9 @@ Status check_files(const CheckArguments& a, bool table) {
                      .file = a.vtu,
                      .expected = "a name that ends in .vtu",
                      .remedy = "choose another name; --fix writes other formats"};
+    if (a.fixed() == "-")
+        return Error{.what = fmt::format("{} cannot write to stdout", a.fix_option()),
+                     .remedy = "name a file, .vtu .vtk .msh, or a stem of TetGen's files"};
     if (const auto fixed = written_mesh_files(a.fixed()); !a.fixed().empty() && !fixed) return fixed.error();
     if (a.merge_within && a.fix.empty())
         return Error{.what = "--merge-within is for --fix", .remedy = "leave it out, or give --fix FILE"};
@@ -129,12 +134,18 @@ Status write_measures(const CheckReport& report, Mesh mesh, const std::string& p
 
 /// Writes the repaired copy, reads it again and checks it.
 Result<FixedMesh> fix(const CheckArguments& a, const Mesh& mesh, CheckOptions options) {
-    FixedMesh fixed{.file = a.fixed(), .done = {}, .after = {}};
+    FixedMesh fixed{.file = a.fixed(), .done = {}, .notes = {}, .after = {}};
     const bool all = !a.fix.empty();
     const Result<Mesh> copy =
         fix_mesh(mesh, {.nodes = all, .merge_within = a.merge_within.value_or(0), .cells = all, .threads = a.threads},
                  fixed.done);
     if (!copy) return copy.error();
+    if (copy->cell_count() == 0 && mesh.cell_count() != 0)
+        return Error{.what = "no copy is written, as it would have no cells",
+                     .file = fixed.file,
+                     .found = fmt::format("{}", fmt::join(report::fix_sentences(fixed), "; ")),
+                     .remedy = "look at the mesh, and where nodes were merged choose a smaller distance"};
+    fixed.notes = io::left_out_by(*io::mesh_output_format(fixed.file), *copy);
     const VtkData data = a.vtk_data.value_or(VtkData::raw);
     if (const Status ok = write_mesh(*copy, fixed.file, {.comment = {}, .data = data}); !ok) return ok.error();
     const Result<Mesh> read = read_mesh(fixed.file, {.faces = true, .neighbours = true, .threads = a.threads});
@@ -204,7 +215,9 @@ int run_check(const CheckArguments& a) {
     // the user the table, the fruit of the whole run.
     const std::string name = tetgen_stem(a.mesh);
     for (const TextOutput& t : text_outputs) {
-        if (!(a.*t.path).empty()) written.push_back(write_output(a.*t.path, t.text(report, *mesh, a, told)));
+        // Without the copy these would say less than was asked for.
+        if (!(a.*t.path).empty() && (a.fixed().empty() || fixed))
+            written.push_back(write_output(a.*t.path, t.text(report, *mesh, a, told)));
     }
     if (!a.vtu.empty()) written.push_back(write_measures(report, *mesh, a.vtu, a.vtk_data.value_or(VtkData::raw)));
     if (table) {
@@ -226,7 +239,8 @@ void add_check(CLI::App& app, int& exit_code) {
     auto* sub = app.add_subcommand(
         "check", "Prove in exact arithmetic that a mesh is a partition of its domain, or report why it is not");
     sub->footer(
-        "Exit codes: 0 certified, 1 not certified, 2 usage or input error; with --fix by the copy.\nCertified: any two "
+        "Exit codes: 0 certified, 1 not certified, 2 usage or input error; with --fix by the copy,\nwhile --junit, "
+        "--sarif and --annotations tell of the mesh as it was.\nCertified: any two "
         "cells meet in a common "
         "face or not at all, and the files .neigh and .face, if present, agree with\nthe cells. Second-order cells are "
         "checked with straight sides.");
@@ -234,7 +248,7 @@ void add_check(CLI::App& app, int& exit_code) {
     file_option(
         *sub, "MESH", a->mesh,
         "A mesh: TetGen's .node/.ele (with .face and .neigh if present) or Triangle's, Gmsh's .msh, Medit's .mesh "
-        ".meshb, VTK's .vtu .vtk .vtp .pvtu .vtm .pvd .vtu.series")
+        ".meshb, VTK's .vtu .vtk .vtp .pvtu .vtm .pvd .vtu.series .vtp.series")
         ->required();
     step_options(*sub, a->step);
     sub->add_flag("--delaunay", a->delaunay, "Also test exactly whether every interior facet is locally Delaunay");

@@ -48,7 +48,8 @@ void step_options(CLI::App& sub, StepChoice& step, bool* all) {
                        step.number = n;
                    }
                },
-               std::string("Of a MESH that is a series (.pvd, .vtu.series): the step to read, by its number from 0; "
+               std::string("Of a MESH that is a series (.pvd, .vtu.series, .vtp.series): the step to read, by its "
+                           "number from 0; "
                            "default: the first") +
                    (all == nullptr ? "" : ", or all where {step} or {time} stands in --output: a file for each"))
             ->type_name(all != nullptr ? "N|all|last" : "N|last");

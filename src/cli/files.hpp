@@ -19,7 +19,7 @@ namespace barycert::cli {
 /// What MESH may be.
 inline constexpr const char* mesh_help =
     "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, Medit's .mesh .meshb, VTK's .vtu .vtk .vtp .pvtu .vtm "
-    ".pvd .vtu.series; others by way of meshio; any packed as .gz";
+    ".pvd .vtu.series .vtp.series; others by way of meshio; any packed as .gz";
 
 /// An option, or argument, that names a file or mesh: the empty string is refused.
 CLI::Option* file_option(CLI::App& sub, const std::string& name, std::string& path, const std::string& help);

@@ -74,6 +74,7 @@ Result<GapsReport> gaps_of(GapsArguments& a) {
     const Result<Mesh> mesh = read_mesh(a.mesh, {.faces = false, .neighbours = false, .threads = a.options.threads});
     if (!mesh) return mesh.error();
     if (const Status ok = check_curved(*mesh, a.mesh, a.curved); !ok) return ok.error();
+    if (!a.quiet) tell_important(mesh->notes);
     Verdict verdict = Verdict::not_checked;
     if (!a.no_check) {
         CheckOptions check;

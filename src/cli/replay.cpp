@@ -89,7 +89,7 @@ Result<std::vector<Witness>> made_again(const ReplayArguments& a, const std::vec
     }
     MeshSource meshes;
     if (family.needs_mesh) {
-        auto loaded = load_meshes(a.meshes, false, 0);
+        auto loaded = load_meshes(a.meshes, false, 0, false);
         if (!loaded) return loaded.error();
         meshes = std::move(*loaded);
         if (!meshes.supplies(*simplex))

@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "barycert/base/nearest_name.hpp"
+#include "barycert/base/shell_word.hpp"
+#include "barycert/base/text.hpp"
 
 namespace barycert::cli {
 
@@ -38,8 +40,7 @@ std::string usage_error(const CLI::App& app, const std::exception& error, const 
     // The parser tells them in reverse.
     if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
         message = "not expected:";
-        for (const std::string& word : app.remaining(true))
-            message += word.find(' ') == std::string::npos ? ' ' + word : " \"" + word + '"';
+        for (const std::string& word : app.remaining(true)) message += ' ' + base::shell_word(base::printable(word));
     }
     std::string text = message + (message.ends_with('?') ? " " : "; ");
     if (const auto option = mistyped_option(app)) {

@@ -38,8 +38,15 @@ thread_local bool in_callable = false;
 
 /// "LinAlgError: Singular matrix".
 std::string in_words(const py::error_already_set& e) {
-    const std::string text = py::str(e.value());
-    return "raised " + py::str(e.type().attr("__name__")).cast<std::string>() + (text.empty() ? "" : ": " + text);
+    std::string words = "raised ";
+    try {
+        words += py::str(e.type().attr("__name__")).cast<std::string>();
+        const std::string text = py::str(e.value());
+        return words + (text.empty() ? "" : ": " + text);
+    } catch (const py::error_already_set& of_text) {
+        if (!of_text.matches(PyExc_Exception)) throw;
+        return words + ", whose text cannot be had";
+    }
 }
 
 /// The weights that the callable returns, or None: declared degenerate. An exception that it raises is no answer; what

@@ -1,5 +1,7 @@
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -50,8 +52,10 @@ py::tuple locate(const MeshObject& object, const Array<double>& points, int thre
 }
 
 /// begin (n + 1), cells and features (rows): every cell that holds each point.
-py::tuple locate_all(const MeshObject& object, const Array<double>& points, int threads, const py::object& callable) {
+py::tuple locate_all(const MeshObject& object, const Array<double>& points, int threads, const py::object& callable,
+                     const std::string& nonfinite) {
     const Progress progress(callable);
+    const NonfinitePoints policy = nonfinite_points(nonfinite);
     const Locator& locator = locator_of(object, progress);
     const std::size_t d = dimension_of(object), count = static_cast<std::size_t>(points.size()) / d;
     const std::span<const double> all = span_of(points);
@@ -59,7 +63,7 @@ py::tuple locate_all(const MeshObject& object, const Array<double>& points, int 
     std::vector<Mesh::Index> cells;
     begin.reserve(count + 1);
     in_blocks(progress, "points", count, [&](std::size_t first, std::size_t n) {
-        const Table rows = take(locator.locate_all(all.subspan(d * first, d * n), threads));
+        const Table rows = take(locator.locate_all(all.subspan(d * first, d * n), threads, policy));
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t row = rows.point_begin[i]; row < rows.point_begin[i + 1]; ++row) {
                 if (rows.cells[row] >= 0) cells.push_back(rows.cells[row]);
@@ -136,8 +140,10 @@ py::tuple matrix(const MeshObject& object, const Array<double>& points, const Ar
 }
 
 /// points (n, dimension): cells (n), distances (n).
-py::tuple nearest(const MeshObject& object, const Array<double>& points, double limit, const py::object& callable) {
+py::tuple nearest(const MeshObject& object, const Array<double>& points, double limit, const py::object& callable,
+                  const std::string& nonfinite) {
     const Progress progress(callable);
+    const bool any_point = nonfinite_points(nonfinite) == NonfinitePoints::nan;
     const Locator& locator = locator_of(object, progress);
     const std::size_t d = dimension_of(object), count = static_cast<std::size_t>(points.size()) / d;
     std::vector<Mesh::Index> cells(count);
@@ -147,7 +153,9 @@ py::tuple nearest(const MeshObject& object, const Array<double>& points, double 
         progress, "points", count,
         [&](std::size_t first, std::size_t n) {
             for (std::size_t i = first; i < first + n; ++i) {
-                const Nearest found = take(locator.nearest(from + d * i, limit));
+                const bool finite =
+                    std::all_of(from + d * i, from + d * (i + 1), [](double x) { return std::isfinite(x); });
+                const Nearest found = any_point && !finite ? Nearest{} : take(locator.nearest(from + d * i, limit));
                 cells[i] = found.cell;
                 distances[i] = found.cell < 0 ? std::numeric_limits<double>::quiet_NaN() : found.distance;
             }
@@ -162,13 +170,13 @@ void bind_locate(py::module_& module) {
     module.def("locate", &locate, py::arg("mesh"), py::arg("points").noconvert(), py::arg("threads"),
                py::arg("progress"), py::arg("nonfinite") = "error");
     module.def("locate_all", &locate_all, py::arg("mesh"), py::arg("points").noconvert(), py::arg("threads"),
-               py::arg("progress"));
+               py::arg("progress"), py::arg("nonfinite"));
     module.def("weights_of", &weights_of, py::arg("mesh"), py::arg("points").noconvert(), py::arg("cells").noconvert(),
                py::arg("progress"));
     module.def("matrix", &matrix, py::arg("mesh"), py::arg("points").noconvert(), py::arg("cells").noconvert(),
                py::arg("outside"), py::arg("limit"), py::arg("progress"));
     module.def("nearest", &nearest, py::arg("mesh"), py::arg("points").noconvert(), py::arg("limit"),
-               py::arg("progress"));
+               py::arg("progress"), py::arg("nonfinite"));
     module.def(
         "certified",
         [](const MeshObject& mesh, py::object progress) {

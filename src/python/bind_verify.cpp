@@ -13,6 +13,7 @@
 #include "bindings.hpp"
 #include "errors.hpp"
 #include "mesh_object.hpp"
+#include "options.hpp"
 
 namespace barycert::python {
 namespace {
@@ -62,12 +63,13 @@ py::dict dict_of(const Verdicts& v, const BoundSampler& bound, const std::vector
 py::dict verify(const BoundSampler& bound, const Array<double>& points, const std::optional<Array<std::int64_t>>& cells,
                 const std::optional<Array<std::uint8_t>>& inside, const std::optional<Array<double>>& values,
                 double tolerance, bool exact, std::optional<double> outside_value, std::size_t examples, int threads,
-                const py::object& callable) {
+                const py::object& callable, const std::string& nonfinite) {
     const Verifier verifier(bound.sampler, {.tolerance = tolerance,
                                             .exact = exact,
                                             .outside_value = outside_value,
                                             .examples = examples,
-                                            .threads = threads});
+                                            .threads = threads,
+                                            .nonfinite_points = nonfinite_points(nonfinite)});
     const std::size_t d = static_cast<std::size_t>(bound.geometry->mesh.dimension),
                       columns = bound.sampler.columns().size(), count = static_cast<std::size_t>(points.size()) / d;
     const std::span<const double> all = span_of(points);
@@ -93,7 +95,7 @@ py::dict verify(const BoundSampler& bound, const Array<double>& points, const st
 void bind_verify(py::module_& module) {
     module.def("verify", &verify, py::arg("sampler"), py::arg("points").noconvert(), py::arg("cells"),
                py::arg("inside"), py::arg("values"), py::arg("tolerance"), py::arg("exact"), py::arg("outside_value"),
-               py::arg("examples"), py::arg("threads"), py::arg("progress"));
+               py::arg("examples"), py::arg("threads"), py::arg("progress"), py::arg("nonfinite"));
 }
 
 }  // namespace barycert::python

@@ -63,7 +63,8 @@ std::string places_of(const Defect& defect, const ExactIndex& index) {
         std::string text;
         append_used(text, "cell", "cells", place.cells, [&](Mesh::Index cell) { return index.id(cell); });
         append_used(text, "point", "points", place.nodes, [](Mesh::Index node) { return vtkIdType{node}; });
-        const char* const word = defect.kind == DefectKind::hanging_node ? "on" : "and";
+        const bool hangs = defect.kind == DefectKind::hanging_node || defect.kind == DefectKind::near_hanging;
+        const char* const word = hangs ? "on" : "and";
         append_used(text, word, word, place.other_nodes, [](Mesh::Index node) { return vtkIdType{node}; });
         if (*place.detail != '\0') text += std::string(" (") + place.detail + ")";
         if (!all.empty()) all += "; ";

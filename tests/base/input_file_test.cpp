@@ -13,6 +13,8 @@
 
 #include <gtest/gtest.h>
 
+#include "barycert/base/mapped_file.hpp"
+
 namespace barycert {
 namespace {
 
@@ -143,6 +145,30 @@ TEST_F(InputFileTest, tells_what_was_changed_since_it_was_opened) {
     const Status written = file.unchanged(path("g"));
     ASSERT_FALSE(written);
     EXPECT_EQ(written.error().found, "");
+}
+
+TEST_F(InputFileTest, the_first_block_decides) {
+    const std::string blanks(base::first_block + 1, '\n'), words = "[" + std::string(base::first_block, ' ') + "]";
+    for (const base::Text text : {base::Text::words, base::Text::head, base::Text::all, base::Text::json}) {
+        EXPECT_EQ(base::read_file(put("f", blanks), base::longest_pipe, text).error().found,
+                  "65536 bytes of blanks and line ends");
+        const Result<std::string> read = base::read_file(put("f", words), base::longest_pipe, text);
+        EXPECT_EQ(read.has_value(), text != base::Text::head) << static_cast<int>(text);
+    }
+    EXPECT_EQ(base::read_file(put("f", "a" + words), base::longest_pipe, base::Text::json).error().found, "no JSON");
+    // The format is asked about larger files only, and before they are read.
+    std::size_t asked = 0;
+    const base::Header refuse = [&](std::string_view block, std::uint64_t size) -> Status {
+        EXPECT_EQ(block.size(), base::first_block);
+        asked = size;
+        return Error{.what = "no header"};
+    };
+    EXPECT_EQ(base::read_file(path("f"), base::longest_pipe, base::Text::all, refuse).error().what, "no header");
+    EXPECT_EQ(asked, words.size() + 1);
+    EXPECT_FALSE(base::MappedFile::open(path("f"), 1, base::Text::all, refuse));
+    put("f", words.substr(0, base::first_block));
+    EXPECT_TRUE(base::read_file(path("f"), base::longest_pipe, base::Text::all, refuse));
+    EXPECT_TRUE(base::MappedFile::open(path("f"), 1, base::Text::all, refuse));
 }
 
 // Neither moving nor failing loses a descriptor.

@@ -150,12 +150,84 @@ TEST(Fix, second_order_cells_keep_their_nodes) {
     }
 }
 
+TEST(Fix, duplicates_with_other_data_are_told) {
+    Mesh mesh = box(2, {1, 1, 1});
+    mesh.cells.insert(mesh.cells.end(), {mesh.cells[0], mesh.cells[2], mesh.cells[1]});
+    mesh.cell_fields = {{"region", 1, {1, 2, 4}}, {"same", 1, {5, 6, 5}}};
+    mesh.cell_labels = {{"name", std::vector<std::string>{"a", "b", "c"}}, {"id", std::vector<std::int64_t>{7, 8, 7}}};
+    FixReport done;
+    EXPECT_EQ(fix_mesh(mesh, {}, done).value().cell_count(), 2U);
+    ASSERT_EQ(done.cell_fields.size(), 2U);
+    EXPECT_EQ(done.cell_fields[0].name, "region");
+    EXPECT_EQ(done.cell_fields[0].differ, 1U);
+    EXPECT_EQ(done.cell_fields[0].max_difference, 3);
+    EXPECT_EQ(done.cell_fields[1].name, "name");
+}
+
+TEST(Fix, twin_faces_with_other_markers_are_told) {
+    Mesh mesh = cubes_apart();
+    // A face between the cubes, once with the nodes of each.
+    const auto find = [&](std::size_t first, std::size_t last, double y, double z) {
+        for (std::size_t n = first; n < last; ++n) {
+            if (node_at(mesh, static_cast<Mesh::Index>(n)) == std::vector<double>{1, y, z})
+                return static_cast<Mesh::Index>(n);
+        }
+        return Mesh::Index{-1};
+    };
+    mesh.faces.clear(), mesh.face_markers = {1, 2};
+    for (const std::size_t first : {0, 8})
+        mesh.faces.insert(mesh.faces.end(),
+                          {find(first, first + 8, 0, 0), find(first, first + 8, 0, 1), find(first, first + 8, 1, 1)});
+    FixReport done;
+    EXPECT_EQ(fix_mesh(mesh, {}, done).value().face_markers, std::vector<std::int64_t>{1});
+    EXPECT_EQ(done.differing_face_markers, 1U);
+}
+
+TEST(Fix, neighbours_corrected_are_told) {
+    Mesh mesh = box(2, {1, 1, 1});
+    mesh.neighbours.assign(6, -1);
+    for (const bool turned : {false, true}) {
+        if (turned) std::swap(mesh.cells[1], mesh.cells[2]);
+        FixReport done;
+        const Mesh fixed = fix_mesh(mesh, {}, done).value();
+        EXPECT_EQ(done.changed_neighbours, 2U);
+        EXPECT_EQ(done.turned, turned ? 1U : 0U);
+        EXPECT_EQ(fixed.neighbours, mesh::compute_neighbours(fixed));
+        EXPECT_TRUE(done.changed());
+    }
+}
+
+// Two triangles apart whose common edge has a node in the middle of each, one of them off it.
+TEST(Fix, merged_edges_have_one_mid_edge_node) {
+    Mesh mesh;
+    mesh.dimension = 2;
+    mesh.points = {0, 0, 2, 0, 0, 2, 1, 0, 1, 1, 0, 1, 2, 0, 0, 2, 2, 2, 1, 1 + 0x1p-30, 2, 1, 1, 2};
+    mesh.cells = {0, 1, 2, 6, 8, 7};
+    mesh.mid_nodes = {3, 4, 5, 10, 11, 9};
+    mesh.mid_edge_order = MidEdgeOrder::vtk;
+    mesh.point_fields = {{"T", 1, {0, 1, 2, 3, 4, 5, 1, 2, 8, 9, 10, 11}}};
+    FixReport done;
+    const Mesh fixed = fix_mesh(mesh, {}, done).value();
+    EXPECT_EQ(fixed.mid_nodes[1], fixed.mid_nodes[5]);
+    ASSERT_EQ(done.merged.size(), 3U);
+    EXPECT_EQ(done.merged[2].node, 9);
+    EXPECT_EQ(done.merged[2].into, 4);
+    EXPECT_EQ(done.merged[2].moved, 0x1p-30);
+    ASSERT_EQ(done.fields.size(), 1U);
+    EXPECT_EQ(done.fields[0].max_difference, 5);
+    // Cells that had the edge in common before, and disagree, are not what merging made.
+    mesh.cells = {0, 1, 2, 1, 8, 2};
+    fix_mesh(mesh, {}, done).value();
+    EXPECT_TRUE(done.merged.empty());
+}
+
 TEST(Fix, refuses_what_is_no_mesh_or_no_distance) {
     FixReport done;
     Mesh mesh = box(2, {1, 1, 1});
     for (const double d : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
         EXPECT_FALSE(fix_mesh(mesh, {.merge_within = d}, done)) << d;
     EXPECT_FALSE(fix_mesh(box(2, {30, 30, 1}), {.merge_within = 1e300}, done)) << "all with all";
+    EXPECT_FALSE(fix_mesh(box(2, {500, 500, 1}), {.merge_within = 1e300}, done)) << "and within bounded memory";
     mesh.cells[0] = 99;
     EXPECT_FALSE(fix_mesh(mesh, {}, done));
 }

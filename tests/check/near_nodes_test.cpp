@@ -117,6 +117,112 @@ TEST(NearNodes, are_notes_where_nothing_meets) {
     EXPECT_EQ(check_mesh(cracked(2, 0x1p-50), wide).find(K::near_nodes), nullptr);
 }
 
+// A slit within a mesh whose upper side is an ulp too low: its facets meet only at common nodes, and cells overlap.
+TEST(NearNodes, are_the_cause_of_an_overlap_without_contacts) {
+    Mesh mesh = box(2, {6, 6, 1});
+    for (Mesh::Index& n : mesh.cells) {
+        const std::size_t cell = static_cast<std::size_t>(&n - mesh.cells.data()) / 3;
+        const auto at = node_at(mesh, n);
+        const bool above = std::max({node_at(mesh, mesh.cells[3 * cell])[1], node_at(mesh, mesh.cells[3 * cell + 1])[1],
+                                     node_at(mesh, mesh.cells[3 * cell + 2])[1]}) > 3;
+        if (above && at[1] == 3 && at[0] > 1 && at[0] < 5) n = add_node(mesh, {at[0], std::nextafter(3.0, 0.0)});
+    }
+    FixReport merged;
+    mesh = fix_mesh(mesh, {}, merged).value();
+    const CheckReport r = quick(mesh);
+    EXPECT_EQ(r.find(K::boundary_contact), nullptr);
+    EXPECT_TRUE(the(r, K::near_nodes).breaks());
+    EXPECT_TRUE(the(r, K::crack).breaks());
+    EXPECT_EQ(the(r, K::near_nodes).count, 3U);
+    EXPECT_NE(the(r, K::nested_part).remedy().find("first merge"), std::string_view::npos);
+    EXPECT_NE(the(r, K::overlapping_cells).remedy().find("below"), std::string_view::npos);
+    EXPECT_TRUE(quick(fix_mesh(mesh, {.merge_within = 1e-12}, merged).value()).certified());
+    // Near nodes that no two such cells have are no cause: a slit that is open, beside cells that overlap.
+    Mesh apart = joined(cracked(2, 0x1p-40), mapped(box(2, {2, 2, 1}), {1, 1, 1}, {9, 0, 0}));
+    for (std::size_t i = 8; i < 16; i += 2) apart.points[i] += apart.points[i] == 1 ? 0x1p-40 : 0;
+    apart = joined(std::move(apart), mapped(box(2, {1, 1, 1}), {0.25, 0.25, 1}, {9.5, 0.125, 0}));
+    EXPECT_NE(quick(apart).find(K::overlapping_cells), nullptr);
+    EXPECT_FALSE(the(quick(apart), K::near_nodes).breaks());
+}
+
+TEST(NearNodes, are_no_hanging_nodes) {
+    for (const int d : {2, 3}) {
+        // The second of two boxes reaches an ulp into the first: nodes lie within edges that end at their twins.
+        Mesh second = mapped(box(d, {2, 2, 2}), {1, 1, 1}, {2, 0, 0});
+        for (double& x : second.points) x = x == 2 ? std::nextafter(2.0, 0.0) : x;
+        const CheckReport r = quick(joined(box(d, {2, 2, 2}), second));
+        EXPECT_EQ(r.find(K::hanging_node), nullptr);
+        EXPECT_EQ(the(r, K::boundary_contact).remedy(), "merge the coincident and near nodes below");
+    }
+}
+
+TEST(NearNodes, a_node_beside_an_edge_or_a_facet_nearly_hangs) {
+    for (const double off : {0x1p-50, 0x1p-1040}) {
+        // An ulp off an edge: nothing meets, and two parts are certified. In the unit 2^-990 likewise.
+        const double unit = off < 0x1p-1000 ? 0x1p-990 : 1;
+        const Mesh plane = triangles({0, 0, 8 * unit, 0, 0, 8 * unit, 4 * unit, -off, 5 * unit, -unit, 3 * unit, -unit},
+                                     {0, 1, 2, 3, 5, 4});
+        const CheckReport r = quick(plane);
+        EXPECT_TRUE(r.certified());
+        const Defect& hanging = the(r, K::near_hanging);
+        ASSERT_EQ(hanging.places.size(), 1U);
+        EXPECT_FALSE(hanging.breaks());
+        EXPECT_EQ(hanging.places[0].nodes, (Triple{3, -1, -1}));
+        EXPECT_EQ(hanging.places[0].other_nodes, (Triple{0, 1, -1}));
+        EXPECT_EQ(hanging.places[0].distance, off);
+        EXPECT_EQ(hanging.places[0].cells[0], 0);
+    }
+    // Beyond the ratio, or near a node of the edge, it is none.
+    for (const double x : {4.0, 8 - 0x1p-40}) {
+        const Mesh plane =
+            triangles({0, 0, 8, 0, 0, 8, x, x == 4 ? -0.25 : -0x1p-40, 5, -1, 3, -1}, {0, 1, 2, 3, 5, 4});
+        EXPECT_EQ(quick(plane).find(K::near_hanging), nullptr) << x;
+    }
+    Mesh face;
+    face.points = {0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4, 1, 1, -0x1p-45, 1, 1, -1, 2, 1, -1, 1, 2, -1};
+    face.cells = {0, 1, 2, 3, 4, 5, 6, 7};
+    EXPECT_EQ(the(quick(face), K::near_hanging).places.at(0).other_nodes, (Triple{0, 1, 2}));
+    EXPECT_EQ(the(quick(face), K::near_hanging).places.at(0).distance, 0x1p-45);
+    // Where cells overlap for it, it is the cause: halved cells, the node beside the middle of the edge.
+    for (const double x : {std::nextafter(1.0, 0.0), std::nextafter(1.0, 2.0)}) {
+        Mesh mesh = halved();
+        mesh.points[15] = x;
+        const CheckReport r = quick(mesh);
+        EXPECT_EQ(the(r, K::near_hanging).places.at(0).other_nodes, (Triple{1, 2, -1}));
+        EXPECT_EQ(the(r, K::near_hanging).breaks(), !r.certified()) << words(found(r));
+    }
+}
+
+// One cell fills what is between: nothing hangs, however flat it is. Nor across a plate that is thin.
+TEST(NearNodes, thin_cells_do_not_hang) {
+    const Mesh sliver = triangles({0, 0, 8, 0, 0, 8, 4, -0x1p-40, 4, -4}, {0, 1, 2, 0, 3, 1, 0, 4, 3, 3, 4, 1});
+    EXPECT_TRUE(quick(sliver).certified());
+    EXPECT_EQ(quick(sliver).find(K::near_hanging), nullptr);
+    // Nodes of the two sides of the plate are at different places.
+    const double t = 0x1p-20;
+    const Mesh plate =
+        triangles({0, 0, 2, 0, 4, 0, 1, t, 3, t, -1, t, 5, t}, {0, 1, 3, 1, 4, 3, 1, 2, 4, 0, 3, 5, 2, 6, 4});
+    EXPECT_TRUE(quick(plate).certified());
+    EXPECT_EQ(quick(plate).find(K::near_hanging), nullptr) << words(found(quick(plate)));
+}
+
+TEST(NearNodes, that_are_too_many_to_count_are_told_as_at_least) {
+    // 2^17 cells of their own along a line, each with a node near one of the next.
+    Mesh mesh;
+    mesh.dimension = 2;
+    for (Mesh::Index i = 0; i < 1 << 17; ++i) {
+        mesh.points.insert(mesh.points.end(), {1.0 * i, 0, i + 1 - 0x1p-30, 0, i + 0.5, 1});
+        mesh.cells.insert(mesh.cells.end(), {3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    const CheckReport r = quick(mesh);
+    EXPECT_EQ(the(r, K::near_nodes).count, 100000U);
+    EXPECT_TRUE(the(r, K::near_nodes).at_least);
+    CheckOptions threads;
+    threads.threads = 2;
+    const CheckReport again = check_mesh(mesh, threads);
+    EXPECT_EQ(the(again, K::near_nodes).places.back().nodes, the(r, K::near_nodes).places.back().nodes);
+}
+
 // The two sides of a thin plate are one cell apart, not a crack.
 TEST(NearNodes, are_not_those_of_one_cell) {
     const CheckReport r = quick(mapped(box(3, {3, 3, 1}), {1, 1, 0x1p-20}, {0, 0, 0}));

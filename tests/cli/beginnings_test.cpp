@@ -59,6 +59,8 @@ constexpr std::array fillings{
     Filling{"zeros", ": > block"},
     Filling{"letters", "head -c 65536 /dev/zero | tr '\\0' a > block"},
     Filling{"blanks", "head -c 65536 /dev/zero | tr '\\0' ' ' > block"},
+    Filling{"newlines", "head -c 65536 /dev/zero | tr '\\0' '\\n' > block"},
+    Filling{"words", "yes 'aaa bbb ccc ddd eee' | head -c 65536 > block"},
     Filling{"random", "head -c 65536 /dev/urandom > block; tail -c +2 block > cut; printf 'Q' | cat - cut > block"},
 };
 

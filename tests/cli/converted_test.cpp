@@ -47,6 +47,18 @@ protected:
     Scratch scratch_;
 };
 
+TEST(converted, text_without_a_keyword_does_not_reach_meshio) {
+    const Scratch scratch;
+    std::string text;
+    while (text.size() < 70000) text += "aaa bbb ccc ddd eee\n";
+    const Ended r = run({"check", scratch.put("a.inp", text)}, {.environment = {"BARYCERT_MESHIO=/none/python"}});
+    EXPECT_EQ(r.code, 2);
+    EXPECT_TRUE(contains(r.err, "a.inp: not a mesh of Abaqus: expected a keyword, such as *NODE")) << r.err;
+    const Ended good = run({"check", scratch.put("b.inp", "** aaa\n*HEADING\n" + text)},
+                           {.environment = {"BARYCERT_MESHIO=/none/python"}});
+    EXPECT_TRUE(contains(good.err, "meshio, which is not installed")) << good.err;
+}
+
 TEST_F(Converted, nodes_and_cells_in_the_order_of_the_file) {
     scratch_.put("a.inp", abaqus);
     const Ended check = barycert({"check", "a.inp"});
@@ -91,6 +103,16 @@ m.write("b.vtu")
     const std::string expected = rows("b.vtu");
     EXPECT_EQ(lines_of(expected).size(), 6U);
     EXPECT_EQ(rows("a.xdmf"), expected);
+    // Arrays for another mesh of the same nodes.
+    scratch_.put("c.inp", abaqus);
+    for (const std::string file : {"a.xdmf", "b.vtu"}) {
+        const Ended r = barycert({"sample", "c.inp", "--points", "b.vtu", "--output", "-", "--field",
+                                  "w=" + file + ":T", "--fields", "w", "--quiet"});
+        EXPECT_EQ(r.code, 0) << r.err;
+        EXPECT_TRUE(contains(r.out, ",w\n")) << r.out;
+        scratch_.put(file + ".csv", r.out);
+    }
+    EXPECT_EQ(read_file(scratch_.path("a.xdmf.csv")), read_file(scratch_.path("b.vtu.csv")));
 }
 
 /// Files beside it that meshio opens, under any name, in Python or by HDF5.
@@ -156,7 +178,7 @@ TEST_F(Converted, what_cannot_be_read_is_an_error) {
     EXPECT_EQ(bad.code, 2);
     EXPECT_TRUE(contains(bad.err, "a.inp: meshio ") && contains(bad.err, "cannot read the file")) << bad.err;
     scratch_.put("b.inp", std::string(100000, '\0'));
-    EXPECT_TRUE(contains(barycert({"check", "b.inp"}).err, "does not begin as text"));
+    EXPECT_TRUE(contains(barycert({"check", "b.inp"}).err, "not a mesh of Abaqus"));
     scratch_.put("c.vol", "mesh3d\n");
     EXPECT_EQ(barycert({"check", "c.vol"}).code, 2);
     // Cells that are no simplices are told as of any file.

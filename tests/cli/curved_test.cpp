@@ -47,7 +47,13 @@ std::vector<Words> commands(const Scratch& scratch, const std::string& mesh) {
 
 TEST(curved, every_command_says_so_first) {
     const Scratch scratch;
-    for (const Words& command : commands(scratch, put_curved(scratch))) {
+    const std::string mesh = put_curved(scratch);
+    std::vector<Words> all = commands(scratch, mesh);
+    const Words audit{"audit", mesh, "--family", "mesh.*", "--count", "10"};
+    for (const Words& more :
+         {Words{}, Words{"--wide"}, Words{"--kernel", "tetrahedron.signed-volume"}, Words{"--kernel", "tetrahedron.*"}})
+        all.push_back(plus(audit, more));
+    for (const Words& command : all) {
         const Ended ended = run(command);
         EXPECT_NE(ended.code, 2) << ended.err;
         const std::string said = ended.out.substr(0, ended.out.find("as straight"));
@@ -122,6 +128,9 @@ TEST(curved, values_are_those_of_straight_sides_and_said_to_be) {
     const Ended ended = run({"sample", mesh, "--points", points, "--output", scratch.path("out.csv")});
     EXPECT_TRUE(contains(ended.out, "values     exact for straight sides, rounded once")) << ended.out;
     EXPECT_TRUE(contains(read_file(scratch.path("out.csv")), "0.7,0.7,0,-1,outside")) << "inside the curved cell";
+    const Ended walked =
+        run({"sample", mesh, "--points", points, "--output", scratch.path("out.csv"), "--outside", "nearest"});
+    EXPECT_TRUE(contains(walked.out, "walk: the mesh is certified for straight sides\n")) << walked.out;
     const Ended check = run({"check", mesh});
     EXPECT_EQ(check.code, 0);
     EXPECT_TRUE(contains(check.out, "certified for straight sides: 8 cells partition")) << check.out;
@@ -135,12 +144,16 @@ TEST(curved, pages_say_so_before_the_verdict) {
     const Scratch scratch;
     const std::string mesh = put_curved(scratch), page = scratch.path("page.html");
     scratch.put("rows.csv", "x,y,z,t\n.25,.25,.25,.25\n");
-    for (const Words& command : {Words{"check", mesh}, Words{"verify", mesh, "--results", scratch.path("rows.csv")}}) {
+    for (const Words& command : {Words{"check", mesh}, Words{"verify", mesh, "--results", scratch.path("rows.csv")},
+                                 Words{"audit", mesh, "--family", "mesh.*", "--count", "10"}}) {
         run(plus(command, {"--html", page, "--quiet"}));
         const std::string text = read_file(page);
         const std::size_t at = text.find("8 cells are curved");
         ASSERT_NE(at, std::string::npos) << command[0];
-        EXPECT_LT(at, text.find("class=\"verdict good\"")) << command[0];
+        EXPECT_LT(at, std::min(text.find("class=\"verdict good\""), text.find("class=\"verdict bad\""))) << command[0];
+        if (command[0] == "check") {
+            EXPECT_TRUE(contains(text, ": certified for straight sides</title>"));
+        }
     }
     // Where no table says so, stderr does.
     for (const std::string option : {"--html", "--json"})

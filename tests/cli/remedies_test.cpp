@@ -18,6 +18,8 @@ struct Remedy {
 };
 
 constexpr const char* cube_geo = R"(printf 'SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 1, 1, 1};' > cube.geo; )";
+constexpr const char* tetrahedron_off =
+    "printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' > t.off; ";
 constexpr const char* pyramid_off =
     "printf 'OFF\n5 5 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n.5 .5 1\n4 3 2 1 0\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n' > "
     "s.off; ";
@@ -57,10 +59,31 @@ const Remedy remedies[] = {
     {"vtk_of_hexahedra", "python:pyvista", "printf 'CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n12\n' >> c.vtk",
      "check c.vtk", "check c-simplices.vtu"},
     {"off", "", "", "check s.off", "check s.1"},
-    {"binary_ply", "meshio",
-     "printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' > t.off; meshio convert "
-     "t.off s.ply",
-     "mesh s.ply", "mesh s-text.ply"},
+    {"binary_ply", "meshio", "meshio convert t.off s.ply", "mesh s.ply", "mesh s-text.ply"},
+    {"stl", "meshio", "meshio convert t.off a.stl", "check a.stl", "check a.1"},
+    {"ply", "",
+     "printf 'ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+     "property float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 "
+     "0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' > a.ply",
+     "check a.ply", "check a.1"},
+    {"poly", "",
+     "printf '4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n4 0\n1\n3 1 3 2\n1\n3 1 2 4\n1\n3 2 3 4\n1\n3 3 1 "
+     "4\n0\n0\n' > a.poly",
+     "check a.poly", "check a.1"},
+    {"smesh", "",
+     "printf '4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n4 0\n3 1 3 2\n3 1 2 4\n3 2 3 4\n3 3 1 4\n0\n0\n' > "
+     "a.smesh",
+     "check a.smesh", "check a.1"},
+    {"step", "gmsh", "gmsh -0 cube.geo -o a.step", "check a.step", "check a.msh"},
+    {"packed_by_zstd", "zstd", "printf 'CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n' >> c.vtk; zstd -q --rm c.vtk",
+     "check c.vtk.zst", "check c.vtk"},
+    {"packed_by_zip", "zip unzip", "printf 'CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n' >> c.vtk; zip -qm a.zip c.vtk",
+     "check a.zip", "check c.vtk"},
+    {"packed_by_tar", "", "printf 'CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n' >> c.vtk; tar -cf a.tar c.vtk; rm c.vtk",
+     "check a.tar", "check c.vtk"},
+    {"packed_by_tar_and_gzip", "gzip",
+     "printf 'CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n' >> c.vtk; tar -czf a.tgz c.vtk; rm c.vtk", "check a.tgz",
+     "check c.vtk"},
     {"obj", "", "printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' > a.obj", "check a.obj", ""},
     {"poly_in_the_plane", "", "printf '# square\n4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n' > a.poly", "check a.poly", ""},
     {"poly_in_the_plane_meshed", "", "printf '4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n' > a.poly", "mesh a.poly", ""},
@@ -105,7 +128,7 @@ TEST_P(Remedies, does_what_it_says) {
     if (!is_there(remedy.needs)) GTEST_SKIP() << "not installed: " << remedy.needs;
     const Scratch scratch;
     const How here{.folder = scratch.folder()};
-    run_shell(std::string(cube_geo) + pyramid_off + cube_vtk, here);
+    run_shell(std::string(cube_geo) + tetrahedron_off + pyramid_off + cube_vtk, here);
     const Ended made = run_shell(remedy.make, here);
     const Ended refused = run_shell(std::string("barycert ") + remedy.command, here);
     ASSERT_EQ(refused.code, 2) << made.err << refused.err;

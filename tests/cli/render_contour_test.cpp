@@ -245,6 +245,16 @@ TEST(render_slice, as_a_picture) {
         {"render", "slice", mesh("cube-hole"), "--plane", "0,0,1,2", "--output", png, "--field", "attribute0"},
         "the section has no area: expected a plane that goes through the mesh, found D = 2, where the cells are "
         "from 0 to 1; choose D between them: --plane 0,0,1,0.5");
+    expect_error(
+        {"render", "slice", mesh("cube-hole"), "--plane", "0,0,1,1", "--output", png, "--field", "attribute0"},
+        "found D = 1, a plane that only touches the boundary: the cells are from 0 to 1; move it inwards: --plane "
+        "0,0,1,0.999");
+    for (const std::string plane : {"0,0,-1,-1", "0,0,1,0.999"}) {
+        const Ended touching =
+            run({"render", "slice", mesh("cube-hole"), "--plane", plane, "--output", png, "--field", "attribute0"});
+        EXPECT_TRUE(touching.code == 0 || contains(touching.err, "move it inwards: --plane 0,0,-1,-0.999"))
+            << plane << touching.err;
+    }
 }
 
 TEST(render_slice, of_fields_of_cells_and_oblique) {

@@ -102,6 +102,20 @@ TEST(texts, what_a_file_cannot_hold_is_told) {
         "names of fields"));
 }
 
+TEST(texts, important_notes_of_meshes_are_told_wherever_they_are_read) {
+    const Scratch scratch;
+    const std::string mesh = scratch.put("apart.mesh",
+                                         "MeshVersionFormatted 2\nDimension 3\nVertices 5\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
+                                         "0 0 1 0\n2 2 2 0\nEdges 1\n4 5 0\nTetrahedra 1\n1 2 3 4 0\nEnd\n");
+    const std::string note = "note: " + mesh + ": left out: elements of a lower dimension: 1 Edges; some have nodes";
+    for (const Words& command :
+         {Words{"check", mesh}, Words{"gaps", mesh, "--kernel", "tetrahedron.signed-volume", "--count", "10"},
+          Words{"audit", mesh, "--family", "mesh.*", "--count", "10"}}) {
+        EXPECT_TRUE(contains(run(command).err, note)) << run(command).err;
+        EXPECT_EQ(run(plus(command, {"--quiet"})).err, "") << command[0];
+    }
+}
+
 TEST(points_of_any_name, texts_with_blanks_pipes_and_files_without_a_suffix) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", six_points);

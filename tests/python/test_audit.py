@@ -79,6 +79,19 @@ def test_a_tolerance_is_a_rule():
     assert tolerant.kernels[0].findings["false_inside"] > strict.kernels[0].findings.get("false_inside", 0)
 
 
+def test_an_exception_without_words_is_a_finding_too():
+    class Mute(Exception):
+        def __str__(self):
+            raise ValueError("no words")
+
+    def kernel(vertices, point):
+        raise Mute()
+
+    report = barycert.audit(kernel, count=10, families="random")
+    assert report.kernels[0].findings == {"raised": report.kernels[0].cases}
+    assert report.kernels[0].witnesses[0]["detail"] == "raised Mute, whose text cannot be had"
+
+
 def test_an_exception_of_a_callable_is_a_finding():
     def kernel(vertices, point):
         matrix = np.vstack([vertices.T, np.ones(len(vertices))])
@@ -89,6 +102,8 @@ def test_an_exception_of_a_callable_is_a_finding():
     assert not report and result.cases > 50 and 0 < result.findings["raised"] < result.cases
     (witness,) = [w for w in result.witnesses if w["reason"] == "raised"]
     assert witness["detail"] == "raised LinAlgError: Singular matrix"
+    # No command would have the callable.
+    assert all("barycert replay" not in text for text in (str(report), report.text(wide=True), report.html()))
     assert witness["detail"] in str(report) and f"raised in {result.findings['raised']} cases" in str(report)
     # The others are judged as if it had declared these degenerate, and so are their figures.
     declares = barycert.audit(solve, count=50, families=["random", "degenerate*"], declares_degenerate=True)

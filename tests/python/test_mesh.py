@@ -120,6 +120,8 @@ def test_reading_of_what_is_not_there(tmp_path):
     with pytest.raises(barycert.Error) as info:
         barycert.read(tmp_path / "none.vtu")
     assert info.value.file.endswith("none.vtu")
+    with pytest.raises(barycert.Error, match='step of a series: expected a number from 0, or "last"'):
+        barycert.read(tmp_path / "none.pvd", step="all")
 
 
 def test_the_projects_own_meshes(data):

@@ -269,6 +269,15 @@ def test_points_that_are_not_finite(dimension):
         values = mesh.sample(at, "T", nonfinite_points="nan", **options)
         assert values[0] == 0.5 * dimension and np.isnan(values[1:3]).all()
         np.testing.assert_array_equal(found.sample("T", **options), values)
+    begin, held = mesh.locate_all(at, nonfinite_points="nan")
+    assert begin[1] > 0 and (begin[1:] == begin[1]).all() and len(held) == begin[1]
+    nearest, distances = mesh.nearest(at, nonfinite_points="nan")
+    assert (nearest[1:3] == -1).all() and np.isnan(distances[1:3]).all() and nearest[3] >= 0 and distances[3] > 0
+    right = np.where(np.arange(4) == 0, 0.5 * dimension, np.nan)
+    assert barycert.verify(mesh, at, {"T": right}, nonfinite_points="nan")
+    for call in (mesh.locate_all, mesh.nearest, lambda p: barycert.verify(mesh, p, {"T": right})):
+        with pytest.raises(barycert.Error, match="expected a finite number"):
+            call(at)
     masked = np.ma.array(np.full((2, dimension), 0.5), mask=[[False] * dimension, [True] + [False] * (dimension - 1)])
     np.testing.assert_array_equal(np.isnan(mesh.sample(masked, "T", nonfinite_points="nan")), [False, True])
 

@@ -89,7 +89,7 @@ TEST(check_html, says_what_is_wrong_before_all_and_praises_nothing_else) {
     const Mesh mesh = cracked_and_hanging();
     const std::string page = check_html(checked(mesh), mesh, "part");
     EXPECT_FALSE(contains(page, "exactly equal")) << "green, on a page that says NOT certified";
-    EXPECT_TRUE(contains(page, "node 0 within facet 9 10 of cell 2"));
+    EXPECT_TRUE(contains(page, "node 0 within edge 9 10 of cell 2"));
     EXPECT_TRUE(contains(page, "Numbers in red: cells with defects")) << "a legend of the map";
     EXPECT_LT(page.find("<svg"), page.find("Pairs of cells that overlap or touch")) << "pictures before numbers";
     const Mesh good = pair_of_cells();

@@ -73,7 +73,7 @@ TEST(check_terminal, every_problem_has_words_for_one_and_for_more) {
 TEST(check_terminal, causes_stand_with_what_they_break) {
     const Mesh mesh = cracked_and_hanging();
     const std::string all = text(mesh), above = all.substr(0, all.find("Notes: these do not affect"));
-    EXPECT_TRUE(contains(above, "\n    node 0 within facet 9 10 of cell 2")) << all;
+    EXPECT_TRUE(contains(above, "\n    node 0 within edge 9 10 of cell 2")) << all;
     EXPECT_TRUE(contains(above, "\n    -> split that cell at the node\n"));
     EXPECT_TRUE(contains(above, "\ncoincident_nodes "));
     EXPECT_TRUE(contains(

@@ -40,6 +40,8 @@ void check_reports(Schema& schema) {
     const Mesh apart = cracked_and_hanging();
     FixedMesh fixed{.file = "copy.vtu", .done = {}, .after = {}};
     fixed.after = checked(fix_mesh(apart, {}, fixed.done).value());
+    fixed.done.cell_fields = {{"rho", 1, 0.5}};
+    fixed.notes = {{Note::Kind::left_out, "labels"}};
     const std::string repaired = check_json(checked(apart), "part", measure_environment(), &fixed);
     schema.check("Check", Json::parse(repaired), "check");
 }

@@ -160,7 +160,7 @@ std::string witnesses_json(const AuditReport& report) {
 
 Result<std::vector<Witness>> read_witnesses(const std::string& path) {
     const ExactEnvironment environment;
-    const Result<std::string> text = base::read_file(path, base::longest_pipe, base::Text::all);
+    const Result<std::string> text = base::read_file(path, base::longest_pipe, base::Text::json);
     if (!text) {
         Error error = text.error();
         error.what = "cannot read the witnesses";

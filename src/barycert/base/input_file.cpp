@@ -76,20 +76,16 @@ Result<InputFile> InputFile::open(const std::string& path, const char* remedy) {
     if (!S_ISREG(status.st_mode)) return unfit(path, "a regular file", "a pipe or device", remedy);
     if (Status plain = unpack(file.descriptor_, path); !plain) return plain.error();
     if (::fstat(file.descriptor_, &status) != 0) return read_failure(path, errno);
-    file.size_ = static_cast<std::uint64_t>(status.st_size);
-    file.written_ = status.st_mtim;
+    file.then_ = {static_cast<std::uint64_t>(status.st_size), status.st_mtim};
     return file;
 }
 
 InputFile::InputFile(InputFile&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)),
-      size_(std::exchange(other.size_, 0)),
-      written_(other.written_) {}
+    : descriptor_(std::exchange(other.descriptor_, -1)), then_(std::exchange(other.then_, {})) {}
 
 InputFile& InputFile::operator=(InputFile&& other) noexcept {
     std::swap(descriptor_, other.descriptor_);
-    std::swap(size_, other.size_);
-    std::swap(written_, other.written_);
+    std::swap(then_, other.then_);
     return *this;
 }
 
@@ -97,16 +93,16 @@ InputFile::~InputFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-Status InputFile::unchanged(const std::string& path) const {
+Status unchanged(int descriptor, const FileState& then, const std::string& path) {
     struct stat now {};
-    if (::fstat(descriptor_, &now) != 0) return read_failure(path, errno);
+    if (::fstat(descriptor, &now) != 0) return read_failure(path, errno);
     const auto size = static_cast<std::uint64_t>(now.st_size);
-    if (size == size_ && now.st_mtim.tv_sec == written_.tv_sec && now.st_mtim.tv_nsec == written_.tv_nsec)
+    if (size == then.size && now.st_mtim.tv_sec == then.written.tv_sec && now.st_mtim.tv_nsec == then.written.tv_nsec)
         return Done{};
     return Error{.what = "the file was changed while it was read",
                  .file = path,
-                 .expected = size == size_ ? "" : std::to_string(size_) + " bytes, as when it was opened",
-                 .found = size == size_ ? "" : std::to_string(size),
+                 .expected = size == then.size ? "" : std::to_string(then.size) + " bytes, as when it was opened",
+                 .found = size == then.size ? "" : std::to_string(size),
                  .remedy = "read it again when its writer has finished"};
 }
 
@@ -126,14 +122,21 @@ Result<std::size_t> InputFile::read_at(std::uint64_t offset, std::span<char> byt
 Status check_beginning(std::string_view block, Text text, const std::string& path) {
     // Of a smaller file its reader says more.
     if (text == Text::none || block.size() < first_block) return Done{};
-    const std::string_view line = text == Text::all ? block : block.substr(0, block.find_first_of("\n>"));
+    const std::string_view line = text != Text::head ? block : block.substr(0, block.find_first_of("\n>"));
     const auto blank = [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
     const auto end = [&](char c) {
         return blank(c) || std::string_view(",;:\"[]{}()<>=").find(c) != std::string_view::npos;
     };
     const auto word = std::find_if_not(line.begin(), line.end(), blank);
+    const auto* const first = std::find_if_not(block.begin(), block.end(), blank);
     std::string found;
-    if (line.find('\0') != std::string_view::npos) {
+    if (first == block.end()) {
+        found = std::to_string(block.size()) + " bytes of blanks and line ends";
+    } else if (text == Text::words) {
+        return Done{};
+    } else if (text == Text::json && *first != '{' && *first != '[') {
+        found = "no JSON";
+    } else if (line.find('\0') != std::string_view::npos) {
         found = "NUL bytes";
     } else if (line.size() == block.size() && std::find_if(word, line.end(), end) == line.end()) {
         found = std::to_string(block.size()) + " bytes without a word that ends";
@@ -150,15 +153,19 @@ Status check_beginning(std::string_view block, Text text, const std::string& pat
                  .remedy = "check the path, or write the file again"};
 }
 
-Status InputFile::check(Text text, const std::string& path) const {
+Status InputFile::check(Text text, const std::string& path, const Header& header) const {
     if (text == Text::none) return Done{};
     std::string block(first_block, '\0');
     const Result<std::size_t> size = read_at(0, block, path);
     if (!size) return size.error();
+    // The format has more to say of what it knows.
+    if (header && *size == first_block && then_.size > first_block) {
+        if (Status begins = header(block, then_.size); !begins) return begins;
+    }
     return check_beginning(std::string_view(block).substr(0, *size), text, path);
 }
 
-Result<std::string> read_file(const std::string& path, std::size_t longest, Text text) {
+Result<std::string> read_file(const std::string& path, std::size_t longest, Text text, const Header& header) {
     struct stat status {};
     InputFile file;
     file.descriptor_ = open_without_waiting(path, status);
@@ -177,7 +184,8 @@ Result<std::string> read_file(const std::string& path, std::size_t longest, Text
     if (::fstat(file.descriptor_, &status) != 0) return read_failure(path, errno);
 
     if (!pipe) {
-        if (Status begins = file.check(text, path); !begins) return begins.error();
+        file.then_.size = static_cast<std::uint64_t>(status.st_size);
+        if (Status begins = file.check(text, path, header); !begins) return begins.error();
     }
     // The size is a hint: files of the system tell 0, and a file may grow.
     std::string bytes(pipe ? 0 : static_cast<std::size_t>(status.st_size) + 1, '\0');

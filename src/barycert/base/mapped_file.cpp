@@ -20,10 +20,10 @@ constexpr std::size_t block_size = 4 * large_page;
 
 }  // namespace
 
-Result<MappedFile> MappedFile::open(const std::string& path, int threads, Text text) {
+Result<MappedFile> MappedFile::open(const std::string& path, int threads, Text text, const Header& header) {
     const Result<InputFile> file = InputFile::open(path);
     if (!file) return file.error();
-    if (Status begins = file->check(text, path); !begins) return begins.error();
+    if (Status begins = file->check(text, path, header); !begins) return begins.error();
     const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
     MappedFile result;
     const auto size = static_cast<std::size_t>(file->size());

@@ -22,8 +22,9 @@ public:
     ~MappedFile();
 
     /// Reads on so many threads, 0: one per core. Errors: missing, unreadable, a folder, not a regular file, one that
-    /// does not begin as `text`, changed while it was read, larger than the memory.
-    static Result<MappedFile> open(const std::string& path, int threads = 1, Text text = Text::none);
+    /// does not begin as `text` and `header` say, changed while it was read, larger than the memory.
+    static Result<MappedFile> open(const std::string& path, int threads = 1, Text text = Text::none,
+                                   const Header& header = {});
 
     std::string_view bytes() const { return {begin_, size_}; }
 

@@ -168,36 +168,47 @@ private:
                          (cells.total - pieces.enclosed).sign() == 0};
         if (enough()) return;
         BoundaryContacts touching;
+        std::vector<CellPair> meeting;
         if (!proved) {
             stage("contacts of the boundary");
             const std::size_t limit = options_.verdict_only ? 1 : pair_limit;
             touching = find_boundary_contacts(mesh_, facets.boundary, limit, measures, defects_);
             if (enough()) return;
-            find_nested_parts(mesh_, facets.boundary, pieces.facets, limit, measures, defects_);
+            meeting = find_nested_parts(mesh_, facets.boundary, pieces.facets, limit, measures, defects_);
         }
         check_files(mesh_, cells.usable, facets, defects_);
         if (enough()) return;
-        if (!options_.verdict_only) {
-            find_cracks(mesh_, cells.usable, facets.boundary, options_.near, touching.in_contact, measures, defects_);
-            tell_remedy_of_contacts();
-        }
         std::vector<CellPair> overlapping;
         if (may_overlap()) {
             stage("overlapping cells");
             overlapping = find_overlapping_cells(mesh_, measures, defects_);
         }
+        if (!options_.verdict_only) {
+            meeting.insert(meeting.end(), touching.cells.begin(), touching.cells.end());
+            meeting.insert(meeting.end(), overlapping.begin(), overlapping.end());
+            find_cracks(mesh_, cells.usable, facets.boundary, volumes, options_.near, touching, meeting, measures,
+                        defects_);
+            tell_remedies();
+        }
         report.contacts =
             contacts(mesh_, measures, std::move(overlapping), std::move(touching.cells), options_.contacts);
     }
 
-    void tell_remedy_of_contacts() {
+    /// Where the cause of what breaks the certificate is known.
+    void tell_remedies() {
         const bool merge = defects_.is_cause(DefectKind::coincident_nodes) || defects_.is_cause(DefectKind::near_nodes);
-        if (defects_.count(DefectKind::hanging_node) != 0)
-            defects_.remedy(DefectKind::boundary_contact,
-                            merge ? "merge coincident and near nodes, and split the cells at hanging nodes: both below"
-                                  : "split the cells at the hanging nodes below");
-        else if (merge)
-            defects_.remedy(DefectKind::boundary_contact, "merge the coincident and near nodes below");
+        const bool split = defects_.count(DefectKind::hanging_node) != 0 || defects_.is_cause(DefectKind::near_hanging);
+        if (!merge && !split) return;
+        constexpr std::string_view
+            merging = "merge the coincident and near nodes below",
+            splitting = "split the cells at the hanging nodes below",
+            both = "merge coincident and near nodes, and split the cells at hanging nodes: both below";
+        defects_.remedy(DefectKind::boundary_contact, merge && split ? both : merge ? merging : splitting);
+        defects_.remedy(DefectKind::nested_part,
+                        "first merge nodes or split cells as said below; remove a part that "
+                        "lies inside another one even then");
+        defects_.remedy(DefectKind::overlapping_cells,
+                        "remove the other defects, those below included: this one follows from them");
     }
 
     /// The verdict is known, and nothing else is asked for.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
+#include <variant>
 
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/base/text.hpp"
@@ -25,6 +26,11 @@ namespace {
 
 using Index = Mesh::Index;
 using Nodes = std::array<Index, 4>;
+
+/// A node, cell or face that goes, and what is in its place.
+struct Twin {
+    Index gone, kept;
+};
 
 std::size_t at(Index i) {
     return static_cast<std::size_t>(i);
@@ -51,8 +57,8 @@ public:
         renumber();
         if (options_.cells) drop_cells();
         if (options_.nodes || options_.cells) drop_faces();
+        renew_neighbours();
         if (options_.orientation) turn_cells();
-        if (!mesh_.neighbours.empty()) mesh_.neighbours = mesh::compute_neighbours(mesh_);
         return std::move(mesh_);
     }
 
@@ -72,13 +78,49 @@ private:
             for (const auto& [first, second] : coincident) same_.join(at(first), at(second));
             if (options_.merge_within == 0) continue;
             std::erase_if(nodes, [&](Index n) { return same_.find(at(n)) != at(n); });
-            const std::size_t limit = 50 * nodes.size();
-            const auto near =
-                check::near_pairs(old_, nodes, std::vector<double>(nodes.size(), options_.merge_within), limit);
-            if (near.size() > limit) return false;
-            for (const check::NearPair& p : near) same_.join(at(p.first), at(p.second));
+            const auto join = [&](const check::NearPair& p) { same_.join(at(p.first), at(p.second)); };
+            const std::vector<double> radius(nodes.size(), options_.merge_within);
+            if (!check::for_each_near(old_, nodes, radius, 50 * nodes.size(), join)) return false;
         }
+        if (!old_.mid_nodes.empty()) merge_mid_nodes(role);
         return true;
+    }
+
+    /// Edges that merging their ends made one have one node in the middle, wherever theirs were.
+    void merge_mid_nodes(const std::vector<std::uint8_t>& role) {
+        struct Edge {
+            std::array<Index, 2> ends, given;
+            Index mid;
+            auto operator<=>(const Edge&) const = default;
+        };
+        std::vector<std::uint8_t> merged(old_.point_count(), 0);
+        for (std::size_t n = 0; n < merged.size(); ++n) {
+            if (same_.find(n) != n) merged[n] = merged[same_.find(n)] = 1;
+        }
+        std::vector<Edge> all;
+        const auto edges = mesh::edges_of(old_.dimension);
+        for (std::size_t i = 0; i < old_.mid_nodes.size(); ++i) {
+            const Index* const cell = &old_.cells[i / edges.size() * old_.corners()];
+            const auto& [first, second] = edges[i % edges.size()];
+            const Index a = cell[first], b = cell[second];
+            const auto x = static_cast<Index>(same_.find(at(a))), y = static_cast<Index>(same_.find(at(b)));
+            if (x == y || (merged[at(a)] == 0 && merged[at(b)] == 0) || role[at(old_.mid_nodes[i])] == 2) continue;
+            all.push_back({{std::min(x, y), std::max(x, y)}, {std::min(a, b), std::max(a, b)}, old_.mid_nodes[i]});
+        }
+        std::sort(all.begin(), all.end());
+        for (std::size_t i = 0, next = 0; i < all.size(); i = next) {
+            while (next < all.size() && all[next].ends == all[i].ends) ++next;
+            if (all[next - 1].given == all[i].given) continue;  // they were one before
+            for (std::size_t k = i; k < next; ++k) same_.join(at(all[i].mid), at(all[k].mid));
+        }
+    }
+
+    void renew_neighbours() {
+        if (mesh_.neighbours.empty()) return;
+        std::vector<Index> made = mesh::compute_neighbours(mesh_);
+        for (std::size_t i = 0; i < made.size() && report_.dropped.empty(); ++i)
+            report_.changed_neighbours += made[i] != mesh_.neighbours[i] ? 1 : 0;
+        mesh_.neighbours = std::move(made);
     }
 
     void renumber() {
@@ -95,7 +137,10 @@ private:
                                       check::node_distance(old_, static_cast<Index>(n), static_cast<Index>(into))});
         }
         if (report_.merged.empty()) return;
-        compare_values();
+        std::vector<Twin> twins;
+        for (const MergedNode& m : report_.merged) twins.push_back({m.node, m.into});
+        for (const Field& f : old_.point_fields) compare_values(f, twins, report_.fields);
+        report_.differing_markers = count_differing(old_.point_markers, twins);
         for (auto* list : {&mesh_.cells, &mesh_.mid_nodes, &mesh_.faces, &mesh_.face_mid_nodes}) {
             for (Index& n : *list) n = number[at(n)];
         }
@@ -104,28 +149,30 @@ private:
         for (Field& f : mesh_.point_fields) keep(f.data, at(f.components), kept);
     }
 
-    void compare_values() {
+    static void compare_values(const Field& f, const std::vector<Twin>& twins, std::vector<MergedField>& to) {
         const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
-        for (const Field& f : old_.point_fields) {
-            MergedField told{f.name};
-            for (const MergedNode& m : report_.merged) {
-                bool differs = false;
-                for (std::size_t c = 0; c < at(f.components); ++c) {
-                    const double a = f.data[at(m.node) * at(f.components) + c];
-                    const double b = f.data[at(m.into) * at(f.components) + c];
-                    if (same(a, b)) continue;
-                    differs = true;
-                    if (std::isfinite(a) && std::isfinite(b))
-                        told.max_difference = std::max(told.max_difference, std::fabs(a - b));
-                }
-                told.differ += differs ? 1 : 0;
+        MergedField told{f.name};
+        for (const auto& [gone, kept] : twins) {
+            bool differs = false;
+            for (std::size_t c = 0; c < at(f.components); ++c) {
+                const double a = f.data[at(gone) * at(f.components) + c];
+                const double b = f.data[at(kept) * at(f.components) + c];
+                if (same(a, b)) continue;
+                differs = true;
+                if (std::isfinite(a) && std::isfinite(b))
+                    told.max_difference = std::max(told.max_difference, std::fabs(a - b));
             }
-            if (told.differ != 0) report_.fields.push_back(std::move(told));
+            told.differ += differs ? 1 : 0;
         }
-        for (const MergedNode& m : report_.merged) {
-            const auto& markers = old_.point_markers;
-            if (!markers.empty() && markers[at(m.node)] != markers[at(m.into)]) ++report_.differing_markers;
-        }
+        if (told.differ != 0) to.push_back(std::move(told));
+    }
+
+    /// Of values of nodes, cells or faces, if there are any.
+    template <class T>
+    static std::uint64_t count_differing(const std::vector<T>& values, const std::vector<Twin>& twins) {
+        if (values.empty()) return 0;
+        return static_cast<std::uint64_t>(std::count_if(
+            twins.begin(), twins.end(), [&](const Twin& t) { return values[at(t.gone)] != values[at(t.kept)]; }));
     }
 
     int sign(std::size_t cell) const {
@@ -167,11 +214,19 @@ private:
         }
         std::sort(good.begin(), good.end());
         std::vector<Index> kept;
+        std::vector<Twin> twins;
         for (std::size_t i = 0; i < good.size(); ++i) {
-            if (i > 0 && good[i].first == good[i - 1].first)
+            if (i > 0 && good[i].first == good[i - 1].first) {
                 drop(good[i].second, DefectKind::duplicate_cell);
-            else
+                twins.push_back({good[i].second, kept.back()});
+            } else {
                 kept.push_back(good[i].second);
+            }
+        }
+        for (const Field& f : mesh_.cell_fields) compare_values(f, twins, report_.cell_fields);
+        for (const Column& labels : mesh_.cell_labels) {
+            const auto differ = std::visit([&](const auto& v) { return count_differing(v, twins); }, labels.values);
+            if (differ != 0) report_.cell_fields.push_back({labels.name, differ});
         }
         if (report_.dropped.empty()) return;
         std::sort(kept.begin(), kept.end());
@@ -206,10 +261,15 @@ private:
         }
         std::sort(faces.begin(), faces.end());
         std::vector<Index> kept;
+        std::vector<Twin> twins;
         for (std::size_t i = 0; i < faces.size(); ++i) {
-            const bool twin = i > 0 && faces[i].first == faces[i - 1].first;
-            if (!twin || report_.merged.empty()) kept.push_back(faces[i].second);
+            const bool twin = i > 0 && faces[i].first == faces[i - 1].first && !report_.merged.empty();
+            if (twin)
+                twins.push_back({faces[i].second, kept.back()});
+            else
+                kept.push_back(faces[i].second);
         }
+        report_.differing_face_markers = count_differing(mesh_.face_markers, twins);
         report_.dropped_faces = mesh_.face_count() - kept.size();
         if (report_.dropped_faces == 0) return;
         std::sort(kept.begin(), kept.end());
@@ -218,7 +278,7 @@ private:
         keep(mesh_.face_markers, 1, kept);
     }
 
-    /// The last two vertices of negative cells swapped, and their mid-edge nodes with them.
+    /// The last two vertices of negative cells swapped, and their mid-edge nodes and neighbours with them.
     void turn_cells() {
         const std::size_t corners = mesh_.corners(), last = corners - 1;
         const auto swapped = [&](std::size_t corner) {
@@ -237,7 +297,9 @@ private:
         for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
             if (sign(cell) >= 0) continue;
             ++report_.turned;
-            std::swap(mesh_.cells[cell * corners + last - 1], mesh_.cells[cell * corners + last]);
+            for (auto* list : {&mesh_.cells, &mesh_.neighbours}) {
+                if (!list->empty()) std::swap((*list)[cell * corners + last - 1], (*list)[cell * corners + last]);
+            }
             if (mesh_.mid_nodes.empty()) continue;
             std::array<Index, 6> mid{};
             for (std::size_t e = 0; e < edges.size(); ++e) mid[e] = mesh_.mid_nodes[cell * edges.size() + edge_from[e]];

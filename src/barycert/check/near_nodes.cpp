@@ -3,13 +3,15 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <tuple>
 
 #include "barycert/base/disjoint_sets.hpp"
+#include "barycert/check/hanging_nodes.hpp"
 #include "barycert/check/names.hpp"
-#include "barycert/check/pairs.hpp"
 #include "barycert/index/box_tree.hpp"
 
 namespace barycert::check {
@@ -53,15 +55,17 @@ public:
         }
     }
 
-    /// The near ones, of no common cell: merging would make it collapse.
-    std::vector<NearPair> find_near(const std::vector<std::uint8_t>& usable) {
+    /// The near ones, of no common cell: merging would make it collapse. `complete` is false if there are more.
+    std::vector<NearPair> find_near(const std::vector<std::uint8_t>& usable, bool& complete) {
         std::vector<double> radius;
         radius.reserve(places_.size());
-        for (const Mesh::Index node : places_) {
-            const double edge = shortest_[index(node)];
-            radius.push_back(edge == no_edge ? 0 : near_ * edge);
-        }
-        std::vector<NearPair> pairs = near_pairs(mesh_, places_, radius, 100 * pair_limit);
+        for (const Mesh::Index node : places_) radius.push_back(reach(node, near_));
+        std::vector<NearPair> pairs;
+        complete = for_each_near(mesh_, places_, radius, 100 * pair_limit, [&](const NearPair& p) {
+            pairs.push_back({std::min(p.first, p.second), std::max(p.first, p.second), p.distance});
+        });
+        std::sort(pairs.begin(), pairs.end(),
+                  [](const NearPair& p, const NearPair& q) { return before(p, std::tuple(q.first, q.second)); });
         std::vector<std::uint8_t> apart(pairs.size(), 1);
         for (std::size_t i = 0; !pairs.empty() && i < mesh_.cells.size(); ++i) {
             const std::size_t cell = i / mesh_.corners();
@@ -79,8 +83,26 @@ public:
         return near;
     }
 
-    double relative(const NearPair& p) const {
-        return p.distance / std::min(shortest_[index(p.first)], shortest_[index(p.second)]);
+    /// At most so far from a node of the boundary what is near lies.
+    double reach(Mesh::Index node, double ratio) const {
+        const double edge = shortest_[index(node)];
+        return edge == no_edge ? 0 : ratio * edge;
+    }
+    /// The same for edges and facets; of each node. Farther than a part of an edge away, most nodes of a boundary have
+    /// the edges of their neighbours.
+    std::vector<double> reach_of_faces() const {
+        std::vector<double> reaches(mesh_.point_count());
+        for (std::size_t n = 0; n < reaches.size(); ++n)
+            reaches[n] = reach(static_cast<Mesh::Index>(n), std::min(near_, 0x1p-4));
+        return reaches;
+    }
+    double shortest_edge(Mesh::Index a, Mesh::Index b) const {
+        return std::min(shortest_[index(a)], shortest_[index(b)]);
+    }
+
+    /// The node is to be merged with one of the face.
+    bool nearly_coincides(const HangingNode& h) {
+        return std::any_of(h.face.begin(), h.face.end(), [&](Mesh::Index n) { return n >= 0 && of(n) == of(h.node); });
     }
 
     void merge(Mesh::Index a, Mesh::Index b) {
@@ -163,8 +185,8 @@ std::vector<std::array<Mesh::Index, 2>> coincident_nodes(const Mesh& mesh, const
     return pairs;
 }
 
-std::vector<NearPair> near_pairs(const Mesh& mesh, const std::vector<Mesh::Index>& nodes,
-                                 const std::vector<double>& radius, std::size_t limit) {
+bool for_each_near(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, const std::vector<double>& radius,
+                   std::size_t limit, const std::function<void(const NearPair&)>& found) {
     std::vector<Box> boxes(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const auto at = node_place(mesh, nodes[i]);
@@ -173,54 +195,116 @@ std::vector<NearPair> near_pairs(const Mesh& mesh, const std::vector<Mesh::Index
             boxes[i].low[k] = at[k] - radius[i], boxes[i].high[k] = at[k] + radius[i];
     }
     const BoxTree tree(std::move(boxes));
-    std::vector<NearPair> all;
-    in_waves(
-        nodes.size(), 1024, [] { return std::vector<NearPair>(); },
-        [&](std::size_t first, std::size_t last, std::vector<NearPair>& part) {
-            for (std::size_t i = first; i < last; ++i) {
-                const auto at = node_place(mesh, nodes[i]);
-                tree.for_each(Box{at, at}, [&](std::uint32_t j) {
-                    if (j <= i) return true;
-                    const double apart = node_distance(mesh, nodes[i], nodes[j]);
-                    if (apart <= std::min(radius[i], radius[j])) part.push_back({nodes[i], nodes[j], apart});
-                    return part.size() <= limit;
-                });
-            }
-        },
-        [&](const std::vector<NearPair>& part) { all.insert(all.end(), part.begin(), part.end()); },
-        [&] { return all.size() <= limit; });
-    for (NearPair& p : all) {
-        if (p.second < p.first) std::swap(p.first, p.second);
+    const auto near_after = [&](std::size_t i, auto&& use) {
+        const auto at = node_place(mesh, nodes[i]);
+        return tree.for_each(Box{at, at}, [&](std::uint32_t j) {
+            if (j <= i) return true;
+            const double apart = node_distance(mesh, nodes[i], nodes[j]);
+            return apart > std::min(radius[i], radius[j]) || use(NearPair{nodes[i], nodes[j], apart});
+        });
+    };
+    // The pairs of one wave are kept at a time, and of these no more than anybody wants.
+    constexpr std::size_t wave = 1 << 16;
+    for (std::size_t begin = 0; begin < nodes.size(); begin += wave) {
+        const std::size_t end = std::min(nodes.size(), begin + wave), room = std::min(limit, 64 * wave);
+        std::atomic<std::size_t> count = 0;
+        in_blocks(
+            end - begin, 1024, [] { return std::vector<NearPair>(); },
+            [&](std::size_t first, std::size_t last, std::vector<NearPair>& part) {
+                const auto keep = [&](const NearPair& p) {
+                    part.push_back(p);
+                    return ++count <= room;
+                };
+                for (std::size_t i = begin + first; i < begin + last && near_after(i, keep); ++i) {
+                }
+            },
+            [&](const std::vector<NearPair>& part) {
+                if (count <= room) std::for_each(part.begin(), part.end(), found);
+            });
+        if (count > room) {
+            // Which of them were found first depends on threads: the first in order are found once more.
+            std::size_t left = room;
+            const auto tell = [&](const NearPair& p) { return left > 0 && (found(p), --left > 0); };
+            for (std::size_t i = begin; i < end && left > 0; ++i) near_after(i, tell);
+            return false;
+        }
+        limit -= count;
     }
-    std::sort(all.begin(), all.end(), [](const NearPair& p, const NearPair& q) {
-        return std::tie(p.first, p.second) < std::tie(q.first, q.second);
-    });
-    return all;
+    return true;
 }
 
 void find_cracks(const Mesh& mesh, const std::vector<std::uint8_t>& usable, const std::vector<BoundaryFacet>& facets,
-                 double near, const std::vector<std::uint8_t>& in_contact, CellMeasures& measures,
-                 DefectList& defects) {
+                 const ExactVolumes& volumes, double near, const BoundaryContacts& touching,
+                 const std::vector<CellPair>& meeting, CellMeasures& measures, DefectList& defects) {
     Cracks cracks(mesh, facets, near);
-    const auto is_cause = [&](auto first, auto last) {
-        return !in_contact.empty() && std::any_of(first, last, [&](Mesh::Index n) {
-            return n >= 0 && in_contact[static_cast<std::size_t>(n)] != 0;
-        });
+    const auto mark = [&](Mesh::Index cell, DefectKind kind) {
+        measures.defects[static_cast<std::size_t>(cell)] |= defect_bit(kind);
     };
     if (near > 0) {
-        for (const NearPair& p : cracks.find_near(usable)) {
-            const DefectPlace place{
-                .nodes = {p.first, p.second, -1}, .distance = p.distance, .relative = cracks.relative(p)};
-            defects.add(DefectKind::near_nodes, place);
-            if (is_cause(place.nodes.begin(), place.nodes.end())) defects.cause(DefectKind::near_nodes);
+        bool complete = true;
+        for (const NearPair& p : cracks.find_near(usable, complete)) {
+            defects.add(DefectKind::near_nodes, {.nodes = {p.first, p.second, -1},
+                                                 .distance = p.distance,
+                                                 .relative = p.distance / cracks.shortest_edge(p.first, p.second)});
             cracks.merge(p.first, p.second);
         }
+        if (!complete) {
+            for (const DefectKind kind : {DefectKind::near_nodes, DefectKind::crack}) defects.add_at_least(kind);
+        }
     }
+    std::vector<HangingNode> hanging = touching.hanging, nearly;
+    std::erase_if(hanging, [&](const HangingNode& h) { return cracks.nearly_coincides(h); });
+    for (const HangingNode& h : hanging) {
+        mark(h.cell, DefectKind::hanging_node);
+        defects.add(DefectKind::hanging_node,
+                    {.cells = {h.cell, -1}, .nodes = {h.node, -1, -1}, .other_nodes = h.face});
+    }
+    if (!touching.complete) defects.add_at_least(DefectKind::hanging_node);
+    if (near > 0) {
+        bool complete = true;
+        nearly = nearly_hanging(mesh, usable, facets, volumes, cracks.reach_of_faces(), 10 * pair_limit, complete);
+        std::erase_if(nearly, [&](const HangingNode& h) {
+            return cracks.nearly_coincides(h) ||
+                   std::any_of(hanging.begin(), hanging.end(), [&](const HangingNode& g) { return g.node == h.node; });
+        });
+        for (const HangingNode& h : nearly) {
+            mark(h.cell, DefectKind::near_hanging);
+            defects.add(DefectKind::near_hanging, {.cells = {h.cell, -1},
+                                                   .nodes = {h.node, -1, -1},
+                                                   .other_nodes = h.face,
+                                                   .distance = h.distance,
+                                                   .relative = h.distance / cracks.shortest_edge(h.node, h.node)});
+        }
+        if (!complete) defects.add_at_least(DefectKind::near_hanging);
+    }
+    // Of cells that meet where they must not, one with a node and one with its twin, or with what it hangs on.
+    std::vector<std::uint8_t> twin(mesh.point_count(), 0);
+    const auto find_cause = [&](Mesh::Index cell, Mesh::Index other) {
+        const auto nodes_of = [&](Mesh::Index c) {
+            return std::span(mesh.cells).subspan(static_cast<std::size_t>(c) * mesh.corners(), mesh.corners());
+        };
+        const auto others = nodes_of(other);
+        for (const Mesh::Index a : nodes_of(cell)) {
+            for (const Mesh::Index b : others) {
+                if (a == b || cracks.of(a) != cracks.of(b)) continue;
+                twin[static_cast<std::size_t>(a)] = twin[static_cast<std::size_t>(b)] = 1;
+                if (node_distance(mesh, a, b) != 0) defects.cause(DefectKind::near_nodes);
+            }
+            const auto has = [&](Mesh::Index n) { return n < 0 || std::count(others.begin(), others.end(), n) != 0; };
+            auto h = std::lower_bound(nearly.begin(), nearly.end(), a,
+                                      [](const HangingNode& x, Mesh::Index n) { return x.node < n; });
+            for (; h != nearly.end() && h->node == a; ++h) {
+                if (std::all_of(h->face.begin(), h->face.end(), has)) defects.cause(DefectKind::near_hanging);
+            }
+        }
+    };
+    for (const CellPair& p : meeting) find_cause(p[0], p[1]), find_cause(p[1], p[0]);
+    const auto is_twin = [&](Mesh::Index n) { return n >= 0 && twin[static_cast<std::size_t>(n)] != 0; };
     cracks.for_each_crack([&](const BoundaryFacet& f, const BoundaryFacet& g) {
-        for (const Mesh::Index cell : {f.cell, g.cell})
-            measures.defects[static_cast<std::size_t>(cell)] |= defect_bit(DefectKind::crack);
+        mark(f.cell, DefectKind::crack), mark(g.cell, DefectKind::crack);
         defects.add(DefectKind::crack, {.cells = {f.cell, g.cell}, .nodes = f.nodes, .other_nodes = g.nodes});
-        if (is_cause(f.nodes.begin(), f.nodes.end()) || is_cause(g.nodes.begin(), g.nodes.end()))
+        if (std::any_of(f.nodes.begin(), f.nodes.end(), is_twin) ||
+            std::any_of(g.nodes.begin(), g.nodes.end(), is_twin))
             defects.cause(DefectKind::crack);
     });
 }

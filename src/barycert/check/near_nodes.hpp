@@ -4,10 +4,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "barycert/check/defect_list.hpp"
+#include "barycert/check/exact_volumes.hpp"
 #include "barycert/check/facets.hpp"
+#include "barycert/check/pairs.hpp"
 #include "barycert/mesh.hpp"
 
 namespace barycert::check {
@@ -24,14 +27,16 @@ struct NearPair {
     double distance = 0;
 };
 
-/// The pairs of `nodes` that lie no farther apart than `radius` of both, an entry a node; ascending. The search ends
-/// beyond `limit` pairs, or somewhat later.
-std::vector<NearPair> near_pairs(const Mesh& mesh, const std::vector<Mesh::Index>& nodes,
-                                 const std::vector<double>& radius, std::size_t limit);
+/// found(pair) for the pairs of `nodes` that lie no farther apart than `radius` of both, an entry a node; in an order
+/// that does not depend on threads. False if there are more than `limit` of them, or on average more than 64 a node
+/// over many nodes: those beyond are not found. Memory is bounded by that.
+bool for_each_near(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, const std::vector<double>& radius,
+                   std::size_t limit, const std::function<void(const NearPair&)>& found);
 
-/// Finds near_nodes, as CheckOptions::near has them, and crack. `in_contact`: 1 for each node of a facet at a
-/// boundary_contact: near nodes and cracks there are its cause.
+/// Finds near_nodes and near_hanging, as CheckOptions::near has them, crack, and of touching.hanging those that are no
+/// near nodes. `meeting`: cells that meet where they must not; what two of them have of these is the cause.
 void find_cracks(const Mesh& mesh, const std::vector<std::uint8_t>& usable, const std::vector<BoundaryFacet>& facets,
-                 double near, const std::vector<std::uint8_t>& in_contact, CellMeasures& measures, DefectList& defects);
+                 const ExactVolumes& volumes, double near, const BoundaryContacts& touching,
+                 const std::vector<CellPair>& meeting, CellMeasures& measures, DefectList& defects);
 
 }  // namespace barycert::check

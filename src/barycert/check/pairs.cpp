@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <numeric>
+#include <tuple>
 
 #include "barycert/check/cells.hpp"
 #include "barycert/check/names.hpp"
@@ -83,14 +84,6 @@ void mark(CellMeasures& measures, Mesh::Index cell, DefectKind problem) {
     measures.defects[static_cast<std::size_t>(cell)] |= defect_bit(problem);
 }
 
-struct HangingNode {
-    Mesh::Index node = -1;
-    std::array<Mesh::Index, 3> face{-1, -1, -1};  ///< that it lies within
-    Mesh::Index cell = -1;                        ///< of the face
-
-    auto operator<=>(const HangingNode&) const = default;
-};
-
 /// The nodes of f within g, or within an edge of it: not those at the place of a node of g.
 void add_hanging(int d, const PlacedFacet& f, const PlacedFacet& g, Mesh::Index cell, std::vector<HangingNode>& all) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(d); ++i) {
@@ -100,6 +93,14 @@ void add_hanging(int d, const PlacedFacet& f, const PlacedFacet& g, Mesh::Index 
 }
 
 }  // namespace
+
+void sort_hanging(std::vector<HangingNode>& all) {
+    std::sort(all.begin(), all.end(), [](const HangingNode& a, const HangingNode& b) {
+        return std::tie(a.node, a.face, a.cell) < std::tie(b.node, b.face, b.cell);
+    });
+    const auto same = [](const HangingNode& a, const HangingNode& b) { return a.node == b.node && a.face == b.face; };
+    all.erase(std::unique(all.begin(), all.end(), same), all.end());
+}
 
 BoundaryContacts find_boundary_contacts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, std::size_t limit,
                                         CellMeasures& measures, DefectList& defects) {
@@ -113,45 +114,27 @@ BoundaryContacts find_boundary_contacts(const Mesh& mesh, const std::vector<Boun
         cells.push_back(facet.cell);
         items.push_back(item_of(f, mesh.dimension));
     }
-    bool complete = true;
     const auto conflict = [&](std::size_t i, std::size_t j) {
         return facets_conflict(mesh.dimension, proper_facets[i], proper_facets[j]);
     };
     BoundaryContacts out;
-    std::vector<HangingNode> hanging;
-    for (const Pair& p : conflicts(mesh.dimension, items, conflict, limit, complete)) {
+    for (const Pair& p : conflicts(mesh.dimension, items, conflict, limit, out.complete)) {
         const PlacedFacet &f = proper_facets[p.first], &g = proper_facets[p.second];
         out.cells.push_back({cells[p.first], cells[p.second]});
         for (const Mesh::Index cell : out.cells.back()) mark(measures, cell, DefectKind::boundary_contact);
         defects.add(DefectKind::boundary_contact,
                     {.cells = out.cells.back(), .nodes = f.nodes, .other_nodes = g.nodes});
-        add_hanging(mesh.dimension, f, g, cells[p.second], hanging);
-        add_hanging(mesh.dimension, g, f, cells[p.first], hanging);
-        out.in_contact.resize(mesh.point_count(), 0);
-        for (const PlacedFacet* const one : {&f, &g}) {
-            for (const Mesh::Index node : one->nodes) {
-                if (node >= 0) out.in_contact[static_cast<std::size_t>(node)] = 1;
-            }
-        }
+        add_hanging(mesh.dimension, f, g, cells[p.second], out.hanging);
+        add_hanging(mesh.dimension, g, f, cells[p.first], out.hanging);
     }
-    std::sort(hanging.begin(), hanging.end());
-    const auto same = [](const HangingNode& a, const HangingNode& b) { return a.node == b.node && a.face == b.face; };
-    hanging.erase(std::unique(hanging.begin(), hanging.end(), same), hanging.end());
-    for (const HangingNode& h : hanging) {
-        mark(measures, h.cell, DefectKind::hanging_node);
-        defects.add(DefectKind::hanging_node,
-                    {.cells = {h.cell, -1}, .nodes = {h.node, -1, -1}, .other_nodes = h.face});
-    }
-    if (!complete) {
-        defects.add_at_least(DefectKind::boundary_contact);
-        if (!hanging.empty()) defects.add_at_least(DefectKind::hanging_node);
-    }
+    sort_hanging(out.hanging);
+    if (!out.complete) defects.add_at_least(DefectKind::boundary_contact);
     return out;
 }
 
-void find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
-                       const std::vector<std::uint32_t>& pieces, std::size_t limit, CellMeasures& measures,
-                       DefectList& defects) {
+std::vector<CellPair> find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
+                                        const std::vector<std::uint32_t>& pieces, std::size_t limit,
+                                        CellMeasures& measures, DefectList& defects) {
     std::vector<std::size_t> inner;  // a cell at each piece
     std::vector<Item> items;
     for (const std::uint32_t piece : pieces) {
@@ -161,7 +144,7 @@ void find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facet
         items.push_back(item_of(mesh, cell));
     }
     const Candidates candidates(mesh.dimension, items);
-    if (candidates.bounds() == nullptr) return;
+    if (candidates.bounds() == nullptr) return {};
     // Most cells are far from the few that are asked for: one byte a node tells.
     const std::vector<std::uint8_t> codes = outcodes(mesh, *candidates.bounds());
     // For each piece the lowest cell that overlaps: no cell above it needs to be asked, and threads agree on it.
@@ -196,14 +179,16 @@ void find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facet
             const auto found = lowest.size() - static_cast<std::size_t>(std::count(lowest.begin(), lowest.end(), none));
             return complete = found <= limit;
         });
-    for (std::size_t i = 0, found = 0; i < inner.size() && found < limit; ++i) {
+    std::vector<CellPair> pairs;
+    for (std::size_t i = 0; i < inner.size() && pairs.size() < limit; ++i) {
         if (lowest[i] == none) continue;
-        ++found;
         const DefectPlace place{.cells = {static_cast<Mesh::Index>(inner[i]), static_cast<Mesh::Index>(lowest[i])}};
         for (const Mesh::Index cell : place.cells) mark(measures, cell, DefectKind::nested_part);
         defects.add(DefectKind::nested_part, place);
+        pairs.push_back(place.cells);
     }
     if (!complete) defects.add_at_least(DefectKind::nested_part);
+    return pairs;
 }
 
 std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, CellMeasures& measures, DefectList& defects) {

@@ -1,10 +1,12 @@
 #include "barycert/io/mesh_format.hpp"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "barycert/base/folder.hpp"
 #include "barycert/base/input_file.hpp"
@@ -152,6 +154,39 @@ Result<MeshFormat> mesh_output_format(const std::string& path) {
                  .expected = ".vtu, .vtk, .msh, .node, or a stem of TetGen's files",
                  .found = '"' + suffix + '"',
                  .remedy = "name a file with one of these suffixes"};
+}
+
+Notes left_out_by(MeshFormat format, const Mesh& mesh) {
+    Notes notes;
+    const auto leave_out = [&](std::string text) { notes.push_back({Note::Kind::left_out, std::move(text)}); };
+    if (format == MeshFormat::tetgen) {
+        for (const auto& [fields, file] : {std::pair(&mesh.point_fields, "a .node"), {&mesh.cell_fields, "an .ele"}}) {
+            std::vector<TableField> columns;
+            for (const Field& f : *fields) columns.push_back({f.name, f.components});
+            note_lost_names(column_names(columns), file, notes);
+        }
+    }
+    const bool groups = std::any_of(mesh.cell_fields.begin(), mesh.cell_fields.end(),
+                                    [](const Field& f) { return f.name == "gmsh:physical"; });
+    for (const Column& labels : mesh.cell_labels) {
+        const bool own = labels.name == "gmsh:tag" || (groups && labels.name == "gmsh:physical_name");
+        if (format == MeshFormat::tetgen || (format == MeshFormat::gmsh && !own))
+            leave_out("labels of cells, for which the format has no place: " + labels.name);
+    }
+    if (format != MeshFormat::tetgen && !mesh.faces.empty())
+        leave_out("faces, for which the format has no place: " + std::to_string(mesh.face_count()));
+    return notes;
+}
+
+void note_lost_names(const std::vector<std::string>& columns, const char* file, Notes& notes) {
+    std::string lost;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        if (const std::string own = "attribute" + std::to_string(i); columns[i] != own)
+            lost += (lost.empty() ? "" : ", ") + own + " is " + columns[i];
+    }
+    const Note note{Note::Kind::left_out,
+                    std::string("the names of fields, which ") + file + " file cannot hold: " + lost};
+    if (!lost.empty() && std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
 }
 
 }  // namespace barycert::io

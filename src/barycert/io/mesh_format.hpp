@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
+#include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {
@@ -25,5 +27,13 @@ std::string meshio_format(const std::string& path);
 
 /// Of a mesh that is to be written: by the end of its name. Error: it is another one.
 Result<MeshFormat> mesh_output_format(const std::string& path);
+
+/// What of the mesh a file of that format has no place for: names of fields, labels of cells, faces. What follows from
+/// the cells, as neighbours do, is not among it.
+Notes left_out_by(MeshFormat format, const Mesh& mesh);
+
+/// Adds to `notes`, once, which of these names a .node or .ele file does not have: its columns have no names, and are
+/// read as attribute0, attribute1, ...
+void note_lost_names(const std::vector<std::string>& columns, const char* file, Notes& notes);
 
 }  // namespace barycert::io

@@ -6,6 +6,7 @@
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/point_columns.hpp"
 #include "barycert/io/vtk/grid_to_mesh.hpp"
 #include "barycert/io/vtk/read_grid.hpp"
 
@@ -34,7 +35,11 @@ Result<PointTable> read_table(const std::string& path, bool arrays, NonfinitePoi
     table.notes = std::move(grid->notes);
     Result<std::vector<double>> points =
         nonfinite == NonfinitePoints::nan ? std::move(grid->points) : to_points(std::move(grid->points), 3, path);
-    if (!points) return points.error();
+    if (!points) {
+        Error error = points.error();
+        error.remedy += or_nan_for_it;
+        return error;
+    }
     table.points = std::move(*points);
     for (RawArray& array : grid->point_arrays) make_integers(array);
     take_fields(grid->point_arrays, "point array", path, table.fields, &table.labels, table.notes);

@@ -229,10 +229,14 @@ private:
             const std::array<double, 3>& n = job_.plane->normal;
             const std::string normal =
                 fmt::format("{},{},{}", base::shortest(n[0]), base::shortest(n[1]), base::shortest(n[2]));
-            e.found = fmt::format("D = {}, where the cells are from {} to {}", base::shortest(job_.plane->offset),
-                                  base::shortest(summary_.low), base::shortest(summary_.high));
-            e.remedy = fmt::format("choose D between them: --plane {},{}", normal,
-                                   base::shortest(summary_.low / 2 + summary_.high / 2));
+            const double low = summary_.low, high = summary_.high, at = job_.plane->offset;
+            const bool touches = at == low || at == high;
+            e.found = fmt::format("D = {}, {} the cells are from {} to {}", base::shortest(at),
+                                  touches ? "a plane that only touches the boundary:" : "where", base::shortest(low),
+                                  base::shortest(high));
+            const double inwards = at == low ? low + (high - low) / 1000 : high - (high - low) / 1000;
+            e.remedy = fmt::format("{}: --plane {},{}", touches ? "move it inwards" : "choose D between them", normal,
+                                   base::shortest(touches ? inwards : low / 2 + high / 2));
             return e;
         }
         const auto count = static_cast<std::uint64_t>(pixels->width * pixels->height);

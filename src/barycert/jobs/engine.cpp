@@ -61,9 +61,9 @@ std::string counted(std::uint64_t n, const char* what) {
 }
 
 /// Why points are found by walks, and where not.
-std::string reason_of(const Locator& locator, std::uint64_t degenerate, const std::string& program) {
+std::string reason_of(const Locator& locator, std::uint64_t degenerate, bool curved, const std::string& program) {
     const std::uint64_t contested = locator.contested_cells();
-    if (locator.certified()) return "the mesh is certified";
+    if (locator.certified()) return curved ? "the mesh is certified for straight sides" : "the mesh is certified";
     if (contested == 0 && degenerate != 0) return "cells meet in common faces; degenerate ones are left out";
     return fmt::format(
         "{} of {} cells may meet others beside common faces, and there other such cells are tested, too; "
@@ -333,7 +333,7 @@ Status Engine::prepare() {
     // Of several meshes, that all are certified, or why one is not.
     if (summary.verdict == Verdict::not_certified) return Done{};
     summary.verdict = locator_->certified() ? Verdict::certified : Verdict::not_certified;
-    summary.reason = reason_of(*locator_, locator_->degenerate_cells(), run_.job.program);
+    summary.reason = reason_of(*locator_, locator_->degenerate_cells(), summary.curved.cells != 0, run_.job.program);
     return Done{};
 }
 

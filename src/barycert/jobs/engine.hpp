@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "barycert/io.hpp"
+#include "barycert/jobs/field_files.hpp"
+#include "barycert/jobs/run.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/mesh/part.hpp"
-#include "barycert/jobs/field_files.hpp"
-#include "barycert/jobs/run.hpp"
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string_view>
+#include <system_error>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
@@ -10,6 +12,7 @@
 #include "barycert/io/fields/field_file.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/medit/read_medit.hpp"
+#include "barycert/io/mesh_format.hpp"
 #include "barycert/io/vtk_points.hpp"
 #include "barycert/sample/points/field_choice.hpp"
 
@@ -131,10 +134,15 @@ Result<Field> read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
 }  // namespace
 
 bool is_file_of_a_mesh(const std::string& path) {
-    constexpr std::array<std::string_view, 5> suffixes{".msh", ".mesh", ".meshb", ".node", ".ele"};
-    return io::is_vtk_points_file(path) || std::any_of(suffixes.begin(), suffixes.end(), [&](std::string_view suffix) {
-               return io::has_suffix(path, suffix);
-           });
+    constexpr std::array<std::string_view, 5> of_meshes{".msh", ".mesh", ".meshb", ".node", ".ele"};
+    constexpr std::array<std::string_view, 6> of_tables{".csv", ".txt", ".dat", ".xyz", ".tsv", ".npy"};
+    const auto ends_as = [&](const auto& suffixes) {
+        return std::any_of(suffixes.begin(), suffixes.end(),
+                           [&](std::string_view suffix) { return io::has_suffix(path, suffix); });
+    };
+    if (io::is_vtk_points_file(path) || ends_as(of_meshes)) return true;
+    std::error_code ignored;  // what is no regular file is not opened to look at it
+    return !ends_as(of_tables) && std::filesystem::is_regular_file(path, ignored) && io::mesh_format(path);
 }
 
 bool is_name_of_rows(const std::string& name) {

@@ -15,7 +15,8 @@ namespace barycert::jobs {
 /// vtkValidPointMask.
 bool is_name_of_rows(const std::string& name);
 
-/// Whether fields are read from such a file as arrays of a mesh, by its suffix.
+/// Whether fields are read from such a file as arrays of a mesh: by its suffix, else by what it is. Files that end as
+/// tables do are none: .dat, which is Tecplot's, too, among them.
 bool is_file_of_a_mesh(const std::string& path);
 
 /// Where a field of the mesh is.

@@ -104,14 +104,7 @@ Result<std::unique_ptr<TableSink>> mesh_sink(Mesh mesh, const std::string& path,
                      .found = "label " + base::quoted(format.carried.front().name),
                      .remedy = "leave labels out of --fields, or write rows: .csv or .npy"};
     const Result<io::MeshFormat> kind = io::mesh_output_format(path);
-    const std::vector<std::string> names = format.columns();
-    std::string lost;
-    for (std::size_t i = 0; i < names.size() && kind && *kind == io::MeshFormat::tetgen; ++i) {
-        if (const std::string own = fmt::format("attribute{}", i); names[i] != own)
-            lost += fmt::format("{}{} is {}", lost.empty() ? "" : ", ", own, names[i]);
-    }
-    const Note note{Note::Kind::left_out, "the names of fields, which a .node file cannot hold: " + lost};
-    if (!lost.empty() && std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+    if (kind && *kind == io::MeshFormat::tetgen) io::note_lost_names(format.columns(), "a .node", notes);
     return std::unique_ptr<TableSink>(std::make_unique<MeshSink>(std::move(mesh), path, format));
 }
 

@@ -155,8 +155,11 @@ Status at_points_of_map(Run& run, const SampleJob& job, Engine& engine) {
 
 }  // namespace
 
-Result<SampleReport> sample_files(const SampleJob& job) {
+Result<SampleReport> sample_files(const SampleJob& asked) {
     const base::RunFiles files;
+    SampleJob job = asked;
+    // What a map holds was let in when it was made.
+    if (!job.map.empty()) job.options.nonfinite_points = NonfinitePoints::nan;
     auto steps = jobs::find_steps(job);
     if (!steps) return steps.error();
     if (Status ok = check_job(job, *steps); !ok) return ok.error();

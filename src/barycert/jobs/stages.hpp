@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "barycert/environment.hpp"
-#include "barycert/locate/batch.hpp"
 #include "barycert/jobs/run.hpp"
+#include "barycert/locate/batch.hpp"
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
 #include "barycert/table.hpp"

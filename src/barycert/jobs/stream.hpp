@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "barycert/io.hpp"
-#include "barycert/map.hpp"
 #include "barycert/jobs/engine.hpp"
 #include "barycert/jobs/run.hpp"
+#include "barycert/map.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::jobs {

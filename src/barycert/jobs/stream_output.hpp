@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "barycert/io/npz/weights_file.hpp"
-#include "barycert/map.hpp"
 #include "barycert/jobs/stages.hpp"
 #include "barycert/jobs/stream.hpp"
+#include "barycert/map.hpp"
 
 namespace barycert::jobs {
 

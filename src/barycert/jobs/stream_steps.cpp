@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "barycert/mesh/columns.hpp"
 #include "barycert/jobs/series.hpp"
 #include "barycert/jobs/stages.hpp"
 #include "barycert/jobs/stream.hpp"
+#include "barycert/mesh/columns.hpp"
 
 namespace barycert::jobs {
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "barycert/base/text.hpp"
-#include "barycert/mesh/columns.hpp"
 #include "barycert/jobs/field_files.hpp"
+#include "barycert/mesh/columns.hpp"
 
 namespace barycert::jobs {
 namespace {

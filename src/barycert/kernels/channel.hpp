@@ -1,8 +1,9 @@
 /// The memory that the program shares with the process of a user's kernel, and what the two say to each other.
 ///
-/// Three processes: the program; its server, forked when the library is named, which has no other thread and so may
-/// fork at any time; and the workers, which the server forks, one for each thread that asks. A worker loads the library
-/// and answers batches. When it dies, the program has the server fork another.
+/// Four processes: the program; its server, forked when the library is named, which has no other thread and so may fork
+/// at any time; between the two a keeper, which waits for the server's end and then ends what that has left behind; and
+/// the workers, which the server forks, one for each thread that asks. A worker loads the library and answers batches.
+/// When it dies, the program has the server fork another.
 #pragma once
 
 #include <array>

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -70,7 +71,21 @@ bool socket_pair(int (&ends)[2], int type) {
     const int null = open("/dev/null", O_RDWR);
     for (const int stream : {0, 1, 2}) dup2(null, stream);
     if (null > 3) close(null);
-    run_server(channels, 3, path);
+    // A kernel that kills the server leaves what it has forked to this process, which ends it. The program itself might
+    // adopt it, too, but has children that are no affair of the library's.
+    setsid();
+    prctl(PR_SET_CHILD_SUBREAPER, 1);
+    const pid_t keeper = getpid(), server = fork();
+    if (server == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        if (getppid() != keeper) _exit(0);  // it ended before that was set
+        run_server(channels, 3, path);
+    }
+    close(3);
+    while (server > 0 && waitpid(server, nullptr, 0) < 0 && errno == EINTR) {
+    }
+    end_children({});
+    _exit(0);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ private:
     int milliseconds_ = 1000, loading_milliseconds_ = 0;
     Channel* channels_ = nullptr;
     int server_socket_ = -1;
-    int server_ = -1;
+    int server_ = -1;  // its keeper, which ends with it
     Description description_;
     std::mutex mutex_, server_mutex_;
     std::condition_variable freed_;

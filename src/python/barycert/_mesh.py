@@ -329,26 +329,31 @@ class Mesh:
             cell, feature = _core.locate(self._core, rows, count_of(threads, "threads="), tell, nonfinite_points)
         return Location(self, rows, shape, cell, feature)
 
-    def locate_all(self, points: Any, *, threads: int = 0, progress: Progress = None) -> Tuple[np.ndarray, np.ndarray]:
-        """Every cell that holds each of n points (in the order of points.reshape(-1, d)).
+    def locate_all(
+        self, points: Any, *, nonfinite_points: str = "error", threads: int = 0, progress: Progress = None
+    ) -> Tuple[np.ndarray, np.ndarray]:
+        """Every cell that holds each of n points (in the order of points.reshape(-1, d)); `nonfinite_points` as for `locate`.
 
         Returns:
             begin (n + 1) int64 and cells int32: those of point i are cells[begin[i]:begin[i + 1]], ascending.
         """
-        rows, _ = points_of(points, self.dimension)
+        rows, _ = points_of(points, self.dimension, nonfinite_points)
         with Teller(progress) as tell:
-            return _core.locate_all(self._core, rows, count_of(threads, "threads="), tell)
+            return _core.locate_all(self._core, rows, count_of(threads, "threads="), tell, nonfinite_points)
 
-    def nearest(self, points: Any, *, limit: float = np.inf, progress: Progress = None) -> Tuple[np.ndarray, np.ndarray]:
-        """The nearest cell to each point: exact, the lowest index among those as near.
+    def nearest(
+        self, points: Any, *, limit: float = np.inf, nonfinite_points: str = "error", progress: Progress = None
+    ) -> Tuple[np.ndarray, np.ndarray]:
+        """The nearest cell to each point: exact, the lowest index among those as near. `nonfinite_points`: "nan" takes
+        points with a coordinate that is NaN, infinite or masked for such as are near no cell.
 
         Returns:
             cells (...) int32, -1 where none is within `limit`; distances (...) float64, rounded to nearest, 0 inside, NaN
             where there is no cell.
         """
-        rows, shape = points_of(points, self.dimension)
+        rows, shape = points_of(points, self.dimension, nonfinite_points)
         with Teller(progress) as tell:
-            cells, distances = _core.nearest(self._core, rows, float(limit), tell)
+            cells, distances = _core.nearest(self._core, rows, float(limit), tell, nonfinite_points)
         return cells.reshape(shape), distances.reshape(shape)
 
     def sample(
@@ -616,7 +621,7 @@ def read(
     .mesh and .meshb of Medit; .vtu, .vtk, .vtp, .pvtu, .vtm and .pvd of VTK. The format is told by the contents.
 
     Args:
-        step: of a series (.pvd, .vtu.series), by its number from 0, or "last"; default: the first, with a warning.
+        step: of a series (.pvd, .vtu.series, .vtp.series), by its number from 0, or "last"; default: the first, with a warning.
         time: likewise, by its time, exactly as the file has it.
         curved: as for `Mesh`.
 
@@ -628,6 +633,8 @@ def read(
     if step is not None and time is not None:
         _core.fail("step and time", expected="one of them", found="both")
     last = isinstance(step, str) and step == "last"
+    if isinstance(step, str) and not last:
+        _core.fail("step of a series", expected='a number from 0, or "last"', found=repr(step))
     number = None if step is None or last else count_of(step, "step=")
     mesh = Mesh._of_core(_core.read(os.fspath(path), number, last, time))
     mesh._take_as_straight(os.fspath(path), curved)

@@ -119,6 +119,7 @@ def verify(
     exact: bool = False,
     outside_value: Optional[float] = None,
     examples: int = 5,
+    nonfinite_points: str = "error",
     threads: int = 0,
     progress: Progress = None,
 ) -> Verification:
@@ -136,11 +137,12 @@ def verify(
         exact: right is what has the bits of the correctly rounded value.
         outside_value: a row of this number alone means outside.
         examples: rows kept of each kind of error.
+        nonfinite_points: "nan": points with a coordinate that is NaN, infinite or masked are outside.
 
     Raises:
         Error: shapes do not fit; there is nothing to compare.
     """
-    rows, shape = points_of(points, mesh.dimension)
+    rows, shape = points_of(points, mesh.dimension, nonfinite_points)
     count = len(rows)
     if (values is None or (isinstance(values, Mapping) and not values)) and cells is None and inside is None:
         _core.fail("nothing to compare", expected="values, cells or inside")
@@ -182,6 +184,7 @@ def verify(
             sampler, rows, flat(cells, np.int64, "cells"),
             None if inside is None else flat(np.asarray(inside) != 0, np.uint8, "inside"),
             table, tolerance, exact, outside_value, count_of(examples, "examples="), count_of(threads, "threads="), tell,
+            nonfinite_points,
         )  # fmt: skip
     columns = [ColumnErrors(**c) for c in found.pop("columns")]
     wrong = [WrongRow(feature=Feature(row.pop("feature")), **row) for row in found.pop("examples")]

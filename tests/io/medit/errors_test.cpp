@@ -15,6 +15,17 @@ struct Refused {
     const char *what, *expected, *found;
 };
 
+TEST(MeditErrors, a_surface_in_space_is_told_how_to_be_filled) {
+    const TemporaryFolder folder;
+    put(folder / "m.mesh", head + nodes + "Triangles 1 1 2 4 0\nEnd\n");
+    const Result<Mesh> read = read_mesh(folder / "m.mesh");
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().what, "z of point 3 (from 0)");
+    EXPECT_NE(read.error().remedy.find("if it is closed, fill it: `meshio convert " + folder / "m.mesh"),
+              std::string::npos)
+        << read.error().remedy;
+}
+
 TEST(MeditErrors, text) {
     const std::vector<Refused> all{
         {"MFEM mesh v1.0\n", 1, "not a file of Medit", nullptr, "\"MFEM\""},

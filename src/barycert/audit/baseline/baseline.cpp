@@ -112,7 +112,7 @@ const std::vector<std::string>& baseline_figures() {
 Result<Baseline> read_baseline(const std::string& path) {
     const ExactEnvironment environment;
     const char* const remedy = "make one with `barycert audit --json FILE`";
-    const Result<std::string> text = base::read_file(path, base::longest_pipe, base::Text::all);
+    const Result<std::string> text = base::read_file(path, base::longest_pipe, base::Text::json);
     if (!text) {
         Error error = text.error();
         error.what = "cannot read the baseline";

@@ -28,7 +28,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds most_time{600};
-constexpr std::int64_t tick = 50;  // milliseconds after which it is looked at
+constexpr std::int64_t tick = 50;                        // milliseconds after which it is looked at
 constexpr std::size_t most_text = std::size_t{1} << 18;  // of each stream
 
 /// Both ends, closed when it goes.
@@ -181,7 +181,15 @@ Result<MeshioFile> run_meshio(const std::string& path, const std::string& format
                      .remedy = "unset BARYCERT_MESHIO, or set it to a Python that has meshio"};
     const Result<base::InputFile> input = base::InputFile::open(path);
     if (!input) return input.error();
-    if (Status begins = input->check(beginning_of(*input, path, format), path); !begins) return begins.error();
+    const auto keyword = [&](std::string_view block, std::uint64_t) -> Status {
+        if (format != "abaqus" || block.starts_with('*') || block.find("\n*") != std::string_view::npos) return Done{};
+        return Error{.what = "not a mesh of Abaqus",
+                     .file = path,
+                     .expected = "a keyword, such as *NODE, in the first " + std::to_string(block.size()) + " bytes",
+                     .found = "none",
+                     .remedy = "check the path, or write the file again"};
+    };
+    if (Status begins = input->check(beginning_of(*input, path, format), path, keyword); !begins) return begins.error();
     std::vector<std::string> pythons{"python3", "/usr/bin/python3"};
     if (named != nullptr) pythons = {named};
     const std::string memory = half_of_memory();

@@ -82,6 +82,7 @@ Status CsvSource::begin(const PointOptions& options, const std::vector<ColumnFor
 
 /// The bad line has been counted.
 Error CsvSource::row_error(const CsvPiece& piece) const {
+    if (const Status same = lines_.unchanged(); !same) return same.error();
     return piece.cut ? base::unended_number(lines_.name(), lines_.number())
                      : csv_row_error(piece.bad, layout_, place());
 }

@@ -27,6 +27,7 @@ Result<LineReader> LineReader::open(const std::string& path) {
     if (::fstat(reader.descriptor_, &status) != 0) return base::read_failure(reader.name_, errno);
     if (S_ISDIR(status.st_mode)) return base::read_failure(reader.name_, EISDIR);
     base::record_input(reader.descriptor_, reader.name_);
+    if (S_ISREG(status.st_mode)) reader.then_ = {static_cast<std::uint64_t>(status.st_size), status.st_mtim};
     // A small file takes a small buffer: all of it, and a byte more than that, so that the end is met at once.
     const bool small = S_ISREG(status.st_mode) && static_cast<std::uint64_t>(status.st_size) < longest_line;
     const std::size_t room = small ? static_cast<std::size_t>(status.st_size) + 1 : longest_line;
@@ -38,6 +39,7 @@ Result<LineReader> LineReader::open(const std::string& path) {
 LineReader::LineReader(LineReader&& other) noexcept
     : name_(std::move(other.name_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
+      then_(other.then_),
       owned_(std::exchange(other.owned_, false)),
       ended_(other.ended_),
       buffer_(std::move(other.buffer_)),
@@ -73,6 +75,9 @@ bool LineReader::skip_mark() {
                   .remedy = "name a file that ends in .npy: a stream or a file of another name is read as CSV"};
         return false;
     }
+    // A smaller part of the file, as a pipe gives, is decided line by line.
+    if (const Status text = base::check_beginning(head.substr(0, base::first_block), base::Text::words, name_); !text)
+        error_ = text.error();
     if (const OtherFormat* packed = packed_format(head); owned_ && packed != nullptr)
         error_ = other_format_error(*packed, name_);
     return !failed();
@@ -114,6 +119,11 @@ bool LineReader::more_is_there() const {
     return ::poll(&asked, 1, 0) == 1;
 }
 
+bool LineReader::end() {
+    if (const Status same = unchanged(); !same) error_ = same.error();
+    return false;
+}
+
 bool LineReader::next(std::string_view& line) {
     if (failed()) return false;
     const char* feed = nullptr;
@@ -123,7 +133,7 @@ bool LineReader::next(std::string_view& line) {
         searched_ = end_;
         if (!refill()) return false;
     }
-    if (feed == nullptr && begin_ == end_) return false;
+    if (feed == nullptr && begin_ == end_) return end();
     const std::size_t stop = feed == nullptr ? end_ : static_cast<std::size_t>(feed - buffer_.data());
     line = std::string_view(buffer_.data() + begin_, stop - begin_);
     line_ended_ = feed != nullptr || line.ends_with('\r');
@@ -143,7 +153,7 @@ bool LineReader::next_lines(std::string_view& lines) {
         if (!refill()) return false;
     }
     const std::string_view text = held();
-    if (text.empty()) return false;
+    if (text.empty()) return end();
     std::size_t size = text.size();
     if (!ended_) {
         const std::size_t feed = text.rfind('\n');

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "barycert/base/input_file.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {
@@ -33,6 +35,10 @@ public:
     bool next_lines(std::string_view& lines);
     void count(std::size_t lines) { number_ += lines; }
 
+    /// Error: it is a regular file and was changed since it was opened, so that a line that is wrong may be half of
+    /// one. Looked at where the file ends.
+    Status unchanged() const { return then_ ? base::unchanged(descriptor_, *then_, name_) : Status(Done{}); }
+
     bool failed() const { return !error_.what.empty(); }
     const Error& error() const { return error_; }
 
@@ -51,11 +57,14 @@ private:
     /// Reading would not wait.
     bool more_is_there() const;
     bool skip_mark();
+    /// False: nothing more comes, and failed() if the file was changed.
+    bool end();
 
     std::string name_;
     int descriptor_ = -1;
-    bool owned_ = false;  // the standard input stays open
-    bool ended_ = false;  // nothing more comes from the system
+    std::optional<base::FileState> then_;  // of a regular file
+    bool owned_ = false;                   // the standard input stays open
+    bool ended_ = false;                   // nothing more comes from the system
     std::vector<char> buffer_;
     std::size_t begin_ = 0;     // of the next line
     std::size_t end_ = 0;       // of what has been read

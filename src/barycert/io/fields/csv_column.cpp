@@ -103,7 +103,10 @@ Result<Field> read_csv_column(Field field, const std::string& path, const std::s
             layout = std::move(*settled);
             if (layout->lines.header) continue;
         }
-        if (Status taken = take_line(line, lines->line_ended(), *layout, place, field); !taken) return taken.error();
+        if (Status taken = take_line(line, lines->line_ended(), *layout, place, field); !taken) {
+            const Status same = lines->unchanged();
+            return same ? taken.error() : same.error();
+        }
     }
     if (lines->failed()) return lines->error();
     if (layout) field.components = static_cast<int>(layout->columns.size());

@@ -180,11 +180,16 @@ Result<Field> read_field_file(const std::string& name, const std::string& path, 
     Field field{.name = name, .components = 1, .data = {}};
     if (has_suffix(path, ".npy")) return read_npy(std::move(field), path, column, notes);
     if (!column.empty()) return read_csv_column(std::move(field), path, column);
-    const auto file = base::MappedFile::open(path, 1, base::Text::all);
-    if (!file) return file.error();
-    Result<Field> read = read_text(std::move(field), path, file->bytes());
-    if (!read) return with_columns(read.error(), name, path, file->bytes());
-    return read;
+    const auto rows_in = [&](std::string_view bytes) -> Result<Field> {
+        Result<Field> read = read_text(field, path, bytes);
+        return read ? read : with_columns(read.error(), name, path, bytes);
+    };
+    const auto first_rows = [&](std::string_view block, std::uint64_t) -> Status {
+        const Result<Field> read = rows_in(block.substr(0, block.rfind('\n') + 1));
+        return read ? Status(Done{}) : Status(read.error());
+    };
+    const auto file = base::MappedFile::open(path, 1, base::Text::all, first_rows);
+    return file ? rows_in(file->bytes()) : file.error();
 }
 
 }  // namespace barycert::io

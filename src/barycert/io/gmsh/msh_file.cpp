@@ -66,7 +66,7 @@ std::string word_at(const char* at, const char* end) {
 
 Error MshFile::error_at(const char* at, std::string what, std::string expected, std::string found,
                         std::string remedy) const {
-    const char* const begin = data_.bytes().data();
+    const char* const begin = bytes_.data();
     const bool text = layout_ != MshLayout::binary || at < after_format_;
     return {.what = std::move(what),
             .file = path_,
@@ -79,8 +79,8 @@ Error MshFile::error_at(const char* at, std::string what, std::string expected, 
 Status MshFile::read_format() {
     const std::string convert_remedy = "convert it with " + gmsh_command(path_);
     const char* const save_remedy = "write the file again, in version 4.1";
-    const char* at = data_.bytes().data() + byte_order_mark(data_.bytes());
-    const char* const end = data_.bytes().data() + data_.bytes().size();
+    const char* at = bytes_.data() + byte_order_mark(bytes_);
+    const char* const end = bytes_.data() + bytes_.size();
     const char* const first = at;
     const std::string_view head = trimmed(take_line(at, end));
     if (head == "$NOD") {
@@ -136,7 +136,7 @@ Status MshFile::read_format() {
 }
 
 Status MshFile::add_section(const char* at, const char* end) {
-    const char* const file_end = data_.bytes().data() + data_.bytes().size();
+    const char* const file_end = bytes_.data() + bytes_.size();
     const char* body = at;
     const std::string_view name = trimmed(take_line(body, file_end)).substr(1);
     if (end == nullptr) {
@@ -149,10 +149,10 @@ Status MshFile::add_section(const char* at, const char* end) {
 }
 
 Status MshFile::list_text_sections() {
-    const char* const file_end = data_.bytes().data() + data_.bytes().size();
+    const char* const file_end = bytes_.data() + bytes_.size();
     const auto name_of = [&](const char* at) { return trimmed(take_line(at, file_end)).substr(1); };
     const std::vector<const char*>& marks = lines_.marked();
-    const char* from = data_.bytes().data() + byte_order_mark(data_.bytes());
+    const char* from = bytes_.data() + byte_order_mark(bytes_);
     const auto stray = [&](const char* end) -> Status {
         while (from != end && is_space(*from)) ++from;
         if (from == end) return Done{};
@@ -177,8 +177,8 @@ Status MshFile::list_text_sections() {
 }
 
 Status MshFile::list_binary_sections() {
-    const char* at = data_.bytes().data() + byte_order_mark(data_.bytes());
-    const char* const end = data_.bytes().data() + data_.bytes().size();
+    const char* at = bytes_.data() + byte_order_mark(bytes_);
+    const char* const end = bytes_.data() + bytes_.size();
     while (true) {
         while (at != end && is_space(*at)) ++at;
         if (at == end) return Done{};
@@ -212,17 +212,22 @@ Status MshFile::check_sections() const {
 }
 
 Result<MshFile> MshFile::open(const std::string& path, int threads) {
-    Result<base::MappedFile> mapped = base::MappedFile::open(path, threads, base::Text::head);
-    if (!mapped) return mapped.error();
     MshFile file;
     file.path_ = path;
+    const auto format_in = [&](std::string_view block, std::uint64_t) {
+        file.bytes_ = block;
+        return file.read_format();
+    };
+    Result<base::MappedFile> mapped = base::MappedFile::open(path, threads, base::Text::head, format_in);
+    if (!mapped) return mapped.error();
     file.threads_ = threads;
     file.data_ = std::move(*mapped);
+    file.bytes_ = file.data_.bytes();
     Status status = file.read_format();
     if (status && file.layout_ == MshLayout::binary) {
         status = file.list_binary_sections();
     } else if (status) {
-        file.lines_ = LineIndex(file.data_.bytes().substr(byte_order_mark(file.data_.bytes())), threads);
+        file.lines_ = LineIndex(file.bytes_.substr(byte_order_mark(file.bytes_)), threads);
         status = file.list_text_sections();
     }
     if (status) status = file.check_sections();

@@ -57,6 +57,7 @@ private:
 
     std::string path_;
     base::MappedFile data_;
+    std::string_view bytes_;  // of data_
     int version_ = 41, threads_ = 0;
     MshLayout layout_ = MshLayout::lines;
     bool swapped_ = false;

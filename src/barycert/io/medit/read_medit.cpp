@@ -107,7 +107,8 @@ private:
         mesh_.point_markers = references(std::move(rows->integers));
         mesh_.points = std::move(rows->reals);
         if (mesh_.dimension < file_.dimension()) {
-            Result<std::vector<double>> flat = to_points(std::move(mesh_.points), 2, file_.path());
+            Result<std::vector<double>> flat =
+                to_points(std::move(mesh_.points), 2, file_.path(), is_simplex(cells_->keyword, 1) ? file_.path() : "");
             if (!flat) return flat.error();
             mesh_.points = std::move(*flat);
         }

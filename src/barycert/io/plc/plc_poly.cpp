@@ -4,14 +4,6 @@
 #include "barycert/io/plc/plc_text.hpp"
 
 namespace barycert::io {
-namespace {
-
-struct NodeHeader {
-    std::size_t nodes = 0;
-    int attributes = 0;
-    bool markers = false;
-};
-
 NodeHeader read_node_header(PlcText& in) {
     in.need_line("the number of nodes");
     NodeHeader header;
@@ -29,6 +21,8 @@ NodeHeader read_node_header(PlcText& in) {
     }
     return header;
 }
+
+namespace {
 
 void read_nodes(PlcText& in, const NodeHeader& header, Plc& plc) {
     plc.attribute_count = header.attributes;

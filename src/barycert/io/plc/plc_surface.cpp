@@ -108,13 +108,7 @@ Plc read_binary_stl(const std::string& path, std::string_view bytes) {
     return std::move(soup.plc);
 }
 
-/// The number of nodes or polygons and where x, y, z stand, from the head of a .ply file.
-struct PlyHeader {
-    std::size_t nodes = 0;
-    std::size_t polygons = 0;
-    std::array<std::optional<std::size_t>, 3> axis;
-    std::size_t properties = 0;
-};
+}  // namespace
 
 PlyHeader read_ply_header(PlcText& in, const std::string& path) {
     PlyHeader header;
@@ -155,17 +149,19 @@ PlyHeader read_ply_header(PlcText& in, const std::string& path) {
     return header;
 }
 
-}  // namespace
-
-Plc read_off(const std::string& path, std::string_view text) {
-    Plc plc;
-    PlcText in(path, text);
+OffHeader read_off_header(PlcText& in) {
     in.need_line("OFF");
     const std::string_view keyword = in.take("OFF");
     if (keyword != "OFF") in.fail("cannot read", "OFF", keyword);
     if (in.words_left() == 0) in.need_line("the counts of nodes and polygons");
     const std::size_t nodes = in.take_count("the number of nodes");
-    const std::size_t polygons = in.take_count("the number of polygons");
+    return {nodes, in.take_count("the number of polygons")};
+}
+
+Plc read_off(const std::string& path, std::string_view text) {
+    Plc plc;
+    PlcText in(path, text);
+    const auto [nodes, polygons] = read_off_header(in);
     for (std::size_t i = 0; i < nodes; ++i) {
         in.need_line("node " + std::to_string(i) + " of " + std::to_string(nodes));
         for (int axis = 0; axis < 3; ++axis) plc.points.push_back(in.take_number("a coordinate"));

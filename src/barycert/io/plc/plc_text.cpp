@@ -14,6 +14,28 @@
 #include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
+namespace {
+
+/// Of the first block; one that goes on behind it, after long comments, is left to the reader.
+Status check_header(std::string_view block, std::size_t size, const std::string& path) {
+    block = block.substr(0, block.rfind('\n') + 1);
+    if (block.starts_with("\xEF\xBB\xBF")) block.remove_prefix(3);
+    PlcText in(path, block, size);
+    try {
+        if (has_suffix(path, ".off")) {
+            read_off_header(in);
+        } else if (has_suffix(path, ".ply")) {
+            read_ply_header(in, path);
+        } else {
+            read_node_header(in);
+        }
+    } catch (const Exception& problem) {
+        if (!in.at_end()) return problem.error();
+    }
+    return Done{};
+}
+
+}  // namespace
 
 std::string read_whole_file(const std::string& path) {
     std::error_code code;
@@ -27,7 +49,9 @@ std::string read_whole_file(const std::string& path) {
     // A binary .stl may begin with zeros; its size tells at once whether it is one.
     const bool stl = has_suffix(path, ".stl");
     if (stl) check_stl_size(path);
-    Result<std::string> text = base::read_file(path, base::longest_pipe, stl ? base::Text::none : base::Text::all);
+    const auto header = [&](std::string_view block, std::uint64_t size) { return check_header(block, size, path); };
+    Result<std::string> text =
+        base::read_file(path, base::longest_pipe, stl ? base::Text::none : base::Text::all, header);
     if (!text) throw Exception(text.error());
     if (text->empty()) throw Exception(file_error(path, "cannot read", "a PLC", "an empty file"));
     if (const OtherFormat* packed = packed_format(*text); packed != nullptr)

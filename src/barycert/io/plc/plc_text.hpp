@@ -3,7 +3,9 @@
 /// For use within read_plc: errors are thrown as Exception and turned into a Result there.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,9 +22,13 @@ std::string read_whole_file(const std::string& path);
 
 class PlcText {
 public:
-    /// Both arguments must outlive the object. Words are parted by blanks and commas; `#` starts a comment.
-    PlcText(const std::string& path, std::string_view text)
-        : path_(path), rest_(text), end_(text.data() + text.size()), size_(text.size()) {}
+    /// Both texts must outlive the object. Words are parted by blanks and commas; `#` starts a comment. `size`: of the
+    /// file, where the text is its beginning.
+    PlcText(const std::string& path, std::string_view text) : PlcText(path, text, text.size()) {}
+    PlcText(const std::string& path, std::string_view text, std::size_t size)
+        : path_(path), rest_(text), end_(text.data() + text.size()), size_(size) {}
+
+    bool at_end() const { return rest_.empty(); }
 
     /// Goes to the next line that has words. False at the end of the file.
     bool next_line();
@@ -58,6 +64,27 @@ private:
     std::vector<std::string_view> words_;
     std::size_t at_ = 0;
 };
+
+/// The headers by themselves; each reader below reads its own.
+struct NodeHeader {
+    std::size_t nodes = 0;
+    int attributes = 0;
+    bool markers = false;
+};
+struct OffHeader {
+    std::size_t nodes = 0;
+    std::size_t polygons = 0;
+};
+/// The number of nodes or polygons and where x, y, z stand, from the head of a .ply file.
+struct PlyHeader {
+    std::size_t nodes = 0;
+    std::size_t polygons = 0;
+    std::array<std::optional<std::size_t>, 3> axis;
+    std::size_t properties = 0;
+};
+NodeHeader read_node_header(PlcText& in);
+OffHeader read_off_header(PlcText& in);
+PlyHeader read_ply_header(PlcText& in, const std::string& path);
 
 Plc read_poly(const std::string& path, std::string_view text, bool one_polygon_a_facet);
 Plc read_off(const std::string& path, std::string_view text);

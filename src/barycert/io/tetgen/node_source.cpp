@@ -81,6 +81,7 @@ Status NodeSource::begin(const PointOptions& options) {
                       {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute"},
                       {ColumnKind::integer, static_cast<std::size_t>(markers), "marker"}};
     table_.surplus_remedy = "mend the header: nodes, dimension, attributes, markers";
+    table_.finite_remedy = std::string("remove the point, give it coordinates") + or_nan_for_it;
     const std::vector<std::string_view> first = table_.first_row();
     std::int64_t id = 0;
     table_.base = !first.empty() && barycert::io::scan_integer(first.front().data(), id) != nullptr && id == 1 ? 1 : 0;

@@ -75,7 +75,7 @@ Complaint about_integer(std::string_view field) {
     return {"an integer", remedy_for_text(field)};
 }
 
-Complaint about_real(std::string_view field) {
+Complaint about_real(std::string_view field, const std::string& finite_remedy) {
     const std::string_view body = without_sign(field);
     if (looks_like_number(body, ".eEdD+-") && body.find_first_of("dD") != std::string_view::npos) {
         return {"a number", "write the exponent with e: TetGen would silently stop reading at the d"};
@@ -85,7 +85,7 @@ Complaint about_real(std::string_view field) {
     }
     std::string word(body.substr(0, 3));
     for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (word == "nan" || word == "inf") return {"a finite number", "give every node and cell finite numbers"};
+    if (word == "nan" || word == "inf") return {"a finite number", finite_remedy};
     return {"a number", remedy_for_text(field)};
 }
 
@@ -125,7 +125,7 @@ bool good_field(const TextTable& table, const Columns& columns, std::string_view
     if (columns.kind == ColumnKind::real) {
         double value = 0;
         if (scan_real(field.data(), end, value) == end) return true;
-        Complaint complaint = about_real(field);
+        Complaint complaint = about_real(field, table.finite_remedy);
         error = error_at(table, end, "bad " + columns.name, complaint.expected, base::quoted(field), complaint.remedy);
         return false;
     }
@@ -167,7 +167,7 @@ Error column_count_error(const TextTable& table, const std::vector<std::string_v
 }  // namespace
 
 std::vector<std::string_view> fields_of_line(const TextTable& table, const char* at) {
-    const std::string_view bytes = table.data.bytes();
+    const std::string_view bytes = table.bytes;
     const auto place = static_cast<std::size_t>(at - bytes.data());
     const std::size_t feed = place == 0 ? std::string_view::npos : bytes.rfind('\n', place - 1);
     std::size_t begin = feed == std::string_view::npos ? 0 : feed + 1;

@@ -153,12 +153,14 @@ void write_neighbours(RowWriter& out, const Mesh& mesh) {
 Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOptions& options) {
     const ExactEnvironment environment;
     if (const char* const fault = mesh::inconsistency(mesh); fault != nullptr) {
-        return Error{.what = std::string("cannot write the mesh: ") + fault,
-                     .file = stem,
-                     .line = 0,
-                     .expected = {},
-                     .found = {},
-                     .remedy = "correct the mesh in memory"};
+        const bool values_alone = mesh::inconsistency(mesh, mesh::FieldValues::any) == nullptr;
+        return Error{
+            .what = std::string("cannot write the mesh: ") + fault,
+            .file = stem,
+            .line = 0,
+            .expected = {},
+            .found = {},
+            .remedy = values_alone ? "choose .vtu, .vtk or .msh, which hold it" : "correct the mesh in memory"};
     }
     struct Part {
         const char* suffix;

@@ -68,31 +68,12 @@ Status parse_in_order(const TextTable& table) {
     return row_error(table, scanner.at, row);
 }
 
-}  // namespace
-
-std::size_t TextTable::column_count() const {
-    std::size_t count = 0;
-    for (const Columns& group : columns) count += group.count;
-    return count;
-}
-
-std::vector<std::string_view> TextTable::first_row() const {
-    Scanner scanner{body, end()};
-    if (!scanner.next_row(end())) return {};
-    return fields_of_line(*this, scanner.at);
-}
-
-Result<TextTable> open_table(const std::string& name, std::span<const char* const> header_names, int threads) {
-    const std::string path = plain_or_packed(name);
-    Result<base::MappedFile> mapped = base::MappedFile::open(path, threads, base::Text::all);
-    if (!mapped) return mapped.error();
-    TextTable table;
-    table.file = path;
-    table.data = std::move(*mapped);
-    if (const OtherFormat* packed = packed_format(table.data.bytes()); packed != nullptr)
-        return other_format_error(*packed, path);
+/// The header, and where it and the body begin.
+Status read_header(TextTable& table, std::span<const char* const> header_names) {
+    if (const OtherFormat* packed = packed_format(table.bytes); packed != nullptr)
+        return other_format_error(*packed, table.file);
     Scanner scanner{table.begin(), table.end()};
-    if (table.data.bytes().starts_with("\xEF\xBB\xBF")) scanner.at += 3;
+    if (table.bytes.starts_with("\xEF\xBB\xBF")) scanner.at += 3;
     const std::string expected = std::string("a header that begins with the number of ") + header_names[0];
     if (!scanner.next_row(table.end())) {
         return header_error(table, "the file is empty", expected, "nothing", "write the file again");
@@ -116,6 +97,38 @@ Result<TextTable> open_table(const std::string& name, std::span<const char* cons
         }
         table.header.push_back(value);
     }
+    return Done{};
+}
+
+}  // namespace
+
+std::size_t TextTable::column_count() const {
+    std::size_t count = 0;
+    for (const Columns& group : columns) count += group.count;
+    return count;
+}
+
+std::vector<std::string_view> TextTable::first_row() const {
+    Scanner scanner{body, end()};
+    if (!scanner.next_row(end())) return {};
+    return fields_of_line(*this, scanner.at);
+}
+
+Result<TextTable> open_table(const std::string& name, std::span<const char* const> header_names, int threads) {
+    TextTable table;
+    table.file = plain_or_packed(name);
+    const auto header_in = [&](std::string_view block, std::uint64_t) {
+        TextTable beginning;
+        beginning.file = table.file;
+        beginning.bytes = block.substr(0, block.rfind('\n') + 1);  // no comment is cut, and no number
+        Status read = read_header(beginning, header_names);
+        return beginning.header_at == nullptr ? Status(Done{}) : read;  // after many comments
+    };
+    Result<base::MappedFile> mapped = base::MappedFile::open(table.file, threads, base::Text::all, header_in);
+    if (!mapped) return mapped.error();
+    table.data = std::move(*mapped);
+    table.bytes = table.data.bytes();
+    if (Status read = read_header(table, header_names); !read) return read.error();
     table.rows = static_cast<std::size_t>(table.header[0]);
     return table;
 }

@@ -46,6 +46,7 @@ using ParseBlock = std::function<bool(Scanner& scanner, const char* stop, std::s
 struct TextTable {
     std::string file;
     base::MappedFile data;
+    std::string_view bytes;            ///< of data
     const char* header_at = nullptr;   ///< the first field of the header
     const char* body = nullptr;        ///< the line after the header
     std::vector<std::int64_t> header;  ///< the numbers of the header, at least the count of rows
@@ -55,10 +56,11 @@ struct TextTable {
     bool base_is_given = false;  ///< by another file of the mesh
     std::vector<Columns> columns;
     std::string surplus_remedy;  ///< what to mend if rows have more columns than the header tells
+    std::string finite_remedy = "give every node and cell finite numbers";
     ParseBlock parse;
 
-    const char* begin() const { return data.bytes().data(); }
-    const char* end() const { return begin() + data.bytes().size(); }
+    const char* begin() const { return bytes.data(); }
+    const char* end() const { return begin() + bytes.size(); }
     std::size_t column_count() const;
 
     /// The first row's fields; empty if there is no row.

@@ -15,6 +15,7 @@
 #include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/collection.hpp"
 #include "barycert/io/vtk/grid_to_mesh.hpp"
+#include "barycert/io/vtk/legacy_text.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/io/vtk/read_grid.hpp"
 #include "barycert/io/vtk/series_file.hpp"
@@ -28,6 +29,24 @@ bool is_xml(std::string_view bytes) {
     std::string_view text = bytes.substr(0, 4096);
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // byte order mark
     return io::next_word(text).starts_with('<');
+}
+
+Error not_of_vtk(const std::string& path, const char* what) {
+    return {.what = what,
+            .file = path,
+            .expected = "XML (.vtu, .vtp) or a first line '# vtk DataFile Version ...' (.vtk)",
+            .remedy = "check the path; unpack a compressed file first"};
+}
+
+/// The whole file, of which the first block has to show that it is of VTK.
+Result<base::MappedFile> open_file(const std::string& path) {
+    return base::MappedFile::open(path, 1, base::Text::head, [&](std::string_view block, std::uint64_t) -> Status {
+        if (block.starts_with("\xEF\xBB\xBF")) block.remove_prefix(3);
+        if (block.starts_with("# vtk")) return io::LegacyText(block, path).read_head();
+        if (io::is_series_file(block) || (is_xml(block) && block.find("<VTKFile") != std::string_view::npos))
+            return Done{};
+        return not_of_vtk(path, "not a file of VTK");
+    });
 }
 
 /// The files that a file names; none where it holds data itself.
@@ -62,7 +81,7 @@ public:
 
 private:
     Result<io::RawGrid> read_one(const std::string& path) {
-        const Result<base::MappedFile> file = base::MappedFile::open(path, 1, base::Text::head);
+        const Result<base::MappedFile> file = open_file(path);
         if (!file) return file.error();
         std::error_code ignored;
         if (!seen_.insert(std::filesystem::weakly_canonical(path, ignored).string()).second) {
@@ -81,12 +100,7 @@ private:
             return read_step(*files, path);
         }
         if (!is_xml(bytes)) {
-            return Error{.what = bytes.empty() ? "the file is empty" : "not a file of VTK",
-                         .file = path,
-                         .line = 0,
-                         .expected = "XML (.vtu, .vtp) or a first line '# vtk DataFile Version ...' (.vtk)",
-                         .found = {},
-                         .remedy = "check the path; unpack a compressed file first"};
+            return not_of_vtk(path, bytes.empty() ? "the file is empty" : "not a file of VTK");
         }
         const Result<io::XmlTree> tree = io::parse_xml(bytes, path);
         if (!tree) return tree.error();
@@ -246,7 +260,7 @@ Result<PointData> read_vtk_point_data(const std::string& path, int dimension,
 
 Result<std::vector<SeriesStep>> read_series(const std::string& path) {
     return without_throwing<std::vector<SeriesStep>>(path, [&]() -> Result<std::vector<SeriesStep>> {
-        const Result<base::MappedFile> file = base::MappedFile::open(path, 1, base::Text::head);
+        const Result<base::MappedFile> file = open_file(path);
         if (!file) return file.error();
         if (io::is_series_file(file->bytes())) {
             const Result<std::vector<io::CollectionFile>> files = io::series_files(file->bytes(), path);
@@ -275,7 +289,7 @@ std::vector<std::string> vtk_mesh_files(const std::string& path) {
     // Names within names; what cannot be read is told by the reader.
     std::set<std::string> known{path};
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const Result<base::MappedFile> file = base::MappedFile::open(all[i], 1, base::Text::head);
+        const Result<base::MappedFile> file = open_file(all[i]);
         if (!file) continue;
         const Result<std::vector<io::CollectionFile>> files = files_named_in(file->bytes(), all[i]);
         if (!files) continue;

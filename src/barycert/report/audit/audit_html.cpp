@@ -44,8 +44,10 @@ dd{margin:0;overflow-wrap:anywhere}
 )";
 
 std::string verdict_html(const AuditReport& r, const TerminalStyle& style) {
-    std::string out = fmt::format("<section class=\"verdict {}\"><b>{}</b>", any_wrong(r) ? "bad" : "good",
-                                  html_escaped(verdict_sentence(r)));
+    std::string out;
+    for (std::size_t i = 0; i < r.curved.size(); ++i) out += curved_section(r.curved[i], r.meshes[i] + ": ");
+    out += fmt::format("<section class=\"verdict {}\"><b>{}</b>", any_wrong(r) ? "bad" : "good",
+                       html_escaped(verdict_sentence(r)));
     for (const std::string& line : verdict_details(r)) out += fmt::format("<p>{}</p>", html_escaped(line));
     out += "</section>\n<p>" + html_escaped(cases_sentence(r)) + ".</p>\n";
     out += "<p>" + html_escaped(oracle_line(r.oracles)) + ".</p>\n";

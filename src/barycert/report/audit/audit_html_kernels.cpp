@@ -73,9 +73,10 @@ std::string error_histogram(const KernelResult& k) {
 
 std::string witness_html(const AuditReport& report, const KernelResult& k, const Witness& w,
                          const TerminalStyle& style) {
-    return fmt::format("<p><b>{}</b>: {}. Worst: {}: {}.</p><p><code class=\"copy\">{}</code></p>\n",
-                       html_escaped(w.reason), html_escaped(finding_sentence(k, w)), html_escaped(place_of(w)),
-                       html_escaped(shows(w)), html_escaped(replay_command(report, k, w, style)));
+    const std::string replay = html_escaped(replay_command(report, k, w, style));
+    return fmt::format("<p><b>{}</b>: {}. Worst: {}: {}.</p>{}\n", html_escaped(w.reason),
+                       html_escaped(finding_sentence(k, w)), html_escaped(place_of(w)), html_escaped(shows(w)),
+                       replay.empty() ? "" : "<p><code class=\"copy\">" + replay + "</code></p>");
 }
 
 }  // namespace

@@ -68,6 +68,7 @@ std::string replay_from_file(const std::string& kernel, const std::string& reaso
 
 std::string replay_command(const AuditReport& report, const KernelResult& k, const Witness& w,
                            const TerminalStyle& style) {
+    if (k.kernel.raised != nullptr) return {};  // no other program has the callable
     if (!style.witness_path.empty()) return replay_from_file(k.kernel.name, w.reason, style);
     std::string command = style.command + " replay" + kernel_words(style);
     const auto family =

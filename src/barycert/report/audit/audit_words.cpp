@@ -184,11 +184,6 @@ std::string how_it_was_made(const AuditReport& report) {
 std::vector<MeshLine> mesh_lines(const AuditReport& report, std::string_view command) {
     if (report.meshes.empty()) return {MeshLine{.text = "meshes: none"}};
     std::vector<MeshLine> lines;
-    for (std::size_t i = 0; i < report.curved.size(); ++i) {
-        if (const std::string text = message(report.curved[i]); !text.empty())
-            lines.push_back(
-                {fmt::format("{}: {}", base::printable(report.meshes[i]), text), report.curved[i].cells != 0});
-    }
     const auto line = [&](Verdict verdict, std::string_view text, const std::string& hint) {
         std::string names;
         for (std::size_t i = 0; i < report.meshes.size(); ++i) {

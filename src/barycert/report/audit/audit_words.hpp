@@ -80,6 +80,7 @@ std::string shows(const Witness& w);
 /// The command that shows the witnesses of style.witness_path with that kernel and reason.
 std::string replay_from_file(const std::string& kernel, const std::string& reason, const TerminalStyle& style);
 /// The command that shows a witness.
+/// Empty of a callable.
 std::string replay_command(const AuditReport& report, const KernelResult& k, const Witness& w,
                            const TerminalStyle& style);
 

@@ -127,7 +127,7 @@ SystemsLeague systems_from(const OthersJson& all) {
 Result<OtherResults> read_other_results(const std::string& path) {
     const ExactEnvironment environment;
     const char* const remedy = "make one with `./run flags --json FILE` or `./run systems --json FILE`";
-    const Result<std::string> text = base::read_file(path, base::longest_pipe, base::Text::all);
+    const Result<std::string> text = base::read_file(path, base::longest_pipe, base::Text::json);
     if (!text) return text.error();
     const OthersJson all = OthersJson::parse(*text, nullptr, false);
     if (all.is_discarded())

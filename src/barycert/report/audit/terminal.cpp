@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "barycert/audit_report.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report/audit/audit_words.hpp"
 #include "barycert/report/audit/oracle_words.hpp"
@@ -71,12 +72,17 @@ std::string league_table(const AuditReport& report, const Colours& paint) {
 
 std::string audit_text(const AuditReport& report, const TerminalStyle& style) {
     const ExactEnvironment environment;
-    if (style.wide) return wide_text(report, style);
     const Colours paint(style.colour);
-    if (report.kernels.size() == 1) return kernel_text(report, style);
+    std::string out;
+    for (std::size_t i = 0; i < report.curved.size(); ++i) {
+        const std::string text = message(report.curved[i]), line = base::printable(report.meshes[i]) + ": " + text;
+        if (!text.empty()) out += (report.curved[i].cells != 0 ? paint.bold(line) : line) + "\n";
+    }
+    if (style.wide) return out + wide_text(report, style);
+    if (report.kernels.size() == 1) return out + kernel_text(report, style);
     const std::string verdict = verdict_sentence(report);
     constexpr std::size_t width = 100;
-    std::string out = (any_wrong(report) ? paint.bad(verdict) : paint.good(verdict)) + "\n";
+    out += (any_wrong(report) ? paint.bad(verdict) : paint.good(verdict)) + "\n";
     for (const std::string& line : verdict_details(report)) out += wrapped(line, width);
     out += "\n" + league_table(report, paint) + "\n" + wrapped(cases_sentence(report), width) +
            wrapped(oracle_line(report.oracles), width);
@@ -86,9 +92,9 @@ std::string audit_text(const AuditReport& report, const TerminalStyle& style) {
     }
     out += how_it_was_made(report) + "\n" + environment_line(report.environment) + "\n";
     const KernelResult& worst = report.kernels.front();
-    if (const Witness* w = worst_witness(worst); w != nullptr)
-        out += fmt::format("\nSee the worst kernel fail ({}, {}):\n    {}\n", w->reason, shows(*w),
-                           replay_command(report, worst, *w, style));
+    const Witness* const w = worst_witness(worst);
+    if (const std::string replay = w == nullptr ? "" : replay_command(report, worst, *w, style); !replay.empty())
+        out += fmt::format("\nSee the worst kernel fail ({}, {}):\n    {}\n", w->reason, shows(*w), replay);
     return out +
            paint.dim("One kernel, family by family: --kernel NAME. All counts and witnesses: --wide, --html FILE.\n");
 }

@@ -56,8 +56,9 @@ std::string kernel_findings(const AuditReport& report, const KernelResult& k, co
     std::string out;
     for (const Witness& w : k.witnesses) {
         out += paint.bold(w.reason + ": " + finding_sentence(k, w)) + "\n";
-        out +=
-            fmt::format("    {}: {}\n    {}\n", place_of(w), shows(w), paint.dim(replay_command(report, k, w, style)));
+        out += fmt::format("    {}: {}\n", place_of(w), shows(w));
+        if (const std::string replay = replay_command(report, k, w, style); !replay.empty())
+            out += fmt::format("    {}\n", paint.dim(replay));
     }
     if (out.empty() && k.total.not_run == 0) return "No witness: every weight and value is correctly rounded.\n";
     return out;
@@ -75,8 +76,9 @@ std::string kernel_text(const AuditReport& report, const TerminalStyle& style) {
     const std::string what = what_it_is(k.kernel);
     out += (what.empty() ? "" : "\n" + what) + "\n";
     out += kernel_families(report, k, paint) + "\n";
-    out += paint.bold("Worst case of each finding, and the command that replays it:") + "\n" +
-           kernel_findings(report, k, style, paint) + "\n";
+    out += paint.bold(k.kernel.raised != nullptr ? "Worst case of each finding:"
+                                                 : "Worst case of each finding, and the command that replays it:") +
+           "\n" + kernel_findings(report, k, style, paint) + "\n";
     out += wrapped(cases_sentence(report), kernel_text_width) + wrapped(oracle_line(report.oracles), kernel_text_width);
     for (const MeshLine& line : mesh_lines(report, style.command)) {
         const std::string text = wrapped(line.text, kernel_text_width, ", ");

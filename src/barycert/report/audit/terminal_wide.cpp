@@ -77,8 +77,9 @@ std::string witness_list(const AuditReport& report, const TerminalStyle& style, 
                                                     : ": no witness, every weight and value is correctly rounded\n");
             continue;
         }
-        out += fmt::format("{}: {} in {} ({})\n    {}\n", paint.bold(k.kernel.name), w->reason, place_of(*w), shows(*w),
-                           replay_command(report, k, *w, style));
+        out += fmt::format("{}: {} in {} ({})\n", paint.bold(k.kernel.name), w->reason, place_of(*w), shows(*w));
+        if (const std::string replay = replay_command(report, k, *w, style); !replay.empty())
+            out += fmt::format("    {}\n", replay);
     }
     return out;
 }

@@ -37,7 +37,7 @@ std::string spaced(std::string_view name) {
     return out;
 }
 
-std::string verdict(const CheckReport& r) {
+std::string verdict_section(const CheckReport& r) {
     if (r.certified()) {
         const std::string what = r.cells == 0 ? "The mesh has no cells, so the conditions hold trivially."
                                               : fmt::format("{}.</p><p>{}", words(r).certified(), words(r).proof());
@@ -147,9 +147,9 @@ std::string defects(const CheckReport& r, bool breaking) {
 
 std::string repaired(const FixedMesh& fixed) {
     std::string done;
-    for (const std::string& line : fix_sentences(fixed.done)) done += fmt::format("<li>{}</li>", html_escaped(line));
+    for (const std::string& line : fix_sentences(fixed)) done += fmt::format("<li>{}</li>", html_escaped(line));
     return fmt::format("<h2>Repaired copy: {}</h2>\n<ul>{}</ul>\n", html_escaped(fixed.file), done) +
-           verdict(fixed.after);
+           verdict_section(fixed.after);
 }
 
 std::string contacts(const CheckReport& r) {
@@ -253,9 +253,11 @@ std::string exhibits(const CheckReport& r, const Mesh& mesh) {
 
 std::string check_html(const CheckReport& r, const Mesh& mesh, const std::string& mesh_name, const FixedMesh* fixed) {
     const ExactEnvironment environment;
-    std::string out = page_head(mesh_name + (r.certified() ? ": certified" : ": NOT certified"), html_style) +
+    const std::string verdict =
+        r.certified() ? fmt::format(": certified{}", for_straight_sides(r.curved)) : ": NOT certified";
+    std::string out = page_head(mesh_name + verdict, html_style) +
                       fmt::format("<h1>Mesh certificate of <b>{}</b></h1>\n", html_escaped(mesh_name));
-    out += curved_section(r.curved) + verdict(r);
+    out += curved_section(r.curved) + verdict_section(r);
     // Without a structure there are no measures, and nothing that could be drawn.
     const bool looked_at = r.find(DefectKind::bad_structure) == nullptr;
     const bool cells = looked_at && r.cells != 0 && r.measures.volume.size() == r.cells &&

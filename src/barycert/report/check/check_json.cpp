@@ -65,7 +65,7 @@ Json finding_json(const CheckReport& r, const Defect& f) {
         place["cells"] = indices(r.cell_number(p.cells));
         place["nodes"] = indices(p.nodes);
         if (p.other_nodes[0] >= 0) place["other_nodes"] = indices(p.other_nodes);
-        if (f.kind == DefectKind::near_nodes) {
+        if (f.kind == DefectKind::near_nodes || f.kind == DefectKind::near_hanging) {
             place["distance"] = figure(p.distance);
             place["relative"] = figure(p.relative);
         }
@@ -170,10 +170,15 @@ Json fix_json(const FixedMesh& fixed) {
     j["turned"] = done.turned;
     j["dropped_faces"] = done.dropped_faces;
     j["differing_markers"] = done.differing_markers;
-    j["fields"] = Json::array();
-    for (const MergedField& f : done.fields)
-        j["fields"].push_back(
-            Json{{"name", f.name}, {"differ", f.differ}, {"largest_difference", figure(f.max_difference)}});
+    j["differing_face_markers"] = done.differing_face_markers;
+    j["changed_neighbours"] = done.changed_neighbours;
+    for (const auto& [name, fields] : {std::pair("fields", &done.fields), {"cell_fields", &done.cell_fields}}) {
+        j[name] = Json::array();
+        for (const MergedField& f : *fields)
+            j[name].push_back(
+                Json{{"name", f.name}, {"differ", f.differ}, {"largest_difference", figure(f.max_difference)}});
+    }
+    j["notes"] = notes_json(fixed.notes);
     j["verdict"] = barycert::name(fixed.after.certificate.verdict());
     j["remaining"] = Json::array();
     for (const Defect& f : fixed.after.defects) j["remaining"].push_back(finding_json(fixed.after, f));

@@ -271,7 +271,7 @@ std::string fix_text(const FixedMesh& fixed, const TerminalStyle& style) {
     const std::string name = base::printable(fixed.file);
     const CheckReport& after = fixed.after;
     std::string out = "\n" + paint.bold(fmt::format("Repaired copy: {}", name)) + "\n";
-    for (const std::string& line : fix_sentences(fixed.done)) out += line + "\n";
+    for (const std::string& line : fix_sentences(fixed)) out += line + "\n";
     out += after.certified() ? certified(after, name, paint) : not_certified(after, name, paint);
     return after.certified() ? out : out + defect_list(after, true, "What remains in the copy", paint);
 }

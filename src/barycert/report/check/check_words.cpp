@@ -62,10 +62,12 @@ std::string_view left_out_sentence(const CheckReport& report) {
 std::string place_text(const CheckReport& report, DefectKind kind, const DefectPlace& p) {
     const auto cells = used(report.cell_number(p.cells));
     auto nodes = used(p.nodes), others = used(p.other_nodes);
-    if (kind == DefectKind::hanging_node)
-        return fmt::format("node {} within {} {} of cell {}", fmt::join(nodes, " "),
-                           others.size() == 2 && report.dimension == 3 ? "edge" : "facet", fmt::join(others, " "),
-                           fmt::join(cells, " "));
+    const std::string on = fmt::format("{} {} of cell {}", others.size() == 2 ? "edge" : "facet",
+                                       fmt::join(others, " "), fmt::join(cells, " "));
+    if (kind == DefectKind::hanging_node) return fmt::format("node {} within {}", fmt::join(nodes, " "), on);
+    if (kind == DefectKind::near_hanging)
+        return fmt::format("node {}, {:.3g} off {} ({:.3g} of an edge)", fmt::join(nodes, " "), p.distance, on,
+                           p.relative);
     if (kind == DefectKind::near_nodes)
         return fmt::format("nodes {}, {:.3g} apart ({:.3g} of an edge)", fmt::join(nodes, " and "), p.distance,
                            p.relative);
@@ -93,11 +95,19 @@ std::vector<std::string> note_sentences(const CheckReport& report) {
     return all;
 }
 
-std::vector<std::string> fix_sentences(const FixReport& done) {
+std::vector<std::string> fix_sentences(const FixedMesh& fixed) {
+    const FixReport& done = fixed.done;
     const auto counted = [](std::uint64_t n, std::string_view one, std::string_view more) {
         return fmt::format("{} {}", n, n == 1 ? one : more);
     };
     std::vector<std::string> all;
+    const auto tell_differing = [&](const std::vector<MergedField>& fields, std::string_view one, std::string_view more,
+                                    std::string_view than) {
+        for (const MergedField& f : fields)
+            all.push_back(fmt::format("field {}: {} than the {} that is kept{}: those are left out",
+                                      base::printable(f.name), counted(f.differ, one, more), than,
+                                      f.max_difference == 0 ? "" : ", by up to " + base::shortest(f.max_difference)));
+    };
     if (!done.merged.empty()) {
         const auto far = std::max_element(done.merged.begin(), done.merged.end(),
                                           [](const MergedNode& a, const MergedNode& b) { return a.moved < b.moved; });
@@ -107,11 +117,7 @@ std::vector<std::string> fix_sentences(const FixReport& done) {
                                                   : fmt::format(", moved by at most {} (node {} to node {})",
                                                                 base::shortest(far->moved), far->node, far->into)));
     }
-    for (const MergedField& f : done.fields)
-        all.push_back(fmt::format("field {}: {} than the node that is kept, by up to {}: those are left out",
-                                  base::printable(f.name),
-                                  counted(f.differ, "merged node has another value", "merged nodes have other values"),
-                                  base::shortest(f.max_difference)));
+    tell_differing(done.fields, "merged node has another value", "merged nodes have other values", "node");
     if (done.differing_markers != 0)
         all.push_back(
             counted(done.differing_markers, "merged node has another marker", "merged nodes have other markers") +
@@ -128,13 +134,21 @@ std::vector<std::string> fix_sentences(const FixReport& done) {
             fmt::format("{} dropped: {}{}", counted(done.dropped.size(), "cell", "cells"), fmt::join(kinds, ", "),
                         done.collapsed == 0 ? "" : fmt::format("; {} of them have merged nodes", done.collapsed)));
     }
+    tell_differing(done.cell_fields, "duplicate has another value", "duplicates have other values", "cell");
     if (done.dropped_faces != 0)
         all.push_back(counted(done.dropped_faces, "face", "faces") +
                       " dropped: no cell has them, or they became twins");
+    if (done.differing_face_markers != 0)
+        all.push_back(counted(done.differing_face_markers, "twin has another marker", "twins have other markers") +
+                      " than the face that is kept: those are left out");
+    if (done.changed_neighbours != 0)
+        all.push_back(counted(done.changed_neighbours, "entry", "entries") + " of neighbours corrected");
     if (done.turned != 0) all.push_back(counted(done.turned, "cell", "cells") + " turned to positive orientation");
-    if (!done.merged.empty() || !done.dropped.empty())
+    if ((!done.merged.empty() || !done.dropped.empty()) && fixed.after.cells != 0)
         all.emplace_back("nodes and cells behind those that went are numbered anew; --json FILE lists which went");
-    if (all.empty()) all.emplace_back("nothing to repair: the copy is as the mesh is");
+    if (all.empty())
+        all.emplace_back(fixed.notes.empty() ? "nothing to repair: the copy is as the mesh is" : "nothing to repair");
+    for (const Note& note : fixed.notes) all.push_back(message(note));
     return all;
 }
 

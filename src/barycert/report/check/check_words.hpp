@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "barycert/check.hpp"
+#include "barycert/report.hpp"
 
 namespace barycert::report {
 
@@ -45,7 +46,7 @@ std::string numbering_sentence(const CheckReport& report, const Mesh& mesh);
 std::vector<std::string> note_sentences(const CheckReport& report);
 
 /// What was done to a mesh, a line each.
-std::vector<std::string> fix_sentences(const FixReport& done);
+std::vector<std::string> fix_sentences(const FixedMesh& fixed);
 
 /// "1,234,567".
 std::string grouped(std::uint64_t n);

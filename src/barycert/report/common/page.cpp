@@ -26,9 +26,10 @@ std::string page_foot(std::string_view made_by, bool script) {
                        script ? "<script>" : "", script ? page_script : "", script ? "</script>\n" : "");
 }
 
-std::string curved_section(const CurvedCells& curved) {
-    const std::string text = html_escaped(message(curved));
-    if (curved.cells == 0) return text.empty() ? text : fmt::format("<p class=\"small\">{}.</p>\n", text);
+std::string curved_section(const CurvedCells& curved, const std::string& mesh) {
+    if (message(curved).empty()) return {};
+    const std::string text = html_escaped(mesh + message(curved));
+    if (curved.cells == 0) return fmt::format("<p class=\"small\">{}.</p>\n", text);
     return fmt::format(
         "<section class=\"verdict told\"><b>Curved cells</b><p>{}. What is said below, \"exact\" and \"certified\" "
         "included, holds of the cells with straight sides.</p></section>\n",

@@ -18,7 +18,7 @@ std::string page_head(std::string_view title, std::string_view style = {});
 std::string page_foot(std::string_view made_by, bool script = false);
 
 /// What stands before all else on a mesh whose sides are not straight; empty if they are.
-std::string curved_section(const CurvedCells& curved);
+std::string curved_section(const CurvedCells& curved, const std::string& mesh = {});
 
 /// Bytes as "data:TYPE;base64,...".
 std::string data_uri(std::string_view type, std::string_view bytes);

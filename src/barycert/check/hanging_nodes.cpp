@@ -1,0 +1,229 @@
+#include "barycert/check/hanging_nodes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "barycert/check/cells.hpp"
+#include "barycert/check/names.hpp"
+#include "barycert/index/box_tree.hpp"
+#include "barycert/index/facet_contact.hpp"
+#include "barycert/predicates.hpp"
+
+namespace barycert::check {
+namespace {
+
+using Index = Mesh::Index;
+
+/// A difference of two doubles, and what its rounding lost: a node an ulp off an edge is far off nothing else.
+struct Difference {
+    double high = 0, low = 0;
+};
+using Vector = std::array<Difference, 3>;
+
+/// x u - y v to about its last place, however much of it cancels.
+double minor(const Difference& x, const Difference& u, const Difference& y, const Difference& v) {
+    const double product = y.high * v.high;
+    return std::fma(x.high, u.high, -product) + std::fma(-y.high, v.high, product) +
+           (x.high * u.low + x.low * u.high - y.high * v.low - y.low * v.high);
+}
+
+Vector cross(const Vector& u, const Vector& v) {
+    Vector out;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+        out[k].high = minor(u[a], v[b], u[b], v[a]);
+    }
+    return out;
+}
+
+double dot(const Vector& u, const Vector& v) {
+    return u[0].high * v[0].high + u[1].high * v[1].high + u[2].high * v[2].high;
+}
+
+double length(const Vector& u) {
+    return std::hypot(u[0].high, u[1].high, u[2].high);
+}
+
+class NearFaces {
+public:
+    NearFaces(const Mesh& mesh, const ExactVolumes& volumes, const std::vector<double>& radius)
+        : mesh_(mesh), d_(static_cast<std::size_t>(mesh.dimension)), volumes_(volumes), radius_(radius) {}
+
+    /// The edge of the facet, or all of it, that the node nearly lies within; a face without nodes if there is none.
+    HangingNode face_at(Index node, const BoundaryFacet& f) const {
+        HangingNode h{.node = node, .face = {-1, -1, -1}, .cell = f.cell};
+        double extent = 0, radius = radius_[index(node)];
+        for (std::size_t i = 0; i < d_; ++i) {
+            if (f.nodes[i] == node) return h;
+            for (const Difference& x : between(f.nodes[0], f.nodes[i], 0)) extent = std::max(extent, std::fabs(x.high));
+            radius = std::min(radius, radius_[index(f.nodes[i])]);
+        }
+        const int unit = std::ilogb(extent);  // squares of lengths are to be doubles
+        radius = std::ldexp(radius, -unit);
+        const Vector normal = cross(between(f.nodes[0], f.nodes[1], unit), between(f.nodes[0], f.nodes[d_ - 1], unit));
+        bool inside = d_ == 3;
+        h.distance = radius;
+        for (std::size_t i = 0; i < d_; ++i) {
+            const Vector to = between(f.nodes[i], node, unit);
+            if (length(to) <= radius) return {.node = node, .face = {-1, -1, -1}, .cell = f.cell};
+            if (d_ == 2 && i == 1) break;
+            const Index next = f.nodes[(i + 1) % d_];
+            const Vector side = between(f.nodes[i], next, unit), area = cross(side, to);
+            const double along = dot(side, to), distance = length(area) / length(side);
+            inside = inside && dot(area, normal) > 0;
+            if (along > 0 && along < dot(side, side) && distance <= h.distance)
+                h.face = {std::min(f.nodes[i], next), std::max(f.nodes[i], next), -1}, h.distance = distance;
+        }
+        if (h.face[0] < 0 && inside) {
+            const double* const p[] = {at(f.nodes[0]), at(f.nodes[1]), at(f.nodes[2]), at(node)};
+            h.distance = 6 * std::fabs(volumes_.rounded(volumes_.cell(p), unit)) / length(normal);
+            if (h.distance <= radius) h.face = f.nodes;
+            std::sort(h.face.begin(), h.face.end());
+        }
+        h.distance = std::ldexp(h.distance, unit);
+        return h;
+    }
+
+    /// Not near the plane of the facet (2D: its line), as most facets are not whose boxes are near. In plain double:
+    /// the rounding errors of h are below 16 units of 2^-53 of the sum of its terms' magnitudes, unless these
+    /// underflow.
+    bool is_far(Index node, const BoundaryFacet& f) const {
+        std::array<double, 3> u{}, v{0, 0, 1}, t{};
+        for (std::size_t k = 0; k < d_; ++k) {
+            const double origin = at(f.nodes[0])[k];
+            u[k] = at(f.nodes[1])[k] - origin, t[k] = at(node)[k] - origin;
+            if (d_ == 3) v[k] = at(f.nodes[2])[k] - origin;
+        }
+        const double radius = radius_[index(node)];
+        double h = 0, normal = 0, terms = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double x = u[(k + 1) % 3] * v[(k + 2) % 3], y = u[(k + 2) % 3] * v[(k + 1) % 3];
+            h += t[k] * (x - y);
+            normal += std::fabs(x - y);
+            terms += (std::fabs(t[k]) + radius) * (std::fabs(x) + std::fabs(y));
+        }
+        return terms > 0x1p-900 && std::fabs(h) > radius * normal + 0x1p-48 * terms;
+    }
+
+    /// It hangs, which is told as such.
+    bool is_on(Index node, const BoundaryFacet& f) const {
+        PlacedFacet facet{f.nodes, {}};
+        for (std::size_t i = 0; i < d_; ++i) facet.at[i] = at(f.nodes[i]);
+        return face_around(mesh_.dimension, facet, at(node))[0] >= 0;
+    }
+    /// The node is beyond the facet.
+    bool is_beyond(Index node, const BoundaryFacet& f) const {
+        return weight(node, index(f.cell), static_cast<std::size_t>(f.corner)) <= 0;
+    }
+    bool is_in(Index node, std::size_t cell) const {
+        for (std::size_t i = 0; i <= d_; ++i) {
+            if (weight(node, cell, i) < 0) return false;
+        }
+        return true;
+    }
+
+private:
+    static std::size_t index(Index i) { return static_cast<std::size_t>(i); }
+    const double* at(Index node) const { return &mesh_.points[index(node) * d_]; }
+
+    /// Its sign: that of the node in the cell, at corner i.
+    int weight(Index node, std::size_t cell, std::size_t i) const {
+        auto corners = corner_points(mesh_, cell);
+        const int whole = sign(corners);
+        corners[i] = at(node);
+        return whole * sign(corners);
+    }
+    int sign(const std::array<const double*, 4>& p) const {
+        return static_cast<int>(d_ == 2 ? orient2d(p[0], p[1], p[2]) : orient3d(p[0], p[1], p[2], p[3]));
+    }
+
+    /// In units of 2^unit.
+    Vector between(Index from, Index to, int unit) const {
+        Vector v;
+        for (std::size_t k = 0; k < d_; ++k) {
+            const double a = std::ldexp(at(to)[k], -unit), b = std::ldexp(at(from)[k], -unit);
+            const double high = a - b, less = high - a;
+            v[k] = {high, (a - (high - less)) - (b + less)};
+        }
+        return v;
+    }
+
+    const Mesh& mesh_;
+    std::size_t d_;
+    const ExactVolumes& volumes_;
+    const std::vector<double>& radius_;
+};
+
+/// Without those of a cell that has the node, too: it is a thin cell, not one that was not split. And without those
+/// behind a facet and in no cell at the edge or facet: there are other cells in between, as in thin plates, whose two
+/// sides are near each other and right.
+void leave_out_right_ones(const Mesh& mesh, const std::vector<std::uint8_t>& usable, const NearFaces& faces,
+                          std::vector<HangingNode>& all) {
+    std::sort(all.begin(), all.end(), [](const HangingNode& a, const HangingNode& b) { return a.face < b.face; });
+    for (std::size_t cell = 0; cell < usable.size() && !all.empty(); ++cell) {
+        const std::span nodes = std::span(mesh.cells).subspan(cell * mesh.corners(), mesh.corners());
+        const auto has = [&](Index n) { return n < 0 || std::find(nodes.begin(), nodes.end(), n) != nodes.end(); };
+        for (const Index node : nodes) {
+            if (usable[cell] == 0) break;
+            auto h = std::lower_bound(all.begin(), all.end(), node,
+                                      [](const HangingNode& a, Index n) { return a.face[0] < n; });
+            for (; h != all.end() && h->face[0] == node; ++h) {
+                if (h->node < 0 || !std::all_of(h->face.begin(), h->face.end(), has)) continue;
+                if (has(h->node))
+                    h->node = -1;
+                else if (h->cell < 0 && faces.is_in(h->node, cell))
+                    h->cell = static_cast<Index>(cell);
+            }
+        }
+    }
+    std::erase_if(all, [](const HangingNode& h) { return h.node < 0 || h.cell < 0; });
+}
+
+}  // namespace
+
+std::vector<HangingNode> nearly_hanging(const Mesh& mesh, const std::vector<std::uint8_t>& usable,
+                                        const std::vector<BoundaryFacet>& facets, const ExactVolumes& volumes,
+                                        const std::vector<double>& radius, std::size_t limit, bool& complete) {
+    std::vector<Box> boxes;
+    for (const BoundaryFacet& f : facets) {
+        std::array<const double*, 3> p{};
+        for (std::size_t i = 0; i < mesh.corners() - 1; ++i)
+            p[i] = &mesh.points[static_cast<std::size_t>(f.nodes[i]) * (mesh.corners() - 1)];
+        boxes.push_back(box_of(mesh.dimension, p.data(), mesh.dimension));
+    }
+    const BoxTree tree(std::move(boxes));
+    const NearFaces faces(mesh, volumes, radius);
+    std::vector<HangingNode> all;
+    in_waves(
+        radius.size(), 1024, [] { return std::vector<HangingNode>(); },
+        [&](std::size_t first, std::size_t last, std::vector<HangingNode>& part) {
+            for (std::size_t node = first; node < last && part.size() <= limit; ++node) {
+                if (radius[node] == 0) continue;
+                Box box{};
+                for (std::size_t k = 0; k < mesh.corners() - 1; ++k) {
+                    const double x = mesh.points[node * (mesh.corners() - 1) + k];
+                    box.low[k] = x - radius[node], box.high[k] = x + radius[node];
+                }
+                tree.for_each(box, [&](std::uint32_t f) {
+                    // A degenerate cell is told as such.
+                    if (!facets[f].oriented || faces.is_far(static_cast<Index>(node), facets[f])) return true;
+                    HangingNode h = faces.face_at(static_cast<Index>(node), facets[f]);
+                    if (h.face[1] < 0 || faces.is_on(h.node, facets[f])) return true;
+                    if (!faces.is_beyond(h.node, facets[f])) h.cell = -1;
+                    part.push_back(h);
+                    return part.size() <= limit;
+                });
+            }
+        },
+        [&](const std::vector<HangingNode>& part) { all.insert(all.end(), part.begin(), part.end()); },
+        [&] { return all.size() <= limit; });
+    complete = all.size() <= limit;
+    all.resize(std::min(all.size(), limit));
+    leave_out_right_ones(mesh, usable, faces, all);
+    sort_hanging(all);
+    return all;
+}
+
+}  // namespace barycert::check
