@@ -86,4 +86,18 @@ bool exact_gradient(Simplex simplex, const double* vertices, const double* value
 bool exact_quadratic(Simplex simplex, const double* vertices, const double* point, const double* values, int components,
                      double* out);
 
+// Perspective-correct weights, depth and values, of what perspective.hpp requires of coordinates and depths, in its
+// layouts. Each returns false, and leaves `out` as it was, if there are no weights.
+
+/// The three weights, correctly rounded.
+bool exact_perspective_weights(const double* vertices, const double* point, double* out);
+
+/// Z, correctly rounded.
+bool exact_perspective_depth(const double* vertices, const double* point, double* out);
+
+/// `components` values, each correctly rounded; NaN where a value is not finite at a vertex whose weight is not exactly
+/// zero.
+bool exact_perspective_values(const double* vertices, const double* point, const double* values, int components,
+                              double* out);
+
 }  // namespace barycert::core

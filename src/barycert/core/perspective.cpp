@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "barycert/core/exact_tier.hpp"
 #include "barycert/core/input_checks.hpp"
-#include "barycert/core/perspective_exact.hpp"
-#include "barycert/core/perspective_lanes.hpp"
+#include "barycert/core/lanes.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert::core {

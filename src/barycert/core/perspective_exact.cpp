@@ -1,4 +1,4 @@
-#include "barycert/core/perspective_exact.hpp"
+#include "barycert/core/exact_tier.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -87,8 +87,7 @@ bool with_projected(const Parts& parts, Use use) {
 
 template <class Number, class Divisor>
 double rounded(const Number& number, const Divisor& divisor, int exponent) {
-    const Integer &n = as_integer(number), &d = as_integer(divisor);
-    return round_quotient(n.sign() != d.sign(), n.magnitude(), d.magnitude(), exponent);
+    return round_quotient(as_integer(number), as_integer(divisor), exponent);
 }
 
 /// sum m_i f_i / m. Widths: values below 2^(64 M - 3) in M limbs give products below 2^(256 N + 64 M - 12) in

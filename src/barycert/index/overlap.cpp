@@ -31,7 +31,11 @@ bool facet_separates(int d, const Corners& a, const Corners& b) {
     for (std::size_t i = 0; i < corners; ++i) {
         const Sign inner = side(d, a, i, a[i]);
         bool separates = true;
-        for (std::size_t j = 0; j < corners && separates; ++j) separates = side(d, a, i, b[j]) != inner;
+        for (std::size_t j = 0; j < corners && separates; ++j) {
+            bool common = false;  // a vertex of the facet is on its plane
+            for (std::size_t k = 0; k < corners; ++k) common |= k != i && a[k] == b[j];
+            separates = common || side(d, a, i, b[j]) != inner;
+        }
         if (separates) return true;
     }
     return false;
@@ -53,8 +57,12 @@ bool edges_separate(const Corners& a, const Corners& b, const std::array<std::si
 
 }  // namespace
 
+bool may_overlap(int d, const Corners& a, const Corners& b) {
+    return !facet_separates(d, a, b) && !facet_separates(d, b, a);
+}
+
 bool interiors_meet(int d, const Corners& a, const Corners& b) {
-    if (facet_separates(d, a, b) || facet_separates(d, b, a)) return false;
+    if (!may_overlap(d, a, b)) return false;
     if (d == 2) return true;
     for (const auto& e : edges) {
         for (const auto& f : edges) {

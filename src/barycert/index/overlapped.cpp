@@ -13,17 +13,13 @@ bool has(std::span<const Place> ascending, Place cell) {
     return std::binary_search(ascending.begin(), ascending.end(), cell);
 }
 
-Corners corners_of(const CellIndex& index, Place cell) {
-    return item_of(index, cell).at;
-}
-
 bool overlapped(const CellIndex& index, Place cell, std::span<const Place> degenerate, const CellTree& tree) {
     const auto d = static_cast<int>(index.dimension());
-    const Corners at = corners_of(index, cell);
+    const Corners at = item_of(index, cell).at;
     bool found = false;
     tree.for_each_meeting(box_of(index, cell), [&](std::size_t i) {
         const auto other = static_cast<Place>(i);
-        if (other != cell && !has(degenerate, other)) found = interiors_meet(d, at, corners_of(index, other));
+        if (other != cell && !has(degenerate, other)) found = interiors_meet(d, at, item_of(index, other).at);
         return !found;
     });
     return found;

@@ -13,7 +13,7 @@ namespace barycert {
 namespace {
 
 Status check_size(const Locator& locator, std::span<const double> points) {
-    const std::size_t d = locator.data().index.dimension();
+    const auto d = static_cast<std::size_t>(locator.mesh().dimension);
     if (points.size() % d == 0) return Done{};
     return Error{.what = "size of the points",
                  .expected = std::to_string(d) + " coordinates a point",

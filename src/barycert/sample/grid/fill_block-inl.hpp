@@ -23,12 +23,11 @@
 #include <vector>
 
 #include "barycert/core/gradient-inl.hpp"
-#include "barycert/core/partial_lanes-inl.hpp"
+#include "barycert/core/lane_loop-inl.hpp"
 #include "barycert/sample/grid/raster_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::sample {
-namespace HWY_NAMESPACE {
+namespace barycert::sample::HWY_NAMESPACE {
 
 using namespace core::HWY_NAMESPACE;
 
@@ -127,7 +126,6 @@ HWY_INLINE void set_places(D tag, const Raster& raster, PlaceRange layers, const
     }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::sample
+}  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -27,8 +27,7 @@
 #include "barycert/sample/grid/fill_block-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::sample {
-namespace HWY_NAMESPACE {
+namespace barycert::sample::HWY_NAMESPACE {
 
 /// Points along each axis of a box at most; places in it are numbered by three bits an axis.
 constexpr int box_bits = 3;
@@ -207,7 +206,6 @@ HWY_NOINLINE void find_open_points(const CellBlock<d>& cell, const BoxBlock<d>& 
     });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::sample
+}  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

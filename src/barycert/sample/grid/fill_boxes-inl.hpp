@@ -14,8 +14,7 @@
 #include "barycert/sample/grid/fill_setup-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::sample {
-namespace HWY_NAMESPACE {
+namespace barycert::sample::HWY_NAMESPACE {
 
 /// Blocks that are set up one after the other, as each hides the waits of the next.
 constexpr std::size_t blocks_at_once = 8;
@@ -189,7 +188,6 @@ HWY_INLINE void fill_boxes(D tag, const Filling<d>& to, const FillBlock<Values, 
     fill();
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::sample
+}  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

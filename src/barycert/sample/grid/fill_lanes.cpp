@@ -14,8 +14,7 @@
 #include "barycert/sample/grid/fill_spans-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::sample {
-namespace HWY_NAMESPACE {
+namespace barycert::sample::HWY_NAMESPACE {
 
 template <template <int> class Values, int d>
 void fill_all(const FillSource& source, std::span<const locate::Place> cells, const FillTarget& target,
@@ -73,8 +72,7 @@ void fill_cells(const FillSource& source, std::span<const locate::Place> cells, 
     }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::sample
+}  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

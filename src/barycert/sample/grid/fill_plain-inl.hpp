@@ -9,12 +9,10 @@
 #define BARYCERT_SAMPLE_FILL_PLAIN_INL_HPP
 #endif
 
-#include "barycert/core/plain_value-inl.hpp"
 #include "barycert/sample/grid/fill_values-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::sample {
-namespace HWY_NAMESPACE {
+namespace barycert::sample::HWY_NAMESPACE {
 
 /// As CorrectValues. Every value is certain, whatever it is.
 template <int d>
@@ -87,7 +85,6 @@ struct PlainValues {
     }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::sample
+}  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

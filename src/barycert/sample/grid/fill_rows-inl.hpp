@@ -18,8 +18,7 @@
 #include "barycert/sample/grid/fill_block-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::sample {
-namespace HWY_NAMESPACE {
+namespace barycert::sample::HWY_NAMESPACE {
 
 /// Of each plane, by cell of a block: the weight along a row at (w_y, w_z) is a = constant + sy w_y + sz w_z at w_x =
 /// 0. It bounds the row from below at t = lower - a * lower_factor -+ lower_width, from above likewise; where it does
@@ -124,7 +123,6 @@ HWY_INLINE void find_intervals(D tag, const CellBlock<d>& cell, const RowsBlock<
     out.undecided = bits[0];
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::sample
+}  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

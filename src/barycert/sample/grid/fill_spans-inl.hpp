@@ -13,8 +13,7 @@
 #include "barycert/sample/grid/fill_setup-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::sample {
-namespace HWY_NAMESPACE {
+namespace barycert::sample::HWY_NAMESPACE {
 
 /// Points [first, last) of row r, which begins at point `at`.
 template <template <int> class Values, int d, class D>
@@ -101,7 +100,6 @@ HWY_INLINE void fill_rows(D tag, const Filling<d>& to, const FillBlock<Values, d
     if (rows.count != 0) run();
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::sample
+}  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -26,8 +26,7 @@
 #include "barycert/sample/grid/fill_rows-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::sample {
-namespace HWY_NAMESPACE {
+namespace barycert::sample::HWY_NAMESPACE {
 
 /// Lane l: table[index of lane l].
 template <class D>
@@ -157,7 +156,6 @@ struct CorrectValues {
     }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::sample
+}  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

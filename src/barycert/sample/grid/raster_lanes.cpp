@@ -23,8 +23,7 @@
 #include "barycert/base/strict_math.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::sample {
-namespace HWY_NAMESPACE {
+namespace barycert::sample::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -213,8 +212,7 @@ void find_spans(const locate::CellIndex& index, const Raster& raster, const loca
         : spans_of<Simplex::tetrahedron>(index, raster, which, count, first_layer, last_layer, out);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::sample
+}  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

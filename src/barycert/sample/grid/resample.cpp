@@ -94,7 +94,7 @@ Status check_grid(const sample::SamplerData& data, const Grid& grid) {
 Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const SampleOptions& options,
                               const GridSink& sink) {
     const ExactEnvironment environment;
-    const sample::SamplerData& data = sampler.data();
+    const sample::SamplerData& data = sample::SamplerData::of(sampler);
     if (Status status = check_grid(data, grid); !status) return status.error();
     const sample::Raster raster = raster_of(grid, data.index());
     const std::vector<double>& layers = raster.at[layer_axis(grid)];

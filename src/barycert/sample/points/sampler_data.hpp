@@ -30,6 +30,8 @@ struct AtPoint {
 };
 
 struct SamplerData {
+    static const SamplerData& of(const Sampler& sampler) { return *sampler.data_; }
+
     std::unique_ptr<const Locator> own_locator;  ///< unless it is somebody else's
     const Locator* locator = nullptr;
     std::deque<Field> made;  ///< of others
@@ -51,8 +53,8 @@ struct SamplerData {
 
     locate::Pool<PackedRows> rows;  ///< up to 16 MiB a thread for one column
 
-    const locate::LocatorData& located() const { return locator->data(); }
-    const locate::CellIndex& index() const { return locator->data().index; }
+    const locate::LocatorData& located() const { return locate::LocatorData::of(*locator); }
+    const locate::CellIndex& index() const { return located().index; }
     NodeValues node_values() const {
         return {nodes.data(), more.data(), index().original_node.size(), point_components};
     }

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "barycert/locate/names.hpp"
-#include "barycert/locate/walk_lanes.hpp"
+#include "barycert/locate/lanes.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert::sample {

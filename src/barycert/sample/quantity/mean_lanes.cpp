@@ -2,7 +2,7 @@
 //
 // u = 2^-53, rounding to nearest. V_i: d! times the volume of cell i without its sign; f_i its value; n cells;
 //   A = sum V_i,   S = sum V_i f_i,   the mean is S / A.
-// All arithmetic is that of double_double-inl.hpp: a sum is off by 4 u^2 (|x| + |y|), a product by 9 u^2 |x y|.
+// All arithmetic is that of error_free-inl.hpp: a sum is off by 4 u^2 (|x| + |y|), a product by 9 u^2 |x y|.
 //
 // Volumes. Edges are exact differences of two doubles. Each of the 6 monomials of the determinant (triangle: 2) meets a
 // product and a difference in its minor, 13 u^2, a product and two sums outside, 17 u^2 (triangle: 13 u^2 in all). With
@@ -35,8 +35,7 @@
 #include "barycert/core/refinement-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::sample {
-namespace HWY_NAMESPACE {
+namespace barycert::sample::HWY_NAMESPACE {
 
 using namespace core::HWY_NAMESPACE;
 
@@ -188,8 +187,7 @@ std::size_t means_of_nodes(const MeanInput& input, std::size_t first, std::size_
     return list.count;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::sample
+}  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
