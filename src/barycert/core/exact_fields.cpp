@@ -1,6 +1,5 @@
 // Gradients of linear fields and values of quadratic ones, in integers.
 #include <algorithm>
-#include <limits>
 #include <type_traits>
 
 #include "barycert/core/exact_tier.hpp"
@@ -124,7 +123,7 @@ bool exact_quadratic(const double* vertices, const double* point, const double* 
 bool exact_gradient(Simplex simplex, const double* vertices, const double* values, double* out) {
     const bool proper = simplex == Simplex::triangle ? exact_gradient<2>(vertices, values, out)
                                                      : exact_gradient<3>(vertices, values, out);
-    if (!proper) std::fill_n(out, space_dimension(simplex), std::numeric_limits<double>::quiet_NaN());
+    if (!proper) std::fill_n(out, space_dimension(simplex), nan);
     return proper;
 }
 

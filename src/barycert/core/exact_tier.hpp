@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "barycert/core/integer.hpp"
@@ -19,6 +20,8 @@
 #include "barycert/simplex.hpp"
 
 namespace barycert::core {
+
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Weights as fractions of integers.
 class ExactWeights {

@@ -1,7 +1,6 @@
 #include "barycert/gradient.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "barycert/core/blocks.hpp"
 #include "barycert/core/exact_tier.hpp"
@@ -10,8 +9,6 @@
 
 namespace barycert::core {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Gradients of the last tier in the cell at `vertices`: component k of that of field component c, whose value at
 /// vertex i is values[n * c + i][j], is out[d * c + k]. Precondition: coordinates finite.

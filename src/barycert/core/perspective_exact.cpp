@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
 #include "barycert/core/fixed_integer.hpp"
@@ -135,7 +134,7 @@ bool exact_perspective_values(const double* vertices, const double* point, const
                 unit.add(parts[i]);
             }
             if (!finite) {
-                out[c] = std::numeric_limits<double>::quiet_NaN();
+                out[c] = nan;
             } else if (std::is_same_v<T, Integer> || unit.bits() > 64 - 3) {
                 out[c] = value<Integer>(p, parts, unit);
             } else if constexpr (!std::is_same_v<T, Integer>) {

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "barycert/core/exact_tier.hpp"
@@ -153,7 +152,7 @@ Gradient quadratic_gradient_of(const double* vertices, const double* point, cons
     } else {
         g.degenerate = !exact_quadratic_gradient<s>(vertices, point, f.data(), g.gradient.data());
     }
-    if (!usable || g.degenerate) std::fill_n(g.gradient.begin(), d, std::numeric_limits<double>::quiet_NaN());
+    if (!usable || g.degenerate) std::fill_n(g.gradient.begin(), d, nan);
     return g;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <type_traits>
 #include <vector>
@@ -14,8 +13,6 @@
 
 namespace barycert::core {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Weights of the last tier; NaN and false if degenerate.
 bool exact_weights(Simplex s, const double* vertices, const double* point, double* out) {

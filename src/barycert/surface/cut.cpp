@@ -7,11 +7,10 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/mesh/consistency.hpp"
 #include "barycert/surface.hpp"
-#include "barycert/surface/carry.hpp"
-#include "barycert/surface/input.hpp"
 #include "barycert/surface/levels.hpp"
-#include "barycert/surface/topology.hpp"
+#include "barycert/surface/parts.hpp"
 #include "barycert/surface/vertices.hpp"
 
 namespace barycert::surface {
@@ -34,7 +33,7 @@ Result<Cut> cut_at(const Mesh& mesh, const Level& level, const CutOptions& optio
 Result<Cut> cut_field(int dimension, const Mesh& mesh, const Field& field, double value, const CutOptions& options,
                       int component) {
     const ExactEnvironment environment;
-    if (Status fits = check_field(&field, mesh.point_count(), "node"); !fits) return fits.error();
+    if (Status fits = mesh::check_field(&field, mesh.point_count(), "node"); !fits) return fits.error();
     if (component < 0 || component >= field.components)
         return Error{.what = "no such component of field \"" + field.name + '"',
                      .expected = "0 to " + std::to_string(field.components - 1),

@@ -11,10 +11,9 @@
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
-#include "barycert/sample/quantity/length.hpp"
+#include "barycert/sample/quantity/made_fields.hpp"
 #include "barycert/verify.hpp"
 #include "barycert/verify/errors.hpp"
-#include "barycert/verify/holders.hpp"
 
 namespace barycert {
 namespace {
@@ -260,7 +259,7 @@ Verifier::Verifier(const Sampler& sampler, const VerifyOptions& options) : sampl
     const locate::CellIndex& index = data.index();
     near_ = near_distance *
             std::hypot(index.high[0] - index.low[0], index.high[1] - index.low[1], index.high[2] - index.low[2]);
-        const auto add = [&](const Field& field, std::size_t component, std::size_t columns) {
+    const auto add = [&](const Field& field, std::size_t component, std::size_t columns) {
         const auto [range, relative_to] = range_of(field, component);
         ranges_.insert(ranges_.end(), columns, range);
         relative_to_.insert(relative_to_.end(), columns, relative_to);

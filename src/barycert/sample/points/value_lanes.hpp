@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
-#include "barycert/locate/names.hpp"
 #include "barycert/locate/lanes.hpp"
+#include "barycert/locate/names.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert::sample {
