@@ -64,9 +64,9 @@ Status gradients(Simplex simplex, std::span<const double> nodes, std::span<const
     return core::for_blocks(
         cells, Tier::double_double, tiers,
         [&](std::size_t first, const core::CaseBlock& block, std::uint32_t* undecided) {
-            block_values.gather_corners(cells, first, block.count);
+            const double* const* const nodal = block_values.block(cells, first, block.count);
             const std::size_t undecided_count =
-                core::gradient_lanes(simplex, block, block_values.arrays(), components, results.data(), undecided);
+                core::gradient_lanes(simplex, block, nodal, components, results.data(), undecided);
             results.copy_out(block.count, out.data() + per_cell * first);
             return undecided_count;
         },

@@ -76,29 +76,13 @@ private:
     std::vector<const double*> arrays_;
 };
 
-/// The same for a mesh, always gathered.
-template <class T>
-class MeshValues {
-public:
-    MeshValues(const MeshQueries& queries, const NodalValues<T>& values)
-        : values_(values, static_cast<std::size_t>(vertex_count(queries.simplex))) {}
-
-    const double* const* block(const MeshQueries& queries, std::size_t first, std::size_t count) {
-        values_.gather_corners(queries, first, count);
-        return values_.arrays();
-    }
-
-private:
-    GatheredValues<T> values_;
-};
-
 template <class T>
 ArrayValues<T> block_values(const CaseArrays& cases, const ValueArrays<T>& values) {
     return {cases, values};
 }
 template <class T>
-MeshValues<T> block_values(const MeshQueries& queries, const NodalValues<T>& values) {
-    return {queries, values};
+GatheredValues<T> block_values(const MeshQueries& queries, const NodalValues<T>& values) {
+    return {values, static_cast<std::size_t>(vertex_count(queries.simplex))};
 }
 
 /// Values of the last tier, one a component: that of vertex i, component c is values[n * c + i][j].

@@ -62,7 +62,7 @@ HWY_INLINE void volumes_of(const Mesh& mesh, std::size_t first, std::size_t coun
                 for (std::size_t k = 0; k < d; ++k) gathered[i][k][l] = mesh.points[d * node + k];
             }
         }
-        Number edge[d][d], determinant;
+        Number edge[d][d];
         V rounded[d][d], extent[d];
         for (int i = 0; i < d; ++i) {
             for (int k = 0; k < d; ++k) {
@@ -71,17 +71,10 @@ HWY_INLINE void volumes_of(const Mesh& mesh, std::size_t first, std::size_t coun
             }
         }
         extents(rounded, extent);
-        if constexpr (d == 2) {
-            determinant = cross(edge[0], edge[1]);
-        } else {
-            Number minors[3];
-            cross(edge[1], edge[2], minors);
-            determinant = dot(edge[0], minors);
-        }
         V bound = hn::Set(tag, (d == 2 ? 27 : 190) * u * u);
         for (int k = 0; k < d; ++k) bound = bound * extent[k];
         const auto valid = all_within(tag, extent, 0x1p-100, 0x1p100);
-        const Number volume = magnitude_of(determinant);
+        const Number volume = magnitude_of(determinant(edge));
         HWY_ALIGN double high[width], low[width], error[width];
         hn::Store(volume.high, tag, high);
         hn::Store(volume.low, tag, low);
