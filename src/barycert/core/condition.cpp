@@ -57,7 +57,7 @@ template <int d>
     return with_lattice<d + 1, d>(number, false, [&]<class T>(const Lattice<d + 1, d, T>& lattice) {
         T edges[d][d], extents[d];
         for (int i = 0; i < d; ++i) lattice.difference(i + 1, 0, edges[i]);
-        for (int k = 0; k < d; ++k) extents[k] = lattice.at[extremes.high[k]][k] - lattice.at[extremes.low[k]][k];
+        for (int k = 0; k < d; ++k) extents[k] = lattice.at(extremes.high[k], k) - lattice.at(extremes.low[k], k);
         const Integer det = as_integer(formulas::determinant(edges)), box = as_integer(product(extents));
         if (det.sign() == 0) return std::numeric_limits<double>::infinity();
         const double factor = d == 2 ? 2 : 6;

@@ -80,15 +80,17 @@ decltype(auto) with_integers(int bits, F f) {
     return f.template operator()<Integer>();
 }
 
-/// Numbers on the axes of `count` points, as integers of type T in the unit of their axis.
+/// Numbers on the axes of `count` points, as integers of type T in the unit of their axis: made when they are asked
+/// for, as the widest fill the stack.
 template <int count, int d, class T>
 struct Lattice {
-    T at[count][d];
+    const ScaledDouble (&parts)[count][d];
     const Unit (&units)[d];
 
+    T at(int i, int k) const { return units[k].template multiple<T>(parts[i][k]); }
     /// Point i less point j. Inline, for GCC 12 folds the copies of different `count` into one and then warns of it.
     [[gnu::always_inline]] void difference(int i, int j, T (&out)[d]) const {
-        for (int k = 0; k < d; ++k) out[k] = at[i][k] - at[j][k];
+        for (int k = 0; k < d; ++k) out[k] = at(i, k) - at(j, k);
     }
 };
 
@@ -108,13 +110,7 @@ auto with_lattice(Number number, bool common, Decide decide) {
         for (int k = 1; k < d; ++k) units[0].add(units[k]);
         std::fill_n(units, d, units[0]);
     }
-    return with_integers<3>(max_bits(units), [&]<class T>() {
-        Lattice<count, d, T> lattice{{}, units};
-        for (int k = 0; k < d; ++k) {
-            for (int i = 0; i < count; ++i) lattice.at[i][k] = units[k].template multiple<T>(parts[i][k]);
-        }
-        return decide(lattice);
-    });
+    return with_integers<3>(max_bits(units), [&]<class T>() { return decide(Lattice<count, d, T>{parts, units}); });
 }
 
 }  // namespace barycert::core
