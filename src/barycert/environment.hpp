@@ -41,8 +41,8 @@ bool rounds_correctly();
 ///
 /// Compilers do not know that arithmetic depends on it. They keep loads and stores in place, as the functions that set
 /// registers might read memory; but they may move arithmetic on arguments, and that of a result which is returned in a
-/// register, across it, calls of functions without side effects included (GCC 12 does). Pass such numbers through
-/// held().
+/// register, across it, calls of functions without side effects included (GCC 12 does). The
+/// library passes such numbers through a barrier (base/held.hpp); a volatile variable is one as well.
 class ExactEnvironment {
 public:
     ExactEnvironment() {
@@ -77,13 +77,6 @@ private:
     std::fenv_t before_{};
 #endif
 };
-
-/// Returns x. Compilers move neither the computation of x nor what depends on the result across this call.
-template <class T>
-[[gnu::always_inline]] inline T held(T x) {
-    __asm__ volatile("" : "+m"(x) : : "memory");
-    return x;
-}
 
 /// The floating-point environment as it is measured, for reports. Exactness needs rounding to nearest, gradual
 /// underflow, doubles evaluated as doubles, and no contraction of a * b + c into one rounding. All four are measured at

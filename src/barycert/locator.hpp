@@ -18,7 +18,7 @@
 ///
 /// Method. Points where no cell is near are outside at once, by a bit for each of many bins of the mesh's box, made
 /// when enough points are asked for. While the index is made it is proved of each cell, if it is so, that all others
-/// meet it in common faces or not at all (index/proof.hpp); on a certified mesh (check.hpp) that is so of every cell.
+/// meet it in common faces or not at all (doc/theorem.md); on a certified mesh (check.hpp) that is so of every cell.
 /// Points are sorted along a space-filling curve; each starts at a cell of its bin and walks, on SIMD lanes, to a cell
 /// that certainly contains it. Integers decide what the filter of signs leaves undecided. The cells around a face, edge
 /// or vertex follow from the mesh's connectivity. Where a walk ends at the boundary, or in a cell of which it is not
@@ -132,10 +132,8 @@ public:
     /// not finite.
     Result<Nearest> nearest(const double* point, double limit) const;
 
-    /// For the library's own use.
-    const locate::LocatorData& data() const { return *data_; }
-
 private:
+    friend struct locate::LocatorData;
     explicit Locator(std::unique_ptr<locate::LocatorData> data);
     std::unique_ptr<locate::LocatorData> data_;
 };

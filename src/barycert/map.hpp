@@ -1,28 +1,7 @@
 /// A map from points to cells in a file: locate once, sample many fields and time steps.
 ///
-/// The file, version 1. All numbers are little-endian; a row is a point and a cell that holds it, or -1.
-///
-///   header, 56 bytes
-///      0  8  magic: 89 42 43 4D 0D 0A 1A 0A (0x89, "BCM", and what a transfer as text would change)
-///      8  4  version: 1
-///     12  1  dimension: 2 or 3
-///     13  1  1: the rows name every cell that holds a point, a row each; 0: one row a point, its owner
-///     14  2  0
-///     16  8  rows
-///     24  8  nodes of the mesh
-///     32  8  cells of the mesh
-///     40  8  mesh_fingerprint of the mesh
-///     48  8  checksum of the 48 bytes before, from 0
-///   blocks of 8192 rows, the last one of what remains, of n rows each:
-///      coordinates, float64, `dimension` a row, row after row; n cells, int32; n features, one byte: 0 interior, 1
-///      face, 2 edge, 3 vertex, 4 outside; zeros up to a multiple of 8 bytes; checksum of all that, from the checksum
-///      of the block before, or from the fingerprint in the first block.
-///
-/// The checksum of 8-byte words w from h: for each w, h = mix64((h ^ w) + 0x9e3779b97f4a7c15), modulo 2^64, mix64 as in
-/// base/random.hpp. Each step is a bijection in h and in w, so that a change within one word is always found; any other
-/// is missed once in 2^64. Blocks are chained, so that none can change places or come from another map.
-///
-/// In 3D a row takes 29 bytes and a block 8 more.
+/// A row is a point and a cell that holds it, or -1; in 3D it takes 29 bytes. doc/formats.md has the format. A change
+/// within 8 bytes of a file is always detected, any other is missed once in 2^64.
 #pragma once
 
 #include <cstddef>

@@ -145,10 +145,8 @@ public:
     Status evaluate(std::span<const double> points, const SampleOptions& options, Table& rows,
                     std::size_t first_point = 0) const;
 
-    /// For the library's own use.
-    const sample::SamplerData& data() const { return *data_; }
-
 private:
+    friend struct sample::SamplerData;
     explicit Sampler(std::unique_ptr<sample::SamplerData> data);
     std::unique_ptr<sample::SamplerData> data_;
 };

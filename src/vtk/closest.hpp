@@ -15,6 +15,12 @@ struct Closest {
     std::array<double, 4> weights{};  ///< of the nearest point in the cell, in the order of its vertices
 };
 
+/// Returns x, by way of memory: across an ExactEnvironment compilers move arithmetic on numbers in registers.
+inline double held(double x) {
+    const volatile double there = x;
+    return there;
+}
+
 /// None if a coordinate is not finite. Requires index.exact().
 Closest closest(const ExactIndex& index, const double* x, double limit);
 

@@ -227,7 +227,7 @@ vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell*
     std::array<double, 4> its{};
     const bool outside = found < 0;
     if (outside && Tolerant && tol2 > 0) {
-        const in_vtk::Closest nearest = in_vtk::closest(*index, x, std::sqrt(held(tol2)));
+        const in_vtk::Closest nearest = in_vtk::closest(*index, x, std::sqrt(in_vtk::held(tol2)));
         found = nearest.cell;
         its = nearest.weights;
     }
@@ -290,7 +290,7 @@ vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double r
     if (found.cell < 0) return 0;
     cellId = index->id(found.cell);
     subId = 0;
-    dist2 = held(found.distance) * found.distance;
+    dist2 = in_vtk::held(found.distance) * found.distance;
     inside = found.inside ? 1 : 0;
     std::copy_n(found.point.begin(), 3, closestPoint);
     if (cell != nullptr) DataSet->GetCell(cellId, cell);

@@ -8,5 +8,5 @@ core_sources() {
         echo "#include \"barycert/$name.cpp\""
     done >"$2/joined.cpp"
     core=$1/src/barycert/core
-    echo "$2/joined.cpp $core/weights.cpp $core/lanes.cpp $core/quadratic_lanes.cpp $1/tests/core/same_bytes.cpp"
+    echo "$2/joined.cpp $core/weights.cpp $core/lanes.cpp $core/field_lanes.cpp $1/tests/core/same_bytes.cpp"
 }

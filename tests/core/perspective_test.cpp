@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "barycert/core/perspective_exact.hpp"
+#include "barycert/core/exact_tier.hpp"
 #include "barycert/environment.hpp"
 #include "core/field_cases.hpp"
 #include "core/rational.hpp"

@@ -50,7 +50,7 @@ bool boxes_meet(const Mesh& mesh, std::size_t a, std::size_t b) {
 /// How many cells are not contested; each meets all others as it should. Of every `step`th cell this is looked at.
 std::size_t expect_proved(const Mesh& mesh, const std::string& what, std::size_t step = 1) {
     const Locator locator = Locator::build(mesh, {.threads = 1}).value();
-    const locate::LocatorData& data = locator.data();
+    const locate::LocatorData& data = locate::LocatorData::of(locator);
     std::size_t proved = 0;
     for (std::size_t p = 0; p < mesh.cell_count(); ++p) {
         const Mesh::Index a = data.index.original[p];
@@ -216,7 +216,7 @@ TEST(IndexProof, LinksAreNeighbours) {
         const std::vector<Mesh::Index> neighbours = mesh::compute_neighbours(subject);
         const Locator locator = Locator::build(subject).value();
         EXPECT_TRUE(locator.certified());
-        const auto& index = locator.data().index;
+        const auto& index = locate::LocatorData::of(locator).index;
         for (std::size_t p = 0; p < index.cell_count(); ++p) {
             for (std::size_t i = 0; i < subject.corners(); ++i) {
                 const auto cell = static_cast<std::size_t>(index.original[p]);

@@ -170,7 +170,7 @@ std::uint64_t work_at(const Locator& locator, double away, std::size_t kind) {
         std::array<double, 3> p{};
         for (std::size_t k = 0; k < d; ++k) p[k] = 16 * (random.unit() + v[k] * away);
         locate::NearestWork work;
-        const Nearest found = locate::find_nearest(locator.data(), p.data(), infinity, &work);
+        const Nearest found = locate::find_nearest(locate::LocatorData::of(locator), p.data(), infinity, &work);
         EXPECT_GE(found.cell, 0);
         max = std::max(max, work.boxes + work.cells + 10 * work.exact);
         EXPECT_LE(work.comparisons, 64U) << away;  // where the lattice ties exactly
@@ -206,7 +206,7 @@ TEST(LocateNearest, N2_BeyondTheLimit) {
     for (const double away : {1e2, 1e15, 1e300}) {
         const std::array<double, 3> p{away, 4, -away};
         locate::NearestWork work;
-        EXPECT_EQ(locate::find_nearest(locator->data(), p.data(), away / 2, &work).cell, -1);
+        EXPECT_EQ(locate::find_nearest(locate::LocatorData::of(*locator), p.data(), away / 2, &work).cell, -1);
         EXPECT_LE(work.boxes, 1U);
     }
 }

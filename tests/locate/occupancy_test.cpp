@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "barycert/locate/bin_lanes.hpp"
+#include "barycert/locate/lanes.hpp"
 #include "barycert/locate/locator_data.hpp"
 #include "barycert/locator.hpp"
 #include "check/meshes.hpp"
@@ -69,7 +69,7 @@ Told ask(const Mesh& mesh, Detail detail, base::Random& random, const std::strin
     Told told;
     const auto locator = Locator::build(mesh, {.prove = false});
     if (!locator || mesh.cell_count() == 0) return told;
-    const locate::CellIndex& index = locator->data().index;
+    const locate::CellIndex& index = locate::LocatorData::of(*locator).index;
     const double filled = locate::filled_share(index);
     if (!(filled < 1)) return told;
     const locate::Occupancy occupancy(index, filled, detail);
@@ -145,14 +145,14 @@ TEST(LocateOccupancy, MostOfTheBoxOfAThinCellIsEmpty) {
     base::Random random(13);
     const auto locator = Locator::build(mesh, {.prove = false});
     ASSERT_TRUE(locator);
-    locator->data().prepare(1'000'000);
-    ASSERT_NE(locator->data().occupancy(), nullptr);
+    locate::LocatorData::of(*locator).prepare(1'000'000);
+    ASSERT_NE(locate::LocatorData::of(*locator).occupancy(), nullptr);
     std::size_t kept = 0;
     constexpr std::size_t count = 10000;
     for (std::size_t i = 0; i < count; ++i) {
         const double x = random.unit(), y = random.unit(), z = random.unit();
         const double p[] = {x, y, z};
-        kept += locator->data().occupancy()->may_hold(locator->data().index, p) ? 1 : 0;
+        kept += locate::LocatorData::of(*locator).occupancy()->may_hold(locate::LocatorData::of(*locator).index, p) ? 1 : 0;
     }
     EXPECT_GT(kept, 0U);
     EXPECT_LT(kept, count / 8);
@@ -163,11 +163,11 @@ TEST(LocateOccupancy, NoRoom) {
     for (const int d : {2, 3}) {
         const Mesh full = box(d, {3, 3, 3});
         const auto locator = Locator::build(full);
-        locator->data().prepare(1'000'000);
-        EXPECT_EQ(locator->data().occupancy(), nullptr);
+        locate::LocatorData::of(*locator).prepare(1'000'000);
+        EXPECT_EQ(locate::LocatorData::of(*locator).occupancy(), nullptr);
         Mesh flat = full;
         for (std::size_t i = 0; i < flat.points.size(); i += static_cast<std::size_t>(d)) flat.points[i] = 3;
-        EXPECT_GE(locate::filled_share(Locator::build(flat, {.prove = false})->data().index), 1);
+        EXPECT_GE(locate::filled_share(locate::LocatorData::of(*Locator::build(flat, {.prove = false})).index), 1);
     }
 }
 
@@ -179,10 +179,10 @@ TEST(LocateOccupancy, L1_L2_L3_EveryWay) {
             Mesh mesh = n % 2 == 0 ? grown_complex(d, random) : damaged_box(d, random);
             if (mesh.cell_count() == 0) continue;
             const auto locator = Locator::build(mesh, {.prove = false});
-            locator->data().prepare(1'000'000);
-            if (locator->data().occupancy() == nullptr) continue;
+            locate::LocatorData::of(*locator).prepare(1'000'000);
+            if (locate::LocatorData::of(*locator).occupancy() == nullptr) continue;
             std::vector<double> points =
-                edge_points(mesh, locator->data().index, *locator->data().occupancy(), 200, random);
+                edge_points(mesh, locate::LocatorData::of(*locator).index, *locate::LocatorData::of(*locator).occupancy(), 200, random);
             const std::vector<double> more = awkward_points(mesh, 10, random);
             points.insert(points.end(), more.begin(), more.end());
             ASSERT_GE(points.size() / static_cast<std::size_t>(d), mesh.cell_count());

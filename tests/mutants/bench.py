@@ -20,7 +20,7 @@ INTEGERS = ["exact_weights.cpp", "quotient.cpp"]
 USERS = {
     "integer.hpp": INTEGERS, "fixed_integer.hpp": INTEGERS, "scaled_double.hpp": INTEGERS,
     "numerators-inl.hpp": ["exact_weights.cpp", "lanes.cpp", "predicates.cpp"],
-    "filter-inl.hpp": ["lanes.cpp"], "refinement-inl.hpp": ["lanes.cpp"], "double_double-inl.hpp": ["lanes.cpp"],
+    "filter-inl.hpp": ["lanes.cpp"], "refinement-inl.hpp": ["lanes.cpp"],
     "error_free-inl.hpp": ["lanes.cpp"], "lane_loop-inl.hpp": ["lanes.cpp"],
     "blocks.hpp": ["weight_signs.cpp", "weights.cpp"], "input_checks.hpp": ["weight_signs.cpp", "weights.cpp"],
 }

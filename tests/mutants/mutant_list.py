@@ -226,7 +226,7 @@ COMPARISONS = [(" > ", " >= "), (" < ", " <= "), (" >= ", " > "), (" <= ", " < "
 SIGNS = [(" + ", " - "), (" - ", " + ")]
 COMPARED = [F, R, Q, X, S, I, "predicates.cpp", "weight_signs.cpp", "weights.cpp", "blocks.hpp", "input_checks.hpp", "inverse.cpp",
             "lane_loop-inl.hpp", "lanes.cpp"]
-SUMMED = ["numerators-inl.hpp", E, "double_double-inl.hpp", R, F]
+SUMMED = ["numerators-inl.hpp", E, R, F]
 
 
 def all_mutants(core):

@@ -4,6 +4,7 @@
 
 #include "barycert/audit.hpp"
 #include "barycert/base/decades.hpp"
+#include "barycert/base/held.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert {
@@ -12,7 +13,7 @@ static_assert(ErrorSizes::bins == base::decade_bins + 1, "the last is for those 
 
 void ErrorSizes::add(double error, std::uint64_t index) {
     const ExactEnvironment environment;
-    error = held(error);
+    error = base::held(error);
     if (!(error >= 0)) return;
     std::size_t bin = 0;
     if (std::isinf(error)) {
@@ -37,7 +38,7 @@ double ErrorSizes::within(double share) const {
     const ExactEnvironment environment;
     const std::uint64_t all = total() - unanswered();
     if (all == 0) return -1;
-    const auto wanted = static_cast<std::uint64_t>(std::ceil(held(share) * static_cast<double>(all)));
+    const auto wanted = static_cast<std::uint64_t>(std::ceil(base::held(share) * static_cast<double>(all)));
     std::uint64_t seen = counts[0];
     if (seen >= wanted) return 0;
     for (std::size_t i = 1; i <= base::decade_edges.size(); ++i) {

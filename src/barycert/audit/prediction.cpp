@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/weights.hpp"
@@ -59,9 +60,9 @@ double audit::predicting_condition(const Case& c, Region region) {
 
 void Prediction::add(double kappa, double error) {
     const ExactEnvironment environment;
-    kappa = held(kappa);
+    kappa = base::held(kappa);
     const auto bits = static_cast<std::size_t>(std::clamp(std::ilogb(kappa), 0, last_bits));
-    const double units = held(error) / unit;
+    const double units = base::held(error) / unit;
     const std::size_t bin = error_bin(units);
     if (bits >= rows_.size()) rows_.resize(bits + 1);
     Row& row = rows_[bits];

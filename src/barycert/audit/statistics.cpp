@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "barycert/base/held.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert {
@@ -39,13 +40,13 @@ double LogHistogram::quantile(double fraction) const {
     const ExactEnvironment environment;
     const std::uint64_t all = total();
     if (all == 0) return -1;
-    const auto wanted = static_cast<std::uint64_t>(std::ceil(held(fraction) * static_cast<double>(all)));
+    const auto wanted = static_cast<std::uint64_t>(std::ceil(base::held(fraction) * static_cast<double>(all)));
     std::uint64_t seen = 0;
     for (std::size_t i = 0; i < bin_count; ++i) {
         seen += bins_[i];
-        if (seen >= wanted) return held(upper_edge(i));
+        if (seen >= wanted) return base::held(upper_edge(i));
     }
-    return held(upper_edge(bin_count - 1));
+    return base::held(upper_edge(bin_count - 1));
 }
 
 void KernelStatistics::add(const Comparison& r, Region exact, std::uint64_t index) {

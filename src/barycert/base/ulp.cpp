@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 

@@ -200,6 +200,13 @@ public:
         });
     }
 
+    /// The same, and returns them.
+    template <class Batch>
+    const double* const* block(const Batch& batch, std::size_t first, std::size_t count) {
+        gather_corners(batch, first, count);
+        return arrays_.data();
+    }
+
     /// Of the `number` nodes at indices(j) of each case j, as its nodes from `begin` on.
     template <class Indices>
     void gather(std::size_t begin, std::size_t number, std::size_t count, Indices indices) {

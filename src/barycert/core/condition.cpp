@@ -4,9 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "barycert/base/finite.hpp"
+#include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
-#include "barycert/core/fixed_integer.hpp"
-#include "barycert/core/integer.hpp"
+#include "barycert/core/numerators-inl.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/environment.hpp"
@@ -14,22 +15,7 @@
 namespace barycert::core {
 namespace {
 
-template <class T>
-[[gnu::always_inline]] inline auto determinant(const T (&a)[2], const T (&b)[2]) {
-    return a[0] * b[1] - a[1] * b[0];
-}
-template <class T>
-[[gnu::always_inline]] inline auto determinant(const T (&a)[3], const T (&b)[3], const T (&c)[3]) {
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
-template <class T>
-[[gnu::always_inline]] inline auto determinant(const T (&edges)[2][2]) {
-    return determinant(edges[0], edges[1]);
-}
-template <class T>
-[[gnu::always_inline]] inline auto determinant(const T (&edges)[3][3]) {
-    return determinant(edges[0], edges[1], edges[2]);
-}
+namespace formulas = HWY_NAMESPACE;
 
 template <class T>
 [[gnu::always_inline]] inline auto product(const T (&x)[2]) {
@@ -59,38 +45,25 @@ struct Extremes {
     }
 };
 
+/// Each axis as integers in its own unit, which cancels in the quotient.
+///
 /// Widths: coordinates below 2^(64 N - 3) in N limbs give differences below 2^(64 N - 2), 2x2 minors below 2^(128 N -
 /// 3) and 3x3 determinants below 6 * 2^(192 N - 6) < 2^(192 N - 3): no sum overflows.
-template <class T, int d>
-double quotient(const Unit (&units)[d], const ScaledDouble (&parts)[d + 1][d], const Extremes<d>& extremes) {
-    T edges[d][d], extents[d];
-    for (int k = 0; k < d; ++k) {
-        const auto at = [&](int i) { return units[k].template multiple<T>(parts[i][k]); };
-        for (int i = 0; i < d; ++i) edges[i][k] = at(i + 1) - at(0);
-        extents[k] = at(extremes.high[k]) - at(extremes.low[k]);
-    }
-    const Integer det = as_integer(determinant(edges)), box = as_integer(product(extents));
-    if (det.sign() == 0) return std::numeric_limits<double>::infinity();
-    const double factor = d == 2 ? 2 : 6;
-    return std::clamp(factor * round_quotient(false, box.magnitude(), det.magnitude(), 0), min_condition<d>,
-                      std::numeric_limits<double>::max());
-}
-
-/// Each axis as integers in its own unit, which cancels in the quotient.
 template <int d>
 [[gnu::noinline]] double exact_condition(const double* vertices) {
-    ScaledDouble parts[d + 1][d];
-    Unit units[d];
-    for (int i = 0; i <= d; ++i) {
-        for (int k = 0; k < d; ++k) {
-            const double x = vertices[d * i + k];
-            if (!std::isfinite(x)) return std::numeric_limits<double>::quiet_NaN();
-            parts[i][k] = scaled(x);
-            units[k].add(parts[i][k]);
-        }
-    }
+    if (!base::all_finite({vertices, d * (d + 1)})) return std::numeric_limits<double>::quiet_NaN();
     const Extremes<d> extremes(vertices);
-    return with_integers<3>(max_bits(units), [&]<class T>() { return quotient<T, d>(units, parts, extremes); });
+    const auto number = [&](int i, int k) { return vertices[d * i + k]; };
+    return with_lattice<d + 1, d>(number, false, [&]<class T>(const Lattice<d + 1, d, T>& lattice) {
+        T edges[d][d], extents[d];
+        for (int i = 0; i < d; ++i) lattice.difference(i + 1, 0, edges[i]);
+        for (int k = 0; k < d; ++k) extents[k] = lattice.at(extremes.high[k], k) - lattice.at(extremes.low[k], k);
+        const Integer det = as_integer(formulas::determinant(edges)), box = as_integer(product(extents));
+        if (det.sign() == 0) return std::numeric_limits<double>::infinity();
+        const double factor = d == 2 ? 2 : 6;
+        return std::clamp(factor * round_quotient(false, box.magnitude(), det.magnitude(), 0), min_condition<d>,
+                          std::numeric_limits<double>::max());
+    });
 }
 
 /// In floating point where that is certain to be right, else in integers.
@@ -115,7 +88,7 @@ template <int d>
         extents[k] = high - low;
         max_extent = std::max(max_extent, extents[k]);
     }
-    const double det = std::fabs(determinant(edges)), box = (d == 2 ? 2 : 6) * product(extents);
+    const double det = std::fabs(formulas::determinant(edges)), box = (d == 2 ? 2 : 6) * product(extents);
     if (max_extent <= 0x1p149 && det >= 0x1p-650 && box <= 0x1p38 * det) return std::max(box / det, min_condition<d>);
     return exact_condition<d>(vertices);
 }
@@ -127,8 +100,8 @@ namespace barycert {
 
 double condition_number(Simplex simplex, const double* vertices) {
     const ExactEnvironment environment;
-    if (simplex == Simplex::triangle) return held(core::condition<2>(vertices));
-    if (simplex == Simplex::tetrahedron) return held(core::condition<3>(vertices));
+    if (simplex == Simplex::triangle) return base::held(core::condition<2>(vertices));
+    if (simplex == Simplex::tetrahedron) return base::held(core::condition<3>(vertices));
     return std::numeric_limits<double>::quiet_NaN();
 }
 

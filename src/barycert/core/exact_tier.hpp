@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "barycert/core/integer.hpp"
@@ -19,6 +20,8 @@
 #include "barycert/simplex.hpp"
 
 namespace barycert::core {
+
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Weights as fractions of integers.
 class ExactWeights {
@@ -85,5 +88,19 @@ bool exact_gradient(Simplex simplex, const double* vertices, const double* value
 /// Precondition: triangle or tetrahedron.
 bool exact_quadratic(Simplex simplex, const double* vertices, const double* point, const double* values, int components,
                      double* out);
+
+// Perspective-correct weights, depth and values, of what perspective.hpp requires of coordinates and depths, in its
+// layouts. Each returns false, and leaves `out` as it was, if there are no weights.
+
+/// The three weights, correctly rounded.
+bool exact_perspective_weights(const double* vertices, const double* point, double* out);
+
+/// Z, correctly rounded.
+bool exact_perspective_depth(const double* vertices, const double* point, double* out);
+
+/// `components` values, each correctly rounded; NaN where a value is not finite at a vertex whose weight is not exactly
+/// zero.
+bool exact_perspective_values(const double* vertices, const double* point, const double* values, int components,
+                              double* out);
 
 }  // namespace barycert::core

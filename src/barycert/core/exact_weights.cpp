@@ -6,9 +6,8 @@
 #include <type_traits>
 
 #include "barycert/core/fixed_integer.hpp"
-#include "barycert/core/lifted-inl.hpp"
+#include "barycert/core/lanes.hpp"
 #include "barycert/core/numerators-inl.hpp"
-#include "barycert/core/quadratic_edges.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 
@@ -17,19 +16,7 @@ namespace {
 
 namespace formulas = HWY_NAMESPACE;
 
-/// The coordinates of `count` points as integers of type T, each axis in its own unit or all in one.
-template <int count, int d, class T>
-struct Lattice {
-    T at[count][d];
-
-    /// Point i less point j. Inline, for GCC 12 folds the copies of different `count` into one and then warns of it.
-    HWY_INLINE void difference(int i, int j, T (&out)[d]) const {
-        for (int k = 0; k < d; ++k) out[k] = at[i][k] - at[j][k];
-    }
-};
-
-/// Calls `decide` with the points as integers of the narrowest type that has room. Coordinates below 2^(64 N - 3) in
-/// N limbs give differences below 2^(64 N - 2), and with these
+/// Widths. Coordinates below 2^(64 N - 3) in N limbs give differences below 2^(64 N - 2), and with these
 ///   a 2x2 minor is below 2 * 2^(128 N - 4)                in 2 N limbs, range 2^(128 N - 1),
 ///   a numerator of degree 3 below 3 * 2^(64 N - 2) * that in 3 N limbs: 3 * 2^(192 N - 5),
 ///   four of them below 2^(192 N - 1), their range,
@@ -39,26 +26,8 @@ struct Lattice {
 ///   four of one and a numerator of degree 3 below 36 * 2^(320 N - 9)            in 5 N limbs,
 /// so that no sum overflows.
 template <int count, int d, class Decide>
-auto with_lattice(const double* const (&points)[count], bool common, Decide decide) {
-    ScaledDouble parts[count][d];
-    Unit units[d];
-    for (int k = 0; k < d; ++k) {
-        for (int i = 0; i < count; ++i) {
-            parts[i][k] = scaled(points[i][k]);
-            units[k].add(parts[i][k]);
-        }
-    }
-    if (common) {
-        for (int k = 1; k < d; ++k) units[0].add(units[k]);
-        std::fill_n(units, d, units[0]);
-    }
-    return with_integers<3>(max_bits(units), [&]<class T>() {
-        Lattice<count, d, T> lattice;
-        for (int k = 0; k < d; ++k) {
-            for (int i = 0; i < count; ++i) lattice.at[i][k] = units[k].template multiple<T>(parts[i][k]);
-        }
-        return decide(lattice);
-    });
+auto with_points(const double* const (&points)[count], bool common, Decide decide) {
+    return with_lattice<count, d>([&](int i, int k) { return points[i][k]; }, common, decide);
 }
 
 /// The magnitude of a number in two's complement.
@@ -103,7 +72,7 @@ void add_product(std::uint64_t* sum, const std::uint64_t* x, int count, std::uin
 /// Sign of the determinant of three differences, each from one point to another.
 template <int count>
 Sign sign_of_determinant(const double* const (&points)[count], const int (&ends)[3][2]) {
-    return with_lattice<count, 3>(points, false, [&]<class T>(const Lattice<count, 3, T>& lattice) {
+    return with_points<count, 3>(points, false, [&]<class T>(const Lattice<count, 3, T>& lattice) {
         T u[3], v[3], w[3];
         formulas::Product<T> m[3];
         lattice.difference(ends[0][1], ends[0][0], u);
@@ -118,12 +87,12 @@ Sign sign_of_determinant(const double* const (&points)[count], const int (&ends)
 // added up. A product of two numbers has a limb more than its bits at most, a sum one more.
 static_assert(64 * (Integer::capacity - 2) >= 5 * 2099 + 7);
 
-/// Sign of sum n_i |r_i|^2, as lifted-inl.hpp has it, of vertices and point. All axes in one unit: squares are added
-/// up.
+/// Sign of sum n_i |r_i|^2, as numerators-inl.hpp has it, of vertices and point. All axes in one unit: squares are
+/// added up.
 template <Simplex s>
 Sign sign_of_lifted(const double* const (&points)[vertex_count(s) + 1]) {
     constexpr int n = vertex_count(s), d = space_dimension(s);
-    return with_lattice<n + 1, d>(points, true, []<class T>(const Lattice<n + 1, d, T>& lattice) {
+    return with_points<n + 1, d>(points, true, []<class T>(const Lattice<n + 1, d, T>& lattice) {
         formulas::Relative<s, T> c;
         formulas::Lifted<s, T> lifted;
         for (int i = 0; i < n; ++i) lattice.difference(i, n, c.r[i]);
@@ -146,7 +115,7 @@ void ExactWeights::solve(const double* vertices, const double* point) {
     const double* points[n + 1];
     for (int i = 0; i < n; ++i) points[i] = vertices + d * i;
     points[n] = point;
-    with_lattice<n + 1, d>(points, projected, [&]<class T>(const Lattice<n + 1, d, T>& lattice) {
+    with_points<n + 1, d>(points, projected, [&]<class T>(const Lattice<n + 1, d, T>& lattice) {
         formulas::Relative<s, T> c;
         for (int i = 0; i < n; ++i) lattice.difference(i, n, c.r[i]);
         if constexpr (projected) {
@@ -246,7 +215,7 @@ bool ExactWeights::has_part(int node, bool quadratic) const {
 }
 
 Sign exact_orient2d(const double* a, const double* b, const double* c) {
-    return with_lattice<3, 2>({a, b, c}, false, []<class T>(const Lattice<3, 2, T>& lattice) {
+    return with_points<3, 2>({a, b, c}, false, []<class T>(const Lattice<3, 2, T>& lattice) {
         T ab[2], ac[2];
         lattice.difference(1, 0, ab);
         lattice.difference(2, 0, ac);

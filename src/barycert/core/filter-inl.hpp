@@ -45,8 +45,7 @@
 #include "barycert/core/numerators-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::core {
-namespace HWY_NAMESPACE {
+namespace barycert::core::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -185,7 +184,6 @@ HWY_INLINE hn::Mask<D> filter(D tag, const Relative<s, V>& c, hn::Vec<hn::Rebind
     return certain;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::core
+}  // namespace barycert::core::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

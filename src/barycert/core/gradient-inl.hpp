@@ -50,8 +50,7 @@
 #include "barycert/core/refinement-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::core {
-namespace HWY_NAMESPACE {
+namespace barycert::core::HWY_NAMESPACE {
 
 /// What the gradients of all components share.
 template <int d, class D>
@@ -171,7 +170,6 @@ HWY_INLINE void gradient_of(D tag, const CellMatrix<d, D>& m, const V (&f)[d + 1
     }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::core
+}  // namespace barycert::core::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

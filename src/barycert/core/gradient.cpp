@@ -1,7 +1,6 @@
 #include "barycert/gradient.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "barycert/core/blocks.hpp"
 #include "barycert/core/exact_tier.hpp"
@@ -10,8 +9,6 @@
 
 namespace barycert::core {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Gradients of the last tier in the cell at `vertices`: component k of that of field component c, whose value at
 /// vertex i is values[n * c + i][j], is out[d * c + k]. Precondition: coordinates finite.
@@ -67,9 +64,9 @@ Status gradients(Simplex simplex, std::span<const double> nodes, std::span<const
     return core::for_blocks(
         cells, Tier::double_double, tiers,
         [&](std::size_t first, const core::CaseBlock& block, std::uint32_t* undecided) {
-            block_values.gather_corners(cells, first, block.count);
+            const double* const* const nodal = block_values.block(cells, first, block.count);
             const std::size_t undecided_count =
-                core::gradient_lanes(simplex, block, block_values.arrays(), components, results.data(), undecided);
+                core::gradient_lanes(simplex, block, nodal, components, results.data(), undecided);
             results.copy_out(block.count, out.data() + per_cell * first);
             return undecided_count;
         },

@@ -7,7 +7,7 @@
 ///
 /// Widths. The finite doubles are multiples of 2^-1074 below 2^1024: 2098 bits, a difference of two 2099. The largest
 /// polynomial is that of a quadratic field on a tetrahedron, of degree 6 in differences and 1 in nodal values, 14704
-/// bits: see quadratic_exact.cpp. Next comes insphere, of degree 5 in differences, which is not divided: see
+/// bits: see exact_fields.cpp. Next comes insphere, of degree 5 in differences, which is not divided: see
 /// exact_weights.cpp. The numerator of a value on a triangle in 3-space, of degree 4 in differences and 1 in nodal
 /// values, summed over 4 x 18 terms, has 4 * 2099 + 2098 + 7 = 10501 bits. Division shifts one operand left by at most
 /// 64 bits more than the other's length and by up to 63 bits: two limbs more.

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "barycert/core/exact_tier.hpp"
 
 namespace barycert::core {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Status check_finite(std::span<const double> numbers, const char* what) {
     for (std::size_t i = 0; i < numbers.size(); ++i) {

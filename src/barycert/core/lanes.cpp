@@ -9,12 +9,10 @@
 #include "barycert/core/foreach_target.hpp"
 
 #include "barycert/core/lane_loop-inl.hpp"
-#include "barycert/core/plain_value-inl.hpp"
 #include "barycert/core/refinement-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::core {
-namespace HWY_NAMESPACE {
+namespace barycert::core::HWY_NAMESPACE {
 
 /// out[n * l + i] = lane l of w[i].
 template <class D, class V = hn::Vec<D>>
@@ -156,8 +154,7 @@ std::size_t plain_values(Simplex s, const CaseBlock& cases, const double* const*
                         [&]<Simplex known>() { return plain_values_of<known>(cases, f, components, out, undecided); });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::core
+}  // namespace barycert::core::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

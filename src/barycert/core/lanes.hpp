@@ -53,10 +53,44 @@ std::size_t quadratic_lanes(Simplex s, const CaseBlock& cases, const double* con
 std::size_t plain_quadratic_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components,
                                   double* const* out, std::uint32_t* undecided);
 
+/// The corners of each edge that a mid-edge node stands on, in the order of quadratic.hpp; the first three are those of
+/// a triangle.
+inline constexpr int quadratic_edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+
+/// The edge between corners i < j.
+constexpr int quadratic_edge(int i, int j) {
+    for (int e = 0; e < 6; ++e) {
+        if (quadratic_edges[e][0] == i && quadratic_edges[e][1] == j) return e;
+    }
+    return -1;
+}
+
 /// What plain lanes leave undecided: out[components * j + c] of the cases j in `undecided`, where one of the `nodes`
 /// values of component c is not finite. What has no part in the value is left out; where one has, it is NaN.
 void mend_plain_values(Simplex s, const CaseBlock& cases, std::span<const std::uint32_t> undecided,
                        const double* const* values, int nodes, int components, double* out);
+
+// Perspective-correct interpolation at points of one triangle, `vertices` as perspective.hpp has them. Arrays of points
+// and answers have room for a multiple of 8, or count is 1. Points and values that are not finite are undecided.
+
+/// x[j], y[j] is point j.
+struct PointBlock {
+    const double* x;
+    const double* y;
+    std::size_t count;  ///< below 2^32
+};
+
+/// out[i][j] is weight i of point j.
+std::size_t perspective_weight_lanes(const double* vertices, const PointBlock& points, double* const* out,
+                                     std::uint32_t* undecided);
+
+/// out[j] is the depth of point j.
+std::size_t perspective_depth_lanes(const double* vertices, const PointBlock& points, double* out,
+                                    std::uint32_t* undecided);
+
+/// values[components * i + c] is component c at vertex i; out[c][j] at point j.
+std::size_t perspective_value_lanes(const double* vertices, const PointBlock& points, const double* values,
+                                    int components, double* const* out, std::uint32_t* undecided);
 
 /// a * b + c is rounded once in the lanes as they were compiled for this target.
 bool lanes_contract();

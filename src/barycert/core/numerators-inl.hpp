@@ -2,8 +2,8 @@
 //
 // The one place where the formulas stand: the filter evaluates them in double, the middle tier in double-double, the
 // last tier in integers. Each caller bounds the error of its arithmetic by the depth and the terms of these formulas,
-// so a change here changes the constants in filter-inl.hpp, refinement-inl.hpp and predicates.cpp (incircle and
-// insphere by way of lifted-inl.hpp), and the widths in exact_weights.cpp, integer.hpp and check/exact_volumes.cpp.
+// so a change here changes the constants in filter-inl.hpp, refinement-inl.hpp and predicates.cpp, and the widths in
+// exact_weights.cpp, integer.hpp and check/exact_volumes.cpp.
 //
 // Notation. v_i the vertices, p the point, r_i = v_i - p; x: cross product; . : dot product.
 //   tetrahedron  n_0 = r_1.(r_2 x r_3), n_1 = -r_0.(r_2 x r_3), n_2 = r_3.(r_0 x r_1), n_3 = -r_2.(r_0 x r_1)
@@ -32,8 +32,7 @@
 #include "barycert/simplex.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::core {
-namespace HWY_NAMESPACE {
+namespace barycert::core::HWY_NAMESPACE {
 
 /// Vertices relative to the point and, for the simplices that are projected on, edges from vertex 0.
 template <Simplex s, class T>
@@ -77,6 +76,18 @@ HWY_INLINE Product<T, U> dot(const T (&x)[3], const U (&y)[3]) {
     return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 }
 
+/// The determinant of the rows.
+template <class T>
+HWY_INLINE Product<T> determinant(const T (&rows)[2][2]) {
+    return cross(rows[0], rows[1]);
+}
+template <class T>
+HWY_INLINE Product<T, Product<T>> determinant(const T (&rows)[3][3]) {
+    Product<T> minors[3];
+    cross(rows[1], rows[2], minors);
+    return dot(rows[0], minors);
+}
+
 /// `zero` is the number 0 of the arithmetic: subtracting from it is exact in every one of them.
 template <Simplex s, class T>
 HWY_INLINE void solve(const Relative<s, T>& c, const Numerator<s, T>& zero, Fractions<s, T>& out) {
@@ -109,7 +120,41 @@ HWY_INLINE void solve(const Relative<s, T>& c, const Numerator<s, T>& zero, Frac
     }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::core
+// The in-circle and in-sphere polynomials, for which predicates.cpp has the bounds and exact_weights.cpp the widths.
+// The vectors n_i r_i add up to zero. So with the centre c and the radius R of the circumsphere
+//     R^2 = |v_i - c|^2 = |r_i|^2 + 2 r_i.(p - c) + |p - c|^2,
+//     sum n_i |r_i|^2 = (R^2 - |p - c|^2) sum n_i,
+// and sum n_i is the orientation. The sum on the left is, up to its sign, the classical determinant of the rows
+// (r_i, |r_i|^2), expanded along the last column; so it has a meaning for flat simplices too.
+
+template <Simplex s, class T>
+struct Lifted {
+    static_assert(s == Simplex::triangle || s == Simplex::tetrahedron);
+    Product<T> square[vertex_count(s)];        ///< |r_i|^2
+    Product<Numerator<s, T>, Product<T>> sum;  ///< of n_i |r_i|^2
+};
+
+template <Simplex s, class T>
+HWY_INLINE void lift(const Relative<s, T>& c, Lifted<s, T>& out) {
+    Fractions<s, T> f;
+    solve(c, Numerator<s, T>{}, f);
+    const auto& n = f.numerator;
+    auto& square = out.square;
+    for (int i = 0; i < vertex_count(s); ++i) {
+        const auto& r = c.r[i];
+        if constexpr (s == Simplex::tetrahedron) {
+            square[i] = dot(r, r);
+        } else {
+            square[i] = r[0] * r[0] + r[1] * r[1];
+        }
+    }
+    if constexpr (s == Simplex::tetrahedron) {
+        out.sum = (n[0] * square[0] + n[1] * square[1]) + (n[2] * square[2] + n[3] * square[3]);
+    } else {
+        out.sum = n[0] * square[0] + n[1] * square[1] + n[2] * square[2];
+    }
+}
+
+}  // namespace barycert::core::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

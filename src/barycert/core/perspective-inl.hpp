@@ -3,7 +3,7 @@
 // Notation of numerators-inl.hpp for the triangle in the window, w_i its depths; W_i = w_j w_k, exact in two doubles.
 //   m_i = n_i W_i,  m = sum m_i,  d = sum n_i;  a weight is m_i / m, a value sum m_i f_i / m, the depth d w_0 W_0 / m.
 //
-// Bounds, u = 2^-53, errors of the operations as in double_double-inl.hpp: a product 9 u^2, a sum 4 u^2 of the
+// Bounds, u = 2^-53, errors of the operations as in error_free-inl.hpp: a product 9 u^2, a sum 4 u^2 of the
 // magnitudes. R_x, R_y: the largest |v_i - p| along the axes, P = 2 R_x R_y >= the two products of a numerator.
 //   n_i           2 products, 1 sum: (9 + 4) u^2 P             13 u^2 P
 //   d             3 of them, 2 sums: 39 + 8 * 3                63 u^2 P
@@ -34,8 +34,7 @@
 #include "barycert/core/refinement-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::core {
-namespace HWY_NAMESPACE {
+namespace barycert::core::HWY_NAMESPACE {
 
 template <class D>
 struct ProjectedLanes {
@@ -164,7 +163,6 @@ HWY_INLINE V rounded_quotient(D tag, const QuotientLanes<D>& q, hn::Mask<D>& cer
     return rounded_if_certain<D>(q.plain, q.correction, error, certain) + hn::Zero(tag);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::core
+}  // namespace barycert::core::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
-#include "barycert/core/input_checks.hpp"
-#include "barycert/core/perspective_exact.hpp"
-#include "barycert/core/perspective_lanes.hpp"
+#include "barycert/core/blocks.hpp"
+#include "barycert/core/exact_tier.hpp"
+#include "barycert/core/lanes.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert::core {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 bool usable(const double* vertices, const double* point) {
     for (int i = 0; i < 3; ++i) {
@@ -44,19 +41,6 @@ Error unusable_error(const double* vertices, const double* point, const std::str
             .expected = "a finite number",
             .found = std::to_string(point[k])};
 }
-
-constexpr std::size_t points_at_once = 64;
-
-/// Answers of a block of points, an array a number, and what is undecided of them.
-struct AnswerBlock {
-    explicit AnswerBlock(std::size_t numbers) : answers(numbers * points_at_once), at(numbers) {
-        for (std::size_t i = 0; i < numbers; ++i) at[i] = answers.data() + points_at_once * i;
-    }
-
-    std::vector<double> answers;
-    std::vector<double*> at;
-    std::uint32_t undecided[points_at_once];
-};
 
 }  // namespace
 }  // namespace barycert::core
@@ -114,22 +98,21 @@ Status perspective_values(const double* vertices, std::span<const double> points
     if (!core::usable(vertices, origin)) return core::unusable_error(vertices, origin);
     TierCounts counts;
     const bool finite_values = core::all_finite(values.data(), static_cast<int>(values.size()));
-    double x[core::points_at_once] = {}, y[core::points_at_once] = {};
-    core::AnswerBlock block(stride);
-    for (std::size_t first = 0; first < count; first += core::points_at_once) {
-        const std::size_t some = std::min(core::points_at_once, count - first);
+    double x[core::block_size] = {}, y[core::block_size] = {};
+    const core::LaneArrays results(stride);
+    std::uint32_t undecided[core::block_size];
+    for (std::size_t first = 0; first < count; first += core::block_size) {
+        const std::size_t some = std::min(core::block_size, count - first);
         for (std::size_t j = 0; j < some; ++j) {
             x[j] = points[2 * (first + j)];
             y[j] = points[2 * (first + j) + 1];
         }
-        const std::size_t left = core::perspective_value_lanes(vertices, {x, y, some}, values.data(), components,
-                                                               block.at.data(), block.undecided);
+        const std::size_t left =
+            core::perspective_value_lanes(vertices, {x, y, some}, values.data(), components, results.data(), undecided);
         double* const to = out.data() + stride * first;
-        for (std::size_t j = 0; j < some; ++j) {
-            for (std::size_t c = 0; c < stride; ++c) to[stride * j + c] = block.at[c][j];
-        }
+        results.copy_out(some, to);
         for (std::size_t i = 0; i < left; ++i) {
-            const std::size_t j = block.undecided[i];
+            const std::size_t j = undecided[i];
             const double* const point = points.data() + 2 * (first + j);
             if (!core::usable(vertices, point))
                 return core::unusable_error(vertices, point, "point " + std::to_string(first + j) + ", ");

@@ -1,8 +1,7 @@
-#include "barycert/core/perspective_exact.hpp"
+#include "barycert/core/exact_tier.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
 #include "barycert/core/fixed_integer.hpp"
@@ -87,8 +86,7 @@ bool with_projected(const Parts& parts, Use use) {
 
 template <class Number, class Divisor>
 double rounded(const Number& number, const Divisor& divisor, int exponent) {
-    const Integer &n = as_integer(number), &d = as_integer(divisor);
-    return round_quotient(n.sign() != d.sign(), n.magnitude(), d.magnitude(), exponent);
+    return round_quotient(as_integer(number), as_integer(divisor), exponent);
 }
 
 /// sum m_i f_i / m. Widths: values below 2^(64 M - 3) in M limbs give products below 2^(256 N + 64 M - 12) in
@@ -136,7 +134,7 @@ bool exact_perspective_values(const double* vertices, const double* point, const
                 unit.add(parts[i]);
             }
             if (!finite) {
-                out[c] = std::numeric_limits<double>::quiet_NaN();
+                out[c] = nan;
             } else if (std::is_same_v<T, Integer> || unit.bits() > 64 - 3) {
                 out[c] = value<Integer>(p, parts, unit);
             } else if constexpr (!std::is_same_v<T, Integer>) {

@@ -9,7 +9,7 @@
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/core/exact_tier.hpp"
-#include "barycert/core/lifted-inl.hpp"
+#include "barycert/core/numerators-inl.hpp"
 
 namespace barycert::core {
 namespace {

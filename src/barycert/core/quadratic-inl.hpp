@@ -11,7 +11,7 @@
 //   <= M (2 eta A + (n - 1) eta A + 10 eta^2) <= M eta (5 A + 10 eta).
 // As the exact weights sum to 1, A >= 1 - 4 eta; with eta <= 2^-10 that is below 5.01 M eta A.
 //
-// From the arithmetic, with the errors of double_double-inl.hpp, relative to sum_{i <= j} |W_i W_j| M <= A^2 M:
+// From the arithmetic, with the errors of error_free-inl.hpp, relative to sum_{i <= j} |W_i W_j| M <= A^2 M:
 //   b_ij: the sums f_i + f_j and 4 f_ij - (f_i + f_j) leave remainders <= 2.01 u M and 1.01 u M, whose difference is
 //   rounded: 3.1 u^2; the product with W_j: 9 u^2; at most 3 sums: 12 u^2; the product with W_i: 9 u^2; at most 3 sums:
 //   12 u^2. Together 45.1 u^2, and terms of order u^3.
@@ -32,12 +32,11 @@
 #define BARYCERT_CORE_QUADRATIC_INL_HPP
 #endif
 
-#include "barycert/core/quadratic_edges.hpp"
+#include "barycert/core/lanes.hpp"
 #include "barycert/core/refinement-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::core {
-namespace HWY_NAMESPACE {
+namespace barycert::core::HWY_NAMESPACE {
 
 /// Nodes of a cell: corners, and behind them the nodes amid the edges.
 template <Simplex s>
@@ -112,7 +111,6 @@ HWY_INLINE V quadratic_value(D tag, const QuadraticWeights<s, D>& w, const V (&f
     return rounded_if_certain<D>(q.value.high, q.value.low, error, certain) + hn::Zero(tag);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::core
+}  // namespace barycert::core::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -1,7 +1,6 @@
 #include "barycert/quadratic.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,8 +12,6 @@
 
 namespace barycert::core {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Status check_simplex(Simplex s) {
     return check_fills_space(s, "quadratic interpolation");

@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "barycert/core/exact_tier.hpp"
 #include "barycert/core/input_checks.hpp"
 #include "barycert/core/integer.hpp"
+#include "barycert/core/lanes.hpp"
 #include "barycert/core/numerators-inl.hpp"
-#include "barycert/core/quadratic_edges.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/environment.hpp"
@@ -100,8 +99,7 @@ bool exact_quadratic_gradient(const double* vertices, const double* point, const
     if (denominator.sign() == 0) return false;
     for (int k = 0; k < d; ++k) {
         // Each axis and the values have units of their own; all but those of the values and of axis k cancel.
-        out[k] = round_quotient(g.numerator[k].sign() != denominator.sign(), g.numerator[k].magnitude(),
-                                denominator.magnitude(), units[d].exponent - units[k].exponent);
+        out[k] = round_quotient(g.numerator[k], denominator, units[d].exponent - units[k].exponent);
     }
     return true;
 }
@@ -154,7 +152,7 @@ Gradient quadratic_gradient_of(const double* vertices, const double* point, cons
     } else {
         g.degenerate = !exact_quadratic_gradient<s>(vertices, point, f.data(), g.gradient.data());
     }
-    if (!usable || g.degenerate) std::fill_n(g.gradient.begin(), d, std::numeric_limits<double>::quiet_NaN());
+    if (!usable || g.degenerate) std::fill_n(g.gradient.begin(), d, nan);
     return g;
 }
 

@@ -17,6 +17,12 @@ using Magnitude = std::span<const std::uint64_t>;
 /// both fit an Integer.
 double round_quotient(bool negative, Magnitude numerator, Magnitude denominator, int exponent);
 
+/// The same of two numbers with their signs.
+inline double round_quotient(const Integer& numerator, const Integer& denominator, int exponent) {
+    return round_quotient(numerator.sign() != denominator.sign(), numerator.magnitude(), denominator.magnitude(),
+                          exponent);
+}
+
 /// number * 2^exponent rounded in the same way.
 double round_integer(const Integer& number, int exponent);
 

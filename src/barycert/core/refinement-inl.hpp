@@ -58,12 +58,13 @@
 #define BARYCERT_CORE_REFINEMENT_INL_HPP
 #endif
 
-#include "barycert/core/double_double-inl.hpp"
+#include <limits>
+
+#include "barycert/core/error_free-inl.hpp"
 #include "barycert/core/filter-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::core {
-namespace HWY_NAMESPACE {
+namespace barycert::core::HWY_NAMESPACE {
 
 /// Absolute coordinates of one lane's cases.
 template <Simplex s, class V>
@@ -290,7 +291,30 @@ HWY_INLINE V value(D tag, const Refined<s, D>& r, const V (&f)[vertex_count(s)],
            hn::Zero(tag);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::core
+/// The value of a linear field in plain double: the one formula of batches, points and grids, so that a value has the
+/// same bits from each of them.
+template <Simplex s, class D>
+struct PlainWeights {
+    using V = hn::Vec<D>;
+    Fractions<s, V> f;
+    V inverse;
+
+    HWY_INLINE PlainWeights(D tag, const Relative<s, V>& relative) {
+        solve(relative, hn::Zero(tag), f);
+        inverse = hn::Set(tag, 1) / f.denominator;
+    }
+
+    /// nodal(i): the values at vertex i. There is one NaN: its sign and payload would tell in which order a compiler
+    /// has the operands of a sum or product.
+    template <class Nodal>
+    HWY_INLINE V value(D tag, const Nodal& nodal) const {
+        V sum = hn::Zero(tag);
+        for (int i = 0; i < vertex_count(s); ++i) sum = sum + f.numerator[i] * nodal(i);
+        const V value = sum * inverse;
+        return hn::IfThenElse(hn::IsNaN(value), hn::Set(tag, std::numeric_limits<double>::quiet_NaN()), value);
+    }
+};
+
+}  // namespace barycert::core::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -80,4 +80,37 @@ decltype(auto) with_integers(int bits, F f) {
     return f.template operator()<Integer>();
 }
 
+/// Numbers on the axes of `count` points, as integers of type T in the unit of their axis: made when they are asked
+/// for, as the widest fill the stack.
+template <int count, int d, class T>
+struct Lattice {
+    const ScaledDouble (&parts)[count][d];
+    const Unit (&units)[d];
+
+    T at(int i, int k) const { return units[k].template multiple<T>(parts[i][k]); }
+    /// Point i less point j. Inline, for GCC 12 folds the copies of different `count` into one and then warns of it.
+    [[gnu::always_inline]] void difference(int i, int j, T (&out)[d]) const {
+        for (int k = 0; k < d; ++k) out[k] = at(i, k) - at(j, k);
+    }
+};
+
+/// Calls decide(lattice) with number(i, k) of point i on axis k as integers of the narrowest type that has 3 bits more
+/// than they need: each axis in a unit of its own, or all in one.
+template <int count, int d, class Number, class Decide>
+auto with_lattice(Number number, bool common, Decide decide) {
+    ScaledDouble parts[count][d];
+    Unit units[d];
+    for (int k = 0; k < d; ++k) {
+        for (int i = 0; i < count; ++i) {
+            parts[i][k] = scaled(number(i, k));
+            units[k].add(parts[i][k]);
+        }
+    }
+    if (common) {
+        for (int k = 1; k < d; ++k) units[0].add(units[k]);
+        std::fill_n(units, d, units[0]);
+    }
+    return with_integers<3>(max_bits(units), [&]<class T>() { return decide(Lattice<count, d, T>{parts, units}); });
+}
+
 }  // namespace barycert::core

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <type_traits>
 #include <vector>
@@ -14,8 +13,6 @@
 
 namespace barycert::core {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Weights of the last tier; NaN and false if degenerate.
 bool exact_weights(Simplex s, const double* vertices, const double* point, double* out) {
@@ -79,29 +76,13 @@ private:
     std::vector<const double*> arrays_;
 };
 
-/// The same for a mesh, always gathered.
-template <class T>
-class MeshValues {
-public:
-    MeshValues(const MeshQueries& queries, const NodalValues<T>& values)
-        : values_(values, static_cast<std::size_t>(vertex_count(queries.simplex))) {}
-
-    const double* const* block(const MeshQueries& queries, std::size_t first, std::size_t count) {
-        values_.gather_corners(queries, first, count);
-        return values_.arrays();
-    }
-
-private:
-    GatheredValues<T> values_;
-};
-
 template <class T>
 ArrayValues<T> block_values(const CaseArrays& cases, const ValueArrays<T>& values) {
     return {cases, values};
 }
 template <class T>
-MeshValues<T> block_values(const MeshQueries& queries, const NodalValues<T>& values) {
-    return {queries, values};
+GatheredValues<T> block_values(const MeshQueries& queries, const NodalValues<T>& values) {
+    return {values, static_cast<std::size_t>(vertex_count(queries.simplex))};
 }
 
 /// Values of the last tier, one a component: that of vertex i, component c is values[n * c + i][j].

@@ -73,6 +73,64 @@ std::optional<Weights> ratios(const Case& c) {
     return w;
 }
 
+Point minus(const Point& a, const Point& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+Point cross_product(const Point& a, const Point& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Rational dot_product(const Point& a, const Point& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Weights of a point in the plane of a triangle, by signed areas; `normal` is the cross product of its edges, not
+/// zero.
+Point areas(const std::array<Point, 3>& v, const Point& normal, const Point& at) {
+    Point w;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Point &a = v[(i + 1) % 3], &b = v[(i + 2) % 3];
+        w[i] = dot_product(normal, cross_product(minus(b, a), minus(at, a))) / dot_product(normal, normal);
+    }
+    return w;
+}
+
+/// As the projection has it: alpha_i in the window, 1/Z = sum alpha_i / w_i, beta_i = Z alpha_i / w_i.
+std::optional<Point> by_depths(const Case& c) {
+    std::array<Point, 3> v;
+    for (int i = 0; i < 3; ++i)
+        v[static_cast<std::size_t>(i)] = {Rational(c.vertex(i, 0)), Rational(c.vertex(i, 1)), Rational(1)};
+    const Point normal = cross_product(minus(v[1], v[0]), minus(v[2], v[0]));
+    if (normal[2] == Rational(0)) return std::nullopt;
+    Point w = areas(v, normal, {Rational(c.point[0]), Rational(c.point[1]), Rational(1)});
+    Rational inverse(0);
+    for (int i = 0; i < 3; ++i) {
+        Rational& share = w[static_cast<std::size_t>(i)];
+        share /= Rational(c.depth(i));
+        inverse += share;
+    }
+    if (inverse == Rational(0)) return std::nullopt;
+    for (Rational& share : w) share /= inverse;
+    return w;
+}
+
+/// As the eye sees it: t ray with normal . (t ray - v_0) = 0.
+std::optional<Point> by_ray(const Case& c) {
+    const Point ray{Rational(c.point[0]), Rational(c.point[1]), Rational(1)};
+    std::array<Point, 3> v;
+    for (int i = 0; i < 3; ++i) {
+        const Rational w(c.depth(i));
+        v[static_cast<std::size_t>(i)] = {Rational(c.vertex(i, 0)) * w, Rational(c.vertex(i, 1)) * w, w};
+    }
+    const Point normal = cross_product(minus(v[1], v[0]), minus(v[2], v[0]));
+    // The distance is zero where the plane holds the eye: the triangle is seen edge-on, and has no area in the window.
+    const Rational facing = dot_product(normal, ray), distance = dot_product(normal, v[0]);
+    if (facing == Rational(0) || distance == Rational(0)) return std::nullopt;
+    const Rational t = distance / facing;
+    return areas(v, normal, {t * ray[0], t * ray[1], t * ray[2]});
+}
+
 IdentityVerdict compare(const std::optional<Weighted>& found, const std::optional<Weights>& expected) {
     if (!found || !expected) return IdentityVerdict::undefined;
     return found->weights == *expected ? IdentityVerdict::holds : IdentityVerdict::fails;
@@ -113,6 +171,14 @@ IdentityVerdict trilinear_is_barycentric(const Case& c) {
         if (const auto found = along(*left, *right, 0, p[0])) return compare(found, expected);
     } while (std::next_permutation(order.begin(), order.end()));
     return IdentityVerdict::undefined;
+}
+
+IdentityVerdict perspective_is_ray_casting(const Case& c) {
+    const ExactEnvironment environment;
+    const auto depths = by_depths(c), ray = by_ray(c);
+    if (depths.has_value() != ray.has_value()) return IdentityVerdict::fails;
+    if (!depths) return IdentityVerdict::undefined;
+    return *depths == *ray ? IdentityVerdict::holds : IdentityVerdict::fails;
 }
 
 }  // namespace barycert

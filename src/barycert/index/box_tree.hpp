@@ -5,9 +5,11 @@
 /// exactly; there are no tolerances.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -28,7 +30,17 @@ struct Box {
             high[k] = b.high[k] > high[k] ? b.high[k] : high[k];
         }
     }
+    /// The point of the box that is nearest to p: its coordinates are numbers of the box or of p.
+    std::array<double, 3> nearest(const std::array<double, 3>& p) const {
+        std::array<double, 3> at{};
+        for (std::size_t k = 0; k < 3; ++k) at[k] = std::clamp(p[k], low[k], high[k]);
+        return at;
+    }
 };
+
+inline constexpr double no_coordinate = std::numeric_limits<double>::infinity();
+inline constexpr Box empty_box{{no_coordinate, no_coordinate, no_coordinate},
+                               {-no_coordinate, -no_coordinate, -no_coordinate}};
 
 /// The box of `count` points with d coordinates.
 Box box_of(int d, const double* const* points, int count);

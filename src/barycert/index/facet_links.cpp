@@ -4,13 +4,125 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
-
-#include "barycert/index/facet_table.hpp"
-#include "barycert/index/orientation_lanes.hpp"
 
 namespace barycert::index {
 namespace {
+
+/// A number for a set of nodes is the sum of the numbers of its nodes: those of all facets of a cell come from one sum.
+std::uint64_t hash_of(Place node) {
+    std::uint64_t x = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(node)) + 1) * 0x9e3779b97f4a7c15;
+    x = (x ^ x >> 32) * 0xd6e8feb86659fd93;
+    return x ^ x >> 29;
+}
+
+/// A facet of a cell, by its number: where it is looked for in a table, and by which it is known there.
+struct HashedFacet {
+    std::uint32_t start, tag;
+    Place cell;
+    std::uint8_t corner;  ///< of the cell, opposite to the facet
+    std::uint8_t side;    ///< 0 or 1: on which side of the facet, as its nodes turn in ascending order, the cell lies
+};
+
+/// The facets of a cell that is not degenerate; `orientation`: the sign of its volume.
+///
+/// Sides. Sort the vertices of a cell by node, and let s be the sign of its volume in that order. The vertex of rank r
+/// lies on the positive side of the others, in their order, if s (-1)^r has one certain sign, the same for all cells:
+/// moving the vertex to the front takes r transpositions.
+template <std::size_t d>
+std::array<HashedFacet, d + 1> facets_of(const CellRecord* cells, Place cell, std::int8_t orientation) {
+    const CellRecord& record = cells[cell];
+    std::array<std::uint64_t, d + 1> hash;
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i <= d; ++i) sum += hash[i] = hash_of(record.node[i]);
+    std::array<unsigned, d + 1> rank{};
+    unsigned odd = orientation < 0 ? 1 : 0;
+    for (std::size_t i = 0; i < d; ++i) {
+        for (std::size_t j = i + 1; j <= d; ++j) {
+            const unsigned after = record.node[i] > record.node[j] ? 1 : 0;
+            odd ^= after;
+            rank[i] += after;
+            rank[j] += 1 - after;
+        }
+    }
+    std::array<HashedFacet, d + 1> facets;
+    for (std::size_t i = 0; i <= d; ++i)
+        facets[i] = {static_cast<std::uint32_t>(sum - hash[i]), static_cast<std::uint32_t>((sum - hash[i]) >> 32), cell,
+                     static_cast<std::uint8_t>(i), static_cast<std::uint8_t>((odd ^ rank[i]) & 1)};
+    return facets;
+}
+
+/// A hash table of facets that look for partners. They are known to it by numbers from 0 on. Keeps its memory.
+template <std::size_t d>
+class FacetTable {
+public:
+    /// Empties it, for at most `facets` < 2^30 calls of meet.
+    void reset(std::size_t facets) {
+        // At most half full: about half of the facets find a partner, and leave a slot that is not used again.
+        const std::size_t size = std::bit_ceil(std::max<std::size_t>(facets, 8) * 2);
+        if (slots_.size() < size) slots_.resize(size);
+        std::fill(slots_.begin(), slots_.begin() + static_cast<std::ptrdiff_t>(size), Slot{});
+        mask_ = size - 1;
+    }
+
+    void fetch(const HashedFacet& facet) const { __builtin_prefetch(&slots_[facet.start & mask_], 1); }
+
+    /// Links the facet with one of the same nodes whose cell lies on the other side, if one waits, or lets it wait
+    /// under its number. at(number) is a facet by its number: its cell and corner are asked for.
+    template <class At>
+    void meet(const HashedFacet& facet, std::uint32_t number, CellRecord* cells, At at) {
+        const std::uint32_t other_side = facet.side ^ 1U;
+        for (std::size_t i = facet.start & mask_;; i = (i + 1) & mask_) {
+            Slot& slot = slots_[i];
+            if (slot.facet == empty) {
+                slot = {facet.tag, (number << 1 | facet.side) + 1};
+                return;
+            }
+            if (slot.tag != facet.tag || slot.facet == found || ((slot.facet - 1) & 1) != other_side) continue;
+            const HashedFacet partner = at((slot.facet - 1) >> 1);
+            if (!same(cells, partner, facet)) continue;
+            cells[partner.cell].next[partner.corner] = facet.cell;
+            cells[facet.cell].next[facet.corner] = partner.cell;
+            slot.facet = found;
+            return;
+        }
+    }
+
+    /// use(number, tag, side) for each facet that waits.
+    template <class Use>
+    void for_each_waiting(Use use) const {
+        for (std::size_t i = 0; i <= mask_; ++i) {
+            const std::uint32_t facet = slots_[i].facet;
+            if (facet != empty && facet != found)
+                use((facet - 1) >> 1, slots_[i].tag, static_cast<std::uint8_t>((facet - 1) & 1));
+        }
+    }
+
+private:
+    static constexpr std::uint32_t empty = 0, found = ~std::uint32_t{0};
+
+    struct Slot {
+        std::uint32_t tag = 0;
+        std::uint32_t facet = empty;  ///< 1 + (its number, then a bit for its side)
+    };
+
+    /// The same nodes: each facet has d different ones.
+    static bool same(const CellRecord* cells, const HashedFacet& f, const HashedFacet& g) {
+        const auto &a = cells[f.cell].node, &b = cells[g.cell].node;
+        bool all = true;
+        for (std::size_t i = 0; i <= d; ++i) {
+            bool has = i == f.corner;
+            for (std::size_t j = 0; j <= d; ++j) has |= j != g.corner && a[i] == b[j];
+            all &= has;
+        }
+        return all;
+    }
+
+    std::size_t mask_ = 0;
+    std::vector<Slot> slots_;
+};
 
 /// Cells that are linked among themselves first: near in space, so that most of their facets find their partners, and
 /// the table stays in the second cache. Their number is fixed, and so is which of three facets of the same nodes are

@@ -1,6 +1,7 @@
 /// Cells linked over their facets, and what that leaves open.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -25,5 +26,9 @@ struct FacetLinks {
 /// lie on opposite sides; each facet has at most one partner. The outcome does not depend on threads. Uses those of the
 /// calling arena.
 FacetLinks link_facets(CellIndex& index);
+
+/// On SIMD lanes: out[i] = the sign of the volume of the cell at place first + i, for i < count: -1, 0 or 1. One
+/// determinant in double with its bound; integers where that leaves it open.
+void find_orientations(const CellIndex& index, std::size_t first, std::size_t count, std::int8_t* out);
 
 }  // namespace barycert::index

@@ -41,30 +41,6 @@ std::vector<Ridge> ridges_of(int d, const std::vector<PlacedFacet>& facets) {
     return ridges;
 }
 
-}  // namespace
-
-Item item_of(const PlacedFacet& facet, int d) {
-    Item item{.count = d};
-    std::copy(facet.nodes.begin(), facet.nodes.end(), item.nodes.begin());
-    std::copy(facet.at.begin(), facet.at.end(), item.at.begin());
-    return item;
-}
-
-PlacedFacet placed(const CellIndex& index, const CellFacet& facet) {
-    const auto& node = index.cells[static_cast<std::size_t>(facet.cell)].node;
-    PlacedFacet placed;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < index.corners(); ++i) {
-        if (i != static_cast<std::size_t>(facet.corner)) placed.nodes[count++] = node[i];
-    }
-    std::sort(placed.nodes.begin(), placed.nodes.begin() + static_cast<std::ptrdiff_t>(count));
-    for (std::size_t i = 0; i < count; ++i)
-        placed.at[i] = index.nodes[static_cast<std::size_t>(placed.nodes[i])].at.data();
-    return placed;
-}
-
-namespace {
-
 /// Flags that threads raise.
 class Conflicts {
 public:
@@ -98,34 +74,6 @@ std::size_t largest_fan(std::size_t nodes, const std::vector<PlacedFacet>& facet
     }
     return largest;
 }
-
-}  // namespace
-
-std::vector<std::uint8_t> find_conflicts(const CellIndex& index, const std::vector<PlacedFacet>& facets) {
-    const auto d = static_cast<int>(index.dimension());
-    Conflicts conflicts(d, facets);
-    if (largest_fan(index.original_node.size(), facets) <= crowd) {
-        // Facets are in the order of their cells, which is that of space.
-        const BoxGroups boxes(facets.size(),
-                              [&](std::size_t f) { return box_of(index, facets[f].at.data(), index.dimension()); });
-        tbb::parallel_for(std::size_t{0}, (facets.size() + 7) / 8, [&](std::size_t g) {
-            boxes.for_each_pair(g, [&](std::size_t i, std::size_t j) { conflicts.ask(i, j); });
-        });
-        return conflicts.take();
-    }
-    std::vector<Item> items(facets.size());
-    for (std::size_t i = 0; i < facets.size(); ++i) items[i] = item_of(facets[i], d);
-    const Candidates candidates(d, items, crowd);
-    tbb::parallel_for(std::size_t{0}, facets.size(), [&](std::size_t i) {
-        candidates.for_each(items[i], [&](std::uint32_t j) {
-            if (j > i) conflicts.ask(i, j);
-            return true;
-        });
-    });
-    return conflicts.take();
-}
-
-namespace {
 
 /// Facets that have a ridge, in a ring around it.
 class Ring {
@@ -183,6 +131,50 @@ private:
 };
 
 }  // namespace
+
+Item item_of(const PlacedFacet& facet, int d) {
+    Item item{.count = d};
+    std::copy(facet.nodes.begin(), facet.nodes.end(), item.nodes.begin());
+    std::copy(facet.at.begin(), facet.at.end(), item.at.begin());
+    return item;
+}
+
+PlacedFacet placed(const CellIndex& index, const CellFacet& facet) {
+    const auto& node = index.cells[static_cast<std::size_t>(facet.cell)].node;
+    PlacedFacet placed;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < index.corners(); ++i) {
+        if (i != static_cast<std::size_t>(facet.corner)) placed.nodes[count++] = node[i];
+    }
+    std::sort(placed.nodes.begin(), placed.nodes.begin() + static_cast<std::ptrdiff_t>(count));
+    for (std::size_t i = 0; i < count; ++i)
+        placed.at[i] = index.nodes[static_cast<std::size_t>(placed.nodes[i])].at.data();
+    return placed;
+}
+
+std::vector<std::uint8_t> find_conflicts(const CellIndex& index, const std::vector<PlacedFacet>& facets) {
+    const auto d = static_cast<int>(index.dimension());
+    Conflicts conflicts(d, facets);
+    if (largest_fan(index.original_node.size(), facets) <= crowd) {
+        // Facets are in the order of their cells, which is that of space.
+        const BoxGroups boxes(facets.size(),
+                              [&](std::size_t f) { return box_of(index, facets[f].at.data(), index.dimension()); });
+        tbb::parallel_for(std::size_t{0}, (facets.size() + 7) / 8, [&](std::size_t g) {
+            boxes.for_each_pair(g, [&](std::size_t i, std::size_t j) { conflicts.ask(i, j); });
+        });
+        return conflicts.take();
+    }
+    std::vector<Item> items(facets.size());
+    for (std::size_t i = 0; i < facets.size(); ++i) items[i] = item_of(facets[i], d);
+    const Candidates candidates(d, items, crowd);
+    tbb::parallel_for(std::size_t{0}, facets.size(), [&](std::size_t i) {
+        candidates.for_each(items[i], [&](std::uint32_t j) {
+            if (j > i) conflicts.ask(i, j);
+            return true;
+        });
+    });
+    return conflicts.take();
+}
 
 std::vector<std::vector<std::uint32_t>> find_sheets(const CellIndex& index, const std::vector<CellFacet>& open,
                                                     const std::vector<PlacedFacet>& facets,

@@ -1,4 +1,4 @@
-/// Open facets, as places in space: which conflict, which belong to one sheet (proof.hpp).
+/// Open facets, as places in space: which conflict, which belong to one sheet (doc/theorem.md).
 #pragma once
 
 #include <cstdint>

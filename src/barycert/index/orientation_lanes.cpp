@@ -1,4 +1,4 @@
-#include "barycert/index/orientation_lanes.hpp"
+#include "barycert/index/facet_links.hpp"
 #include "barycert/predicates.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -9,8 +9,7 @@
 #include "barycert/index/records-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::index {
-namespace HWY_NAMESPACE {
+namespace barycert::index::HWY_NAMESPACE {
 
 using namespace core::HWY_NAMESPACE;
 
@@ -82,8 +81,7 @@ void filter_orientations(const CellIndex& index, std::size_t first, std::size_t 
                                        : filter_cells<Simplex::tetrahedron>(cells, index.nodes.data(), count, out);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::index
+}  // namespace barycert::index::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -16,8 +16,7 @@
 #include <cstring>
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::index {
-namespace HWY_NAMESPACE {
+namespace barycert::index::HWY_NAMESPACE {
 
 /// out[k], lane l = address(l)[k]. Addresses are multiples of 32. A transpose: on most processors faster than gathers.
 template <class D, class Address, class V = hwy::HWY_NAMESPACE::Vec<D>>
@@ -59,7 +58,6 @@ HWY_INLINE void load_records(D tag, Address address, V (&out)[4]) {
     }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::index
+}  // namespace barycert::index::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

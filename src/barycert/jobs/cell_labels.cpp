@@ -6,7 +6,7 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/mesh/columns.hpp"
-#include "barycert/sample/points/field_choice.hpp"
+#include "barycert/sample/quantity/expression.hpp"
 
 namespace barycert::jobs {
 namespace {

@@ -20,7 +20,6 @@
 #include "barycert/locate/cells_at_points.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/predicates.hpp"
-#include "barycert/sample/points/field_choice.hpp"
 #include "barycert/sample/quantity/expression.hpp"
 #include "barycert/sample/quantity/made_fields.hpp"
 

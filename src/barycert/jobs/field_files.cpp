@@ -14,7 +14,7 @@
 #include "barycert/io/medit/read_medit.hpp"
 #include "barycert/io/mesh_format.hpp"
 #include "barycert/io/vtk_points.hpp"
-#include "barycert/sample/points/field_choice.hpp"
+#include "barycert/sample/quantity/expression.hpp"
 
 namespace barycert::jobs {
 namespace {

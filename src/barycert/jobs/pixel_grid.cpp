@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
@@ -14,8 +15,8 @@ std::array<double, 3> PixelGrid::middle(std::int64_t i, std::int64_t j) const {
     const ExactEnvironment environment;
     std::array<double, 3> at{};
     for (std::size_t k = 0; k < 3; ++k)
-        at[k] = held((held(origin[k]) + static_cast<double>(i) * held(step_right[k])) +
-                     static_cast<double>(j) * held(step_up[k]));
+        at[k] = base::held((base::held(origin[k]) + static_cast<double>(i) * base::held(step_right[k])) +
+                     static_cast<double>(j) * base::held(step_up[k]));
     return at;
 }
 

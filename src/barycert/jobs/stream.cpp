@@ -100,10 +100,10 @@ Status sample_stream(Run& run, Engine& engine, PointSource& source, const Stream
     if (Status read = read_next(first); !read) return read;
     Status ready = more ? engine.prepare() : engine.prepare_for_all(first.rows.points);
     if (!ready) return ready;
-    size = block_size(source.count(), threads, engine.locator().data().index.cell_count());
+    size = block_size(source.count(), threads, engine.locator().mesh().cell_count());
     // What pays for all points would not for one block.
     locate::in_arena(
-        threads, [&] { engine.locator().data().prepare(std::max<std::uint64_t>(source.count().value_or(0), taken)); });
+        threads, [&] { locate::LocatorData::of(engine.locator()).prepare(std::max<std::uint64_t>(source.count().value_or(0), taken)); });
     Stopwatch watch;
     if (Status opened = writer.open(engine, summary.all); !opened) return opened;
     seconds.write += watch.lap();

@@ -51,6 +51,14 @@ inline std::optional<std::size_t> first_outside(std::span<const Mesh::Index> cel
     return std::nullopt;
 }
 
+/// There are d coordinates a point.
+inline Status check_size(std::span<const double> points, std::size_t d) {
+    if (points.size() % d == 0) return Done{};
+    return Error{.what = "size of the points",
+                 .expected = std::to_string(d) + " coordinates a point",
+                 .found = std::to_string(points.size()) + " numbers"};
+}
+
 /// An Error naming the first point with a coordinate that is not finite, if there is one. `first`: its number counts
 /// from there.
 inline Status check_finite(std::span<const double> points, std::size_t d, std::size_t first = 0) {

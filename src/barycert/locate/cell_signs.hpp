@@ -1,11 +1,47 @@
-/// The exact signs of one point in one cell, cheaply where points lie on faces along the axes.
+/// One point against one cell, in floating point with a bound, and exactly.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "barycert/core/numerators-inl.hpp"
 #include "barycert/locate/names.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/simplex.hpp"
 
 namespace barycert::locate {
+
+/// The weights of a point in a cell as fractions in double. Their errors are those of filter-inl.hpp, if all extents
+/// are in its range.
+template <Simplex s>
+struct CellAtPoint {
+    static constexpr int n = vertex_count(s), d = space_dimension(s);
+    static constexpr double epsilon = 0x1p-52;
+
+    core::HWY_NAMESPACE::Fractions<s, double> weights;
+    double product = 1;  ///< of the extents
+    bool in_range = true;
+
+    CellAtPoint(const CellIndex& index, const CellRecord& cell, const double* p) {
+        core::HWY_NAMESPACE::Relative<s, double> relative;
+        auto& r = relative.r;
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto& at = index.nodes[static_cast<std::size_t>(cell.node[i])].at;
+            for (std::size_t k = 0; k < d; ++k) r[i][k] = at[k] - p[k];
+        }
+        for (std::size_t k = 0; k < d; ++k) {
+            double extent = std::abs(r[0][k]);
+            for (std::size_t i = 1; i < n; ++i) extent = std::max(extent, std::abs(r[i][k]));
+            product *= extent;
+            in_range &= extent >= 0x1p-300 && extent <= 0x1p300;
+        }
+        solve(relative, 0.0, weights);
+    }
+
+    double numerator_error() const { return (d == 3 ? 49 : 8.5) * epsilon * product; }
+    double denominator_error() const { return (d == 3 ? 245 : 37) * epsilon * product; }
+};
 
 /// weight_signs of predicates.hpp, with one more shortcut: where the vertices of a facet and the point agree in a
 /// coordinate to the bit, that weight is zero, and nothing needs to be multiplied. On the sides of a box, and in meshes

@@ -7,12 +7,121 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <limits>
+#include <bit>
 
+#include "barycert/index/box_tree.hpp"
 #include "barycert/index/buffer.hpp"
-#include "barycert/locate/cells_at_points_lanes.hpp"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "barycert/locate/cells_at_points.cpp"
+#include "barycert/core/foreach_target.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace barycert::locate::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// A bit in `near` for each of the cells of these corners that may be near, and the codes of their lowest and highest
+/// bins. False if a corner is no node.
+template <std::size_t n, class D>
+HWY_INLINE bool look(D tag, const Mesh::Index* corner, const CellBlock& block, const PointBins& bins, std::int32_t* low,
+                     std::int32_t* high, std::uint64_t& near) {
+    using V = hn::Vec<D>;
+    V node[n], code[n];
+    if constexpr (n == 4) {
+        hn::LoadInterleaved4(tag, corner, node[0], node[1], node[2], node[3]);
+    } else {
+        hn::LoadInterleaved3(tag, corner, node[0], node[1], node[2]);
+    }
+    const V last = hn::Set(tag, static_cast<std::int32_t>(block.codes.size() - 1));
+    auto wrong = hn::MaskFromVec(hn::Zero(tag));
+    for (const V& v : node) wrong = hn::Or(wrong, hn::Or(hn::Lt(v, hn::Zero(tag)), hn::Gt(v, last)));
+    if (!hn::AllFalse(tag, wrong)) return false;
+    for (std::size_t i = 0; i < n; ++i) code[i] = hn::GatherIndex(tag, block.codes.data(), node[i]);
+
+    const V byte = hn::Set(tag, 0xFF), one = hn::Set(tag, 1), thirty_one = hn::Set(tag, 31);
+    V lowest[3], highest[3];
+    for (int k = 0; k < 3; ++k) {
+        V places[n];
+        for (std::size_t i = 0; i < n; ++i) places[i] = hn::And(hn::ShiftRightSame(code[i], 8 * k), byte);
+        lowest[k] = highest[k] = places[0];
+        for (std::size_t i = 1; i < n; ++i) {
+            lowest[k] = hn::Min(lowest[k], places[i]);
+            highest[k] = hn::Max(highest[k], places[i]);
+        }
+    }
+    // Where the cell spans at most two bins of a level an axis, the level has the answer; where none does, none.
+    auto found = hn::MaskFromVec(hn::Zero(tag));
+    auto open = hn::Not(found);
+    for (std::size_t level = 0; level < PointBins::levels && !hn::AllFalse(tag, open); ++level) {
+        const int bits = bins.bits(level);
+        V number = hn::Zero(tag);
+        auto fits = open;
+        for (int k = 0; k < 3; ++k) {
+            const V a = hn::ShiftRightSame(lowest[k], static_cast<int>(level));
+            const V b = hn::ShiftRightSame(highest[k], static_cast<int>(level));
+            fits = hn::And(fits, hn::Not(hn::Gt(hn::Sub(b, a), one)));
+            number = hn::Or(number, hn::ShiftLeftSame(a, bits * k));
+        }
+        const V word = hn::GatherIndex(tag, bins.near(level), hn::ShiftRight<5>(number));
+        const V bit = hn::And(word >> hn::And(number, thirty_one), one);
+        found = hn::Or(found, hn::And(fits, hn::Eq(bit, one)));
+        open = hn::AndNot(fits, open);
+    }
+    found = hn::Or(found, open);
+    std::uint8_t mask[8] = {};
+    hn::StoreMaskBits(tag, found, mask);
+    near = 0;
+    for (std::size_t i = 0; i < (hn::MaxLanes(tag) + 7) / 8; ++i) near |= static_cast<std::uint64_t>(mask[i]) << 8 * i;
+    if constexpr (hn::MaxLanes(D()) < 8) near &= (1U << hn::MaxLanes(D())) - 1;
+    if (near == 0) return true;
+    const auto packed = [&](const V(&v)[3])
+                            HWY_ATTR { return hn::Or(v[0], hn::Or(hn::ShiftLeft<8>(v[1]), hn::ShiftLeft<16>(v[2]))); };
+    hn::Store(packed(lowest), tag, low);
+    hn::Store(packed(highest), tag, high);
+    return true;
+}
+
+template <std::size_t n>
+std::optional<std::size_t> find_near_corners(const CellBlock& block, const PointBins& bins, CellBins* out) {
+    const hn::ScalableTag<std::int32_t> tag;
+    constexpr std::size_t width = hn::MaxLanes(hn::ScalableTag<std::int32_t>());
+    HWY_ALIGN std::int32_t low[width], high[width];
+    CellBins* const begin = out;
+    for (std::size_t at = 0; at < block.count; at += width) {
+        const std::size_t count = std::min(width, block.count - at);
+        const Mesh::Index* corner = block.corner + n * at;
+        Mesh::Index padded[n * width];
+        if (count < width) {  // filled up with the first of them
+            for (std::size_t i = 0; i < n * width; ++i) padded[i] = corner[i < n * count ? i : i % n];
+            corner = padded;
+        }
+        std::uint64_t near = 0;
+        if (!look<n>(tag, corner, block, bins, low, high, near)) return std::nullopt;
+        if (count < width) near &= (std::uint64_t{1} << count) - 1;
+        for (; near != 0; near &= near - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(near));
+            *out++ = {static_cast<std::uint32_t>(at + lane), static_cast<std::uint32_t>(low[lane]),
+                      static_cast<std::uint32_t>(high[lane])};
+        }
+    }
+    return static_cast<std::size_t>(out - begin);
+}
+
+/// Writes the cells that may be near a bin with a point to `out`, ascending, and returns how many; all others are not.
+/// Nothing if a corner is no node. `out` has room for all.
+std::optional<std::size_t> find_near(const CellBlock& block, const PointBins& bins, CellBins* out) {
+    return block.corners == 4 ? find_near_corners<4>(block, bins, out) : find_near_corners<3>(block, bins, out);
+}
+
+}  // namespace barycert::locate::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace barycert::locate {
+
+HWY_EXPORT(find_near);
+
 namespace {
 
 /// So many points still leave most bins of the coarser grid empty.
@@ -85,30 +194,19 @@ bool PointBins::some_in(std::uint32_t low, std::uint32_t high) const {
 
 namespace {
 
-struct NodeBox {
-    std::array<double, 3> low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
-
-    void add(const NodeBox& other) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = std::min(low[k], other.low[k]);
-            high[k] = std::max(high[k], other.high[k]);
-        }
-    }
-};
-
-NodeBox box_of_nodes(const Mesh& mesh) {
+Box box_of_nodes(const Mesh& mesh) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
-    const auto join = [](NodeBox a, const NodeBox& b) {
+    const auto join = [](Box a, const Box& b) {
         a.add(b);
         return a;
     };
     return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, mesh.point_count(), nodes_at_once), NodeBox(),
-        [&](const auto& range, NodeBox box) {
+        tbb::blocked_range<std::size_t>(0, mesh.point_count(), nodes_at_once), empty_box,
+        [&](const auto& range, Box box) {
             for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                NodeBox node;
-                for (std::size_t k = 0; k < d; ++k) node.low[k] = node.high[k] = mesh.points[d * i + k];
-                box.add(node);
+                std::array<double, 3> node{};
+                std::copy_n(mesh.points.data() + d * i, d, node.begin());
+                box.add({node, node});
             }
             return box;
         },
@@ -118,7 +216,7 @@ NodeBox box_of_nodes(const Mesh& mesh) {
 /// Those in the box of the nodes: no cell holds another, and one far away would make the bins large.
 std::vector<double> points_in_box(const Mesh& mesh, std::span<const double> points) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
-    const NodeBox box = box_of_nodes(mesh);
+    const Box box = box_of_nodes(mesh);
     std::vector<double> inside;
     for (std::size_t i = 0; i + d <= points.size(); i += d) {
         bool in = true;
@@ -150,8 +248,8 @@ std::optional<std::vector<Mesh::Index>> cells_at_points(const Mesh& mesh, std::s
         if (count > max || !sound) return;
         const std::size_t first = b * block, size = std::min(block, cells - first);
         Buffer<CellBins> near(size);
-        const auto kept = find_near({mesh.cells.data() + (d + 1) * first, size, d + 1, {codes.data(), codes.size()}},
-                                    bins, near.data());
+        const auto kept = HWY_DYNAMIC_DISPATCH(find_near)(
+            {mesh.cells.data() + (d + 1) * first, size, d + 1, {codes.data(), codes.size()}}, bins, near.data());
         if (!kept) {
             sound = false;
             return;
@@ -170,3 +268,4 @@ std::optional<std::vector<Mesh::Index>> cells_at_points(const Mesh& mesh, std::s
 }
 
 }  // namespace barycert::locate
+#endif

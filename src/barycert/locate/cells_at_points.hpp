@@ -2,7 +2,7 @@
 ///
 /// A coarse grid lies over the box of the points that are in the box of the nodes (no cell holds another point); what
 /// is below the box goes to bin 0 of an axis, what is above it to the last one, and what is inside to bins between, by
-/// a map that is monotone whatever is rounded (quantizer.hpp). So the bins of a cell, from the lowest to the highest of
+/// a map that is monotone whatever is rounded (bins.hpp). So the bins of a cell, from the lowest to the highest of
 /// its corners, include that of every point in its box, and a cell none of whose bins holds a point holds no point.
 #pragma once
 
@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "barycert/index/quantizer.hpp"
+#include "barycert/index/bins.hpp"
 #include "barycert/locate/names.hpp"
 #include "barycert/mesh.hpp"
 
@@ -60,6 +60,19 @@ private:
     Quantizer quantizer_;
     std::array<std::vector<std::int32_t>, levels> near_;
     std::vector<std::uint64_t> rows_;  ///< a bit for each bin, x fastest
+};
+
+/// Cells by their corners.
+struct CellBlock {
+    const Mesh::Index* corner;
+    std::size_t count;
+    std::size_t corners;                  ///< a cell: 3 or 4
+    std::span<const std::int32_t> codes;  ///< bin of each node
+};
+
+/// A cell of a block and the bins that it reaches.
+struct CellBins {
+    std::uint32_t cell, low, high;
 };
 
 /// Every cell whose box holds one of the points, and maybe others, ascending. Nothing if there are more than `max` of

@@ -6,12 +6,12 @@
 #include <atomic>
 #include <utility>
 
-#include "barycert/index/crossing.hpp"
+#include "barycert/index/overlap.hpp"
+#include "barycert/index/overlapped.hpp"
 #include "barycert/index/proof.hpp"
 #include "barycert/locate/cell_signs.hpp"
+#include "barycert/locate/lanes.hpp"
 #include "barycert/locate/names.hpp"
-#include "barycert/locate/tree_lanes.hpp"
-#include "barycert/locate/walk_lanes.hpp"
 
 namespace barycert::locate {
 namespace {
@@ -47,7 +47,8 @@ ContestedCells::Lists ContestedCells::make_lists() const {
             const auto original = [&](std::size_t c) { return index_.original[static_cast<std::size_t>(cells_[c])]; };
             if (original(i) < original(j)) std::swap(i, j);
             ++pairs;
-            if (may_overlap(index_, cells_[i], cells_[j]))
+            if (may_overlap(static_cast<int>(index_.dimension()), item_of(index_, cells_[i]).at,
+                            item_of(index_, cells_[j]).at))
                 found[g].push_back({static_cast<std::uint32_t>(i), cells_[j]});
         });
         count.fetch_add(pairs, std::memory_order_relaxed);

@@ -1,4 +1,4 @@
-/// The cells that others may meet beside common faces (proof.hpp), to find who else holds a point.
+/// The cells that others may meet beside common faces (doc/theorem.md), to find who else holds a point.
 #pragma once
 
 #include <atomic>
@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "barycert/index/box_groups.hpp"
+#include "barycert/index/cell_tree.hpp"
 #include "barycert/index/proof.hpp"
 #include "barycert/locate/lazy.hpp"
 #include "barycert/locate/names.hpp"

@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "barycert/locate/cell_signs.hpp"
+#include "barycert/locate/lanes.hpp"
 #include "barycert/locate/locator_data.hpp"
 #include "barycert/locate/sorted_points.hpp"
-#include "barycert/locate/tree_lanes.hpp"
-#include "barycert/locate/walk_lanes.hpp"
 
 namespace barycert::locate {
 

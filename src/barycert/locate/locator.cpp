@@ -10,18 +10,6 @@
 #include "barycert/predicates.hpp"
 
 namespace barycert {
-namespace {
-
-Status check_size(const Locator& locator, std::span<const double> points) {
-    const std::size_t d = locator.data().index.dimension();
-    if (points.size() % d == 0) return Done{};
-    return Error{.what = "size of the points",
-                 .expected = std::to_string(d) + " coordinates a point",
-                 .found = std::to_string(points.size()) + " numbers"};
-}
-
-}  // namespace
-
 Locator::Locator(std::unique_ptr<locate::LocatorData> data) : data_(std::move(data)) {}
 Locator::Locator(Locator&&) noexcept = default;
 Locator& Locator::operator=(Locator&&) noexcept = default;
@@ -80,7 +68,7 @@ std::size_t Locator::bytes() const {
 Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> cells, std::span<Feature> features,
                        LocationCounts* counts, int threads, NonfinitePoints nonfinite) const {
     const ExactEnvironment environment;
-    if (Status status = check_size(*this, points); !status) return status;
+    if (Status status = locate::check_size(points, data_->index.dimension()); !status) return status;
     const std::size_t count = points.size() / data_->index.dimension();
     if (cells.size() != count || features.size() != count)
         return Error{.what = "size of the output",
@@ -138,7 +126,7 @@ Result<Table> Locator::locate(std::span<const double> points, int threads, Nonfi
 
 Result<Table> Locator::locate_all(std::span<const double> points, int threads, NonfinitePoints nonfinite) const {
     const ExactEnvironment environment;
-    if (Status status = check_size(*this, points); !status) return status.error();
+    if (Status status = locate::check_size(points, data_->index.dimension()); !status) return status.error();
     struct Found {
         std::size_t point;
         Mesh::Index cell;

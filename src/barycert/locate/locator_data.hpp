@@ -11,7 +11,7 @@
 #include "barycert/locate/contested_cells.hpp"
 #include "barycert/locate/lazy.hpp"
 #include "barycert/locate/names.hpp"
-#include "barycert/locate/nearest_tree.hpp"
+#include "barycert/locate/nearest.hpp"
 #include "barycert/locate/node_cells.hpp"
 #include "barycert/locate/occupancy.hpp"
 #include "barycert/locate/sorted_points.hpp"
@@ -46,6 +46,8 @@ private:
 };
 
 struct LocatorData {
+    static const LocatorData& of(const Locator& locator) { return *locator.data_; }
+
     const Mesh* mesh = nullptr;
     Method method = Method::candidates;
     CellIndex index;

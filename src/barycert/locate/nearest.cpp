@@ -9,17 +9,26 @@
 #include <utility>
 #include <vector>
 
+#include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/near_bounds.hpp"
 #include "barycert/locate/near_feature.hpp"
-#include "barycert/locate/nearest_tree.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert {
 namespace locate {
 namespace {
+
+Box box_of_cell(const CellIndex& index, std::size_t cell) {
+    Box box = empty_box;
+    for (std::size_t i = 0; i < index.corners(); ++i) {
+        const auto& at = index.nodes[static_cast<std::size_t>(index.cells[cell].node[i])].at;
+        box.add({at, at});
+    }
+    return box;
+}
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -74,7 +83,7 @@ public:
     }
 
 private:
-    NearPlace place(const ExactBox& box) const { return NearPlace(p_, box.nearest(p_), {}); }
+    NearPlace place(const Box& box) const { return NearPlace(p_, box.nearest(p_), {}); }
 
     /// Certainly farther than the best, or than the limit.
     bool beyond(const NearPlace& x) const {
@@ -85,7 +94,7 @@ private:
         return square * (1 - 0x1p-40L) > limit_ * limit_;
     }
 
-    void open(const ExactBox& box, std::size_t level, std::size_t i, std::vector<Open>& out) {
+    void open(const Box& box, std::size_t level, std::size_t i, std::vector<Open>& out) {
         ++work_.boxes;
         const NearPlace x = place(box);
         if (!beyond(x)) out.push_back({key(farther(x, best_.place).value), level, i});
@@ -159,6 +168,22 @@ private:
 
 }  // namespace
 
+NearestTree::NearestTree(const CellIndex& index) {
+    std::size_t below = index.cell_count();
+    do {
+        const std::size_t level = begin_.size(), count = (below + fan - 1) / fan;
+        begin_.push_back(boxes_.size());
+        for (std::size_t i = 0; i < count; ++i) {
+            Box all = empty_box;
+            for (std::size_t j = fan * i; j < std::min(below, fan * (i + 1)); ++j)
+                all.add(level == 0 ? box_of_cell(index, j) : boxes_[begin_[level - 1] + j]);
+            boxes_.push_back(all);
+        }
+        below = count;
+    } while (below > 1);
+    begin_.push_back(boxes_.size());
+}
+
 Nearest find_nearest(const LocatorData& data, const double* point, double limit, NearestWork* work) {
     const Nearest none{.distance = infinity};
     if (!(limit >= 0) || data.index.cell_count() == 0) return none;
@@ -171,7 +196,7 @@ Nearest find_nearest(const LocatorData& data, const double* point, double limit,
 
 Result<Nearest> Locator::nearest(const double* point, double limit) const {
     const ExactEnvironment environment;
-    limit = held(limit);
+    limit = base::held(limit);
     const std::size_t d = data_->index.dimension();
     if (Status status = locate::check_finite({point, d}, d); !status) return status.error();
     return locate::find_nearest(*data_, point, limit);

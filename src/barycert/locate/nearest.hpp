@@ -1,12 +1,38 @@
-/// The search for the nearest point of a mesh, with its work counted.
+/// The nearest point of a mesh: boxes of cells to find it from anywhere, and the search, with its work counted.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
-#include "barycert/locate/locator_data.hpp"
+#include "barycert/index/box_tree.hpp"
+#include "barycert/locate/names.hpp"
 #include "barycert/locator.hpp"
 
 namespace barycert::locate {
+
+/// Boxes whose numbers are coordinates of nodes, unrounded: those of eight neighbouring cells, in the order of the
+/// index, then of eight such boxes, up to one. Those of the cells themselves are made when they are asked for: 7 bytes
+/// a cell in all. The whole numbers of CellTree would not do: from far away, a difference of 2^-31 of the mesh in depth
+/// outweighs all that distinguishes cells sideways.
+class NearestTree {
+public:
+    static constexpr std::size_t fan = 8;
+
+    /// Precondition: there is a cell. Time O(cells).
+    explicit NearestTree(const CellIndex& index);
+
+    std::size_t levels() const { return begin_.size() - 1; }
+    /// Of a level, the least one 0.
+    std::size_t count(std::size_t level) const { return begin_[level + 1] - begin_[level]; }
+    const Box& box(std::size_t level, std::size_t i) const { return boxes_[begin_[level] + i]; }
+    std::size_t bytes() const { return boxes_.size() * sizeof(Box); }
+
+private:
+    std::vector<std::size_t> begin_;
+    std::vector<Box> boxes_;
+};
 
 /// How much a search looked at, for tests of its cost.
 struct NearestWork {

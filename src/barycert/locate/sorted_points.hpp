@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "barycert/index/buffer.hpp"
-#include "barycert/locate/bin_lanes.hpp"
+#include "barycert/locate/lanes.hpp"
 #include "barycert/locate/names.hpp"
-#include "barycert/locate/walk_lanes.hpp"
 
 namespace barycert::locate {
 

@@ -1,19 +1,16 @@
 #include "barycert/mesh/consistency.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 
 namespace barycert::mesh {
 namespace {
-
-bool all_finite(const std::vector<double>& values) {
-    return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
-}
 
 bool all_within(const std::vector<Mesh::Index>& indices, Mesh::Index lowest, std::size_t count) {
     return std::all_of(indices.begin(), indices.end(),
@@ -32,7 +29,7 @@ const char* fault_of_fields(const std::vector<Field>& fields, std::size_t rows, 
         if (field.data.size() != rows * static_cast<std::size_t>(field.components)) {
             return "a field does not have one value per node or cell";
         }
-        if (values == FieldValues::finite && !all_finite(field.data)) {
+        if (values == FieldValues::finite && !base::all_finite(field.data)) {
             return "a value of a field is not finite, which the format cannot hold";
         }
     }
@@ -82,7 +79,7 @@ const char* inconsistency_of_cells(const Mesh& mesh, FieldValues values) {
     if (std::max(mesh.point_count(), mesh.cell_count()) > INT32_MAX) {
         return "it has more than 2147483647 nodes or cells";
     }
-    if (!all_finite(mesh.points)) return "a coordinate is not finite";
+    if (!base::all_finite(mesh.points)) return "a coordinate is not finite";
     if (const char* fault = fault_of_cells(mesh); fault != nullptr) return fault;
     if (const char* fault = fault_of_faces(mesh); fault != nullptr) return fault;
     return inconsistency_of_extras(mesh, values);
@@ -95,6 +92,21 @@ const char* inconsistency(const Mesh& mesh, FieldValues values) {
     if (!all_within(mesh.face_mid_nodes, 0, mesh.point_count())) return "a mid-edge node of a face is not a node";
     if (!fits(mesh.face_markers, mesh.face_count())) return "the markers do not match the faces";
     return nullptr;
+}
+
+Status check_field(const Field* field, std::size_t rows, const char* of) {
+    if (field == nullptr) return Error{.what = "a field is missing"};
+    const std::string name = "field \"" + field->name + '"';
+    if (field->components < 1)
+        return Error{.what = "number of components of " + name,
+                     .expected = "at least 1",
+                     .found = std::to_string(field->components)};
+    const std::size_t expected = rows * static_cast<std::size_t>(field->components);
+    if (field->data.size() == expected) return Done{};
+    return Error{
+        .what = "size of " + name,
+        .expected = std::to_string(expected) + " numbers, " + std::to_string(field->components) + " for each " + of,
+        .found = std::to_string(field->data.size())};
 }
 
 }  // namespace barycert::mesh

@@ -1,7 +1,10 @@
 /// Whether a mesh in memory is whole.
 #pragma once
 
+#include <cstddef>
+
 #include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert::mesh {
 
@@ -18,6 +21,9 @@ const char* inconsistency_of_cells(const Mesh& mesh, FieldValues values);
 /// The part of that which check_mesh does not find otherwise: about what belongs to nodes and cells (markers, fields,
 /// nodes at mid-edges), and the index base. Precondition: whole nodes and cells of dimension 2 or 3.
 const char* inconsistency_of_extras(const Mesh& mesh, FieldValues values);
+
+/// The field is there and has `rows` rows; `of` as in "node".
+Status check_field(const Field* field, std::size_t rows, const char* of);
 
 inline constexpr const char* faces_of_triangles = "a mesh of triangles has no faces";
 

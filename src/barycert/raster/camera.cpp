@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/core/quotient.hpp"
@@ -191,8 +192,8 @@ std::array<double, 2> viewport(RasterSize size, double x, double y, double w, Ro
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     if (!(w > 0) || !all_finite(std::array{x, y, w})) return {nan, nan};
     if (rounding == Rounding::correct) return {exact_window(x, w, size.width), exact_window(y, w, size.height)};
-    return held(std::array<double, 2>{(held(x) / held(w) + 1) * (0.5 * size.width),
-                                      (held(y) / held(w) + 1) * (0.5 * size.height)});
+    return base::held(std::array<double, 2>{(base::held(x) / base::held(w) + 1) * (0.5 * size.width),
+                                      (base::held(y) / base::held(w) + 1) * (0.5 * size.height)});
 }
 
 }  // namespace barycert

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/raster/bytes.hpp"
@@ -65,8 +66,8 @@ Place place(double u, std::int32_t size, Wrap wrap, Filter filter) {
 Rgba texel(const Texture& texture, double u, double v) {
     const ExactEnvironment environment;
     const Image& image = texture.image;
-    const Place x = place(held(u), image.width, texture.wrap, texture.filter);
-    const Place y = place(held(v), image.height, texture.wrap, texture.filter);
+    const Place x = place(base::held(u), image.width, texture.wrap, texture.filter);
+    const Place y = place(base::held(v), image.height, texture.wrap, texture.filter);
     if (texture.filter == Filter::nearest) return image.pixel(x.low, y.low);
     const Rgba a = image.pixel(x.low, y.low), b = image.pixel(x.high, y.low);
     const Rgba c = image.pixel(x.low, y.high), d = image.pixel(x.high, y.high);

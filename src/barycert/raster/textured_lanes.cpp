@@ -20,7 +20,7 @@
 #define HWY_TARGET_INCLUDE "barycert/raster/textured_lanes.cpp"
 #include "barycert/core/foreach_target.hpp"
 
-#include "barycert/core/partial_lanes-inl.hpp"
+#include "barycert/core/lane_loop-inl.hpp"
 #include "barycert/raster/row_blocks-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

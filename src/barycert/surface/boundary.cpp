@@ -7,9 +7,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/mesh/facets.hpp"
 #include "barycert/surface.hpp"
-#include "barycert/surface/carry.hpp"
-#include "barycert/surface/flat_cells.hpp"
-#include "barycert/surface/input.hpp"
+#include "barycert/surface/parts.hpp"
 
 namespace barycert::surface {
 namespace {

@@ -2,7 +2,7 @@
 //
 // Notation: a the end with g >= 0, b the other; p = g(a) >= 0, q = -g(b) > 0, D = p + q. The weights of a and b are q/D
 // and p/D, both from 0 to 1. u = 2^-53. P, Q, S: p, q and D as double-double numbers; bounds for x + y and x * y are
-// those of double_double-inl.hpp.
+// those of error_free-inl.hpp.
 //
 // |P - p| and |Q - q| together are at most e:
 //   a field     p = f_a - value, q = value - f_b: exact (two_difference), e = 0.
@@ -21,7 +21,7 @@
 // most 2^-1070, of l itself 2^-1075 S, and so on: below 20 * 2^-1070 against u^2 S >= 2^-906. In n.x, where S <= 1.01
 // (M_a + M_b), three products an end lose 2^-1070 each against 0.5 u^2 (M_a + M_b). An infinite or NaN difference makes
 // S_high infinite or NaN; an infinite M makes e infinite. Comparisons with NaN are false: undecided.
-#include "barycert/surface/crossing_lanes.hpp"
+#include "barycert/surface/levels.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/surface/crossing_lanes.cpp"
@@ -31,8 +31,7 @@
 #include "barycert/core/refinement-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::surface {
-namespace HWY_NAMESPACE {
+namespace barycert::surface::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 namespace core = barycert::core::HWY_NAMESPACE;
@@ -125,8 +124,7 @@ std::size_t plane_crossings(const Plane& plane, const EdgeBlock& edges, double* 
     });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::surface
+}  // namespace barycert::surface::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -1,4 +1,4 @@
-#include "barycert/surface/flat_cells.hpp"
+#include "barycert/surface/parts.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "barycert/surface/input.hpp"
+#include "barycert/surface/parts.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
@@ -7,6 +7,7 @@
 #include <string>
 
 #include "barycert/base/strict_math.hpp"
+#include "barycert/mesh/consistency.hpp"
 
 namespace barycert::surface {
 namespace {
@@ -52,27 +53,12 @@ Status check_mesh(const Mesh& mesh, int dimension) {
     return Done{};
 }
 
-Status check_field(const Field* field, std::size_t rows, const char* of) {
-    if (field == nullptr) return Error{.what = "a field is missing"};
-    const std::string name = "field \"" + field->name + '"';
-    if (field->components < 1)
-        return Error{.what = "number of components of " + name,
-                     .expected = "at least 1",
-                     .found = std::to_string(field->components)};
-    const std::size_t expected = rows * static_cast<std::size_t>(field->components);
-    if (field->data.size() == expected) return Done{};
-    return Error{
-        .what = "size of " + name,
-        .expected = std::to_string(expected) + " numbers, " + std::to_string(field->components) + " for each " + of,
-        .found = std::to_string(field->data.size())};
-}
-
 Status check_options(const Mesh& mesh, const CutOptions& options) {
     for (const Field* const field : options.point_fields) {
-        if (Status fits = check_field(field, mesh.point_count(), "node"); !fits) return fits;
+        if (Status fits = mesh::check_field(field, mesh.point_count(), "node"); !fits) return fits;
     }
     for (const Field* const field : options.cell_fields) {
-        if (Status fits = check_field(field, mesh.cell_count(), "cell"); !fits) return fits;
+        if (Status fits = mesh::check_field(field, mesh.cell_count(), "cell"); !fits) return fits;
     }
     return Done{};
 }

@@ -1,4 +1,4 @@
-#include "barycert/surface/topology.hpp"
+#include "barycert/surface/parts.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -11,8 +11,6 @@
 #include "barycert/base/large_pages.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/surface/cell_cases.hpp"
-#include "barycert/surface/flat_cells.hpp"
-#include "barycert/surface/input.hpp"
 
 namespace barycert::surface {
 namespace {

@@ -1,15 +1,20 @@
-/// The error of one value, and where it is counted.
+/// The error of one value, and where it is counted; the cell whose values are nearest to what is claimed.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <tuple>
+#include <vector>
 
 #include "barycert/base/decades.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/ulp.hpp"
+#include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
 #include "barycert/verify.hpp"
 
 namespace barycert::verify {
@@ -89,5 +94,18 @@ inline void count(const ValueError& error, double claimed, const VerifyOptions& 
     ++to.by_ulps[bin_of_ulps(error.ulps, to.by_ulps.size())];
     ++to.by_relative[base::decade_bin(error.relative)];
 }
+
+// Rows that are looked at again: every cell that contains the point may be the one that a tool took.
+
+/// The values of a row by the cell whose largest error is least.
+struct BestHolder {
+    std::vector<double> values;  ///< one a column
+    std::uint64_t cells = 0;     ///< how many contain the point
+    bool other = false;          ///< it is not the owner
+};
+
+/// For each of the rows `which` of `claimed`, all of them inside. `ranges`: one a column.
+Result<std::vector<BestHolder>> best_holders(const Sampler& sampler, const ClaimedRows& claimed,
+                                             std::span<const std::size_t> which, std::span<const double> ranges);
 
 }  // namespace barycert::verify

@@ -11,10 +11,9 @@
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
-#include "barycert/sample/quantity/length.hpp"
+#include "barycert/sample/quantity/made_fields.hpp"
 #include "barycert/verify.hpp"
 #include "barycert/verify/errors.hpp"
-#include "barycert/verify/holders.hpp"
 
 namespace barycert {
 namespace {
@@ -103,11 +102,11 @@ private:
     bool names_wrong_cell(std::size_t row) {
         if (claimed_.cells.empty() || claimed_.cells[row] < 0 || claimed_.cells[row] == table_.cells[row]) return false;
         const Mesh& mesh = sampler_.locator().mesh();
-        if (static_cast<std::uint64_t>(claimed_.cells[row]) >= sampler_.data().index().original.size()) return true;
+        if (static_cast<std::uint64_t>(claimed_.cells[row]) >= mesh.cell_count()) return true;
         const auto d = static_cast<std::size_t>(mesh.dimension);
         std::array<double, 3> at{};
         std::copy_n(claimed_.points.data() + d * row, d, at.begin());
-        const locate::LocatorData& data = sampler_.locator().data();
+        const locate::LocatorData& data = locate::LocatorData::of(sampler_.locator());
         const locate::Place place = data.places()[static_cast<std::size_t>(claimed_.cells[row])];
         return !locate::cell_signs(data.index, place, at.data(), tests_).contains();
     }
@@ -256,10 +255,10 @@ ClaimedRows part_of(const ClaimedRows& rows, std::size_t d, std::size_t columns,
 
 Verifier::Verifier(const Sampler& sampler, const VerifyOptions& options) : sampler_(sampler), options_(options) {
     const ExactEnvironment environment;
-    const locate::CellIndex& index = sampler.data().index();
+    const sample::SamplerData& data = sample::SamplerData::of(sampler);
+    const locate::CellIndex& index = data.index();
     near_ = near_distance *
             std::hypot(index.high[0] - index.low[0], index.high[1] - index.low[1], index.high[2] - index.low[2]);
-    const sample::SamplerData& data = sampler.data();
     const auto add = [&](const Field& field, std::size_t component, std::size_t columns) {
         const auto [range, relative_to] = range_of(field, component);
         ranges_.insert(ranges_.end(), columns, range);

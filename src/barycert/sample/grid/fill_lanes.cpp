@@ -1,5 +1,5 @@
-// Cells against the points of a grid. Cells with few points in their boxes look at all of them (fill_box-inl.hpp,
-// fill_boxes-inl.hpp); others find where each row enters and leaves them (fill_rows-inl.hpp, fill_spans-inl.hpp).
+// Cells against the points of a grid. Cells with few points in their boxes look at all of them (fill_box-inl.hpp);
+// others find where each row enters and leaves them (fill_rows-inl.hpp).
 #include "barycert/sample/grid/fill_lanes.hpp"
 
 #include <algorithm>
@@ -9,13 +9,10 @@
 #include "barycert/core/foreach_target.hpp"
 
 #include "barycert/base/strict_math.hpp"
-#include "barycert/sample/grid/fill_boxes-inl.hpp"
-#include "barycert/sample/grid/fill_plain-inl.hpp"
-#include "barycert/sample/grid/fill_spans-inl.hpp"
+#include "barycert/sample/grid/fill_points-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::sample {
-namespace HWY_NAMESPACE {
+namespace barycert::sample::HWY_NAMESPACE {
 
 template <template <int> class Values, int d>
 void fill_all(const FillSource& source, std::span<const locate::Place> cells, const FillTarget& target,
@@ -73,18 +70,75 @@ void fill_cells(const FillSource& source, std::span<const locate::Place> cells, 
     }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::sample
+// After that: points as they are left.
+
+/// One by one: returns true if the point is one of the others.
+HWY_INLINE bool finish_point(const FillTarget& target, std::size_t point, const double* outside, FinishedPoints& out) {
+    Feature& feature = target.feature[point];
+    if (target.owner[point] < 0) {
+        if (outside == nullptr) return true;
+        ++out.outside;
+        std::fill_n(target.values + target.stride * point, target.stride, *outside);
+        return false;
+    }
+    if (feature == Feature::outside) feature = Feature::interior;
+    if (lacks_value(feature)) return true;
+    out.locations.add(feature);
+    ++out.with_value;
+    return false;
+}
+
+void finish_points(const FillTarget& target, std::size_t first, std::size_t last, const double* outside,
+                   FinishedPoints& out) {
+    const hn::ScalableTag<std::int32_t> tag;
+    const hn::Rebind<std::int8_t, decltype(tag)> bytes;
+    constexpr std::size_t width = hn::MaxLanes(hn::ScalableTag<std::int32_t>());
+    const auto none = hn::Set(bytes, static_cast<std::int8_t>(Feature::outside));
+    const auto interior = hn::Set(bytes, static_cast<std::int8_t>(Feature::interior));
+    std::size_t point = first, inside = 0;
+    for (; point + width <= last; point += width) {
+        auto* const features = reinterpret_cast<std::int8_t*>(target.feature + point);
+        const auto known = hn::LoadU(bytes, features);
+        const auto unowned = hn::Lt(hn::LoadU(tag, target.owner + point), hn::Zero(tag));
+        const std::size_t lost = hn::CountTrue(tag, unowned);
+        const bool usual = hn::AllTrue(bytes, hn::Eq(known, none));
+        if (usual && lost == 0) {
+            hn::StoreU(interior, bytes, features);
+            inside += width;
+        } else if (usual && lost == width && outside != nullptr) {
+            std::fill_n(target.values + target.stride * point, target.stride * width, *outside);
+            out.outside += width;
+        } else {
+            for (std::size_t i = 0; i < width; ++i) {
+                if (finish_point(target, point + i, outside, out))
+                    out.others.push_back(static_cast<std::uint32_t>(point + i));
+            }
+        }
+    }
+    out.locations.add(Feature::interior, inside);
+    out.with_value += inside;
+    for (; point < last; ++point) {
+        if (finish_point(target, point, outside, out)) out.others.push_back(static_cast<std::uint32_t>(point));
+    }
+}
+
+}  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace barycert::sample {
 
 HWY_EXPORT(fill_cells);
+HWY_EXPORT(finish_points);
 
 void fill_cells(const FillSource& source, std::span<const locate::Place> cells, const FillTarget& target,
                 UndecidedFill& undecided) {
     HWY_DYNAMIC_DISPATCH(fill_cells)(source, cells, target, undecided);
+}
+
+void finish_points(const FillTarget& target, std::size_t first, std::size_t last, const double* outside,
+                   FinishedPoints& out) {
+    HWY_DYNAMIC_DISPATCH(finish_points)(target, first, last, outside, out);
 }
 
 }  // namespace barycert::sample

@@ -1,6 +1,6 @@
 // Internal: where each row of a grid enters and leaves a cell.
 //
-// Notation as in fill_block-inl.hpp. Along a row only w_x changes, as a real number: l_j = a_j + S_jx w_x up to E, so a
+// Notation as in fill_box-inl.hpp. Along a row only w_x changes, as a real number: l_j = a_j + S_jx w_x up to E, so a
 // point with a_j + S_jx w_x < -E for some j is certainly outside, and one with > E for all j certainly inside. Solved
 // for the place along the row, t = (o_x + w_x - origin) / spacing, these are intervals, whose ends are off by less than
 // raster.slack, for where |S_jx| X_x > E no end that matters is more than a few extents from the cell: so much is added
@@ -15,11 +15,10 @@
 #define BARYCERT_SAMPLE_FILL_ROWS_INL_HPP
 #endif
 
-#include "barycert/sample/grid/fill_block-inl.hpp"
+#include "barycert/sample/grid/fill_box-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::sample {
-namespace HWY_NAMESPACE {
+namespace barycert::sample::HWY_NAMESPACE {
 
 /// Of each plane, by cell of a block: the weight along a row at (w_y, w_z) is a = constant + sy w_y + sz w_z at w_x =
 /// 0. It bounds the row from below at t = lower - a * lower_factor -+ lower_width, from above likewise; where it does
@@ -124,7 +123,6 @@ HWY_INLINE void find_intervals(D tag, const CellBlock<d>& cell, const RowsBlock<
     out.undecided = bits[0];
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::sample
+}  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

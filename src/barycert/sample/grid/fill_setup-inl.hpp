@@ -13,8 +13,7 @@
 #include "barycert/sample/grid/fill_values-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::sample {
-namespace HWY_NAMESPACE {
+namespace barycert::sample::HWY_NAMESPACE {
 
 using namespace index::HWY_NAMESPACE;
 
@@ -105,7 +104,6 @@ HWY_INLINE void set_block(D tag, const Filling<d>& to, FillBlock<Values, d>& b, 
     }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::sample
+}  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

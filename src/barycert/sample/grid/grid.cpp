@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
@@ -80,7 +81,7 @@ Result<Grid> checked(const Grid& grid) {
 double Grid::coordinate(std::size_t axis, std::int64_t i) const {
     if (i == counts[axis] - 1 && i != 0) return last[axis];
     const ExactEnvironment environment;
-    return held(held(origin[axis]) + static_cast<double>(i) * held(spacing[axis]));
+    return base::held(base::held(origin[axis]) + static_cast<double>(i) * base::held(spacing[axis]));
 }
 
 Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts, const std::array<double, 3>& low,

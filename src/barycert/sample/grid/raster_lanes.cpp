@@ -23,8 +23,7 @@
 #include "barycert/base/strict_math.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::sample {
-namespace HWY_NAMESPACE {
+namespace barycert::sample::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -105,11 +104,7 @@ HWY_INLINE std::int32_t first_not_below(const std::vector<double>& at, double gu
     return i;
 }
 
-struct Range {
-    std::int32_t first, last;
-};
-
-HWY_INLINE Range places_within(const std::vector<double>& at, double low, double high) {
+HWY_INLINE PlaceRange places_within(const std::vector<double>& at, double low, double high) {
     const double start = at.front(), extent = at.back() - start;
     const double scale = extent > 0 ? static_cast<double>(at.size() - 1) / extent : 0;
     const auto guess = [&](double x) {
@@ -124,7 +119,7 @@ HWY_INLINE Range places_within(const std::vector<double>& at, double low, double
 
 /// The spans of up to MaxLanes rows at once: row r + l, all in one layer.
 template <std::size_t n, std::size_t d, class D>
-HWY_INLINE void row_spans(D tag, const Raster& raster, const CellPlanes& planes, Range columns, std::int32_t row,
+HWY_INLINE void row_spans(D tag, const Raster& raster, const CellPlanes& planes, PlaceRange columns, std::int32_t row,
                           std::int32_t last_row, std::int32_t layer, locate::Place cell, std::vector<Span>& out) {
     using V = hn::Vec<D>;
     constexpr std::size_t width = hn::MaxLanes(D());
@@ -187,9 +182,9 @@ void spans_of(const locate::CellIndex& index, const Raster& raster, const locate
     for (std::size_t c = 0; c < count; ++c) {
         CellPlanes planes;
         find_planes<s>(index, which[c], planes);
-        const Range columns = places_within(raster.at[0], planes.low[0], planes.high[0]);
-        Range rows = places_within(raster.at[1], planes.low[1], planes.high[1]), layers{0, 1};
-        Range& cut = d == 3 ? layers : rows;
+        const PlaceRange columns = places_within(raster.at[0], planes.low[0], planes.high[0]);
+        PlaceRange rows = places_within(raster.at[1], planes.low[1], planes.high[1]), layers{0, 1};
+        PlaceRange& cut = d == 3 ? layers : rows;
         if constexpr (d == 3) layers = places_within(raster.at[2], planes.low[2], planes.high[2]);
         cut.first = std::max(cut.first, first_layer);
         cut.last = std::min(cut.last, last_layer);
@@ -213,8 +208,7 @@ void find_spans(const locate::CellIndex& index, const Raster& raster, const loca
         : spans_of<Simplex::tetrahedron>(index, raster, which, count, first_layer, last_layer, out);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::sample
+}  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

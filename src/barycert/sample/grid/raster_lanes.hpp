@@ -22,6 +22,11 @@ struct Raster {
     bool precise = false;
 };
 
+/// Places [first, last) of an axis.
+struct PlaceRange {
+    std::int32_t first, last;
+};
+
 /// Points first to last - 1 of a row may be in the cell; those from inner_first to inner_last - 1 are certainly in its
 /// interior. All others of the row are certainly outside.
 struct Span {

@@ -5,7 +5,6 @@
 
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/sample/grid/fill_lanes.hpp"
-#include "barycert/sample/points/row_rest.hpp"
 
 namespace barycert::sample {
 namespace {

@@ -9,12 +9,36 @@
 #include "barycert/grid.hpp"
 #include "barycert/index/buffer.hpp"
 #include "barycert/sample/grid/fill_lanes.hpp"
-#include "barycert/sample/grid/finish_lanes.hpp"
 #include "barycert/sample/grid/raster_lanes.hpp"
-#include "barycert/sample/grid/slab_cells.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"
 
 namespace barycert::sample {
+
+/// For each slab of `depth` layers (the last one may have fewer) all cells that may hold some of its points, in the
+/// order of the index.
+class SlabCells {
+public:
+    SlabCells(const locate::CellIndex& index, const Raster& raster, std::size_t depth);
+
+    /// Calls work(cells), one part of them after the other.
+    template <class Work>
+    void for_parts(std::size_t slab, Work work) const {
+        for (const Part& part : parts_) {
+            if (slab < part.first_slab || slab - part.first_slab + 1 >= part.begin.size()) continue;
+            const std::size_t* const begin = &part.begin[slab - part.first_slab];
+            if (begin[0] != begin[1]) work(std::span(part.cells).subspan(begin[0], begin[1] - begin[0]));
+        }
+    }
+
+private:
+    /// Of cells that follow one another: by slab, from the first one on, where its cells begin; one more at the end.
+    struct Part {
+        std::size_t first_slab = 0;
+        std::vector<std::size_t> begin;
+        std::vector<locate::Place> cells;
+    };
+    std::vector<Part> parts_;
+};
 
 /// Layers [first, last) of the third axis (2D: of the second), and the rows of their points. Keeps its memory from slab
 /// to slab.

@@ -13,21 +13,30 @@ namespace barycert::sample {
 
 /// Where the rows of a block go; row r of the block is for the point of number r.
 struct BlockRows {
-    Mesh::Index* cells;  ///< nullptr: each row of values has a Location before it instead
+    Mesh::Index* cells;
     Feature* features;
-    double* values;          ///< SamplerData::width a row
-    double* distances;       ///< nullptr unless the policy gives some
-    std::size_t stride = 0;  ///< from row to row of values; 0: rows of nothing else
+    double* values;     ///< SamplerData::width a row
+    double* distances;  ///< nullptr unless the policy gives some
 };
-static_assert(sizeof(Location) == sizeof(double));
+
+/// Under the policies nearest and extrapolate: sets one value a column and returns the distance to the mesh; nothing if
+/// no point of the mesh is within the limit. Point fields get, correctly rounded or plain as asked for, the value at
+/// the orthogonal projection to the nearest vertex, edge or face, or that of the function of the nearest cell; cell
+/// fields that of the nearest cell. On cells of second order the weights of the projection are rounded first, so that
+/// they remain those of a point of the cell, then the quadratic is evaluated there.
+std::optional<double> value_outside(const SamplerData& data, const SampleOptions& options, const double* point,
+                                    double* values, TierCounts& tiers);
+
+/// What a row has besides the values of point fields. Sets the values of the cell fields of the cell, and what is
+/// computed at the point, into their columns of a row whose values of point fields stand. `point`: where gradients on
+/// cells of second order are evaluated; not read if there are none.
+void set_rest_of_row(const SamplerData& data, Rounding rounding, Mesh::Index cell, const double* point, double* row);
 
 /// Not shared between threads.
 class ChunkSampler {
 public:
     ChunkSampler(const SamplerData& data, const SampleOptions& options, const BlockRows& rows)
-        : data_(data), options_(options), rows_(rows) {
-        if (rows_.stride == 0) rows_.stride = data.width;
-    }
+        : data_(data), options_(options), rows_(rows) {}
 
     /// Precondition: points with an owner are finite; owners are places of cells, or -1 outside.
     void operator()(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
@@ -47,7 +56,7 @@ private:
     void interpolate_exactly(const locate::PointRecord& point, locate::Place cell);
     void mend_plain(const locate::PointRecord& point, locate::Place cell);
     void interpolate_second_order(const locate::PointRecord* points, std::size_t count);
-    double* row(const locate::PointRecord& point) { return rows_.values + rows_.stride * point.number; }
+    double* row(const locate::PointRecord& point) { return rows_.values + data_.width * point.number; }
 
     const SamplerData& data_;
     const SampleOptions& options_;

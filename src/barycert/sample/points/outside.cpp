@@ -1,4 +1,4 @@
-#include "barycert/sample/points/outside.hpp"
+#include "barycert/sample/points/chunk_sampler.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,6 @@
 #include "barycert/locate/near_feature.hpp"
 #include "barycert/quadratic.hpp"
 #include "barycert/sample/points/near_piece.hpp"
-#include "barycert/sample/points/row_rest.hpp"
 
 namespace barycert::sample {
 namespace {

@@ -8,6 +8,7 @@
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
+#include "barycert/mesh/consistency.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
 #include "barycert/sample/points/sorted_rows.hpp"
@@ -20,22 +21,6 @@ namespace {
 
 using locate::Place;
 using sample::SamplerData;
-
-Status check_field(const Mesh& mesh, const FieldChoice& choice) {
-    if (choice.field == nullptr) return Error{.what = "a field is missing"};
-    const Field& field = *choice.field;
-    const std::size_t entities = choice.of_cells ? mesh.cell_count() : mesh.point_count();
-    if (field.components < 1)
-        return Error{.what = "number of components of field \"" + field.name + "\"",
-                     .expected = "at least 1",
-                     .found = std::to_string(field.components)};
-    const std::size_t expected = static_cast<std::size_t>(field.components) * entities;
-    if (field.data.size() == expected) return Done{};
-    return Error{.what = "size of field \"" + field.name + "\"",
-                 .expected = std::to_string(expected) + " numbers, " + std::to_string(field.components) + " for each " +
-                             (choice.of_cells ? "cell" : "node"),
-                 .found = std::to_string(field.data.size())};
-}
 
 /// visit(component among all, node of the mesh, value) for every number of the point fields.
 template <class Visit>
@@ -104,7 +89,8 @@ sample::AtPoint at_points(const Mesh& mesh, const FieldChoice& choice) {
 Status arrange_columns(const Mesh& mesh, const std::vector<FieldChoice>& fields, SamplerData& data) {
     std::vector<TableField> of_points, of_cells, late;
     for (const FieldChoice& asked : fields) {
-        if (Status fits = check_field(mesh, asked); !fits) return fits;
+        const std::size_t rows = asked.of_cells ? mesh.cell_count() : mesh.point_count();
+        if (Status fits = mesh::check_field(asked.field, rows, asked.of_cells ? "cell" : "node"); !fits) return fits;
         const Result<sample::QuantityShape> shape = sample::shape_of(mesh, asked);
         if (!shape) return shape.error();
         FieldChoice choice = asked;
@@ -141,15 +127,6 @@ Status arrange_columns(const Mesh& mesh, const std::vector<FieldChoice>& fields,
     data.columns = column_names(data.fields);
     data.width = data.hidden + data.columns.size();
     return Done{};
-}
-
-/// What is wrong with the call, before anything is done.
-Status check_call(const SamplerData& data, std::span<const double> points) {
-    const std::size_t d = data.index().dimension();
-    if (points.size() % d == 0) return Done{};
-    return Error{.what = "size of the points",
-                 .expected = std::to_string(d) + " coordinates a point",
-                 .found = std::to_string(points.size()) + " numbers"};
 }
 
 void resize(const SamplerData& data, const SampleOptions& options, std::size_t rows, Table& out) {
@@ -240,7 +217,7 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
                        std::size_t first_point) const {
     const ExactEnvironment environment;
     out.counts = {};
-    if (Status status = check_call(*data_, points); !status) return status;
+    if (Status status = locate::check_size(points, data_->index().dimension()); !status) return status;
     resize(*data_, options, points.size() / data_->index().dimension(), out);
     out.point_begin.clear();
     bool finite = true;
@@ -266,7 +243,7 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
                          std::size_t first_point) const {
     const ExactEnvironment environment;
     out.counts = {};
-    if (Status status = check_call(*data_, points); !status) return status;
+    if (Status status = locate::check_size(points, data_->index().dimension()); !status) return status;
     const Status finite = locate::check_finite(points, data_->index().dimension(), first_point);
     if (!finite && options.nonfinite_points == NonfinitePoints::error) return finite;
     const std::size_t d = data_->index().dimension(), count = points.size() / d;

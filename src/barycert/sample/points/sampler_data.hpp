@@ -12,10 +12,11 @@
 
 namespace barycert::sample {
 
-/// Rows of a block of points in the order in which they are found, each a Location and its values side by side: to be
-/// read at random.
-struct PackedRows {
-    locate::Buffer<double> numbers;
+/// Rows of a block of points in the order in which they are found: to be read at random.
+struct FoundRows {
+    locate::Buffer<Mesh::Index> cells;
+    locate::Buffer<Feature> features;
+    locate::Buffer<double> values;
     std::vector<double> distances;
 };
 
@@ -30,6 +31,8 @@ struct AtPoint {
 };
 
 struct SamplerData {
+    static const SamplerData& of(const Sampler& sampler) { return *sampler.data_; }
+
     std::unique_ptr<const Locator> own_locator;  ///< unless it is somebody else's
     const Locator* locator = nullptr;
     std::deque<Field> made;  ///< of others
@@ -49,10 +52,10 @@ struct SamplerData {
     // Quadratic ones: component c of node i of the mesh at values[point_components * i + c].
     std::vector<double> values;
 
-    locate::Pool<PackedRows> rows;  ///< up to 16 MiB a thread for one column
+    locate::Pool<FoundRows> rows;  ///< up to 16 MiB a thread for one column
 
-    const locate::LocatorData& located() const { return locator->data(); }
-    const locate::CellIndex& index() const { return locator->data().index; }
+    const locate::LocatorData& located() const { return locate::LocatorData::of(*locator); }
+    const locate::CellIndex& index() const { return located().index; }
     NodeValues node_values() const {
         return {nodes.data(), more.data(), index().original_node.size(), point_components};
     }

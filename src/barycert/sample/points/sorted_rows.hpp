@@ -2,8 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -23,12 +21,16 @@ class SortedRows {
 public:
     SortedRows(const SamplerData& data, const SampleOptions& options, std::size_t size)
         : data_(data), rows_(data.rows.take()), columns_(data.columns.size()) {
-        const std::size_t numbers = (size + 1) * stride();  // one row more for all points left out
-        if (rows_->numbers.size() < numbers) rows_->numbers = locate::Buffer<double>(numbers);
-        if (gives_distances(options.outside)) rows_->distances.assign(size + 1, 0);
+        const std::size_t rows = size + 1;  // one more for all points left out
+        if (rows_->cells.size() < rows) {
+            rows_->cells = locate::Buffer<Mesh::Index>(rows);
+            rows_->features = locate::Buffer<Feature>(rows);
+            rows_->values = locate::Buffer<double>(rows * data.width);
+        }
+        if (gives_distances(options.outside)) rows_->distances.assign(rows, 0);
         sampler_.emplace(data, options,
-                         BlockRows{nullptr, nullptr, values(0),
-                                   gives_distances(options.outside) ? rows_->distances.data() : nullptr, stride()});
+                         BlockRows{rows_->cells.data(), rows_->features.data(), values(0),
+                                   gives_distances(options.outside) ? rows_->distances.data() : nullptr});
     }
     SortedRows(SortedRows&&) = default;
     ~SortedRows() {
@@ -44,15 +46,17 @@ public:
     void write(const locate::SortedPoints& sorted, std::size_t first, Table& out) {
         const std::size_t last = sorted.size(), left_out = sorted.left_out();
         if (left_out != 0) set_outside(last, left_out, out);
-        sorted.for_each_in_callers_order([&](std::size_t place) { __builtin_prefetch(values(place) - 1); },
-                                         [&](std::size_t i, std::size_t place) {
-                                             const double* const from = values(place) + data_.hidden;
-                                             const auto location = std::bit_cast<Location>(values(place)[-1]);
-                                             out.cells[first + i] = location.cell;
-                                             out.features[first + i] = location.feature;
-                                             for (std::size_t c = 0; c < columns_; ++c)
-                                                 out.values[columns_ * (first + i) + c] = from[c];
-                                         });
+        const auto ahead = [&](std::size_t place) {
+            __builtin_prefetch(&rows_->cells[place]);
+            __builtin_prefetch(&rows_->features[place]);
+            __builtin_prefetch(values(place));
+        };
+        sorted.for_each_in_callers_order(ahead, [&](std::size_t i, std::size_t place) {
+            const double* const from = values(place) + data_.hidden;
+            out.cells[first + i] = rows_->cells[place];
+            out.features[first + i] = rows_->features[place];
+            for (std::size_t c = 0; c < columns_; ++c) out.values[columns_ * (first + i) + c] = from[c];
+        });
         if (out.distances.empty()) return;
         sorted.for_each_in_callers_order(
             [](std::size_t) {},
@@ -67,18 +71,17 @@ public:
     }
 
 private:
-    std::size_t stride() const { return data_.width + 1; }
-    double* values(std::size_t row) const { return rows_->numbers.data() + stride() * row + 1; }
+    double* values(std::size_t row) const { return rows_->values.data() + data_.width * row; }
 
     void set_outside(std::size_t row, std::size_t count, const Table& out) {
-        const Location outside;
-        std::memcpy(values(row) - 1, &outside, sizeof outside);
+        rows_->cells[row] = -1;
+        rows_->features[row] = Feature::outside;
         std::fill_n(values(row), data_.width, 0);
         if (out.distances.empty()) sampler_->outside(count, static_cast<std::uint32_t>(row), values(row));
     }
 
     const SamplerData& data_;
-    std::unique_ptr<PackedRows> rows_;
+    std::unique_ptr<FoundRows> rows_;
     std::size_t columns_;
     std::optional<ChunkSampler> sampler_;
 };

@@ -5,13 +5,11 @@
 #include "barycert/core/foreach_target.hpp"
 
 #include "barycert/core/lane_loop-inl.hpp"
-#include "barycert/core/plain_value-inl.hpp"
 #include "barycert/core/refinement-inl.hpp"
 #include "barycert/index/records-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::sample {
-namespace HWY_NAMESPACE {
+namespace barycert::sample::HWY_NAMESPACE {
 
 using namespace core::HWY_NAMESPACE;
 using namespace index::HWY_NAMESPACE;
@@ -118,8 +116,7 @@ std::size_t interpolate_lanes(const LanePoints& points, Rounding rounding, const
                : evaluate_rounded<Simplex::tetrahedron>(points, rounding, target, undecided);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::sample
+}  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
+#include "barycert/locate/lanes.hpp"
 #include "barycert/locate/names.hpp"
-#include "barycert/locate/walk_lanes.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert::sample {

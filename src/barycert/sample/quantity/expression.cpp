@@ -6,12 +6,20 @@
 #include <string_view>
 #include <utility>
 
-#include "barycert/sample/points/field_choice.hpp"
+#include "barycert/base/nearest_name.hpp"
 
 namespace barycert::sample {
 namespace {
 
 using Kind = QuantityStep::Kind;
+
+constexpr std::string_view of_cells = "cell:", of_points = "point:";
+
+std::string names_of(const std::vector<Field>& fields) {
+    std::string list;
+    for (const Field& f : fields) list += (list.empty() ? "" : ", ") + f.name;
+    return list;
+}
 
 /// Deeper ones are no names that anybody means.
 constexpr int deepest_expression = 16;
@@ -88,6 +96,53 @@ Error wrong_step(std::string what, const FieldChoice& choice, std::string remedy
 
 }  // namespace
 
+const Field* field_named(const std::vector<Field>& fields, std::string_view name) {
+    const auto it = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
+    return it == fields.end() ? nullptr : &*it;
+}
+
+bool choose_field(const Mesh& mesh, std::string_view name, FieldChoice& chosen) {
+    for (const std::string& full : {std::string(name), std::string(of_points) + std::string(name)}) {
+        if (const Field* const field = field_named(mesh.point_fields, full)) {
+            chosen = {field, false};
+            return true;
+        }
+    }
+    for (const std::string& full : {std::string(name), std::string(of_cells) + std::string(name)}) {
+        if (const Field* const field = field_named(mesh.cell_fields, full)) {
+            chosen = {field, true};
+            return true;
+        }
+    }
+    const bool cells = name.starts_with(of_cells);
+    if (!cells && !name.starts_with(of_points)) return false;
+    name.remove_prefix((cells ? of_cells : of_points).size());
+    const Field* const field = field_named(cells ? mesh.cell_fields : mesh.point_fields, name);
+    if (field != nullptr) chosen = {field, cells};
+    return field != nullptr;
+}
+
+std::vector<std::string> all_field_names(const Mesh& mesh) {
+    std::vector<std::string> names;
+    for (const auto* fields : {&mesh.point_fields, &mesh.cell_fields}) {
+        for (const Field& field : *fields) names.push_back(field.name);
+    }
+    return names;
+}
+
+Error no_such_field(const Mesh& mesh, const std::string& name) {
+    const std::string points = names_of(mesh.point_fields), cells = names_of(mesh.cell_fields);
+    std::string remedy = "there are " + points;
+    if (points.empty()) remedy = cells.empty() ? "the mesh has none: add them by --field NAME=FILE" : "there are";
+    if (!cells.empty()) remedy += (points.empty() ? " " : ", and of cells ") + cells;
+    return {.what = "no field of that name",
+            .file = {},
+            .line = 0,
+            .expected = {},
+            .found = '"' + name + '"',
+            .remedy = base::did_you_mean(name, all_field_names(mesh), remedy)};
+}
+
 Result<QuantityShape> shape_of(const Mesh& mesh, const FieldChoice& choice) {
     QuantityShape shape{choice.of_cells, static_cast<std::size_t>(std::max(choice.field->components, 1)), false};
     bool length_at_points = false;
@@ -128,8 +183,12 @@ Result<QuantityShape> shape_of(const Mesh& mesh, const FieldChoice& choice) {
 }
 
 Result<std::vector<FieldChoice>> quantities_named(const Mesh& mesh, const std::vector<std::string>& names) {
-    if (names.empty()) return fields_named(mesh, names);
     std::vector<FieldChoice> chosen;
+    if (names.empty()) {
+        for (const Field& f : mesh.point_fields) chosen.push_back({&f, false});
+        for (const Field& f : mesh.cell_fields) chosen.push_back({&f, true});
+        return chosen;
+    }
     std::string missing;
     const auto choose = [&](const std::string& name) {
         FieldChoice one;

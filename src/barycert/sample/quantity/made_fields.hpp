@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,5 +30,17 @@ Result<FieldChoice> number_named(const Mesh& mesh, const std::string& name);
 
 /// How many steps there are up to the last mean: those that need the whole mesh.
 std::size_t steps_of_whole_mesh(const FieldChoice& choice);
+
+/// sqrt(sum v_i^2), within 0.51 units in the last place of the exact length where that is not subnormal, else within
+/// 0.76 (its unit may be twice that of the sum's root); infinite where that exceeds the doubles. NaN if a component is
+/// NaN, else infinite if one is. Subnormal and huge components are no different from others.
+double euclidean_length(std::span<const double> v);
+
+/// At each node the mean of the field over all cells that have the node, mid-edge nodes included, weighted by their
+/// volumes (areas in the plane; with straight sides): sum |V_c| f_c / sum |V_c|, exact and rounded once, to nearest,
+/// ties to even. Cells may have any orientation and may overlap; degenerate ones weigh nothing. NaN where a value of a
+/// cell that is not degenerate is not finite, and at nodes of no other cells. Without a name.
+/// Preconditions: the mesh is consistent, and the field has values for its cells.
+Field nodal_mean(const Mesh& mesh, const Field& of_cells);
 
 }  // namespace barycert::sample

@@ -2,7 +2,7 @@
 //
 // u = 2^-53, rounding to nearest. V_i: d! times the volume of cell i without its sign; f_i its value; n cells;
 //   A = sum V_i,   S = sum V_i f_i,   the mean is S / A.
-// All arithmetic is that of double_double-inl.hpp: a sum is off by 4 u^2 (|x| + |y|), a product by 9 u^2 |x y|.
+// All arithmetic is that of error_free-inl.hpp: a sum is off by 4 u^2 (|x| + |y|), a product by 9 u^2 |x y|.
 //
 // Volumes. Edges are exact differences of two doubles. Each of the 6 monomials of the determinant (triangle: 2) meets a
 // product and a difference in its minor, 13 u^2, a product and two sums outside, 17 u^2 (triangle: 13 u^2 in all). With
@@ -35,8 +35,7 @@
 #include "barycert/core/refinement-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace barycert::sample {
-namespace HWY_NAMESPACE {
+namespace barycert::sample::HWY_NAMESPACE {
 
 using namespace core::HWY_NAMESPACE;
 
@@ -63,7 +62,7 @@ HWY_INLINE void volumes_of(const Mesh& mesh, std::size_t first, std::size_t coun
                 for (std::size_t k = 0; k < d; ++k) gathered[i][k][l] = mesh.points[d * node + k];
             }
         }
-        Number edge[d][d], determinant;
+        Number edge[d][d];
         V rounded[d][d], extent[d];
         for (int i = 0; i < d; ++i) {
             for (int k = 0; k < d; ++k) {
@@ -72,17 +71,10 @@ HWY_INLINE void volumes_of(const Mesh& mesh, std::size_t first, std::size_t coun
             }
         }
         extents(rounded, extent);
-        if constexpr (d == 2) {
-            determinant = cross(edge[0], edge[1]);
-        } else {
-            Number minors[3];
-            cross(edge[1], edge[2], minors);
-            determinant = dot(edge[0], minors);
-        }
         V bound = hn::Set(tag, (d == 2 ? 27 : 190) * u * u);
         for (int k = 0; k < d; ++k) bound = bound * extent[k];
         const auto valid = all_within(tag, extent, 0x1p-100, 0x1p100);
-        const Number volume = magnitude_of(determinant);
+        const Number volume = magnitude_of(determinant(edge));
         HWY_ALIGN double high[width], low[width], error[width];
         hn::Store(volume.high, tag, high);
         hn::Store(volume.low, tag, low);
@@ -188,8 +180,7 @@ std::size_t means_of_nodes(const MeanInput& input, std::size_t first, std::size_
     return list.count;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace barycert::sample
+}  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

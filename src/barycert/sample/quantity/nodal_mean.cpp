@@ -1,4 +1,4 @@
-#include "barycert/sample/quantity/nodal_mean.hpp"
+#include "barycert/sample/quantity/made_fields.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -131,13 +131,7 @@ private:
             };
             for (int i = 0; i < d; ++i) edge[i][k] = at(i + 1) - at(0);
         }
-        if constexpr (d == 2) {
-            return core::as_integer(formulas::cross(edge[0], edge[1]));
-        } else {
-            formulas::Product<T> minors[3];
-            formulas::cross(edge[1], edge[2], minors);
-            return core::as_integer(formulas::dot(edge[0], minors));
-        }
+        return core::as_integer(formulas::determinant(edge));
     }
 
     const Mesh& mesh_;

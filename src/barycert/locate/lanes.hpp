@@ -1,11 +1,14 @@
-/// Steps of many walks at once, on SIMD lanes.
+/// Many points at once, on SIMD lanes: their bins, the cells whose boxes hold them, steps of their walks.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
+#include "barycert/index/cell_tree.hpp"
 #include "barycert/locate/names.hpp"
 
 namespace barycert::locate {
@@ -18,6 +21,24 @@ struct alignas(32) PointRecord {
 };
 
 class SortedPoints;
+class Occupancy;
+
+/// In place of a bin: no cell holds the point.
+inline constexpr std::uint32_t no_bin = ~std::uint32_t{0};
+
+/// bin[i] = index.bins.of(point i), or no_bin if the point lies beyond the box of the cells or, if `occupancy` is
+/// given, where it has no cell. Returns whether all coordinates are finite; a point with one that is not gets no_bin.
+bool find_bins(const CellIndex& index, const Occupancy* occupancy, std::span<const double> points, std::uint32_t* bin);
+
+struct Candidate {
+    std::uint32_t point;
+    Place cell;
+};
+
+/// Appends each cell whose box holds points[i], for i = which[0 .. count), to `out`, point by point. Cells that are not
+/// named do not hold the point. Points must lie in the box of the mesh.
+void find_candidates(const CellIndex& index, const CellTree& tree, const PointRecord* points,
+                     const std::uint32_t* which, std::size_t count, std::vector<Candidate>& out);
 
 /// Points that are found together: enough for full lanes in every round of the walks, few enough for the first cache.
 inline constexpr std::size_t chunk_size = 1024;

@@ -1,10 +1,11 @@
-#include "barycert/oracle.hpp"
-
+// Gradients, quadratic interpolation and texels.
+#include <array>
 #include <limits>
 
 #include "barycert/environment.hpp"
 #include "barycert/exact/rounding.hpp"
 #include "barycert/exact/solve.hpp"
+#include "barycert/oracle.hpp"
 
 namespace barycert {
 
@@ -51,6 +52,44 @@ GradientAnswer oracle_gradient(const Case& c) {
     for (std::size_t k = 0; k < d; ++k)
         answer.gradient[k] = round_quotient(sum[k], whole, scales.values.low - scales.axes[k].low);
     return answer;
+}
+
+double oracle_quadratic_value(const Case& c, std::span<const double> mids) {
+    const ExactEnvironment environment;
+    constexpr std::array<std::array<std::size_t, 2>, 6> edges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+    Scales scales(c);
+    for (const double f : mids) scales.values.include(f);
+    const int low = scales.values.low;
+    const Solution<Wide> s = solve<Wide>(c, scales);
+    if (s.denominator.sign() == 0) return std::numeric_limits<double>::quiet_NaN();
+    const auto& n = s.numerators;
+    BigInteger sum(0);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(vertex_count(c.simplex)); ++i)
+        sum += n[i] * (n[i] + n[i] - s.denominator) * scaled<BigInteger>(c.values[i], low);
+    for (std::size_t e = 0; e < mids.size(); ++e)
+        sum += ((n[edges[e][0]] * n[edges[e][1]]) << 2) * scaled<BigInteger>(mids[e], low);
+    return round_quotient(sum, BigInteger(s.denominator * s.denominator), low);
+}
+
+std::int64_t oracle_texel(double u, std::int64_t size, bool repeat) {
+    const ExactEnvironment environment;
+    const Dyadic d = dyadic(u);
+    // floor(u size): a shift of the product, towards minus infinity.
+    BigInteger product = BigInteger(d.mantissa) * size, floor = product;
+    if (d.exponent >= 0) {
+        floor <<= static_cast<unsigned>(d.exponent);
+    } else {
+        const BigInteger unit = BigInteger(1) << static_cast<unsigned>(-d.exponent);
+        BigInteger rest;
+        mp::divide_qr(product, unit, floor, rest);
+        if (rest.sign() < 0) --floor;
+    }
+    if (repeat) {
+        floor %= size;
+        return static_cast<std::int64_t>(floor.sign() < 0 ? BigInteger(floor + size) : floor);
+    }
+    if (floor.sign() < 0) return 0;
+    return floor < size ? static_cast<std::int64_t>(floor) : size - 1;
 }
 
 }  // namespace barycert

@@ -1,12 +1,10 @@
-#include "barycert/core/exact_tier.hpp"
-
+// Gradients of linear fields and values of quadratic ones, in integers.
 #include <algorithm>
 #include <type_traits>
 
-#include "barycert/core/fixed_integer.hpp"
-#include "barycert/core/integer.hpp"
+#include "barycert/core/exact_tier.hpp"
+#include "barycert/core/lanes.hpp"
 #include "barycert/core/numerators-inl.hpp"
-#include "barycert/core/quadratic_edges.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 
@@ -14,6 +12,34 @@ namespace barycert::core {
 namespace {
 
 namespace formulas = HWY_NAMESPACE;
+
+/// Cramer's rule: component k is the determinant of the edges with column k replaced by the values, over that of the
+/// edges.
+///
+/// Widths: coordinates and values below 2^(64 N - 3) in N limbs give differences below 2^(64 N - 2), 2x2 minors below
+/// 2^(128 N - 3) and determinants below 3 * 2^(192 N - 5) < 2^(192 N - 3): no sum overflows. Integer: differences of
+/// 2099 bits, three of them and 3 more, see integer.hpp.
+template <int d>
+bool exact_gradient(const double* vertices, const double* values, double* out) {
+    const auto number = [&](int i, int k) { return k < d ? vertices[d * i + k] : values[i]; };
+    return with_lattice<d + 1, d + 1>(number, false, [&]<class T>(const Lattice<d + 1, d + 1, T>& lattice) {
+        T row[d][d + 1];  // edges from the last vertex, and behind each the difference of the values
+        for (int j = 0; j < d; ++j) lattice.difference(j, d, row[j]);
+        const auto determinant = [&](int replaced) {
+            T m[d][d];
+            for (int j = 0; j < d; ++j) {
+                for (int k = 0; k < d; ++k) m[j][k] = row[j][k == replaced ? d : k];
+            }
+            return Integer(as_integer(formulas::determinant(m)));
+        };
+        const Integer whole = determinant(-1);
+        if (whole.sign() == 0) return false;
+        // Each axis and the values have units of their own; all but those of the values and of axis k cancel.
+        for (int k = 0; k < d; ++k)
+            out[k] = round_quotient(determinant(k), whole, lattice.units[d].exponent - lattice.units[k].exponent);
+        return true;
+    });
+}
 
 // Differences have 2099 bits (see integer.hpp), numerators three times as many and 3 more for 6 products. The sum below
 // is one of squares and products of numerators with 4 values of 2098 bits and 6 of 6 times that: 40 in all, 6 bits.
@@ -42,8 +68,7 @@ double value(const formulas::Fractions<s, Number>& w, const ScaledDouble* parts,
         }
         sum = sum + w.numerator[i] * inner;
     }
-    const Integer numerator = as_integer(sum), square = as_integer(w.denominator * w.denominator);
-    return round_quotient(numerator.sign() < 0, numerator.magnitude(), square.magnitude(), unit.exponent - 1074);
+    return round_quotient(as_integer(sum), as_integer(w.denominator * w.denominator), unit.exponent - 1074);
 }
 
 /// The same numbers without a fixed width.
@@ -83,20 +108,10 @@ bool values_of(const formulas::Fractions<s, Number>& w, const double* values, in
 template <Simplex s>
 bool exact_quadratic(const double* vertices, const double* point, const double* values, int components, double* out) {
     constexpr int n = vertex_count(s), d = space_dimension(s);
-    ScaledDouble parts[n + 1][d];
-    Unit units[d];
-    for (int k = 0; k < d; ++k) {
-        for (int i = 0; i <= n; ++i) {
-            parts[i][k] = scaled(i < n ? vertices[d * i + k] : point[k]);
-            units[k].add(parts[i][k]);
-        }
-    }
-    return with_integers<3>(max_bits(units), [&]<class T>() {
+    const auto number = [&](int i, int k) { return i < n ? vertices[d * i + k] : point[k]; };
+    return with_lattice<n + 1, d>(number, false, [&]<class T>(const Lattice<n + 1, d, T>& lattice) {
         formulas::Relative<s, T> c;
-        for (int k = 0; k < d; ++k) {
-            const T p = units[k].template multiple<T>(parts[n][k]);
-            for (int i = 0; i < n; ++i) c.r[i][k] = units[k].template multiple<T>(parts[i][k]) - p;
-        }
+        for (int i = 0; i < n; ++i) lattice.difference(i, n, c.r[i]);
         formulas::Fractions<s, T> w;
         formulas::solve(c, formulas::Numerator<s, T>{}, w);
         return values_of<s>(w, values, components, out);
@@ -104,6 +119,13 @@ bool exact_quadratic(const double* vertices, const double* point, const double* 
 }
 
 }  // namespace
+
+bool exact_gradient(Simplex simplex, const double* vertices, const double* values, double* out) {
+    const bool proper = simplex == Simplex::triangle ? exact_gradient<2>(vertices, values, out)
+                                                     : exact_gradient<3>(vertices, values, out);
+    if (!proper) std::fill_n(out, space_dimension(simplex), nan);
+    return proper;
+}
 
 bool exact_quadratic(Simplex simplex, const double* vertices, const double* point, const double* values, int components,
                      double* out) {

@@ -1,0 +1,196 @@
+// Fields in their cells: gradients, quadratic values, and values in perspective.
+#include "barycert/core/lanes.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "barycert/core/field_lanes.cpp"
+#include "barycert/core/foreach_target.hpp"
+
+#include "barycert/core/gradient-inl.hpp"
+#include "barycert/core/lane_loop-inl.hpp"
+#include "barycert/core/perspective-inl.hpp"
+#include "barycert/core/quadratic-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace barycert::core::HWY_NAMESPACE {
+
+template <int d>
+std::size_t gradients_of(const CaseBlock& cells, const double* const* values, int components, double* const* out,
+                         std::uint32_t* undecided) {
+    return for_padded_lanes(cells.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
+        using D = decltype(tag);
+        using V = hn::Vec<D>;
+        V v[d + 1][d];
+        for (int i = 0; i <= d; ++i) {
+            for (int k = 0; k < d; ++k) v[i][k] = hn::LoadU(tag, cells.vertices[d * i + k] + at);
+        }
+        const auto m = cell_matrix<d>(tag, v);
+        auto certain = m.valid;
+        for (int c = 0; c < components; ++c) {
+            V f[d + 1], g[d];
+            for (int i = 0; i <= d; ++i) f[i] = hn::LoadU(tag, values[(d + 1) * c + i] + at);
+            gradient_of<d>(tag, m, f, g, certain);
+            for (int k = 0; k < d; ++k) hn::StoreU(g[k], tag, out[d * c + k] + at);
+        }
+        return certain;
+    });
+}
+
+std::size_t gradients(Simplex s, const CaseBlock& cells, const double* const* values, int components,
+                      double* const* out, std::uint32_t* undecided) {
+    return s == Simplex::triangle ? gradients_of<2>(cells, values, components, out, undecided)
+                                  : gradients_of<3>(cells, values, components, out, undecided);
+}
+
+template <Simplex s>
+std::size_t quadratic_values_of(const CaseBlock& cases, const double* const* values, int components, double* const* out,
+                                std::uint32_t* undecided) {
+    return for_padded_lanes(cases.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
+        using D = decltype(tag);
+        constexpr int n = vertex_count(s), d = space_dimension(s), nodes = quadratic_nodes<s>;
+        Absolute<s, hn::Vec<D>> c;
+        for (int k = 0; k < d; ++k) {
+            c.p[k] = hn::LoadU(tag, cases.point[k] + at);
+            for (int i = 0; i < n; ++i) c.v[i][k] = hn::LoadU(tag, cases.vertices[d * i + k] + at);
+        }
+        const auto w = quadratic_weights(tag, refine<s>(tag, c));
+        auto certain = w.valid;
+        for (int component = 0; component < components; ++component) {
+            hn::Vec<D> f[nodes];
+            for (int i = 0; i < nodes; ++i) f[i] = hn::LoadU(tag, values[nodes * component + i] + at);
+            hn::StoreU(quadratic_value<s>(tag, w, f, certain), tag, out[component] + at);
+        }
+        return certain;
+    });
+}
+
+template <Simplex s>
+std::size_t plain_quadratic_values_of(const CaseBlock& cases, const double* const* values, int components,
+                                      double* const* out, std::uint32_t* undecided) {
+    return for_padded_lanes(cases.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
+        using D = decltype(tag);
+        constexpr int n = vertex_count(s), nodes = quadratic_nodes<s>;
+        Relative<s, hn::Vec<D>> c;
+        load_relative<s>(tag, cases.vertices, cases.point, at, c);
+        Fractions<s, hn::Vec<D>> fractions;
+        solve(c, hn::Zero(tag), fractions);
+        const auto one = hn::Set(tag, 1), inverse = one / fractions.denominator;
+        hn::Vec<D> l[n];
+        for (int i = 0; i < n; ++i) l[i] = fractions.numerator[i] * inverse;
+        auto finite = hn::Eq(one, one);
+        for (int component = 0; component < components; ++component) {
+            const double* const* const f = values + nodes * component;
+            hn::Vec<D> sum = hn::Zero(tag);
+            for (int i = 0; i < n; ++i) sum = sum + l[i] * (l[i] + l[i] - one) * hn::LoadU(tag, f[i] + at);
+            for (int e = 0; e < nodes - n; ++e) {
+                const auto product = l[quadratic_edges[e][0]] * l[quadratic_edges[e][1]];
+                sum = sum + hn::Set(tag, 4) * product * hn::LoadU(tag, f[n + e] + at);
+            }
+            finite = hn::And(finite, hn::Eq(sum - sum, hn::Zero(tag)));
+            hn::StoreU(sum, tag, out[component] + at);
+        }
+        return finite;
+    });
+}
+
+std::size_t quadratic_values(Simplex s, const CaseBlock& cases, const double* const* values, int components,
+                             double* const* out, std::uint32_t* undecided) {
+    return s == Simplex::triangle
+               ? quadratic_values_of<Simplex::triangle>(cases, values, components, out, undecided)
+               : quadratic_values_of<Simplex::tetrahedron>(cases, values, components, out, undecided);
+}
+
+std::size_t plain_quadratic_values(Simplex s, const CaseBlock& cases, const double* const* values, int components,
+                                   double* const* out, std::uint32_t* undecided) {
+    return s == Simplex::triangle
+               ? plain_quadratic_values_of<Simplex::triangle>(cases, values, components, out, undecided)
+               : plain_quadratic_values_of<Simplex::tetrahedron>(cases, values, components, out, undecided);
+}
+
+/// answer(tag, lanes, at, certain) for each vector of points.
+template <class Answer>
+HWY_INLINE std::size_t for_points(const double* vertices, const PointBlock& points, std::uint32_t* undecided,
+                                  Answer answer) {
+    return for_padded_lanes(points.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
+        const auto lanes = project_lanes(tag, vertices, hn::LoadU(tag, points.x + at), hn::LoadU(tag, points.y + at));
+        auto certain = lanes.valid;
+        answer(tag, lanes, at, certain);
+        return certain;
+    });
+}
+
+std::size_t perspective_weights_of(const double* vertices, const PointBlock& points, double* const* out,
+                                   std::uint32_t* undecided) {
+    return for_points(vertices, points, undecided,
+                      [&](auto tag, const auto& lanes, std::size_t at, auto& certain) BARYCERT_LANE_LAMBDA {
+                          for (int i = 0; i < 3; ++i)
+                              hn::StoreU(rounded_quotient(tag, perspective_weight(tag, lanes, i), certain), tag,
+                                         out[i] + at);
+                      });
+}
+
+std::size_t perspective_depths_of(const double* vertices, const PointBlock& points, double* out,
+                                  std::uint32_t* undecided) {
+    return for_points(vertices, points, undecided,
+                      [&](auto tag, const auto& lanes, std::size_t at, auto& certain) BARYCERT_LANE_LAMBDA {
+                          hn::StoreU(rounded_quotient(tag, perspective_depth(tag, lanes), certain), tag, out + at);
+                      });
+}
+
+std::size_t perspective_values_of(const double* vertices, const PointBlock& points, const double* values,
+                                  int components, double* const* out, std::uint32_t* undecided) {
+    return for_points(
+        vertices, points, undecided,
+        [&](auto tag, const auto& lanes, std::size_t at, auto& certain) BARYCERT_LANE_LAMBDA {
+            for (int c = 0; c < components; ++c) {
+                const hn::Vec<decltype(tag)> f[3] = {hn::Set(tag, values[c]), hn::Set(tag, values[components + c]),
+                                                     hn::Set(tag, values[2 * components + c])};
+                hn::StoreU(rounded_quotient(tag, perspective_value(tag, lanes, f), certain), tag, out[c] + at);
+            }
+        });
+}
+
+}  // namespace barycert::core::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace barycert::core {
+
+HWY_EXPORT(gradients);
+HWY_EXPORT(quadratic_values);
+HWY_EXPORT(plain_quadratic_values);
+HWY_EXPORT(perspective_weights_of);
+HWY_EXPORT(perspective_depths_of);
+HWY_EXPORT(perspective_values_of);
+
+std::size_t gradient_lanes(Simplex s, const CaseBlock& cells, const double* const* values, int components,
+                           double* const* out, std::uint32_t* undecided) {
+    return HWY_DYNAMIC_DISPATCH(gradients)(s, cells, values, components, out, undecided);
+}
+
+std::size_t quadratic_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components,
+                            double* const* out, std::uint32_t* undecided) {
+    return HWY_DYNAMIC_DISPATCH(quadratic_values)(s, cases, values, components, out, undecided);
+}
+
+std::size_t plain_quadratic_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components,
+                                  double* const* out, std::uint32_t* undecided) {
+    return HWY_DYNAMIC_DISPATCH(plain_quadratic_values)(s, cases, values, components, out, undecided);
+}
+
+std::size_t perspective_weight_lanes(const double* vertices, const PointBlock& points, double* const* out,
+                                     std::uint32_t* undecided) {
+    return HWY_DYNAMIC_DISPATCH(perspective_weights_of)(vertices, points, out, undecided);
+}
+
+std::size_t perspective_depth_lanes(const double* vertices, const PointBlock& points, double* out,
+                                    std::uint32_t* undecided) {
+    return HWY_DYNAMIC_DISPATCH(perspective_depths_of)(vertices, points, out, undecided);
+}
+
+std::size_t perspective_value_lanes(const double* vertices, const PointBlock& points, const double* values,
+                                    int components, double* const* out, std::uint32_t* undecided) {
+    return HWY_DYNAMIC_DISPATCH(perspective_values_of)(vertices, points, values, components, out, undecided);
+}
+
+}  // namespace barycert::core
+#endif
