@@ -1,9 +1,7 @@
 #include "bindings.hpp"
-#include "errors.hpp"
 
 #ifdef BARYCERT_WITH_AUDIT
 
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -22,8 +20,6 @@
 
 namespace barycert::python {
 namespace {
-
-namespace py = pybind11;
 
 /// A kernel in Python. Kernels are plain functions without data of their own, so there is one place for the callable:
 /// one audit at a time has it.
@@ -87,6 +83,12 @@ Simplex simplex_by_name(const std::string& word) {
     return *simplex;
 }
 
+void be_tolerant(Kernel& kernel, std::optional<double> tolerance) {
+    if (!tolerance) return;
+    kernel.rule = RegionRule::tolerant;
+    kernel.tolerance = *tolerance;
+}
+
 Kernel kernel_of(Simplex simplex, const std::string& name, bool declares, std::optional<double> tolerance) {
     // How weights and nodal values make a value is the same for all kernels of a simplex.
     const auto same = std::find_if(catalogue().begin(), catalogue().end(), [&](const Kernel& k) {
@@ -100,44 +102,25 @@ Kernel kernel_of(Simplex simplex, const std::string& name, bool declares, std::o
     kernel.weights = call_kernel;
     kernel.raised = [] { return callable_kernel->raised; };
     kernel.value = same->value;
-    if (tolerance) {
-        kernel.rule = RegionRule::tolerant;
-        kernel.tolerance = *tolerance;
-    }
+    be_tolerant(kernel, tolerance);
     return kernel;
 }
 
-std::vector<Kernel> kernels_named(const std::vector<std::string>& globs) {
-    std::vector<Kernel> all;
+/// Those that match one of the globs, each once.
+template <class T>
+std::vector<T> matching(const std::vector<std::string>& globs, std::vector<T> (*matching_one)(std::string_view),
+                        const std::string& what, const std::string& lists) {
+    std::vector<T> all;
     for (const std::string& glob : globs) {
-        const std::vector<Kernel> some = kernels_matching(glob);
+        const std::vector<T> some = matching_one(glob);
         if (some.empty())
-            throw Exception({.what = "no kernel of that name",
+            throw Exception({.what = "no " + what + " of that name",
                              .found = '"' + glob + '"',
-                             .remedy = "barycert.kernels() lists them"});
-        for (const Kernel& k : some) {
-            if (std::none_of(all.begin(), all.end(), [&](const Kernel& have) { return have.name == k.name; }))
-                all.push_back(k);
+                             .remedy = "barycert." + lists + "() lists them"});
+        for (const T& one : some) {
+            if (std::none_of(all.begin(), all.end(), [&](const T& have) { return have.name == one.name; }))
+                all.push_back(one);
         }
-    }
-    return all;
-}
-
-/// Those of these names, or all that need nothing that is not there.
-std::vector<Family> families_named(const std::vector<std::string>& globs, bool meshes) {
-    std::vector<Family> all;
-    if (globs.empty()) {
-        std::copy_if(all_families().begin(), all_families().end(), std::back_inserter(all),
-                     [&](const Family& f) { return meshes || !f.needs_mesh; });
-        return all;
-    }
-    for (const std::string& glob : globs) {
-        const std::vector<Family> some = families_matching(glob);
-        if (some.empty())
-            throw Exception({.what = "no family of that name",
-                             .found = '"' + glob + '"',
-                             .remedy = "barycert.families() lists them"});
-        all.insert(all.end(), some.begin(), some.end());
     }
     return all;
 }
@@ -150,47 +133,43 @@ OracleChoice oracle_by_name(const std::string& word) {
     throw Exception({.what = "oracle", .expected = "automatic, integers, cgal or both", .found = word});
 }
 
-struct Request {
-    py::object callable;  ///< or None
-    std::string simplex, name;
-    bool declares_degenerate = false;
-    std::optional<double> tolerance;
-    std::vector<std::string> libraries, catalogue;
-    bool contained = true;
-};
-
-std::shared_ptr<AuditReport> audit(const Request& request, std::uint64_t count, std::uint64_t seed,
+/// `function`: a callable, or None.
+std::shared_ptr<AuditReport> audit(const py::object& function, const std::string& simplex, const std::string& name,
+                                   bool declares_degenerate, std::optional<double> tolerance,
+                                   const std::vector<std::string>& libraries, const std::vector<std::string>& catalogue,
+                                   bool contained, std::uint64_t count, std::uint64_t seed,
                                    const std::vector<std::string>& families,
                                    const std::vector<std::pair<std::string, const MeshObject*>>& meshes, int threads,
-                                   const std::string& oracle, py::object progress_callable) {
-    const Progress progress(std::move(progress_callable));
+                                   const std::string& oracle, const py::object& progress_callable) {
+    const Progress progress(progress_callable);
     AuditOptions options;
     options.count = count;
     options.seed = seed;
     options.threads = threads;
     options.oracle = oracle_by_name(oracle);
-    options.families = families_named(families, !meshes.empty());
+    options.families = matching(families, families_matching, "family", "families");
+    if (families.empty())
+        std::copy_if(all_families().begin(), all_families().end(), std::back_inserter(options.families),
+                     [&](const Family& f) { return !meshes.empty() || !f.needs_mesh; });
     options.progress = [&](const AuditProgress& p) { progress.tell(p.family, p.cases_done, p.cases_total); };
     Callable callable;
-    if (!request.callable.is_none()) {
-        callable = {request.callable, simplex_by_name(request.simplex), {}};
-        options.kernels.push_back(
-            kernel_of(callable.simplex, request.name, request.declares_degenerate, request.tolerance));
+    if (!function.is_none()) {
+        callable = {function, simplex_by_name(simplex), {}};
+        options.kernels.push_back(kernel_of(callable.simplex, name, declares_degenerate, tolerance));
         // Python runs one thread at a time; and in this one it sees Ctrl-C.
         options.threads = 1;
     }
-    for (const std::string& path : request.libraries) {
+    for (const std::string& path : libraries) {
         const py::gil_scoped_release unlocked;
-        options.kernels.push_back(take(request.contained ? load_contained_kernel(path) : load_kernel_library(path)));
-        if (request.tolerance && options.kernels.back().rule == RegionRule::sign) {
-            options.kernels.back().rule = RegionRule::tolerant;
-            options.kernels.back().tolerance = *request.tolerance;
-        }
+        Kernel& kernel =
+            options.kernels.emplace_back(take(contained ? load_contained_kernel(path) : load_kernel_library(path)));
+        if (kernel.rule == RegionRule::sign) be_tolerant(kernel, tolerance);
     }
-    for (Kernel& kernel : kernels_named(request.catalogue)) options.kernels.push_back(std::move(kernel));
+    for (Kernel& kernel : matching(catalogue, kernels_matching, "kernel", "kernels"))
+        options.kernels.push_back(std::move(kernel));
     const py::gil_scoped_release unlocked;
     MeshSource source;
-    for (const auto& [name, mesh] : meshes) source.add(name, mesh->mesh());
+    for (const auto& [label, mesh] : meshes) source.add(label, mesh->mesh());
     std::unique_lock<std::mutex> turn;
     if (callable.function) {
         if (in_callable)
@@ -217,23 +196,9 @@ void bind_audit(py::module_& module) {
     module.attr("has_audit") = true;
     py::class_<AuditReport, std::shared_ptr<AuditReport>>(module, "AuditReport")
         .def("json", &audit_json)
-        .def(
-            "text", [](const AuditReport& r, bool wide) { return audit_text(r, {.wide = wide}); }, py::arg("wide"))
+        .def("text", [](const AuditReport& r, bool wide) { return audit_text(r, {.wide = wide}); })
         .def("html", &html_of);
-    module.def(
-        "audit",
-        [](py::object callable, std::string simplex, std::string name, bool declares_degenerate,
-           std::optional<double> tolerance, std::vector<std::string> libraries, std::vector<std::string> catalogue,
-           bool contained, std::uint64_t count, std::uint64_t seed, const std::vector<std::string>& families,
-           const std::vector<std::pair<std::string, const MeshObject*>>& meshes, int threads, const std::string& oracle,
-           py::object progress) {
-            return audit({std::move(callable), std::move(simplex), std::move(name), declares_degenerate, tolerance,
-                          std::move(libraries), std::move(catalogue), contained},
-                         count, seed, families, meshes, threads, oracle, std::move(progress));
-        },
-        py::arg("callable"), py::arg("simplex"), py::arg("name"), py::arg("declares_degenerate"), py::arg("tolerance"),
-        py::arg("libraries"), py::arg("catalogue"), py::arg("contained"), py::arg("count"), py::arg("seed"),
-        py::arg("families"), py::arg("meshes"), py::arg("threads"), py::arg("oracle"), py::arg("progress"));
+    module.def("audit", &audit);
     module.def("finding_names", [] {
         std::vector<std::string> names;
         names.reserve(finding_count);

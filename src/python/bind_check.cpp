@@ -6,17 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "arrays.hpp"
 #include "barycert/check.hpp"
 #include "barycert/report.hpp"
-#include "bindings.hpp"
-#include "errors.hpp"
 #include "mesh_object.hpp"
 
 namespace barycert::python {
 namespace {
 
-namespace py = pybind11;
+using namespace pybind11::literals;
 
 /// A report with the mesh that it is of.
 struct BoundReport {
@@ -59,7 +56,6 @@ py::list defects_of(const CheckReport& report) {
         for (const DefectPlace& place : defect.places)
             places.append(py::make_tuple(used(place.cells), used(place.nodes), std::string(place.detail),
                                          used(place.other_nodes), place.distance));
-        using namespace pybind11::literals;
         defects.append(py::dict("kind"_a = std::string(text.name), "count"_a = defect.count,
                                 "at_least"_a = defect.at_least, "breaks"_a = defect.breaks(),
                                 "condition"_a = std::string(text.condition), "text"_a = std::string(text.text),
@@ -82,7 +78,6 @@ py::tuple fix_of(const MeshObject& mesh, double merge_within, bool nodes, bool c
     for (const DroppedCell& c : done.dropped)
         dropped.append(py::make_tuple(c.cell, std::string(defect_text(c.why).name)));
     for (const MergedField& f : done.fields) fields.append(py::make_tuple(f.name, f.differ, f.max_difference));
-    using namespace pybind11::literals;
     return py::make_tuple(std::move(*fixed), py::dict("merged"_a = merged, "dropped"_a = dropped,
                                                       "turned"_a = done.turned, "fields"_a = fields));
 }
@@ -95,7 +90,6 @@ py::list contacts_of(const CheckReport& report, int dimension) {
             point.append(contact.common.point[k]);
             fraction.append(contact.common.fraction[k]);
         }
-        using namespace pybind11::literals;
         contacts.append(py::dict("cells"_a = py::make_tuple(contact.cells[0], contact.cells[1]),
                                  "overlap"_a = contact.overlap, "dimension"_a = contact.dimension,
                                  "point"_a = py::tuple(point), "exact"_a = contact.common.exact,
@@ -108,7 +102,7 @@ py::dict measures_of(const Shared& bound) {
     const CellMeasures& m = bound->report.measures;
     py::dict measures;
     const auto add = [&](const char* name, const auto& numbers) {
-        if (!numbers.empty()) measures[name] = view(numbers.data(), {extent(numbers.size())}, bound);
+        if (!numbers.empty()) measures[name] = view(numbers, bound);
     };
     add("orientation", m.orientation);
     add("volume", m.volume);
@@ -131,26 +125,15 @@ void bind_check(py::module_& module) {
         .def_property_readonly("contacts",
                                [](const BoundReport& r) { return contacts_of(r.report, r.geometry->mesh.dimension); })
         .def_property_readonly("measures", &measures_of)
-        .def(
-            "text",
-            [](const BoundReport& r, const std::string& name, bool colour) {
-                return check_text(r.report, r.geometry->mesh, name, {.colour = colour});
-            },
-            py::arg("name"), py::arg("colour"))
-        .def(
-            "json",
-            [](const BoundReport& r, const std::string& name) {
-                return check_json(r.report, name, measure_environment());
-            },
-            py::arg("name"))
-        .def(
-            "html",
-            [](const BoundReport& r, const std::string& name) { return check_html(r.report, r.geometry->mesh, name); },
-            py::arg("name"));
-    module.def("check", &check_of, py::arg("mesh"), py::arg("delaunay"), py::arg("examples"), py::arg("contacts"),
-               py::arg("verdict_only"), py::arg("threads"), py::arg("progress"));
-    module.def("fix", &fix_of, py::arg("mesh"), py::arg("merge_within"), py::arg("nodes"), py::arg("cells"),
-               py::arg("orientation"), py::arg("threads"));
+        .def("text", [](const BoundReport& r,
+                        const std::string& name) { return check_text(r.report, r.geometry->mesh, name, {}); })
+        .def("json", [](const BoundReport& r,
+                        const std::string& name) { return check_json(r.report, name, measure_environment()); })
+        .def("html", [](const BoundReport& r, const std::string& name) {
+            return check_html(r.report, r.geometry->mesh, name);
+        });
+    module.def("check", &check_of);
+    module.def("fix", &fix_of);
 }
 
 }  // namespace barycert::python

@@ -1,69 +1,68 @@
-#include <pybind11/stl.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
-#include "arrays.hpp"
 #include "barycert/sampler.hpp"
 #include "barycert/weights.hpp"
-#include "bindings.hpp"
-#include "errors.hpp"
 #include "mesh_object.hpp"
-#include "options.hpp"
 
 namespace barycert::python {
 namespace {
 
-namespace py = pybind11;
+/// Points (n, dimension) that are asked of a mesh.
+struct Query {
+    Query(const MeshObject& object, const Given<double>& points, const py::object& callable,
+          const std::string& nonfinite = "error")
+        : progress(callable),
+          policy(nonfinite_points(nonfinite)),
+          locator(locator_of(object)),
+          d(object.dimension()),
+          count(static_cast<std::size_t>(points.size()) / d),
+          all(span_of(points)) {}
 
-std::size_t dimension_of(const MeshObject& object) {
-    return static_cast<std::size_t>(object.mesh().dimension);
-}
+    const Locator& locator_of(const MeshObject& object) const {
+        const py::gil_scoped_release unlocked;
+        return object.geometry()->locator(progress);
+    }
+    std::span<const double> part(std::size_t first, std::size_t n) const { return all.subspan(d * first, d * n); }
 
-const Locator& locator_of(const MeshObject& object, const Progress& progress) {
-    const py::gil_scoped_release unlocked;
-    return object.geometry()->locator(progress);
-}
+    Progress progress;
+    NonfinitePoints policy;
+    const Locator& locator;
+    std::size_t d, count;
+    std::span<const double> all;
+};
 
-/// points (n, dimension): cells (n), features (n).
-py::tuple locate(const MeshObject& object, const Array<double>& points, int threads, const py::object& callable,
+/// Cells (n), features (n).
+py::tuple locate(const MeshObject& object, const Given<double>& points, int threads, const py::object& callable,
                  const std::string& nonfinite) {
-    const Progress progress(callable);
-    const NonfinitePoints policy = nonfinite_points(nonfinite);
-    const Locator& locator = locator_of(object, progress);
-    const std::size_t d = dimension_of(object), count = static_cast<std::size_t>(points.size()) / d;
-    std::vector<Mesh::Index> cells(count);
-    std::vector<Feature> features(count);
-    const std::span<const double> all = span_of(points);
+    const Query query(object, points, callable, nonfinite);
+    std::vector<Mesh::Index> cells(query.count);
+    std::vector<Feature> features(query.count);
     in_blocks(
-        progress, "points", count,
+        query.progress, "points", query.count,
         [&](std::size_t first, std::size_t n) {
-            check(locator.locate(all.subspan(d * first, d * n), std::span(cells).subspan(first, n),
-                                 std::span(features).subspan(first, n), nullptr, threads, policy));
+            check(query.locator.locate(query.part(first, n), std::span(cells).subspan(first, n),
+                                       std::span(features).subspan(first, n), nullptr, threads, query.policy));
         },
-        locator.certified() ? largest_first_block : smallest_first_block);
-    Array<std::uint8_t> feature(extent(count));
-    std::uint8_t* const to = feature.mutable_data();
-    for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<std::uint8_t>(features[i]);
-    return py::make_tuple(owned(std::move(cells)), std::move(feature));
+        query.locator.certified() ? largest_first_block : smallest_first_block);
+    std::vector<std::uint8_t> numbers(query.count);
+    std::transform(features.begin(), features.end(), numbers.begin(), [](Feature f) { return std::uint8_t(f); });
+    return py::make_tuple(owned(std::move(cells)), owned(std::move(numbers)));
 }
 
 /// begin (n + 1), cells and features (rows): every cell that holds each point.
-py::tuple locate_all(const MeshObject& object, const Array<double>& points, int threads, const py::object& callable,
+py::tuple locate_all(const MeshObject& object, const Given<double>& points, int threads, const py::object& callable,
                      const std::string& nonfinite) {
-    const Progress progress(callable);
-    const NonfinitePoints policy = nonfinite_points(nonfinite);
-    const Locator& locator = locator_of(object, progress);
-    const std::size_t d = dimension_of(object), count = static_cast<std::size_t>(points.size()) / d;
-    const std::span<const double> all = span_of(points);
+    const Query query(object, points, callable, nonfinite);
     std::vector<std::int64_t> begin{0};
     std::vector<Mesh::Index> cells;
-    begin.reserve(count + 1);
-    in_blocks(progress, "points", count, [&](std::size_t first, std::size_t n) {
-        const Table rows = take(locator.locate_all(all.subspan(d * first, d * n), threads, policy));
+    begin.reserve(query.count + 1);
+    in_blocks(query.progress, "points", query.count, [&](std::size_t first, std::size_t n) {
+        const Table rows = take(query.locator.locate_all(query.part(first, n), threads, query.policy));
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t row = rows.point_begin[i]; row < rows.point_begin[i + 1]; ++row) {
                 if (rows.cells[row] >= 0) cells.push_back(rows.cells[row]);
@@ -75,11 +74,10 @@ py::tuple locate_all(const MeshObject& object, const Array<double>& points, int 
 }
 
 /// points (n, dimension), cells (n): weights (n, dimension + 1), NaN outside.
-py::array weights_of(const MeshObject& object, const Array<double>& points, const Array<Mesh::Index>& cells,
+py::array weights_of(const MeshObject& object, const Given<double>& points, const Given<Mesh::Index>& cells,
                      const py::object& callable) {
     const Mesh& mesh = object.mesh();
-    const std::size_t d = dimension_of(object), corners = mesh.corners(),
-                      count = static_cast<std::size_t>(cells.size());
+    const std::size_t d = object.dimension(), corners = mesh.corners(), count = static_cast<std::size_t>(cells.size());
     const Simplex simplex = d == 2 ? Simplex::triangle : Simplex::tetrahedron;
     Array<double> out(Shape{extent(count), extent(corners)});
     double* const to = out.mutable_data();
@@ -112,23 +110,20 @@ py::array weights_of(const MeshObject& object, const Array<double>& points, cons
 }
 
 /// The rows of a sparse matrix (n, nodes): begin (n + 1), nodes, weights.
-py::tuple matrix(const MeshObject& object, const Array<double>& points, const Array<Mesh::Index>& cells,
+py::tuple matrix(const MeshObject& object, const Given<double>& points, const Given<Mesh::Index>& cells,
                  const std::string& outside, double limit, const py::object& callable) {
-    const Progress progress(callable);
-    const Locator& locator = locator_of(object, progress);
+    const Query query(object, points, callable);
     const OutsidePolicy policy = outside_policy(outside, std::numeric_limits<double>::quiet_NaN(), limit);
-    const std::size_t d = dimension_of(object), count = static_cast<std::size_t>(cells.size());
-    const std::span<const double> all = span_of(points);
     const std::span<const Mesh::Index> owners = span_of(cells);
     std::vector<std::int64_t> begin{0};
-    begin.reserve(count + 1);
+    begin.reserve(owners.size() + 1);
     std::vector<Mesh::Index> nodes;
     std::vector<double> weights;
-    in_blocks(progress, "weights", count, [&](std::size_t first, std::size_t n) {
-        const NodeWeights part = take(node_weights(locator,
+    in_blocks(query.progress, "weights", owners.size(), [&](std::size_t first, std::size_t n) {
+        const NodeWeights part = take(node_weights(query.locator,
                                                    {.dimension = object.mesh().dimension,
                                                     .first_row = first,
-                                                    .points = all.subspan(d * first, d * n),
+                                                    .points = query.part(first, n),
                                                     .cells = owners.subspan(first, n)},
                                                    policy));
         for (std::size_t i = 1; i < part.begin.size(); ++i)
@@ -139,50 +134,40 @@ py::tuple matrix(const MeshObject& object, const Array<double>& points, const Ar
     return py::make_tuple(owned(std::move(begin)), owned(std::move(nodes)), owned(std::move(weights)));
 }
 
-/// points (n, dimension): cells (n), distances (n).
-py::tuple nearest(const MeshObject& object, const Array<double>& points, double limit, const py::object& callable,
+/// Cells (n), distances (n).
+py::tuple nearest(const MeshObject& object, const Given<double>& points, double limit, const py::object& callable,
                   const std::string& nonfinite) {
-    const Progress progress(callable);
-    const bool any_point = nonfinite_points(nonfinite) == NonfinitePoints::nan;
-    const Locator& locator = locator_of(object, progress);
-    const std::size_t d = dimension_of(object), count = static_cast<std::size_t>(points.size()) / d;
-    std::vector<Mesh::Index> cells(count);
-    std::vector<double> distances(count);
-    const double* const from = points.data();
-    in_blocks(
-        progress, "points", count,
-        [&](std::size_t first, std::size_t n) {
-            for (std::size_t i = first; i < first + n; ++i) {
-                const bool finite =
-                    std::all_of(from + d * i, from + d * (i + 1), [](double x) { return std::isfinite(x); });
-                const Nearest found = any_point && !finite ? Nearest{} : take(locator.nearest(from + d * i, limit));
-                cells[i] = found.cell;
-                distances[i] = found.cell < 0 ? std::numeric_limits<double>::quiet_NaN() : found.distance;
-            }
-        },
-        smallest_first_block);
+    const Query query(object, points, callable, nonfinite);
+    std::vector<Mesh::Index> cells(query.count);
+    std::vector<double> distances(query.count);
+    in_blocks(query.progress, "points", query.count, [&](std::size_t first, std::size_t n) {
+        for (std::size_t i = first; i < first + n; ++i) {
+            const std::span<const double> point = query.part(i, 1);
+            const bool skipped = query.policy == NonfinitePoints::nan &&
+                                 !std::all_of(point.begin(), point.end(), [](double x) { return std::isfinite(x); });
+            const Nearest found = skipped ? Nearest{} : take(query.locator.nearest(point.data(), limit));
+            cells[i] = found.cell;
+            distances[i] = found.cell < 0 ? std::numeric_limits<double>::quiet_NaN() : found.distance;
+        }
+    });
     return py::make_tuple(owned(std::move(cells)), owned(std::move(distances)));
+}
+
+bool certified(const MeshObject& object, const py::object& callable) {
+    const Progress progress(callable);
+    const py::gil_scoped_release unlocked;
+    return object.geometry()->locator(progress).certified();
 }
 
 }  // namespace
 
 void bind_locate(py::module_& module) {
-    module.def("locate", &locate, py::arg("mesh"), py::arg("points").noconvert(), py::arg("threads"),
-               py::arg("progress"), py::arg("nonfinite") = "error");
-    module.def("locate_all", &locate_all, py::arg("mesh"), py::arg("points").noconvert(), py::arg("threads"),
-               py::arg("progress"), py::arg("nonfinite"));
-    module.def("weights_of", &weights_of, py::arg("mesh"), py::arg("points").noconvert(), py::arg("cells").noconvert(),
-               py::arg("progress"));
-    module.def("matrix", &matrix, py::arg("mesh"), py::arg("points").noconvert(), py::arg("cells").noconvert(),
-               py::arg("outside"), py::arg("limit"), py::arg("progress"));
-    module.def("nearest", &nearest, py::arg("mesh"), py::arg("points").noconvert(), py::arg("limit"),
-               py::arg("progress"), py::arg("nonfinite"));
-    module.def(
-        "certified",
-        [](const MeshObject& mesh, py::object progress) {
-            return locator_of(mesh, Progress(std::move(progress))).certified();
-        },
-        py::arg("mesh"), py::arg("progress"));
+    module.def("locate", &locate);
+    module.def("locate_all", &locate_all);
+    module.def("weights_of", &weights_of);
+    module.def("matrix", &matrix);
+    module.def("nearest", &nearest);
+    module.def("certified", &certified);
 }
 
 }  // namespace barycert::python

@@ -1,7 +1,6 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -10,19 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include "arrays.hpp"
 #include "barycert/check.hpp"
 #include "barycert/gradient.hpp"
 #include "barycert/io.hpp"
-#include "barycert/result.hpp"
-#include "bindings.hpp"
-#include "errors.hpp"
 #include "mesh_object.hpp"
 
 namespace barycert::python {
 namespace {
-
-namespace py = pybind11;
 
 /// Node indices of any integer type, each of which must be a node.
 template <class T>
@@ -43,25 +36,24 @@ std::vector<Mesh::Index> indices_as(const py::array& cells, std::size_t columns,
 }
 
 std::vector<Mesh::Index> indices_of(const py::array& cells, std::size_t columns, std::size_t nodes) {
-    const bool is_signed = cells.dtype().kind() == 'i';
+    const auto of = [&]<class Signed, class Unsigned>(Signed, Unsigned) {
+        return cells.dtype().kind() == 'i' ? indices_as<Signed>(cells, columns, nodes)
+                                           : indices_as<Unsigned>(cells, columns, nodes);
+    };
     switch (cells.itemsize()) {
         case 1:
-            return is_signed ? indices_as<std::int8_t>(cells, columns, nodes)
-                             : indices_as<std::uint8_t>(cells, columns, nodes);
+            return of(std::int8_t{}, std::uint8_t{});
         case 2:
-            return is_signed ? indices_as<std::int16_t>(cells, columns, nodes)
-                             : indices_as<std::uint16_t>(cells, columns, nodes);
+            return of(std::int16_t{}, std::uint16_t{});
         case 4:
-            return is_signed ? indices_as<std::int32_t>(cells, columns, nodes)
-                             : indices_as<std::uint32_t>(cells, columns, nodes);
+            return of(std::int32_t{}, std::uint32_t{});
         default:
-            return is_signed ? indices_as<std::int64_t>(cells, columns, nodes)
-                             : indices_as<std::uint64_t>(cells, columns, nodes);
+            return of(std::int64_t{}, std::uint64_t{});
     }
 }
 
 /// points (n, 2 or 3); cells (m, 3 or 6 in the plane, 4 or 10 in space), integers.
-MeshObject make_mesh(const Array<double>& points, const py::array& cells, std::vector<Mesh::Index> cell_numbers) {
+MeshObject make_mesh(const Given<double>& points, const py::array& cells, std::vector<Mesh::Index> cell_numbers) {
     Mesh mesh;
     mesh.dimension = static_cast<int>(points.shape(1));
     mesh.points.assign(points.data(), points.data() + points.size());
@@ -92,19 +84,17 @@ MeshObject make_mesh(const Array<double>& points, const py::array& cells, std::v
     return MeshObject(std::move(mesh));
 }
 
-py::array nodes_of(const std::vector<Mesh::Index>& nodes, std::size_t columns, const MeshObject& mesh) {
-    return view(nodes.data(), {extent(nodes.size() / columns), extent(columns)}, mesh.geometry());
-}
-
-py::array field_view(const std::shared_ptr<const Mesh>& fields, const Field& field) {
-    const auto components = static_cast<std::size_t>(field.components);
-    return view(field.data.data(), {extent(field.data.size() / components), extent(components)}, fields);
+/// Of each cell or node, if the mesh has some.
+template <class T>
+py::object if_any(const MeshObject& mesh, const std::vector<T>& numbers, std::size_t columns = 0) {
+    if (numbers.empty()) return py::none();
+    return view(numbers, mesh.geometry(), columns);
 }
 
 py::object field_named(const MeshObject& mesh, const std::string& name, bool of_cells) {
     const std::shared_ptr<const Mesh> fields = mesh.fields();
     for (const Field& field : of_cells ? fields->cell_fields : fields->point_fields) {
-        if (field.name == name) return field_view(fields, field);
+        if (field.name == name) return view(field.data, fields, static_cast<std::size_t>(field.components));
     }
     return py::none();
 }
@@ -116,12 +106,25 @@ std::vector<std::string> field_names(const MeshObject& mesh, bool of_cells) {
     return names;
 }
 
-Field field_of(std::string name, const Array<double>& values) {
+Field field_of(std::string name, const Given<double>& values) {
     return {std::move(name), static_cast<int>(values.shape(1)), {values.data(), values.data() + values.size()}};
 }
 
+/// No values: takes the field out.
+void set_field(MeshObject& mesh, const std::string& name, const std::optional<Given<double>>& values, bool of_cells) {
+    std::vector<Field>& fields = mesh.fields(of_cells);
+    const auto place = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
+    if (!values) {
+        if (place != fields.end()) fields.erase(place);
+    } else if (place == fields.end()) {
+        fields.push_back(field_of(name, *values));
+    } else {
+        *place = field_of(name, *values);
+    }
+}
+
 /// values (nodes, components): (cells, components, dimension).
-py::array gradients_of(const MeshObject& object, const Array<double>& values, const py::object& callable) {
+py::array gradients_of(const MeshObject& object, const Given<double>& values, const py::object& callable) {
     const Mesh& mesh = object.mesh();
     const auto components = static_cast<std::size_t>(values.shape(1)), n = mesh.corners(), d = n - 1;
     Array<double> out(Shape{extent(mesh.cell_count()), extent(components), extent(d)});
@@ -169,67 +172,30 @@ void write(const MeshObject& object, const std::string& path, const std::string&
 
 void bind_mesh(py::module_& module) {
     py::class_<MeshObject>(module, "Mesh")
-        .def(py::init(&make_mesh), py::arg("points").noconvert(), py::arg("cells").noconvert(),
-             py::arg("cell_numbers") = std::vector<Mesh::Index>())
+        .def(py::init(&make_mesh))
         .def_property_readonly("dimension", [](const MeshObject& m) { return m.mesh().dimension; })
+        .def_property_readonly("points",
+                               [](const MeshObject& m) { return view(m.mesh().points, m.geometry(), m.dimension()); })
         .def_property_readonly(
-            "points",
-            [](const MeshObject& m) {
-                const auto d = static_cast<std::size_t>(m.mesh().dimension);
-                return view(m.mesh().points.data(), {extent(m.mesh().point_count()), extent(d)}, m.geometry());
-            })
-        .def_property_readonly("cells",
-                               [](const MeshObject& m) { return nodes_of(m.mesh().cells, m.mesh().corners(), m); })
-        .def_property_readonly("mid_nodes",
-                               [](const MeshObject& m) -> py::object {
-                                   if (m.mesh().mid_nodes.empty()) return py::none();
-                                   return nodes_of(m.mesh().mid_nodes, m.mesh().dimension == 2 ? 3 : 6, m);
-                               })
-        .def_property_readonly("cell_numbers",
-                               [](const MeshObject& m) -> py::object {
-                                   const std::vector<Mesh::Index>& numbers = m.mesh().cell_numbers;
-                                   if (numbers.empty()) return py::none();
-                                   return view(numbers.data(), {extent(numbers.size())}, m.geometry());
-                               })
-        .def_property_readonly("point_markers",
-                               [](const MeshObject& m) -> py::object {
-                                   const std::vector<std::int64_t>& markers = m.mesh().point_markers;
-                                   if (markers.empty()) return py::none();
-                                   return view(markers.data(), {extent(markers.size())}, m.geometry());
-                               })
+            "cells", [](const MeshObject& m) { return view(m.mesh().cells, m.geometry(), m.mesh().corners()); })
+        .def_property_readonly(
+            "mid_nodes",
+            [](const MeshObject& m) { return if_any(m, m.mesh().mid_nodes, m.mesh().dimension == 2 ? 3 : 6); })
+        .def_property_readonly("cell_numbers", [](const MeshObject& m) { return if_any(m, m.mesh().cell_numbers); })
+        .def_property_readonly("point_markers", [](const MeshObject& m) { return if_any(m, m.mesh().point_markers); })
         .def_property_readonly("notes", &notes_of)
-        .def("take_as_straight", &take_mesh_as_straight, py::arg("file"), py::arg("refuse"))
-        .def("field_names", &field_names, py::arg("of_cells"))
-        .def("field", &field_named, py::arg("name"), py::arg("of_cells"))
-        .def(
-            "set_field",
-            [](MeshObject& m, std::string name, const Array<double>& values, bool of_cells) {
-                m.set_field(field_of(std::move(name), values), of_cells);
-            },
-            py::arg("name"), py::arg("values").noconvert(), py::arg("of_cells"))
-        .def("remove_field", &MeshObject::remove_field, py::arg("name"), py::arg("of_cells"))
-        .def(
-            "sampler",
-            [](MeshObject& m, const std::vector<std::string>& names, py::object progress) {
-                return std::const_pointer_cast<BoundSampler>(m.sampler(names, Progress(std::move(progress))));
-            },
-            py::arg("names"), py::arg("progress"))
-        .def(
-            "sampler_of",
-            [](const MeshObject& m, const Array<double>& values, py::object progress) {
-                return std::const_pointer_cast<BoundSampler>(
-                    m.sampler_of(field_of("value", values), Progress(std::move(progress))));
-            },
-            py::arg("values").noconvert(), py::arg("progress"))
-        .def(
-            "bare_sampler",
-            [](const MeshObject& m, py::object progress) {
-                return std::const_pointer_cast<BoundSampler>(m.bare_sampler(Progress(std::move(progress))));
-            },
-            py::arg("progress"))
-        .def("gradients", &gradients_of, py::arg("values").noconvert(), py::arg("progress"))
-        .def("write", &write, py::arg("path"), py::arg("comment"), py::arg("data"));
-    module.def("read", &read, py::arg("path"), py::arg("number"), py::arg("last"), py::arg("time"));
+        .def("take_as_straight", &take_mesh_as_straight)
+        .def("field_names", &field_names)
+        .def("field", &field_named)
+        .def("set_field", &set_field)
+        .def("sampler", &MeshObject::sampler)
+        .def("sampler_of",
+             [](const MeshObject& m, const std::optional<Given<double>>& values, const py::object& callable) {
+                 return m.sampler_of(values ? std::optional(field_of("value", *values)) : std::nullopt, callable);
+             })
+        .def("gradients", &gradients_of)
+        .def("write", &write);
+    module.def("read", &read);
 }
 
 }  // namespace barycert::python

@@ -8,21 +8,16 @@
 #include <string>
 #include <utility>
 
-#include "arrays.hpp"
 #include "barycert/verify.hpp"
-#include "bindings.hpp"
-#include "errors.hpp"
 #include "mesh_object.hpp"
-#include "options.hpp"
 
 namespace barycert::python {
 namespace {
 
-namespace py = pybind11;
 using namespace pybind11::literals;
 
 template <class T>
-std::span<const T> part(const std::optional<Array<T>>& array, std::size_t columns, std::size_t first, std::size_t n) {
+std::span<const T> part(const std::optional<Given<T>>& array, std::size_t columns, std::size_t first, std::size_t n) {
     if (!array) return {};
     return span_of(*array).subspan(columns * first, columns * n);
 }
@@ -60,8 +55,8 @@ py::dict dict_of(const Verdicts& v, const BoundSampler& bound, const std::vector
 }
 
 /// points (n, dimension); cells (n), inside (n), values (n, columns), or None.
-py::dict verify(const BoundSampler& bound, const Array<double>& points, const std::optional<Array<std::int64_t>>& cells,
-                const std::optional<Array<std::uint8_t>>& inside, const std::optional<Array<double>>& values,
+py::dict verify(const BoundSampler& bound, const Given<double>& points, const std::optional<Given<std::int64_t>>& cells,
+                const std::optional<Given<std::uint8_t>>& inside, const std::optional<Given<double>>& values,
                 double tolerance, bool exact, std::optional<double> outside_value, std::size_t examples, int threads,
                 const py::object& callable, const std::string& nonfinite) {
     const Verifier verifier(bound.sampler, {.tolerance = tolerance,
@@ -93,9 +88,7 @@ py::dict verify(const BoundSampler& bound, const Array<double>& points, const st
 }  // namespace
 
 void bind_verify(py::module_& module) {
-    module.def("verify", &verify, py::arg("sampler"), py::arg("points").noconvert(), py::arg("cells"),
-               py::arg("inside"), py::arg("values"), py::arg("tolerance"), py::arg("exact"), py::arg("outside_value"),
-               py::arg("examples"), py::arg("threads"), py::arg("progress"), py::arg("nonfinite"));
+    module.def("verify", &verify);
 }
 
 }  // namespace barycert::python

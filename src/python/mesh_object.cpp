@@ -1,17 +1,17 @@
 #include "mesh_object.hpp"
 
-#include <algorithm>
 #include <utility>
-
-#include "errors.hpp"
 
 namespace barycert::python {
 namespace {
 
-namespace py = pybind11;
-
-auto place_of(std::vector<Field>& fields, const std::string& name) {
-    return std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
+/// `choices` may lie in `fields`.
+std::shared_ptr<BoundSampler> made(std::shared_ptr<Geometry> geometry, std::shared_ptr<const Mesh> fields,
+                                   const std::vector<FieldChoice>& choices, const py::object& callable) {
+    const Progress progress(callable);
+    const py::gil_scoped_release unlocked;
+    Sampler sampler = take(Sampler::build(geometry->locator(progress), choices));
+    return std::make_shared<BoundSampler>(BoundSampler{std::move(geometry), std::move(fields), std::move(sampler)});
 }
 
 }  // namespace
@@ -34,25 +34,11 @@ MeshObject::MeshObject(Mesh mesh) : geometry_(std::make_shared<Geometry>()), fie
     geometry_->mesh = std::move(mesh);
 }
 
-std::vector<Field>& MeshObject::fields_to_change(bool of_cells) {
+std::vector<Field>& MeshObject::fields(bool of_cells) {
     last_ = nullptr;
     // Samplers and arrays that look at the fields keep them as they are.
     if (fields_.use_count() > 1) fields_ = std::make_shared<Mesh>(*fields_);
     return of_cells ? fields_->cell_fields : fields_->point_fields;
-}
-
-void MeshObject::set_field(Field field, bool of_cells) {
-    std::vector<Field>& fields = fields_to_change(of_cells);
-    const auto place = place_of(fields, field.name);
-    if (place == fields.end())
-        fields.push_back(std::move(field));
-    else
-        *place = std::move(field);
-}
-
-void MeshObject::remove_field(const std::string& name, bool of_cells) {
-    std::vector<Field>& fields = fields_to_change(of_cells);
-    if (const auto place = place_of(fields, name); place != fields.end()) fields.erase(place);
 }
 
 Mesh MeshObject::whole() const {
@@ -62,39 +48,23 @@ Mesh MeshObject::whole() const {
     return all;
 }
 
-std::shared_ptr<const BoundSampler> MeshObject::sampler(const std::vector<std::string>& names,
-                                                        const Progress& progress) {
+std::shared_ptr<BoundSampler> MeshObject::sampler(const std::vector<std::string>& names, const py::object& callable) {
     if (last_ && last_names_ == names) return last_;
-    const std::shared_ptr<Geometry> geometry = geometry_;
     const std::shared_ptr<const Mesh> fields = fields_;
-    const std::vector<FieldChoice> chosen = take(choose_fields(*fields, names));
-    std::shared_ptr<const BoundSampler> made;
-    {
-        const py::gil_scoped_release unlocked;
-        made = std::make_shared<const BoundSampler>(
-            BoundSampler{geometry, fields, take(Sampler::build(geometry->locator(progress), chosen))});
-    }
+    std::shared_ptr<BoundSampler> sampler = made(geometry_, fields, take(choose_fields(*fields, names)), callable);
     if (fields == fields_) {
         last_names_ = names;
-        last_ = made;
+        last_ = sampler;
     }
-    return made;
+    return sampler;
 }
 
-std::shared_ptr<const BoundSampler> MeshObject::sampler_of(Field field, const Progress& progress) const {
-    const std::shared_ptr<Geometry> geometry = geometry_;
+std::shared_ptr<BoundSampler> MeshObject::sampler_of(std::optional<Field> field, const py::object& callable) const {
     const auto fields = std::make_shared<Mesh>();
-    fields->point_fields.push_back(std::move(field));
-    const py::gil_scoped_release unlocked;
-    return std::make_shared<const BoundSampler>(BoundSampler{
-        geometry, fields, take(Sampler::build(geometry->locator(progress), {{&fields->point_fields.front()}}))});
-}
-
-std::shared_ptr<const BoundSampler> MeshObject::bare_sampler(const Progress& progress) const {
-    const std::shared_ptr<Geometry> geometry = geometry_;
-    const py::gil_scoped_release unlocked;
-    return std::make_shared<const BoundSampler>(
-        BoundSampler{geometry, nullptr, take(Sampler::build(geometry->locator(progress), {}))});
+    if (field) fields->point_fields.push_back(std::move(*field));
+    std::vector<FieldChoice> choices;
+    for (const Field& one : fields->point_fields) choices.push_back({.field = &one});
+    return made(geometry_, fields, choices, callable);
 }
 
 }  // namespace barycert::python

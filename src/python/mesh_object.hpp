@@ -2,7 +2,6 @@
 /// its fields, of which every sampler keeps those that it was made with.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -11,8 +10,7 @@
 
 #include "barycert/locator.hpp"
 #include "barycert/mesh.hpp"
-#include "barycert/sampler.hpp"
-#include "blocks.hpp"
+#include "bindings.hpp"
 
 namespace barycert::python {
 
@@ -40,29 +38,26 @@ public:
 
     const std::shared_ptr<Geometry>& geometry() const { return geometry_; }
     const Mesh& mesh() const { return geometry_->mesh; }
+    std::size_t dimension() const { return static_cast<std::size_t>(mesh().dimension); }
 
     /// A mesh that has the fields alone, and what names of quantities need to know.
     std::shared_ptr<const Mesh> fields() const { return fields_; }
-    void set_field(Field field, bool of_cells);
-    void remove_field(const std::string& name, bool of_cells);
+    /// To be changed.
+    std::vector<Field>& fields(bool of_cells);
 
     /// The mesh with its fields: a copy.
     Mesh whole() const;
 
     /// Of the fields with these names, or all; the last one is kept.
-    std::shared_ptr<const BoundSampler> sampler(const std::vector<std::string>& names, const Progress& progress);
-    /// Of a field of nodes that the mesh does not have.
-    std::shared_ptr<const BoundSampler> sampler_of(Field field, const Progress& progress) const;
-    /// Of no field.
-    std::shared_ptr<const BoundSampler> bare_sampler(const Progress& progress) const;
+    std::shared_ptr<BoundSampler> sampler(const std::vector<std::string>& names, const py::object& callable);
+    /// Of a field of nodes that the mesh does not have; or of none.
+    std::shared_ptr<BoundSampler> sampler_of(std::optional<Field> field, const py::object& callable) const;
 
 private:
-    std::vector<Field>& fields_to_change(bool of_cells);
-
     std::shared_ptr<Geometry> geometry_;
     std::shared_ptr<Mesh> fields_;
     std::vector<std::string> last_names_;
-    std::shared_ptr<const BoundSampler> last_;
+    std::shared_ptr<BoundSampler> last_;
 };
 
 }  // namespace barycert::python

@@ -1,6 +1,86 @@
 // barycert._core: the library as Python sees it. See barycert/__init__.py.
+#include <array>
+#include <exception>
+
 #include "bindings.hpp"
-#include "errors.hpp"
+
+namespace barycert::python {
+
+namespace {
+
+/// Lives as long as the process, as types of exceptions do.
+PyObject* error_type = nullptr;
+
+void set_error(const Error& error) {
+    // The parts may hold bytes of any file.
+    const auto text = [](const std::string& s) {
+        return py::reinterpret_steal<py::object>(
+            PyUnicode_DecodeUTF8(s.data(), static_cast<Py_ssize_t>(s.size()), "backslashreplace"));
+    };
+    const py::object exception = py::handle(error_type)(text(error.message()));
+    exception.attr("what") = text(error.what);
+    exception.attr("file") = text(error.file);
+    exception.attr("line") = error.line;
+    exception.attr("expected") = text(error.expected);
+    exception.attr("found") = text(error.found);
+    exception.attr("remedy") = text(error.remedy);
+    PyErr_SetObject(error_type, exception.ptr());
+}
+
+void bind_errors(py::module_& module) {
+    error_type =
+        PyErr_NewExceptionWithDoc("barycert.Error",
+                                  "What went wrong with an input. str() is the whole message; its parts, empty "
+                                  "where they do not apply, are `what`, `file`, `line` (from 1; 0: none), "
+                                  "`expected`, `found` and `remedy`.",
+                                  PyExc_ValueError, nullptr);
+    if (error_type == nullptr) throw py::error_already_set();
+    module.attr("Error") = py::handle(error_type);
+    // NOLINTNEXTLINE(performance-unnecessary-value-param): the type of pybind11's translators
+    py::register_exception_translator([](std::exception_ptr thrown) {
+        try {
+            if (thrown) std::rethrow_exception(thrown);
+        } catch (const Exception& e) {
+            set_error(e.error());
+        }
+    });
+    module.def(
+        "fail",
+        [](std::string what, std::string expected, std::string found, std::string remedy) {
+            throw Exception({.what = std::move(what),
+                             .expected = std::move(expected),
+                             .found = std::move(found),
+                             .remedy = std::move(remedy)});
+        },
+        py::arg("what"), py::arg("expected") = "", py::arg("found") = "", py::arg("remedy") = "",
+        "Raises Error with these parts.");
+}
+
+}  // namespace
+
+OutsidePolicy outside_policy(const std::string& outside, double fill, double limit) {
+    constexpr std::array<std::pair<std::string_view, Outside>, 5> words{{{"nan", Outside::nan},
+                                                                         {"raise", Outside::error},
+                                                                         {"fill", Outside::fill},
+                                                                         {"nearest", Outside::nearest},
+                                                                         {"extrapolate", Outside::extrapolate}}};
+    for (const auto& [word, kind] : words) {
+        if (word == outside) return {kind, fill, limit};
+    }
+    throw Exception({.what = "what points outside get (outside=)",
+                     .expected = "nan, raise, fill, nearest or extrapolate",
+                     .found = outside});
+}
+
+NonfinitePoints nonfinite_points(const std::string& nonfinite) {
+    if (nonfinite != "error" && nonfinite != "nan")
+        throw Exception({.what = "what points that are not finite get (nonfinite_points=)",
+                         .expected = "error or nan",
+                         .found = nonfinite});
+    return nonfinite == "nan" ? NonfinitePoints::nan : NonfinitePoints::error;
+}
+
+}  // namespace barycert::python
 
 PYBIND11_MODULE(_core, module) {
     using namespace barycert::python;
@@ -11,8 +91,7 @@ PYBIND11_MODULE(_core, module) {
     bind_locate(module);
     bind_sampler(module);
     bind_check(module);
-    bind_predicates(module);
-    bind_weights(module);
+    bind_simplex(module);
     bind_verify(module);
     bind_audit(module);
 }

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include <vtkAbstractArray.h>
-#include <vtkDataArray.h>
+#include <vtkBitArray.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkMultiProcessStream.h>
 #include <vtkStringArray.h>
@@ -115,78 +115,61 @@ std::vector<ArrayKind> kinds_from(const std::vector<unsigned char>& bytes) {
     return kinds;
 }
 
-vtkAbstractArray* find(vtkDataSetAttributes& attributes, const ArrayKind& kind) {
-    if (kind.named) return attributes.GetAbstractArray(kind.name.c_str());
-    return kind.role < 0 ? nullptr : attributes.GetAbstractAttribute(kind.role);
+vtkAbstractArray* ArrayKind::in(vtkDataSetAttributes& attributes) const {
+    return array_in(attributes, named ? name.c_str() : nullptr, role);
 }
 
-vtkSmartPointer<vtkAbstractArray> in_standard_layout(vtkAbstractArray& array) {
-    if (array.HasStandardMemoryLayout()) return &array;
-    auto copy = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(array.GetDataType()));
-    copy->DeepCopy(&array);
-    return copy;
-}
-
-vtkSmartPointer<vtkAbstractArray> make(const ArrayKind& kind, vtkIdType tuples, double outside) {
-    auto array = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(kind.type));
-    if (kind.named) array->SetName(kind.name.c_str());
-    array->SetNumberOfComponents(kind.components);
-    for (std::size_t c = 0; c < kind.component_names.size(); ++c)
-        array->SetComponentName(static_cast<vtkIdType>(c), kind.component_names[c].c_str());
+vtkSmartPointer<vtkAbstractArray> ArrayKind::make(vtkIdType tuples, double outside) const {
+    auto array = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(type));
+    if (named) array->SetName(name.c_str());
+    array->SetNumberOfComponents(components);
+    for (std::size_t c = 0; c < component_names.size(); ++c)
+        array->SetComponentName(static_cast<vtkIdType>(c), component_names[c].c_str());
     prepare(*array, tuples, outside);
     return array;
 }
 
-void put(vtkAbstractArray& array, vtkIdType at, std::vector<char>& bytes) {
-    const auto append = [&](const void* from, std::size_t count) {
-        const auto* const chars = static_cast<const char*>(from);
-        bytes.insert(bytes.end(), chars, chars + count);
-    };
-    if (const std::size_t tuple = width(array); tuple > 0) {
-        append(static_cast<const char*>(array.GetVoidPointer(0)) + tuple * static_cast<std::size_t>(at), tuple);
-        return;
-    }
-    for (int c = 0; c < array.GetNumberOfComponents(); ++c) {
-        if (auto* const texts = vtkStringArray::SafeDownCast(&array)) {
-            const std::string text = texts->GetValue(at * array.GetNumberOfComponents() + c);
-            const std::uint64_t size = text.size();
-            append(&size, sizeof size);
-            append(text.data(), text.size());
-        } else {
-            const char bit = vtkDataArray::SafeDownCast(&array)->GetComponent(at, c) != 0 ? 1 : 0;
-            append(&bit, 1);
+// Of a text its size goes first; a bit is a byte.
+void ArrayTuples::put(std::size_t tuple, std::vector<char>& bytes) const {
+    const auto append = [&](const char* from, std::size_t count) { bytes.insert(bytes.end(), from, from + count); };
+    for (vtkAbstractArray* const array : arrays) {
+        const auto components = static_cast<std::size_t>(array->GetNumberOfComponents());
+        if (const std::size_t size = width(*array); size > 0) {
+            append(static_cast<const char*>(array->GetVoidPointer(0)) + size * tuple, size);
+            continue;
+        }
+        for (std::size_t at = components * tuple; at < components * (tuple + 1); ++at) {
+            if (auto* const texts = vtkStringArray::SafeDownCast(array)) {
+                const std::string text = texts->GetValue(static_cast<vtkIdType>(at));
+                const std::uint64_t size = text.size();
+                append(reinterpret_cast<const char*>(&size), sizeof size);
+                append(text.data(), text.size());
+            } else {
+                bytes.push_back(vtkBitArray::SafeDownCast(array)->GetValue(static_cast<vtkIdType>(at)) != 0 ? 1 : 0);
+            }
         }
     }
 }
 
-const char* take(vtkAbstractArray& array, vtkIdType at, const char* bytes) {
-    if (const std::size_t tuple = width(array); tuple > 0) {
-        std::memcpy(static_cast<char*>(array.GetVoidPointer(0)) + tuple * static_cast<std::size_t>(at), bytes, tuple);
-        return bytes + tuple;
-    }
-    for (int c = 0; c < array.GetNumberOfComponents(); ++c) {
-        if (auto* const texts = vtkStringArray::SafeDownCast(&array)) {
-            std::uint64_t size = 0;
-            std::memcpy(&size, bytes, sizeof size);
-            bytes += sizeof size;
-            texts->SetValue(at * array.GetNumberOfComponents() + c, vtkStdString(std::string(bytes, size)));
+const char* ArrayTuples::take(std::size_t tuple, const char* bytes, bool set) {
+    for (vtkAbstractArray* const array : arrays) {
+        const auto components = static_cast<std::size_t>(array->GetNumberOfComponents());
+        if (const std::size_t size = width(*array); size > 0) {
+            if (set) std::memcpy(static_cast<char*>(array->GetVoidPointer(0)) + size * tuple, bytes, size);
             bytes += size;
-        } else {
-            vtkDataArray::SafeDownCast(&array)->SetComponent(at, c, *bytes++);
+            continue;
         }
-    }
-    return bytes;
-}
-
-const char* skip(vtkAbstractArray& array, const char* bytes) {
-    if (const std::size_t tuple = width(array); tuple > 0) return bytes + tuple;
-    for (int c = 0; c < array.GetNumberOfComponents(); ++c) {
-        std::uint64_t size = 1;
-        if (array.GetDataType() == VTK_STRING) {
-            std::memcpy(&size, bytes, sizeof size);
-            bytes += sizeof size;
+        for (std::size_t at = components * tuple; at < components * (tuple + 1); ++at) {
+            std::uint64_t size = 1;
+            if (auto* const texts = vtkStringArray::SafeDownCast(array)) {
+                std::memcpy(&size, bytes, sizeof size);
+                bytes += sizeof size;
+                if (set) texts->SetValue(static_cast<vtkIdType>(at), vtkStdString(std::string(bytes, size)));
+            } else if (set) {
+                vtkBitArray::SafeDownCast(array)->SetValue(static_cast<vtkIdType>(at), *bytes);
+            }
+            bytes += size;
         }
-        bytes += size;
     }
     return bytes;
 }

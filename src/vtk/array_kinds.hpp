@@ -7,6 +7,8 @@
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
+#include "barycert/pieces/distribution.hpp"
+
 class vtkAbstractArray;
 class vtkDataSetAttributes;
 
@@ -22,6 +24,10 @@ struct ArrayKind {
 
     /// Name, type and number of components, for messages.
     std::string text() const;
+    /// The array of this kind; null if there is none.
+    vtkAbstractArray* in(vtkDataSetAttributes& attributes) const;
+    /// A new one; real numbers are `outside`, others zero.
+    vtkSmartPointer<vtkAbstractArray> make(vtkIdType tuples, double outside) const;
 };
 
 /// Of all arrays but the one of that name, and that of ghosts.
@@ -36,22 +42,12 @@ std::string difference(const std::vector<ArrayKind>& mine, const std::vector<Arr
 std::vector<unsigned char> to_bytes(const std::vector<ArrayKind>& kinds);
 std::vector<ArrayKind> kinds_from(const std::vector<unsigned char>& bytes);
 
-/// The array of that kind; null if there is none.
-vtkAbstractArray* find(vtkDataSetAttributes& attributes, const ArrayKind& kind);
+/// Of arrays whose values stand one after the other, of bits, and of texts.
+struct ArrayTuples : pieces::Tuples {
+    void put(std::size_t tuple, std::vector<char>& bytes) const override;
+    const char* take(std::size_t tuple, const char* bytes, bool set) override;
 
-/// `array`, or if it is laid out in another way a copy whose values stand one after the other.
-vtkSmartPointer<vtkAbstractArray> in_standard_layout(vtkAbstractArray& array);
-
-/// A new one; real numbers are `outside`, others zero.
-vtkSmartPointer<vtkAbstractArray> make(const ArrayKind& kind, vtkIdType tuples, double outside);
-
-/// Appends tuple `at` of an array in standard layout.
-void put(vtkAbstractArray& array, vtkIdType at, std::vector<char>& bytes);
-
-/// Sets it from what `put` appended, and returns what comes after that.
-const char* take(vtkAbstractArray& array, vtkIdType at, const char* bytes);
-
-/// Sets nothing.
-const char* skip(vtkAbstractArray& array, const char* bytes);
+    std::vector<vtkSmartPointer<vtkAbstractArray>> arrays;
+};
 
 }  // namespace barycert::in_vtk

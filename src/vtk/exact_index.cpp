@@ -1,16 +1,18 @@
 #include "vtk/exact_index.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <list>
 #include <mutex>
 #include <utility>
 
 #include <vtkCallbackCommand.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
 #include <vtkDataSet.h>
+#include <vtkNew.h>
+#include <vtkTypeInt64Array.h>
 
 #include "barycert/environment.hpp"
-#include "barycert/grid.hpp"
-#include "vtk/global_ids.hpp"
 #include "vtk/simplices.hpp"
 
 namespace barycert::in_vtk {
@@ -19,7 +21,7 @@ namespace {
 
 struct Entry {
     const vtkObjectBase* data;
-    SimplexShape shape;
+    pieces::Shape shape;
     vtkMTimeType time;
     std::shared_ptr<const ExactIndex> index;
 };
@@ -36,7 +38,7 @@ Cache& cache() {
     return the;
 }
 
-std::shared_ptr<const ExactIndex> cached(const vtkDataSet& data, const SimplexShape& shape, vtkMTimeType time) {
+std::shared_ptr<const ExactIndex> cached(const vtkDataSet& data, const pieces::Shape& shape, vtkMTimeType time) {
     const std::lock_guard lock(cache().access);
     // Times of modification never come twice: an address that is used again has another.
     for (const Entry& entry : cache().entries)
@@ -55,7 +57,8 @@ bool same_cells(const ExactIndex& a, const ExactIndex& b) {
            a.ids == b.ids && a.mesh.points == b.mesh.points;
 }
 
-void remember(vtkDataSet& data, const SimplexShape& shape, vtkMTimeType time, std::shared_ptr<const ExactIndex> index) {
+void remember(vtkDataSet& data, const pieces::Shape& shape, vtkMTimeType time,
+              std::shared_ptr<const ExactIndex> index) {
     const std::lock_guard lock(cache().access);
     bool observed = false;
     for (Entry& entry : cache().entries) {
@@ -75,15 +78,6 @@ void remember(vtkDataSet& data, const SimplexShape& shape, vtkMTimeType time, st
     command->Delete();
 }
 
-// The edge of a square or cube that would hold about 8 cells if they were spread over the box of the mesh.
-double some_cells(const Mesh& mesh) {
-    const Bounds3 box = bounds_of_cells(mesh);
-    const auto d = static_cast<std::size_t>(mesh.dimension);
-    double size = 8 / static_cast<double>(mesh.cell_count());
-    for (std::size_t a = 0; a < d; ++a) size *= box.high[a] - box.low[a];
-    return std::pow(size, 1.0 / mesh.dimension);
-}
-
 // One that was made for the same cells: of a shallow copy, or before point data changed.
 std::shared_ptr<const ExactIndex> made_before(const ExactIndex& index) {
     const std::lock_guard lock(cache().access);
@@ -92,7 +86,48 @@ std::shared_ptr<const ExactIndex> made_before(const ExactIndex& index) {
     return nullptr;
 }
 
+// Of cells of the data set.
+std::vector<std::int64_t> all_global_ids(vtkDataSet& data) {
+    vtkNew<vtkTypeInt64Array> ids;
+    ids->DeepCopy(data.GetCellData()->GetGlobalIds());
+    return {ids->GetPointer(0), ids->GetPointer(ids->GetNumberOfValues())};
+}
+
+void order_by_global_ids(vtkDataSet& data, ExactIndex& index) {
+    const std::vector<Mesh::Index> order = index.sort_cells(global_ids(data, index));
+    std::vector<vtkIdType> ids;
+    for (const Mesh::Index cell : order) ids.push_back(index.id(cell));
+    if (!ids.empty()) index.ids = std::move(ids);
+}
+
 }  // namespace
+
+bool has_global_ids(vtkDataSet& data) {
+    return data.GetCellData()->GetGlobalIds() != nullptr;
+}
+
+std::string fault_of_global_ids(vtkDataSet& data) {
+    vtkDataArray& array = *data.GetCellData()->GetGlobalIds();
+    const int type = array.GetDataType();
+    if (type == VTK_DOUBLE || type == VTK_FLOAT || type == VTK_BIT)
+        return std::string("the global ids of its cells are a ") + array.GetClassName();
+    if (array.GetNumberOfComponents() != 1) return "the global ids of its cells have more than one component";
+    if (array.GetNumberOfTuples() != data.GetNumberOfCells())
+        return "it has " + std::to_string(data.GetNumberOfCells()) + " cells and " +
+               std::to_string(array.GetNumberOfTuples()) + " global ids of cells";
+    const std::vector<std::int64_t> ids = all_global_ids(data);
+    const bool is_unsigned = array.GetDataTypeMin() == 0;
+    const bool fits = !is_unsigned || std::none_of(ids.begin(), ids.end(), [](std::int64_t id) { return id < 0; });
+    return fits ? std::string() : "a global id of a cell exceeds 9223372036854775807";
+}
+
+std::vector<std::int64_t> global_ids(vtkDataSet& data, const ExactIndex& index) {
+    std::vector<std::int64_t> of_data = all_global_ids(data);
+    if (index.ids.empty()) return of_data;
+    std::vector<std::int64_t> of_mesh(index.ids.size());
+    for (std::size_t i = 0; i < of_mesh.size(); ++i) of_mesh[i] = of_data[static_cast<std::size_t>(index.ids[i])];
+    return of_mesh;
+}
 
 void forget_index(const vtkDataSet& data) {
     const std::lock_guard lock(cache().access);
@@ -101,7 +136,7 @@ void forget_index(const vtkDataSet& data) {
         if (entry.data == &data) entry.time = 0;
 }
 
-std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data, const SimplexShape& shape) {
+std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data, const pieces::Shape& shape) {
     const vtkMTimeType time = data.GetMTime();
     const ExactEnvironment environment;
     if (std::shared_ptr<const ExactIndex> found = cached(data, shape, time)) return found;
@@ -110,16 +145,13 @@ std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data, const SimplexSha
 
     auto made = std::make_shared<ExactIndex>();
     made->reason = read_simplices(data, *made, shape);
-    if (shape.by_global_ids && made->reason.empty()) order_by_global_ids(data, *made);
+    if (shape.by_numbers && made->reason.empty()) order_by_global_ids(data, *made);
     std::shared_ptr<const ExactIndex> index = made;
     if (made->reason.empty() && !made->mesh.cells.empty()) {
         if (std::shared_ptr<const ExactIndex> before = made_before(*made)) {
             index = std::move(before);
-        } else if (Result<Locator> locator = Locator::build(made->mesh)) {
-            made->locator = std::move(*locator);
-            made->near = some_cells(made->mesh);
-        } else {
-            made->reason = locator.error().message();
+        } else if (const Status built = made->build(); !built) {
+            made->reason = built.error().message();
         }
     }
     // Reading may have built the cells of a vtkPolyData.

@@ -1,17 +1,84 @@
 #include "vtk/failing_upstream.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <string>
+#include <vector>
 
 #include <vtkAlgorithm.h>
 #include <vtkAlgorithmOutput.h>
+#include <vtkCallbackCommand.h>
 #include <vtkErrorCode.h>
 #include <vtkInformation.h>
+#include <vtkNew.h>
 #include <vtkObjectFactory.h>
-
-#include "vtk/error_watch.hpp"
+#include <vtkOutputWindow.h>
+#include <vtkSmartPointer.h>
 
 namespace barycert::in_vtk {
+
+namespace {
+
+// Whether an algorithm or one before it reports an error. Many readers do nothing else when a file is bad: they return
+// success, and an empty data set. Watches from its construction to its end. Errors are shown as if it did not.
+class ErrorWatch {
+public:
+    explicit ErrorWatch(vtkAlgorithm& last) {
+        command_->SetCallback(see);
+        command_->SetClientData(this);
+        add(last);
+    }
+    ~ErrorWatch() {
+        for (const Watched& one : watched_) one.algorithm->RemoveObserver(one.observer);
+    }
+    ErrorWatch(const ErrorWatch&) = delete;
+    ErrorWatch& operator=(const ErrorWatch&) = delete;
+
+    // Who reported the first error, or has an error code; empty if none does.
+    std::string error() const {
+        if (!first_.empty()) return first_;
+        for (const Watched& one : watched_) {
+            const unsigned long code = one.algorithm->GetErrorCode();
+            if (code != vtkErrorCode::NoError)
+                return one.algorithm->GetClassName() + std::string(": ") + vtkErrorCode::GetStringFromErrorCode(code);
+        }
+        return {};
+    }
+
+private:
+    struct Watched {
+        vtkSmartPointer<vtkAlgorithm> algorithm;
+        unsigned long observer;
+        bool shown;  // by another observer
+    };
+
+    // Those before it, too, each once.
+    void add(vtkAlgorithm& algorithm) {
+        const auto same = [&](const Watched& one) { return one.algorithm == &algorithm; };
+        if (std::any_of(watched_.begin(), watched_.end(), same)) return;
+        const bool shown = algorithm.HasObserver(vtkCommand::ErrorEvent) != 0;
+        watched_.push_back({&algorithm, algorithm.AddObserver(vtkCommand::ErrorEvent, command_), shown});
+        for (int port = 0; port < algorithm.GetNumberOfInputPorts(); ++port) {
+            for (int i = 0; i < algorithm.GetNumberOfInputConnections(port); ++i)
+                if (vtkAlgorithm* const before = algorithm.GetInputAlgorithm(port, i)) add(*before);
+        }
+    }
+
+    // An object that is observed does not show its errors itself.
+    static void see(vtkObject* who, unsigned long, void* self, void* text) {
+        auto& watch = *static_cast<ErrorWatch*>(self);
+        if (watch.first_.empty()) watch.first_ = who->GetClassName();
+        for (const Watched& one : watch.watched_)
+            if (one.algorithm == who && !one.shown && text != nullptr)
+                vtkOutputWindowDisplayErrorText(static_cast<const char*>(text));
+    }
+
+    vtkNew<vtkCallbackCommand> command_;
+    std::vector<Watched> watched_;
+    std::string first_;
+};
+
+}  // namespace
 
 vtkStandardNewMacro(FailingUpstream);
 

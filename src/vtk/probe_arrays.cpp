@@ -7,52 +7,66 @@
 #include <limits>
 #include <string>
 
+#include <vtkBitArray.h>
 #include <vtkCellData.h>
 #include <vtkCharArray.h>
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
+#include <vtkDoubleArray.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 
-#include "barycert/weights.hpp"
-#include "vtk/closest.hpp"
-#include "vtk/once_rounded.hpp"
+#include "barycert/predicates.hpp"
 
 namespace barycert::in_vtk {
 
 namespace {
 
-bool has_fast_tuples(vtkAbstractArray* a) {
-    return a->HasStandardMemoryLayout() && a->IsNumeric() != 0 && a->GetDataType() != VTK_BIT;
-}
-
-// The array that `to` was made for: of the same name, or in the same role.
-vtkAbstractArray* source_of(vtkDataSetAttributes* from, vtkDataSetAttributes* out, int i, vtkAbstractArray* to) {
-    if (to->GetName() != nullptr) return from->GetAbstractArray(to->GetName());
-    const int role = out->IsArrayAnAttribute(i);
-    return role < 0 ? nullptr : from->GetAbstractAttribute(role);
-}
-
-Field field_of(vtkDataArray* array, std::size_t number, bool& exact) {
-    Field field{.name = std::to_string(number), .components = array->GetNumberOfComponents(), .data = {}};
-    const auto tuples = static_cast<std::size_t>(array->GetNumberOfTuples());
-    const auto components = static_cast<std::size_t>(field.components);
-    field.data.resize(tuples * components);
-    exact = true;
-    const auto take = [&](const auto* values) {
-        for (std::size_t i = 0; i < field.data.size(); ++i) {
-            field.data[i] = static_cast<double>(values[i]);
-            if constexpr (std::is_integral_v<std::remove_cvref_t<decltype(*values)>>)
-                exact = exact && std::abs(field.data[i]) <= 0x1p53;
-        }
-    };
-    if (has_fast_tuples(array)) {
-        switch (array->GetDataType()) { vtkTemplateMacro(take(static_cast<const VTK_TT*>(array->GetVoidPointer(0)))); }
+// From a correctly rounded double to a value of another type, as if the exact value had been rounded once. `side(t)`
+// tells the sign of the exact value less t, and is asked only where `value` lies in the middle between two values of T.
+// To float: nearest, ties to even. To integers: nearest, halves away from zero, within the range of T, and 0 for NaN,
+// as VTK rounds.
+template <class T, class Side>
+T once_rounded(double value, Side&& side) {
+    if constexpr (std::is_same_v<T, double>) {
+        return value;
+    } else if constexpr (std::is_same_v<T, float>) {
+        const auto near = static_cast<float>(value);
+        if (static_cast<double>(near) == value || !std::isfinite(near)) return near;
+        const float other =
+            std::nextafter(near, static_cast<double>(near) < value ? std::numeric_limits<float>::infinity()
+                                                                   : -std::numeric_limits<float>::infinity());
+        // Both have 24 bits: their mean is a double.
+        if (!std::isfinite(other) || (static_cast<double>(near) + static_cast<double>(other)) / 2 != value) return near;
+        const Sign rest = side(value);
+        if (rest == Sign::zero) return near;
+        return (rest == Sign::positive) == (other > near) ? other : near;
     } else {
-        for (std::size_t i = 0; i < tuples; ++i)
-            array->GetTuple(static_cast<vtkIdType>(i), field.data.data() + i * components);
+        if (std::isnan(value)) return 0;
+        double whole = std::round(value);
+        if (std::abs(value - std::trunc(value)) == 0.5) {
+            const Sign rest = side(value);
+            if (rest == (value > 0 ? Sign::negative : Sign::positive)) whole = std::trunc(value);
+        }
+        // The bounds are powers of two, or one less: as doubles they are never below what T holds.
+        if (whole <= static_cast<double>(std::numeric_limits<T>::min())) return std::numeric_limits<T>::min();
+        if (whole >= static_cast<double>(std::numeric_limits<T>::max())) return std::numeric_limits<T>::max();
+        return static_cast<T>(whole);
     }
+}
+
+Field field_of(vtkDataArray& array, std::size_t number, bool& exact) {
+    Field field{.name = std::to_string(number), .components = array.GetNumberOfComponents(), .data = {}};
+    field.data.resize(static_cast<std::size_t>(array.GetNumberOfValues()));
+    if (!field.data.empty()) {
+        vtkNew<vtkDoubleArray> doubles;
+        doubles->SetNumberOfComponents(field.components);
+        doubles->SetArray(field.data.data(), array.GetNumberOfValues(), 1);
+        doubles->InsertTuples(0, array.GetNumberOfTuples(), 0, &array);
+    }
+    const bool real = array.GetDataType() == VTK_DOUBLE || array.GetDataType() == VTK_FLOAT;
+    exact = real || std::all_of(field.data.begin(), field.data.end(), [](double x) { return std::abs(x) <= 0x1p53; });
     return field;
 }
 
@@ -70,6 +84,11 @@ std::string fault_of_arrays(vtkDataSet& source) {
     };
     const std::string fault = look(*source.GetPointData(), source.GetNumberOfPoints(), " points");
     return fault.empty() ? look(*source.GetCellData(), source.GetNumberOfCells(), " cells") : fault;
+}
+
+vtkAbstractArray* array_in(vtkDataSetAttributes& attributes, const char* name, int role) {
+    if (name != nullptr) return attributes.GetAbstractArray(name);
+    return role < 0 ? nullptr : attributes.GetAbstractAttribute(role);
 }
 
 void prepare(vtkAbstractArray& array, vtkIdType count, double outside) {
@@ -108,7 +127,7 @@ void ProbeArrays::add_point_arrays(vtkDataSet& source, vtkDataSet& output, bool 
     out->RemoveArray(mask_->GetName());  // the mask of an earlier probe would be replaced by this one's
     for (int i = 0; i < out->GetNumberOfArrays(); ++i) {
         vtkAbstractArray* const to = out->GetAbstractArray(i);
-        vtkAbstractArray* const its = source_of(from, out, i, to);
+        vtkAbstractArray* const its = array_in(*from, to->GetName(), out->IsArrayAnAttribute(i));
         if (its == nullptr) continue;
         made_.push_back(to);
         auto* const numbers = vtkDataArray::SafeDownCast(its);
@@ -120,7 +139,7 @@ void ProbeArrays::add_point_arrays(vtkDataSet& source, vtkDataSet& output, bool 
             bool exact = true;
             sampled_.push_back({vtkDataArray::SafeDownCast(to), fields_.size(), columns_});
             columns_ += static_cast<std::size_t>(numbers->GetNumberOfComponents());
-            fields_.push_back(field_of(numbers, fields_.size(), exact));
+            fields_.push_back(field_of(*numbers, fields_.size(), exact));
             if (!exact) inexact_.emplace_back(numbers->GetName() != nullptr ? numbers->GetName() : "(without a name)");
         }
     }
@@ -171,13 +190,16 @@ void ProbeArrays::write(const TableView& rows, const vtkIdType* ids, vtkIdType f
         rows_.push_back(row);
     }
     for (const Sampled& array : sampled_) {
-        if (has_fast_tuples(array.to)) {
-            switch (array.to->GetDataType()) {
-                vtkTemplateMacro(
-                    write_values(array, rows, stride, place, static_cast<VTK_TT*>(array.to->GetVoidPointer(0))));
-            }
-        } else {
-            write_slowly(array, rows, stride, place);
+        // What FieldList makes has its values one after the other, but for bits.
+        if (auto* const bits = vtkBitArray::SafeDownCast(array.to)) {
+            write_values<char>(array, rows, stride, place, [&](vtkIdType at, char bit) { bits->SetValue(at, bit); });
+            continue;
+        }
+        const auto write_to = [&]<class T>(T* out) {
+            write_values<T>(array, rows, stride, place, [&](vtkIdType at, T value) { out[at] = value; });
+        };
+        switch (array.to->GetDataType()) {
+            vtkTemplateMacro(write_to(static_cast<VTK_TT*>(array.to->GetVoidPointer(0))));
         }
     }
     write_nodes(place);
@@ -197,41 +219,22 @@ Sign ProbeArrays::side(const Sampled& array, int component, const Row& row, cons
     place(row.row, point.data());
     for (std::size_t k = 0; k <= d; ++k) {
         const auto node = static_cast<std::size_t>(mesh.cells[mesh.corners() * static_cast<std::size_t>(row.cell) + k]);
-        std::copy_n(mesh.points.data() + d * node, d, vertices.data() + d * k);
+        std::copy_n(index_.node(static_cast<Mesh::Index>(node)), d, vertices.data() + d * k);
         values[k] = field.data[static_cast<std::size_t>(field.components) * node + static_cast<std::size_t>(component)];
     }
     const Result<Sign> sign = compare_value(index_.simplex(), vertices.data(), point.data(), values.data(), threshold);
     return sign ? *sign : Sign::zero;
 }
 
-template <class T>
+template <class T, class Set>
 void ProbeArrays::write_values(const Sampled& array, const TableView& rows, std::size_t stride, const PlaceOfRow& place,
-                               T* out) const {
+                               const Set& set) const {
     const int components = fields_[array.field].components;
     for (const Row& row : rows_) {
         const double* const values = rows.values.data() + row.row * stride + array.column;
-        T* const to = out + row.point * components;
         for (int c = 0; c < components; ++c)
-            to[c] = once_rounded<T>(values[c], [&](double t) { return side(array, c, row, place, t); });
-    }
-}
-
-// Bits, and arrays that are laid out in another way.
-void ProbeArrays::write_slowly(const Sampled& array, const TableView& rows, std::size_t stride,
-                               const PlaceOfRow& place) const {
-    const auto round = [&]<class T>(T, double value, int c, const Row& row) {
-        return static_cast<double>(once_rounded<T>(value, [&](double t) { return side(array, c, row, place, t); }));
-    };
-    for (const Row& row : rows_) {
-        for (int c = 0; c < fields_[array.field].components; ++c) {
-            double value = rows.values[row.row * stride + array.column + static_cast<std::size_t>(c)];
-            switch (array.to->GetDataType()) {
-                vtkTemplateMacro(value = round(VTK_TT{}, value, c, row));
-                default:
-                    value = round(char{}, value, c, row);
-            }
-            array.to->SetComponent(row.point, c, value);
-        }
+            set(row.point * components + c,
+                once_rounded<T>(values[c], [&](double t) { return side(array, c, row, place, t); }));
     }
 }
 
@@ -242,17 +245,12 @@ void ProbeArrays::write_nodes(const PlaceOfRow& place) const {
     vtkNew<vtkIdList> nodes;
     nodes->SetNumberOfIds(static_cast<vtkIdType>(n));
     for (const Row& row : rows_) {
-        std::array<double, 3> point{};
+        std::array<double, 3> point{}, x{};
         place(row.row, point.data());
-        std::array<double, 4> weights{};
-        if (row.inside) {
-            weights = weights_on_axes(index_, row.cell, point.data());
-        } else {  // of the nearest point
-            std::array<double, 3> x{};
-            x[static_cast<std::size_t>(index_.axes[2])] = index_.plane;
-            for (std::size_t a = 0; a + 1 < n; ++a) x[static_cast<std::size_t>(index_.axes[a])] = point[a];
-            weights = closest(index_, x.data(), std::numeric_limits<double>::infinity()).weights;
-        }
+        index_.place(point.data(), x.data());
+        std::array<double, 4> weights = row.inside
+                                            ? index_.weights(row.cell, point.data())
+                                            : index_.closest(x.data(), std::numeric_limits<double>::infinity()).weights;
         for (std::size_t k = 0; k < n; ++k)
             nodes->SetId(static_cast<vtkIdType>(k), index_.mesh.cells[n * static_cast<std::size_t>(row.cell) + k]);
         const auto greatest = std::max_element(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(n));
@@ -263,20 +261,15 @@ void ProbeArrays::write_nodes(const PlaceOfRow& place) const {
 }
 
 void ProbeArrays::write_cells() const {
-    for (const Copied& array : of_cells_) {
-        if (!has_fast_tuples(array.from) || !has_fast_tuples(array.to)) {
-            for (const Row& row : rows_) array.to->SetTuple(row.point, index_.id(row.cell), array.from);
-            continue;
-        }
-        const auto bytes =
-            static_cast<std::size_t>(array.from->GetDataTypeSize() * array.from->GetNumberOfComponents());
-        const auto* const from = static_cast<const char*>(array.from->GetVoidPointer(0));
-        auto* const to = static_cast<char*>(array.to->GetVoidPointer(0));
-        for (const Row& row : rows_) {
-            std::memcpy(to + bytes * static_cast<std::size_t>(row.point),
-                        from + bytes * static_cast<std::size_t>(index_.id(row.cell)), bytes);
-        }
+    if (of_cells_.empty() || rows_.empty()) return;
+    vtkNew<vtkIdList> points, cells;
+    points->SetNumberOfIds(static_cast<vtkIdType>(rows_.size()));
+    cells->SetNumberOfIds(static_cast<vtkIdType>(rows_.size()));
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+        points->SetId(static_cast<vtkIdType>(i), rows_[i].point);
+        cells->SetId(static_cast<vtkIdType>(i), index_.id(rows_[i].cell));
     }
+    for (const Copied& array : of_cells_) array.to->InsertTuples(points, cells, array.from);
 }
 
 }  // namespace barycert::in_vtk

@@ -12,6 +12,7 @@
 class vtkAbstractArray;
 class vtkCharArray;
 class vtkDataArray;
+class vtkDataSetAttributes;
 
 namespace barycert::in_vtk {
 
@@ -20,6 +21,9 @@ using PlaceOfRow = std::function<void(std::size_t row, double* point)>;
 
 /// Which array of the points or cells of `source` has not one tuple for each; empty if all have.
 std::string fault_of_arrays(vtkDataSet& source);
+
+/// The array of that name or, where that is null, in that role; null if there is none.
+vtkAbstractArray* array_in(vtkDataSetAttributes& attributes, const char* name, int role);
 
 /// Gives the array that many tuples, all zero; real numbers are `outside`.
 void prepare(vtkAbstractArray& array, vtkIdType tuples, double outside);
@@ -73,10 +77,9 @@ private:
     void add_point_arrays(vtkDataSet& source, vtkDataSet& output, bool categorical);
     void add_cell_arrays(vtkDataSet& source, vtkDataSet& output);
     Sign side(const Sampled& array, int component, const Row& row, const PlaceOfRow& place, double threshold) const;
-    template <class T>
+    template <class T, class Set>
     void write_values(const Sampled& array, const TableView& rows, std::size_t stride, const PlaceOfRow& place,
-                      T* out) const;
-    void write_slowly(const Sampled& array, const TableView& rows, std::size_t stride, const PlaceOfRow& place) const;
+                      const Set& set) const;
     void write_nodes(const PlaceOfRow& place) const;
     void write_cells() const;
 

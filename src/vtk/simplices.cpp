@@ -22,8 +22,13 @@ namespace {
 constexpr unsigned char ghost_mask =
     vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL | vtkDataSetAttributes::HIDDENCELL;
 
+bool is_quadratic(int type) {
+    return type == VTK_QUADRATIC_TRIANGLE || type == VTK_QUADRATIC_TETRA;
+}
+
 // Dimension of cells that may stand beside simplices and are left out there: 0 to 2; 3 tetrahedra; -1 all others.
-int plain_dimension(int type) {
+int plain_dimension(int type, Sides sides) {
+    if (is_quadratic(type) && sides == Sides::straight) return type == VTK_QUADRATIC_TRIANGLE ? 2 : 3;
     switch (type) {
         case VTK_EMPTY_CELL:
         case VTK_VERTEX:
@@ -60,36 +65,11 @@ std::vector<double> coordinates(vtkPoints& points) {
     return all;
 }
 
-// Leaves the two coordinates of the plane that all triangles lie in: across that axis, or any if it is -1.
-std::string flatten(ExactIndex& index, int normal) {
-    const std::vector<double>& points = index.mesh.points;
-    for (int axis = 2; axis >= 0; --axis) {
-        if (normal >= 0 && axis != normal) continue;
-        const auto at = [&](Mesh::Index node) {
-            return points[3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis)];
-        };
-        const double plane = at(index.mesh.cells.front());
-        if (!std::all_of(index.mesh.cells.begin(), index.mesh.cells.end(),
-                         [&](Mesh::Index n) { return at(n) == plane; }))
-            continue;
-        index.normal = axis;
-        index.plane = plane;
-        index.axes = {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2, axis};
-        std::vector<double> flat;
-        flat.reserve(points.size() / 3 * 2);
-        for (std::size_t i = 0; i < points.size(); i += 3)
-            for (std::size_t a = 0; a < 2; ++a) flat.push_back(points[i + static_cast<std::size_t>(index.axes[a])]);
-        index.mesh.dimension = 2;
-        index.mesh.points = std::move(flat);
-        return {};
-    }
-    return "its triangles do not lie in one plane across an axis";
-}
-
 // A data set of cells, whichever of the two it is.
 struct Cells {
-    explicit Cells(vtkDataSet& data)
-        : grid(vtkUnstructuredGrid::SafeDownCast(&data)),
+    explicit Cells(vtkDataSet& data, Sides of = Sides::none)
+        : sides(of),
+          grid(vtkUnstructuredGrid::SafeDownCast(&data)),
           surface(vtkPolyData::SafeDownCast(&data)),
           ghosts(data.GetCellGhostArray()),
           count(data.GetNumberOfCells()) {
@@ -101,7 +81,7 @@ struct Cells {
     template <class Take>
     void each(int dimension, Take&& take) const {
         for (vtkIdType i = 0; i < count; ++i) {
-            if (plain_dimension(type(i)) != dimension) continue;
+            if (plain_dimension(type(i), sides) != dimension) continue;
             if (ghosts != nullptr && (ghosts->GetValue(i) & ghost_mask) != 0) continue;
             vtkIdType size = 0;
             const vtkIdType* nodes = nullptr;
@@ -114,6 +94,7 @@ struct Cells {
         }
     }
 
+    Sides sides;
     vtkUnstructuredGrid* grid;
     vtkPolyData* surface;
     vtkUnsignedCharArray* ghosts;
@@ -122,7 +103,7 @@ struct Cells {
 
 }  // namespace
 
-std::string cell_dimension(vtkDataSet& data, int& dimension) {
+std::string cell_dimension(vtkDataSet& data, int& dimension, Sides sides) {
     dimension = -1;
     const Cells cells(data);
     if (cells.grid == nullptr && cells.surface == nullptr)
@@ -131,57 +112,62 @@ std::string cell_dimension(vtkDataSet& data, int& dimension) {
     if (cells.count > most || data.GetNumberOfPoints() > most) return "it has more than 2147483647 points or cells";
     if (cells.points() == nullptr) return {};
     for (vtkIdType i = 0; i < cells.count; ++i) {
-        const int type = cells.type(i), its = plain_dimension(type);
+        const int type = cells.type(i), its = plain_dimension(type, sides);
         if (its < 0) return "cell " + std::to_string(i) + " is a " + type_name(type);
         dimension = std::max(dimension, its);
     }
     return {};
 }
 
-std::string read_simplices(vtkDataSet& data, ExactIndex& index, const SimplexShape& shape) {
+std::string read_simplices(vtkDataSet& data, ExactIndex& index, const pieces::Shape& shape, Sides sides) {
     int dimension = -1;
-    if (std::string reason = cell_dimension(data, dimension); !reason.empty()) return reason;
+    if (std::string reason = cell_dimension(data, dimension, sides); !reason.empty()) return reason;
     if (dimension < 0) return {};
     if (shape.dimension > 0) dimension = shape.dimension;
     if (dimension < 2) return "it has neither tetrahedra nor triangles";
 
-    const Cells cells(data);
+    const Cells cells(data, sides);
     Mesh& mesh = index.mesh;
     mesh.dimension = dimension;
-    const vtkIdType corners = dimension + 1;
+    const vtkIdType corners = dimension + 1, nodes_of_quadratic = corners * (corners + 1) / 2;
     mesh.cells.reserve(static_cast<std::size_t>(corners * cells.count));
     std::vector<vtkIdType> ids;
     ids.reserve(static_cast<std::size_t>(cells.count));
     std::string reason;
     cells.each(dimension, [&](vtkIdType cell, vtkIdType size, const vtkIdType* nodes) {
-        if (size != corners && reason.empty())
-            reason = "cell " + std::to_string(cell) + " has " + std::to_string(size) + " vertices";
+        const bool quadratic = is_quadratic(cells.type(cell));
+        if (size != (quadratic ? nodes_of_quadratic : corners) && reason.empty())
+            reason =
+                "cell " + std::to_string(cell) + " has " + std::to_string(size) + (quadratic ? " nodes" : " vertices");
         if (!reason.empty()) return;
-        for (vtkIdType k = 0; k < corners; ++k) mesh.cells.push_back(static_cast<Mesh::Index>(nodes[k]));
+        for (vtkIdType k = 0; k < size; ++k)
+            (k < corners ? mesh.cells : mesh.mid_nodes).push_back(static_cast<Mesh::Index>(nodes[k]));
         ids.push_back(cell);
     });
     if (!reason.empty() || ids.empty()) return reason;
+    if (!mesh.mid_nodes.empty()) {
+        const auto mid_nodes = static_cast<std::size_t>(nodes_of_quadratic - corners);
+        if (mesh.mid_nodes.size() != mid_nodes * ids.size()) return "it has linear cells beside quadratic ones";
+        mesh.mid_edge_order = MidEdgeOrder::vtk;
+    }
     if (static_cast<vtkIdType>(ids.size()) != cells.count) index.ids = std::move(ids);
     mesh.points = coordinates(*cells.points());
-    return dimension == 2 ? flatten(index, shape.normal) : std::string();
+    if (dimension == 2 && !index.flatten(shape.normal)) return "its triangles do not lie in one plane across an axis";
+    return {};
 }
 
-Bounds3 simplex_bounds(vtkDataSet& data, int dimension) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    Bounds3 all{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+pieces::Box box_of_triangles(vtkDataSet& data) {
+    pieces::Box all = pieces::no_box;
     const Cells cells(data);
     vtkPoints* const points = cells.points();
     if (points == nullptr) return all;
-    cells.each(dimension, [&](vtkIdType, vtkIdType size, const vtkIdType* nodes) {
+    cells.each(2, [&](vtkIdType, vtkIdType size, const vtkIdType* nodes) {
         for (vtkIdType k = 0; k < size; ++k) {
             // A node that is not there makes no bounds: who reads the cells tells of it.
             if (nodes[k] < 0 || nodes[k] >= points->GetNumberOfPoints()) continue;
             std::array<double, 3> x{};
             points->GetPoint(nodes[k], x.data());
-            for (std::size_t a = 0; a < 3; ++a) {
-                all.low[a] = std::min(all.low[a], x[a]);
-                all.high[a] = std::max(all.high[a], x[a]);
-            }
+            all.add({x, x});
         }
     });
     return all;

@@ -1,13 +1,12 @@
 # The classes of this folder and what they stand on, for VTK's own library and for ParaView's plug-in.
 set(barycert_vtk_classes vtkBarycertCheck vtkBarycertLocator vtkBarycertProbe vtkBarycertTetGenReader)
-set(barycert_vtk_parts check_arrays.cpp closest.cpp exact_index.cpp global_ids.cpp mesh_grid.cpp probe_arrays.cpp probe_points.cpp
-  probe_rows.cpp simplices.cpp straight_sides.cpp)
+set(barycert_vtk_parts exact_index.cpp probe_arrays.cpp probe_rows.cpp simplices.cpp)
 list(TRANSFORM barycert_vtk_classes APPEND .h OUTPUT_VARIABLE barycert_vtk_headers)
 list(TRANSFORM barycert_vtk_classes APPEND .cpp OUTPUT_VARIABLE barycert_vtk_sources)
 list(APPEND barycert_vtk_sources ${barycert_vtk_parts})
 list(TRANSFORM barycert_vtk_headers PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
 list(TRANSFORM barycert_vtk_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
 # The class that needs VTK::ParallelCore besides.
-set(barycert_vtk_parallel_sources vtkPBarycertProbe.cpp array_kinds.cpp boxes.cpp distributed_probe.cpp error_watch.cpp
-  exchange.cpp failing_upstream.cpp piece_map.cpp)
+set(barycert_vtk_parallel_sources vtkPBarycertProbe.cpp array_kinds.cpp distributed_probe.cpp
+  failing_upstream.cpp)
 list(TRANSFORM barycert_vtk_parallel_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)

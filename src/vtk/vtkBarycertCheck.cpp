@@ -1,26 +1,167 @@
 #include "vtkBarycertCheck.h"
 
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <sstream>
 #include <string>
+#include <vector>
 
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkDataObject.h>
+#include <vtkDataObjectTypes.h>
+#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkSignedCharArray.h>
 #include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
 #include <vtkTable.h>
+#include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
+#include <vtkUnsignedIntArray.h>
 
 #include "barycert/check.hpp"
 #include "barycert/report.hpp"
-#include "vtk/check_arrays.hpp"
 #include "vtk/simplices.hpp"
-#include "vtk/straight_sides.hpp"
 
 using namespace barycert;
+
+namespace {
+
+using in_vtk::ExactIndex;
+
+unsigned char flag(bool on) {
+    return on ? 1 : 0;
+}
+
+// One value for each of `all`: of(one).
+template <class Array, class All, class Of>
+vtkSmartPointer<Array> array_of(const char* name, const All& all, Of&& of) {
+    auto array = vtkSmartPointer<Array>::New();
+    array->SetName(name);
+    for (const auto& one : all) array->InsertNextValue(of(one));
+    return array;
+}
+
+// One value a cell of the data set: of(i) for cell i of the mesh, `other` for cells that are not in it.
+template <class Array, class T, class Of>
+void add_cell_array(vtkDataSet& output, const ExactIndex& index, const char* name, T other, Of&& of) {
+    vtkNew<Array> array;
+    array->SetName(name);
+    array->SetNumberOfValues(output.GetNumberOfCells());
+    array->Fill(static_cast<double>(other));
+    for (std::size_t i = 0; i < index.mesh.cell_count(); ++i)
+        array->SetValue(index.id(static_cast<Mesh::Index>(i)), static_cast<T>(of(i)));
+    output.GetCellData()->AddArray(array);
+}
+
+template <std::size_t n, class IdOf>
+void append_used(std::string& text, const char* one, const char* more, const std::array<Mesh::Index, n>& all,
+                 IdOf&& id_of) {
+    const auto count = std::count_if(all.begin(), all.end(), [](Mesh::Index i) { return i >= 0; });
+    if (count == 0) return;
+    if (!text.empty() && text.back() != ' ') text += ", ";
+    text += count == 1 ? one : more;
+    for (const Mesh::Index i : all)
+        if (i >= 0) text += ' ' + std::to_string(id_of(i));
+}
+
+// "cells 3 17, points 4 5 6; ...".
+std::string places_of(const Defect& defect, const ExactIndex& index) {
+    std::string all;
+    for (const DefectPlace& place : defect.places) {
+        std::string text;
+        append_used(text, "cell", "cells", place.cells, [&](Mesh::Index cell) { return index.id(cell); });
+        append_used(text, "point", "points", place.nodes, [](Mesh::Index node) { return vtkIdType{node}; });
+        const bool hangs = defect.kind == DefectKind::hanging_node || defect.kind == DefectKind::near_hanging;
+        const char* const word = hangs ? "on" : "and";
+        append_used(text, word, word, place.other_nodes, [](Mesh::Index node) { return vtkIdType{node}; });
+        if (*place.detail != '\0') text += std::string(" (") + place.detail + ")";
+        if (!all.empty()) all += "; ";
+        all += text;
+    }
+    return all;
+}
+
+// Measures and defects of cells as cell arrays of the data set.
+void add_measures(const CheckReport& report, const ExactIndex& index, vtkDataSet& output) {
+    const CellMeasures& measures = report.measures;
+    for (const Field& field : measure_fields(measures)) {
+        const char* const name = field.name.c_str();
+        const auto value = [&](std::size_t i) { return field.data[i]; };
+        if (field.name == "orientation")
+            add_cell_array<vtkSignedCharArray, signed char>(output, index, name, 0, value);
+        else if (field.name == "problems")
+            add_cell_array<vtkUnsignedIntArray, unsigned int>(output, index, name, 0, value);
+        else
+            add_cell_array<vtkDoubleArray>(output, index, name, std::numeric_limits<double>::quiet_NaN(), value);
+    }
+    DefectSet found = 0;
+    for (const DefectSet some : measures.defects) found |= some;
+    for (const DefectText& text : defect_texts) {
+        const DefectSet bit = defect_bit(text.kind);
+        if ((found & bit) == 0) continue;
+        add_cell_array<vtkUnsignedCharArray, unsigned char>(
+            output, index, std::string(text.name).c_str(), 0,
+            [&](std::size_t i) { return (measures.defects[i] & bit) != 0; });
+    }
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+}
+
+// A row a defect.
+void fill_defects(const std::vector<Defect>& all, const ExactIndex& index, vtkTable& table) {
+    const auto texts = [&](const char* name, auto&& of) {
+        table.AddColumn(array_of<vtkStringArray>(name, all, [&](const Defect& d) { return std::string(of(d)); }));
+    };
+    const auto flags = [&](const char* name, auto&& of) {
+        table.AddColumn(array_of<vtkUnsignedCharArray>(name, all, [&](const Defect& d) { return flag(of(d)); }));
+    };
+    texts("defect", [](const Defect& d) { return defect_text(d.kind).name; });
+    table.AddColumn(
+        array_of<vtkTypeInt64Array>("count", all, [](const Defect& d) { return static_cast<vtkTypeInt64>(d.count); }));
+    flags("at_least", [](const Defect& d) { return d.at_least; });
+    flags("breaks", [](const Defect& d) { return d.breaks(); });
+    texts("meaning", [](const Defect& d) { return defect_text(d.kind).text; });
+    texts("remedy", [](const Defect& d) { return d.remedy(); });
+    texts("places", [&](const Defect& d) { return places_of(d, index); });
+}
+
+// A vertex for each pair of cells that meet where they must not.
+void fill_contacts(const std::vector<CellContact>& all, const ExactIndex& index, vtkPolyData& points) {
+    vtkNew<vtkPoints> places;
+    places->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> vertices;
+    for (const CellContact& contact : all) {
+        std::array<double, 3> x{};
+        index.place(contact.common.point.data(), x.data());
+        const vtkIdType at = places->InsertNextPoint(x.data());
+        vertices->InsertNextCell(1, &at);
+    }
+    points.SetPoints(places);
+    points.SetVerts(vertices);
+    using Contact = const CellContact&;
+    vtkPointData& data = *points.GetPointData();
+    data.AddArray(array_of<vtkIdTypeArray>("cell_a", all, [&](Contact c) { return index.id(c.cells[0]); }));
+    data.AddArray(array_of<vtkIdTypeArray>("cell_b", all, [&](Contact c) { return index.id(c.cells[1]); }));
+    data.AddArray(array_of<vtkUnsignedCharArray>("overlap", all, [](Contact c) { return flag(c.overlap); }));
+    data.AddArray(array_of<vtkUnsignedCharArray>("exact", all, [](Contact c) { return flag(c.common.exact); }));
+}
+
+}  // namespace
 
 vtkStandardNewMacro(vtkBarycertCheck);
 
@@ -55,18 +196,14 @@ int vtkBarycertCheck::FillOutputPortInformation(int port, vtkInformation* info) 
 int vtkBarycertCheck::RequestDataObject(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) {
     vtkDataSet* const input = vtkDataSet::GetData(inputs[0]);
     if (input == nullptr) return 0;
-    const auto make = [&]<class T>(int port, T* (*create)(vtkDataSet*), const char* type) {
+    const std::array<int, 3> types{input->GetDataObjectType(), VTK_TABLE, VTK_POLY_DATA};
+    for (int port = 0; port < 3; ++port) {
+        const int type = types[static_cast<std::size_t>(port)];
         vtkDataObject* const now = vtkDataObject::GetData(outputs, port);
-        if (now != nullptr && now->IsA(type) != 0) return;
-        const auto made = vtkSmartPointer<T>::Take(create(input));
+        if (now != nullptr && now->GetDataObjectType() == type) continue;
+        const auto made = vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(type));
         outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), made);
-    };
-    make(
-        0, +[](vtkDataSet* like) { return like->NewInstance(); }, input->GetClassName());
-    make(
-        1, +[](vtkDataSet*) { return vtkTable::New(); }, "vtkTable");
-    make(
-        2, +[](vtkDataSet*) { return vtkPolyData::New(); }, "vtkPolyData");
+    }
     return 1;
 }
 
@@ -80,10 +217,9 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
         vtkErrorMacro("the input is missing");
         return 0;
     }
-    in_vtk::ExactIndex index;
-    std::string reason = in_vtk::read_simplices(*in_vtk::straight_sides(*input), index);
-    if (reason.empty()) reason = in_vtk::add_mid_nodes(*input, index.ids, index.mesh);
-    if (!reason.empty()) {
+    ExactIndex index;
+    if (const std::string reason = in_vtk::read_simplices(*input, index, {}, in_vtk::Sides::straight);
+        !reason.empty()) {
         vtkErrorMacro("this data set cannot be checked: "
                       << reason << "; expected tetrahedra, or triangles in one plane across an axis");
         return 0;
@@ -98,7 +234,7 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
     Certified = report.certified();
 
     output->ShallowCopy(input);
-    in_vtk::add_measures(report, index, *output);
+    add_measures(report, index, *output);
     output->GetCellData()->SetActiveScalars("problems");
     const std::string text = check_text(report, index.mesh, "input", {});
     if (report.curved.cells != 0) vtkWarningMacro("" << message(report.curved));
@@ -106,12 +242,10 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
     std::size_t verdict = 0;
     for (int line = 0; line < (message(report.curved).empty() ? 0 : 2); ++line) verdict = text.find('\n', verdict) + 1;
     if (!Certified) vtkWarningMacro("" << text.substr(verdict, text.find('\n', verdict) - verdict));
-    in_vtk::add_lines("barycert_check", text, *output);
-    vtkNew<vtkUnsignedCharArray> certified;
-    certified->SetName("certified");
-    certified->InsertNextValue(Certified ? 1 : 0);
-    output->GetFieldData()->AddArray(certified);
-    in_vtk::fill_defects(report, index, *defects);
-    in_vtk::fill_contacts(report, index, *points);
+    vtkFieldData& told = *output->GetFieldData();
+    told.AddArray(array_of<vtkStringArray>("barycert_check", lines_of(text), [](const std::string& s) { return s; }));
+    told.AddArray(array_of<vtkUnsignedCharArray>("certified", std::array{Certified}, flag));
+    fill_defects(report.defects, index, *defects);
+    fill_contacts(report.contacts, index, *points);
     return 1;
 }

@@ -23,7 +23,7 @@
 
 #include "barycert/environment.hpp"
 #include "barycert/weights.hpp"
-#include "vtk/closest.hpp"
+#include "vtk/exact_index.hpp"
 
 using namespace barycert;
 
@@ -152,40 +152,20 @@ std::string vtkBarycertLocator::GetReason() {
     return index == nullptr ? "there is no data set" : index->reason;
 }
 
-// The owner in the mesh, -1 outside.
-static Mesh::Index owner(const in_vtk::ExactIndex& index, const double* x) {
+// From the vertices that VTK has just fetched, if it has: those of the mesh would be fetched from memory a second time.
+static std::array<double, 4> weights_in(const in_vtk::ExactIndex& index, Mesh::Index found, vtkCell* cell,
+                                        const double* x) {
     std::array<double, 3> point{};
-    if (!index.locator || !std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2])) return -1;
-    if (!index.project(x, point.data())) return -1;
-    // Where points come one near the other, the last cell saves most of the search; elsewhere it lengthens it. The
-    // answer does not depend on it.
-    struct Last {
-        const in_vtk::ExactIndex* index = nullptr;
-        std::array<double, 3> point{};
-        Mesh::Index cell = -1;
-    };
-    thread_local Last last;
-    const auto count = static_cast<Mesh::Index>(index.mesh.cell_count());
-    bool near = last.index == &index && last.cell < count;
-    for (std::size_t a = 0; a < 3; ++a) near = near && std::abs(point[a] - last.point[a]) <= index.near;
-    const Result<Location> location = index.locator->locate(point.data(), near ? last.cell : -1);
-    if (!location) return -1;
-    if (location->cell >= 0) last = {&index, point, location->cell};
-    return location->cell;
-}
-
-// From the vertices that VTK has just fetched: those of the mesh would be fetched from memory a second time.
-static std::array<double, 4> weights_in(const in_vtk::ExactIndex& index, vtkCell& cell, const double* x) {
+    index.project(x, point.data());
+    if (cell == nullptr) return index.weights(found, point.data());
     const auto d = static_cast<std::size_t>(index.mesh.dimension);
     std::array<double, 12> vertices{};
     for (std::size_t k = 0; k <= d; ++k) {
         std::array<double, 3> vertex{}, on_axes{};
-        cell.Points->GetPoint(static_cast<vtkIdType>(k), vertex.data());
+        cell->Points->GetPoint(static_cast<vtkIdType>(k), vertex.data());
         index.project(vertex.data(), on_axes.data());
         std::copy_n(on_axes.begin(), d, vertices.data() + d * k);
     }
-    std::array<double, 3> point{};
-    index.project(x, point.data());
     const Result<Weights> weights = barycentric_weights(index.simplex(), vertices.data(), point.data());
     return weights ? weights->weights : std::array<double, 4>{};
 }
@@ -200,7 +180,7 @@ vtkIdType vtkBarycertLocator::FindCell(double x[3]) {
     const ExactEnvironment environment;
     const in_vtk::ExactIndex* const index = Ready();
     if (index == nullptr) return -1;
-    if (index->exact()) return index->id(owner(*index, x));
+    if (index->exact()) return index->id(index->owner(x));
     vtkNew<vtkGenericCell> cell;
     std::array<double, 3> pcoords{};
     std::vector<double> weights(static_cast<std::size_t>(DataSet->GetMaxCellSize()));
@@ -223,18 +203,18 @@ vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell*
         vtkStaticCellLocator* const other = Other();
         return other != nullptr ? other->FindCell(x, tol2, cell, pcoords, weights) : -1;
     }
-    Mesh::Index found = owner(*index, x);
+    Mesh::Index found = index->owner(x);
     std::array<double, 4> its{};
     const bool outside = found < 0;
     if (outside && Tolerant && tol2 > 0) {
-        const in_vtk::Closest nearest = in_vtk::closest(*index, x, std::sqrt(in_vtk::held(tol2)));
+        const pieces::Closest nearest = index->closest(x, std::sqrt(in_vtk::held(tol2)));
         found = nearest.cell;
         its = nearest.weights;
     }
     if (found < 0) return -1;
     const vtkIdType id = index->id(found);
     if (cell != nullptr) DataSet->GetCell(id, cell);
-    if (!outside) its = cell != nullptr ? weights_in(*index, *cell, x) : in_vtk::weights_in(*index, found, x);
+    if (!outside) its = weights_in(*index, found, cell, x);
     set_parametric(its, static_cast<int>(index->mesh.corners()), pcoords, weights);
     return id;
 }
@@ -268,13 +248,6 @@ vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double r
 
 vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3],
                                                            vtkGenericCell* cell, vtkIdType& cellId, int& subId,
-                                                           double& dist2) {
-    int inside = 0;
-    return FindClosestPointWithinRadius(x, radius, closestPoint, cell, cellId, subId, dist2, inside);
-}
-
-vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3],
-                                                           vtkGenericCell* cell, vtkIdType& cellId, int& subId,
                                                            double& dist2, int& inside) {
     cellId = -1;
     const in_vtk::ExactIndex* const index = Ready();
@@ -286,7 +259,7 @@ vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double r
                    : other->FindClosestPointWithinRadius(x, radius, closestPoint, cell, cellId, subId, dist2, inside);
     }
     const ExactEnvironment environment;
-    const in_vtk::Closest found = in_vtk::closest(*index, x, radius);
+    const pieces::Closest found = index->closest(x, radius);
     if (found.cell < 0) return 0;
     cellId = index->id(found.cell);
     subId = 0;
@@ -295,18 +268,6 @@ vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double r
     std::copy_n(found.point.begin(), 3, closestPoint);
     if (cell != nullptr) DataSet->GetCell(cellId, cell);
     return 1;
-}
-
-int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3], double tol, double& t, double x[3],
-                                          double pcoords[3], int& subId) {
-    vtkIdType cell_id = -1;
-    return IntersectWithLine(p1, p2, tol, t, x, pcoords, subId, cell_id);
-}
-
-int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3], double tol, double& t, double x[3],
-                                          double pcoords[3], int& subId, vtkIdType& cellId) {
-    vtkNew<vtkGenericCell> cell;
-    return IntersectWithLine(p1, p2, tol, t, x, pcoords, subId, cellId, cell);
 }
 
 int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3], double tol, double& t, double x[3],

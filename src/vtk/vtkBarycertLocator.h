@@ -67,15 +67,11 @@ public:
                           int& subId, double& dist2) override;
     vtkIdType FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3], vtkIdType& cellId,
                                            int& subId, double& dist2) override;
-    vtkIdType FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3], vtkGenericCell* cell,
-                                           vtkIdType& cellId, int& subId, double& dist2) override;
+    using vtkAbstractCellLocator::FindClosestPointWithinRadius;
     vtkIdType FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3], vtkGenericCell* cell,
                                            vtkIdType& cellId, int& subId, double& dist2, int& inside) override;
 
-    int IntersectWithLine(const double p1[3], const double p2[3], double tol, double& t, double x[3], double pcoords[3],
-                          int& subId) override;
-    int IntersectWithLine(const double p1[3], const double p2[3], double tol, double& t, double x[3], double pcoords[3],
-                          int& subId, vtkIdType& cellId) override;
+    using vtkAbstractCellLocator::IntersectWithLine;
     int IntersectWithLine(const double p1[3], const double p2[3], double tol, double& t, double x[3], double pcoords[3],
                           int& subId, vtkIdType& cellId, vtkGenericCell* cell) override;
     /// The first point of every cell that the line meets within GetTolerance(), along the line, and the cells; each may

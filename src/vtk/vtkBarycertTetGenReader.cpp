@@ -1,14 +1,86 @@
 #include "vtkBarycertTetGenReader.h"
 
+#include <algorithm>
+#include <string>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkStringArray.h>
+#include <vtkTypeInt64Array.h>
 #include <vtkUnstructuredGrid.h>
 
 #include "barycert/io.hpp"
-#include "vtk/mesh_grid.hpp"
 
 using namespace barycert;
+
+namespace {
+
+template <class Array, class T>
+void add(vtkDataSetAttributes& attributes, const std::string& name, int components, const std::vector<T>& values) {
+    vtkNew<Array> array;
+    array->SetName(name.c_str());
+    array->SetNumberOfComponents(components);
+    array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+    for (std::size_t i = 0; i < values.size(); ++i) array->SetValue(static_cast<vtkIdType>(i), values[i]);
+    attributes.AddArray(array);
+}
+
+void add(vtkDataSetAttributes& attributes, const Column& column) {
+    std::visit(
+        [&]<class T>(const std::vector<T>& values) {
+            using Array = std::conditional_t<
+                std::is_same_v<T, double>, vtkDoubleArray,
+                std::conditional_t<std::is_same_v<T, std::int64_t>, vtkTypeInt64Array, vtkStringArray>>;
+            add<Array>(attributes, column.name, 1, values);
+        },
+        column.values);
+}
+
+// Makes `grid` the mesh: as write_vtu writes it, so ParaView shows the same either way. Triangles get z = 0; cells are
+// quadratic where there are nodes at mid-edges; fields are arrays of doubles; point_markers an array "marker" of 64-bit
+// integers.
+void fill_grid(const Mesh& mesh, vtkUnstructuredGrid& grid) {
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.point_count()));
+    double* const to = vtkDoubleArray::FastDownCast(points->GetData())->GetPointer(0);
+    std::fill_n(to, 3 * mesh.point_count(), 0.0);
+    for (std::size_t i = 0; i < mesh.point_count(); ++i) std::copy_n(mesh.points.data() + d * i, d, to + 3 * i);
+    grid.SetPoints(points);
+
+    const bool quadratic = !mesh.mid_nodes.empty();
+    const std::size_t corners = mesh.corners(), mids = quadratic ? corners * d / 2 : 0;
+    vtkNew<vtkCellArray> cells;
+    cells->AllocateExact(static_cast<vtkIdType>(mesh.cell_count()),
+                         static_cast<vtkIdType>(mesh.cell_count() * (corners + mids)));
+    for (std::size_t i = 0; i < mesh.cell_count(); ++i) {
+        cells->InsertNextCell(static_cast<int>(corners + mids));
+        for (std::size_t k = 0; k < corners; ++k) cells->InsertCellPoint(mesh.cells[corners * i + k]);
+        for (std::size_t k = 0; k < mids; ++k) cells->InsertCellPoint(mesh.mid_nodes[mids * i + k]);
+    }
+    const int flat = quadratic ? VTK_QUADRATIC_TRIANGLE : VTK_TRIANGLE;
+    const int solid = quadratic ? VTK_QUADRATIC_TETRA : VTK_TETRA;
+    grid.SetCells(mesh.dimension == 2 ? flat : solid, cells);
+
+    for (const Field& field : mesh.point_fields)
+        add<vtkDoubleArray>(*grid.GetPointData(), field.name, field.components, field.data);
+    if (!mesh.point_markers.empty()) add<vtkTypeInt64Array>(*grid.GetPointData(), "marker", 1, mesh.point_markers);
+    for (const Field& field : mesh.cell_fields)
+        add<vtkDoubleArray>(*grid.GetCellData(), field.name, field.components, field.data);
+    for (const Column& column : mesh.cell_labels) add(*grid.GetCellData(), column);
+}
+
+}  // namespace
 
 vtkStandardNewMacro(vtkBarycertTetGenReader);
 
@@ -42,6 +114,6 @@ int vtkBarycertTetGenReader::RequestData(vtkInformation*, vtkInformationVector**
     }
     for (const Note& note : mesh->notes)
         if (note.important) vtkWarningMacro("" << message(note));
-    in_vtk::fill_grid(*mesh, *vtkUnstructuredGrid::GetData(outputs));
+    fill_grid(*mesh, *vtkUnstructuredGrid::GetData(outputs));
     return 1;
 }

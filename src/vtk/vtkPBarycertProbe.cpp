@@ -17,7 +17,6 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include "vtk/distributed_probe.hpp"
-#include "vtk/exchange.hpp"
 #include "vtk/failing_upstream.hpp"
 
 using namespace barycert;
@@ -101,18 +100,21 @@ int vtkPBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** input
     else
         output->CopyStructure(input);
 
-    in_vtk::Exchange exchange(Controller);
-    const char* const mask_name = GetValidPointMaskArrayName();
-    in_vtk::DistributedProbe probe(exchange,
-                                   {.categorical = GetCategoricalData() != 0,
-                                    .outside = GetOutsideIsNaN() ? std::numeric_limits<double>::quiet_NaN() : 0,
-                                    .mask = mask_name != nullptr ? mask_name : "vtkValidPointMask"});
     if (ready && !GetComputeTolerance() && GetTolerance() > 0)
         ready = Error{.what = "this filter has no Tolerance: points are inside the mesh or not",
                       .remedy = "leave ComputeTolerance on"};
-    const Status done = probe.run(ready, input, source, output);
-    PointsSent = static_cast<vtkIdType>(probe.points_sent());
-    PointsReceived = static_cast<vtkIdType>(probe.points_received());
+    in_vtk::Processes processes(Controller);
+    pieces::Exchange exchange(processes);
+    const char* const mask_name = GetValidPointMaskArrayName();
+    in_vtk::ProbeReport report;
+    const Status done =
+        in_vtk::probe_pieces(exchange,
+                             {.categorical = GetCategoricalData() != 0,
+                              .outside = GetOutsideIsNaN() ? std::numeric_limits<double>::quiet_NaN() : 0,
+                              .mask = mask_name != nullptr ? mask_name : "vtkValidPointMask"},
+                             ready, input, source, output, report);
+    PointsSent = static_cast<vtkIdType>(report.points_sent);
+    PointsReceived = static_cast<vtkIdType>(report.points_received);
     BytesSent = static_cast<vtkIdType>(exchange.sent());
     BytesGathered = static_cast<vtkIdType>(exchange.gathered());
     NumberOfPartners = static_cast<int>(exchange.partners().size());
@@ -123,13 +125,13 @@ int vtkPBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** input
         vtkErrorMacro("" << done.error().message());
         return 0;
     }
-    for (const std::string& name : probe.inexact())
+    for (const std::string& name : report.inexact)
         vtkWarningMacro("the point array " << name << " has integers beyond 2^53: they become doubles first");
-    if (probe.numbered_by_ranks() && exchange.rank() == 0)
+    if (report.numbered_by_ranks && exchange.rank() == 0)
         vtkWarningMacro(
             "the cells of some source have no global ids: they are numbered by process, and owners of points on seams "
             "depend on how the mesh is cut");
-    ListValidPoints(*probe.mask());
+    ListValidPoints(*report.mask);
     PassArrays(input, output);
     return 1;
 }

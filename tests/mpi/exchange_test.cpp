@@ -1,4 +1,5 @@
-// Messages between ranks: sizes from nothing to more than one chunk, errors, and boxes that find the ranks of a point.
+// Messages between ranks over VTK's controller: sizes from nothing to more than one chunk, and errors. tests/pieces has
+// more of them, between threads.
 
 #include <gtest/gtest.h>
 
@@ -8,20 +9,19 @@
 
 #include <vtkMultiProcessController.h>
 
-#include "barycert/base/random.hpp"
+#include "barycert/pieces/exchange.hpp"
 #include "mpi/pieces.hpp"
-#include "vtk/boxes.hpp"
-#include "vtk/exchange.hpp"
+#include "vtk/distributed_probe.hpp"
 
 namespace barycert::testing {
 namespace {
 
-using in_vtk::Box;
-using in_vtk::Exchange;
-using in_vtk::Parcels;
+using pieces::Exchange;
+using pieces::Parcels;
 
-Exchange job(std::size_t chunk) {
-    return Exchange(vtkMultiProcessController::GetGlobalController(), chunk);
+pieces::Communicator& processes() {
+    static in_vtk::Processes all(vtkMultiProcessController::GetGlobalController());
+    return all;
 }
 
 std::vector<double> letter(int from, int to, std::size_t size) {
@@ -38,7 +38,7 @@ TEST(Exchanges, BringEveryValueToItsPartner) {
     for (const int skip : {1, 2, 3}) {
         // Chunks of some bytes that do not even hold whole numbers of values.
         for (const std::size_t chunk : {std::size_t{100}, std::size_t{1} << 30}) {
-            Exchange exchange = job(chunk);
+            Exchange exchange(processes(), chunk);
             std::vector<int> partners;
             for (int other = 0; other < ranks(); ++other)
                 if (other != rank() && (other - rank()) % skip == 0) partners.push_back(other);
@@ -64,7 +64,7 @@ TEST(Exchanges, BringEveryValueToItsPartner) {
 }
 
 TEST(Exchanges, TellTheErrorOfTheLowestRankToAll) {
-    Exchange exchange = job(100);
+    Exchange exchange(processes(), 100);
     EXPECT_TRUE(exchange.everywhere([]() -> Status { return Done{}; }).has_value());
     const Status some = exchange.everywhere([]() -> Status {
         if (rank() * 2 >= ranks() - 1) throw std::runtime_error("of " + std::to_string(rank()));
@@ -77,61 +77,6 @@ TEST(Exchanges, TellTheErrorOfTheLowestRankToAll) {
     EXPECT_EQ(memory.error().message(), ranks() == 1 ? "out of memory" : "rank 0: out of memory");
     const Status lengthy = exchange.everywhere([]() -> Status { return Error{.what = std::string(5000, 'x')}; });
     EXPECT_FALSE(lengthy.has_value());
-}
-
-Box random_box(base::Random& random) {
-    Box box;
-    for (int corner = 0; corner < 2; ++corner) {
-        double x[3];
-        // On a lattice, so that many sides coincide, and points lie on them.
-        for (double& c : x) c = static_cast<double>(random.below(9));
-        box.add(x);
-    }
-    return box;
-}
-
-TEST(Boxes, AreFoundByTheirPointsWithTheirSides) {
-    base::Random random(rank() == 0 ? 1 : 2);
-    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{2}, std::size_t{77}}) {
-        std::vector<Box> boxes;
-        std::vector<int> owners;
-        for (std::size_t i = 0; i < count; ++i) {
-            boxes.push_back(i % 9 == 5 ? Box() : random_box(random));
-            owners.push_back(static_cast<int>(i));
-        }
-        const in_vtk::BoxTree tree(boxes, owners);
-        for (int i = 0; i < 500; ++i) {
-            const double x[3] = {static_cast<double>(random.below(10)), static_cast<double>(random.below(10)),
-                                 static_cast<double>(random.below(10))};
-            std::vector<int> found, expected;
-            tree.holders(x, [&](int owner) { found.push_back(owner); });
-            std::sort(found.begin(), found.end());
-            for (std::size_t k = 0; k < count; ++k)
-                if (boxes[k].holds(x)) expected.push_back(owners[k]);
-            ASSERT_EQ(found, expected);
-        }
-    }
-}
-
-TEST(Boxes, FewCoverMany) {
-    base::Random random(3);
-    for (const std::size_t most : {std::size_t{1}, std::size_t{3}, std::size_t{64}}) {
-        Box all;
-        std::vector<Box> boxes;
-        for (int i = 0; i < 1000; ++i) {
-            boxes.push_back(random_box(random));
-            all.add(boxes.back());
-        }
-        in_vtk::Gathered gathered(all);
-        for (const Box& box : boxes) gathered.add(box);
-        const std::vector<Box> few = in_vtk::cover(gathered.boxes(), most);
-        EXPECT_LE(few.size(), most);
-        for (const Box& box : boxes) {
-            EXPECT_TRUE(std::any_of(few.begin(), few.end(), [&](const Box& one) {
-                return one.holds(box.low.data()) && one.holds(box.high.data());
-            }));
-        }
-    }
 }
 
 }  // namespace

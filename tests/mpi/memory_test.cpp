@@ -13,7 +13,6 @@
 #include "check/meshes.hpp"
 #include "mpi/pieces.hpp"
 #include "vtk/distributed_probe.hpp"
-#include "vtk/exchange.hpp"
 #include "vtk/grids.hpp"
 #include "vtkBarycertProbe.h"
 
@@ -63,17 +62,19 @@ TEST(Memory, ThatOneRankLacksEndsAll) {
         const auto piece = job.piece(Cut::slabs, false);
         vtkNew<vtkPolyData> output;
         output->CopyStructure(job.mine);
-        in_vtk::Exchange exchange(vtkMultiProcessController::GetGlobalController());
-        in_vtk::DistributedProbe probe(exchange, {.mask = "vtkValidPointMask"});
+        in_vtk::Processes processes(vtkMultiProcessController::GetGlobalController());
+        pieces::Exchange exchange(processes);
+        in_vtk::ProbeReport report;
         if (rank() == ranks() / 2) left = fails;
-        const Status status = probe.run(Done{}, job.mine, piece, output);
+        const Status status =
+            in_vtk::probe_pieces(exchange, {.mask = "vtkValidPointMask"}, Done{}, job.mine, piece, output, report);
         int untouched = rank() == ranks() / 2 && left > 0 ? 1 : 0;
         left = 0;
         // That all know is known by messages, too.
-        std::array<int, 3> facts{status ? 1 : 0, status ? 0 : 1, untouched};
-        exchange.greatest(facts);
-        ASSERT_FALSE(facts[0] == 1 && facts[1] == 1);
-        done += facts[2];
+        std::array<double, 3> facts{status ? -1.0 : 0, status ? 0 : -1.0, -1.0 * untouched};
+        exchange.least(facts);
+        ASSERT_FALSE(facts[0] == -1 && facts[1] == -1);
+        done += facts[2] == -1 ? 1 : 0;
         if (status) {
             expect_same(output->GetPointData(), judge->GetOutput()->GetPointData());
         } else {

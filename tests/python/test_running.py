@@ -95,36 +95,32 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 points, cells = kuhn(12, 3)
 mesh = barycert.Mesh(points, cells, point_data={{"T": points[:, 0]}})
 sampler = mesh._core.sampler(["T"], None)
-options = lambda outside, threads: _core.SampleOptions(outside, np.nan, np.inf, "correct", threads)
+options = lambda outside, threads: _core.SampleOptions(outside, np.nan, np.inf, "correct", threads, "error")
 rng = np.random.default_rng(1)
 inside = lambda n: rng.random((n, 3)) * 12
 owners = lambda at: mesh.locate(at).cell
 # What is prepared, and the one call that is interrupted: about a second or more, on any machine.
 prepare, make = {{
-    "sample": (lambda: inside(16_000_000), lambda at: partial(sampler.sample, options=options("nan", 1), progress=None)),
-    "nearest": (
-        lambda: inside(3_000_000) * 100 + 20, lambda at: partial(sampler.sample, options=options("nearest", 1), progress=None)
-    ),
-    "locate": (lambda: inside(16_000_000), lambda at: partial(_core.locate, mesh._core, threads=1, progress=None)),
+    "sample": (lambda: inside(16_000_000), lambda at: (sampler.sample, at, options("nan", 1), None)),
+    "nearest": (lambda: inside(3_000_000) * 100 + 20, lambda at: (sampler.sample, at, options("nearest", 1), None)),
+    "locate": (lambda: inside(16_000_000), lambda at: (_core.locate, mesh._core, at, 1, None, "error")),
     "matrix": (
-        lambda: inside(8_000_000),
-        lambda at: partial(_core.matrix, mesh._core, cells=owners(at), outside="nan", limit=np.inf, progress=None),
+        lambda: inside(8_000_000), lambda at: (_core.matrix, mesh._core, at, owners(at), "nan", np.inf, None)
     ),
     "resample": (
-        lambda: [600, 600, 400],
-        lambda shape: partial(sampler.on_grid, low=[0] * 3, high=[12] * 3, options=options("nan", 2), progress=None),
+        lambda: _core.Grid(3, [600, 600, 400], [0] * 3, [12] * 3),
+        lambda grid: (sampler.on_grid, grid, options("nan", 2), None),
     ),
-    "insphere": (lambda: [rng.integers(0, 3, (9_000_000, 3)) * 1.0 for _ in range(5)], lambda p: _core.insphere),
-    "audit": (lambda: lambda v, p: [0, 0, 0, 1], lambda kernel: partial(barycert.audit, count=100_000)),
-    "audit_core": (lambda: "tetrahedron.*", lambda names: partial(barycert.audit, count=10_000_000)),
+    "insphere": (lambda: [rng.integers(0, 3, (9_000_000, 3)) * 1.0 for _ in range(5)], lambda p: (_core.insphere, p)),
+    "audit": (lambda: lambda v, p: [0, 0, 0, 1], lambda kernel: (partial(barycert.audit, count=100_000), kernel)),
+    "audit_core": (lambda: "tetrahedron.*", lambda names: (partial(barycert.audit, count=10_000_000), names)),
 }}[{what!r}]
-data = prepare()
-call = make(data)
+call, *arguments = make(prepare())
 results = []
 print("begins", flush=True)
 try:
     # No Python runs between the end of the call and the result: it is there if the call got to its end.
-    results.extend(map(call, [data]))
+    results.extend(map(call, *([argument] for argument in arguments)))
 except KeyboardInterrupt:
     print("at the end" if results else "interrupted")
 """

@@ -29,12 +29,8 @@ def real(array: Any, what: str) -> np.ndarray:
     if array.dtype.kind not in "fiub":
         _core.fail(f"type of the {what}", expected="real numbers", found=str(array.dtype))
     if array.dtype.itemsize > 8:
-        _core.fail(
-            f"type of the {what}",
-            expected="numbers that float64 can hold",
-            found=str(array.dtype),
-            remedy="round them yourself: .astype(float)",
-        )
+        _core.fail(f"type of the {what}", expected="numbers that float64 can hold", found=str(array.dtype),
+                   remedy="round them yourself: .astype(float)")  # fmt: skip
     return array
 
 
@@ -51,17 +47,14 @@ def exact_doubles(array: Any, what: str, nonfinite_points: Optional[str] = None)
         inside = doubles < (2.0**63 if array.dtype.kind == "i" else 2.0**64)
         back = np.where(inside, doubles, 0).astype(array.dtype)
         if not (inside & (back == array)).all():
-            _core.fail(
-                f"an integer of the {what}",
-                expected="a number that a double represents",
-                found=str(array[~(inside & (back == array))][0]),
-            )
+            _core.fail(f"an integer of the {what}", expected="a number that a double represents",
+                       found=str(array[~(inside & (back == array))][0]))  # fmt: skip
     return np.asarray(doubles, order="C")
 
 
 def points_of(
-    points: Any, dimension: int, nonfinite_points: Optional[str] = None
-) -> Tuple[np.ndarray, Tuple[int, ...]]:
+    points: Any, dimension: int, nonfinite_points: Optional[str] = None,
+) -> Tuple[np.ndarray, Tuple[int, ...]]:  # fmt: skip
     """Points as (n, dimension), without a copy where they are contiguous doubles, and their leading shape. With "nan"
     for `nonfinite_points` masked coordinates are NaN.
 
@@ -72,11 +65,8 @@ def points_of(
         points = points_of_dataset(points, dimension)
     array = exact_doubles(points, "points", nonfinite_points)
     if array.ndim == 0 or (array.ndim == 1 and array.size != dimension) or array.shape[-1] != dimension:
-        _core.fail(
-            "shape of the points",
-            expected=f"(..., {dimension}): {dimension} coordinates each",
-            found=str(array.shape),
-        )
+        _core.fail("shape of the points", expected=f"(..., {dimension}): {dimension} coordinates each",
+                   found=str(array.shape))  # fmt: skip
     return array.reshape(-1, dimension), array.shape[:-1]
 
 
@@ -101,8 +91,9 @@ def count_of(number: Any, what: str) -> int:
 
 
 def options_of(
-    outside: Optional[str], fill_value: float, limit: float, rounding: str, threads: int, nonfinite_points: str = "error"
-) -> _core.SampleOptions:
+    outside: Optional[str], fill_value: float, limit: float, rounding: str, threads: int,
+    nonfinite_points: str = "error",
+) -> _core.SampleOptions:  # fmt: skip
     """outside None: fill_value, which is NaN unless it is given."""
     if outside is None:
         outside = "nan" if np.isnan(fill_value) else "fill"

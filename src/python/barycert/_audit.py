@@ -89,22 +89,12 @@ class AuditReport:
 
 
 def audit(
-    kernel: Union[Kernel, Sequence[Union[str, os.PathLike]]],
-    *,
-    simplex: str = "tetrahedron",
-    name: Optional[str] = None,
-    declares_degenerate: bool = False,
-    tolerance: Optional[float] = None,
-    against: Sequence[str] = (),
-    contained: bool = True,
-    count: int = 10000,
-    seed: int = 1,
-    families: Sequence[str] = (),
-    meshes: Union[Sequence[Mesh], Mapping[str, Mesh]] = (),
-    threads: int = 0,
-    oracle: str = "automatic",
-    progress: Progress = None,
-) -> AuditReport:
+    kernel: Union[Kernel, Sequence[Union[str, os.PathLike]]], *, simplex: str = "tetrahedron",
+    name: Optional[str] = None, declares_degenerate: bool = False, tolerance: Optional[float] = None,
+    against: Sequence[str] = (), contained: bool = True, count: int = 10000, seed: int = 1,
+    families: Sequence[str] = (), meshes: Union[Sequence[Mesh], Mapping[str, Mesh]] = (), threads: int = 0,
+    oracle: str = "automatic", progress: Progress = None,
+) -> AuditReport:  # fmt: skip
     """Asks a kernel for barycentric weights over families of cases and compares each answer with the exact one.
 
     Args:

@@ -115,7 +115,7 @@ class CheckReport:
 
     def text(self, name: str = "mesh") -> str:
         """The report for a terminal."""
-        return self._core.text(name, False)
+        return self._core.text(name)
 
     def to_dict(self, name: str = "mesh") -> Dict[str, Any]:
         """All of it, as the JSON of `barycert check --json` has it."""

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 
 from . import _core
-
-if TYPE_CHECKING:
-    from ._mesh import Mesh
 
 # VTK's numbers of cell types; corners and nodes at mid-edges.
 _TETRA, _QUADRATIC_TETRA, _TRIANGLE, _QUADRATIC_TRIANGLE = 10, 24, 5, 22
@@ -35,11 +32,9 @@ class Parts:
 
 def parts_of(source: Any) -> Parts:
     """The parts of a mesh of another package."""
-    from ._mesh import Mesh
-
-    if isinstance(source, Mesh):
-        cells = source.cells if source.mid_nodes is None else np.hstack([source.cells, source.mid_nodes])
-        return Parts(source.points, cells, source.cell_numbers, dict(source.point_data), dict(source.cell_data), source.notes)
+    if hasattr(source, "_all_nodes"):  # barycert.Mesh
+        return Parts(source.points, source._all_nodes(), source.cell_numbers, dict(source.point_data), dict(source.cell_data),
+                     source.notes)  # fmt: skip
     if hasattr(source, "simplices"):  # scipy.spatial.Delaunay
         return Parts(np.asarray(source.points), np.asarray(source.simplices))
     if hasattr(source, "triangles"):  # matplotlib.tri.Triangulation
@@ -50,11 +45,9 @@ def parts_of(source: Any) -> Parts:
         return _of_vtk(source)
     if hasattr(source, "cells") and hasattr(source, "points"):  # meshio.Mesh
         return _of_meshio(source)
-    _core.fail(
-        "what a mesh is made of",
-        expected="points and cells, or a mesh of SciPy, matplotlib, meshio, pyvista or VTK",
-        found=type(source).__name__,
-    )
+    _core.fail("what a mesh is made of",
+               expected="points and cells, or a mesh of SciPy, matplotlib, meshio, pyvista or VTK",
+               found=type(source).__name__)  # fmt: skip
 
 
 def points_of_dataset(source: Any, dimension: int) -> np.ndarray:
@@ -88,52 +81,38 @@ def _of_triangulation(source: Any) -> Parts:
     return Parts(points, triangles[kept], kept, notes=[note])
 
 
-class _Cells:
-    """Cells of any kinds, block after block, of which those of the highest dimension make a mesh."""
+# Cells of one kind: VTK's type, nodes, numbers in the source.
+Block = Tuple[int, np.ndarray, np.ndarray]
 
-    def __init__(self) -> None:
-        self.blocks: List[Tuple[int, np.ndarray, np.ndarray]] = []
-        self.left_out: Dict[str, int] = {}
 
-    def add(self, kind: int, nodes: np.ndarray, numbers: np.ndarray) -> None:
-        if len(numbers):
-            self.blocks.append((kind, nodes, numbers))
-
-    def leave_out(self, what: str, count: int) -> None:
-        if count:
-            self.left_out[what] = self.left_out.get(what, 0) + count
-
-    def parts(self, points: np.ndarray, point_data: Dict[str, np.ndarray], cell_data: Dict[str, np.ndarray]) -> Parts:
-        solid = [b for b in self.blocks if b[0] in (_TETRA, _QUADRATIC_TETRA)]
-        for kind, _, numbers in self.blocks:
-            if solid and kind in (_TRIANGLE, _QUADRATIC_TRIANGLE):
-                self.leave_out("triangles beside tetrahedra", len(numbers))
-        chosen = solid or self.blocks
-        kinds = sorted({kind for kind, _, _ in chosen})
-        if len(kinds) > 1:
-            _core.fail("cells of first and second order in one mesh", remedy="make all of them linear, or all quadratic")
-        if not chosen:
-            _core.fail("a mesh without triangles and tetrahedra", found=self._others() or "no cells")
-        nodes = np.concatenate([b[1] for b in chosen])
-        numbers = np.concatenate([b[2] for b in chosen])
-        order = np.argsort(numbers, kind="stable")
-        nodes, numbers = nodes[order], numbers[order]
-        whole = numbers.size == 0 or (numbers[0] == 0 and numbers[-1] == numbers.size - 1 and not self.left_out)
-        notes = [f"left out: {count} {what}" for what, count in self.left_out.items()]
-        points = np.asarray(points)
-        if not solid and points.ndim == 2 and points.shape[1] == 3:
-            points = _in_plane(points, "triangles in space are no mesh")
-        return Parts(
-            points,
-            nodes,
-            None if whole else numbers.astype(np.int32),
-            dict(_numbers_only(point_data, notes)),
-            {name: values if whole else values[numbers] for name, values in _numbers_only(cell_data, notes)},
-            notes,
-        )
-
-    def _others(self) -> str:
-        return ", ".join(f"{count} {what}" for what, count in self.left_out.items())
+def _of_blocks(points: Any, blocks: List[Block], left_out: Dict[str, int], point_data: Any, cell_data: Any) -> Parts:
+    """The cells of the highest dimension make a mesh. `left_out`: what is no cell of a mesh, and how many."""
+    blocks = [block for block in blocks if len(block[2])]
+    solid = [block for block in blocks if block[0] in (_TETRA, _QUADRATIC_TETRA)]
+    chosen = solid or blocks
+    left_out["triangles beside tetrahedra"] = sum(len(b[2]) for b in blocks) - sum(len(b[2]) for b in chosen)
+    others = [f"{count} {what}" for what, count in left_out.items() if count]
+    if len({kind for kind, _, _ in chosen}) > 1:
+        _core.fail("cells of first and second order in one mesh", remedy="make all of them linear, or all quadratic")
+    if not chosen:
+        _core.fail("a mesh without triangles and tetrahedra", found=", ".join(others) or "no cells")
+    nodes = np.concatenate([block[1] for block in chosen])
+    numbers = np.concatenate([block[2] for block in chosen])
+    order = np.argsort(numbers, kind="stable")
+    nodes, numbers = nodes[order], numbers[order]
+    whole = numbers.size == 0 or (numbers[0] == 0 and numbers[-1] == numbers.size - 1 and not others)
+    notes = [f"left out: {other}" for other in others]
+    points = np.asarray(points)
+    if not solid and points.ndim == 2 and points.shape[1] == 3:
+        points = _in_plane(points, "triangles in space are no mesh")
+    return Parts(
+        points,
+        nodes,
+        None if whole else numbers.astype(np.int32),
+        dict(_numbers_only(point_data, notes)),
+        {name: values if whole else values[numbers] for name, values in _numbers_only(cell_data, notes)},
+        notes,
+    )
 
 
 def _numbers_only(data: Dict[str, np.ndarray], notes: List[str]) -> List[Tuple[str, np.ndarray]]:
@@ -147,57 +126,42 @@ def _numbers_only(data: Dict[str, np.ndarray], notes: List[str]) -> List[Tuple[s
     return kept
 
 
-def _of_types(points: Any, connectivity: np.ndarray, offsets: np.ndarray, types: np.ndarray, ghost: Optional[np.ndarray],
-              point_data: Dict[str, np.ndarray], cell_data: Dict[str, np.ndarray]) -> Parts:
+def _of_types(points: Any, connectivity: np.ndarray, offsets: np.ndarray, types: np.ndarray,
+              point_data: Dict[str, np.ndarray], cell_data: Dict[str, np.ndarray]) -> Parts:  # fmt: skip
     """VTK's arrays: the nodes of cell i are connectivity[offsets[i]:offsets[i + 1]]."""
-    cells = _Cells()
-    kept = np.ones(types.size, dtype=bool)
-    if ghost is not None:
-        # Duplicate, refined and hidden cells.
-        kept = (np.asarray(ghost) & (1 | 8 | 32)) == 0
-        cells.leave_out("ghost cells", int(np.count_nonzero(~kept)))
-    for kind in np.unique(types[kept]):
+    ghost = cell_data.pop("vtkGhostType", None)
+    # Duplicate, refined and hidden cells.
+    kept = np.ones(types.size, dtype=bool) if ghost is None else (np.asarray(ghost) & (1 | 8 | 32)) == 0
+    lower = kept & np.isin(types, _LOWER)
+    left_out = {"ghost cells": int(np.count_nonzero(~kept)), "vertices and lines": int(np.count_nonzero(lower))}
+    blocks: List[Block] = []
+    for kind in np.unique(types[kept & ~lower]).tolist():
         numbers = np.flatnonzero(kept & (types == kind))
-        if kind in _COLUMNS:
-            columns = _COLUMNS[int(kind)]
-            wrong = numbers[offsets[numbers + 1] - offsets[numbers] != columns]
-            if wrong.size:
-                _core.fail(f"nodes of cell {wrong[0]}", expected=str(columns),
-                           found=str(offsets[wrong[0] + 1] - offsets[wrong[0]]))
-            cells.add(int(kind), connectivity[offsets[numbers][:, None] + np.arange(columns)], numbers)
-        elif kind in _LOWER:
-            cells.leave_out("vertices and lines", numbers.size)
-        else:
-            _core.fail(
-                "cells of another kind",
-                expected="triangles or tetrahedra",
-                found=f"{numbers.size} cells of VTK's type {kind}, the first is cell {numbers[0]}",
-                remedy="vtkDataSetTriangleFilter, or pyvista's triangulate(), makes tetrahedra of them",
-            )
-    return cells.parts(points, point_data, cell_data)
+        if kind not in _COLUMNS:
+            _core.fail("cells of another kind", expected="triangles or tetrahedra",
+                       found=f"{numbers.size} cells of VTK's type {kind}, the first is cell {numbers[0]}",
+                       remedy="vtkDataSetTriangleFilter, or pyvista's triangulate(), makes tetrahedra of them")  # fmt: skip
+        columns, sizes = _COLUMNS[kind], offsets[numbers + 1] - offsets[numbers]
+        wrong = np.flatnonzero(sizes != columns)
+        if wrong.size:
+            _core.fail(f"nodes of cell {numbers[wrong[0]]}", expected=str(columns), found=str(sizes[wrong[0]]))
+        blocks.append((kind, connectivity[offsets[numbers][:, None] + np.arange(columns)], numbers))
+    return _of_blocks(points, blocks, left_out, point_data, cell_data)
 
 
 def _of_pyvista(source: Any) -> Parts:
     types = np.asarray(source.celltypes)
-    flat = np.asarray(source.cells)
-    # Cell after cell: the number of its nodes, its nodes.
-    starts = np.empty(types.size + 1, dtype=np.int64)
     if hasattr(source, "offset") and hasattr(source, "cell_connectivity"):
-        starts, flat = np.asarray(source.offset), np.asarray(source.cell_connectivity)
-        offsets, connectivity = starts, flat
+        connectivity, offsets = np.asarray(source.cell_connectivity), np.asarray(source.offset)
     else:
-        at = 0
-        for i in range(types.size):
-            starts[i] = at
-            at += int(flat[at]) + 1
-        starts[types.size] = at
-        mask = np.ones(flat.size, dtype=bool)
-        mask[starts[:-1]] = False
-        connectivity, offsets = flat[mask], starts - np.arange(types.size + 1)
+        # Cell after cell: the number of its nodes, its nodes.
+        flat, starts = np.asarray(source.cells), [0]
+        for _ in range(types.size):
+            starts.append(starts[-1] + int(flat[starts[-1]]) + 1)
+        connectivity, offsets = np.delete(flat, starts[:-1]), np.asarray(starts) - np.arange(types.size + 1)
     point_data = {name: np.asarray(source.point_data[name]) for name in source.point_data.keys()}
     cell_data = {name: np.asarray(source.cell_data[name]) for name in source.cell_data.keys()}
-    ghost = cell_data.pop("vtkGhostType", None)
-    return _of_types(np.asarray(source.points), connectivity, offsets, types, ghost, point_data, cell_data)
+    return _of_types(np.asarray(source.points), connectivity, offsets, types, point_data, cell_data)
 
 
 def _numpy(array: Any) -> np.ndarray:
@@ -236,79 +200,78 @@ def _of_vtk(source: Any) -> Parts:
                    remedy="vtkDataSetTriangleFilter makes an unstructured grid of it")
     connectivity, offsets = _numpy(grid.GetConnectivityArray()), _numpy(grid.GetOffsetsArray())
     cell_data = _arrays_of(source.GetCellData(), notes)
-    ghost = cell_data.pop("vtkGhostType", None)
-    parts = _of_types(_numpy(source.GetPoints().GetData()), connectivity, offsets, types, ghost,
-                      _arrays_of(source.GetPointData(), notes), cell_data)
+    parts = _of_types(_numpy(source.GetPoints().GetData()), connectivity, offsets, types,
+                      _arrays_of(source.GetPointData(), notes), cell_data)  # fmt: skip
     parts.notes = notes + parts.notes
     return parts
 
 
 def _of_meshio(source: Any) -> Parts:
-    cells = _Cells()
-    first = 0
+    blocks: List[Block] = []
+    lower = first = 0
     for block in source.cells:
         nodes, kind = np.asarray(block.data), block.type
         numbers = np.arange(first, first + len(nodes))
         first += len(nodes)
         if kind in _MESHIO:
             # Tetrahedra of second order stand in VTK's order.
-            cells.add(_MESHIO[kind], nodes, numbers)
+            blocks.append((_MESHIO[kind], nodes, numbers))
         elif kind in _MESHIO_LOWER:
-            cells.leave_out("vertices and lines", len(nodes))
+            lower += len(nodes)
         else:
             _core.fail("cells of another kind", expected="triangles or tetrahedra", found=f"{len(nodes)} cells {kind}")
     cell_data = {name: np.concatenate([np.asarray(block) for block in blocks]) for name, blocks in source.cell_data.items()}
-    return cells.parts(np.asarray(source.points), dict(source.point_data), cell_data)
+    return _of_blocks(source.points, blocks, {"vertices and lines": lower}, source.point_data, cell_data)
 
 
-# And back.
+class GivenBack:
+    """A mesh that other packages can have."""
 
+    def _all_nodes(self: Any) -> np.ndarray:
+        return self.cells if self.mid_nodes is None else np.hstack([self.cells, self.mid_nodes])
 
-def _all_nodes(mesh: Mesh) -> np.ndarray:
-    return mesh.cells if mesh.mid_nodes is None else np.hstack([mesh.cells, mesh.mid_nodes])
+    def to_meshio(self: Any) -> Any:
+        """A meshio.Mesh with the fields."""
+        import meshio
 
+        nodes = self._all_nodes().copy()
+        (kind,) = (name for name, kind in _MESHIO.items() if _COLUMNS[kind] == nodes.shape[1])
+        return meshio.Mesh(
+            self.points.copy(),
+            [(kind, nodes)],
+            point_data={name: values.copy() for name, values in self.point_data.items()},
+            cell_data={name: [values.copy()] for name, values in self.cell_data.items()},
+        )
 
-def to_meshio(mesh: Mesh) -> Any:
-    import meshio
+    def to_vtk(self: Any) -> Any:
+        """A vtkUnstructuredGrid with the fields; triangles get z = 0."""
+        from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+        from vtkmodules.vtkCommonCore import vtkPoints
+        from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
 
-    kind = ("triangle" if mesh.dimension == 2 else "tetra") if mesh.mid_nodes is None else (
-        "triangle6" if mesh.dimension == 2 else "tetra10")
-    return meshio.Mesh(
-        mesh.points.copy(),
-        [(kind, _all_nodes(mesh).copy())],
-        point_data={name: values.copy() for name, values in mesh.point_data.items()},
-        cell_data={name: [values.copy()] for name, values in mesh.cell_data.items()},
-    )
+        nodes = self._all_nodes().astype(np.int64)
+        points = np.zeros((len(self.points), 3))
+        points[:, : self.points.shape[1]] = self.points
+        grid = vtkUnstructuredGrid()
+        places = vtkPoints()
+        places.SetData(numpy_to_vtk(points, deep=True))
+        grid.SetPoints(places)
+        cells = vtkCellArray()
+        cells.SetData(
+            numpy_to_vtkIdTypeArray(np.arange(0, nodes.size + 1, nodes.shape[1], dtype=np.int64), deep=True),
+            numpy_to_vtkIdTypeArray(nodes.ravel(), deep=True),
+        )
+        (kind,) = (kind for kind, columns in _COLUMNS.items() if columns == nodes.shape[1])
+        grid.SetCells(kind, cells)
+        for data, attributes in ((self.point_data, grid.GetPointData()), (self.cell_data, grid.GetCellData())):
+            for name, values in data.items():
+                array = numpy_to_vtk(np.ascontiguousarray(values.reshape(len(values), -1)), deep=True)
+                array.SetName(name)
+                attributes.AddArray(array)
+        return grid
 
+    def to_pyvista(self: Any) -> Any:
+        """A pyvista.UnstructuredGrid with the fields; triangles get z = 0."""
+        import pyvista
 
-def to_vtk(mesh: Mesh) -> Any:
-    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-    from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
-
-    nodes = _all_nodes(mesh).astype(np.int64)
-    points = np.zeros((len(mesh.points), 3))
-    points[:, : mesh.dimension] = mesh.points
-    grid = vtkUnstructuredGrid()
-    places = vtkPoints()
-    places.SetData(numpy_to_vtk(points, deep=True))
-    grid.SetPoints(places)
-    cells = vtkCellArray()
-    cells.SetData(
-        numpy_to_vtkIdTypeArray(np.arange(0, nodes.size + 1, nodes.shape[1], dtype=np.int64), deep=True),
-        numpy_to_vtkIdTypeArray(nodes.ravel(), deep=True),
-    )
-    kind = {columns: kind for kind, columns in _COLUMNS.items()}[nodes.shape[1]]
-    grid.SetCells(kind, cells)
-    for data, attributes in ((mesh.point_data, grid.GetPointData()), (mesh.cell_data, grid.GetCellData())):
-        for name, values in data.items():
-            array = numpy_to_vtk(np.ascontiguousarray(values.reshape(len(values), -1)), deep=True)
-            array.SetName(name)
-            attributes.AddArray(array)
-    return grid
-
-
-def to_pyvista(mesh: Mesh) -> Any:
-    import pyvista
-
-    return pyvista.wrap(to_vtk(mesh))
+        return pyvista.wrap(self.to_vtk())

@@ -8,7 +8,7 @@ from typing import Any, Optional, Tuple
 import numpy as np
 
 from . import _core
-from ._arguments import Progress, Teller, exact_doubles, options_of, values_of
+from ._arguments import Progress, Teller, exact_doubles, options_of, points_of, values_of
 from ._mesh import Mesh
 
 
@@ -45,19 +45,10 @@ class Interpolator:
     """
 
     def __init__(
-        self,
-        points: Any,
-        cells: Any = None,
-        values: Any = None,
-        *,
-        fill_value: Any = np.nan,
-        outside: Optional[str] = None,
-        limit: float = np.inf,
-        rounding: str = "correct",
-        nonfinite_points: str = "nan",
-        threads: int = 0,
-        progress: Progress = None,
-    ) -> None:
+        self, points: Any, cells: Any = None, values: Any = None, *, fill_value: Any = np.nan,
+        outside: Optional[str] = None, limit: float = np.inf, rounding: str = "correct", nonfinite_points: str = "nan",
+        threads: int = 0, progress: Progress = None,
+    ) -> None:  # fmt: skip
         if values is None:
             # Interpolator(points or mesh, values), as SciPy has it.
             cells, values = None, cells
@@ -137,27 +128,19 @@ class Interpolator:
         d, nonfinite = self.mesh.dimension, self._nonfinite_points
         if len(args) == 1 and isinstance(args[0], tuple):
             args = args[0]
+        if len(args) not in (1, d):
+            _core.fail("number of coordinates", expected=f"points (..., {d}), or {d} arrays", found=str(len(args)))
         if len(args) == 1:
             points = exact_doubles(args[0], "points", nonfinite)
-            if points.ndim == 1:
-                points = points.reshape(-1, d) if points.size % d == 0 else points
+            if points.ndim == 1 and points.size % d == 0:
+                points = points.reshape(-1, d)
         else:
-            if len(args) != d:
-                _core.fail("number of coordinates", expected=f"points (..., {d}), or {d} arrays", found=str(len(args)))
             points = np.stack(np.broadcast_arrays(*(exact_doubles(a, "coordinates", nonfinite) for a in args)), axis=-1)
-        if points.ndim == 0 or points.shape[-1] != d:
-            _core.fail("shape of the points", expected=f"(..., {d}): {d} coordinates each", found=str(points.shape))
-        return points.reshape(-1, d), points.shape[:-1]
+        return points_of(points, d)
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        options = {
-            "fill_value": self._fill_value,
-            "outside": self._outside,
-            "limit": self._limit,
-            "rounding": self._rounding,
-            "nonfinite_points": self._nonfinite_points,
-            "threads": self._threads,
-        }
+        names = ("fill_value", "outside", "limit", "rounding", "nonfinite_points", "threads")
+        options = {name: getattr(self, f"_{name}") for name in names}
         return _unpickle, (self.mesh, self._values, options)
 
     def __repr__(self) -> str:

@@ -74,29 +74,19 @@ class Location:
         if outside not in ("nan", "nearest", "extrapolate"):
             _core.fail("what points outside get (outside=)", expected="nan, nearest or extrapolate", found=repr(outside))
         with Teller(progress) as tell:
-            begin, nodes, weights = _core.matrix(
-                self.mesh._core, self._points, self._cell, outside, float(limit), tell
-            )
+            begin, nodes, weights = _core.matrix(self.mesh._core, self._points, self._cell, outside, float(limit), tell)
         return csr_matrix((weights, nodes, begin), shape=(len(self._cell), len(self.mesh.points)))
 
     def sample(
-        self,
-        fields: Union[None, str, Sequence[str]] = None,
-        *,
-        outside: Optional[str] = None,
-        fill_value: float = np.nan,
-        limit: float = np.inf,
-        rounding: str = "correct",
-        threads: int = 0,
+        self, fields: Union[None, str, Sequence[str]] = None, *, outside: Optional[str] = None,
+        fill_value: float = np.nan, limit: float = np.inf, rounding: str = "correct", threads: int = 0,
         progress: Progress = None,
-    ) -> np.ndarray:
+    ) -> np.ndarray:  # fmt: skip
         """As `Mesh.sample` at these points, which are not located again."""
         # Points that are not finite are here only if they were to be outside.
         options = options_of(outside, fill_value, limit, rounding, threads, "nan")
-        with Teller(progress) as tell:
-            sampler = self.mesh._sampler(fields, tell)
-            rows = sampler.evaluate(self._points, self._cell, self._feature, options, tell)
-        return self.mesh._shaped(sampler, rows, fields, self._shape)
+        return self.mesh._sampled(fields, self._shape, progress, lambda sampler, tell: sampler.evaluate(
+            self._points, self._cell, self._feature, options, tell))  # fmt: skip
 
     def __len__(self) -> int:
         return len(self.cell)

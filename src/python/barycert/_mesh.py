@@ -6,13 +6,14 @@ import difflib
 import os
 import warnings
 from collections.abc import MutableMapping
-from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union, cast
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union, cast
 
 import numpy as np
 
 from . import _core
 from ._arguments import Progress, Teller, contiguous, count_of, exact_doubles, options_of, points_of, real, values_of
 from ._check import CheckReport, Repair
+from ._exchange import GivenBack, parts_of
 from ._location import Location
 
 Fields = Union[None, str, Sequence[str]]
@@ -42,7 +43,9 @@ class FieldData(MutableMapping):
         return array.reshape((self._count,) + self._shape(name, array.shape[1]))
 
     def _shape(self, name: str, components: int) -> Tuple[int, ...]:
-        return self._shapes.get(name, () if components == 1 else (components,))
+        """Of one value of that many components: as it was put in, if that fits."""
+        shape = self._shapes.get(name, ())
+        return shape if np.prod(shape, dtype=np.int64) == components else (components,)
 
     def __setitem__(self, name: str, values: Any) -> None:
         if not isinstance(name, str) or not name:
@@ -54,7 +57,7 @@ class FieldData(MutableMapping):
     def __delitem__(self, name: str) -> None:
         if name not in self:
             raise _no_field(name, self)
-        self._core.remove_field(name, self._of_cells)
+        self._core.set_field(name, None, self._of_cells)
         self._shapes.pop(name, None)
 
     def __contains__(self, name: object) -> bool:
@@ -100,18 +103,15 @@ class AllFields(MutableMapping):
         place = self._place(name)
         if place is None and isinstance(name, str):
             of, colon, rest = name.partition(":")
+            fits = [data for data in self._of.values() if np.shape(values)[:1] == (data._count,)]
             if colon and of in self._of:
                 place = self._of[of], rest
-            else:
-                fits = [data for data in self._of.values() if np.shape(values)[:1] == (data._count,)]
-                place = (fits[0], name) if len(fits) == 1 else None
+            elif len(fits) == 1:
+                place = fits[0], name
         if place is None:
-            _core.fail(
-                f"nodes or cells for field {name!r}",
-                expected=f"{self._of['point']._count} rows for nodes, or {self._of['cell']._count} for cells",
-                found=str(np.shape(values)),
-                remedy="put it into point_data or cell_data",
-            )
+            nodes, cells = (data._count for data in self._of.values())
+            _core.fail(f"nodes or cells for field {name!r}", expected=f"{nodes} rows for nodes, or {cells} for cells",
+                       found=str(np.shape(values)), remedy="put it into point_data or cell_data")
         place[0][place[1]] = values
 
     def __delitem__(self, name: str) -> None:
@@ -132,7 +132,7 @@ class AllFields(MutableMapping):
         return f"<fields: {', '.join(self)}>"
 
 
-class Mesh:
+class Mesh(GivenBack):
     """A mesh of triangles in the plane or of tetrahedra in space.
 
     Args:
@@ -155,19 +155,12 @@ class Mesh:
     """
 
     def __init__(
-        self,
-        points: Any,
-        cells: Any = None,
-        *,
-        point_data: Optional[Mapping[str, Any]] = None,
-        cell_data: Optional[Mapping[str, Any]] = None,
-        curved: str = "straight",
-    ) -> None:
+        self, points: Any, cells: Any = None, *, point_data: Optional[Mapping[str, Any]] = None,
+        cell_data: Optional[Mapping[str, Any]] = None, curved: str = "straight",
+    ) -> None:  # fmt: skip
         numbers: Optional[np.ndarray] = None
         notes: List[str] = []
         if cells is None or hasattr(cells, "simplices") or hasattr(cells, "triangles"):
-            from ._exchange import parts_of
-
             parts = parts_of(points if cells is None else cells)
             if cells is None:
                 points = parts.points
@@ -184,22 +177,24 @@ class Mesh:
         dimension = coordinates.shape[1]
         columns = (3, 6) if dimension == 2 else (4, 10)
         if indices.ndim != 2 or indices.shape[1] not in columns:
-            _core.fail(
-                "shape of the cells",
-                expected=f"(m, {columns[0]}), or (m, {columns[1]}) of second order, with {dimension} coordinates a point",
-                found=str(indices.shape),
-                remedy="triangles in space are no mesh; in a plane z = 0 pass points[:, :2]"
-                if dimension == 3 and indices.ndim == 2 and indices.shape[1] in (3, 6)
-                else "",
-            )
+            in_space = dimension == 3 and indices.ndim == 2 and indices.shape[1] in (3, 6)
+            _core.fail("shape of the cells", found=str(indices.shape),
+                       expected=f"(m, {columns[0]}), or (m, {columns[1]}) of second order, with {dimension} coordinates a point",
+                       remedy="triangles in space are no mesh; in a plane z = 0 pass points[:, :2]" if in_space else "")  # fmt: skip
         if indices.dtype.kind not in "iu":
             _core.fail("type of the cells", expected="integers", found=str(indices.dtype))
-        left = [] if numbers is None else cast(List[int], numbers.tolist())
-        core = _core.Mesh(coordinates, contiguous(indices, indices.dtype.newbyteorder("=")), left)
-        self._set_core(core, notes)
+        indices = contiguous(indices, indices.dtype.newbyteorder("="))
+        self._make(coordinates, indices, numbers, point_data or {}, cell_data or {}, notes)
         self._take_as_straight("", curved)
-        self.point_data.update(point_data or {})
-        self.cell_data.update(cell_data or {})
+
+    def _make(
+        self, points: np.ndarray, cells: np.ndarray, numbers: Optional[np.ndarray], point_data: Mapping[str, Any],
+        cell_data: Mapping[str, Any], notes: Sequence[str],
+    ) -> None:  # fmt: skip
+        left = [] if numbers is None else cast(List[int], numbers.tolist())
+        self._set_core(_core.Mesh(contiguous(points), cells, left), notes)
+        self.point_data.update(point_data)
+        self.cell_data.update(cell_data)
 
     def _set_core(self, core: _core.Mesh, notes: Sequence[str] = ()) -> None:
         self._core = core
@@ -294,7 +289,7 @@ class Mesh:
     @property
     def bounds(self) -> np.ndarray:
         """(d, 2): low and high along each axis, over the nodes of cells."""
-        return np.array(_core.bounds(self._core)).T
+        return np.array(_core.bounds(self._core)).T[: self.dimension]
 
     @property
     def certified(self) -> bool:
@@ -305,8 +300,8 @@ class Mesh:
     # What can be asked of it.
 
     def locate(
-        self, points: Any, *, nonfinite_points: str = "error", threads: int = 0, progress: Progress = None
-    ) -> Location:
+        self, points: Any, *, nonfinite_points: str = "error", threads: int = 0, progress: Progress = None,
+    ) -> Location:  # fmt: skip
         """The cell of each point: exact, and the same from run to run.
 
         Args:
@@ -330,8 +325,8 @@ class Mesh:
         return Location(self, rows, shape, cell, feature)
 
     def locate_all(
-        self, points: Any, *, nonfinite_points: str = "error", threads: int = 0, progress: Progress = None
-    ) -> Tuple[np.ndarray, np.ndarray]:
+        self, points: Any, *, nonfinite_points: str = "error", threads: int = 0, progress: Progress = None,
+    ) -> Tuple[np.ndarray, np.ndarray]:  # fmt: skip
         """Every cell that holds each of n points (in the order of points.reshape(-1, d)); `nonfinite_points` as for `locate`.
 
         Returns:
@@ -342,8 +337,8 @@ class Mesh:
             return _core.locate_all(self._core, rows, count_of(threads, "threads="), tell, nonfinite_points)
 
     def nearest(
-        self, points: Any, *, limit: float = np.inf, nonfinite_points: str = "error", progress: Progress = None
-    ) -> Tuple[np.ndarray, np.ndarray]:
+        self, points: Any, *, limit: float = np.inf, nonfinite_points: str = "error", progress: Progress = None,
+    ) -> Tuple[np.ndarray, np.ndarray]:  # fmt: skip
         """The nearest cell to each point: exact, the lowest index among those as near. `nonfinite_points`: "nan" takes
         points with a coordinate that is NaN, infinite or masked for such as are near no cell.
 
@@ -357,18 +352,10 @@ class Mesh:
         return cells.reshape(shape), distances.reshape(shape)
 
     def sample(
-        self,
-        points: Any,
-        fields: Fields = None,
-        *,
-        outside: Optional[str] = None,
-        fill_value: float = np.nan,
-        limit: float = np.inf,
-        rounding: str = "correct",
-        nonfinite_points: str = "error",
-        threads: int = 0,
+        self, points: Any, fields: Fields = None, *, outside: Optional[str] = None, fill_value: float = np.nan,
+        limit: float = np.inf, rounding: str = "correct", nonfinite_points: str = "error", threads: int = 0,
         progress: Progress = None,
-    ) -> np.ndarray:
+    ) -> np.ndarray:  # fmt: skip
         """Fields at points: each value is the exact interpolation in the owner, rounded once to nearest, ties to even.
 
         Args:
@@ -388,24 +375,13 @@ class Mesh:
         """
         rows, shape = points_of(points, self.dimension, nonfinite_points)
         options = options_of(outside, fill_value, limit, rounding, threads, nonfinite_points)
-        with Teller(progress) as tell:
-            sampler = self._sampler(fields, tell)
-            values = sampler.sample(rows, options, tell)
-        return self._shaped(sampler, values, fields, shape)
+        return self._sampled(fields, shape, progress, lambda sampler, tell: sampler.sample(rows, options, tell))
 
     def resample(
-        self,
-        shape: Union[int, Sequence[int]],
-        bounds: Any = None,
-        fields: Fields = None,
-        *,
-        outside: Optional[str] = None,
-        fill_value: float = np.nan,
-        limit: float = np.inf,
-        rounding: str = "correct",
-        threads: int = 0,
-        progress: Progress = None,
-    ) -> np.ndarray:
+        self, shape: Union[int, Sequence[int]], bounds: Any = None, fields: Fields = None, *,
+        outside: Optional[str] = None, fill_value: float = np.nan, limit: float = np.inf, rounding: str = "correct",
+        threads: int = 0, progress: Progress = None,
+    ) -> np.ndarray:  # fmt: skip
         """Fields on a regular grid, many times faster than point by point.
 
         Args:
@@ -418,18 +394,17 @@ class Mesh:
             numpy.meshgrid(x, y, z, indexing="ij"); otherwise as `sample`. In memory x runs fastest, as VTK has it:
             result.ravel(order="F") is the array of a vtkImageData.
         """
-        counts, low, high = self._grid(shape, bounds)
+        grid, counts = self._grid(shape, bounds)
         options = options_of(outside, fill_value, limit, rounding, threads)
-        with Teller(progress) as tell:
-            sampler = self._sampler(fields, tell)
-            values = sampler.on_grid(counts, low, high, options, tell)
-        flipped = self._shaped(sampler, values, fields, tuple(reversed(counts)))
+        flipped = self._sampled(fields, tuple(reversed(counts)), progress,
+                                lambda sampler, tell: sampler.on_grid(grid, options, tell))  # fmt: skip
         axes = tuple(reversed(range(self.dimension)))
         return flipped.transpose(axes + tuple(range(self.dimension, flipped.ndim)))
 
     def grid_axes(self, shape: Union[int, Sequence[int]], bounds: Any = None) -> List[np.ndarray]:
         """The coordinates of `resample`'s points along each axis, to the bit."""
-        return _core.grid_axes(*self._grid(shape, bounds))
+        grid, _ = self._grid(shape, bounds)
+        return [grid.coordinates(axis) for axis in range(self.dimension)]
 
     def gradient(self, field: Any, points: Any = None, *, progress: Progress = None) -> np.ndarray:
         """The gradient of a field of nodes, each number the exact one rounded once.
@@ -449,11 +424,8 @@ class Mesh:
             components = self.point_data[field].shape[1:] if field in self.point_data else ()
             return values.reshape(values.shape[:-1] + components + (self.dimension,))
         if self.mid_nodes is not None:
-            _core.fail(
-                "gradient in a cell of second order",
-                expected="points, as it is not the same everywhere in it",
-                remedy="pass points",
-            )
+            _core.fail("gradient in a cell of second order", expected="points, as it is not the same everywhere in it",
+                       remedy="pass points")  # fmt: skip
         if isinstance(field, str):
             if field not in self.point_data:
                 _core.fail("no such field of nodes", found=repr(field), expected=", ".join(self.point_data) or "none")
@@ -464,15 +436,9 @@ class Mesh:
         return gradients.reshape((len(self.cells),) + shape + (self.dimension,))
 
     def check(
-        self,
-        *,
-        delaunay: bool = False,
-        examples: int = 10,
-        contacts: int = 20,
-        verdict_only: bool = False,
-        threads: int = 0,
-        progress: Progress = None,
-    ) -> CheckReport:
+        self, *, delaunay: bool = False, examples: int = 10, contacts: int = 20, verdict_only: bool = False,
+        threads: int = 0, progress: Progress = None,
+    ) -> CheckReport:  # fmt: skip
         """Proves that the cells partition their domain, or finds why not: exact for all finite doubles.
 
         Args:
@@ -489,14 +455,9 @@ class Mesh:
         return CheckReport(core, self)
 
     def fix(
-        self,
-        *,
-        merge_within: float = 0.0,
-        nodes: bool = True,
-        cells: bool = True,
-        orientation: bool = True,
+        self, *, merge_within: float = 0.0, nodes: bool = True, cells: bool = True, orientation: bool = True,
         threads: int = 0,
-    ) -> Tuple[Mesh, Repair]:
+    ) -> Tuple[Mesh, Repair]:  # fmt: skip
         """A copy with what has one right answer repaired, and what was done. `check` says what the copy is.
 
         Args:
@@ -517,27 +478,9 @@ class Mesh:
         """
         self._core.write(os.fspath(path), comment, data)
 
-    def to_meshio(self) -> Any:
-        """A meshio.Mesh with the fields."""
-        from ._exchange import to_meshio
-
-        return to_meshio(self)
-
-    def to_vtk(self) -> Any:
-        """A vtkUnstructuredGrid with the fields; triangles get z = 0."""
-        from ._exchange import to_vtk
-
-        return to_vtk(self)
-
-    def to_pyvista(self) -> Any:
-        """A pyvista.UnstructuredGrid with the fields; triangles get z = 0."""
-        from ._exchange import to_pyvista
-
-        return to_pyvista(self)
-
     def __reduce__(self) -> Tuple[Any, ...]:
-        cells = self.cells if self.mid_nodes is None else np.hstack([self.cells, self.mid_nodes])
-        return _unpickle, (self.points, cells, self.cell_numbers, dict(self.point_data), dict(self.cell_data), self.notes)
+        parts = parts_of(self)
+        return _unpickle, (parts.points, parts.cells, parts.cell_numbers, parts.point_data, parts.cell_data, parts.notes)
 
     def __copy__(self) -> Mesh:
         return self.__deepcopy__({})
@@ -557,36 +500,30 @@ class Mesh:
 
     # For this package.
 
-    def _grid(self, shape: Union[int, Sequence[int]], bounds: Any) -> Tuple[List[int], List[float], List[float]]:
-        counts = [int(shape)] * self.dimension if np.ndim(shape) == 0 else [int(n) for n in shape]  # type: ignore
+    def _grid(self, shape: Union[int, Sequence[int]], bounds: Any) -> Tuple[_core.Grid, List[int]]:
+        d = self.dimension
+        counts = [int(shape)] * d if np.ndim(shape) == 0 else [int(n) for n in shape]  # type: ignore
         box = self.bounds if bounds is None else np.asarray(real(bounds, "bounds"), dtype=float)
-        if len(counts) != self.dimension or box.shape != (self.dimension, 2):
-            _core.fail(
-                "shape and bounds of the grid",
-                expected=f"{self.dimension} numbers of points, bounds ({self.dimension}, 2)",
-                found=f"{len(counts)}, bounds {box.shape}",
-            )
-        return counts, [float(x) for x in box[:, 0]], [float(x) for x in box[:, 1]]
+        if len(counts) != d or box.shape != (d, 2):
+            _core.fail("shape and bounds of the grid", expected=f"{d} numbers of points, bounds ({d}, 2)",
+                       found=f"{len(counts)}, bounds {box.shape}")
+        low, high = np.vstack([box, np.zeros((3 - d, 2))]).T
+        return _core.Grid(d, counts + [1] * (3 - d), low, high), counts
 
-    def _sampler(self, fields: Fields, tell: Any) -> _core.Sampler:
+    def _sampled(self, fields: Fields, shape: Tuple[int, ...], progress: Progress, ask: Callable) -> np.ndarray:
+        """The values of ask(sampler, tell) at points of that shape, as `sample` returns them."""
         if fields is not None and not isinstance(fields, str) and not list(fields):
             _core.fail("no fields", expected="a name, names, or None for all")
-        return self._core.sampler([] if fields is None else [fields] if isinstance(fields, str) else list(fields), tell)
-
-    def _shape_of(self, name: str, components: int) -> Tuple[int, ...]:
-        for data in (self.point_data, self.cell_data):
-            shape = data._shapes.get(name)
-            if shape is not None and int(np.prod(shape, dtype=np.int64)) == components:
-                return shape
-        return () if components == 1 else (components,)
-
-    def _shaped(self, sampler: _core.Sampler, values: np.ndarray, fields: Fields, shape: Tuple[int, ...]) -> np.ndarray:
+        names = [] if fields is None else [fields] if isinstance(fields, str) else list(fields)
+        with Teller(progress) as tell:
+            sampler = self._core.sampler(names, tell)
+            values = ask(sampler, tell)
         members: List[Tuple[str, Any, Tuple[int, ...]]] = []
         for name, components in sampler.fields:
-            own = self._shape_of(name, components)
             # Of two fields with one name that of the cells comes second.
-            taken = [member[0] for member in members]
-            members.append((f"cell:{name}" if name in taken else name, np.float64, own))
+            second = any(name == member[0] for member in members)
+            data = self._cell_data if second or name not in self._point_data else self._point_data
+            members.append((f"cell:{name}" if second else name, np.float64, data._shape(name, components)))
         if isinstance(fields, str) and len(members) == 1:
             return values.reshape(shape + members[0][2])
         if not members:
@@ -594,29 +531,16 @@ class Mesh:
         return values.view(np.dtype(members)).reshape(shape)
 
 
-def _unpickle(
-    points: np.ndarray,
-    cells: np.ndarray,
-    numbers: Optional[np.ndarray],
-    point_data: Dict[str, np.ndarray],
-    cell_data: Dict[str, np.ndarray],
-    notes: Sequence[str],
-) -> Mesh:
+def _unpickle(*parts: Any) -> Mesh:
     mesh = Mesh.__new__(Mesh)
-    left = [] if numbers is None else cast(List[int], numbers.tolist())
-    mesh._set_core(_core.Mesh(contiguous(points), contiguous(cells, np.int32), left), notes)
-    mesh.point_data.update(point_data)
-    mesh.cell_data.update(cell_data)
+    mesh._make(*parts)
     return mesh
 
 
 def read(
-    path: Union[str, os.PathLike],
-    step: Union[int, str, None] = None,
-    time: Optional[float] = None,
-    *,
+    path: Union[str, os.PathLike], step: Union[int, str, None] = None, time: Optional[float] = None, *,
     curved: str = "straight",
-) -> Mesh:
+) -> Mesh:  # fmt: skip
     """Reads a mesh with its fields: TetGen's or Triangle's files by their stem or any one of them; .msh of Gmsh;
     .mesh and .meshb of Medit; .vtu, .vtk, .vtp, .pvtu, .vtm and .pvd of VTK. The format is told by the contents.
 

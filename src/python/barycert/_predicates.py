@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Tuple
+from typing import Any, Tuple
 
 import numpy as np
 
@@ -10,22 +10,22 @@ from . import _core
 from ._arguments import exact_doubles
 
 
+def _broadcast(what: str, *shapes: Tuple[int, ...]) -> Tuple[int, ...]:
+    try:
+        return np.broadcast_shapes(*shapes)
+    except ValueError:
+        _core.fail(what, expected="shapes that broadcast", found=" and ".join(map(str, shapes)))
+
+
 def _signs(name: str, dimension: int, points: Tuple[Any, ...]) -> Any:
     arrays = [exact_doubles(p, f"points of {name}") for p in points]
     for i, array in enumerate(arrays):
         if array.ndim == 0 or array.shape[-1] != dimension:
-            _core.fail(
-                f"{name}: shape of argument {i}", expected=f"(..., {dimension})", found=str(array.shape)
-            )
-    try:
-        shape = np.broadcast_shapes(*(array.shape for array in arrays))
-    except ValueError:
-        _core.fail(f"{name}: shapes of the points", expected="shapes that broadcast",
-                   found=", ".join(str(array.shape) for array in arrays))
+            _core.fail(f"{name}: shape of argument {i}", expected=f"(..., {dimension})", found=str(array.shape))
+    shape = _broadcast(f"{name}: shapes of the points", *(array.shape for array in arrays))
     # Broadcast arrays have strides of 0; the module follows strides, so nothing is copied but shapes that do not flatten.
     rows = [_rows(np.broadcast_to(array, shape), dimension) for array in arrays]
-    function: Callable[..., np.ndarray] = getattr(_core, name)
-    return function(rows).reshape(shape[:-1])[()]
+    return getattr(_core, name)(rows).reshape(shape[:-1])[()]
 
 
 def _rows(array: np.ndarray, dimension: int) -> np.ndarray:
@@ -52,7 +52,7 @@ def orient3d(a: Any, b: Any, c: Any, d: Any) -> Any:
     """The exact sign of det(b - a, c - a, d - a): 1 if a, b, c turn counter-clockwise seen from d, which is the opposite of
     Shewchuk's orient3d; 0 in a plane.
 
-    Args: (..., 3), finite; shapes broadcast. Returns int8 of the leading shape. Raises Error for NaN and infinity.
+    Arguments (..., 3); otherwise as `orient2d`.
 
     >>> int(orient3d([0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 5e-324]))
     1
@@ -63,7 +63,7 @@ def orient3d(a: Any, b: Any, c: Any, d: Any) -> Any:
 def det3d(p: Any, q: Any, r: Any, s: Any, t: Any, u: Any) -> Any:
     """The exact sign of det(q - p, s - r, u - t).
 
-    Args: (..., 3), finite; shapes broadcast. Returns int8 of the leading shape. Raises Error for NaN and infinity.
+    Arguments (..., 3); otherwise as `orient2d`.
     """
     return _signs("det3d", 3, (p, q, r, s, t, u))
 
@@ -72,7 +72,7 @@ def incircle(a: Any, b: Any, c: Any, d: Any) -> Any:
     """1 if d lies inside the circle through a, b, c and these turn counter-clockwise; exact. With the other orientation the
     sign is the opposite; 0 on the circle.
 
-    Args: (..., 2), finite; shapes broadcast. Returns int8 of the leading shape. Raises Error for NaN and infinity.
+    Arguments (..., 2); otherwise as `orient2d`.
     """
     return _signs("incircle", 2, (a, b, c, d))
 
@@ -81,7 +81,7 @@ def insphere(a: Any, b: Any, c: Any, d: Any, e: Any) -> Any:
     """1 if e lies inside the sphere through a, b, c, d and orient3d(a, b, c, d) is 1; exact. With the other orientation the
     sign is the opposite; 0 on the sphere.
 
-    Args: (..., 3), finite; shapes broadcast. Returns int8 of the leading shape. Raises Error for NaN and infinity.
+    Arguments (..., 3); otherwise as `orient2d`.
     """
     return _signs("insphere", 3, (a, b, c, d, e))
 
@@ -89,16 +89,9 @@ def insphere(a: Any, b: Any, c: Any, d: Any, e: Any) -> Any:
 def _cases(vertices: Any, points: Any) -> Tuple[np.ndarray, np.ndarray, Tuple[int, ...]]:
     vertices, points = exact_doubles(vertices, "vertices"), exact_doubles(points, "points")
     if vertices.ndim < 2 or points.ndim < 1 or vertices.shape[-1] != points.shape[-1]:
-        _core.fail(
-            "shapes of vertices and points",
-            expected="(..., n, d) and (..., d)",
-            found=f"{vertices.shape} and {points.shape}",
-        )
-    try:
-        leading = np.broadcast_shapes(vertices.shape[:-2], points.shape[:-1])
-    except ValueError:
-        _core.fail("leading shapes of vertices and points", expected="shapes that broadcast",
-                   found=f"{vertices.shape[:-2]} and {points.shape[:-1]}")
+        _core.fail("shapes of vertices and points", expected="(..., n, d) and (..., d)",
+                   found=f"{vertices.shape} and {points.shape}")  # fmt: skip
+    leading = _broadcast("leading shapes of vertices and points", vertices.shape[:-2], points.shape[:-1])
     n, d = vertices.shape[-2:]
     return (
         np.ascontiguousarray(np.broadcast_to(vertices, leading + (n, d)).reshape(-1, n, d)),

@@ -108,21 +108,11 @@ class Verification:
 
 
 def verify(
-    mesh: Mesh,
-    points: Any,
-    values: Union[None, Any, Mapping[str, Any]] = None,
-    *,
-    cells: Any = None,
-    inside: Any = None,
-    fields: Fields = None,
-    tolerance: float = 1e-9,
-    exact: bool = False,
-    outside_value: Optional[float] = None,
-    examples: int = 5,
-    nonfinite_points: str = "error",
-    threads: int = 0,
+    mesh: Mesh, points: Any, values: Union[None, Any, Mapping[str, Any]] = None, *, cells: Any = None,
+    inside: Any = None, fields: Fields = None, tolerance: float = 1e-9, exact: bool = False,
+    outside_value: Optional[float] = None, examples: int = 5, nonfinite_points: str = "error", threads: int = 0,
     progress: Progress = None,
-) -> Verification:
+) -> Verification:  # fmt: skip
     """Holds what some tool says of points against the exact cells and values.
 
     Args:
@@ -166,10 +156,7 @@ def verify(
     if cells is not None and np.asarray(cells).dtype.kind not in "iu":
         _core.fail("type of cells", expected="integers", found=str(np.asarray(cells).dtype))
     with Teller(progress) as tell:
-        if claimed:
-            sampler = mesh._core.sampler(list(claimed), tell)
-        else:
-            sampler = mesh._core.bare_sampler(tell)
+        sampler = mesh._core.sampler(list(claimed), tell) if claimed else mesh._core.sampler_of(None, tell)
         table = None
         if claimed:
             parts = []

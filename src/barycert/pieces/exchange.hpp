@@ -13,9 +13,26 @@
 
 #include "barycert/result.hpp"
 
-class vtkMultiProcessController;
+namespace barycert::pieces {
 
-namespace barycert::in_vtk {
+/// How ranks reach each other: MPI, threads, or whatever an engine has. All ranks call the same function at the same
+/// time; but `send` and `receive` are of two ranks alone. No call needs memory of its own. Of one rank alone none is
+/// called but rank() and size().
+class Communicator {
+public:
+    virtual ~Communicator() = default;
+    virtual int rank() const = 0;
+    virtual int size() const = 0;
+    /// Each value becomes the least of all ranks.
+    virtual void least(std::span<double> values) = 0;
+    /// The bytes of all ranks one after the other, as many of each.
+    virtual void gather(std::span<const std::byte> mine, std::span<std::byte> all) = 0;
+    /// The bytes become those of that rank.
+    virtual void broadcast(std::span<std::byte> bytes, int from) = 0;
+    /// False if the message is lost.
+    virtual bool send(std::span<const std::byte> bytes, int to) = 0;
+    virtual bool receive(std::span<std::byte> bytes, int from) = 0;
+};
 
 /// The Status that `work` returns, or an Error for what it throws.
 template <class Work>
@@ -44,13 +61,11 @@ struct Parcels {
 
 class Exchange {
 public:
-    static constexpr std::size_t few = 8;
+    /// `chunk`: bytes of the longest message.
+    explicit Exchange(Communicator& ranks, std::size_t chunk = std::size_t{1} << 30) : ranks_(ranks), chunk_(chunk) {}
 
-    /// Of one process alone if there is no controller. `chunk`: bytes of the longest message.
-    explicit Exchange(vtkMultiProcessController* controller, std::size_t chunk = std::size_t{1} << 30);
-
-    int rank() const { return rank_; }
-    int size() const { return size_; }
+    int rank() const { return ranks_.rank(); }
+    int size() const { return ranks_.size(); }
 
     /// Done if it is on every rank; else the Error of the lowest rank that has one, the same on all.
     Status agree(const Status& mine);
@@ -60,11 +75,18 @@ public:
         return agree(attempt(work));
     }
 
-    /// Over all ranks, for each of the values, of which there are few.
-    void greatest(std::span<int> values);
+    /// Each value becomes the least of all ranks.
     void least(std::span<double> values);
-    /// The values of all ranks one after the other; `all` has room for them.
-    void gather(std::span<const double> mine, std::span<double> all);
+    /// One of each rank; `all` has room for them.
+    template <class T>
+    void gather(const T& mine, std::vector<T>& all) {
+        if (size() == 1) {
+            all[0] = mine;
+            return;
+        }
+        ranks_.gather(std::as_bytes(std::span(&mine, 1)), std::as_writable_bytes(std::span(all)));
+        gathered_ += sizeof(T) * all.size();
+    }
     /// Those of that rank; those of others are replaced, after room for them was found everywhere.
     Status broadcast(std::vector<unsigned char>& bytes, int from);
 
@@ -98,14 +120,11 @@ private:
     Status swap_sizes(std::span<const std::size_t> begin, std::vector<std::uint64_t>& sizes);
     Status swap_bytes(std::span<const std::byte> out, std::span<const std::size_t> out_begin, std::span<std::byte> in,
                       std::span<const std::size_t> in_begin, std::size_t width);
-    bool send(const std::byte* bytes, std::size_t count, int to);
-    bool receive(std::byte* bytes, std::size_t count, int from);
 
-    vtkMultiProcessController* controller_;
+    Communicator& ranks_;
     std::size_t chunk_;
-    int rank_ = 0, size_ = 1;
     std::vector<int> partners_;
     std::uint64_t sent_ = 0, gathered_ = 0;
 };
 
-}  // namespace barycert::in_vtk
+}  // namespace barycert::pieces

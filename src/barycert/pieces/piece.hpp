@@ -1,0 +1,65 @@
+/// A piece of a mesh as it lies in space, and what all pieces of the mesh are taken for.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "barycert/mesh.hpp"
+#include "barycert/pieces/cover.hpp"
+#include "barycert/pieces/exchange.hpp"
+
+namespace barycert::pieces {
+
+/// Tetrahedra, or triangles in a plane across an axis.
+struct Piece {
+    Mesh mesh;                         ///< of dimension 2 where triangles lie in a plane across an axis
+    int normal = -1;                   ///< of the plane of triangles: axis 0, 1 or 2; -1: tetrahedra
+    double plane = 0;                  ///< its coordinate on that axis
+    std::array<int, 3> axes{0, 1, 2};  ///< axis of space of each axis of the mesh
+
+    /// The point on the axes of the mesh; false if it lies off the plane of the mesh.
+    bool project(const double* x, double* point) const {
+        for (std::size_t i = 0; i < 3; ++i) point[i] = x[axes[i]];
+        return normal < 0 || x[normal] == plane;
+    }
+    /// The point in space of one on the axes of the mesh.
+    void place(const double* point, double* x) const {
+        x[axes[2]] = plane;
+        for (std::size_t a = 0; a < static_cast<std::size_t>(mesh.dimension); ++a) x[axes[a]] = point[a];
+    }
+    /// Its coordinates, on the axes of the mesh.
+    const double* node(Mesh::Index i) const {
+        return mesh.points.data() + static_cast<std::size_t>(mesh.dimension) * static_cast<std::size_t>(i);
+    }
+    Box box_of(std::size_t cell) const;
+
+    /// Leaves two of three coordinates of triangles in one plane: across the axis `of`, or any if it is -1. False if
+    /// they do not lie in such a plane.
+    bool flatten(int of);
+    /// Sorts the cells of the mesh by these numbers, one each; cells of the same number keep their order. Returns where
+    /// each was; nothing if they were sorted before.
+    std::vector<Mesh::Index> sort_cells(const std::vector<std::int64_t>& numbers);
+};
+
+/// What a data set is to be taken for, if it is a piece of a mesh: the pieces of one mesh are taken alike.
+struct Shape {
+    int dimension = 0;        ///< of the cells that count; 0: the highest of its own
+    int normal = -1;          ///< triangles: the axis across which their plane lies; -1: any
+    bool by_numbers = false;  ///< the mesh's cells are in the order of their numbers in the whole mesh
+
+    friend bool operator==(const Shape&, const Shape&) = default;
+};
+
+/// What a rank knows before its piece is read.
+struct PieceFacts {
+    int dimension = -1;      ///< the highest of its cells; -1: it has none
+    bool numbered = false;   ///< its cells have numbers in the whole mesh
+    Box triangles = no_box;  ///< of their vertices
+};
+
+/// All call it. The pieces have the highest dimension of any of them; triangles lie across one axis on all ranks, or
+/// they are not those of one mesh.
+Result<Shape> agree_on_shape(Exchange& exchange, const PieceFacts& mine);
+
+}  // namespace barycert::pieces
