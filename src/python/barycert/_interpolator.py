@@ -8,7 +8,7 @@ from typing import Any, Optional, Tuple
 import numpy as np
 
 from . import _core
-from ._arguments import Progress, Teller, exact_doubles, options_of, points_of, values_of
+from ._arguments import Progress, exact_doubles, options_of, points_of, telling, values_of
 from ._mesh import Mesh
 
 
@@ -76,7 +76,7 @@ class Interpolator:
         )
         if not self._complex and np.iscomplexobj(fill_value):
             _core.fail("fill_value", expected="a real number, as the values are", found=repr(fill_value))
-        with Teller(progress) as tell:
+        with telling(progress) as tell:
             self._sampler = self.mesh._core.sampler_of(self._rows, tell)
 
     @property
@@ -112,7 +112,7 @@ class Interpolator:
         """
         rows, shape = self._coordinates(args)
         finite = np.isfinite(rows).all(axis=1)
-        with Teller(progress) as tell:
+        with telling(progress) as tell:
             result = self._sampler.sample(rows, self._options, tell)
             if self._fill_after:
                 cell, _ = _core.locate(self.mesh._core, rows, self._threads, tell, self._nonfinite_points)
