@@ -362,11 +362,12 @@ class Mesh(GivenBack):
             points: (..., d), finite; or a data set with points.
             fields: a name for one field; names, or None for all fields. What is made of fields has names, too: "v.x",
                 "|v|", "grad(T)", "mean(c)".
-            outside: what points outside get: "nan", "fill" (`fill_value`), "raise" (an Error), "nearest" (point fields at
-                the nearest point of the mesh, cell fields of its cell), "extrapolate" (the function of the nearest cell).
-                Unless it is given: `fill_value`.
+            outside: what points outside get: "nan", "fill" (`fill_value`), "raise" (an Error that names the first),
+                "nearest" (point fields at the nearest point of the mesh, cell fields of its cell), "extrapolate" (the
+                function of the nearest cell). Unless it is given: `fill_value`.
             limit: with "nearest", farther points get NaN.
-            rounding: "plain" evaluates in plain double, in cells that are exact all the same.
+            rounding: "correct"; "plain" evaluates in plain double, in cells that are exact all the same.
+            threads, progress: as for `locate`.
             nonfinite_points: "nan": points with a coordinate that is NaN, infinite or masked get NaN, whatever points
                 outside get; "error": an Error that names the first.
 
