@@ -2,31 +2,39 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstring>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <utility>
 
+#include <vtkBitArray.h>
 #include <vtkCommunicator.h>
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkMultiProcessController.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include "barycert/environment.hpp"
+#include "barycert/pieces/array_kinds.hpp"
 #include "barycert/pieces/distribution.hpp"
 #include "barycert/sampler.hpp"
-#include "vtk/array_kinds.hpp"
-#include "vtk/probe_rows.hpp"
-#include "vtk/simplices.hpp"
+#include "vtk/exact_index.hpp"
+#include "vtk/probe_arrays.hpp"
 
 namespace barycert::in_vtk {
 
 namespace {
+
+using pieces::ArrayKind;
 
 constexpr int tag = 0x62617279;
 
@@ -40,6 +48,114 @@ vtkIdType count_of(std::span<const std::byte> bytes) {
     return static_cast<vtkIdType>(bytes.size());
 }
 
+// Of a tuple, where it stands in one piece; 0 elsewhere.
+std::size_t width(vtkAbstractArray& array) {
+    if (array.IsNumeric() == 0 || array.GetDataType() == VTK_BIT) return 0;
+    return static_cast<std::size_t>(array.GetDataTypeSize()) * static_cast<std::size_t>(array.GetNumberOfComponents());
+}
+
+// Of all arrays but the one of that name, and that of ghosts.
+std::vector<ArrayKind> kinds_of(vtkDataSetAttributes& attributes, const char* but) {
+    std::vector<ArrayKind> kinds;
+    for (int i = 0; i < attributes.GetNumberOfArrays(); ++i) {
+        vtkAbstractArray& array = *attributes.GetAbstractArray(i);
+        const char* const name = array.GetName();
+        if (name == nullptr && attributes.IsArrayAnAttribute(i) < 0) continue;
+        // Flags of ghosts tell of the pieces, and not of the mesh.
+        if (name != nullptr &&
+            (std::string_view(name) == but || vtkDataSetAttributes::GhostArrayName() == std::string_view(name)))
+            continue;
+        ArrayKind kind{.name = name != nullptr ? name : "",
+                       .named = name != nullptr,
+                       .type = array.GetDataType(),
+                       .type_name = vtkImageScalarTypeNameMacro(array.GetDataType()),
+                       .components = array.GetNumberOfComponents(),
+                       .role = attributes.IsArrayAnAttribute(i)};
+        if (array.HasAComponentName()) {
+            for (int c = 0; c < kind.components; ++c) {
+                const char* const of_component = array.GetComponentName(c);
+                kind.component_names.emplace_back(of_component != nullptr ? of_component : "");
+            }
+        }
+        kinds.push_back(std::move(kind));
+    }
+    return kinds;
+}
+
+// Why tuples of some array cannot be sent; empty if they can.
+std::string fault_of(const std::vector<ArrayKind>& kinds) {
+    for (const ArrayKind& kind : kinds) {
+        const auto made = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(kind.type));
+        if (made == nullptr || (made->IsNumeric() == 0 && kind.type != VTK_STRING))
+            return "the source has what cannot be sent from rank to rank: " + kind.text();
+    }
+    return {};
+}
+
+// A new one; real numbers are `outside`, others zero.
+vtkSmartPointer<vtkAbstractArray> make(const ArrayKind& kind, vtkIdType tuples, double outside) {
+    auto array = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(kind.type));
+    if (kind.named) array->SetName(kind.name.c_str());
+    array->SetNumberOfComponents(kind.components);
+    for (std::size_t c = 0; c < kind.component_names.size(); ++c)
+        array->SetComponentName(static_cast<vtkIdType>(c), kind.component_names[c].c_str());
+    prepare(*array, tuples, outside);
+    return array;
+}
+
+// Of arrays whose values stand one after the other, of bits, and of texts.
+struct ArrayTuples : pieces::Tuples {
+    void put(std::size_t tuple, std::vector<char>& bytes) const override;
+    const char* take(std::size_t tuple, const char* bytes, bool set) override;
+
+    std::vector<vtkSmartPointer<vtkAbstractArray>> arrays;
+};
+
+// Of a text its size goes first; a bit is a byte.
+void ArrayTuples::put(std::size_t tuple, std::vector<char>& bytes) const {
+    const auto append = [&](const char* from, std::size_t count) { bytes.insert(bytes.end(), from, from + count); };
+    for (vtkAbstractArray* const array : arrays) {
+        const auto components = static_cast<std::size_t>(array->GetNumberOfComponents());
+        if (const std::size_t size = width(*array); size > 0) {
+            append(static_cast<const char*>(array->GetVoidPointer(0)) + size * tuple, size);
+            continue;
+        }
+        for (std::size_t at = components * tuple; at < components * (tuple + 1); ++at) {
+            if (auto* const texts = vtkStringArray::SafeDownCast(array)) {
+                const std::string text = texts->GetValue(static_cast<vtkIdType>(at));
+                const std::uint64_t size = text.size();
+                append(reinterpret_cast<const char*>(&size), sizeof size);
+                append(text.data(), text.size());
+            } else {
+                bytes.push_back(vtkBitArray::SafeDownCast(array)->GetValue(static_cast<vtkIdType>(at)) != 0 ? 1 : 0);
+            }
+        }
+    }
+}
+
+const char* ArrayTuples::take(std::size_t tuple, const char* bytes, bool set) {
+    for (vtkAbstractArray* const array : arrays) {
+        const auto components = static_cast<std::size_t>(array->GetNumberOfComponents());
+        if (const std::size_t size = width(*array); size > 0) {
+            if (set) std::memcpy(static_cast<char*>(array->GetVoidPointer(0)) + size * tuple, bytes, size);
+            bytes += size;
+            continue;
+        }
+        for (std::size_t at = components * tuple; at < components * (tuple + 1); ++at) {
+            std::uint64_t size = 1;
+            if (auto* const texts = vtkStringArray::SafeDownCast(array)) {
+                std::memcpy(&size, bytes, sizeof size);
+                bytes += sizeof size;
+                if (set) texts->SetValue(static_cast<vtkIdType>(at), vtkStdString(std::string(bytes, size)));
+            } else if (set) {
+                vtkBitArray::SafeDownCast(array)->SetValue(static_cast<vtkIdType>(at), *bytes);
+            }
+            bytes += size;
+        }
+    }
+    return bytes;
+}
+
 class Probe {
 public:
     Probe(pieces::Exchange& exchange, const ProbeSettings& settings, vtkDataSet* input, vtkDataSet* source,
@@ -49,7 +165,7 @@ public:
     Status run(const Status& ready, vtkDataSet* output) {
         if (Status done = agree_on_cells(ready); !done) return done;
         if (Status done = index_piece(); !done) return done;
-        if (Status done = agree_on_arrays(); !done) return done;
+        if (Status done = agree_on_arrays(exchange_, index_->locator.has_value(), kinds_); !done) return done;
         pieces::Distribution distribution(exchange_, *index_, {count_, [&](std::size_t i, double* x) {
                                                                    input_->GetPoint(static_cast<vtkIdType>(i), x);
                                                                }});
@@ -122,31 +238,6 @@ private:
         });
     }
 
-    // Those of the lowest rank that has cells. Ranks without cells need not have them.
-    Status agree_on_arrays() {
-        const bool has_cells = index_->locator.has_value();
-        double lowest = has_cells ? exchange_.rank() : exchange_.size();
-        exchange_.least({&lowest, 1});
-        const int from = lowest < exchange_.size() ? static_cast<int>(lowest) : 0;
-        std::vector<unsigned char> bytes;
-        Status read = exchange_.everywhere([&]() -> Status {
-            if (exchange_.rank() == from) bytes = to_bytes(kinds_);
-            return Done{};
-        });
-        if (!read) return read;
-        if (Status done = exchange_.broadcast(bytes, from); !done) return done;
-        return exchange_.everywhere([&]() -> Status {
-            std::vector<ArrayKind> kinds = kinds_from(bytes);
-            if (has_cells) {
-                if (std::string differs = difference(kinds_, kinds); !differs.empty())
-                    return Error{.what = "the source has other arrays than that of rank " + std::to_string(from) +
-                                         ": " + differs};
-            }
-            kinds_ = std::move(kinds);
-            return Done{};
-        });
-    }
-
     // At this rank's points, and then at those that it is asked for.
     Status sample(pieces::Distribution& distribution) {
         return exchange_.everywhere([&]() -> Status {
@@ -171,9 +262,12 @@ private:
             }
             // Arrays of a rank without cells are not those of the others.
             for (const ArrayKind& kind : kinds_) {
-                vtkAbstractArray* const own = index_->locator ? kind.in(*scratch_->GetPointData()) : nullptr;
+                vtkAbstractArray* const own =
+                    index_->locator
+                        ? array_in(*scratch_->GetPointData(), kind.named ? kind.name.c_str() : nullptr, kind.role)
+                        : nullptr;
                 columns_.arrays.push_back(
-                    own != nullptr ? own : kind.make(static_cast<vtkIdType>(count_), settings_.outside).Get());
+                    own != nullptr ? own : make(kind, static_cast<vtkIdType>(count_), settings_.outside).Get());
             }
             report_.mask = arrays_->mask();
             return Done{};

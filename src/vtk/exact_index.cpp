@@ -13,7 +13,6 @@
 #include <vtkTypeInt64Array.h>
 
 #include "barycert/environment.hpp"
-#include "vtk/simplices.hpp"
 
 namespace barycert::in_vtk {
 

@@ -99,4 +99,9 @@ private:
     std::size_t columns_ = 0;
 };
 
+/// Samples the arrays' choices at all points of `input`, and writes what is found. Memory for rows does not grow with
+/// the number of points.
+Status sample_data_set(const Sampler& sampler, const ExactIndex& index, vtkDataSet& input, const SampleOptions& options,
+                       double tolerance, ProbeArrays& arrays);
+
 }  // namespace barycert::in_vtk

@@ -1,4 +1,4 @@
-#include "vtk/probe_rows.hpp"
+#include "vtk/probe_arrays.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "vtk/simplices.hpp"
+#include "vtk/exact_index.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -30,7 +30,7 @@
 
 #include "barycert/check.hpp"
 #include "barycert/report.hpp"
-#include "vtk/simplices.hpp"
+#include "vtk/exact_index.hpp"
 
 using namespace barycert;
 

@@ -20,7 +20,6 @@
 #include "barycert/environment.hpp"
 #include "vtk/exact_index.hpp"
 #include "vtk/probe_arrays.hpp"
-#include "vtk/probe_rows.hpp"
 
 using namespace barycert;
 

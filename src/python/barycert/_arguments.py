@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import operator
-from typing import Any, Callable, Optional, Tuple, Union
+from typing import Any, Callable, Iterator, Optional, Tuple, Union
 
 import numpy as np
 
@@ -100,39 +101,32 @@ def options_of(
     return _core.SampleOptions(outside, float(fill_value), float(limit), rounding, count_of(threads, "threads="), nonfinite_points)
 
 
-class Teller:
-    """Who is told of progress, for a `with` statement: None, a callable, or True for tqdm where that is installed."""
+@contextlib.contextmanager
+def telling(progress: Progress) -> Iterator[Optional[Callable[[str, int, int], Any]]]:
+    """Who is told of progress: None, a callable, or True for tqdm where that is installed."""
+    bar: Any = None
+    told = ""
 
-    def __init__(self, progress: Progress) -> None:
-        self._bar: Any = None
-        self._stage = ""
-        self.callable: Optional[Callable[[str, int, int], Any]] = None
-        if progress is True:
-            try:
-                from tqdm.auto import tqdm
-            except ImportError:
-                return
-            self._new_bar = tqdm
-            self.callable = self._show
-        elif progress is not None and progress is not False:
-            if not callable(progress):
-                _core.fail("progress=", expected="None, True or a callable of (stage, done, total)", found=repr(progress))
-            self.callable = progress
+    def show(stage: str, done: int, total: int) -> None:
+        nonlocal bar, told
+        if stage != told or bar is None:
+            if bar is not None:
+                bar.close()
+            bar, told = tqdm(total=total or None, desc=stage, unit_scale=True, leave=False), stage
+        bar.update(done - bar.n)
 
-    def _show(self, stage: str, done: int, total: int) -> None:
-        if stage != self._stage or self._bar is None:
-            self._close()
-            self._stage = stage
-            self._bar = self._new_bar(total=total or None, desc=stage, unit_scale=True, leave=False)
-        self._bar.update(done - self._bar.n)
+    tell: Any = None if progress is False else progress
+    if progress is True:
+        try:
+            from tqdm.auto import tqdm
 
-    def _close(self) -> None:
-        if self._bar is not None:
-            self._bar.close()
-            self._bar = None
-
-    def __enter__(self) -> Optional[Callable[[str, int, int], Any]]:
-        return self.callable
-
-    def __exit__(self, *_: object) -> None:
-        self._close()
+            tell = show
+        except ImportError:
+            tell = None
+    if tell is not None and not callable(tell):
+        _core.fail("progress=", expected="None, True or a callable of (stage, done, total)", found=repr(progress))
+    try:
+        yield tell
+    finally:
+        if bar is not None:
+            bar.close()

@@ -9,7 +9,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Union
 import numpy as np
 
 from . import _core
-from ._arguments import Progress, Teller, count_of
+from ._arguments import Progress, count_of, telling
 from ._mesh import Mesh
 
 Kernel = Union[Callable[[np.ndarray, np.ndarray], Any], str, os.PathLike]
@@ -131,7 +131,7 @@ def audit(
             # The loader of shared libraries looks elsewhere for a name without a folder.
             libraries.append(os.path.abspath(text)) if is_path else catalogue.append(text)
     named = meshes.items() if isinstance(meshes, Mapping) else ((f"mesh{i}", mesh) for i, mesh in enumerate(meshes))
-    with Teller(progress) as tell:
+    with telling(progress) as tell:
         core = _core.audit(
             callable_kernel, simplex, name or "", declares_degenerate, tolerance, libraries, catalogue, contained,
             count_of(count, "count="), count_of(seed, "seed="),

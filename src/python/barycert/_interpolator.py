@@ -8,7 +8,7 @@ from typing import Any, Optional, Tuple
 import numpy as np
 
 from . import _core
-from ._arguments import Progress, Teller, exact_doubles, options_of, points_of, values_of
+from ._arguments import Progress, exact_doubles, options_of, points_of, telling, values_of
 from ._mesh import Mesh
 
 
@@ -29,13 +29,10 @@ class Interpolator:
         values: (n, ...) real or complex numbers at the nodes. float32 is converted, which is exact; results are float64
             or complex128.
         fill_value: what points outside get.
-        outside: instead of that: "nan"; "raise": an Error that names the first such point; "nearest": the value at the
-            nearest point of the mesh; "extrapolate": that of the function of the nearest cell.
-        limit: with "nearest", farther points get NaN.
+        outside: instead of that "nan", "raise", "nearest" or "extrapolate"; it and limit, rounding, threads: as for
+            `Mesh.sample`.
         nonfinite_points: "nan": points with a coordinate that is NaN, infinite or masked get NaN, also where `fill_value`
             is another number, and `nonfinite_count` counts them; "error": an Error that names the first.
-        rounding: "correct"; or "plain": evaluated in plain double, in cells that are exact all the same.
-        threads: 0 for as many as the machine has.
 
     Each value is the exact interpolation in the owner, the lowest cell that contains the point, rounded once to nearest,
     ties to even, for real and imaginary part alike; so it does not depend on threads, order or machine. A component is NaN
@@ -76,7 +73,7 @@ class Interpolator:
         )
         if not self._complex and np.iscomplexobj(fill_value):
             _core.fail("fill_value", expected="a real number, as the values are", found=repr(fill_value))
-        with Teller(progress) as tell:
+        with telling(progress) as tell:
             self._sampler = self.mesh._core.sampler_of(self._rows, tell)
 
     @property
@@ -112,7 +109,7 @@ class Interpolator:
         """
         rows, shape = self._coordinates(args)
         finite = np.isfinite(rows).all(axis=1)
-        with Teller(progress) as tell:
+        with telling(progress) as tell:
             result = self._sampler.sample(rows, self._options, tell)
             if self._fill_after:
                 cell, _ = _core.locate(self.mesh._core, rows, self._threads, tell, self._nonfinite_points)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _core
-from ._arguments import Progress, Teller, options_of
+from ._arguments import Progress, options_of, telling
 
 if TYPE_CHECKING:
     from ._mesh import Mesh
@@ -73,7 +73,7 @@ class Location:
 
         if outside not in ("nan", "nearest", "extrapolate"):
             _core.fail("what points outside get (outside=)", expected="nan, nearest or extrapolate", found=repr(outside))
-        with Teller(progress) as tell:
+        with telling(progress) as tell:
             begin, nodes, weights = _core.matrix(self.mesh._core, self._points, self._cell, outside, float(limit), tell)
         return csr_matrix((weights, nodes, begin), shape=(len(self._cell), len(self.mesh.points)))
 

@@ -11,7 +11,7 @@ from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optio
 import numpy as np
 
 from . import _core
-from ._arguments import Progress, Teller, contiguous, count_of, exact_doubles, options_of, points_of, real, values_of
+from ._arguments import Progress, contiguous, count_of, exact_doubles, options_of, points_of, real, telling, values_of
 from ._check import CheckReport, Repair
 from ._exchange import GivenBack, parts_of
 from ._location import Location
@@ -320,7 +320,7 @@ class Mesh(GivenBack):
         if rows.flags.writeable and not made_here:
             rows = rows.copy()
         rows.flags.writeable = False
-        with Teller(progress) as tell:
+        with telling(progress) as tell:
             cell, feature = _core.locate(self._core, rows, count_of(threads, "threads="), tell, nonfinite_points)
         return Location(self, rows, shape, cell, feature)
 
@@ -333,7 +333,7 @@ class Mesh(GivenBack):
             begin (n + 1) int64 and cells int32: those of point i are cells[begin[i]:begin[i + 1]], ascending.
         """
         rows, _ = points_of(points, self.dimension, nonfinite_points)
-        with Teller(progress) as tell:
+        with telling(progress) as tell:
             return _core.locate_all(self._core, rows, count_of(threads, "threads="), tell, nonfinite_points)
 
     def nearest(
@@ -347,7 +347,7 @@ class Mesh(GivenBack):
             where there is no cell.
         """
         rows, shape = points_of(points, self.dimension, nonfinite_points)
-        with Teller(progress) as tell:
+        with telling(progress) as tell:
             cells, distances = _core.nearest(self._core, rows, float(limit), tell, nonfinite_points)
         return cells.reshape(shape), distances.reshape(shape)
 
@@ -362,11 +362,12 @@ class Mesh(GivenBack):
             points: (..., d), finite; or a data set with points.
             fields: a name for one field; names, or None for all fields. What is made of fields has names, too: "v.x",
                 "|v|", "grad(T)", "mean(c)".
-            outside: what points outside get: "nan", "fill" (`fill_value`), "raise" (an Error), "nearest" (point fields at
-                the nearest point of the mesh, cell fields of its cell), "extrapolate" (the function of the nearest cell).
-                Unless it is given: `fill_value`.
+            outside: what points outside get: "nan", "fill" (`fill_value`), "raise" (an Error that names the first),
+                "nearest" (point fields at the nearest point of the mesh, cell fields of its cell), "extrapolate" (the
+                function of the nearest cell). Unless it is given: `fill_value`.
             limit: with "nearest", farther points get NaN.
-            rounding: "plain" evaluates in plain double, in cells that are exact all the same.
+            rounding: "correct"; "plain" evaluates in plain double, in cells that are exact all the same.
+            threads, progress: as for `locate`.
             nonfinite_points: "nan": points with a coordinate that is NaN, infinite or masked get NaN, whatever points
                 outside get; "error": an Error that names the first.
 
@@ -431,7 +432,7 @@ class Mesh(GivenBack):
                 _core.fail("no such field of nodes", found=repr(field), expected=", ".join(self.point_data) or "none")
             field = self.point_data[field]
         values, shape = values_of(field, len(self.points), "values")
-        with Teller(progress) as tell:
+        with telling(progress) as tell:
             gradients = self._core.gradients(values, tell)
         return gradients.reshape((len(self.cells),) + shape + (self.dimension,))
 
@@ -447,7 +448,7 @@ class Mesh(GivenBack):
             verdict_only: stop at the first defect that breaks the certificate.
             progress: called with the name of each stage, 0, 0.
         """
-        with Teller(progress) as tell:
+        with telling(progress) as tell:
             core = _core.check(
                 self._core, delaunay, count_of(examples, "examples="), count_of(contacts, "contacts="), verdict_only,
                 count_of(threads, "threads="), tell,
@@ -515,7 +516,7 @@ class Mesh(GivenBack):
         if fields is not None and not isinstance(fields, str) and not list(fields):
             _core.fail("no fields", expected="a name, names, or None for all")
         names = [] if fields is None else [fields] if isinstance(fields, str) else list(fields)
-        with Teller(progress) as tell:
+        with telling(progress) as tell:
             sampler = self._core.sampler(names, tell)
             values = ask(sampler, tell)
         members: List[Tuple[str, Any, Tuple[int, ...]]] = []

@@ -8,7 +8,7 @@ from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 import numpy as np
 
 from . import _core
-from ._arguments import Progress, Teller, contiguous, count_of, exact_doubles, points_of
+from ._arguments import Progress, contiguous, count_of, exact_doubles, points_of, telling
 from ._location import Feature
 from ._mesh import Fields, Mesh
 
@@ -155,7 +155,7 @@ def verify(
 
     if cells is not None and np.asarray(cells).dtype.kind not in "iu":
         _core.fail("type of cells", expected="integers", found=str(np.asarray(cells).dtype))
-    with Teller(progress) as tell:
+    with telling(progress) as tell:
         sampler = mesh._core.sampler(list(claimed), tell) if claimed else mesh._core.sampler_of(None, tell)
         table = None
         if claimed:
