@@ -393,7 +393,7 @@ TEST(EveryEnvironment, Files) {
             io::VtiGrid grid;
             grid.origin = {-unit, 0.1, 3 * unit};
             grid.spacing = {unit, 0x1p-1024, 0.3};
-            const auto vti = io::VtiWriter::open(folder.path("grid.vti"), grid, {{"a", 1, io::VtiType::float64}});
+            const auto vti = io::VtiWriter::open(folder.path("grid.vti"), grid, {{"a", 1, io::NumberType::float64}});
             out.add(vti.has_value());
             if (vti) {
                 const double value[1] = {unit};

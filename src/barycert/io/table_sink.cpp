@@ -5,7 +5,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/vtk/point_rows.hpp"
+#include "barycert/io/vtk/out_file.hpp"
 
 namespace barycert {
 namespace io {

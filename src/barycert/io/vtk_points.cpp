@@ -7,23 +7,20 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/point_columns.hpp"
-#include "barycert/io/vtk/grid_to_mesh.hpp"
-#include "barycert/io/vtk/read_grid.hpp"
+#include "barycert/io/vtk/raw_grid.hpp"
 
 namespace barycert::io {
 namespace {
 
 /// Integers as such, where int64 holds them.
 void make_integers(RawArray& array) {
-    const std::vector<double>& numbers = array.field.data;
-    const bool fit = std::all_of(numbers.begin(), numbers.end(), [](double x) { return x >= -0x1p63 && x < 0x1p63; });
-    if (!array.is_whole || !array.fault.empty() || array.has_labels || array.field.components != 1 || !fit) return;
+    if (!array.is_whole() || !array.fault.empty() || array.has_labels() || array.components != 1) return;
+    const std::vector<double>& numbers = array.numbers();
+    if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return x >= -0x1p63 && x < 0x1p63; })) return;
     std::vector<std::int64_t> integers;
     integers.reserve(numbers.size());
     for (const double x : numbers) integers.push_back(static_cast<std::int64_t>(x));
-    array.labels = std::move(integers);
-    array.has_labels = true;
-    array.field.data = {};
+    array.values = std::move(integers);
 }
 
 Result<PointTable> read_table(const std::string& path, bool arrays, NonfinitePoints nonfinite) {
@@ -44,7 +41,7 @@ Result<PointTable> read_table(const std::string& path, bool arrays, NonfinitePoi
     for (RawArray& array : grid->point_arrays) make_integers(array);
     take_fields(grid->point_arrays, "point array", path, table.fields, &table.labels, table.notes);
     table.unread = std::move(grid->unread_arrays);
-    if (grid->narrow_points) table.notes.push_back({Note::Kind::converted, "float32 to double: the coordinates", path});
+    note_narrow_points(*grid, path, table.notes);
     return table;
 }
 

@@ -44,20 +44,20 @@ public:
     static Result<std::unique_ptr<TableSink>> open(const std::string& path, const TableFormat& format,
                                                    const Grid& grid) {
         std::unique_ptr<VtiSink> out(new VtiSink);
-        std::vector<io::VtiArray> arrays;
+        std::vector<io::ArrayFormat> arrays;
         for (const TableField& f : format.fields) {
-            arrays.push_back({f.name, f.components, io::VtiType::float64});
+            arrays.push_back({f.name, f.components, io::NumberType::float64});
             out->components_.push_back(static_cast<std::size_t>(f.components));
             out->columns_ += out->components_.back();
         }
-        if (format.distances) arrays.push_back({"distance", 1, io::VtiType::float64});
-        arrays.push_back({"vtkValidPointMask", 1, io::VtiType::int8});
-        arrays.push_back({"cell", 1, io::VtiType::int32});
+        if (format.distances) arrays.push_back({"distance", 1, io::NumberType::float64});
+        arrays.push_back({"vtkValidPointMask", 1, io::NumberType::int8});
+        arrays.push_back({"cell", 1, io::NumberType::int32});
         for (const ColumnFormat& column : format.carried) {
             if (column.type == Column::Type::text)
                 return no_place(column, path, "numbers", "write .csv, or leave the label out of --fields");
             const bool integer = column.type == Column::Type::integer;
-            arrays.push_back({column.name, 1, integer ? io::VtiType::int64 : io::VtiType::float64});
+            arrays.push_back({column.name, 1, integer ? io::NumberType::int64 : io::NumberType::float64});
         }
         auto file = io::VtiWriter::open(path, {grid.counts, grid.origin, grid.spacing}, arrays, format.vtk_data);
         if (!file) return file.error();

@@ -18,16 +18,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<io::VtiArray> four{{"vtkValidPointMask", 1, io::VtiType::int8},
-                                     {"cell", 1, io::VtiType::int32},
-                                     {"u <v>", 3, io::VtiType::float64},
-                                     {"T", 1, io::VtiType::float64}};
+const std::vector<io::ArrayFormat> four{{"vtkValidPointMask", 1, io::NumberType::int8},
+                                     {"cell", 1, io::NumberType::int32},
+                                     {"u <v>", 3, io::NumberType::float64},
+                                     {"T", 1, io::NumberType::float64}};
 
-std::vector<Bytes> data_of(base::Random& random, const std::vector<io::VtiArray>& arrays, std::size_t points) {
+std::vector<Bytes> data_of(base::Random& random, const std::vector<io::ArrayFormat>& arrays, std::size_t points) {
     std::vector<Bytes> data;
-    for (const io::VtiArray& array : arrays) {
-        const std::size_t size = array.type == io::VtiType::int8 || array.type == io::VtiType::uint8      ? 1
-                                 : array.type == io::VtiType::int32 || array.type == io::VtiType::float32 ? 4
+    for (const io::ArrayFormat& array : arrays) {
+        const std::size_t size = array.type == io::NumberType::int8 || array.type == io::NumberType::uint8      ? 1
+                                 : array.type == io::NumberType::int32 || array.type == io::NumberType::float32 ? 4
                                                                                                           : 8;
         data.push_back(any_bytes(random, points * size * static_cast<std::size_t>(array.components)));
     }
@@ -71,7 +71,7 @@ TEST(VtiWriter, nothing_appears_before_the_commit) {
     put(folder / "a.vti", "old");
     {
         auto writer =
-            io::VtiWriter::open(folder / "a.vti", {{2, 2, 1}, {}, {1, 1, 0}}, {{"T", 1, io::VtiType::float64}});
+            io::VtiWriter::open(folder / "a.vti", {{2, 2, 1}, {}, {1, 1, 0}}, {{"T", 1, io::NumberType::float64}});
         ASSERT_TRUE(writer);
         const std::vector<double> values{1, 2, 3};
         ASSERT_TRUE((*writer)->write(0, std::as_bytes(std::span(values))));
@@ -98,7 +98,7 @@ TEST(VtiWriter, no_arrays) {
 TEST(VtiWriter, what_is_refused) {
     const TemporaryFolder folder;
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    const auto refused = [&](const io::VtiGrid& grid, const std::vector<io::VtiArray>& arrays, const std::string& what,
+    const auto refused = [&](const io::VtiGrid& grid, const std::vector<io::ArrayFormat>& arrays, const std::string& what,
                              const std::string& found) {
         const auto writer = io::VtiWriter::open(folder / "a.vti", grid, arrays);
         ASSERT_FALSE(writer) << what;
@@ -114,17 +114,17 @@ TEST(VtiWriter, what_is_refused) {
     refused({{2, 2, 2}, {}, {1, 0, 1}}, {}, "the spacing along axis 1", "0");
     refused({{2, 2, 2}, {}, {1, 1, -1}}, {}, "the spacing along axis 2", "-1");
     refused({{1, 1, 1}, {}, {nan, 1, 1}}, {}, "the spacing along axis 0", "nan");
-    refused(good, {{"", 1, io::VtiType::int8}}, "the name of an array", "none");
-    refused(good, {{"a\x01", 1, io::VtiType::int8}}, "the name of an array", "\"a\x01\"");
-    refused(good, {{"a", 0, io::VtiType::int8}}, "the components of array \"a\"", "0");
-    refused(good, {{"a", 1, io::VtiType::int8}, {"b", 1, io::VtiType::int8}, {"a", 1, io::VtiType::int8}},
+    refused(good, {{"", 1, io::NumberType::int8}}, "the name of an array", "none");
+    refused(good, {{"a\x01", 1, io::NumberType::int8}}, "the name of an array", "\"a\x01\"");
+    refused(good, {{"a", 0, io::NumberType::int8}}, "the components of array \"a\"", "0");
+    refused(good, {{"a", 1, io::NumberType::int8}, {"b", 1, io::NumberType::int8}, {"a", 1, io::NumberType::int8}},
             "the names of arrays", "\"a\" twice");
-    refused({{2147483647, 2147483647, 2}, {}, {1, 1, 1}}, {{"a", 1, io::VtiType::float64}}, "the size of the arrays",
+    refused({{2147483647, 2147483647, 2}, {}, {1, 1, 1}}, {{"a", 1, io::NumberType::float64}}, "the size of the arrays",
             "more");
-    refused({{2147483647, 2147483647, 1}, {}, {1, 1, 1}}, {{"a", 2147483647, io::VtiType::float64}},
+    refused({{2147483647, 2147483647, 1}, {}, {1, 1, 1}}, {{"a", 2147483647, io::NumberType::float64}},
             "the size of the arrays", "more");
     EXPECT_FALSE(io::VtiWriter::open(folder / "none/a.vti", good, {}));
-    auto writer = io::VtiWriter::open(folder / "a.vti", good, {{"a", 1, io::VtiType::int8}});
+    auto writer = io::VtiWriter::open(folder / "a.vti", good, {{"a", 1, io::NumberType::int8}});
     ASSERT_TRUE(writer);
     const Bytes bytes(9);
     EXPECT_FALSE((*writer)->write(1, bytes));
@@ -162,7 +162,7 @@ TEST(VtiWriter, pipes) {
 /// More than 2^32 bytes, of which the file system keeps those that are not zero.
 TEST(VtiWriter, sizes_beyond_32_bits) {
     const TemporaryFolder folder;
-    const std::vector<io::VtiArray> arrays{{"a", 1, io::VtiType::int8}, {"b", 1, io::VtiType::float64}};
+    const std::vector<io::ArrayFormat> arrays{{"a", 1, io::NumberType::int8}, {"b", 1, io::NumberType::float64}};
     auto writer = io::VtiWriter::open(folder / "a.vti", {{65536, 65537, 1}, {}, {1, 1, 1}}, arrays);
     ASSERT_TRUE(writer);
     const std::string head_of_b = "offset=\"4295032840\"";  // 65536 * 65537 + 8

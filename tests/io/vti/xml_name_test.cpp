@@ -1,4 +1,4 @@
-#include "barycert/io/vti/xml_name.hpp"
+#include "barycert/io/vtk/out_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -123,7 +123,7 @@ TEST(BadVtkFiles, legacy) {
     const char* const data_types = "double, float, int and the like";
     for (const Change& change : std::vector<Change>{
              {"POINTS 4", "POINTS 5", "number 12 (from 0) of the coordinates", "a number of the type of the array",
-              "\"CELLS\"", 5},
+              "\"CELLS\"", 7},
              {"POINTS 4", "POINTS 2147483648", "the number of points", "a count up to 2147483647", "\"2147483648\"", 5},
              {"POINTS 4", "POINTS -4", "the number of points", "a count up to 2147483647", "\"-4\"", 5},
              {"POINTS 4 double", "POINTS 4 real", "the type of the points", data_types, "\"real\"", 5},
@@ -162,6 +162,28 @@ TEST(BadVtkFiles, legacy) {
          }) {
         expect_refusal(legacy, change);
     }
+}
+
+TEST(BadVtkFiles, a_number_names_its_own_line) {
+    const char* const not_of_type = "a number of the type of the array";
+    const char* const does_not_fit = "a number that fits what it stands for";
+    const char* const coordinate = "number 10 (from 0) of the coordinates";
+    const char* const node = "number 3 (from 0) of the connectivity";
+    expect_refusal(xml, {"0 0 0.5<", "\n0\nO 0.5<", coordinate, not_of_type, "\"O\"", 10});
+    expect_refusal(xml, {"0 1 2 3<", "0\n1 2\n\n3000000000 <", node, does_not_fit, "3000000000", 14});
+    expect_refusal(legacy, {"0 0 0.5\n", "\n0\nO 0.5\n", coordinate, not_of_type, "\"O\"", 8});
+    expect_refusal(legacy, {"4 0 1 2 3", "4\n0 1 2\n3000000000", "number 4 (from 0) of the cells", not_of_type,
+                            "\"3000000000\"", 10});
+    // Far behind the line where the array begins, in a part that another thread reads.
+    std::string many;
+    for (int i = 0; i < 100000; ++i) many += "0 0 0.25\n";
+    expect_refusal(
+        "<VTKFile type='UnstructuredGrid'><UnstructuredGrid><Piece NumberOfPoints='100001' NumberOfCells='0'>"
+        "<Points><DataArray type='Float64' NumberOfComponents='3'>\n" +
+            many +
+            "0 0 0\n</DataArray></Points>"
+            "</Piece></UnstructuredGrid></VTKFile>",
+        {"0 0 0\n", "0 0 z\n", "number 300002 (from 0) of the coordinates", not_of_type, "\"z\"", 100002});
 }
 
 TEST(BadVtkFiles, offsets_of_version_5) {

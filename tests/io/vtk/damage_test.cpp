@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "barycert/io.hpp"
-#include "barycert/io/vtk/codec.hpp"
+#include "barycert/io/vtk/packed.hpp"
 #include "io/vtk/mesh_notes.hpp"
 #include "sanitized.hpp"
 

@@ -7,17 +7,12 @@
 #include <vtkXMLRectilinearGridWriter.h>
 #include <vtkXMLStructuredGridWriter.h>
 #include <vtkXMLUnstructuredGridReader.h>
-#include <array>
-
 #include <limits>
 
 #include "barycert/io.hpp"
-#include "barycert/io/vtk/point_rows.hpp"
 #include "io/vtk/vtk_files.hpp"
 
 namespace barycert::testing {
-using io::PointRows;
-using io::write_vtk_points;
 namespace {
 
 TEST(VtkPoints, of_every_kind_of_file) {
@@ -98,17 +93,18 @@ TEST(VtkPoints, rows_are_read_by_vtk) {
     const std::vector<std::uint8_t> inside{1, 1, 0};
     for (const int dimension : {3, 2}) {
         const std::size_t count = points.size() / static_cast<std::size_t>(dimension);
-        io::PointRows rows;
-        rows.dimension = dimension;
-        rows.points = points;
-        rows.fields = {{"u <v>", 2, std::span(values).first(2 * count)}};
-        rows.cells = std::span(cells).first(count);
-        rows.features = std::span(features).first(count);
-        rows.inside = std::span(inside).first(count);
-        rows.distances = std::span(distances).first(count);
+        const TableView rows{.dimension = dimension,
+                             .points = points,
+                             .cells = std::span(cells).first(count),
+                             .features = std::span(features).first(count),
+                             .values = std::span(values).first(2 * count),
+                             .distances = std::span(distances).first(count)};
         const TemporaryFolder folder;
         Printed printed;
-        const Status status = io::write_vtk_points(folder / "p.vtu", rows);
+        const auto sink =
+            open_table(folder / "p.vtu", {.dimension = dimension, .fields = {{"u <v>", 2}}, .distances = true}).value();
+        Status status = sink->write(rows);
+        if (status) status = sink->commit();
         EXPECT_EQ(printed.text(), "");
         ASSERT_TRUE(status) << status.error().message();
         vtkNew<vtkXMLUnstructuredGridReader> reader;
@@ -147,20 +143,9 @@ TEST(VtkPoints, rows_are_read_by_vtk) {
         }
         EXPECT_EQ(bits_of({data->GetArray("u <v>")->GetTuple(0), data->GetArray("u <v>")->GetTuple(0) + 2}),
                   bits_of({1, 2}));
-        // The rest of the arrays is not there where there is nothing for it.
-        ASSERT_TRUE(io::write_vtk_points(folder / "q.vtu", {.dimension = dimension,
-                                                            .points = points,
-                                                            .cells = {},
-                                                            .features = {},
-                                                            .inside = {},
-                                                            .fields = {},
-                                                            .distances = {},
-                                                            .carried = {}}));
-        EXPECT_EQ(bits_of(read_vtk_points(folder / "q.vtu", dimension).value()), bits_of(points));
-        EXPECT_EQ(get(folder / "q.vtu").find("vtkValidPointMask"), std::string::npos);
     }
     const TemporaryFolder folder;
-    ASSERT_TRUE(io::write_vtk_points(folder / "none.vtu", {}));
+    ASSERT_TRUE(open_table(folder / "none.vtu", {}).value()->commit());
     EXPECT_TRUE(read_vtk_points(folder / "none.vtu", 3).value().empty());
 }
 
@@ -171,45 +156,6 @@ TEST(VtkPoints, codes_of_features) {
     EXPECT_EQ(static_cast<int>(Feature::vertex), 3);
     EXPECT_EQ(static_cast<int>(Feature::outside), 4);
     EXPECT_EQ(static_cast<int>(Feature::degenerate), 5);
-}
-
-TEST(VtkPoints, rows_that_do_not_fit) {
-    const std::vector<double> points{0, 0, 0, 1, 1, 1}, bad{0, 0, std::numeric_limits<double>::infinity()};
-    const std::vector<Mesh::Index> cells{1};
-    static constexpr std::array<double, 2> two{1, 2};
-    const auto refused = [&](const io::PointRows& rows, const std::string& what) {
-        const TemporaryFolder folder;
-        const Status status = io::write_vtk_points(folder / "p.vtu", rows);
-        ASSERT_FALSE(status) << what;
-        EXPECT_EQ(status.error().what, "cannot write the points: " + what);
-        EXPECT_EQ(status.error().file, folder / "p.vtu");
-        EXPECT_EQ(folder.file_count(), 0U);
-    };
-    io::PointRows rows;
-    rows.points = points;
-    const auto with = [&](auto change) {
-        io::PointRows other = rows;
-        change(other);
-        return other;
-    };
-    refused(with([](io::PointRows& r) { r.dimension = 1; }), "the dimension is neither 2 nor 3");
-    refused(with([](io::PointRows& r) { r.points = r.points.first(5); }), "the coordinates do not make whole points");
-    refused(with([&](io::PointRows& r) { r.points = bad; }), "a coordinate is not finite");
-    refused(with([&](io::PointRows& r) { r.cells = cells; }), "an array does not have one row per point");
-    refused(with([&](io::PointRows& r) { r.distances = r.points.first(1); }),
-            "an array does not have one row per point");
-    refused(with([](io::PointRows& r) {
-                r.fields = {{"f", 1, std::span(two).first(1)}};
-            }),
-            "an array does not have one row per point");
-    refused(with([](io::PointRows& r) { r.fields = {{"f", 0, {}}}; }), "a field has no components");
-    refused(with([](io::PointRows& r) { r.fields = {{"", 1, two}}; }), "a field has no name");
-    refused(with([](io::PointRows& r) { r.fields = {{"f", 1, two}, {"f", 1, two}}; }), "two fields are named \"f\"");
-    refused(with([](io::PointRows& r) {
-                r.fields = {{"distance", 1, two}};
-                r.distances = r.points.first(2);
-            }),
-            "two fields are named \"distance\"");
 }
 
 TEST(VtkPoints, endings) {

@@ -1,4 +1,6 @@
 /// Rows of any number into .vtu files: what is kept beside the target on the way.
+#include <limits>
+
 #include "io/vtk/mesh_notes.hpp"
 
 #include "barycert/base/spool.hpp"
@@ -85,6 +87,53 @@ TEST(VtkRows, of_every_kind_come_back) {
         EXPECT_EQ(names[5002], "");
         std::filesystem::remove(folder / "r.vtu");
     }
+}
+
+TEST(VtkRows, that_do_not_fit) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const TemporaryFolder folder;
+    const std::vector<double> points{0, 0, 0, 1, 1, 1}, bad{0, 0, infinity, 1, 1, 1}, two{1, 2};
+    const std::vector<Mesh::Index> cells{1, 1}, none{-1, 1};
+    const std::vector<Feature> features{Feature::interior, Feature::interior};
+    const TableView good{.dimension = 3, .points = points, .cells = cells, .features = features};
+    const auto written = [&](const TableFormat& format, const TableView& rows) -> Status {
+        auto sink = open_table(folder / "p.vtu", format);
+        if (!sink) return sink.error();
+        if (Status s = (*sink)->write(rows); !s) return s;
+        return (*sink)->commit();
+    };
+    const auto refused = [&](const TableFormat& format, const TableView& rows, const std::string& what) {
+        const Status status = written(format, rows);
+        ASSERT_FALSE(status) << what;
+        EXPECT_EQ(status.error().what, what);
+        EXPECT_EQ(status.error().file, folder / "p.vtu");
+        EXPECT_EQ(folder.file_count(), 0U);
+    };
+    const auto with = [&](auto change) {
+        TableView rows = good;
+        change(rows);
+        return rows;
+    };
+    const std::string sizes = "the parts of a block of rows have different sizes";
+    refused({.dimension = 1}, good, "points of rows can have 2 or 3 coordinates");
+    refused({}, with([](TableView& r) { r.points = r.points.first(5); }), sizes);
+    refused({}, with([](TableView& r) { r.cells = r.cells.first(1); }), sizes);
+    refused({.distances = true}, with([&](TableView& r) { r.distances = std::span(two).first(1); }), sizes);
+    refused({.fields = {{"f", 1}}}, with([&](TableView& r) { r.values = std::span(two).first(1); }), sizes);
+    refused({}, with([&](TableView& r) { r.points = bad; }), "cannot write the points: a coordinate is not finite");
+    refused({.fields = {{"f", 0}}}, good, "cannot write the points: a field has no components");
+    const TableView values = with([&](TableView& r) { r.values = two; });
+    refused({.fields = {{"", 1}}}, values, "cannot write the points: a field has no name");
+    refused({.fields = {{"\xff", 1}}}, values,
+            "cannot write the points: the name of field \"\xff\" has bytes that XML cannot hold");
+    refused({.fields = {{"f", 1}, {"f", 1}}}, values, "two columns of the rows would have the same name");
+    refused({.fields = {{"distance", 1}}, .distances = true}, with([&](TableView& r) { r.values = r.distances = two; }),
+            "cannot write the points: two fields are named \"distance\"");
+    // A point outside may be anywhere.
+    EXPECT_TRUE(written({}, with([&](TableView& r) {
+                            r.points = bad;
+                            r.cells = none;
+                        })));
 }
 
 }  // namespace

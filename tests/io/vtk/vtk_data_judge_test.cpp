@@ -131,7 +131,7 @@ TEST(VtkDataJudge, images) {
     for (const VtkData data : all_data) {
         SCOPED_TRACE(name(data));
         auto writer = io::VtiWriter::open(folder / "g.vti", grid,
-                                          {{"u", 2, io::VtiType::float64}, {"mask", 1, io::VtiType::int8}}, data)
+                                          {{"u", 2, io::NumberType::float64}, {"mask", 1, io::NumberType::int8}}, data)
                           .value();
         for (std::size_t i = 0; i < points; i += 6000) {  // the arrays take turns
             ASSERT_TRUE(writer->write(0, std::as_bytes(std::span(values).subspan(2 * i, 12000))));

@@ -7,7 +7,7 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/medit/read_medit.hpp"
-#include "barycert/io/vtk/grid_to_mesh.hpp"
+#include "barycert/io/vtk/raw_grid.hpp"
 
 namespace barycert::io {
 namespace {

@@ -9,7 +9,6 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/other_formats.hpp"
-#include "barycert/io/vtk/number_types.hpp"
 #include "barycert/io/vtk/numbers.hpp"
 #include "barycert/io/vtk/parallel.hpp"
 

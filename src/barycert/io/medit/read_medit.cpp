@@ -10,12 +10,13 @@
 #include <utility>
 
 #include "barycert/base/input_file.hpp"
+#include "barycert/base/large_pages.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/medit/medit_fields.hpp"
 #include "barycert/io/medit/medit_file.hpp"
-#include "barycert/io/vtk/grid_to_mesh.hpp"
-#include "barycert/io/vtk/xml_grids.hpp"
+#include "barycert/io/other_formats.hpp"
+#include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 
 namespace barycert::io {

@@ -1,13 +1,22 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
 
+#include "barycert/base/output_file.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/surface/surface_writers.hpp"
+#include "barycert/io/vtk/out_file.hpp"
 #include "barycert/surface.hpp"
 
 namespace barycert {
+namespace io {
 namespace {
 
 const char* fault_of(const std::vector<Field>& fields, std::size_t rows) {
@@ -31,22 +40,168 @@ const char* fault_of(const Surface& s) {
     return fault_of(s.cell_fields, s.cell_count());
 }
 
+/// Text; triangles without fields. Error: segments.
+Result<SurfaceFile> write_off(const Surface& s, const std::string& path) {
+    if (s.dimension == 2)
+        return file_error(path, "an .off file holds polygons only", {}, "segments in the plane", "choose .vtp or .ply");
+    SurfaceFile result;
+    for (const auto* const fields : {&s.point_fields, &s.cell_fields}) {
+        for (const Field& f : *fields) result.left_out.push_back(f.name);
+    }
+    base::OutputFile file(path);
+    file.write("OFF\n" + std::to_string(s.point_count()) + ' ' + std::to_string(s.cell_count()) + " 0\n");
+    for (std::size_t v = 0; v < s.points.size(); v += 3)
+        file.write(base::shortest(s.points[v]) + ' ' + base::shortest(s.points[v + 1]) + ' ' +
+                   base::shortest(s.points[v + 2]) + '\n');
+    for (std::size_t c = 0; c < s.cells.size(); c += 3)
+        file.write("3 " + std::to_string(s.cells[c]) + ' ' + std::to_string(s.cells[c + 1]) + ' ' +
+                   std::to_string(s.cells[c + 2]) + '\n');
+    if (Status written = file.commit(); !written) return written.error();
+    return result;
+}
+
+// PLY files. G. Turk, "The PLY Polygon File Format", 1994.
+
+static_assert(std::endian::native == std::endian::little, "PLY files are written as numbers stand in memory");
+
+/// Names of properties: a program may take any other character for an end.
+class PropertyNames {
+public:
+    explicit PropertyNames(std::vector<std::string> taken) : taken_(std::move(taken)) {}
+
+    std::string safe(std::string_view wanted) {
+        std::string name(wanted);
+        for (char& c : name) {
+            const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+            if (!letter && !(c >= '0' && c <= '9')) c = '_';
+        }
+        if (name.empty()) name = "_";
+        while (std::find(taken_.begin(), taken_.end(), name) != taken_.end()) name += '_';
+        taken_.push_back(name);
+        return name;
+    }
+
+private:
+    std::vector<std::string> taken_;
+};
+
+/// The properties of all fields, one a component.
+std::string properties_of(const std::vector<Field>& fields, PropertyNames names, std::vector<std::string>& renamed) {
+    std::string text;
+    for (const Field& f : fields) {
+        for (int c = 0; c < f.components; ++c) {
+            const std::string wanted = f.components == 1 ? f.name : f.name + '_' + std::to_string(c);
+            const std::string name = names.safe(wanted);
+            text.append("property double ").append(name).append("\n");
+            if (name != wanted) renamed.emplace_back(wanted).append(" as ").append(name);
+        }
+    }
+    return text;
+}
+
+template <class T>
+void append_numbers(std::string& bytes, const T* numbers, std::size_t count) {
+    bytes.append(reinterpret_cast<const char*>(numbers), count * sizeof(T));
+}
+
+void append_rows(std::string& bytes, const std::vector<Field>& fields, std::size_t row) {
+    for (const Field& f : fields) {
+        const auto components = static_cast<std::size_t>(f.components);
+        append_numbers(bytes, f.data.data() + components * row, components);
+    }
+}
+
+/// Calls add(bytes, row) for each row and writes the bytes, some at a time.
+template <class Add>
+void write_rows(base::OutputFile& file, std::size_t count, Add add) {
+    constexpr std::size_t enough = std::size_t{1} << 18;
+    std::string bytes;
+    for (std::size_t row = 0; row < count; ++row) {
+        add(bytes, row);
+        if (bytes.size() < enough && row + 1 < count) continue;
+        file.write(bytes);
+        bytes.clear();
+    }
+}
+
+/// Binary, little-endian: vertices with coordinates and fields as double properties; faces, or edges (vertex1,
+/// vertex2) at z = 0, with fields of cells. Names of properties have letters, digits and underscores only, and differ.
+Result<SurfaceFile> write_ply(const Surface& s, const std::string& path) {
+    SurfaceFile result;
+    const bool lines = s.dimension == 2;
+    const std::size_t corners = s.corners();
+    std::string head = "ply\nformat binary_little_endian 1.0\ncomment written by barycert\nelement vertex " +
+                       std::to_string(s.point_count()) + "\nproperty double x\nproperty double y\nproperty double z\n";
+    head += properties_of(s.point_fields, PropertyNames({"x", "y", "z"}), result.renamed);
+    head += std::string("element ") + (lines ? "edge " : "face ") + std::to_string(s.cell_count()) + '\n';
+    head += lines ? "property int vertex1\nproperty int vertex2\n" : "property list uchar int vertex_indices\n";
+    head += properties_of(s.cell_fields, PropertyNames({"vertex1", "vertex2", "vertex_indices"}), result.renamed);
+    base::OutputFile file(path);
+    file.write(head + "end_header\n");
+    write_rows(file, s.point_count(), [&](std::string& bytes, std::size_t v) {
+        constexpr double zero = 0;
+        append_numbers(bytes, s.points.data() + corners * v, corners);
+        if (lines) append_numbers(bytes, &zero, 1);
+        append_rows(bytes, s.point_fields, v);
+    });
+    write_rows(file, s.cell_count(), [&](std::string& bytes, std::size_t c) {
+        if (!lines) bytes += '\3';
+        append_numbers(bytes, s.cells.data() + corners * c, corners);
+        append_rows(bytes, s.cell_fields, c);
+    });
+    if (Status written = file.commit(); !written) return written.error();
+    return result;
+}
+
+/// VTK's PolyData: polygons, or lines at z = 0; fields as arrays of doubles; the cells of the mesh as the array "cell",
+/// where no field has that name. Error: a name that XML cannot hold, or is there twice.
+Result<SurfaceFile> write_vtp(const Surface& s, const std::string& path, VtkData data) {
+    std::vector<OutArray> of_points, of_cells;
+    for (const Field& f : s.point_fields) of_points.push_back(array_of_field(f));
+    for (const Field& f : s.cell_fields) of_cells.push_back(array_of_field(f));
+    const bool named =
+        std::any_of(s.cell_fields.begin(), s.cell_fields.end(), [](const Field& f) { return f.name == "cell"; });
+    if (!s.mesh_cells.empty() && !named)
+        of_cells.push_back(array_in_memory<Mesh::Index>({"cell", 1, NumberType::int32}, s.mesh_cells));
+    for (const auto* const arrays : {&of_points, &of_cells}) {
+        std::vector<ArrayFormat> formats;
+        for (const OutArray& a : *arrays) formats.push_back(a.format);
+        if (Status good = check_arrays(path, formats); !good) return good.error();
+    }
+    const std::string cells = std::to_string(s.cell_count());
+    const bool lines = s.dimension == 2;
+    // VTK's own indices are 64 bits wide: it takes these as they are.
+    const auto node = [&s](std::size_t i) { return s.cells[i]; };
+    const auto end = [n = s.corners()](std::size_t i) { return n * (i + 1); };
+    const OutFile file{
+        .data_set = "PolyData",
+        .attributes = {},
+        .piece = " NumberOfPoints=\"" + std::to_string(s.point_count()) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
+                 (lines ? cells : "0") + "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + (lines ? "0" : cells) + "\"",
+        .sections = {{"PointData", std::move(of_points)},
+                     {"CellData", std::move(of_cells)},
+                     {"Points", {array_of_points(s.points, s.dimension)}},
+                     {lines ? "Lines" : "Polys",
+                      {array_made<std::int64_t>({"connectivity", 1, NumberType::int64}, s.cells.size(), node),
+                       array_made<std::int64_t>({"offsets", 1, NumberType::int64}, s.cell_count(), end)}}}};
+    if (Status written = write_xml(file, path, data); !written) return written.error();
+    return SurfaceFile{};
+}
+
 }  // namespace
+}  // namespace io
 
 Result<SurfaceFile> write_surface(const Surface& surface, const std::string& path, VtkData data) {
     const ExactEnvironment environment;
-    if (const char* const fault = fault_of(surface); fault != nullptr)
-        return Error{.what = "the surface is inconsistent", .file = path, .found = fault};
+    if (const char* const fault = io::fault_of(surface); fault != nullptr)
+        return file_error(path, "the surface is inconsistent", {}, fault);
     if (io::has_suffix(path, ".vtp")) return io::write_vtp(surface, path, data);
     if (io::has_suffix(path, ".ply")) return io::write_ply(surface, path);
     if (io::has_suffix(path, ".off")) return io::write_off(surface, path);
     const std::size_t dot = path.find_last_of("./");
     const bool suffix = dot != std::string::npos && path[dot] == '.';
-    return Error{.what = "unknown suffix of a surface",
-                 .file = path,
-                 .expected = ".vtp, .ply or .off",
-                 .found = suffix ? '"' + path.substr(dot) + '"' : "no suffix",
-                 .remedy = "choose another name"};
+    return file_error(path, "unknown suffix of a surface", ".vtp, .ply or .off",
+                      suffix ? '"' + path.substr(dot) + '"' : "no suffix", "choose another name");
 }
 
 }  // namespace barycert

@@ -13,6 +13,7 @@
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/base/spool.hpp"
+#include "barycert/io/vtk/out_file.hpp"
 #include "barycert/result.hpp"
 #include "barycert/table.hpp"
 
@@ -23,16 +24,6 @@ struct VtiGrid {
     std::array<std::int64_t, 3> counts{1, 1, 1};  ///< points along each axis, 1 to 2^31 - 1
     std::array<double, 3> origin{0, 0, 0};
     std::array<double, 3> spacing{1, 1, 1};  ///< > 0; along an axis of one point 0 stands for 1
-};
-
-/// Types of numbers, named as in the file. VTK's `vtkValidPointMask` is an int8. A text is bytes up to a zero byte.
-enum class VtiType : std::uint8_t { int8, uint8, int32, int64, float32, float64, text };
-
-/// An array with `components` numbers a point, those of a point side by side.
-struct VtiArray {
-    std::string name;
-    int components = 1;
-    VtiType type = VtiType::float64;
 };
 
 /// A file whose arrays are handed over in blocks of any size, each array from its first point to its last; arrays may
@@ -50,7 +41,7 @@ public:
     /// XML cannot hold (not UTF-8, or control characters but for tab and line breaks); fewer than one component; the
     /// file cannot be made.
     static Result<std::unique_ptr<VtiWriter>> open(const std::string& path, const VtiGrid& grid,
-                                                   const std::vector<VtiArray>& arrays, VtkData data = VtkData::raw);
+                                                   const std::vector<ArrayFormat>& arrays, VtkData data = VtkData::raw);
 
     /// The next bytes of arrays[array], in the order of this machine.
     /// Error: there is no such array; more bytes than it has; on a pipe, not its turn; the file cannot be written.
@@ -65,16 +56,17 @@ private:
         std::uint64_t size = 0;   // bytes of its numbers
         std::uint64_t done = 0;   // of them, handed over
     };
-    VtiWriter(const std::string& path, std::vector<VtiArray> arrays)
-        : path_(path), arrays_(std::move(arrays)), file_(path) {}
+    VtiWriter(const std::string& path, const VtiGrid& grid, std::vector<ArrayFormat> arrays, VtkData data)
+        : path_(path), grid_(grid), data_(data), arrays_(std::move(arrays)), file_(path) {}
+    OutFile layout() const;
     bool put(std::uint64_t at, std::string_view bytes);
     Status commit_spools();
     Error error(std::string what, std::string expected, std::string found) const;
 
     std::string path_;
     VtiGrid grid_;
-    VtkData data_ = VtkData::raw;
-    std::vector<VtiArray> arrays_;
+    VtkData data_;
+    std::vector<ArrayFormat> arrays_;
     std::vector<base::Spool> spools_;  // of the arrays, where data are not raw
     std::vector<ArrayPlace> places_;
     std::uint64_t tail_ = 0;  // where the end of the XML goes

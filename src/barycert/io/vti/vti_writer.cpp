@@ -7,9 +7,8 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/io/vti/appended.hpp"
+#include "barycert/io.hpp"
 #include "barycert/io/vti/vti.hpp"
-#include "barycert/io/vtk/xml_writer.hpp"
 
 namespace barycert::io {
 namespace {
@@ -33,8 +32,8 @@ Status check_grid(const std::string& path, const VtiGrid& grid) {
 }
 
 /// Bytes of the array's numbers; nothing if they are 2^63 or more.
-std::optional<std::uint64_t> size_of(const VtiGrid& grid, const VtiArray& array) {
-    std::uint64_t size = number_size(array.type) * static_cast<std::uint64_t>(array.components);
+std::optional<std::uint64_t> size_of(const VtiGrid& grid, const ArrayFormat& array) {
+    std::uint64_t size = number_bytes(array.type) * static_cast<std::uint64_t>(array.components);
     for (const std::int64_t count : grid.counts) {
         if (__builtin_mul_overflow(size, static_cast<std::uint64_t>(count), &size)) return std::nullopt;
     }
@@ -42,69 +41,50 @@ std::optional<std::uint64_t> size_of(const VtiGrid& grid, const VtiArray& array)
     return size;
 }
 
-std::string three(const std::array<double, 3>& values) {
-    return base::shortest(values[0]) + " " + base::shortest(values[1]) + " " + base::shortest(values[2]);
-}
-
-std::string extent_of(const VtiGrid& grid) {
-    std::string extent;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        extent += (axis == 0 ? "0 " : " 0 ") + std::to_string(grid.counts[axis] - 1);
-    return extent;
-}
-
-std::string image_attributes(const VtiGrid& grid) {
-    VtiGrid own = grid;
-    for (double& spacing : own.spacing) {
-        if (spacing == 0) spacing = 1;
-    }
-    return " WholeExtent=\"" + extent_of(grid) + "\" Origin=\"" + three(own.origin) + "\" Spacing=\"" +
-           three(own.spacing) + '"';
-}
-
-/// All up to the underscore, behind which the arrays stand one after the other: their offsets count from there.
-std::string head_of(const VtiGrid& grid, const std::vector<VtiArray>& arrays,
-                    const std::vector<std::uint64_t>& offsets) {
-    std::string text = vtk_file_head("ImageData") + "  <ImageData" + image_attributes(grid) +
-                       ">\n    <Piece Extent=\"" + extent_of(grid) + "\">\n      <PointData>\n";
-    for (std::size_t i = 0; i < arrays.size(); ++i) text += array_element(arrays[i], offsets[i]);
-    return text + "      </PointData>\n      <CellData>\n      </CellData>\n    </Piece>\n  </ImageData>\n" +
-           std::string(appended_begin);
-}
-
 }  // namespace
 
 Result<std::unique_ptr<VtiWriter>> VtiWriter::open(const std::string& path, const VtiGrid& grid,
-                                                   const std::vector<VtiArray>& arrays, VtkData data) {
+                                                   const std::vector<ArrayFormat>& arrays, VtkData data) {
     const ExactEnvironment environment;
     if (Status s = check_grid(path, grid); !s) return s.error();
     if (Status s = check_arrays(path, arrays); !s) return s.error();
-    std::vector<ArrayPlace> places;
-    std::vector<std::uint64_t> offsets;
+    std::unique_ptr<VtiWriter> writer(new VtiWriter(path, grid, arrays, data));
     std::uint64_t end = 0;
-    for (const VtiArray& array : arrays) {
+    for (const ArrayFormat& array : arrays) {
         const std::optional<std::uint64_t> size = size_of(grid, array);
-        offsets.push_back(end);
-        places.push_back({end, size.value_or(0), 0});
+        writer->places_.push_back({end, size.value_or(0), 0});
         // Room is left for the head and the tail.
-        if (!size.has_value() || __builtin_add_overflow(end, *size + appended_header, &end) || end > INT64_MAX / 2) {
+        if (!size.has_value() || __builtin_add_overflow(end, *size + appended_header, &end) || end > INT64_MAX / 2)
             return wrong_in_memory(path, "the size of the arrays", "less than 2^62 bytes", "more");
-        }
+        if (data != VtkData::raw) writer->spools_.emplace_back(path);
     }
-    const std::string head = head_of(grid, arrays, offsets);
-    std::unique_ptr<VtiWriter> writer(new VtiWriter(path, arrays));
-    for (ArrayPlace& place : places) place.begin += head.size();
-    writer->places_ = std::move(places);
-    writer->tail_ = head.size() + end;
-    writer->grid_ = grid;
-    writer->data_ = data;
     if (data == VtkData::raw) {
+        const std::string head = raw_head(writer->layout());
+        for (ArrayPlace& place : writer->places_) place.begin += head.size();
+        writer->tail_ = head.size() + end;
         writer->put(0, head);
-    } else {
-        for (std::size_t i = 0; i < arrays.size(); ++i) writer->spools_.emplace_back(path);
     }
     if (Status s = writer->file_.status(); !s) return s.error();
     return writer;
+}
+
+/// The file without its numbers.
+OutFile VtiWriter::layout() const {
+    std::string extent = "Extent=\"", origin, spacing;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const char* const between = axis == 0 ? "" : " ";
+        extent += between + ("0 " + std::to_string(grid_.counts[axis] - 1));
+        origin += between + base::shortest(grid_.origin[axis]);
+        spacing += between + base::shortest(grid_.spacing[axis] == 0 ? 1 : grid_.spacing[axis]);
+    }
+    extent += '"';
+    OutFile file{.data_set = "ImageData",
+                 .attributes = " Whole" + extent + " Origin=\"" + origin + "\" Spacing=\"" + spacing + '"',
+                 .piece = " " + extent,
+                 .sections = {{"PointData", {}}, {"CellData", {}}}};
+    for (std::size_t i = 0; i < arrays_.size(); ++i)
+        file.sections.front().arrays.push_back({arrays_[i], places_[i].size / number_bytes(arrays_[i].type)});
+    return file;
 }
 
 /// In its place, or in order where that is its turn and the bytes are few, which are gathered, or the file has no
@@ -123,8 +103,7 @@ bool VtiWriter::put(std::uint64_t at, std::string_view bytes) {
 }
 
 Error VtiWriter::error(std::string what, std::string expected, std::string found) const {
-    return {
-        .what = std::move(what), .file = path_, .line = 0, .expected = std::move(expected), .found = std::move(found)};
+    return file_error(path_, std::move(what), std::move(expected), std::move(found));
 }
 
 Status VtiWriter::write(std::size_t array, std::span<const std::byte> bytes) {
@@ -160,16 +139,12 @@ Status VtiWriter::write(std::size_t array, std::span<const std::byte> bytes) {
 }
 
 Status VtiWriter::commit_spools() {
-    OutFile out{.data_set = "ImageData",
-                .attributes = image_attributes(grid_),
-                .piece = " Extent=\"" + extent_of(grid_) + '"',
-                .sections = {{"PointData", {}}, {"CellData", {}}}};
+    OutFile file = layout();
     for (std::size_t i = 0; i < arrays_.size(); ++i) {
         if (Status done = spools_[i].finish(); !done) return done;
-        const std::span<const char> bytes = spools_[i].values<char>();
-        out.sections.front().arrays.push_back({arrays_[i], bytes.size() / number_size(arrays_[i].type), bytes.data()});
+        file.sections.front().arrays[i].bytes = spools_[i].values<char>().data();
     }
-    return write_xml(out, path_, data_);
+    return write_xml(file, path_, data_);
 }
 
 Status VtiWriter::commit() {

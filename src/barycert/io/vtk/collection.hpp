@@ -1,12 +1,14 @@
 /// Files that name files: partitioned data sets, blocks and series.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "barycert/io.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
-#include "barycert/io/vtk/xml_tree.hpp"
+#include "barycert/io/vtk/xml.hpp"
 
 namespace barycert::io {
 
@@ -18,14 +20,21 @@ struct CollectionFile {
     std::size_t line = 0;  ///< where it is named; 0: not known
 };
 
-/// Whether the root is one of .pvtu, .pvtp, .vtm, .vtpd, .vtpc or .pvd.
-bool is_collection(const XmlTree& tree);
-/// Whether it is a series of steps in time (.pvd).
-bool is_series(const XmlTree& tree);
+struct Collection {
+    bool is_series = false;             ///< of steps in time
+    std::vector<CollectionFile> files;  ///< in their order
+};
 
-/// The files that it names, in its order. Error: an entry without a file, or a time that is none.
-Result<std::vector<CollectionFile>> collection_files(const XmlTree& tree, std::string_view bytes,
-                                                     const std::string& path);
+/// What the root of a .pvtu, .pvtp, .vtm, .vtpd, .vtpc or .pvd names; nothing if it is another. Error: an entry without
+/// a file, or a time that is none.
+Result<std::optional<Collection>> collection_of(const XmlTree& tree);
+
+/// Whether the text can be ParaView's series file (NAME.vtu.series): it begins with an object of JSON.
+bool is_series_file(std::string_view bytes);
+
+/// What it names: {"files": [{"name": "a.vtu", "time": 0.5}, ...]}. Error: no JSON, a member that is missing or of
+/// another kind, a time that is not finite, a file of more than 64 MiB.
+Result<Collection> read_series_file(std::string_view bytes, const std::string& path);
 
 /// The steps of a series: consecutive files of one time are one step.
 std::vector<SeriesStep> steps_of(const std::vector<CollectionFile>& files);

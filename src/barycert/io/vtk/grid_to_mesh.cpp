@@ -1,4 +1,4 @@
-#include "barycert/io/vtk/grid_to_mesh.hpp"
+#include "barycert/io/vtk/raw_grid.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,6 @@
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/other_formats.hpp"
-#include "barycert/io/vtk/cell_types.hpp"
-#include "barycert/io/vtk/parallel.hpp"
 
 namespace barycert::io {
 namespace {
@@ -32,17 +30,12 @@ CellType cell_type(std::uint8_t type) {
             return {Kind::triangle, 3};
         case vtk_quadratic_triangle:
             return {Kind::triangle, 6};
-        case vtk_empty_cell:
-        case vtk_vertex:
-        case vtk_poly_vertex:
-        case vtk_line:
-        case vtk_poly_line:
-        case vtk_quadratic_edge:
-        case vtk_cubic_line:
-        case vtk_lagrange_curve:
-            return {Kind::lower, 0};
         default:
-            return {};
+            return {type <= vtk_poly_line || type == vtk_quadratic_edge || type == vtk_cubic_line ||
+                            type == vtk_lagrange_curve
+                        ? Kind::lower
+                        : Kind::other,
+                    0};
     }
 }
 
@@ -65,13 +58,6 @@ std::string counts_by_name(const TypeCounts& counts, bool with_numbers, IsOne is
     return text;
 }
 
-/// Which cells make the mesh.
-struct Choice {
-    Kind kind = Kind::other;
-    std::size_t nodes = 0;
-    std::size_t cells = 0;
-};
-
 bool is_uniform(const std::vector<std::uint8_t>& types) {
     return types.size() < 2 || std::memcmp(types.data(), types.data() + 1, types.size() - 1) == 0;
 }
@@ -93,51 +79,32 @@ bool is_surface(std::uint8_t type) {
            (cell_type(type).kind != Kind::other || std::find(surfaces.begin(), surfaces.end(), type) != surfaces.end());
 }
 
-Result<Choice> choose(const TypeCounts& counts, const RawGrid& grid, const std::string& path) {
-    const std::size_t cells = grid.types.size();
+/// The type of the cells that make the mesh.
+Result<CellType> choose(const TypeCounts& counts, const RawGrid& grid, const std::string& path) {
     const std::string others =
         counts_by_name(counts, true, [](std::uint8_t type) { return cell_type(type).kind == Kind::other; });
     if (!others.empty()) {
-        return Error{.what = "cells that are neither tetrahedra nor triangles",
-                     .file = path,
-                     .line = 0,
-                     .expected = "tetrahedra or triangles, linear or quadratic",
-                     .found = others,
-                     .remedy = std::all_of(grid.types.begin(), grid.types.end(), is_surface) && !in_plane(grid.points)
-                                   ? plane_remedy(grid.points, {})
-                                   : to_simplices(path)};
+        const bool surface = std::all_of(grid.types.begin(), grid.types.end(), is_surface) && !in_plane(grid.points);
+        return file_error(path, "cells that are neither tetrahedra nor triangles",
+                          "tetrahedra or triangles, linear or quadratic", others,
+                          surface ? plane_remedy(grid.points, {}) : to_simplices(path));
     }
     constexpr std::array<std::pair<std::uint8_t, std::uint8_t>, 2> pairs{
         {{vtk_tetra, vtk_quadratic_tetra}, {vtk_triangle, vtk_quadratic_triangle}}};
     for (const auto& [linear, quadratic] : pairs) {
         if (counts[linear] != 0 && counts[quadratic] != 0) {
-            return Error{.what = "linear and quadratic cells in one mesh",
-                         .file = path,
-                         .line = 0,
-                         .expected = "cells of one type",
-                         .found = std::to_string(counts[linear]) + " " + name_of(linear) + ", " +
-                                  std::to_string(counts[quadratic]) + " " + name_of(quadratic),
-                         .remedy = "make all cells linear, or all quadratic: " + to_simplices(path)};
+            const auto is_one = [&](std::uint8_t type) { return type == linear || type == quadratic; };
+            return file_error(path, "linear and quadratic cells in one mesh", "cells of one type",
+                              counts_by_name(counts, true, is_one),
+                              "make all cells linear, or all quadratic: " + to_simplices(path));
         }
         for (const std::uint8_t type : {linear, quadratic}) {
-            if (counts[type] != 0) return Choice{cell_type(type).kind, cell_type(type).nodes, counts[type]};
+            if (counts[type] != 0) return cell_type(type);
         }
     }
-    return Error{.what = "the file contains no mesh",
-                 .file = path,
-                 .line = 0,
-                 .expected = "tetrahedra or triangles",
-                 .found = std::to_string(cells) + " cells of other kinds",
-                 .remedy = "name a file with cells; this one may contain points only"};
-}
-
-Error error_of_cell(const std::string& path, std::size_t cell, std::string what, std::string expected,
-                    std::string found) {
-    return {.what = std::move(what) + " of cell " + std::to_string(cell) + " (from 0)",
-            .file = path,
-            .line = 0,
-            .expected = std::move(expected),
-            .found = std::move(found)};
+    return file_error(path, "the file contains no mesh", "tetrahedra or triangles",
+                      std::to_string(grid.types.size()) + " cells of other kinds",
+                      "name a file with cells; this one may contain points only");
 }
 
 /// Every node a point, and the simplices with as many nodes as their type has.
@@ -148,8 +115,8 @@ Status check_cells(const RawGrid& grid, const std::string& path) {
         if (wrong != grid.connectivity.size()) {
             std::size_t cell = 0;
             while (static_cast<std::size_t>(grid.ends[cell]) <= wrong) ++cell;
-            return error_of_cell(path, cell, "a node", "a point below " + std::to_string(points),
-                                 std::to_string(grid.connectivity[wrong]));
+            return file_error(path, "a node of cell " + std::to_string(cell) + " (from 0)",
+                              "a point below " + std::to_string(points), std::to_string(grid.connectivity[wrong]));
         }
     }
     if (!grid.types.empty() && is_uniform(grid.types)) {
@@ -167,8 +134,8 @@ Status check_cells(const RawGrid& grid, const std::string& path) {
         const auto nodes = static_cast<std::size_t>(grid.ends[cell] - std::exchange(begin, grid.ends[cell]));
         const CellType type = cell_type(grid.types[cell]);
         if (type.kind == Kind::lower || nodes == type.nodes) continue;
-        return error_of_cell(path, cell, "the nodes", std::to_string(type.nodes) + " in a " + name_of(grid.types[cell]),
-                             std::to_string(nodes));
+        return file_error(path, "the nodes of cell " + std::to_string(cell) + " (from 0)",
+                          std::to_string(type.nodes) + " in a " + name_of(grid.types[cell]), std::to_string(nodes));
     }
     return Done{};
 }
@@ -178,24 +145,22 @@ constexpr const char* ghost_name = "vtkGhostType";
 constexpr unsigned duplicate_cell = 1, refined_cell = 8, hidden_cell = 32;
 
 /// The numbers of the cells that make the mesh; empty if that is all of them. Others are counted.
-std::vector<Mesh::Index> kept_cells(const RawGrid& grid, const Choice& choice, TypeCounts& left_out,
-                                    std::size_t& ghosts) {
-    const Field* ghost = nullptr;
+std::vector<Mesh::Index> kept_cells(const RawGrid& grid, Kind kind, TypeCounts& left_out, std::size_t& ghosts) {
+    const RawArray* ghost = nullptr;
     for (const RawArray& array : grid.cell_arrays) {
-        if (array.field.name == ghost_name && array.fault.empty() && !array.has_labels && array.field.components == 1)
-            ghost = &array.field;
+        if (array.name == ghost_name && array.fault.empty() && !array.has_labels() && array.components == 1)
+            ghost = &array;
     }
     const auto is_ghost = [&](std::size_t cell) {
         if (ghost == nullptr) return false;
-        const double flags = ghost->data[cell];
+        const double flags = ghost->numbers()[cell];
         return flags >= 0 && flags < 256 &&
                (static_cast<unsigned>(flags) & (duplicate_cell | refined_cell | hidden_cell)) != 0;
     };
     std::vector<Mesh::Index> kept;
-    if (choice.cells == grid.types.size() && ghost == nullptr) return kept;
-    kept.reserve(choice.cells);
+    if (ghost == nullptr && is_uniform(grid.types)) return kept;
     for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
-        if (cell_type(grid.types[cell]).kind != choice.kind) {
+        if (cell_type(grid.types[cell]).kind != kind) {
             ++left_out[grid.types[cell]];
         } else if (is_ghost(cell)) {
             ++ghosts;
@@ -208,47 +173,23 @@ std::vector<Mesh::Index> kept_cells(const RawGrid& grid, const Choice& choice, T
 }
 
 /// Corners and mid-edge nodes of the cells that were chosen, in the order of the file.
-void copy_cells(RawGrid& grid, const Choice& choice, Mesh& mesh) {
-    const std::size_t corners = mesh.corners(), count = choice.cells, mids = choice.nodes - corners;
+void copy_cells(RawGrid& grid, std::size_t nodes, std::size_t count, Mesh& mesh) {
+    const std::size_t corners = mesh.corners(), mids = nodes - corners;
     if (mesh.cell_numbers.empty() && mids == 0) {
         mesh.cells = std::move(grid.connectivity);
         return;
     }
-    make_room(mesh.cells, count * corners);
-    mesh.cells.resize(count * corners);
-    make_room(mesh.mid_nodes, count * mids);
-    mesh.mid_nodes.resize(count * mids);
+    base::resize_large(mesh.cells, count * corners);
+    base::resize_large(mesh.mid_nodes, count * mids);
     in_parts(count, std::size_t{1} << 15, [&](std::size_t first, std::size_t last) {
         for (std::size_t cell = first; cell < last; ++cell) {
             const auto own = static_cast<std::size_t>(mesh.cell_number(static_cast<Mesh::Index>(cell)));
             const std::int32_t* const from =
-                grid.connectivity.data() + (static_cast<std::size_t>(grid.ends[own]) - choice.nodes);
+                grid.connectivity.data() + (static_cast<std::size_t>(grid.ends[own]) - nodes);
             std::copy_n(from, corners, mesh.cells.data() + cell * corners);
             std::copy_n(from + corners, mids, mesh.mid_nodes.data() + cell * mids);
         }
     });
-}
-
-template <class T>
-void keep_rows(std::vector<T>& values, std::size_t components, const std::vector<Mesh::Index>& rows) {
-    std::size_t to = 0;
-    for (const Mesh::Index row : rows) {
-        const std::size_t from = static_cast<std::size_t>(row) * components;
-        for (std::size_t c = 0; c < components; ++c, ++to) {
-            if (to != from + c) values[to] = std::move(values[from + c]);
-        }
-    }
-    values.resize(to);
-}
-
-Error coordinate_error(const std::string& path, std::size_t point, const char* what, std::string expected, double found,
-                       std::string remedy) {
-    return {.what = std::string(what) + " of point " + std::to_string(point) + " (from 0)",
-            .file = path,
-            .line = 0,
-            .expected = std::move(expected),
-            .found = base::shortest(found),
-            .remedy = std::move(remedy)};
 }
 
 void note_left_out(const TypeCounts& left_out, std::size_t ghosts, Kind kind, const std::string& path, Notes& notes) {
@@ -269,28 +210,39 @@ void note_left_out(const TypeCounts& left_out, std::size_t ghosts, Kind kind, co
     }
 }
 
+/// Notes on what concerns no array of points or cells.
+void note_the_rest(const RawGrid& grid, const std::string& path, Notes& notes) {
+    note_narrow_points(grid, path, notes);
+    if (!grid.loose_arrays.empty()) {
+        notes.push_back({Note::Kind::left_out,
+                         "arrays of neither points nor cells (field data): " + list_of(grid.loose_arrays), path});
+    }
+    if (grid.has_steps)
+        notes.push_back(
+            {Note::Kind::left_out, "all steps but the first of arrays with several time steps", path, true});
+}
+
 }  // namespace
 
 Result<std::vector<double>> to_points(std::vector<double> points, int dimension, const std::string& path,
                                       const std::string& triangles) {
-    std::size_t faulty = points.size();
-    for (std::size_t first = 0; first < points.size() && faulty == points.size(); first += std::size_t{1} << 16) {
-        const std::size_t last = std::min(points.size(), first + (std::size_t{1} << 16));
-        if (base::all_finite({points.data() + first, last - first})) continue;
-        for (faulty = first; std::isfinite(points[faulty]);) ++faulty;
-    }
-    if (faulty != points.size()) {
+    const auto of_point = [](const char* what, std::size_t point) {
+        return std::string(what) + " of point " + std::to_string(point) + " (from 0)";
+    };
+    if (!base::all_finite(points)) {
         constexpr std::array<const char*, 3> names{"x", "y", "z"};
-        return coordinate_error(path, faulty / 3, names[faulty % 3], "a finite number", points[faulty],
-                                "correct the point");
+        std::size_t faulty = 0;
+        while (std::isfinite(points[faulty])) ++faulty;
+        return file_error(path, of_point(names[faulty % 3], faulty / 3), "a finite number",
+                          base::shortest(points[faulty]), "correct the point");
     }
     if (dimension == 3) return points;
     std::size_t to = 0;
     for (std::size_t i = 0; i < points.size(); i += 3) {
         if (points[i + 2] != 0) {
-            return coordinate_error(path, i / 3, "z", "0, as the mesh is 2D", points[i + 2],
-                                    // Those before have lost their z.
-                                    plane_remedy(i == 0 ? points : std::vector<double>(), triangles));
+            // Those before have lost their z.
+            return file_error(path, of_point("z", i / 3), "0, as the mesh is 2D", base::shortest(points[i + 2]),
+                              plane_remedy(i == 0 ? points : std::vector<double>(), triangles));
         }
         points[to++] = points[i];
         points[to++] = points[i + 1];
@@ -312,78 +264,60 @@ void take_fields(std::vector<RawArray>& arrays, const std::string& what, const s
                  std::vector<Field>& fields, std::vector<Column>* labels, Notes& notes) {
     std::vector<std::string> narrow;
     for (RawArray& array : arrays) {
-        if (array.fault.empty() && array.has_labels && labels == nullptr) array.fault = "it holds no doubles";
+        if (array.fault.empty() && array.has_labels() && labels == nullptr) array.fault = "it holds no doubles";
         if (!array.fault.empty()) {
-            notes.push_back(
-                {Note::Kind::left_out, what + " " + in_quotes(array.field.name) + ": " + array.fault, path});
+            notes.push_back({Note::Kind::left_out, what + " " + in_quotes(array.name) + ": " + array.fault, path});
             continue;
         }
-        if (array.is_narrow) narrow.push_back(array.field.name);
-        if (array.has_labels) {
-            labels->push_back({std::move(array.field.name), std::move(array.labels)});
+        if (array.is_narrow()) narrow.push_back(array.name);
+        if (array.has_labels()) {
+            labels->push_back({std::move(array.name), std::move(array.values)});
         } else {
-            fields.push_back(std::move(array.field));
+            fields.push_back({std::move(array.name), array.components, std::move(array.numbers())});
         }
     }
     if (!narrow.empty())
         notes.push_back({Note::Kind::converted, "float32 to double: " + what + " " + list_of(narrow), path});
 }
 
-void note_the_rest(const RawGrid& grid, const std::string& path, Notes& notes) {
+void note_narrow_points(const RawGrid& grid, const std::string& path, Notes& notes) {
     if (grid.narrow_points) notes.push_back({Note::Kind::converted, "float32 to double: the coordinates", path});
-    if (!grid.loose_arrays.empty()) {
-        notes.push_back({Note::Kind::left_out,
-                         "arrays of neither points nor cells (field data): " + list_of(grid.loose_arrays), path});
-    }
-    if (grid.has_steps)
-        notes.push_back(
-            {Note::Kind::left_out, "all steps but the first of arrays with several time steps", path, true});
 }
 
 Result<Mesh> to_mesh(RawGrid grid, const std::string& path) {
     const TypeCounts counts = count_types(grid);
-    Result<Choice> choice = choose(counts, grid, path);
-    if (!choice) return choice.error();
+    const Result<CellType> type = choose(counts, grid, path);
+    if (!type) return type.error();
     Mesh mesh;
-    mesh.dimension = choice->kind == Kind::tetrahedron ? 3 : 2;
+    mesh.dimension = type->kind == Kind::tetrahedron ? 3 : 2;
     if (Status s = check_cells(grid, path); !s) return s.error();
     mesh.notes = std::move(grid.notes);
     TypeCounts left_out{};
     std::size_t ghosts = 0;
-    mesh.cell_numbers = kept_cells(grid, *choice, left_out, ghosts);
-    choice->cells -= ghosts;
-    if (choice->cells == 0) {
-        return Error{.what = "the file contains no mesh",
-                     .file = path,
-                     .expected = "cells of its own",
-                     .found = std::to_string(ghosts) + " ghost cells (vtkGhostType)",
-                     .remedy = "name the file of all pieces (.pvtu)"};
+    mesh.cell_numbers = kept_cells(grid, type->kind, left_out, ghosts);
+    const std::size_t cells = mesh.cell_numbers.empty() && ghosts == 0 ? grid.types.size() : mesh.cell_numbers.size();
+    if (cells == 0) {
+        return file_error(path, "the file contains no mesh", "cells of its own",
+                          std::to_string(ghosts) + " ghost cells (vtkGhostType)",
+                          "name the file of all pieces (.pvtu)");
     }
-    note_left_out(left_out, ghosts, choice->kind, path, mesh.notes);
-    copy_cells(grid, *choice, mesh);
-    if (choice->nodes != mesh.corners()) mesh.mid_edge_order = MidEdgeOrder::vtk;
+    note_left_out(left_out, ghosts, type->kind, path, mesh.notes);
+    copy_cells(grid, type->nodes, cells, mesh);
+    if (type->nodes != mesh.corners()) mesh.mid_edge_order = MidEdgeOrder::vtk;
     grid.connectivity = {};
     Result<std::vector<double>> points =
         to_points(std::move(grid.points), mesh.dimension, path, mesh.mid_nodes.empty() ? path : "");
     if (!points) return points.error();
     mesh.points = std::move(*points);
     if (!mesh.cell_numbers.empty()) {
-        for (RawArray& array : grid.cell_arrays) {
-            const auto components = static_cast<std::size_t>(array.field.components);
-            if (!array.fault.empty()) continue;
-            if (array.has_labels) {
-                std::visit([&](auto& values) { keep_rows(values, 1, mesh.cell_numbers); }, array.labels);
-                make_field_of_doubles(array);
-            } else {
-                keep_rows(array.field.data, components, mesh.cell_numbers);
-            }
-        }
+        keep_rows(grid.cell_arrays, mesh.cell_numbers);
+        for (RawArray& array : grid.cell_arrays) make_field_of_doubles(array);
     }
     // Point markers are an array like any other but for its name and type.
     for (std::size_t i = 0; i < grid.point_arrays.size(); ++i) {
         RawArray& array = grid.point_arrays[i];
-        if (array.field.name != marker_name || !array.has_labels || !array.fault.empty()) continue;
-        mesh.point_markers = std::move(std::get<std::vector<std::int64_t>>(array.labels));
+        if (array.name != marker_name || array.integers() == nullptr || !array.fault.empty()) continue;
+        mesh.point_markers = std::move(*array.integers());
         grid.point_arrays.erase(grid.point_arrays.begin() + static_cast<std::ptrdiff_t>(i));
         break;
     }

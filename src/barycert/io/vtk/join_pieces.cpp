@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 #include <numeric>
 #include <utility>
 
@@ -35,62 +36,44 @@ PointBits bits_of_point(const RawGrid& grid, std::size_t point) {
     return bits;
 }
 
-const Field* global_ids_of(const RawGrid& grid) {
+const std::vector<double>* global_ids_of(const RawGrid& grid) {
     for (const RawArray& array : grid.point_arrays) {
-        const bool named = grid.global_ids.empty() ? array.field.name.starts_with("GlobalNodeId")
-                                                   : array.field.name == grid.global_ids;
-        if (named && array.fault.empty() && !array.has_labels && array.is_integer && array.field.components == 1)
-            return &array.field;
+        const bool named =
+            grid.global_ids.empty() ? array.name.starts_with("GlobalNodeId") : array.name == grid.global_ids;
+        if (named && array.fault.empty() && !array.has_labels() && array.is_wide_integer() && array.components == 1)
+            return &array.numbers();
     }
     return nullptr;
 }
 
-/// Whether two points have the same values in all fields, NaNs of the same bits included.
+/// Whether two points have the same values in all arrays, NaNs of the same bits included.
 bool same_values(const RawGrid& grid, std::size_t a, std::size_t b) {
-    for (const RawArray& array : grid.point_arrays) {
-        if (!array.fault.empty() || array.field.name == "vtkGhostType") continue;
-        const auto n = static_cast<std::size_t>(array.field.components);
-        for (std::size_t c = 0; c < n; ++c) {
-            if (array.has_labels) {
-                const auto& labels = std::get<std::vector<std::int64_t>>(array.labels);
-                if (labels[a] != labels[b]) return false;
-            } else if (std::bit_cast<std::uint64_t>(array.field.data[n * a + c]) !=
-                       std::bit_cast<std::uint64_t>(array.field.data[n * b + c])) {
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
-template <class T>
-void keep_points(std::vector<T>& values, std::size_t components, const std::vector<std::int32_t>& first) {
-    std::size_t to = 0;
-    for (std::size_t point = 0; point < first.size(); ++point) {
-        if (static_cast<std::size_t>(first[point]) != point) continue;
-        for (std::size_t c = 0; c < components; ++c) values[to++] = values[point * components + c];
-    }
-    values.resize(to);
+    return std::all_of(grid.point_arrays.begin(), grid.point_arrays.end(), [&](const RawArray& array) {
+        if (!array.fault.empty() || array.name == "vtkGhostType") return true;
+        const auto n = static_cast<std::size_t>(array.components);
+        return std::visit(
+            [&]<class T>(const std::vector<T>& values) {
+                if constexpr (std::is_same_v<T, std::string>) {
+                    return values[a] == values[b];
+                } else {
+                    return std::memcmp(&values[n * a], &values[n * b], n * sizeof(T)) == 0;
+                }
+            },
+            array.values);
+    });
 }
 
 /// Leaves out the points that stand for an earlier one.
 void merge_points(RawGrid& grid, const std::vector<std::int32_t>& first) {
-    std::vector<std::int32_t> number(first.size());
-    std::int32_t next = 0;
+    std::vector<std::int32_t> number(first.size()), kept;
     for (std::size_t point = 0; point < first.size(); ++point) {
         const auto own = static_cast<std::size_t>(first[point]);
-        number[point] = own == point ? next++ : number[own];
+        number[point] = own == point ? static_cast<std::int32_t>(kept.size()) : number[own];
+        if (own == point) kept.push_back(first[point]);
     }
     for (std::int32_t& node : grid.connectivity) node = number[static_cast<std::size_t>(node)];
-    keep_points(grid.points, 3, first);
-    for (RawArray& array : grid.point_arrays) {
-        if (!array.fault.empty()) continue;
-        if (array.has_labels) {
-            keep_points(std::get<std::vector<std::int64_t>>(array.labels), 1, first);
-        } else {
-            keep_points(array.field.data, static_cast<std::size_t>(array.field.components), first);
-        }
-    }
+    keep_rows(grid.points, 3, kept);
+    keep_rows(grid.point_arrays, kept);
 }
 
 }  // namespace
@@ -99,7 +82,11 @@ void join_pieces(RawGrid& grid, const std::string& path) {
     const std::size_t points = grid.point_count();
     if (grid.piece_points.size() < 2 || !grid.checked_nodes) return;
     std::size_t shared = 0, apart = 0, differing = 0;
-    const Field* const ids = global_ids_of(grid);
+    const auto note = [&](Note::Kind kind, std::size_t count, const char* before, const char* text) {
+        if (count != 0)
+            grid.notes.push_back({kind, before + std::to_string(count) + text, path, kind != Note::Kind::converted});
+    };
+    const std::vector<double>* const ids = global_ids_of(grid);
     std::vector<std::int32_t> first;
     if (ids == nullptr) {
         first = first_of_each(points, [&](std::size_t i) { return bits_of_point(grid, i); });
@@ -109,15 +96,11 @@ void join_pieces(RawGrid& grid, const std::string& path) {
                               end = piece + 1 < grid.piece_points.size() ? grid.piece_points[piece + 1] : points;
             for (std::size_t i = begin; i < end; ++i) shared += static_cast<std::size_t>(first[i]) < begin ? 1 : 0;
         }
-        if (shared == 0) return;
-        grid.notes.push_back({Note::Kind::guessed,
-                              std::to_string(shared) +
-                                  " nodes stand where another piece has one, and are kept apart: the file gives no "
-                                  "GlobalNodeId, by which pieces could be joined",
-                              path, true});
-        return;
+        return note(Note::Kind::guessed, shared, "",
+                    " nodes stand where another piece has one, and are kept apart: the file gives no GlobalNodeId, by "
+                    "which pieces could be joined");
     }
-    first = first_of_each(points, [&](std::size_t i) { return ids->data[i]; });
+    first = first_of_each(points, [&](std::size_t i) { return (*ids)[i]; });
     for (std::size_t i = 0; i < points; ++i) {
         const auto own = static_cast<std::size_t>(first[i]);
         if (own == i) continue;
@@ -130,24 +113,11 @@ void join_pieces(RawGrid& grid, const std::string& path) {
         }
     }
     merge_points(grid, first);
-    if (shared != 0) {
-        grid.notes.push_back({Note::Kind::converted,
-                              std::to_string(shared) + " nodes with the GlobalNodeId of a node of an earlier piece are "
-                                                       "that node",
-                              path});
-    }
-    if (differing != 0) {
-        grid.notes.push_back({Note::Kind::left_out,
-                              "values at " + std::to_string(differing) +
-                                  " of these nodes that differ from those in the first piece that has the node",
-                              path, true});
-    }
-    if (apart != 0) {
-        grid.notes.push_back({Note::Kind::guessed,
-                              std::to_string(apart) + " nodes are kept apart though they have the GlobalNodeId of a "
-                                                      "node elsewhere: their coordinates differ",
-                              path, true});
-    }
+    note(Note::Kind::converted, shared, "", " nodes with the GlobalNodeId of a node of an earlier piece are that node");
+    note(Note::Kind::left_out, differing, "values at ",
+         " of these nodes that differ from those in the first piece that has the node");
+    note(Note::Kind::guessed, apart, "",
+         " nodes are kept apart though they have the GlobalNodeId of a node elsewhere: their coordinates differ");
 }
 
 }  // namespace barycert::io

@@ -1,13 +1,11 @@
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "barycert/io/other_formats.hpp"
-#include "barycert/io/vtk/legacy_arrays.hpp"
 #include "barycert/io/vtk/legacy_text.hpp"
-#include "barycert/io/vtk/parallel.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
-#include "barycert/io/vtk/xml_reader.hpp"
 
 namespace barycert::io {
 namespace {
@@ -17,104 +15,90 @@ struct Cells {
     std::vector<std::int64_t> ends;
 };
 
+/// Errors are kept by the text.
 class LegacyReader {
 public:
-    LegacyReader(LegacyText text, Part part) : text_(text), part_(part) {}
-    LegacyReader(const LegacyReader&) = delete;  // its arrays_ refers to it
-    LegacyReader& operator=(const LegacyReader&) = delete;
+    LegacyReader(std::string_view bytes, const std::string& path, Part part) : text_(bytes, path), part_(part) {}
 
     Result<RawGrid> read() {
-        if (Status s = text_.read_head(); !s) return s.error();
-        if (Status s = read_data_set(); !s) return s.error();
+        text_.read_head();
+        read_data_set();
         while (!done_) {
             const std::string keyword = text_.keyword();
             if (keyword.empty()) break;
-            if (Status s = read_section(keyword); !s) return s.error();
+            read_section(keyword);
         }
-        if (part_ != Part::all) {
-            if (!has_points_) return text_.error("the file has no points", "POINTS", "none");
-            return std::move(grid_);
+        if (part_ == Part::all) {
+            gather_cells();
+        } else if (!has_points_) {
+            text_.fail("the file has no points", "POINTS", "none");
         }
-        if (Status s = gather_cells(); !s) return s.error();
+        if (!text_.status()) return text_.status().error();
         return std::move(grid_);
     }
 
 private:
-    Status read_data_set() {
+    void read_data_set() {
         std::string keyword = text_.keyword();
         if (keyword == "DATASET") keyword = text_.keyword();
-        if (keyword == "POLYDATA") {
-            polydata_ = true;
-        } else if (keyword != "UNSTRUCTURED_GRID" && (part_ == Part::all || keyword != "STRUCTURED_GRID")) {
-            if (part_ == Part::all)
-                return text_.error("the kind of the data set", "UNSTRUCTURED_GRID or POLYDATA", in_quotes(keyword),
-                                   keyword == "FIELD" ? "" : to_simplices(text_.path()));
-            return text_.error("the kind of the data set", "UNSTRUCTURED_GRID, POLYDATA or STRUCTURED_GRID",
-                               in_quotes(keyword), "save the points as .vti or .vtr, in ParaView");
-        }
-        return Done{};
+        polydata_ = keyword == "POLYDATA";
+        if (polydata_ || keyword == "UNSTRUCTURED_GRID") return;
+        if (part_ == Part::all)
+            return text_.fail("the kind of the data set", "UNSTRUCTURED_GRID or POLYDATA", in_quotes(keyword),
+                              keyword == "FIELD" ? "" : to_simplices(text_.path()));
+        if (keyword != "STRUCTURED_GRID")
+            text_.fail("the kind of the data set", "UNSTRUCTURED_GRID, POLYDATA or STRUCTURED_GRID", in_quotes(keyword),
+                       "save the points as .vti or .vtr, in ParaView");
     }
 
-    Status read_section(const std::string& keyword) {
+    void read_section(const std::string& keyword) {
         if (keyword == "POINTS") return read_points();
         if (keyword == "CELLS" && !polydata_) return read_cells(sections_[polygons]);
         if (keyword == "CELL_TYPES" && !polydata_) return read_types();
-        if (keyword == "DIMENSIONS") return text_.skip_line();
+        if (keyword == "DIMENSIONS") return static_cast<void>(text_.rest_of_line());
         if (keyword == "METADATA") return text_.skip_metadata();
-        if (keyword == "FIELD") return arrays_.read_field_data();
-        if (polydata_) {
-            constexpr std::array<const char*, section_count> names{"VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS"};
-            for (std::size_t i = 0; i < section_count; ++i) {
-                if (keyword == names[i]) return read_cells(sections_[i]);
-            }
+        if (keyword == "FIELD") return read_field_arrays(nullptr, 0);
+        constexpr std::array<const char*, section_count> names{"VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS"};
+        for (std::size_t i = 0; i < section_count; ++i) {
+            if (polydata_ && keyword == names[i]) return read_cells(sections_[i]);
         }
-        if (keyword == "POINT_DATA") return arrays_.read_attributes(keyword, point_count_);
-        if (keyword == "CELL_DATA") return arrays_.read_attributes(keyword, cell_count());
-        return text_.error("a keyword of the format", "POINTS, CELLS, POINT_DATA and the like", in_quotes(keyword),
-                           "the data before it may be cut off, or more than was announced");
+        if (keyword == "POINT_DATA") return read_attributes(keyword, point_count_, ", one a point", grid_.point_arrays);
+        if (keyword == "CELL_DATA") return read_attributes(keyword, cell_count(), ", one a cell", grid_.cell_arrays);
+        text_.fail("a keyword of the format", "POINTS, CELLS, POINT_DATA and the like", in_quotes(keyword), too_many);
     }
 
-    Status read_points() {
-        const Result<std::size_t> count = text_.count("the number of points");
-        if (!count) return count.error();
-        const Result<NumberType> type = text_.number_type("the points");
-        if (!type) return type.error();
-        if (has_points_) return text_.error("a second section POINTS", "one", "two");
+    void read_points() {
+        point_count_ = text_.count("the number of points");
+        const NumberType type = text_.number_type("the points");
+        if (has_points_) return text_.fail("a second section POINTS", "one", "two");
         has_points_ = true;
-        grid_.narrow_points = *type == NumberType::float32;
+        grid_.narrow_points = type == NumberType::float32;
         done_ = part_ == Part::points;
-        point_count_ = *count;
-        return text_.numbers("the coordinates", *type, std::uint64_t{3} * *count, grid_.points);
+        text_.numbers("the coordinates", type, std::uint64_t{3} * point_count_, grid_.points);
     }
 
-    Status read_cells(Cells& cells) {
-        if (!cells.ends.empty()) return text_.error("a second section of the same cells", "one", "two");
-        const Result<std::size_t> count = text_.count("the number of cells");
-        if (!count) return count.error();
-        const Result<std::size_t> size = text_.count("the size of the cells");
-        if (!size) return size.error();
-        return text_.major_version() >= 5 ? read_offsets(cells, *count, *size) : read_rows(cells, *count, *size);
+    void read_cells(Cells& cells) {
+        if (!cells.ends.empty()) return text_.fail("a second section of the same cells", "one", "two");
+        const std::size_t count = text_.count("the number of cells"), size = text_.count("the size of the cells");
+        text_.major_version() >= 5 ? read_offsets(cells, count, size) : read_rows(cells, count, size);
     }
 
     /// Since version 5: where each cell begins and the last one ends, then the nodes.
-    Status read_offsets(Cells& cells, std::size_t offsets, std::size_t nodes) {
-        if (offsets == 0 && nodes == 0) return Done{};
-        if (Status s = text_.expect("OFFSETS"); !s) return s;
-        const Result<NumberType> offset_type = text_.number_type("the offsets of cells");
-        if (!offset_type) return offset_type.error();
-        if (Status s = text_.numbers("the offsets of cells", *offset_type, offsets, cells.ends); !s) return s;
-        if (Status s = text_.expect("CONNECTIVITY"); !s) return s;
-        const Result<NumberType> type = text_.number_type("the connectivity");
-        if (!type) return type.error();
-        if (Status s = text_.numbers("the connectivity", *type, nodes, cells.connectivity); !s) return s;
+    void read_offsets(Cells& cells, std::size_t offsets, std::size_t nodes) {
+        if (offsets == 0 && nodes == 0) return;
+        text_.expect("OFFSETS");
+        const NumberType offset_type = text_.number_type("the offsets of cells");
+        text_.numbers("the offsets of cells", offset_type, offsets, cells.ends);
+        text_.expect("CONNECTIVITY");
+        const NumberType type = text_.number_type("the connectivity");
+        text_.numbers("the connectivity", type, nodes, cells.connectivity);
         const bool grows = std::is_sorted(cells.ends.begin(), cells.ends.end());
         if (!grows || cells.ends.empty() || cells.ends.front() != 0 ||
             cells.ends.back() != static_cast<std::int64_t>(nodes)) {
-            return text_.error("the offsets of cells",
-                               "0 first, none below the one before it, " + std::to_string(nodes) + " last", "others");
+            return text_.fail("the offsets of cells",
+                              "0 first, none below the one before it, " + std::to_string(nodes) + " last", "others");
         }
         cells.ends.erase(cells.ends.begin());
-        return Done{};
     }
 
     /// Rows that all have as many nodes as the first one; false if they do not.
@@ -125,10 +109,8 @@ private:
         for (std::size_t at = 0; at < rows.size(); at += nodes + 1) {
             if (rows[at] != rows.front()) return false;
         }
-        make_room(cells.connectivity, count * nodes);
-        cells.connectivity.resize(count * nodes);
-        make_room(cells.ends, count);
-        cells.ends.resize(count);
+        base::resize_large(cells.connectivity, count * nodes);
+        base::resize_large(cells.ends, count);
         in_parts(count, std::size_t{1} << 15, [&](std::size_t first, std::size_t last) {
             for (std::size_t cell = first; cell < last; ++cell) {
                 std::copy_n(rows.data() + cell * (nodes + 1) + 1, nodes, cells.connectivity.data() + cell * nodes);
@@ -139,34 +121,33 @@ private:
     }
 
     /// Before version 5: the number of its nodes, then the nodes, cell after cell.
-    Status read_rows(Cells& cells, std::size_t count, std::size_t size) {
+    void read_rows(Cells& cells, std::size_t count, std::size_t size) {
         std::vector<std::int32_t> rows;
-        if (Status s = text_.numbers("the cells", NumberType::int32, size, rows); !s) return s;
-        if (take_equal_rows(rows, count, cells)) return Done{};
+        text_.numbers("the cells", NumberType::int32, size, rows);
+        if (!text_.status() || take_equal_rows(rows, count, cells)) return;
         std::size_t at = 0;
         cells.connectivity.reserve(rows.size());
         for (std::size_t cell = 0; cell < count; ++cell) {
             const std::int32_t nodes = at < rows.size() ? rows[at] : -1;
             if (nodes < 0 || static_cast<std::size_t>(nodes) > rows.size() - at - 1) {
-                return text_.error("the nodes of cell " + std::to_string(cell) + " (from 0)",
-                                   "as many as fit in the " + std::to_string(size) + " numbers of the section",
-                                   at < rows.size() ? std::to_string(nodes) : "none");
+                return text_.fail("the nodes of cell " + std::to_string(cell) + " (from 0)",
+                                  "as many as fit in the " + std::to_string(size) + " numbers of the section",
+                                  at < rows.size() ? std::to_string(nodes) : "none");
             }
-            for (std::int32_t i = 1; i <= nodes; ++i)
-                cells.connectivity.push_back(rows[at + static_cast<std::size_t>(i)]);
+            const auto first = rows.begin() + static_cast<std::ptrdiff_t>(at + 1);
+            cells.connectivity.insert(cells.connectivity.end(), first, first + nodes);
             at += 1 + static_cast<std::size_t>(nodes);
             cells.ends.push_back(static_cast<std::int64_t>(cells.connectivity.size()));
         }
-        if (at == rows.size()) return Done{};
-        return text_.error("the size of the cells", std::to_string(at) + " numbers, as the cells have",
-                           std::to_string(rows.size()));
+        if (at != rows.size())
+            text_.fail("the size of the cells", std::to_string(at) + " numbers, as the cells have",
+                       std::to_string(rows.size()));
     }
 
-    Status read_types() {
-        if (!grid_.types.empty()) return text_.error("a second section CELL_TYPES", "one", "two");
-        const Result<std::size_t> count = text_.count("the number of cell types");
-        if (!count) return count.error();
-        return text_.numbers("the cell types", NumberType::int32, *count, grid_.types);
+    void read_types() {
+        if (!grid_.types.empty()) return text_.fail("a second section CELL_TYPES", "one", "two");
+        const std::size_t count = text_.count("the number of cell types");
+        text_.numbers("the cell types", NumberType::int32, count, grid_.types);
     }
 
     std::size_t cell_count() const {
@@ -175,37 +156,144 @@ private:
         return count;
     }
 
-    Status gather_cells() {
+    void gather_cells() {
         if (!polydata_ && grid_.types.size() != cell_count()) {
-            return text_.error("the cell types", std::to_string(cell_count()) + ", one a cell",
-                               std::to_string(grid_.types.size()));
+            return text_.fail("the cell types", std::to_string(cell_count()) + ", one a cell",
+                              std::to_string(grid_.types.size()));
         }
         for (std::size_t i = 0; i < section_count; ++i) {
-            const auto before = static_cast<std::int64_t>(grid_.connectivity.size());
-            const bool first = grid_.ends.empty();
             Cells& cells = sections_[i];
+            const auto before = static_cast<std::int64_t>(grid_.connectivity.size());
             std::int64_t end = 0;
-            for (const std::int64_t next : cells.ends) {
+            for (std::int64_t& next : cells.ends) {
                 if (polydata_) grid_.types.push_back(type_in(static_cast<Section>(i), next - end));
                 end = next;
-                if (!first) grid_.ends.push_back(before + end);
+                next += before;
             }
-            if (first) {
-                grid_.ends = std::move(cells.ends);
-                grid_.connectivity = std::move(cells.connectivity);
-            } else {
-                grid_.connectivity.insert(grid_.connectivity.end(), cells.connectivity.begin(),
-                                          cells.connectivity.end());
-            }
-            cells = {};
+            move_behind(grid_.ends, cells.ends);
+            move_behind(grid_.connectivity, cells.connectivity);
         }
-        return Done{};
     }
+
+    /// All arrays behind POINT_DATA or CELL_DATA, up to the next of the two. `expected`: so many points or cells.
+    void read_attributes(const std::string& keyword, std::size_t expected, const char* each,
+                         std::vector<RawArray>& arrays) {
+        const std::size_t rows = text_.count("the rows of " + keyword);
+        if (rows != expected)
+            return text_.fail("the rows of " + keyword, std::to_string(expected) + each, std::to_string(rows));
+        while (true) {
+            const std::string kind = text_.next_keyword();
+            if (kind.empty() || kind == "POINT_DATA" || kind == "CELL_DATA") return;
+            text_.keyword();
+            read_attribute(kind, rows, arrays);
+        }
+    }
+
+    void read_attribute(const std::string& kind, std::size_t rows, std::vector<RawArray>& arrays) {
+        if (kind == "METADATA") return text_.skip_metadata();
+        if (kind == "FIELD") return read_field_arrays(&arrays, rows);
+        const std::string name = text_.name();
+        if (kind == "LOOKUP_TABLE") {
+            const std::size_t size = text_.count("the size of a lookup table");
+            std::vector<double> unused;
+            return text_.colors("a lookup table", std::uint64_t{4} * size, unused);
+        }
+        /// By their components, 0 where the file tells how many they are.
+        constexpr std::array<std::pair<const char*, std::size_t>, 5> kinds{
+            {{"SCALARS GLOBAL_IDS PEDIGREE_IDS EDGE_FLAGS", 1},
+             {"VECTORS NORMALS", 3},
+             {"TENSORS6", 6},
+             {"TENSORS", 9},
+             {"TEXTURE_COORDINATES COLOR_SCALARS", 0}}};
+        const auto* const known =
+            std::find_if(kinds.begin(), kinds.end(), [&](const auto& one) { return has_word(one.first, kind); });
+        if (known == kinds.end())
+            return text_.fail("a kind of array", "SCALARS, VECTORS, FIELD and the like", in_quotes(kind), too_many);
+        std::size_t components = known->second;
+        if (components == 0) components = text_.count("the components of array " + in_quotes(name));
+        if (kind == "COLOR_SCALARS") return read_array(name, std::nullopt, components, rows, arrays);
+        const std::string type = text_.word();
+        if (kind == "SCALARS") {
+            // The number of components may be left out; the line of the lookup table may be, too.
+            if (const std::optional<std::uint64_t> count = parse_count(text_.rest_of_line()); count.has_value())
+                components = static_cast<std::size_t>(std::min(*count, max_entities + 1));
+            if (text_.next_keyword() == "LOOKUP_TABLE") {
+                text_.keyword();
+                text_.name();
+            }
+        }
+        read_array(name, type, components, rows, arrays);
+    }
+
+    /// `arrays` of nullptr: field data, which belong to neither points nor cells.
+    void read_field_arrays(std::vector<RawArray>* arrays, std::size_t rows) {
+        text_.name();
+        const std::size_t count = text_.count("the number of arrays");
+        for (std::size_t i = 0; i < count && text_.status(); ++i) {
+            std::string name = text_.name();
+            while (name == "METADATA") {
+                text_.skip_metadata();
+                name = text_.name();
+            }
+            if (name == "NULL_ARRAY") continue;
+            const std::size_t components = text_.count("the components of array " + in_quotes(name));
+            const std::size_t tuples = text_.count("the rows of array " + in_quotes(name));
+            if (arrays != nullptr && tuples != rows)
+                return text_.fail("the rows of array " + in_quotes(name), std::to_string(rows), std::to_string(tuples));
+            const std::string type = text_.word();
+            std::vector<RawArray> loose;
+            read_array(name, type, components, tuples, arrays != nullptr ? *arrays : loose);
+            if (!loose.empty() && !is_time(name)) grid_.loose_arrays.push_back(name);
+        }
+    }
+
+    /// `type`: none of colours.
+    void read_array(const std::string& name, const std::optional<std::string>& type, std::size_t components,
+                    std::size_t rows, std::vector<RawArray>& arrays) {
+        const std::string what = "array " + in_quotes(name);
+        const bool of_points = &arrays == &grid_.point_arrays, of_cells = &arrays == &grid_.cell_arrays;
+        if (components == 0 && rows != 0 && !of_points && !of_cells) components = 1;
+        if (components == 0 || components > max_entities)
+            return text_.fail("the components of " + what, "1 or more", std::to_string(components));
+        if (std::any_of(arrays.begin(), arrays.end(), [&](const RawArray& known) { return known.name == name; }))
+            return text_.fail("two arrays of one section", "different names", in_quotes(name) + " twice",
+                              "give them different names");
+        RawArray array{.name = name, .components = static_cast<int>(components), .fault = {}};
+        const std::uint64_t numbers = static_cast<std::uint64_t>(components) * rows;
+        const bool may_label = of_cells || (of_points && part_ == Part::point_arrays);
+        const std::optional<NumberType> known = type_of_name(capitals(type.value_or("")));
+        if (!type) {
+            text_.colors(what, numbers, array.numbers());
+        } else if (known == NumberType::text) {
+            std::vector<std::string> texts;
+            const bool wanted = takes_texts(array, may_label);
+            text_.strings(what, capitals(*type) == "VARIANT", numbers, wanted ? &texts : nullptr);
+            if (wanted) array.values = std::move(texts);
+        } else if (!known) {
+            text_.fail("the type of " + what, "double, float, int and the like", in_quotes(*type));
+        } else if (known == NumberType::bit && components > 1 && text_.binary()) {
+            // VTK writes, and reads back, as many bits as there are rows.
+            std::vector<double> part;
+            array.fault = "VTK writes only the first bits of such an array";
+            text_.numbers(what, *known, rows, part);
+        } else {
+            array.type = *known;
+            const std::string_view begin = text_.rest();
+            const auto read = [&](NumbersTo values, NumberFault& inexact) {
+                text_.go_back(begin);
+                text_.numbers(what, *known, numbers, values, &inexact);
+                return text_.status();
+            };
+            static_cast<void>(read_numbers(array, of_points, may_label, read));  // the text keeps an error
+        }
+        if (text_.status()) arrays.push_back(std::move(array));
+    }
+
+    static constexpr const char* too_many = "the data before it may be cut off, or more than was announced";
 
     LegacyText text_;
     Part part_;
     RawGrid grid_;
-    LegacyArrays arrays_{text_, part_, grid_};
     std::array<Cells, section_count> sections_;
     std::size_t point_count_ = 0;
     bool polydata_ = false, has_points_ = false;
@@ -214,8 +302,14 @@ private:
 
 }  // namespace
 
+Status check_legacy_head(std::string_view bytes, const std::string& path) {
+    LegacyText text(bytes, path);
+    text.read_head();
+    return text.status();
+}
+
 Result<RawGrid> read_legacy(std::string_view bytes, const std::string& path, Part part) {
-    return LegacyReader(LegacyText(bytes, path), part).read();
+    return LegacyReader(bytes, path, part).read();
 }
 
 }  // namespace barycert::io

@@ -1,16 +1,13 @@
 #include "barycert/io/vtk/numbers.hpp"
 
+#include <fast_float/fast_float.h>
+
+#include <algorithm>
+#include <array>
 #include <atomic>
-#include <bit>
 #include <charconv>
-#include <cmath>
-#include <cstring>
-#include <limits>
-#include <type_traits>
-#include <utility>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/vtk/number_types.hpp"
 #include "barycert/io/vtk/parallel.hpp"
 
 namespace barycert::io {
@@ -66,6 +63,7 @@ std::size_t convert_run(const char* bytes, std::size_t count, To* to) {
     }
 }
 
+/// On all threads; the first that is not exact, or `count`.
 template <class From, class To>
 std::size_t convert_all(const char* bytes, bool swap_bytes, std::size_t count, To* to) {
     constexpr std::size_t part = std::size_t{1} << 17;
@@ -82,14 +80,194 @@ std::size_t convert_all(const char* bytes, bool swap_bytes, std::size_t count, T
     return first_fault;
 }
 
+template <class From, class To>
+NumberFault append_numbers(std::string_view bytes, bool swap_bytes, std::size_t count, std::vector<To>& values) {
+    const std::size_t there = std::min(count, bytes.size() / sizeof(From)), before = values.size();
+    make_room(values, there);
+    values.resize(before + there);
+    const std::size_t exact = convert_all<From>(bytes.data(), swap_bytes, there, values.data() + before);
+    if (there < count) return {NumberFault::Kind::too_few, there};
+    if (exact == there) return {};
+    const char* const at = bytes.data() + exact * sizeof(From);
+    return {NumberFault::Kind::not_exact, exact,
+            number_text(swap_bytes ? number_at<From, true>(at) : number_at<From, false>(at))};
+}
+
 template <class To>
-void append_bits(std::string_view bytes, std::size_t count, std::vector<To>& values) {
-    for (std::size_t i = 0; i < count; ++i) {
+NumberFault append_bits(std::string_view bytes, std::size_t count, std::vector<To>& values) {
+    const std::size_t there = std::min(count, 8 * std::min(bytes.size(), count / 8 + 1));
+    make_room(values, there);
+    for (std::size_t i = 0; i < there; ++i)
         values.push_back(static_cast<To>((static_cast<unsigned char>(bytes[i / 8]) >> (7 - i % 8)) & 1U));
+    if (there < count) return {NumberFault::Kind::too_few, there};
+    return {};
+}
+
+struct TypeNames {
+    std::string_view xml, legacy;
+};
+/// In the order of NumberType. vtkIdType is written with 32 bits; long has 64 where this library runs.
+constexpr std::array<TypeNames, 12> type_names{{{"Bit", "BIT"},
+                                                {"Int8", "CHAR SIGNED_CHAR"},
+                                                {"UInt8", "UNSIGNED_CHAR"},
+                                                {"Int16", "SHORT"},
+                                                {"UInt16", "UNSIGNED_SHORT"},
+                                                {"Int32", "VTKIDTYPE INT"},
+                                                {"UInt32", "UNSIGNED_INT"},
+                                                {"Int64", "LONG VTKTYPEINT64 LONG_LONG __INT64"},
+                                                {"UInt64", "UNSIGNED_LONG VTKTYPEUINT64 UNSIGNED_LONG_LONG"},
+                                                {"Float32", "FLOAT"},
+                                                {"Float64", "DOUBLE"},
+                                                {"String", "STRING UTF8_STRING VARIANT"}}};
+
+// Numbers as text, on all threads: parts that begin and end between words are read into values of their own, which are
+// put together in the order of the file.
+
+/// The number that a word writes, in the type it has in the file.
+template <class T>
+bool parse_word(std::string_view word, T& value) {
+    if constexpr (std::is_same_v<T, double>) {
+        const std::optional<double> number = base::parse_double(word);
+        value = number.value_or(0);
+        return number.has_value();
+    } else {
+        if (word.starts_with('+')) word.remove_prefix(1);
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        if constexpr (std::is_same_v<T, float>) {
+            // Too small for a float: zero or the least of them, which the double rounds to.
+            if (error == std::errc::result_out_of_range) {
+                const std::optional<double> wide = base::parse_double(word);
+                if (!wide || std::abs(*wide) > 1) return false;
+                value = static_cast<float>(*wide);
+                return true;
+            }
+        }
+        return error == std::errc{} && end == word.data() + word.size();
     }
 }
 
+/// The number at `at`, behind which there is white space or the end; nullptr where a closer look is needed.
+template <class T>
+const char* quick_number(const char* at, const char* end, T& value) {
+    const char* behind = nullptr;
+    if constexpr (std::is_floating_point_v<T>) {
+        const auto [next, error] = fast_float::from_chars(at, end, value);
+        if (error != std::errc{} || !std::isfinite(value)) return nullptr;
+        behind = next;
+    } else {
+        const auto [next, error] = std::from_chars(at, end, value);
+        if (error != std::errc{}) return nullptr;
+        behind = next;
+    }
+    return behind == end || is_white(*behind) ? behind : nullptr;
+}
+
+/// Up to `count` numbers of one part of the text.
+template <class From, class To>
+struct TextPart {
+    std::vector<To> values;
+    NumberFault fault;  // its index counts from the first number of the part
+    const char* end = nullptr;
+
+    void read(std::string_view text, std::size_t count) {
+        values.clear();
+        fault = {};
+        const char* at = text.data();
+        const char* const last = at + text.size();
+        while (values.size() < count) {
+            while (at != last && is_white(*at)) ++at;
+            if (at == last) break;
+            From from{};
+            const char* behind = quick_number(at, last, from);
+            if (behind == nullptr) {
+                std::string_view rest(at, static_cast<std::size_t>(last - at));
+                const std::string_view word = next_word(rest);
+                if (!parse_word(word, from)) {
+                    fault = {NumberFault::Kind::no_number, values.size(), std::string(word.substr(0, 40)), word.data()};
+                    break;
+                }
+                behind = at + word.size();
+            }
+            To to{};
+            if (!convert_number(from, to) && !fault) {
+                const std::string_view word(at, static_cast<std::size_t>(behind - at));
+                fault = {NumberFault::Kind::not_exact, values.size(), std::string(word.substr(0, 40)), at};
+            }
+            values.push_back(to);
+            at = behind;
+        }
+        end = at;
+    }
+};
+
+constexpr std::size_t part_bytes = std::size_t{1} << 18;
+
+/// The text in parts of about that size, each ended by white space; at most `most` of them.
+std::vector<std::string_view> parts_of(std::string_view text, std::size_t most) {
+    std::vector<std::string_view> parts;
+    while (!text.empty() && parts.size() < most) {
+        std::size_t size = std::min(part_bytes, text.size());
+        while (size < text.size() && !is_white(text[size])) ++size;
+        parts.push_back(text.substr(0, size));
+        text.remove_prefix(size);
+    }
+    return parts;
+}
+
+template <class From, class To>
+NumberFault read_words(std::string_view& text, std::size_t count, std::vector<To>& values) {
+    NumberFault fault;
+    constexpr std::size_t most = 64;
+    std::vector<TextPart<From, To>> read(1);
+    for (std::size_t done = 0; done < count;) {
+        // Few numbers take more than 32 bytes: text far behind the last one is not looked at.
+        const std::size_t left = count - done;
+        const std::vector<std::string_view> parts = parts_of(text, std::min(most, left / (part_bytes / 32) + 1));
+        if (parts.empty()) return {NumberFault::Kind::too_few, done};
+        if (read.size() < parts.size()) read.resize(parts.size());
+        in_parallel(parts.size(), [&](std::size_t i) { read[i].read(parts[i], left); });
+        std::vector<std::size_t> places, taken;
+        std::size_t size = values.size();
+        bool ended = false;
+        for (std::size_t i = 0; i < parts.size() && !ended; ++i) {
+            TextPart<From, To>& part = read[i];
+            const std::size_t wanted = count - done;
+            const bool no_number = part.fault.kind == NumberFault::Kind::no_number;
+            if (part.values.size() > wanted || (part.values.size() == wanted && no_number)) {
+                part.read(parts[i], wanted);  // what follows are other words
+            }
+            if (part.fault && (!fault || part.fault.kind == NumberFault::Kind::no_number)) {
+                fault = part.fault;
+                fault.index += done;
+                if (fault.kind == NumberFault::Kind::no_number) return fault;
+            }
+            places.push_back(size);
+            taken.push_back(part.values.size());
+            size += part.values.size();
+            done += part.values.size();
+            text.remove_prefix(static_cast<std::size_t>(part.end - text.data()));
+            ended = done == count;
+        }
+        make_room(values, size - values.size());
+        values.resize(size);
+        in_parallel(places.size(),
+                    [&](std::size_t i) { std::copy_n(read[i].values.data(), taken[i], values.data() + places[i]); });
+    }
+    return fault;
+}
+
 }  // namespace
+
+std::string_view xml_name(NumberType type) {
+    return type_names[static_cast<std::size_t>(type)].xml;
+}
+
+std::optional<NumberType> type_of_name(std::string_view name) {
+    for (std::size_t i = 0; i < type_names.size(); ++i) {
+        if (name == type_names[i].xml || has_word(type_names[i].legacy, name)) return static_cast<NumberType>(i);
+    }
+    return std::nullopt;
+}
 
 std::size_t number_bytes(NumberType type) {
     return with_number_type(type, []<class T>() { return sizeof(T); });
@@ -112,6 +290,12 @@ std::string_view next_word(std::string_view& text) {
     return word;
 }
 
+bool has_word(std::string_view text, std::string_view wanted) {
+    std::string_view word = next_word(text);
+    while (!word.empty() && word != wanted) word = next_word(text);
+    return !word.empty();
+}
+
 std::optional<std::uint64_t> parse_count(std::string_view text) {
     std::string_view word = next_word(text);
     if (!next_word(text).empty()) return std::nullopt;
@@ -122,56 +306,32 @@ std::optional<std::uint64_t> parse_count(std::string_view text) {
     return value;
 }
 
-template <class To>
-std::size_t convert_numbers(std::string_view bytes, NumberType type, bool swap_bytes, std::size_t count, To* to) {
-    return with_number_type(type, [&]<class From>() { return convert_all<From>(bytes.data(), swap_bytes, count, to); });
+bool are_as_they_stand(NumberType type, bool swap_bytes, const NumbersTo& values) {
+    if (type == NumberType::bit) return false;
+    return std::visit(
+        [&]<class To>(std::reference_wrapper<std::vector<To>>) {
+            return with_number_type(
+                type, [&]<class From>() { return std::is_same_v<From, To> && (!swap_bytes || sizeof(From) == 1); });
+        },
+        values);
 }
 
-template <class To>
-bool are_as_they_stand(NumberType type, bool swap_bytes) {
-    return type != NumberType::bit && with_number_type(type, [&]<class From>() {
-               return std::is_same_v<From, To> && (!swap_bytes || sizeof(From) == 1);
-           });
+NumberFault read_binary(std::string_view bytes, NumberType type, bool swap_bytes, std::size_t count, NumbersTo values) {
+    return std::visit(
+        [&]<class To>(std::reference_wrapper<std::vector<To>> to) {
+            if (type == NumberType::bit) return append_bits(bytes, count, to.get());
+            return with_number_type(
+                type, [&]<class From>() { return append_numbers<From>(bytes, swap_bytes, count, to.get()); });
+        },
+        values);
 }
 
-NumberFault inexact_number(std::string_view bytes, NumberType type, bool swap_bytes, std::size_t index) {
-    const std::string text = with_number_type(type, [&]<class From>() {
-        const char* const at = bytes.data() + index * sizeof(From);
-        return number_text(swap_bytes ? number_at<From, true>(at) : number_at<From, false>(at));
-    });
-    return {NumberFault::Kind::not_exact, index, text};
+NumberFault read_text(std::string_view& text, NumberType type, std::size_t count, NumbersTo values) {
+    return std::visit(
+        [&](auto to) {
+            return with_number_type(type, [&]<class From>() { return read_words<From>(text, count, to.get()); });
+        },
+        values);
 }
-
-template <class To>
-NumberFault read_binary(std::string_view bytes, NumberType type, bool swap_bytes, std::size_t count,
-                        std::vector<To>& values) {
-    const std::size_t there = type == NumberType::bit ? std::min(count, 8 * std::min(bytes.size(), count / 8 + 1))
-                                                      : std::min(count, bytes.size() / number_bytes(type));
-    make_room(values, there);
-    std::size_t exact = there;
-    if (type == NumberType::bit) {
-        append_bits(bytes, there, values);
-    } else {
-        const std::size_t before = values.size();
-        values.resize(before + there);
-        exact = convert_numbers(bytes, type, swap_bytes, there, values.data() + before);
-    }
-    if (there < count) return {NumberFault::Kind::too_few, there, {}};
-    if (exact < there) return inexact_number(bytes, type, swap_bytes, exact);
-    return {};
-}
-
-template std::size_t convert_numbers(std::string_view, NumberType, bool, std::size_t, double*);
-template std::size_t convert_numbers(std::string_view, NumberType, bool, std::size_t, std::int64_t*);
-template std::size_t convert_numbers(std::string_view, NumberType, bool, std::size_t, std::int32_t*);
-template std::size_t convert_numbers(std::string_view, NumberType, bool, std::size_t, std::uint8_t*);
-template bool are_as_they_stand<double>(NumberType, bool);
-template bool are_as_they_stand<std::int64_t>(NumberType, bool);
-template bool are_as_they_stand<std::int32_t>(NumberType, bool);
-template bool are_as_they_stand<std::uint8_t>(NumberType, bool);
-template NumberFault read_binary(std::string_view, NumberType, bool, std::size_t, std::vector<double>&);
-template NumberFault read_binary(std::string_view, NumberType, bool, std::size_t, std::vector<std::int64_t>&);
-template NumberFault read_binary(std::string_view, NumberType, bool, std::size_t, std::vector<std::int32_t>&);
-template NumberFault read_binary(std::string_view, NumberType, bool, std::size_t, std::vector<std::uint8_t>&);
 
 }  // namespace barycert::io

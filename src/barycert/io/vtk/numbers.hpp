@@ -1,11 +1,19 @@
 /// The numbers of VTK files, of every type and in every encoding, as those that meshes hold.
 #pragma once
 
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace barycert::io {
@@ -21,10 +29,16 @@ enum class NumberType : std::uint8_t {
     int64,
     uint64,
     float32,
-    float64
+    float64,
+    text  ///< no number: bytes up to a zero byte
 };
 
-/// Bytes of a number; 1 for bit.
+/// "Float64": its name in XML files.
+std::string_view xml_name(NumberType type);
+/// By this name, or that in legacy files, in capitals.
+std::optional<NumberType> type_of_name(std::string_view name);
+
+/// Bytes of a number; 1 for bit and text.
 std::size_t number_bytes(NumberType type);
 
 /// Bytes that `count` numbers take; nothing if they do not fit in 64 bits.
@@ -39,39 +53,103 @@ struct NumberFault {
         not_exact,  ///< the number is not one of the type asked for
     };
     Kind kind = Kind::none;
-    std::size_t index = 0;  ///< of the number, from 0
-    std::string text;       ///< as it stands in the file
+    std::size_t index = 0;        ///< of the number, from 0
+    std::string text = {};        ///< as it stands in the file
+    const char* place = nullptr;  ///< where it stands, if that is a text
 
     explicit operator bool() const { return kind != Kind::none; }
 };
 
-/// Writes `count` numbers to `to`, whose type is double, std::int64_t, std::int32_t or std::uint8_t, from their bytes;
-/// not those of type bit. Returns the first that is not exact (another number then stands there), or `count`.
-template <class To>
-std::size_t convert_numbers(std::string_view bytes, NumberType type, bool swap_bytes, std::size_t count, To* to);
+/// Where numbers go: behind those of a vector of one of the types that meshes hold.
+using NumbersTo =
+    std::variant<std::reference_wrapper<std::vector<double>>, std::reference_wrapper<std::vector<std::int64_t>>,
+                 std::reference_wrapper<std::vector<std::int32_t>>, std::reference_wrapper<std::vector<std::uint8_t>>>;
 
-/// Whether numbers of that type and order have the bytes of a `To`.
-template <class To>
-bool are_as_they_stand(NumberType type, bool swap_bytes);
+/// Whether numbers of that type and order have the bytes of those there.
+bool are_as_they_stand(NumberType type, bool swap_bytes, const NumbersTo& values);
 
-/// That number `index` of those bytes is not exact.
-NumberFault inexact_number(std::string_view bytes, NumberType type, bool swap_bytes, std::size_t index);
-
-/// Appends `count` numbers to `values`, as convert_numbers does, of bytes that may be too few. Goes on after a number
-/// that is not exact, so that what follows can be read. float32 becomes double exactly.
-template <class To>
-NumberFault read_binary(std::string_view bytes, NumberType type, bool swap_bytes, std::size_t count,
-                        std::vector<To>& values);
+/// Appends `count` numbers to `values`, of bytes that may be too few. Goes on after a number that is not exact (another
+/// number then stands there), so that what follows can be read. float32 becomes double exactly.
+NumberFault read_binary(std::string_view bytes, NumberType type, bool swap_bytes, std::size_t count, NumbersTo values);
 
 /// The same from text, separated by white space; what has been read is taken off `text`. Decimal numbers are rounded to
 /// the nearest of their type, as VTK does. Memory grows with what has been read.
-template <class To>
-NumberFault read_text(std::string_view& text, NumberType type, std::size_t count, std::vector<To>& values);
+NumberFault read_text(std::string_view& text, NumberType type, std::size_t count, NumbersTo values);
 
 /// Takes the next word off `text`; empty at the end.
 std::string_view next_word(std::string_view& text);
 
+/// Whether that is a word of the text.
+bool has_word(std::string_view text, std::string_view wanted);
+
 /// A count as XML attributes and headers give it: blanks around it, a plus before it. Nothing if it is none.
 std::optional<std::uint64_t> parse_count(std::string_view text);
+
+inline bool is_white(char c) {
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+/// f.operator()<T>() for the C++ type of a number type; for bit and text that of uint8.
+template <class F>
+decltype(auto) with_number_type(NumberType type, F&& f) {
+    switch (type) {
+        case NumberType::int8:
+            return f.template operator()<std::int8_t>();
+        case NumberType::int16:
+            return f.template operator()<std::int16_t>();
+        case NumberType::uint16:
+            return f.template operator()<std::uint16_t>();
+        case NumberType::int32:
+            return f.template operator()<std::int32_t>();
+        case NumberType::uint32:
+            return f.template operator()<std::uint32_t>();
+        case NumberType::int64:
+            return f.template operator()<std::int64_t>();
+        case NumberType::uint64:
+            return f.template operator()<std::uint64_t>();
+        case NumberType::float32:
+            return f.template operator()<float>();
+        case NumberType::float64:
+            return f.template operator()<double>();
+        default:
+            return f.template operator()<std::uint8_t>();
+    }
+}
+
+/// Whether `to` became the same number.
+template <class To, class From>
+bool convert_number(From from, To& to) {
+    if constexpr (std::is_floating_point_v<To>) {
+        to = static_cast<To>(from);
+        if constexpr (std::is_integral_v<From> && sizeof(From) == 8) {
+            const std::uint64_t size =
+                from < From{0} ? std::uint64_t{0} - static_cast<std::uint64_t>(from) : static_cast<std::uint64_t>(from);
+            return size == 0 || std::bit_width(size) - std::countr_zero(size) <= std::numeric_limits<To>::digits;
+        }
+        return true;
+    } else if constexpr (std::is_floating_point_v<From>) {
+        to = To{};
+        if (!(from >= -0x1p63 && from < 0x1p63) || std::trunc(from) != from) return false;
+        return convert_number(static_cast<std::int64_t>(from), to);
+    } else {
+        to = static_cast<To>(from);  // NOLINT(bugprone-signed-char-misuse): a number of 8 bits, no character
+        return std::in_range<To>(from);
+    }
+}
+
+/// The number at those bytes, which stand in the order of this machine or in the other.
+template <class T, bool swap>
+T number_at(const char* bytes) {
+    using Word =
+        std::conditional_t<sizeof(T) == 8, std::uint64_t,
+                           std::conditional_t<sizeof(T) == 4, std::uint32_t,
+                                              std::conditional_t<sizeof(T) == 2, std::uint16_t, std::uint8_t>>>;
+    Word word = 0;
+    std::memcpy(&word, bytes, sizeof(T));
+    if constexpr (swap && sizeof(T) == 8) word = __builtin_bswap64(word);
+    if constexpr (swap && sizeof(T) == 4) word = __builtin_bswap32(word);
+    if constexpr (swap && sizeof(T) == 2) word = __builtin_bswap16(word);
+    return std::bit_cast<T>(word);
+}
 
 }  // namespace barycert::io

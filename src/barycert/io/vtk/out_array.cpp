@@ -1,12 +1,12 @@
-#include "barycert/io/vtk/out_array.hpp"
+#include "barycert/io/vtk/out_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 
-#include "barycert/io/vti/appended.hpp"
+#include "barycert/base/utf8.hpp"
+#include "barycert/io.hpp"
 #include "barycert/io/vtk/parallel.hpp"
 
 namespace barycert::io {
@@ -37,14 +37,16 @@ void put_numbers(std::size_t first, std::size_t last, std::size_t per_line, std:
     bytes = std::move(text);
 }
 
-}  // namespace
-
-std::uint64_t OutArray::size() const {
-    return count * number_size(array.type);
+/// The production Char of XML 1.0.
+bool is_xml(char32_t code) {
+    if (code < 0x20) return code == '\t' || code == '\n' || code == '\r';
+    return code < 0xD800 || (code >= 0xE000 && code < 0xFFFE) || (code >= 0x10000 && code < 0x110000);
 }
 
+}  // namespace
+
 void OutArray::copy(std::size_t first, std::size_t last, char* to) const {
-    const std::uint64_t number = number_size(array.type);
+    const std::uint64_t number = number_bytes(format.type);
     if (bytes == nullptr) {
         fill(first, last, to);
     } else if (last != first) {
@@ -53,42 +55,16 @@ void OutArray::copy(std::size_t first, std::size_t last, char* to) const {
 }
 
 OutArray array_of_points(std::span<const double> points, int dimension) {
-    VtiArray array{"Points", 3, VtiType::float64};
-    if (dimension == 3) return array_in_memory(std::move(array), points);
-    return array_made<double>(std::move(array), points.size() / 2 * 3,
+    ArrayFormat format{"Points", 3, NumberType::float64};
+    if (dimension == 3) return array_in_memory(std::move(format), points);
+    return array_made<double>(std::move(format), points.size() / 2 * 3,
                               [points](std::size_t i) { return i % 3 == 2 ? 0.0 : points[i / 3 * 2 + i % 3]; });
-}
-
-OutArray array_of_field(const Field& field) {
-    return array_in_memory<double>({field.name, field.components, VtiType::float64}, field.data);
-}
-
-OutArray array_of_column(const Column& column, std::string& room) {
-    if (const auto* const numbers = std::get_if<std::vector<std::int64_t>>(&column.values); numbers != nullptr)
-        return array_in_memory<std::int64_t>({column.name, 1, VtiType::int64}, *numbers);
-    if (const auto* const numbers = std::get_if<std::vector<double>>(&column.values); numbers != nullptr)
-        return array_in_memory<double>({column.name, 1, VtiType::float64}, *numbers);
-    for (const std::string& text : std::get<std::vector<std::string>>(column.values)) {
-        room += text;
-        room += '\0';
-    }
-    return array_in_memory<char>({column.name, 1, VtiType::text}, room);
-}
-
-std::string fault_of_column(const Column& column) {
-    if (const auto* const texts = std::get_if<std::vector<std::string>>(&column.values); texts != nullptr) {
-        for (const std::string& text : *texts) {
-            if (text.find('\0') != std::string::npos)
-                return "the labels \"" + column.name + "\" hold a zero byte, which ends a text there";
-        }
-    }
-    return {};
 }
 
 void write_parts(const OutArray& array, std::size_t part, const Transform& transform,
                  const std::function<void(std::string_view)>& write) {
     constexpr std::size_t wave = 64;
-    const std::uint64_t number = number_size(array.array.type);
+    const std::uint64_t number = number_bytes(array.format.type);
     const auto count = static_cast<std::size_t>(array.count);
     std::vector<std::string> parts(std::min(wave, (count + part - 1) / part));
     for (std::size_t begin = 0; begin < count; begin += wave * part) {
@@ -108,23 +84,68 @@ void write_as_text(const OutArray& array, std::size_t per_line, const std::funct
     write_parts(
         array, part,
         [&](std::size_t first, std::size_t last, std::string& bytes) {
-            switch (array.array.type) {
-                case VtiType::int8:
-                    return put_numbers<std::int8_t>(first, last, per_line, bytes);
-                case VtiType::int32:
-                    return put_numbers<std::int32_t>(first, last, per_line, bytes);
-                case VtiType::int64:
-                    return put_numbers<std::int64_t>(first, last, per_line, bytes);
-                case VtiType::float32:
-                    return put_numbers<float>(first, last, per_line, bytes);
-                case VtiType::float64:
-                    return put_numbers<double>(first, last, per_line, bytes);
-                default:
-                    return put_numbers<std::uint8_t>(first, last, per_line, bytes);
-            }
+            with_number_type(array.format.type, [&]<class T>() { put_numbers<T>(first, last, per_line, bytes); });
         },
         write);
     if (array.count % per_line != 0) write("\n");
+}
+
+std::optional<std::string> xml_attribute(std::string_view name) {
+    std::string text;
+    while (!name.empty()) {
+        const base::Character c = base::first_character(name);
+        if (c.size == 0 || !is_xml(c.code)) return std::nullopt;
+        // What would end the value, and white space, which a reader would turn into spaces.
+        if (std::string_view("<>&\"'\t\n\r").find(name[0]) != std::string_view::npos) {
+            text += "&#" + std::to_string(static_cast<std::uint32_t>(c.code)) + ";";
+        } else {
+            text += name.substr(0, c.size);
+        }
+        name.remove_prefix(c.size);
+    }
+    return text;
+}
+
+std::string fault_of_names(std::vector<std::string> all, Names names) {
+    for (const std::string& name : all) {
+        if (name.empty()) return "a field has no name";
+        if (names == Names::xml && !xml_attribute(name)) {
+            return "the name of field \"" + name + "\" has bytes that XML cannot hold";
+        }
+    }
+    std::sort(all.begin(), all.end());
+    const auto twice = std::adjacent_find(all.begin(), all.end());
+    return twice == all.end() ? "" : "two fields are named \"" + *twice + '"';
+}
+
+Error cannot_write(const std::string& what, const std::string& fault, const std::string& path) {
+    return file_error(path, "cannot write " + what + ": " + fault, {}, {}, "correct it in memory");
+}
+
+Status check_arrays(const std::string& path, const std::vector<ArrayFormat>& arrays) {
+    std::vector<std::string> names;
+    for (const ArrayFormat& array : arrays) {
+        if (array.name.empty()) return wrong_in_memory(path, "the name of an array", "one", "none");
+        if (!xml_attribute(array.name)) {
+            return wrong_in_memory(path, "the name of an array", "text in UTF-8 without control characters",
+                                   '"' + array.name + '"');
+        }
+        if (array.components < 1) {
+            return wrong_in_memory(path, "the components of array \"" + array.name + '"', "1 or more",
+                                   std::to_string(array.components));
+        }
+        names.push_back(array.name);
+    }
+    std::sort(names.begin(), names.end());
+    const auto twice = std::adjacent_find(names.begin(), names.end());
+    if (twice != names.end())
+        return wrong_in_memory(path, "the names of arrays", "different ones", '"' + *twice + "\" twice");
+    return Done{};
+}
+
+Error wrong_in_memory(const std::string& path, std::string what, std::string expected, std::string found) {
+    return file_error(path, std::move(what), std::move(expected), std::move(found),
+                      "correct what is to be written, or its arrays, in memory");
 }
 
 }  // namespace barycert::io

@@ -1,41 +1,103 @@
 #include "barycert/io/vtk/raw_grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
-#include <cstdint>
-#include <iterator>
-#include <utility>
-#include <variant>
-
-#include "barycert/io/vtk/parallel.hpp"
 
 namespace barycert::io {
 
-Error number_error(const std::string& path, std::size_t line, const std::string& what, std::uint64_t count,
-                   const NumberFault& fault) {
-    Error error{.what = what, .file = path, .line = line};
-    const std::string number = "number " + std::to_string(fault.index) + " (from 0)";
-    switch (fault.kind) {
-        case NumberFault::Kind::too_few:
-            error.expected = std::to_string(count) + " numbers";
-            error.found = std::to_string(fault.index);
-            error.remedy = "write the file again: it may be cut off";
-            break;
-        case NumberFault::Kind::no_number:
-            error.what = number + " of " + what;
-            error.expected = "a number of the type of the array";
-            error.found = in_quotes(fault.text);
-            break;
-        default:
-            error.what = number + " of " + what;
-            error.expected = "a number that fits what it stands for";
-            error.found = fault.text;
-    }
-    return error;
+std::string vtk_class_name(std::uint8_t type) {
+    struct Run {
+        std::uint8_t first;
+        std::string_view names;  // of the types from there on
+    };
+    static constexpr std::array<Run, 6> runs{
+        {{0,
+          "EmptyCell Vertex PolyVertex Line PolyLine Triangle TriangleStrip Polygon Pixel Quad Tetra Voxel Hexahedron "
+          "Wedge Pyramid PentagonalPrism HexagonalPrism"},
+         {21,
+          "QuadraticEdge QuadraticTriangle QuadraticQuad QuadraticTetra QuadraticHexahedron QuadraticWedge "
+          "QuadraticPyramid BiQuadraticQuad TriQuadraticHexahedron QuadraticLinearQuad QuadraticLinearWedge "
+          "BiQuadraticQuadraticWedge BiQuadraticQuadraticHexahedron BiQuadraticTriangle CubicLine QuadraticPolygon "
+          "TriQuadraticPyramid"},
+         {41, "ConvexPointSet Polyhedron"},
+         {51,
+          "ParametricCurve ParametricSurface ParametricTriSurface ParametricQuadSurface ParametricTetraRegion "
+          "ParametricHexRegion"},
+         {60, "HigherOrderEdge HigherOrderTriangle HigherOrderQuad HigherOrderPolygon HigherOrderTetrahedron"},
+         {68,
+          "LagrangeCurve LagrangeTriangle LagrangeQuadrilateral LagrangeTetra LagrangeHexahedron LagrangeWedge "
+          "LagrangePyramid BezierCurve BezierTriangle BezierQuadrilateral BezierTetra BezierHexahedron BezierWedge"}}};
+    std::size_t run = runs.size() - 1;
+    while (runs[run].first > type) --run;
+    std::string_view names = runs[run].names;
+    for (std::uint8_t before = runs[run].first; before != type; ++before) next_word(names);
+    const std::string_view name = next_word(names);
+    return name.empty() ? "unknown type " + std::to_string(type) : "vtk" + std::string(name);
 }
 
-std::string inexact(const NumberFault& fault) {
-    return "it holds " + fault.text + ", which is not exactly a double";
+std::uint8_t type_in(Section section, std::int64_t nodes) {
+    switch (section) {
+        case vertices:
+            return nodes == 1 ? vtk_vertex : vtk_poly_vertex;
+        case lines:
+            return nodes == 2 ? vtk_line : vtk_poly_line;
+        case polygons:
+            return nodes == 3 ? vtk_triangle : nodes == 4 ? vtk_quad : vtk_polygon;
+        default:
+            return vtk_triangle_strip;
+    }
+}
+
+std::size_t line_of(std::string_view bytes, std::size_t at) {
+    const std::string_view before = bytes.substr(0, at);
+    return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+}
+
+Error number_error(const std::string& path, std::size_t line, const std::string& what, std::uint64_t count,
+                   const NumberFault& fault) {
+    const std::string number = "number " + std::to_string(fault.index) + " (from 0) of " + what;
+    switch (fault.kind) {
+        case NumberFault::Kind::too_few:
+            return {what,
+                    path,
+                    line,
+                    std::to_string(count) + " numbers",
+                    std::to_string(fault.index),
+                    "write the file again: it may be cut off"};
+        case NumberFault::Kind::no_number:
+            return {number, path, line, "a number of the type of the array", in_quotes(fault.text)};
+        default:
+            return {number, path, line, "a number that fits what it stands for", fault.text};
+    }
+}
+
+Status read_numbers(RawArray& array, bool of_points, bool may_label,
+                    const std::function<Status(NumbersTo values, NumberFault& inexact)>& read) {
+    const bool one = array.components == 1;
+    NumberFault fault;
+    if (!(of_points && one && array.name == marker_name && array.type == NumberType::int64)) {
+        if (Status s = read(array.numbers(), fault); !s || !fault) return s;
+        array.values = std::vector<double>();
+        array.fault = "it holds " + fault.text + ", which is not exactly a double";
+        if (!may_label || !one || !array.is_wide_integer()) return Done{};
+    }
+    std::vector<std::int64_t> labels;
+    NumberFault beyond;
+    if (Status s = read(labels, beyond); !s || beyond) return s;
+    array.values = std::move(labels);
+    array.fault.clear();
+    return Done{};
+}
+
+bool takes_texts(RawArray& array, bool may_label) {
+    array.type = NumberType::text;
+    if (!may_label) {
+        array.fault = "it holds text, which points of a mesh cannot carry";
+    } else if (array.components != 1) {
+        array.fault = "it holds texts of several components";
+    }
+    return array.fault.empty();
 }
 
 std::size_t first_wrong_node(const std::vector<std::int32_t>& nodes, std::size_t from, std::size_t count) {
@@ -59,72 +121,64 @@ namespace {
 
 constexpr const char* missing = "it is missing in a piece of the file";
 
-template <class T>
-void move_behind(std::vector<T>& to, std::vector<T>& from) {
-    if (to.empty()) {
-        to = std::move(from);
-    } else {
-        make_room(to, from.size());
-        to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+void add_new(std::vector<std::string>& names, std::vector<std::string>& more) {
+    for (std::string& name : more) {
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
     }
 }
 
-/// Numbers that a field holds exactly, as the labels that another piece has.
-void make_labels(RawArray& array) {
-    std::vector<std::int64_t> numbers;
-    numbers.reserve(array.field.data.size());
-    for (const double x : array.field.data) numbers.push_back(static_cast<std::int64_t>(x));
-    array.labels = std::move(numbers);
-    array.has_labels = true;
-    array.field.data = {};
+/// What holds of numbers of either type.
+NumberType common_type(NumberType a, NumberType b) {
+    if (a == b) return a;
+    for (const NumberType type : {NumberType::float32, NumberType::float64}) {
+        if (a == type || b == type) return type;
+    }
+    return std::min(a, b) >= NumberType::int64 ? NumberType::int64 : NumberType::int32;
 }
 
-/// Whether both became of one kind.
+/// Whether both became of one kind. Numbers that a field holds exactly become labels, where another piece has them.
 bool agree(RawArray& a, RawArray& b) {
-    if (a.field.components != b.field.components) return false;
-    if (a.has_labels != b.has_labels) {
-        RawArray& plain = a.has_labels ? b : a;
-        RawArray& labelled = a.has_labels ? a : b;
+    if (a.components != b.components) return false;
+    if (a.has_labels() != b.has_labels()) {
+        RawArray& plain = a.has_labels() ? b : a;
         // Those of uint64 that are no int64 were refused as labels, and may be among the plain ones.
-        if (!plain.is_integer || !std::holds_alternative<std::vector<std::int64_t>>(labelled.labels)) return false;
-        for (const double x : plain.field.data) {
-            if (!(x >= -0x1p63 && x < 0x1p63)) return false;
-        }
-        make_labels(plain);
+        const auto fits = [](double x) { return x >= -0x1p63 && x < 0x1p63; };
+        if (!plain.is_wide_integer() || (a.has_labels() ? a : b).integers() == nullptr ||
+            !std::all_of(plain.numbers().begin(), plain.numbers().end(), fits))
+            return false;
+        std::vector<std::int64_t> labels;
+        labels.reserve(plain.numbers().size());
+        for (const double x : plain.numbers()) labels.push_back(static_cast<std::int64_t>(x));
+        plain.values = std::move(labels);
     }
-    return !a.has_labels || a.labels.index() == b.labels.index();
+    return a.values.index() == b.values.index();
 }
 
 void append_array(RawArray& to, RawArray& from) {
-    to.is_narrow = to.is_narrow || from.is_narrow;
     if (to.fault.empty()) to.fault = from.fault;
     if (to.fault.empty() && !agree(to, from)) to.fault = "its type differs between pieces of the file";
     if (!to.fault.empty()) {
-        to.field.data = {};
-        to.labels = {};
-    } else if (to.has_labels) {
-        std::visit([&](auto& values) { move_behind(values, std::get<std::decay_t<decltype(values)>>(from.labels)); },
-                   to.labels);
-    } else {
-        to.is_integer = to.is_integer && from.is_integer;
-        to.is_whole = to.is_whole && from.is_whole;
-        move_behind(to.field.data, from.field.data);
+        to.values = std::vector<double>();
+        return;
     }
+    to.type = common_type(to.type, from.type);
+    std::visit([&](auto& values) { move_behind(values, std::get<std::decay_t<decltype(values)>>(from.values)); },
+               to.values);
 }
 
 /// `before`: rows that there are.
 void append_arrays(std::vector<RawArray>& to, std::vector<RawArray>& from, std::size_t before) {
     const auto named = [](std::vector<RawArray>& arrays, const std::string& name) -> RawArray* {
         for (RawArray& array : arrays) {
-            if (array.field.name == name) return &array;
+            if (array.name == name) return &array;
         }
         return nullptr;
     };
     for (RawArray& array : to) {
-        if (array.fault.empty() && named(from, array.field.name) == nullptr) array.fault = missing;
+        if (array.fault.empty() && named(from, array.name) == nullptr) array.fault = missing;
     }
     for (RawArray& array : from) {
-        if (RawArray* const known = named(to, array.field.name); known != nullptr) {
+        if (RawArray* const known = named(to, array.name); known != nullptr) {
             append_array(*known, array);
         } else {
             if (before != 0 && array.fault.empty()) array.fault = missing;
@@ -135,40 +189,36 @@ void append_arrays(std::vector<RawArray>& to, std::vector<RawArray>& from, std::
 
 }  // namespace
 
+void keep_rows(std::vector<RawArray>& arrays, const std::vector<std::int32_t>& rows) {
+    for (RawArray& array : arrays) {
+        if (!array.fault.empty()) continue;
+        std::visit([&](auto& values) { keep_rows(values, static_cast<std::size_t>(array.components), rows); },
+                   array.values);
+    }
+}
+
 void make_field_of_doubles(RawArray& array) {
-    const auto* const numbers = std::get_if<std::vector<std::int64_t>>(&array.labels);
-    if (!array.has_labels || numbers == nullptr) return;
+    const std::vector<std::int64_t>* const integers = array.integers();
     const auto is_double = [](std::int64_t n) {
-        const auto x = static_cast<double>(n);
-        return x < 0x1p63 && static_cast<std::int64_t>(x) == n;
+        double x = 0;
+        return convert_number(n, x);
     };
-    if (!std::all_of(numbers->begin(), numbers->end(), is_double)) return;
-    array.field.data.assign(numbers->begin(), numbers->end());
-    array.labels = {};
-    array.has_labels = false;
+    if (integers == nullptr || !std::all_of(integers->begin(), integers->end(), is_double)) return;
+    array.values = std::vector<double>(integers->begin(), integers->end());
 }
 
 Status append_piece(RawGrid& grid, RawGrid piece, const std::string& path) {
     const std::size_t points = grid.point_count(), cells = grid.types.size(), nodes = grid.connectivity.size();
     if (points + piece.point_count() > max_entities || cells + piece.types.size() > max_entities) {
-        return Error{.what = "more points or cells than a mesh can have",
-                     .file = path,
-                     .line = 0,
-                     .expected = "at most " + std::to_string(max_entities) + " in all pieces",
-                     .found = {}};
+        return file_error(path, "more points or cells than a mesh can have",
+                          "at most " + std::to_string(max_entities) + " in all pieces");
     }
     grid.narrow_points = grid.narrow_points || piece.narrow_points;
     grid.has_steps = grid.has_steps || piece.has_steps;
     grid.checked_nodes = (cells == 0 || grid.checked_nodes) && piece.checked_nodes;
     move_behind(grid.notes, piece.notes);
-    for (std::string& name : piece.loose_arrays) {
-        if (std::find(grid.loose_arrays.begin(), grid.loose_arrays.end(), name) == grid.loose_arrays.end())
-            grid.loose_arrays.push_back(std::move(name));
-    }
-    for (std::string& name : piece.unread_arrays) {
-        if (std::find(grid.unread_arrays.begin(), grid.unread_arrays.end(), name) == grid.unread_arrays.end())
-            grid.unread_arrays.push_back(std::move(name));
-    }
+    add_new(grid.loose_arrays, piece.loose_arrays);
+    add_new(grid.unread_arrays, piece.unread_arrays);
     if (piece.point_count() != 0) {
         append_arrays(grid.point_arrays, piece.point_arrays, points);
         if (points == 0) {

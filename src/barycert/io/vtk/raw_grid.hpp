@@ -1,24 +1,60 @@
-/// The points, cells and arrays of a VTK file before anything is asked of them.
+/// The points, cells and arrays of a VTK file before anything is asked of them, and the mesh that they make.
 #pragma once
 
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <vector>
 
+#include "barycert/io.hpp"
 #include "barycert/io/vtk/numbers.hpp"
-#include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
+#include "barycert/io/vtk/parallel.hpp"
 
 namespace barycert::io {
 
+/// VTK's types of cells by their numbers (vtkCellType.h).
+enum VtkCell : std::uint8_t {
+    vtk_empty_cell = 0,
+    vtk_vertex = 1,
+    vtk_poly_vertex = 2,
+    vtk_line = 3,
+    vtk_poly_line = 4,
+    vtk_triangle = 5,
+    vtk_triangle_strip = 6,
+    vtk_polygon = 7,
+    vtk_quad = 9,
+    vtk_tetra = 10,
+    vtk_quadratic_edge = 21,
+    vtk_quadratic_triangle = 22,
+    vtk_quadratic_tetra = 24,
+    vtk_cubic_line = 35,
+    vtk_lagrange_curve = 68,
+};
+
+/// "vtkTetra"; "unknown type 200".
+std::string vtk_class_name(std::uint8_t type);
+
+/// The sections of polygon data. VTK numbers the cells of all sections in this order, whatever the order in the file.
+enum Section : std::size_t { vertices, lines, polygons, strips, section_count };
+
+/// The type of a cell in that section, by its number of nodes.
+std::uint8_t type_in(Section section, std::int64_t nodes);
+
 struct RawArray {
-    Field field;            ///< its name and components in any case
-    Column::Values labels;  ///< where has_labels: what stands in place of the field's numbers
-    bool has_labels = false;
-    bool is_integer = false;  ///< of 64 bits in the file
-    bool is_whole = false;    ///< integers of any size in the file
-    bool is_narrow = false;   ///< float32 in the file
-    std::string fault;        ///< why it is neither a field nor labels; empty: it is
+    std::string name;
+    int components = 1;
+    Column::Values values = std::vector<double>();  ///< doubles are those of a field; others, one a row, are labels
+    NumberType type = NumberType::float64;          ///< in the file; of pieces that differ, what holds of all
+    std::string fault;                              ///< why it is neither a field nor labels; empty: it is
+
+    bool has_labels() const { return !std::holds_alternative<std::vector<double>>(values); }
+    bool is_narrow() const { return type == NumberType::float32; }
+    bool is_wide_integer() const { return type == NumberType::int64 || type == NumberType::uint64; }
+    bool is_whole() const { return type < NumberType::float32; }
+    /// Precondition: it has no labels.
+    std::vector<double>& numbers() { return std::get<std::vector<double>>(values); }
+    const std::vector<double>& numbers() const { return std::get<std::vector<double>>(values); }
+    std::vector<std::int64_t>* integers() { return std::get_if<std::vector<std::int64_t>>(&values); }
 };
 
 struct RawGrid {
@@ -59,25 +95,83 @@ inline std::string in_quotes(std::string_view name) {
     return '"' + std::string(name) + '"';
 }
 
+/// Which line of the file that byte is in, from 1.
+std::size_t line_of(std::string_view bytes, std::size_t at);
+
 /// Words for a fault in the array `what`, of `count` numbers.
 Error number_error(const std::string& path, std::size_t line, const std::string& what, std::uint64_t count,
                    const NumberFault& fault);
 
-/// Why the integers of an array cannot be those of a field.
-std::string inexact(const NumberFault& fault);
+/// Reads the numbers of an array whose name, components and type are known: as doubles or, where these are not exact,
+/// as labels, if `may_label`. Markers of points are labels in any case. What can be neither has a fault.
+/// `read`: appends all of them there, from the first on, and tells a number that is not exact.
+Status read_numbers(RawArray& array, bool of_points, bool may_label,
+                    const std::function<Status(NumbersTo values, NumberFault& inexact)>& read);
+
+/// Whether texts are wanted of an array; if not, it gets a fault.
+bool takes_texts(RawArray& array, bool may_label);
+
+/// The first node that is none of `count` points; nodes.size() if there is none.
+std::size_t first_wrong_node(const std::vector<std::int32_t>& nodes, std::size_t from, std::size_t count);
+
+/// Those of `from` behind those of `to`, on large pages.
+template <class T>
+void move_behind(std::vector<T>& to, std::vector<T>& from) {
+    if (to.empty()) {
+        to = std::move(from);
+    } else {
+        make_room(to, from.size());
+        to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+    }
+}
+
+/// Leaves those rows alone, which ascend.
+template <class T>
+void keep_rows(std::vector<T>& values, std::size_t components, const std::vector<std::int32_t>& rows) {
+    std::size_t to = 0;
+    for (const std::int32_t row : rows) {
+        const std::size_t from = static_cast<std::size_t>(row) * components;
+        for (std::size_t c = 0; c < components; ++c, ++to) {
+            if (to != from + c) values[to] = std::move(values[from + c]);
+        }
+    }
+    values.resize(to);
+}
+/// The same of all arrays without a fault.
+void keep_rows(std::vector<RawArray>& arrays, const std::vector<std::int32_t>& rows);
 
 /// Labels that are integers which doubles represent, all of them, become the field that they would be in a file of
 /// these cells alone.
 void make_field_of_doubles(RawArray& array);
 
-/// The first node that is none of `count` points; nodes.size() if there is none.
-std::size_t first_wrong_node(const std::vector<std::int32_t>& nodes, std::size_t from, std::size_t count);
-
 /// The piece behind what is there: points and cells count on. Arrays of the same name make one; one that a piece lacks
 /// has a fault. Error: more points or cells than a mesh can have.
 Status append_piece(RawGrid& grid, RawGrid piece, const std::string& path);
 
-/// A file of either kind. `bytes` is all of it.
+/// The first three lines of a file in the legacy format.
+Status check_legacy_head(std::string_view bytes, const std::string& path);
+/// The whole file.
 Result<RawGrid> read_legacy(std::string_view bytes, const std::string& path, Part part);
+
+/// The data set of a file, told by its first bytes; of a file that names files all of them, of a series the first step.
+Result<RawGrid> read_grid(const std::string& path, Part part);
+
+/// What read_vtk promises of cells, points, fields and notes, whatever the format. `path` is for messages.
+Result<Mesh> to_mesh(RawGrid grid, const std::string& path);
+
+/// The coordinates in that dimension, all finite. Error: one is not; or z is not 0 in dimension 2, with a remedy for
+/// the file of linear triangles `triangles`, if that is not empty.
+Result<std::vector<double>> to_points(std::vector<double> points, int dimension, const std::string& path,
+                                      const std::string& triangles = {});
+
+/// Fields of what can be one; what cannot, and what was widened, is noted. `what`: "point array".
+void take_fields(std::vector<RawArray>& arrays, const std::string& what, const std::string& path,
+                 std::vector<Field>& fields, std::vector<Column>* labels, Notes& notes);
+
+/// A note where the coordinates were widened.
+void note_narrow_points(const RawGrid& grid, const std::string& path, Notes& notes);
+
+/// "a", "b" and 3 others.
+std::string list_of(const std::vector<std::string>& names);
 
 }  // namespace barycert::io

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <new>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -14,13 +14,8 @@
 #include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/collection.hpp"
-#include "barycert/io/vtk/grid_to_mesh.hpp"
-#include "barycert/io/vtk/legacy_text.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
-#include "barycert/io/vtk/read_grid.hpp"
-#include "barycert/io/vtk/series_file.hpp"
-#include "barycert/io/vtk/xml_grids.hpp"
-#include "barycert/io/vtk/xml_reader.hpp"
+#include "barycert/io/vtk/xml.hpp"
 
 namespace barycert {
 namespace {
@@ -32,31 +27,41 @@ bool is_xml(std::string_view bytes) {
 }
 
 Error not_of_vtk(const std::string& path, const char* what) {
-    return {.what = what,
-            .file = path,
-            .expected = "XML (.vtu, .vtp) or a first line '# vtk DataFile Version ...' (.vtk)",
-            .remedy = "check the path; unpack a compressed file first"};
+    return file_error(path, what, "XML (.vtu, .vtp) or a first line '# vtk DataFile Version ...' (.vtk)", {},
+                      "check the path; unpack a compressed file first");
 }
 
 /// The whole file, of which the first block has to show that it is of VTK.
 Result<base::MappedFile> open_file(const std::string& path) {
     return base::MappedFile::open(path, 1, base::Text::head, [&](std::string_view block, std::uint64_t) -> Status {
         if (block.starts_with("\xEF\xBB\xBF")) block.remove_prefix(3);
-        if (block.starts_with("# vtk")) return io::LegacyText(block, path).read_head();
+        if (block.starts_with("# vtk")) return io::check_legacy_head(block, path);
         if (io::is_series_file(block) || (is_xml(block) && block.find("<VTKFile") != std::string_view::npos))
             return Done{};
         return not_of_vtk(path, "not a file of VTK");
     });
 }
 
-/// The files that a file names; none where it holds data itself.
-Result<std::vector<io::CollectionFile>> files_named_in(std::string_view bytes, const std::string& path) {
-    if (io::is_series_file(bytes)) return io::series_files(bytes, path);
-    if (!is_xml(bytes)) return std::vector<io::CollectionFile>();
-    const Result<io::XmlTree> tree = io::parse_xml(bytes, path);
-    if (!tree) return tree.error();
-    if (!io::is_collection(*tree)) return std::vector<io::CollectionFile>();
-    return io::collection_files(*tree, bytes, path);
+/// What a file that is not of the legacy format holds.
+struct Contents {
+    std::optional<io::XmlTree> tree;
+    std::optional<io::Collection> collection;  ///< the files that it names
+};
+
+Result<Contents> contents_of(std::string_view bytes, const std::string& path) {
+    Contents contents;
+    if (io::is_series_file(bytes)) {
+        Result<io::Collection> series = io::read_series_file(bytes, path);
+        if (!series) return series.error();
+        contents.collection = std::move(*series);
+    } else if (is_xml(bytes)) {
+        Result<io::XmlTree> tree = io::parse_xml(bytes, path);
+        if (!tree) return tree.error();
+        Result<std::optional<io::Collection>> named = io::collection_of(*tree);
+        if (!named) return named.error();
+        contents = {std::move(*tree), std::move(*named)};
+    }
+    return contents;
 }
 
 /// Of files that name files, each is read once.
@@ -67,10 +72,8 @@ public:
     Result<io::RawGrid> read(const std::string& path) {
         constexpr int deepest = 16;
         if (depth_ == deepest) {
-            return Error{.what = "files that name files too deeply",
-                         .file = path,
-                         .expected = "at most " + std::to_string(deepest) + " of them one in the other",
-                         .found = "more"};
+            return file_error(path, "files that name files too deeply",
+                              "at most " + std::to_string(deepest) + " of them one in the other", "more");
         }
         ++depth_;
         Result<io::RawGrid> grid = read_one(path);
@@ -85,29 +88,18 @@ private:
         if (!file) return file.error();
         std::error_code ignored;
         if (!seen_.insert(std::filesystem::weakly_canonical(path, ignored).string()).second) {
-            return Error{.what = "a file that is named twice in a collection of files",
-                         .file = path,
-                         .expected = "every piece once",
-                         .found = {},
-                         .remedy = "correct the file that names it"};
+            return file_error(path, "a file that is named twice in a collection of files", "every piece once", {},
+                              "correct the file that names it");
         }
         std::string_view bytes = file->bytes();
         if (bytes.starts_with("\xEF\xBB\xBF# vtk")) bytes.remove_prefix(3);  // byte order mark
         if (bytes.starts_with("# vtk")) return io::read_legacy(bytes, path, part_);
-        if (io::is_series_file(bytes)) {
-            const Result<std::vector<io::CollectionFile>> files = io::series_files(bytes, path);
-            if (!files) return files.error();
-            return read_step(*files, path);
-        }
-        if (!is_xml(bytes)) {
-            return not_of_vtk(path, bytes.empty() ? "the file is empty" : "not a file of VTK");
-        }
-        const Result<io::XmlTree> tree = io::parse_xml(bytes, path);
-        if (!tree) return tree.error();
-        if (!io::is_collection(*tree)) return io::read_xml(bytes, *tree, path, part_);
-        const Result<std::vector<io::CollectionFile>> files = io::collection_files(*tree, bytes, path);
-        if (!files) return files.error();
-        return io::is_series(*tree) ? read_step(*files, path) : read_all(*files, path);
+        const Result<Contents> contents = contents_of(bytes, path);
+        if (!contents) return contents.error();
+        if (const auto& named = contents->collection; named)
+            return named->is_series ? read_step(named->files, path) : read_all(named->files, path);
+        if (contents->tree) return io::read_xml(*contents->tree, part_);
+        return not_of_vtk(path, bytes.empty() ? "the file is empty" : "not a file of VTK");
     }
 
     /// Whether a grid that is no polygon data is among the files, or those that they name.
@@ -132,12 +124,8 @@ private:
             }
             std::error_code unknown;
             if (std::filesystem::status(file.path, unknown).type() == std::filesystem::file_type::not_found)
-                return Error{.what = "a file that is named here is missing",
-                             .file = path,
-                             .line = file.line,
-                             .expected = file.path,
-                             .found = "no such file",
-                             .remedy = "put it there, or correct the name"};
+                return Error{"a file that is named here is missing", path, file.line, file.path, "no such file",
+                             "put it there, or correct the name"};
             Result<io::RawGrid> piece = read(file.path);
             if (!piece) return piece;
             if (Status s = io::append_piece(grid, std::move(*piece), path); !s) return s.error();
@@ -180,9 +168,8 @@ private:
 
     /// Blocks of surfaces and grids beside the mesh.
     static bool is_other_kind(const std::string& path) {
-        const std::string suffix = std::filesystem::path(path).extension().string();
-        return suffix == ".vtp" || suffix == ".vti" || suffix == ".vtr" || suffix == ".vts" || suffix == ".pvtp" ||
-               suffix == ".pvti" || suffix == ".pvtr" || suffix == ".pvts" || suffix == ".vtt" || suffix == ".vth";
+        constexpr std::string_view others = " .vtp .vti .vtr .vts .pvtp .pvti .pvtr .pvts .vtt .vth ";
+        return others.find(' ' + std::filesystem::path(path).extension().string() + ' ') != std::string_view::npos;
     }
 
     io::Part part_;
@@ -193,8 +180,8 @@ private:
     int depth_ = 0;
 };
 
-template <class T>
-Result<T> without_throwing(const std::string& path, const std::function<Result<T>()>& read) {
+template <class Read>
+auto without_throwing(const std::string& path, const Read& read) -> decltype(read()) {
     const ExactEnvironment environment;
     try {
         return read();
@@ -214,7 +201,7 @@ Result<RawGrid> read_grid(const std::string& path, Part part) {
 }  // namespace io
 
 Result<Mesh> read_vtk(const std::string& path, const StepChoice& step) {
-    return without_throwing<Mesh>(path, [&]() -> Result<Mesh> {
+    return without_throwing(path, [&]() -> Result<Mesh> {
         Result<io::RawGrid> grid = GridReader(io::Part::all, step).read(path);
         if (!grid) return grid.error();
         return io::to_mesh(std::move(*grid), path);
@@ -229,14 +216,9 @@ Result<std::vector<double>> read_vtk_points(const std::string& path, int dimensi
 
 Result<PointData> read_vtk_point_data(const std::string& path, int dimension,
                                       const std::optional<std::vector<std::string>>& names) {
-    if (dimension != 2 && dimension != 3) {
-        return Error{.what = "the dimension of points",
-                     .file = path,
-                     .line = 0,
-                     .expected = "2 or 3",
-                     .found = std::to_string(dimension)};
-    }
-    return without_throwing<PointData>(path, [&]() -> Result<PointData> {
+    if (dimension != 2 && dimension != 3)
+        return file_error(path, "the dimension of points", "2 or 3", std::to_string(dimension));
+    return without_throwing(path, [&]() -> Result<PointData> {
         const bool arrays = !names.has_value() || !names->empty();
         Result<io::RawGrid> grid = io::read_grid(path, arrays ? io::Part::point_arrays : io::Part::points);
         if (!grid) return grid.error();
@@ -248,37 +230,28 @@ Result<PointData> read_vtk_point_data(const std::string& path, int dimension,
         data.points = std::move(*points);
         if (names.has_value()) {
             std::erase_if(grid->point_arrays, [&](const io::RawArray& array) {
-                return std::find(names->begin(), names->end(), array.field.name) == names->end();
+                return std::find(names->begin(), names->end(), array.name) == names->end();
             });
         }
         io::take_fields(grid->point_arrays, "point array", path, data.fields, &data.labels, data.notes);
-        if (grid->narrow_points)
-            data.notes.push_back({Note::Kind::converted, "float32 to double: the coordinates", path});
+        io::note_narrow_points(*grid, path, data.notes);
         return data;
     });
 }
 
 Result<std::vector<SeriesStep>> read_series(const std::string& path) {
-    return without_throwing<std::vector<SeriesStep>>(path, [&]() -> Result<std::vector<SeriesStep>> {
+    return without_throwing(path, [&]() -> Result<std::vector<SeriesStep>> {
         const Result<base::MappedFile> file = open_file(path);
         if (!file) return file.error();
-        if (io::is_series_file(file->bytes())) {
-            const Result<std::vector<io::CollectionFile>> files = io::series_files(file->bytes(), path);
-            if (!files) return files.error();
-            return io::steps_of(*files);
-        }
-        const Result<io::XmlTree> tree = io::parse_xml(file->bytes(), path);
-        if (!tree) return tree.error();
-        if (!io::is_series(*tree)) {
-            return Error{.what = "the kind of the file",
-                         .file = path,
-                         .line = 1,
-                         .expected = "a VTKFile of type Collection (.pvd), or ParaView's JSON (.vtu.series)",
-                         .found = io::in_quotes(tree->root().attribute("type").value_or(tree->root().name))};
-        }
-        const Result<std::vector<io::CollectionFile>> files = io::collection_files(*tree, file->bytes(), path);
-        if (!files) return files.error();
-        return io::steps_of(*files);
+        const Result<Contents> contents = contents_of(file->bytes(), path);
+        if (!contents) return contents.error();
+        if (contents->collection && contents->collection->is_series) return io::steps_of(contents->collection->files);
+        const std::string found =
+            !contents->tree
+                ? "neither XML nor JSON"
+                : io::in_quotes(contents->tree->root().attribute("type").value_or(contents->tree->root().name));
+        return Error{"the kind of the file", path, 1,
+                     "a VTKFile of type Collection (.pvd), or ParaView's JSON (.vtu.series)", found};
     });
 }
 
@@ -291,9 +264,9 @@ std::vector<std::string> vtk_mesh_files(const std::string& path) {
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Result<base::MappedFile> file = open_file(all[i]);
         if (!file) continue;
-        const Result<std::vector<io::CollectionFile>> files = files_named_in(file->bytes(), all[i]);
-        if (!files) continue;
-        for (const io::CollectionFile& named : *files) {
+        const Result<Contents> contents = contents_of(file->bytes(), all[i]);
+        if (!contents || !contents->collection) continue;
+        for (const io::CollectionFile& named : contents->collection->files) {
             if (known.insert(named.path).second) all.push_back(named.path);
         }
     }

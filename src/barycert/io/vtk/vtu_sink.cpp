@@ -1,111 +1,138 @@
-#include <array>
+#include <cmath>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <utility>
 
 #include "barycert/base/spool.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/vtk/point_rows.hpp"
+#include "barycert/io/vtk/out_file.hpp"
+#include "barycert/io/vtk/raw_grid.hpp"
 
 namespace barycert::io {
 namespace {
 
+/// Rows in a .vtu file: each point a cell of type VTK_VERTEX (z = 0 in dimension 2), the rest as point arrays: `cell`
+/// (Int64), `feature` (UInt8: 0 interior, 1 face, 2 edge, 3 vertex, 4 outside, 5 degenerate), `vtkValidPointMask`
+/// (Int8: 1 inside, 0 outside, as VTK's own probes name it), `distance` (Float64), the fields (Float64, any value) and
+/// what is carried through (Int64, Float64 or String).
 class VtuSink final : public TableSink {
 public:
     VtuSink(const std::string& path, const TableFormat& format)
-        : path_(path), format_(format), points_(path), cells_(path), features_(path), inside_(path), distances_(path) {
+        : path_(path),
+          format_(format),
+          points_(path),
+          cells_(add("cell", 1, NumberType::int64)),
+          features_(add("feature", 1, NumberType::uint8)),
+          inside_(add("vtkValidPointMask", 1, NumberType::int8)) {
+        if (format.distances) distances_ = &add("distance", 1, NumberType::float64);
         for (const TableField& field : format.fields) {
-            fields_.emplace_back(path);
+            fields_.push_back(&add(field.name, field.components, NumberType::float64));
             columns_ += static_cast<std::size_t>(field.components);
         }
-        for (std::size_t i = 0; i < format.carried.size(); ++i) carried_.emplace_back(path);
+        for (const ColumnFormat& column : format.carried) {
+            carried_.push_back(&add(column.name, 1,
+                                    column.type == Column::Type::integer  ? NumberType::int64
+                                    : column.type == Column::Type::number ? NumberType::float64
+                                                                          : NumberType::text));
+        }
     }
 
     Status write(const TableView& rows) override {
         Status good = check_rows(rows, format_, path_);
-        const auto add = [&](base::Spool& spool, auto values) {
+        const auto append = [&](base::Spool& spool, auto values) {
             if (good) good = spool.append(std::span<const typename decltype(values)::value_type>(values));
         };
-        add(points_, rows.points);
-        add(cells_, rows.cells);
-        add(features_, rows.features);
-        add(distances_, rows.distances);
-        inside_rows_.assign(rows.cells.size(), 0);
-        for (std::size_t i = 0; i < rows.cells.size(); ++i) inside_rows_[i] = rows.cells[i] >= 0 ? 1 : 0;
-        add(inside_, std::span<const std::uint8_t>(inside_rows_));
+        const std::size_t count = rows.cells.size(), dimension = static_cast<std::size_t>(format_.dimension);
+        for (std::size_t i = 0; i < rows.points.size() && good; ++i) {
+            // A point of a row outside may be anywhere.
+            if (!std::isfinite(rows.points[i]) && rows.cells[i / dimension] >= 0)
+                good = cannot_write("the points", "a coordinate is not finite", path_);
+        }
+        append(points_, rows.points);
+        append(cells_, std::vector<std::int64_t>(rows.cells.begin(), rows.cells.end()));
+        append(features_, rows.features);
+        if (distances_ != nullptr) append(*distances_, rows.distances);
+        std::vector<std::int8_t> inside(count);
+        for (std::size_t i = 0; i < count; ++i) inside[i] = rows.cells[i] >= 0 ? 1 : 0;
+        append(inside_, inside);
         std::size_t first = 0;
         for (std::size_t f = 0; f < fields_.size() && good; ++f) {
             const auto n = static_cast<std::size_t>(format_.fields[f].components);
-            numbers_.resize(n * rows.cells.size());
-            for (std::size_t i = 0; i < rows.cells.size(); ++i) {
-                for (std::size_t c = 0; c < n; ++c) numbers_[n * i + c] = rows.values[columns_ * i + first + c];
+            std::vector<double> numbers(n * count);
+            for (std::size_t i = 0; i < count; ++i) {
+                for (std::size_t c = 0; c < n; ++c) numbers[n * i + c] = rows.values[columns_ * i + first + c];
             }
-            add(fields_[f], std::span<const double>(numbers_));
+            append(*fields_[f], numbers);
             first += n;
         }
         for (std::size_t k = 0; k < carried_.size() && good; ++k) {
-            std::visit([&](const auto& values) { add_column(carried_[k], values, good); }, rows.carried[k].values);
+            std::visit([&](const auto& values) { good = append_column(*carried_[k], values); }, rows.carried[k].values);
         }
+        count_ += count;
         return good;
     }
 
     Status commit() override {
-        for (base::Spool* const spool : {&points_, &cells_, &features_, &inside_, &distances_}) {
-            if (Status done = spool->finish(); !done) return done;
+        std::vector<std::string> names;
+        std::string fault = count_ > max_entities ? "there are more than 2147483647 points" : "";
+        for (const auto& [format, spool] : arrays_) {
+            names.push_back(format.name);
+            if (fault.empty() && format.components < 1) fault = "a field has no components";
         }
-        PointRows rows{.dimension = format_.dimension,
-                       .points = points_.values<double>(),
-                       .cells = cells_.values<Mesh::Index>(),
-                       .features = features_.values<Feature>(),
-                       .inside = inside_.values<std::uint8_t>(),
-                       .fields = {},
-                       .distances = distances_.values<double>(),
-                       .carried = {}};
-        for (std::size_t f = 0; f < fields_.size(); ++f) {
-            if (Status done = fields_[f].finish(); !done) return done;
-            rows.fields.push_back({format_.fields[f].name, format_.fields[f].components, fields_[f].values<double>()});
+        if (fault.empty()) fault = fault_of_names(std::move(names), Names::xml);
+        if (!fault.empty()) return cannot_write("the points", fault, path_);
+        if (Status done = points_.finish(); !done) return done;
+        std::vector<OutArray> found;
+        for (auto& [format, spool] : arrays_) {
+            if (Status done = spool.finish(); !done) return done;
+            const std::span<const char> bytes = spool.values<char>();
+            if (count_ != 0) found.push_back({format, bytes.size() / number_bytes(format.type), bytes.data()});
         }
-        for (std::size_t k = 0; k < carried_.size(); ++k) {
-            if (Status done = carried_[k].finish(); !done) return done;
-            ColumnRows column{format_.carried[k].name, {}};
-            if (format_.carried[k].type == Column::Type::integer) {
-                column.values = carried_[k].values<std::int64_t>();
-            } else if (format_.carried[k].type == Column::Type::number) {
-                column.values = carried_[k].values<double>();
-            } else {
-                column.values = carried_[k].values<char>();
-            }
-            rows.carried.push_back(std::move(column));
-        }
-        return write_vtk_points(path_, rows, format_.vtk_data);
+        // Each point a cell. Node numbers go up to 2^31 - 1.
+        const auto number = [](std::size_t i) { return i; };
+        const auto next = [](std::size_t i) { return i + 1; };
+        const auto vertex = [](std::size_t) { return vtk_vertex; };
+        const std::string points = std::to_string(count_);
+        return write_xml(
+            {.data_set = "UnstructuredGrid",
+             .piece = " NumberOfPoints=\"" + points + "\" NumberOfCells=\"" + points + "\"",
+             .sections = {{"PointData", std::move(found)},
+                          {"CellData", {}},
+                          {"Points", {array_of_points(points_.values<double>(), format_.dimension)}},
+                          {"Cells",
+                           {array_made<std::int32_t>({"connectivity", 1, NumberType::int32}, count_, number),
+                            array_made<std::int32_t>({"offsets", 1, NumberType::int32}, count_, next),
+                            array_made<std::uint8_t>({"types", 1, NumberType::uint8}, count_, vertex)}}}},
+            path_, format_.vtk_data);
     }
 
 private:
+    base::Spool& add(const std::string& name, int components, NumberType type) {
+        return arrays_.emplace_back(ArrayFormat{name, components, type}, base::Spool(path_)).second;
+    }
+
     template <class T>
-    void add_column(base::Spool& spool, const std::vector<T>& values, Status& good) const {
+    Status append_column(base::Spool& spool, const std::vector<T>& values) const {
         if constexpr (std::is_same_v<T, std::string>) {
             for (const std::string& text : values) {
-                if (good && text.find('\0') != std::string::npos) {
-                    good = Error{.what = "a text with a zero byte, which ends a text in VTK's files",
-                                 .file = path_,
-                                 .expected = {},
-                                 .found = text.substr(0, 40),
-                                 .remedy = "carry another column through, or write a .csv file"};
-                }
-                if (good) good = spool.append(std::span<const char>(text.c_str(), text.size() + 1));
+                if (text.find('\0') != std::string::npos)
+                    return file_error(path_, "a text with a zero byte, which ends a text in VTK's files", {},
+                                      text.substr(0, 40), "carry another column through, or write a .csv file");
+                if (Status s = spool.append(std::span<const char>(text.c_str(), text.size() + 1)); !s) return s;
             }
+            return Done{};
         } else {
-            good = spool.append(std::span<const T>(values));
+            return spool.append(std::span<const T>(values));
         }
     }
 
     std::string path_;
     TableFormat format_;
-    std::size_t columns_ = 0;
-    base::Spool points_, cells_, features_, inside_, distances_;
-    std::vector<base::Spool> fields_, carried_;
-    std::vector<double> numbers_;
-    std::vector<std::uint8_t> inside_rows_;
+    std::deque<std::pair<ArrayFormat, base::Spool>> arrays_;  ///< in the order of the file; the members below are of it
+    base::Spool points_, &cells_, &features_, &inside_, *distances_ = nullptr;
+    std::vector<base::Spool*> fields_, carried_;
+    std::size_t columns_ = 0, count_ = 0;
 };
 
 }  // namespace

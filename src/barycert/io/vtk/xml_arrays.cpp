@@ -1,82 +1,188 @@
-#include "barycert/io/vtk/xml_arrays.hpp"
+#include "barycert/io/vtk/xml.hpp"
 
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <bit>
-
-#include "barycert/io/vtk/blocks.hpp"
+#include <initializer_list>
+#include <memory>
+#include <numeric>
 
 namespace barycert::io {
+namespace {
 
-Result<XmlLayout> layout_of(const XmlTree& tree, std::string_view bytes, const std::string& path) {
-    XmlLayout layout;
-    const auto choose = [&](const char* key, auto&& known, auto&& take) -> Status {
-        const std::optional<std::string_view> value = tree.root().attribute(key);
-        if (!value.has_value()) return Done{};
-        std::string names;
-        for (std::size_t i = 0; i < known.size(); ++i) {
-            if (*value == known[i]) {
-                take(i);
-                return Done{};
-            }
-            if (!known[i].empty()) names += (names.empty() ? "" : ", ") + std::string(known[i]);
+/// The next integer of a header; nothing at the end of the data.
+std::optional<std::uint64_t> read_header(Encoded& from, const XmlLayout& layout) {
+    std::vector<char> room;
+    const std::optional<std::string_view> bytes = from.take(layout.header_bytes, room);
+    if (!bytes) return std::nullopt;
+    const bool big = layout.swap_bytes != (std::endian::native == std::endian::big);
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < layout.header_bytes; ++i) {
+        const char byte = (*bytes)[big ? i : layout.header_bytes - 1 - i];
+        value = value << 8U | static_cast<unsigned char>(byte);
+    }
+    return value;
+}
+
+/// Data that are compressed block by block. Header: number of blocks, bytes of a block, bytes of the last one if it is
+/// shorter (else 0), then the compressed bytes of each block; then the blocks.
+class BlockData {
+public:
+    BlockData(Encoded from, const XmlLayout& layout) : from_(from), layout_(layout) {}
+
+    /// Reads the header; what is wrong with it, or empty.
+    std::string open() {
+        const std::optional<std::uint64_t> blocks = read_header(from_, layout_);
+        const std::optional<std::uint64_t> block = read_header(from_, layout_);
+        const std::optional<std::uint64_t> last = read_header(from_, layout_);
+        const char* const cut_off = "the data end before their header does";
+        if (!blocks || !block || !last || *blocks > from_.left() / layout_.header_bytes) return cut_off;
+        block_ = *block;
+        last_ = *last != 0 ? *last : block_;
+        if (*blocks == 0) return {};
+        if (last_ > block_ || __builtin_mul_overflow(*blocks - 1, block_, &size_) ||
+            __builtin_add_overflow(size_, last_, &size_)) {
+            return "a header of compressed blocks that contradicts itself";
         }
-        return Error{.what = "the attribute " + std::string(key) + " of the file",
-                     .file = path,
-                     .line = line_of(bytes, tree.root().begin),
-                     .expected = names,
-                     .found = in_quotes(*value)};
+        std::uint64_t packed = 0;
+        for (std::uint64_t i = 0; i < *blocks; ++i) {
+            const std::optional<std::uint64_t> bytes = read_header(from_, layout_);
+            if (!bytes) return cut_off;
+            packed_.push_back(*bytes);
+            if (__builtin_add_overflow(packed, *bytes, &packed)) return "compressed blocks of more than 2^64 bytes";
+            if ((i + 1 < *blocks ? block_ : last_) > max_unpacked(layout_.compressor, *bytes))
+                return "a block that holds more than its compressed bytes can";
+        }
+        return packed > from_.left() ? "the data end before the last block does" : "";
+    }
+
+    /// Bytes of all blocks, as the header has them.
+    std::uint64_t size() const { return size_; }
+
+    /// As read_binary of numbers.hpp, of exactly size() bytes. The blocks are unpacked on all threads, some at a time,
+    /// so that memory grows with what the file really has.
+    template <class To>
+    NumberFault read(NumberType type, std::size_t count, std::vector<To>& values) {
+        const std::size_t number = number_bytes(type);
+        constexpr std::uint64_t wave_bytes = std::uint64_t{1} << 24;
+        auto per_wave =
+            static_cast<std::size_t>(std::max<std::uint64_t>(wave_bytes / std::max<std::uint64_t>(block_, 1), 1));
+        if (per_wave > number) per_wave -= per_wave % number;
+        // Numbers across the bounds of waves: another size of block than any writer is known to choose.
+        const bool at_once = type == NumberType::bit || per_wave * block_ % number != 0;
+        if (at_once) per_wave = packed_.size();
+        // No block holds more than its bytes can. Those of lzma could hold a hundred times what data ever have: memory
+        // grows with what there is.
+        constexpr std::uint64_t likely = 64;
+        const std::uint64_t packed_all = std::accumulate(packed_.begin(), packed_.end(), std::uint64_t{0});
+        const bool honest = layout_.compressor != Compressor::lzma;
+        make_room(values,
+                  honest ? count : static_cast<std::size_t>(std::min<std::uint64_t>(count, likely * packed_all)));
+        std::vector<char> packed_room;
+        std::unique_ptr<char[]> plain_room;  // not initialised: pages that no data reach take no memory
+        NumberFault fault;
+        std::size_t done = 0;
+        for (std::size_t first = 0; first < packed_.size(); first += per_wave) {
+            const std::size_t last = std::min(packed_.size(), first + per_wave);
+            const std::size_t plain = block_at(last) - block_at(first), before = values.size();
+            const std::size_t numbers = at_once ? count : plain / number;
+            const bool direct = last - first > 1 && are_as_they_stand(type, layout_.swap_bytes, values);
+            if (direct) {
+                make_room(values, numbers);
+                values.resize(before + numbers);
+            } else if (plain_room == nullptr) {
+                plain_room = std::make_unique_for_overwrite<char[]>(plain);  // the first wave is the largest
+            }
+            char* const to = direct ? reinterpret_cast<char*>(values.data() + before) : plain_room.get();
+            if (!unpack_wave(first, last, packed_room, to)) return {NumberFault::Kind::too_few, done};
+            if (!direct) {
+                NumberFault found = read_binary({to, plain}, type, layout_.swap_bytes, numbers, values);
+                if (found && !fault) {
+                    fault = std::move(found);
+                    fault.index += done;
+                }
+            }
+            done += numbers;
+        }
+        return done < count ? NumberFault{NumberFault::Kind::too_few, done} : fault;
+    }
+
+private:
+    /// Where the bytes of a block begin among those of all.
+    std::size_t block_at(std::size_t block) const {
+        return static_cast<std::size_t>(block == packed_.size() ? size_ : block * block_);
+    }
+
+    /// Blocks `first` to `last` - 1 one behind the other at `to`.
+    bool unpack_wave(std::size_t first, std::size_t last, std::vector<char>& room, char* to) {
+        std::vector<std::size_t> ends{0};
+        for (std::size_t i = first; i < last; ++i) ends.push_back(ends.back() + static_cast<std::size_t>(packed_[i]));
+        const std::optional<std::string_view> bytes = from_.take(ends.back(), room);
+        std::atomic<bool> good{bytes.has_value()};
+        if (!good) return false;
+        in_parallel(last - first, [&](std::size_t i) {
+            const std::size_t begin = block_at(first + i), end = block_at(first + i + 1);
+            if (!unpack(layout_.compressor, bytes->substr(ends[i], ends[i + 1] - ends[i]), to + begin - block_at(first),
+                        end - begin))
+                good = false;
+        });
+        return good;
+    }
+
+    Encoded from_;
+    const XmlLayout& layout_;
+    std::vector<std::uint64_t> packed_;  // bytes of each block
+    std::uint64_t block_ = 0, last_ = 0, size_ = 0;
+};
+
+}  // namespace
+
+Result<XmlArrays> XmlArrays::of(const XmlTree& tree) {
+    XmlArrays arrays(tree);
+    Status good = Done{};
+    /// The place of the attribute among the known ones; the first is that of files without it.
+    const auto choose = [&](const char* key, std::initializer_list<std::string_view> known) -> std::size_t {
+        const std::string_view value = tree.root().attribute(key).value_or(*known.begin());
+        std::string names;
+        for (const std::string_view& name : known) {
+            if (name == value) return static_cast<std::size_t>(&name - known.begin());
+            if (!name.empty()) names += (names.empty() ? "" : ", ") + std::string(name);
+        }
+        if (good)
+            good =
+                tree.error(tree.root(), "the attribute " + std::string(key) + " of the file", names, in_quotes(value));
+        return 0;
     };
-    using Names = std::array<std::string_view, 2>;
-    const bool big = std::endian::native == std::endian::big;
-    layout.swap_bytes = big;
-    if (Status s = choose("byte_order", Names{"LittleEndian", "BigEndian"},
-                          [&](std::size_t i) { layout.swap_bytes = (i == 1) != big; });
-        !s) {
-        return s.error();
-    }
-    if (Status s = choose("header_type", Names{"UInt32", "UInt64"},
-                          [&](std::size_t i) { layout.header_bytes = i == 0 ? 4 : 8; });
-        !s) {
-        return s.error();
-    }
-    if (Status s = choose("compressor",
-                          std::array<std::string_view, 4>{"", "vtkZLibDataCompressor", "vtkLZ4DataCompressor",
-                                                          "vtkLZMADataCompressor"},
-                          [&](std::size_t i) { layout.compressor = static_cast<Compressor>(i); });
-        !s) {
-        return s.error();
-    }
-    return layout;
+    const bool little = choose("byte_order", {"LittleEndian", "BigEndian"}) == 0;
+    arrays.layout_.swap_bytes = little != (std::endian::native == std::endian::little);
+    arrays.layout_.header_bytes = choose("header_type", {"UInt32", "UInt64"}) == 0 ? 4 : 8;
+    arrays.layout_.compressor = static_cast<Compressor>(
+        choose("compressor", {"", "vtkZLibDataCompressor", "vtkLZ4DataCompressor", "vtkLZMADataCompressor"}));
+    if (!good) return good.error();
+    return arrays;
 }
 
 std::optional<NumberType> XmlArrays::type_of(const XmlElement& array) {
-    constexpr std::array<std::string_view, 11> names{"Bit",    "Int8",  "UInt8",  "Int16",   "UInt16", "Int32",
-                                                     "UInt32", "Int64", "UInt64", "Float32", "Float64"};
-    const std::optional<std::string_view> type = array.attribute("type");
-    if (array.name != "DataArray" || !type.has_value()) return std::nullopt;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (*type == names[i]) return static_cast<NumberType>(i);
-    }
-    return std::nullopt;
+    const std::string_view name = array.attribute("type").value_or("");
+    const std::optional<NumberType> type = type_of_name(name);
+    return array.name == "DataArray" && type && xml_name(*type) == name && type != NumberType::text ? type
+                                                                                                    : std::nullopt;
 }
 
-Error XmlArrays::error(const XmlElement& element, std::string what, std::string expected, std::string found,
-                       std::string remedy) const {
-    return {.what = std::move(what),
-            .file = path_,
-            .line = line_of(bytes_, element.begin),
-            .expected = std::move(expected),
-            .found = std::move(found),
-            .remedy = std::move(remedy)};
+/// A number stands in a line of its own.
+Error XmlArrays::error(const XmlElement& array, const std::string& what, std::uint64_t count,
+                       const NumberFault& fault) const {
+    const char* const file = tree_.bytes.data();
+    const std::size_t at = fault.place != nullptr ? static_cast<std::size_t>(fault.place - file) : array.begin;
+    return number_error(tree_.path, line_of(tree_.bytes, at), what, count, fault);
 }
 
 /// The bytes of the array as they stand in the file, from its header on.
 Result<Encoded> XmlArrays::encoded(const XmlElement& array, const std::string& what) const {
-    if (array.attribute("format") != "appended") return Encoded(text_of(bytes_, tree_, array), true);
+    if (array.attribute("format") != "appended") return Encoded(tree_.text_of(array), true);
     const std::optional<std::uint64_t> offset = parse_count(array.attribute("offset").value_or(""));
     if (!offset.has_value() || *offset >= tree_.appended.size()) {
-        return error(
+        return tree_.error(
             array, "the offset of " + what + " into the appended data",
             "less than " + std::to_string(tree_.appended.size()) + ", the bytes from there to the end of the file",
             in_quotes(array.attribute("offset").value_or("")), "write the file again: it may be cut off");
@@ -85,26 +191,26 @@ Result<Encoded> XmlArrays::encoded(const XmlElement& array, const std::string& w
 }
 
 /// Numbers that are no text: `count` of them, or all where it is not known.
-template <class To>
 Status XmlArrays::read_encoded(const XmlElement& array, const std::string& what, NumberType type,
-                               std::optional<std::uint64_t> count, std::vector<To>& values, NumberFault& fault) const {
+                               std::optional<std::uint64_t> count, NumbersTo values, NumberFault& fault) const {
     const std::optional<std::uint64_t> size = byte_count(type, count.value_or(0));
-    if (!size.has_value()) return error(array, "the size of " + what, "less than 2^64 bytes", "more");
+    if (!size.has_value()) return tree_.error(array, "the size of " + what, "less than 2^64 bytes", "more");
     Result<Encoded> from = encoded(array, what);
     if (!from) return from.error();
     const auto damaged = [&](const std::string& found) {
-        return error(array, "the data of " + what, {}, found, "write the file again");
+        return tree_.error(array, "the data of " + what, {}, found, "write the file again");
     };
     const auto other_size = [&](std::uint64_t found) {
-        return error(array, "the size of " + what, std::to_string(*size) + " bytes", std::to_string(found),
-                     "its numbers do not match the counts of points, cells and components");
+        return tree_.error(array, "the size of " + what, std::to_string(*size) + " bytes", std::to_string(found),
+                           "its numbers do not match the counts of points, cells and components");
     };
     if (layout_.compressor != Compressor::none) {
         BlockData blocks(*from, layout_);
         if (const std::string found = blocks.open(); !found.empty()) return damaged(found);
         if (count.has_value() && blocks.size() != *size) return other_size(blocks.size());
         const std::uint64_t numbers = count.value_or(blocks.size() / number_bytes(type));
-        fault = blocks.read(type, static_cast<std::size_t>(numbers), values);
+        fault =
+            std::visit([&](auto to) { return blocks.read(type, static_cast<std::size_t>(numbers), to.get()); }, values);
         return Done{};
     }
     const std::optional<std::uint64_t> found = read_header(*from, layout_);
@@ -117,33 +223,31 @@ Status XmlArrays::read_encoded(const XmlElement& array, const std::string& what,
         fault = read_binary(*bytes, type, layout_.swap_bytes, static_cast<std::size_t>(numbers), values);
     } else {
         fault = {NumberFault::Kind::too_few,
-                 static_cast<std::size_t>(std::min(from->left(), *found) / number_bytes(type)),
-                 {}};
+                 static_cast<std::size_t>(std::min(from->left(), *found) / number_bytes(type))};
         if (fault.index >= numbers && numbers != 0) fault.index = static_cast<std::size_t>(numbers - 1);
     }
     return Done{};
 }
 
-template <class To>
-Status XmlArrays::read(const XmlElement& array, const std::string& what, std::uint64_t count, std::vector<To>& values,
+Status XmlArrays::read(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,
                        NumberFault* fault) const {
     const std::optional<NumberType> type = type_of(array);
     const std::string_view format = array.attribute("format").value_or("ascii");
     if (!type.has_value()) {
-        return error(array, "the type of " + what, "Int8 to UInt64, Float32, Float64 or Bit",
-                     in_quotes(array.attribute("type").value_or("")));
+        return tree_.error(array, "the type of " + what, "Int8 to UInt64, Float32, Float64 or Bit",
+                           in_quotes(array.attribute("type").value_or("")));
     }
     if (format != "ascii" && format != "binary" && format != "appended") {
-        return error(array, "the format of " + what, "ascii, binary or appended", in_quotes(format));
+        return tree_.error(array, "the format of " + what, "ascii, binary or appended", in_quotes(format));
     }
     NumberFault found;
     if (format == "ascii") {
-        std::string_view text = text_of(bytes_, tree_, array);
+        std::string_view text = tree_.text_of(array);
         found = read_text(text, *type, static_cast<std::size_t>(count), values);
         if (found.kind != NumberFault::Kind::too_few && found.kind != NumberFault::Kind::no_number &&
             !next_word(text).empty()) {
-            return error(array, what, std::to_string(count) + " numbers", "more",
-                         "they do not match the counts of points, cells and components");
+            return tree_.error(array, what, std::to_string(count) + " numbers", "more",
+                               "they do not match the counts of points, cells and components");
         }
     } else if (count != 0) {  // without a number there may be no header either
         if (Status s = read_encoded(array, what, *type, count, values, found); !s) return s;
@@ -151,7 +255,7 @@ Status XmlArrays::read(const XmlElement& array, const std::string& what, std::ui
     if (fault != nullptr && found.kind == NumberFault::Kind::not_exact) {
         *fault = std::move(found);
     } else if (found) {
-        return number_error(path_, line_of(bytes_, array.begin), what, count, found);
+        return error(array, what, count, found);
     }
     return Done{};
 }
@@ -164,23 +268,18 @@ Status XmlArrays::read_texts(const XmlElement& array, const std::string& what, s
     NumberFault fault;
     if (count == 0) return Done{};
     if (format == "ascii") {
-        std::string_view text = text_of(bytes_, tree_, array);
-        while (!fault) {
-            const std::string_view before = text;
-            if (next_word(text).empty()) break;
-            text = before;
-            fault = read_text(text, NumberType::uint8, std::size_t{1} << 16, bytes);
-            if (fault.kind == NumberFault::Kind::too_few) fault = {};
-        }
+        std::string_view text = tree_.text_of(array);
+        fault = read_text(text, NumberType::uint8, std::numeric_limits<std::size_t>::max(), bytes);
+        if (fault.kind == NumberFault::Kind::too_few) fault = {};
     } else if (Status s = read_encoded(array, what, NumberType::uint8, std::nullopt, bytes, fault); !s) {
         return s;
     }
-    if (fault) return number_error(path_, line_of(bytes_, array.begin), what, count, fault);
+    if (fault) return error(array, what, count, fault);
     const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const auto found = static_cast<std::uint64_t>(std::count(all.begin(), all.end(), '\0'));
     if (found != count || !all.ends_with('\0')) {
-        return error(array, "the texts of " + what, std::to_string(count) + ", each ended by a zero byte",
-                     std::to_string(found) + " ends, and " + std::to_string(all.size()) + " bytes");
+        return tree_.error(array, "the texts of " + what, std::to_string(count) + ", each ended by a zero byte",
+                           std::to_string(found) + " ends, and " + std::to_string(all.size()) + " bytes");
     }
     for (std::size_t begin = 0; begin < all.size();) {
         const std::size_t end = all.find('\0', begin);
@@ -189,14 +288,5 @@ Status XmlArrays::read_texts(const XmlElement& array, const std::string& what, s
     }
     return Done{};
 }
-
-template Status XmlArrays::read(const XmlElement&, const std::string&, std::uint64_t, std::vector<double>&,
-                                NumberFault*) const;
-template Status XmlArrays::read(const XmlElement&, const std::string&, std::uint64_t, std::vector<std::int64_t>&,
-                                NumberFault*) const;
-template Status XmlArrays::read(const XmlElement&, const std::string&, std::uint64_t, std::vector<std::int32_t>&,
-                                NumberFault*) const;
-template Status XmlArrays::read(const XmlElement&, const std::string&, std::uint64_t, std::vector<std::uint8_t>&,
-                                NumberFault*) const;
 
 }  // namespace barycert::io

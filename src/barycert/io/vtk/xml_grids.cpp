@@ -1,4 +1,4 @@
-#include "barycert/io/vtk/xml_grids.hpp"
+// The points of grids in XML files: image data, rectilinear and structured grids.
 
 #include <unistd.h>
 
@@ -8,37 +8,44 @@
 #include <optional>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/vtk/parallel.hpp"
+#include "barycert/io/vtk/xml.hpp"
 
 namespace barycert::io {
 namespace {
 
 using Counts = std::array<std::size_t, 3>;
 
-/// "0 9 0 19 0 0": first and last index along each axis.
-std::optional<std::array<std::int64_t, 6>> parse_extent(std::string_view text) {
-    std::array<std::int64_t, 6> extent{};
-    for (std::int64_t& bound : extent) {
-        const std::string_view word = next_word(text);
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), bound);
-        if (word.empty() || error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
-        if (bound < -static_cast<std::int64_t>(max_entities) || bound > static_cast<std::int64_t>(max_entities))
-            return std::nullopt;
-    }
-    if (!next_word(text).empty()) return std::nullopt;
-    return extent;
-}
-
-template <std::size_t count>
-std::optional<std::array<double, count>> parse_doubles(std::string_view text) {
-    std::array<double, count> numbers{};
-    for (double& x : numbers) {
-        const std::optional<double> number = base::parse_double(next_word(text));
-        if (!number || !std::isfinite(*number)) return std::nullopt;
+/// So many numbers and no more, each by parse(word).
+template <class T, std::size_t count, class Parse>
+std::optional<std::array<T, count>> parse_all(std::string_view text, const Parse& parse) {
+    std::array<T, count> numbers{};
+    for (T& x : numbers) {
+        const std::optional<T> number = parse(next_word(text));
+        if (!number) return std::nullopt;
         x = *number;
     }
     if (!next_word(text).empty()) return std::nullopt;
     return numbers;
+}
+
+/// "0 9 0 19 0 0": first and last index along each axis.
+std::optional<std::array<std::int64_t, 6>> parse_extent(std::string_view text) {
+    return parse_all<std::int64_t, 6>(text, [](std::string_view word) -> std::optional<std::int64_t> {
+        constexpr auto most = static_cast<std::int64_t>(max_entities);
+        std::int64_t bound = 0;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), bound);
+        if (error != std::errc{} || end != word.data() + word.size() || bound < -most || bound > most)
+            return std::nullopt;
+        return bound;
+    });
+}
+
+template <std::size_t count>
+std::optional<std::array<double, count>> parse_doubles(std::string_view text) {
+    return parse_all<double, count>(text, [](std::string_view word) {
+        const std::optional<double> number = base::parse_double(word);
+        return number && std::isfinite(*number) ? number : std::nullopt;
+    });
 }
 
 Status read_image_points(const XmlArrays& arrays, const XmlElement& data, const std::array<std::int64_t, 6>& extent,
@@ -47,13 +54,13 @@ Status read_image_points(const XmlArrays& arrays, const XmlElement& data, const 
                            spacing_text = data.attribute("Spacing").value_or("1 1 1");
     const auto origin = parse_doubles<3>(origin_text), spacing = parse_doubles<3>(spacing_text);
     if (!origin || !spacing) {
-        return arrays.error(data, "the origin and spacing of the grid", "three finite numbers each",
-                            in_quotes(origin_text) + " and " + in_quotes(spacing_text));
+        return arrays.tree().error(data, "the origin and spacing of the grid", "three finite numbers each",
+                                   in_quotes(origin_text) + " and " + in_quotes(spacing_text));
     }
     if (const auto direction = data.attribute("Direction"); direction.has_value()) {
         if (parse_doubles<9>(*direction) != std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1}) {
-            return arrays.error(data, "the direction of the grid", "1 0 0 0 1 0 0 0 1", in_quotes(*direction),
-                                "write its points as a structured or unstructured grid");
+            return arrays.tree().error(data, "the direction of the grid", "1 0 0 0 1 0 0 0 1", in_quotes(*direction),
+                                       "write its points as a structured or unstructured grid");
         }
     }
     grid.points.resize(3 * counts[0] * counts[1] * counts[2]);
@@ -73,8 +80,8 @@ Status read_image_points(const XmlArrays& arrays, const XmlElement& data, const 
     return Done{};
 }
 
-Status read_rectilinear_points(const XmlTree& tree, const XmlArrays& arrays, const XmlElement& piece,
-                               const Counts& counts, RawGrid& grid) {
+Status read_rectilinear_points(const XmlArrays& arrays, const XmlElement& piece, const Counts& counts, RawGrid& grid) {
+    const XmlTree& tree = arrays.tree();
     const XmlElement* const coordinates = tree.child(piece, "Coordinates");
     std::array<std::vector<double>, 3> axes;
     std::size_t found = 0;
@@ -89,7 +96,8 @@ Status read_rectilinear_points(const XmlTree& tree, const XmlArrays& arrays, con
         }
     }
     if (found != 3)
-        return arrays.error(piece, "the points of a piece", "three arrays in Coordinates", std::to_string(found));
+        return arrays.tree().error(piece, "the points of a piece", "three arrays in Coordinates",
+                                   std::to_string(found));
     grid.points.reserve(3 * counts[0] * counts[1] * counts[2]);
     for (const double z : axes[2]) {
         for (const double y : axes[1]) {
@@ -105,14 +113,14 @@ bool is_structured(std::string_view type) {
     return type == "ImageData" || type == "RectilinearGrid" || type == "StructuredGrid";
 }
 
-Status read_grid_points(const XmlTree& tree, const XmlArrays& arrays, const XmlElement& data, const XmlElement& piece,
+Status read_grid_points(const XmlArrays& arrays, const XmlElement& data, const XmlElement& piece,
                         const std::string& type, RawGrid& grid) {
     const std::string_view whole_text = data.attribute("WholeExtent").value_or(""),
                            text = piece.attribute("Extent").value_or("");
     const auto whole = parse_extent(whole_text), extent = parse_extent(text);
     if (!extent || whole != extent) {
-        return arrays.error(piece, "the extent of the piece", "that of the whole, six integers",
-                            in_quotes(text) + " of " + in_quotes(whole_text));
+        return arrays.tree().error(piece, "the extent of the piece", "that of the whole, six integers",
+                                   in_quotes(text) + " of " + in_quotes(whole_text));
     }
     Counts counts{};
     std::uint64_t points = 1;
@@ -123,24 +131,21 @@ Status read_grid_points(const XmlTree& tree, const XmlArrays& arrays, const XmlE
         points = std::min(points, max_entities + 1);
     }
     if (points > max_entities) {
-        return arrays.error(piece, "the points of the grid", "at most " + std::to_string(max_entities),
-                            "the extent " + in_quotes(text));
+        return arrays.tree().error(piece, "the points of the grid", "at most " + std::to_string(max_entities),
+                                   "the extent " + in_quotes(text));
     }
     if (points == 0) return Done{};
     // Few bytes describe any number of points: no more than memory holds.
     const std::uint64_t memory =
         static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
     if (type != "StructuredGrid" && points > memory / 2 / (3 * sizeof(double))) {
-        return arrays.error(piece, "the points of the grid", "as many as fit in half of the memory of this machine",
-                            std::to_string(points), "use a smaller grid");
+        return arrays.tree().error(piece, "the points of the grid",
+                                   "as many as fit in half of the memory of this machine", std::to_string(points),
+                                   "use a smaller grid");
     }
     if (type == "ImageData") return read_image_points(arrays, data, *extent, counts, grid);
-    if (type == "RectilinearGrid") return read_rectilinear_points(tree, arrays, piece, counts, grid);
-    const XmlElement* const section = tree.child(piece, "Points");
-    const XmlElement* const array = section != nullptr ? tree.child(*section, "DataArray") : nullptr;
-    if (array == nullptr) return arrays.error(piece, "the points of a piece", "an array in Points", "none");
-    grid.narrow_points = XmlArrays::type_of(*array) == NumberType::float32;
-    return arrays.read(*array, "the coordinates", std::uint64_t{3} * points, grid.points);
+    if (type == "RectilinearGrid") return read_rectilinear_points(arrays, piece, counts, grid);
+    return read_points(arrays, piece, points, grid);
 }
 
 }  // namespace barycert::io

@@ -1,4 +1,4 @@
-#include "barycert/io/vtk/xml_tree.hpp"
+#include "barycert/io/vtk/xml.hpp"
 
 #include <expat.h>
 
@@ -117,38 +117,6 @@ std::string_view up_to_tag(std::string_view text) {
     return text.substr(0, text.find('<'));
 }
 
-}  // namespace
-
-std::optional<std::string_view> XmlElement::attribute(std::string_view key) const {
-    for (const auto& [name_of, value] : attributes) {
-        if (name_of == key) return value;
-    }
-    return std::nullopt;
-}
-
-const XmlElement* XmlTree::child(const XmlElement& of, std::string_view name) const {
-    for (const std::size_t i : of.children) {
-        if (elements[i].name == name) return &elements[i];
-    }
-    return nullptr;
-}
-
-std::size_t line_of(std::string_view bytes, std::size_t at) {
-    return 1 +
-           static_cast<std::size_t>(std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
-}
-
-std::string_view text_of(std::string_view bytes, const XmlTree& tree, const XmlElement& element) {
-    if (element.end <= element.begin) return {};
-    const std::string_view head = up_to_tag(bytes.substr(behind_tag(bytes, element.begin)));
-    if (element.children.empty() || head.find_first_not_of(" \t\r\n") != std::string_view::npos) return head;
-    const XmlElement& last = tree.elements[element.children.back()];
-    const std::size_t behind = behind_tag(bytes, last.end);
-    return up_to_tag(bytes.substr(behind, element.end > behind ? element.end - behind : 0));
-}
-
-namespace {
-
 std::size_t find_tag(std::string_view bytes, std::size_t from) {
     if (from >= bytes.size()) return bytes.size();
     const void* const found = std::memchr(bytes.data() + from, '<', bytes.size() - from);
@@ -187,26 +155,48 @@ bool parse_tags(std::string_view bytes, ElementParser& parser) {
 }
 
 Error not_well_formed(std::string_view bytes, const std::string& path, const ElementParser& parser) {
-    if (parser.has_doctype()) {
-        return {.what = "a document type in an XML file of VTK",
-                .file = path,
-                .line = line_of(bytes, std::min(parser.place(), bytes.size())),
-                .expected = "none: entities that it defines could grow without bound",
-                .found = "<!DOCTYPE",
-                .remedy = "remove it"};
-    }
-    return {.what = "not a well-formed XML file",
-            .file = path,
-            .line = line_of(bytes, std::min(parser.place(), bytes.size())),
-            .expected = {},
-            .found = parser.fault(),
-            .remedy = "write it again: it may be cut off"};
+    const std::size_t line = line_of(bytes, parser.place());
+    if (!parser.has_doctype())
+        return {"not a well-formed XML file", path, line, {}, parser.fault(), "write it again: it may be cut off"};
+    return {"a document type in an XML file of VTK",
+            path,
+            line,
+            "none: entities that it defines could grow without bound",
+            "<!DOCTYPE",
+            "remove it"};
 }
 
 }  // namespace
 
+std::optional<std::string_view> XmlElement::attribute(std::string_view key) const {
+    for (const auto& [name_of, value] : attributes) {
+        if (name_of == key) return value;
+    }
+    return std::nullopt;
+}
+
+const XmlElement* XmlTree::child(const XmlElement& of, std::string_view name) const {
+    for (const std::size_t i : of.children) {
+        if (elements[i].name == name) return &elements[i];
+    }
+    return nullptr;
+}
+
+std::string_view XmlTree::text_of(const XmlElement& element) const {
+    if (element.end <= element.begin) return {};
+    const std::string_view head = up_to_tag(bytes.substr(behind_tag(bytes, element.begin)));
+    if (element.children.empty() || head.find_first_not_of(" \t\r\n") != std::string_view::npos) return head;
+    const std::size_t behind = behind_tag(bytes, elements[element.children.back()].end);
+    return up_to_tag(bytes.substr(behind, element.end > behind ? element.end - behind : 0));
+}
+
+Error XmlTree::error(const XmlElement& at, std::string what, std::string expected, std::string found,
+                     std::string remedy) const {
+    return {std::move(what), path, line_of(bytes, at.begin), std::move(expected), std::move(found), std::move(remedy)};
+}
+
 Result<XmlTree> parse_xml(std::string_view bytes, const std::string& path) {
-    XmlTree tree;
+    XmlTree tree{.bytes = bytes, .path = path, .elements = {}, .appended = {}};
     ElementParser parser;
     const bool whole = parse_tags(bytes, parser);
     if (parser.out_of_memory()) throw std::bad_alloc();
@@ -220,11 +210,7 @@ Result<XmlTree> parse_xml(std::string_view bytes, const std::string& path) {
     const std::optional<std::string_view> encoding = element.attribute("encoding");
     tree.appended_raw = encoding == "raw";
     if (encoding.has_value() && encoding != "raw" && encoding != "base64") {
-        return Error{.what = "the encoding of the appended data",
-                     .file = path,
-                     .line = line_of(bytes, element.begin),
-                     .expected = "raw or base64",
-                     .found = std::string(*encoding)};
+        return tree.error(element, "the encoding of the appended data", "raw or base64", std::string(*encoding));
     }
     return tree;
 }

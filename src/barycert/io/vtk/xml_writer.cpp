@@ -1,11 +1,12 @@
-#include "barycert/io/vtk/xml_writer.hpp"
+#include "barycert/io/vtk/out_file.hpp"
 
 #include <array>
-#include <cstring>
+#include <bit>
 #include <utility>
 
-#include "barycert/io/vti/appended.hpp"
-#include "barycert/io/vtk/codec.hpp"
+#include "barycert/base/output_file.hpp"
+#include "barycert/io.hpp"
+#include "barycert/io/vtk/packed.hpp"
 
 namespace barycert::io {
 namespace {
@@ -13,6 +14,14 @@ namespace {
 /// Bytes of a block before it is compressed: a multiple of every number's size.
 constexpr std::size_t block_size = std::size_t{1} << 17;
 constexpr std::size_t offset_width = 20;
+
+/// Before the arrays: their offsets count from behind the underscore.
+constexpr std::string_view appended_begin = "  <AppendedData encoding=\"raw\">\n    _";
+constexpr std::string_view begin_of_offset = " format=\"appended\" offset=\"";
+
+const char* element_of(NumberType type) {
+    return type == NumberType::text ? "Array" : "DataArray";
+}
 
 Compressor compressor_of(VtkData data) {
     return data == VtkData::zlib   ? Compressor::zlib
@@ -58,47 +67,54 @@ private:
     std::string memory_;
 };
 
-std::string open_elements(const OutFile& f) {
-    return "  <" + f.data_set + f.attributes + ">\n    <Piece" + f.piece + ">\n";
+/// All elements but those of appended data; rest(array) writes what follows the name of each array.
+template <class Rest>
+void write_elements(const OutFile& f, std::string_view compressor, const std::function<void(std::string_view)>& write,
+                    const Rest& rest) {
+    const bool big = std::endian::native == std::endian::big;
+    write("<VTKFile type=\"" + f.data_set + "\" version=\"1.0\" byte_order=\"" + (big ? "BigEndian" : "LittleEndian") +
+          "\" header_type=\"UInt64\"" + (compressor.empty() ? "" : " compressor=\"" + std::string(compressor) + '"') +
+          ">\n  <" + f.data_set + f.attributes + ">\n    <Piece" + f.piece + ">\n");
+    for (const OutSection& section : f.sections) {
+        write("      <" + section.element + ">\n");
+        for (const OutArray& a : section.arrays) {
+            const auto& [name, components, type] = a.format;
+            write(std::string("        <") + element_of(type) + " type=\"" + std::string(xml_name(type)) +
+                  "\" Name=\"" + *xml_attribute(name) + '"' +
+                  (components != 1 ? " NumberOfComponents=\"" + std::to_string(components) + '"' : ""));
+            rest(a);
+        }
+        write("      </" + section.element + ">\n");
+    }
+    write("    </Piece>\n  </" + f.data_set + ">\n");
 }
 
-std::string close_elements(const OutFile& f) {
-    return "    </Piece>\n  </" + f.data_set + ">\n";
+template <class Write>
+void for_each_array(const OutFile& f, const Write& write) {
+    for (const OutSection& section : f.sections) {
+        for (const OutArray& a : section.arrays) write(a);
+    }
 }
 
 void write_raw(const OutFile& f, base::OutputFile& file) {
-    std::string head = vtk_file_head(f.data_set) + open_elements(f);
-    std::uint64_t offset = 0;
-    for (const OutSection& section : f.sections) {
-        head += "      <" + section.element + ">\n";
-        for (const OutArray& a : section.arrays) {
-            head += array_element(a.array, offset);
-            offset += appended_header + a.size();
+    file.write(raw_head(f));
+    for_each_array(f, [&](const OutArray& a) {
+        const std::uint64_t size = a.size();
+        file.write({reinterpret_cast<const char*>(&size), appended_header});
+        if (a.bytes != nullptr) {
+            file.write({a.bytes, static_cast<std::size_t>(size)});
+        } else {
+            write_parts(
+                a, block_size, [](std::size_t, std::size_t, std::string&) {},
+                [&](std::string_view bytes) { file.write(bytes); });
         }
-        head += "      </" + section.element + ">\n";
-    }
-    file.write(head + close_elements(f) + std::string(appended_begin));
-    for (const OutSection& section : f.sections) {
-        for (const OutArray& a : section.arrays) {
-            const std::uint64_t size = a.size();
-            char header[appended_header];
-            std::memcpy(header, &size, appended_header);
-            file.write({header, appended_header});
-            if (a.bytes != nullptr) {
-                file.write({a.bytes, static_cast<std::size_t>(size)});
-            } else {
-                write_parts(
-                    a, block_size, [](std::size_t, std::size_t, std::string&) {},
-                    [&](std::string_view bytes) { file.write(bytes); });
-            }
-        }
-    }
+    });
     file.write(appended_tail);
 }
 
 /// Header (number of blocks, their size, that of the last if it is shorter, their compressed sizes), then the blocks.
 bool write_blocks(const OutArray& a, Compressor compressor, PatchedFile& file) {
-    const std::size_t part = block_size / number_size(a.array.type);
+    const std::size_t part = block_size / number_bytes(a.format.type);
     const std::uint64_t blocks = (a.size() + block_size - 1) / block_size;
     std::vector<std::uint64_t> header{blocks, blocks == 0 ? 0 : block_size, a.size() % block_size};
     const std::uint64_t begin = file.size();
@@ -122,26 +138,21 @@ bool write_blocks(const OutArray& a, Compressor compressor, PatchedFile& file) {
 bool write_compressed(const OutFile& f, Compressor compressor, base::OutputFile& target) {
     PatchedFile file(target);
     std::vector<std::uint64_t> places;
-    file.write(vtk_file_head(f.data_set, name_of_compressor(compressor)) + open_elements(f));
-    for (const OutSection& section : f.sections) {
-        file.write("      <" + section.element + ">\n");
-        for (const OutArray& a : section.arrays) {
-            file.write(array_begin(a.array) + " format=\"appended\" offset=\"");
+    write_elements(
+        f, name_of_compressor(compressor), [&](std::string_view text) { file.write(text); },
+        [&](const OutArray&) {
+            file.write(begin_of_offset);
             places.push_back(file.size());
             file.write(std::string(offset_width + 1, ' ') + "/>\n");
-        }
-        file.write("      </" + section.element + ">\n");
-    }
-    file.write(close_elements(f) + std::string(appended_begin));
+        });
+    file.write(appended_begin);
     const std::uint64_t data = file.size();
     std::size_t array = 0;
     bool good = true;
-    for (const OutSection& section : f.sections) {
-        for (const OutArray& a : section.arrays) {
-            file.replace(places[array++], std::to_string(file.size() - data) + '"');
-            good = write_blocks(a, compressor, file) && good;
-        }
-    }
+    for_each_array(f, [&](const OutArray& a) {
+        file.replace(places[array++], std::to_string(file.size() - data) + '"');
+        good = write_blocks(a, compressor, file) && good;
+    });
     file.write(appended_tail);
     file.finish();
     return good;
@@ -149,22 +160,29 @@ bool write_compressed(const OutFile& f, Compressor compressor, base::OutputFile&
 
 void write_text(const OutFile& f, base::OutputFile& file) {
     constexpr std::size_t numbers_a_line = 12;
-    file.write(vtk_file_head(f.data_set) + open_elements(f));
-    for (const OutSection& section : f.sections) {
-        file.write("      <" + section.element + ">\n");
-        for (const OutArray& a : section.arrays) {
-            file.write(array_begin(a.array) + " format=\"ascii\">\n");
-            const auto components = static_cast<std::size_t>(a.array.components);
-            write_as_text(a, components > 1 ? components : numbers_a_line,
-                          [&](std::string_view text) { file.write(text); });
-            file.write(a.array.type == VtiType::text ? "        </Array>\n" : "        </DataArray>\n");
-        }
-        file.write("      </" + section.element + ">\n");
-    }
-    file.write(close_elements(f) + "</VTKFile>\n");
+    const auto write = [&](std::string_view text) { file.write(text); };
+    write_elements(f, {}, write, [&](const OutArray& a) {
+        file.write(" format=\"ascii\">\n");
+        const auto components = static_cast<std::size_t>(a.format.components);
+        write_as_text(a, components > 1 ? components : numbers_a_line, write);
+        file.write(std::string("        </") + element_of(a.format.type) + ">\n");
+    });
+    file.write("</VTKFile>\n");
 }
 
 }  // namespace
+
+std::string raw_head(const OutFile& f) {
+    std::string head;
+    std::uint64_t offset = 0;
+    write_elements(
+        f, {}, [&](std::string_view text) { head += text; },
+        [&](const OutArray& a) {
+            head += std::string(begin_of_offset) + std::to_string(offset) + "\"/>\n";
+            offset += appended_header + a.size();
+        });
+    return head + std::string(appended_begin);
+}
 
 Status write_xml(const OutFile& f, const std::string& path, VtkData data) {
     base::OutputFile file(path);
@@ -174,7 +192,7 @@ Status write_xml(const OutFile& f, const std::string& path, VtkData data) {
     } else if (data == VtkData::ascii) {
         write_text(f, file);
     } else if (!write_compressed(f, compressor_of(data), file)) {
-        return Error{.what = "too little memory to compress the data", .file = path, .remedy = "free some memory"};
+        return file_error(path, "too little memory to compress the data", {}, {}, "free some memory");
     }
     return file.commit();
 }

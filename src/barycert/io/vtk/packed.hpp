@@ -1,9 +1,10 @@
-/// Bytes of a file as they stand, or written in base64.
+/// Bytes of a file as they stand, written in base64, or compressed block by block.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,5 +33,16 @@ private:
     std::size_t first_ = 0;  // of the bytes not yet given
     std::size_t held_ = 0;   // how many they are
 };
+
+enum class Compressor : std::uint8_t { none, zlib, lz4, lzma };
+
+/// Fills `size` bytes from those of a block. False if it gives fewer, or is damaged.
+bool unpack(Compressor compressor, std::string_view packed, char* to, std::size_t size);
+
+/// The block compressed; empty where memory is short.
+std::string pack(Compressor compressor, std::string_view plain);
+
+/// No block of that size unpacks to more: a header that says so lies.
+std::uint64_t max_unpacked(Compressor compressor, std::uint64_t packed);
 
 }  // namespace barycert::io

@@ -1,21 +1,134 @@
-#include "barycert/io/vtk/codec.hpp"
+#include "barycert/io/vtk/packed.hpp"
 
 #include <libdeflate.h>
 #include <lz4.h>
 #include <lzma.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <limits>
 #include <memory>
 #include <new>
 
+#include "barycert/io/vtk/parallel.hpp"
+
 namespace barycert::io {
 namespace {
+
+constexpr int base64_space = -1, base64_padding = -2, base64_other = -3;
+
+/// What each character stands for.
+constexpr std::array<std::int8_t, 256> make_base64_table() {
+    std::array<std::int8_t, 256> table{};
+    for (std::int8_t& entry : table) entry = base64_other;
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (std::size_t i = 0; i < digits.size(); ++i) {
+        table[static_cast<unsigned char>(digits[i])] = static_cast<std::int8_t>(i);
+    }
+    for (const char c : {' ', '\t', '\n', '\r'}) table[static_cast<unsigned char>(c)] = base64_space;
+    table['='] = base64_padding;
+    return table;
+}
+constexpr std::array<std::int8_t, 256> base64_table = make_base64_table();
+
+int base64_value(char c) {
+    return base64_table[static_cast<unsigned char>(c)];
+}
+
+/// Whether all `quadruples` are digits, which give three bytes each.
+bool decode_digits(const char* from, std::size_t quadruples, char* to) {
+    int all = 0;
+    for (std::size_t i = 0; i < quadruples; ++i, from += 4, to += 3) {
+        const int a = base64_value(from[0]), b = base64_value(from[1]), c = base64_value(from[2]),
+                  d = base64_value(from[3]);
+        all |= a | b | c | d;
+        const auto word = static_cast<std::uint32_t>(a << 18 | b << 12 | c << 6 | d);
+        to[0] = static_cast<char>(word >> 16U);
+        to[1] = static_cast<char>(word >> 8U);
+        to[2] = static_cast<char>(word);
+    }
+    return all >= 0;
+}
 
 bool fits_int(std::size_t size) {
     return size <= static_cast<std::size_t>(std::numeric_limits<int>::max());
 }
 
 }  // namespace
+
+bool Encoded::next_quadruple() {
+    std::uint32_t word = 0;
+    int digits = 0, pads = 0;
+    std::size_t at = 0;
+    for (; digits + pads < 4 && at < left_.size(); ++at) {
+        const int value = base64_value(left_[at]);
+        if (value == base64_space) continue;
+        if (value == base64_padding) {
+            ++pads;
+        } else if (value == base64_other || pads != 0) {
+            break;
+        } else {
+            word = word << 6U | static_cast<std::uint32_t>(value);
+            ++digits;
+        }
+    }
+    if (digits + pads < 4 || digits < 2) {
+        left_ = {};
+        return false;
+    }
+    left_.remove_prefix(at);
+    word <<= 6 * static_cast<unsigned>(pads);
+    for (std::size_t i = 0; i < 3; ++i) bytes_[i] = static_cast<char>(word >> (16 - 8 * i));
+    first_ = 0;
+    held_ = static_cast<std::size_t>(3 - pads);
+    return true;
+}
+
+/// Whole quadruples without white space, on all threads; the bytes of those before the first that is none.
+std::size_t Encoded::take_quadruples(char* to, std::size_t count) {
+    constexpr std::size_t part = std::size_t{1} << 16;
+    const std::size_t wanted = std::min(count / 3, left_.size() / 4);
+    std::atomic<std::size_t> good{wanted};
+    in_parts(wanted, part, [&](std::size_t first, std::size_t last) {
+        if (good.load(std::memory_order_relaxed) <= first) return;
+        if (decode_digits(left_.data() + 4 * first, last - first, to + 3 * first)) return;
+        std::size_t known = good.load();
+        while (first < known && !good.compare_exchange_weak(known, first)) {
+        }
+    });
+    left_.remove_prefix(4 * good);
+    return 3 * good;
+}
+
+std::optional<std::string_view> Encoded::take(std::uint64_t count, std::vector<char>& room) {
+    if (count > left()) return std::nullopt;
+    const auto size = static_cast<std::size_t>(count);
+    if (!base64_) {
+        const std::string_view taken = left_.substr(0, size);
+        left_.remove_prefix(size);
+        return taken;
+    }
+    room.clear();
+    make_room(room, size);
+    room.resize(size);
+    bool quick = true;
+    for (std::size_t done = 0; done < size;) {
+        if (quick && held_ == 0) {
+            const std::size_t got = take_quadruples(room.data() + done, size - done);
+            quick = got >= 3 * (std::size_t{1} << 14);  // lines of text: one after the other from here on
+            done += got;
+            if (done == size) break;
+        }
+        if (held_ == 0 && !next_quadruple()) return std::nullopt;
+        const std::size_t step = std::min(size - done, held_);
+        std::copy_n(bytes_ + first_, step, room.data() + done);
+        first_ += step;
+        held_ -= step;
+        done += step;
+    }
+    return std::string_view(room.data(), size);
+}
 
 bool unpack(Compressor compressor, std::string_view packed, char* to, std::size_t size) {
     switch (compressor) {

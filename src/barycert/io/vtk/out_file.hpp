@@ -1,0 +1,144 @@
+/// VTK's files on their way out: arrays whose numbers stand in memory, or are made some at a time; files of them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "barycert/io.hpp"
+#include "barycert/io/vtk/numbers.hpp"
+
+namespace barycert::io {
+
+/// An array of VTK without its numbers: `components` of them a row, side by side. VTK's `vtkValidPointMask` is an int8.
+struct ArrayFormat {
+    std::string name;
+    int components = 1;
+    NumberType type = NumberType::float64;
+};
+
+struct OutArray {
+    ArrayFormat format;
+    std::uint64_t count = 0;      ///< numbers; of text: bytes, those that end the texts included
+    const char* bytes = nullptr;  ///< where they stand; nullptr: `fill` makes them
+    /// Puts the numbers `first` to `last` - 1 there, from any thread.
+    std::function<void(std::size_t first, std::size_t last, char* to)> fill = {};
+
+    std::uint64_t size() const { return count * number_bytes(format.type); }
+    void copy(std::size_t first, std::size_t last, char* to) const;
+};
+
+/// Numbers as they stand in memory, which must outlive it.
+template <class T>
+OutArray array_in_memory(ArrayFormat format, std::span<const T> numbers) {
+    return {std::move(format), numbers.size(), reinterpret_cast<const char*>(numbers.data())};
+}
+
+/// count numbers at(0), at(1), ... of type T.
+template <class T, class At>
+OutArray array_made(ArrayFormat format, std::size_t count, At at) {
+    return {std::move(format), count, nullptr, [at](std::size_t first, std::size_t last, char* to) {
+                auto* const numbers = reinterpret_cast<T*>(to);
+                for (std::size_t i = first; i < last; ++i) numbers[i - first] = static_cast<T>(at(i));
+            }};
+}
+
+/// Points of 3 coordinates; those of a plane get z = 0.
+OutArray array_of_points(std::span<const double> points, int dimension);
+
+inline OutArray array_of_field(const Field& field) {
+    return array_in_memory<double>({field.name, field.components, NumberType::float64}, field.data);
+}
+
+/// What is done to a part of an array on any thread: its numbers `first` to `last` - 1 are `bytes`.
+using Transform = std::function<void(std::size_t first, std::size_t last, std::string& bytes)>;
+
+/// Writes the array in parts of `part` numbers in their order; they are transformed on all threads, some at a time.
+void write_parts(const OutArray& array, std::size_t part, const Transform& transform,
+                 const std::function<void(std::string_view)>& write);
+
+/// The numbers as text: the shortest that reads back, in lines of `per_line`. Texts as the numbers of their bytes.
+void write_as_text(const OutArray& array, std::size_t per_line, const std::function<void(std::string_view)>& write);
+
+/// `name` such that between double quotes in an XML 1.0 file it reads back as `name` (VTK 9.1 writes names as they are
+/// given); nothing if no escape can do that: where it is not UTF-8, or has a character that XML excludes.
+std::optional<std::string> xml_attribute(std::string_view name);
+
+/// Whether names are to stand in XML attributes.
+enum class Names : bool { any, xml };
+
+/// What is wrong with the names of fields, in one clause; empty if every name can be written and is the only one: VTK
+/// keeps but one array of a name.
+std::string fault_of_names(std::vector<std::string> all, Names names);
+
+/// That `what` ("the mesh") cannot be written because of that fault.
+Error cannot_write(const std::string& what, const std::string& fault, const std::string& path);
+
+/// Error: a name that is empty, there twice, or that XML cannot hold; fewer than one component.
+Status check_arrays(const std::string& path, const std::vector<ArrayFormat>& arrays);
+
+/// An error of what is to be written.
+Error wrong_in_memory(const std::string& path, std::string what, std::string expected, std::string found);
+
+/// Arrays below an element such as PointData.
+struct OutSection {
+    std::string element;
+    std::vector<OutArray> arrays;
+};
+
+/// A data set of one piece.
+struct OutFile {
+    std::string data_set;         ///< "UnstructuredGrid"
+    std::string attributes = {};  ///< of its element, each with a blank before it
+    std::string piece;            ///< attributes of the piece, likewise
+    std::vector<OutSection> sections;
+};
+
+/// Names must be such that check_arrays passes them. Compressed blocks are made on all threads, and the same for any
+/// number of them; memory for some of them is taken, on a pipe or device for all.
+Status write_xml(const OutFile& file, const std::string& path, VtkData data);
+
+// What stands around raw arrays, for those that write them themselves.
+
+/// All before the arrays, which stand one after the other in the order of their elements.
+std::string raw_head(const OutFile& file);
+
+/// Bytes before each array: its size, an integer of 64 bits.
+inline constexpr std::uint64_t appended_header = 8;
+
+/// Behind the last array.
+inline constexpr std::string_view appended_tail = "\n  </AppendedData>\n</VTKFile>\n";
+
+/// VTK's number for the type of the cells.
+std::uint8_t cell_type_of(const Mesh& mesh);
+
+/// Corners and mid-edge nodes a cell.
+std::size_t nodes_a_cell(const Mesh& mesh);
+
+/// Node k of a cell of so many: corners, then mid-edge nodes, whose order in the mesh is VTK's.
+inline Mesh::Index node_of(const Mesh& mesh, std::size_t nodes, std::size_t cell, std::size_t k) {
+    const std::size_t corners = mesh.corners();
+    return k < corners ? mesh.cells[cell * corners + k] : mesh.mid_nodes[cell * (nodes - corners) + k - corners];
+}
+
+/// Arrays of points: fields and markers.
+std::vector<OutArray> point_arrays_of(const Mesh& mesh);
+
+/// Arrays of cells: fields and labels. Texts go to `room`, which must outlive them.
+std::vector<OutArray> cell_arrays_of(const Mesh& mesh, std::vector<std::string>& room);
+
+/// A legacy file, of a mesh that is consistent: numbers in big-endian order, or as text.
+Status write_legacy(const Mesh& mesh, const std::string& path, VtkData data);
+
+/// A sink of rows into a .vtu file. The format has one array after the other: rows are kept in files without names beside
+/// the target up to commit(), so that memory does not grow with them.
+Result<std::unique_ptr<TableSink>> open_vtu_sink(const std::string& path, const TableFormat& format);
+
+}  // namespace barycert::io

@@ -1,0 +1,104 @@
+/// VTK's XML files: their elements (through expat), the numbers in them, the data sets that they are.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "barycert/io/vtk/packed.hpp"
+#include "barycert/io/vtk/raw_grid.hpp"
+#include "barycert/result.hpp"
+
+namespace barycert::io {
+
+struct XmlElement {
+    std::string name;
+    std::vector<std::pair<std::string, std::string>> attributes;
+    std::vector<std::size_t> children;  ///< in order, as places in XmlTree::elements
+    std::size_t begin = 0;              ///< where its opening tag begins in the file
+    std::size_t end = 0;                ///< where its closing tag begins; `begin` if it has none
+
+    /// The value of the attribute; nothing if there is none.
+    std::optional<std::string_view> attribute(std::string_view key) const;
+};
+
+struct XmlTree {
+    std::string_view bytes;  ///< all of the file
+    std::string path;
+    std::vector<XmlElement> elements;  ///< the root first
+    /// The appended data, from behind the underscore to the end of the file; empty if there are none.
+    std::string_view appended;
+    bool appended_raw = false;  ///< as they are; else in base64
+
+    const XmlElement& root() const { return elements.front(); }
+    /// The first child of that name; nullptr if there is none.
+    const XmlElement* child(const XmlElement& of, std::string_view name) const;
+    /// The text of an element: what stands before its first child or, if that is blank, behind its last one.
+    std::string_view text_of(const XmlElement& element) const;
+
+    Error error(const XmlElement& at, std::string what, std::string expected, std::string found,
+                std::string remedy = {}) const;
+};
+
+/// What follows the tag of appended data is not looked at, nor are the numbers in elements. Error: no well-formed XML,
+/// a document type (whose entities might expand without bound), another encoding of appended data.
+Result<XmlTree> parse_xml(std::string_view bytes, const std::string& path);
+
+/// What the attributes of the root say of all arrays.
+struct XmlLayout {
+    bool swap_bytes = false;
+    std::size_t header_bytes = 4;  ///< of the integers before the data: 4 or 8
+    Compressor compressor = Compressor::none;
+};
+
+/// The numbers of DataArray elements.
+class XmlArrays {
+public:
+    /// The tree is kept as a reference. Error: a byte order, type of header or compressor that VTK does not know.
+    static Result<XmlArrays> of(const XmlTree& tree);
+
+    const XmlTree& tree() const { return tree_; }
+
+    /// The type of the numbers; nothing if they are none (strings).
+    static std::optional<NumberType> type_of(const XmlElement& array);
+
+    /// Appends the numbers of the array, exactly `count`, to `values`. `what` names it in errors. Where `fault` is
+    /// given, numbers that are not exact are told there instead of as an error.
+    Status read(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,
+                NumberFault* fault = nullptr) const;
+
+    /// The texts of an array of strings, exactly `count`.
+    Status read_texts(const XmlElement& array, const std::string& what, std::uint64_t count,
+                      std::vector<std::string>& texts) const;
+
+private:
+    explicit XmlArrays(const XmlTree& tree) : tree_(tree) {}
+    Result<Encoded> encoded(const XmlElement& array, const std::string& what) const;
+    Status read_encoded(const XmlElement& array, const std::string& what, NumberType type,
+                        std::optional<std::uint64_t> count, NumbersTo values, NumberFault& fault) const;
+    Error error(const XmlElement& array, const std::string& what, std::uint64_t count, const NumberFault& fault) const;
+
+    const XmlTree& tree_;
+    XmlLayout layout_;
+};
+
+/// The data set of one file: UnstructuredGrid or PolyData; where only points are wanted, ImageData, RectilinearGrid or
+/// StructuredGrid as well.
+Result<RawGrid> read_xml(const XmlTree& tree, Part part);
+
+/// Whether a data set of that type is one of these grids.
+bool is_structured(std::string_view type);
+
+/// The points of the only piece of such a grid, x running fastest. Those of image data are origin + spacing * index,
+/// rounded twice, as VTK has them. Error: an extent that is none, or not that of the whole; more points than a mesh can
+/// have, or than the file has numbers for; image data that are turned (a Direction).
+Status read_grid_points(const XmlArrays& arrays, const XmlElement& data, const XmlElement& piece,
+                        const std::string& type, RawGrid& grid);
+
+/// Those of the array in the section Points.
+Status read_points(const XmlArrays& arrays, const XmlElement& piece, std::size_t count, RawGrid& grid);
+
+}  // namespace barycert::io
