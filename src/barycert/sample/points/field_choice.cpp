@@ -55,7 +55,7 @@ std::vector<std::string> all_field_names(const Mesh& mesh) {
 Error no_such_field(const Mesh& mesh, const std::string& name) {
     const std::string points = names_of(mesh.point_fields), cells = names_of(mesh.cell_fields);
     std::string remedy = "there are " + points;
-    if (points.empty()) remedy = cells.empty() ? "the mesh has none: add them by --field NAME=FILE" : "there are";
+    if (points.empty()) remedy = cells.empty() ? "the mesh has none: add them by job.field_files NAME=FILE" : "there are";
     if (!cells.empty()) remedy += (points.empty() ? " " : ", and of cells ") + cells;
     return {.what = "no field of that name",
             .file = {},
@@ -92,7 +92,7 @@ Result<std::vector<FieldChoice>> fields_named(const Mesh& mesh, const std::vecto
             if (chosen[i].field == chosen[k].field)
                 return Error{.what = "a field is chosen twice",
                              .found = '"' + chosen[i].field->name + '"',
-                             .remedy = "name it once in --fields"};
+                             .remedy = "name it once in job.fields"};
         }
     }
     std::stable_partition(chosen.begin(), chosen.end(), [](const FieldChoice& c) { return !c.of_cells; });

@@ -152,13 +152,13 @@ Result<std::vector<FieldChoice>> quantities_named(const Mesh& mesh, const std::v
             if (chosen[i].field == chosen[k].field && chosen[i].steps == chosen[k].steps)
                 return Error{.what = chosen[i].steps.empty() ? "a field is chosen twice" : "a column is chosen twice",
                              .found = '"' + (chosen[i].name.empty() ? chosen[i].field->name : chosen[i].name) + '"',
-                             .remedy = "name it once in --fields"};
+                             .remedy = "name it once in job.fields"};
         }
     }
     if (const auto name = common_column(mesh, chosen)) {
         return Error{.what = "two columns have the same name",
                      .found = '"' + *name + '"',
-                     .remedy = "choose one of them in --fields"};
+                     .remedy = "choose one of them in job.fields"};
     }
     std::stable_sort(chosen.begin(), chosen.end(),
                      [&](const FieldChoice& a, const FieldChoice& b) { return rank(a) < rank(b); });
